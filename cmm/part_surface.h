@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "core/result.h"
+
+namespace rondure::cmm {
+
+/// One lobing term of the form: amplitude * cos(order * theta + phase + twist * q).
+struct Lobe {
+  int order = 2;             ///< UPR.
+  double amplitude_mm = 0.0;
+  double phase_rad = 0.0;
+  double twist_rad = 0.0;    ///< Helix: change of phase from mid-length to the upper end.
+};
+
+/// Form of a simulated part, radial, positive outward from the axis. q runs from -1 at the lower
+/// end to +1 at the upper end:
+///   dr = sum of lobes + taper q + barrel (q^2 - 1/3) + bend (q^2 - 1/3) cos(theta + bend_phase).
+/// Source: methods, cylindricity section 12.
+struct PartForm {
+  std::vector<Lobe> lobes;
+  double taper_mm = 0.0;
+  double barrel_mm = 0.0;
+  double bend_mm = 0.0;
+  double bend_phase_rad = 0.0;
+};
+
+/// The real surface of a simulated cylinder in its own frame P: axis z, mid-length at z = 0.
+struct PartSurface {
+  double radius_mm = 0.0;
+  double half_length_mm = 0.0;
+  bool inside = false;       ///< true: a bore in a block, false: a shaft.
+  PartForm form;
+
+  /// Radius at an angle and height.
+  [[nodiscard]] double radius_at(double theta_rad, double z_mm) const;
+};
+
+}  // namespace rondure::cmm

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "cmm/error_model.h"
+#include "cmm/machine.h"
+#include "cmm/part_surface.h"
+
+namespace rondure::cmm {
+
+/// What stands on the table of a simulated machine.
+struct ReferenceSphere {
+  Eigen::Vector3d center_W_mm = Eigen::Vector3d::Zero();
+  double radius_mm = 0.0;
+};
+
+/// What a simulated machine is told to be.
+struct SimulatedMachineOptions {
+  double nominal_tip_radius_mm = 2.0;
+  Eigen::Vector3d park_W_mm = {0.0, 0.0, 500.0};
+  double travel_speed_mm_s = 100.0;
+  double touch_speed_mm_s = 5.0;
+  double temperature_degC = 20.0;
+  MachineErrors errors;       ///< Hidden truth.
+  std::uint64_t seed = 1;     ///< Of the probe noise.
+};
+
+/// A machine that exists in software. It knows the real part and where it really stands, finds the
+/// true contact of the tip sphere along the approach line, adds noise keyed with (seed, touch id),
+/// and refuses moves that would drive the tip into part or reference sphere (kCollision).
+class SimulatedMachine final : public Machine {
+ public:
+  explicit SimulatedMachine(const SimulatedMachineOptions& options);
+
+  /// Puts a part on the table (X_WP maps its frame to the machine), or moves it there.
+  void place_part(const PartSurface& surface, const Eigen::Isometry3d& X_WP);
+  void remove_part();
+  void place_sphere(const ReferenceSphere& sphere);
+
+  [[nodiscard]] std::string description() const override;
+  [[nodiscard]] core::Result<void> home() override;
+  [[nodiscard]] core::Result<void> move_to(const Eigen::Vector3d& tip_W_mm) override;
+  [[nodiscard]] core::Result<TouchReading> touch(const TouchCommand& command) override;
+  [[nodiscard]] Eigen::Vector3d position_W_mm() const override { return position_W_mm_; }
+  [[nodiscard]] double time_s() const override { return time_s_; }
+
+  /// Noise-free tip centre of the last touch: hidden truth for the simulated cell and for tests.
+  [[nodiscard]] const Eigen::Vector3d& true_tip_W_mm() const { return true_tip_W_mm_; }
+
+ private:
+  SimulatedMachineOptions options_;
+  std::optional<PartSurface> part_;
+  Eigen::Isometry3d X_WP_ = Eigen::Isometry3d::Identity();
+  std::optional<ReferenceSphere> sphere_;
+  Eigen::Vector3d position_W_mm_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d true_tip_W_mm_ = Eigen::Vector3d::Zero();
+  double time_s_ = 0.0;
+};
+
+}  // namespace rondure::cmm

@@ -1,0 +1,25 @@
+#include "core/numbers.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace rondure::core {
+
+std::string shortest(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), end.ptr};
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  double value = 0.0;
+  const char* first = text.data();
+  const char* last = first + text.size();
+  if (first != last && *first == '+') ++first;  // from_chars knows no plus sign
+  const auto end = std::from_chars(first, last, value);
+  if (end.ec != std::errc() || end.ptr != last || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace rondure::core

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <numbers>
+
+namespace rondure::core {
+
+/// Inside the program: mm, rad, s. Degrees and micrometres exist in JSON keys, report columns and
+/// messages only; these are the factors used at that border, `30.0 * kDegree` is an angle in rad.
+inline constexpr double kDegree = std::numbers::pi / 180.0;
+inline constexpr double kMicrometre = 1e-3;  ///< in mm
+inline constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+}  // namespace rondure::core

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+
+namespace rondure::fit {
+
+/// Effective tip radius of a probe, from touches of a reference sphere.
+struct ProbeTip {
+  Eigen::Vector3d sphere_center_mm = Eigen::Vector3d::Zero();
+  double radius_mm = 0.0;        ///< rho: effective (pre-travel included), below the nominal as a rule.
+  double radius_sigma_mm = 0.0;  ///< Standard deviation of rho from the residuals.
+  double form_mm = 0.0;          ///< Probing form: peak to valley of the residuals.
+};
+
+/// Fits a sphere to tip centres and subtracts the certified radius: closed form, then Gauss-Newton.
+///
+/// @param tip_centers_mm  n >= 5, not all on one circle [mm].
+/// @param sphere_radius_mm  Certified radius of the reference sphere [mm].
+/// @return kNoPoints, kNotFinite (row), kTooFewPoints, kRank (all on one circle).
+/// Source: methods, cylindricity section 2.1.
+[[nodiscard]] core::Result<ProbeTip> qualify_tip(std::span<const Eigen::Vector3d> tip_centers_mm,
+                                                 double sphere_radius_mm);
+
+}  // namespace rondure::fit

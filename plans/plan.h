@@ -1,0 +1,204 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+
+namespace rondure::plans {
+
+// The plan as its JSON spells it: degrees and micrometres where the key says so. The one place where
+// keys, units, ranges, meanings and defaults stand is plans/plan_table.h; a member initialiser here
+// is the default.
+
+struct PlanHead {
+  std::string name;
+  std::string revision;
+  std::string note;
+};
+
+struct PartPlan {
+  std::string id;
+  std::string name;
+  std::string drawing;
+  double location_uncertainty_mm = 1.0;  ///< How far the surface may be from nominal at first touch.
+};
+
+struct MachinePlan {
+  std::string driver = "simulated";
+  double approach_mm = 3.0;              ///< Start of the search before the expected contact.
+  double search_mm = 3.0;                ///< End of the search behind it.
+  double clearance_mm = 5.0;             ///< Kept from the part while travelling.
+  double travel_speed_mm_s = 100.0;
+  double touch_speed_mm_s = 5.0;
+  std::array<double, 3> park_mm = {0.0, 0.0, 500.0};  ///< Tip position above everything.
+};
+
+struct FixturePlan {
+  std::string driver = "simulated";
+  std::array<double, 3> axis_point_mm = {0.0, 0.0, 0.0};   ///< A, machine frame.
+  std::array<double, 3> axis_offset_mm = {0.0, 0.0, 0.0};  ///< d, hoop frame.
+  std::array<double, 3> part_position_mm = {0.0, 0.0, 0.0};///< Part origin in the body frame.
+  double min_alpha_deg = -90.0;
+  double max_alpha_deg = 90.0;
+  double min_beta_deg = -90.0;
+  double max_beta_deg = 90.0;
+  double resolution_deg = 0.05;
+  double rim_height_mm = -1000.0;        ///< Machine z below which the tip must not go.
+  double clamp_from_mm = 0.0;            ///< Clamped band on the part, part z; empty when from >= to.
+  double clamp_to_mm = 0.0;
+};
+
+struct QualificationPlan {
+  double sphere_diameter_mm = 25.0;      ///< Certified.
+  std::array<double, 3> sphere_center_mm = {300.0, 0.0, 100.0};
+  int points = 13;
+  double form_limit_um = 5.0;
+  double radius_tolerance_um = 100.0;
+};
+
+struct ProbePlan {
+  double tip_diameter_mm = 4.0;
+  QualificationPlan qualification;
+};
+
+struct EnvironmentPlan {
+  double min_degC = 18.0;
+  double max_degC = 22.0;
+};
+
+struct NominalPlan {
+  double diameter_mm = 0.0;
+  double from_mm = 0.0;                  ///< Lower end of the surface, part z.
+  double to_mm = 0.0;                    ///< Upper end.
+};
+
+struct SamplingPlan {
+  int layers = 4;
+  int points_per_layer = 7;
+  double margin_mm = 5.0;
+  double start_deg = 0.0;
+  double stagger = 1.0;                  ///< 0: every layer starts alike; 1: evenly interleaved.
+};
+
+struct PoseSearchPlan {
+  std::string strategy = "guided";
+  double start_alpha_deg = 0.0;
+  double start_beta_deg = 0.0;
+  std::vector<double> steps_deg = {5.0, 2.0};
+  double min_step_deg = 0.05;            ///< End of step halving (refined, virtual).
+  int max_poses = 6;                     ///< guided: gives up levelling after so many.
+  int repeats = 5;                       ///< Touches of every point of the final cloud.
+};
+
+struct CharacteristicPlan {
+  std::string id;
+  std::string form = "cylindricity";
+  std::optional<std::string> reference;  ///< "mz" or "ls".
+  std::optional<double> tolerance_um;
+  std::string drawing_zone;
+};
+
+struct SourcePlan {
+  std::string file;                      ///< CSV of tip centres, relative to the plan.
+  std::optional<double> tip_diameter_mm; ///< Of the probe that took them; none: radii stay tip-centre radii.
+};
+
+struct FeaturePlan {
+  std::string id;
+  std::string type = "cylinder";
+  std::string side = "outside";
+  NominalPlan nominal;
+  SamplingPlan sampling;
+  PoseSearchPlan pose_search;
+  std::optional<SourcePlan> source;
+  std::vector<CharacteristicPlan> characteristics;
+};
+
+struct DecisionRulePlan {
+  std::string rule = "simple-acceptance";
+};
+
+struct LobePlan {
+  int order = 2;
+  double amplitude_um = 0.0;
+  double phase_deg = 0.0;
+  double twist_deg = 0.0;
+};
+
+struct SimulatedPartPlan {
+  double diameter_error_um = 0.0;
+  std::vector<LobePlan> lobes;
+  double taper_um = 0.0;
+  double barrel_um = 0.0;
+  double bend_um = 0.0;
+  double bend_phase_deg = 0.0;
+  double tilt_deg = 0.0;                 ///< Of the part in the clamping ring.
+  double tilt_toward_deg = 0.0;
+  double offset_x_mm = 0.0;
+  double offset_y_mm = 0.0;
+};
+
+struct SimulatedProbePlan {
+  double repeatability_um = 0.0;
+  double tip_radius_error_um = 0.0;
+};
+
+struct SimulatedFixturePlan {
+  std::array<double, 3> axis_point_error_um = {0.0, 0.0, 0.0};
+  std::array<double, 3> axis_offset_error_um = {0.0, 0.0, 0.0};
+  double zero_alpha_deg = 0.0;
+  double zero_beta_deg = 0.0;
+  double squareness_deg = 0.0;
+  double repeatability_deg = 0.0;
+};
+
+struct SimulationPlan {
+  std::uint64_t seed = 1;
+  double temperature_degC = 20.0;
+  SimulatedPartPlan part;
+  SimulatedProbePlan probe;
+  SimulatedFixturePlan fixture;
+};
+
+struct ReportsPlan {
+  std::vector<std::string> formats = {"html", "json", "csv"};
+};
+
+struct Plan {
+  PlanHead plan;
+  PartPlan part;
+  std::optional<MachinePlan> machine;    ///< Needed when a feature is touched, not read from a file.
+  std::optional<FixturePlan> fixture;
+  std::optional<ProbePlan> probe;
+  EnvironmentPlan environment;
+  std::vector<FeaturePlan> features;
+  DecisionRulePlan decision_rule;
+  std::optional<SimulationPlan> simulation;
+  ReportsPlan reports;
+
+  std::filesystem::path folder;          ///< Of the plan file: points files are relative to it.
+  std::string text;                      ///< The file, byte for byte.
+};
+
+/// A plan, or everything that is wrong with it.
+using PlanOrProblems = tl::expected<Plan, std::vector<core::Error>>;
+
+/// Reads and checks a plan. Every problem is reported, not only the first: `where` is the JSON
+/// pointer of the value ("name.json:line:column" for text that is not JSON), `what` one sentence
+/// with value, unit and limit. Points files are opened and read too.
+[[nodiscard]] PlanOrProblems read_plan(const std::filesystem::path& path);
+
+/// The same for text; `folder` resolves points files, `name` stands in places of syntax errors.
+[[nodiscard]] PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
+                                        std::string_view name);
+
+/// The JSON Schema (draft 7) of a plan, from the same table that reads it.
+[[nodiscard]] std::string plan_schema();
+
+}  // namespace rondure::plans
