@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace rondure::fit {
+
+/// The closest points of two convex hulls in the plane.
+struct HullDistance {
+  double distance = 0.0;  ///< 0 when they meet.
+  Eigen::Vector2d on_first = Eigen::Vector2d::Zero();
+  Eigen::Vector2d on_second = Eigen::Vector2d::Zero();
+  bool vertices = false;  ///< The closest points are a vertex of each, not inside an edge.
+};
+
+/// Distance between the convex hulls of two sets of unit vectors (the contacts of a centre).
+///
+/// Points of one circle are in convex position: the hull's edges are the chords between neighbours
+/// by angle, and two such hulls meet only where chords cross or vertices coincide. Testing all pairs
+/// of edges is therefore exact.
+///
+/// @param first, second  Not empty; unit vectors, any order, duplicates allowed.
+[[nodiscard]] HullDistance hull_distance(std::vector<Eigen::Vector2d> first,
+                                         std::vector<Eigen::Vector2d> second);
+
+/// True when the segments ab and cd cross in a point inside both.
+[[nodiscard]] bool segments_cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                                  const Eigen::Vector2d& c, const Eigen::Vector2d& d);
+
+}  // namespace rondure::fit

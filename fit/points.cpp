@@ -1,0 +1,75 @@
+#include "fit/points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace rondure::fit {
+namespace {
+
+template <class Vector>
+core::Result<void> check(std::span<const Vector> points_mm) {
+  if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
+  for (std::size_t i = 0; i < points_mm.size(); ++i) {
+    if (!points_mm[i].allFinite()) {
+      return core::fail(core::Code::kNotFinite,
+                        fmt::format("a coordinate of point {} (counted from 0) is not a finite number", i));
+    }
+  }
+  return {};
+}
+
+template <class Vector>
+Vector mean(std::span<const Vector> points_mm) {
+  Vector sum = Vector::Zero();
+  for (const Vector& p : points_mm) sum += p - points_mm.front();
+  return points_mm.front() + sum / static_cast<double>(points_mm.size());
+}
+
+// Stops at `enough`, which is small: comparing with those found so far beats sorting all points.
+template <class Vector>
+std::size_t distinct(std::span<const Vector> points_mm, std::size_t enough) {
+  std::vector<Vector> found;
+  for (const Vector& p : points_mm) {
+    if (std::find(found.begin(), found.end(), p) != found.end()) continue;
+    found.push_back(p);
+    if (found.size() == enough) break;
+  }
+  return found.size();
+}
+
+}  // namespace
+
+core::Result<void> check_points(std::span<const Eigen::Vector2d> points_mm) {
+  return check(points_mm);
+}
+core::Result<void> check_points(std::span<const Eigen::Vector3d> points_mm) {
+  return check(points_mm);
+}
+Eigen::Vector2d mean_point(std::span<const Eigen::Vector2d> points_mm) { return mean(points_mm); }
+Eigen::Vector3d mean_point(std::span<const Eigen::Vector3d> points_mm) { return mean(points_mm); }
+std::size_t distinct_points(std::span<const Eigen::Vector2d> points_mm, std::size_t enough) {
+  return distinct(points_mm, enough);
+}
+std::size_t distinct_points(std::span<const Eigen::Vector3d> points_mm, std::size_t enough) {
+  return distinct(points_mm, enough);
+}
+
+double largest_gap_rad(std::span<const Eigen::Vector2d> points_mm,
+                       const Eigen::Vector2d& center_mm) {
+  std::vector<double> angles;
+  angles.reserve(points_mm.size());
+  for (const Eigen::Vector2d& p : points_mm) {
+    angles.push_back(std::atan2(p.y() - center_mm.y(), p.x() - center_mm.x()));
+  }
+  std::sort(angles.begin(), angles.end());
+  double gap = angles.front() + core::kTwoPi - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);
+  return gap;
+}
+
+}  // namespace rondure::fit

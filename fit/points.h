@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+
+namespace rondure::fit {
+
+/// Checks every fitter makes first: at least one point, every coordinate finite.
+/// @return kNoPoints, or kNotFinite naming the row.
+[[nodiscard]] core::Result<void> check_points(std::span<const Eigen::Vector2d> points_mm);
+[[nodiscard]] core::Result<void> check_points(std::span<const Eigen::Vector3d> points_mm);
+
+/// The mean point; the sums are taken relative to the first point, so that a set far from the
+/// origin keeps its digits.
+[[nodiscard]] Eigen::Vector2d mean_point(std::span<const Eigen::Vector2d> points_mm);
+[[nodiscard]] Eigen::Vector3d mean_point(std::span<const Eigen::Vector3d> points_mm);
+
+/// Number of different points, counted up to `enough`.
+[[nodiscard]] std::size_t distinct_points(std::span<const Eigen::Vector2d> points_mm,
+                                          std::size_t enough);
+[[nodiscard]] std::size_t distinct_points(std::span<const Eigen::Vector3d> points_mm,
+                                          std::size_t enough);
+
+/// Largest angle without a point, seen from a centre [rad]; 2 pi for a single direction.
+[[nodiscard]] double largest_gap_rad(std::span<const Eigen::Vector2d> points_mm,
+                                     const Eigen::Vector2d& center_mm);
+
+}  // namespace rondure::fit

@@ -1,0 +1,216 @@
+#include "fit/min_zone_cylinder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "core/noise.h"
+#include "core/units.h"
+#include "fit/ls_cylinder.h"
+
+namespace rondure::fit {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+struct Kind {
+  int layers = 4;
+  int points = 7;
+  double half_length_mm = 35.0;
+  double noise_mm = 0.003;
+  double arc_deg = 360.0;
+};
+
+Points random_cylinder(std::uint64_t seed, const Kind& kind) {
+  core::KeyedNoise noise(seed, {3});
+  Points points;
+  for (int j = 0; j < kind.layers; ++j) {
+    for (int k = 0; k < kind.points; ++k) {
+      const double theta = kind.arc_deg * core::kDegree * (k + 0.4 * noise.uniform()) / kind.points;
+      const double z = kind.half_length_mm * (2.0 * j / (kind.layers - 1) - 1.0);
+      const double r = 25.0 + kind.noise_mm * noise.normal();
+      points.emplace_back(r * std::cos(theta), r * std::sin(theta), z);
+    }
+  }
+  return points;
+}
+
+Eigen::Isometry3d random_place(std::uint64_t seed, double far_mm) {
+  core::KeyedNoise noise(seed, {4});
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  place.rotate(Eigen::Quaterniond(noise.normal(), noise.normal(), noise.normal(), noise.normal()).normalized());
+  place.pretranslate(far_mm * Eigen::Vector3d(noise.normal(), noise.normal(), noise.normal()));
+  return place;
+}
+
+double zone_about(const Points& points, const Axis& axis) {
+  double low = 1e300;
+  double high = 0.0;
+  for (const auto& p : points) {
+    low = std::min(low, distance_mm(axis, p));
+    high = std::max(high, distance_mm(axis, p));
+  }
+  return high - low;
+}
+
+/// Checks by hand what the multipliers claim: non-negative, sum 1 on each side, on contacts only,
+/// gradients in balance. Gradients by finite differences: shares nothing with the solver.
+void expect_stationary(const Points& points, const MinZoneCylinder& zone) {
+  const Eigen::Vector3d u = zone.axis.direction.unitOrthogonal();
+  const Eigen::Vector3d v = zone.axis.direction.cross(u);
+  const double h = 1e-6;
+  const auto moved = [&](int k, double by) {
+    Axis axis = zone.axis;
+    const Eigen::Vector3d& side = k % 2 == 0 ? u : v;
+    if (k < 2) axis.point_mm += by * side;
+    if (k >= 2) axis.direction = (axis.direction + by * side / 35.0).normalized();
+    return axis;
+  };
+  Eigen::Vector4d balance = Eigen::Vector4d::Zero();
+  const auto add = [&](const std::vector<Contact>& side, double radius, double sign) {
+    double sum = 0.0;
+    for (const Contact& c : side) {
+      EXPECT_GT(c.multiplier, 0.0);
+      EXPECT_NEAR(distance_mm(zone.axis, points[c.index]), radius, 1e-11);
+      sum += c.multiplier;
+      for (int k = 0; k < 4; ++k) {
+        balance(k) += sign * c.multiplier * (distance_mm(moved(k, h), points[c.index]) -
+                                             distance_mm(moved(k, -h), points[c.index])) / (2.0 * h);
+      }
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+  };
+  add(zone.outer, zone.outer_radius_mm, 1.0);
+  add(zone.inner, zone.inner_radius_mm, -1.0);
+  EXPECT_LT(balance.cwiseAbs().maxCoeff(), 1e-7);
+  EXPECT_NEAR(zone_about(points, zone.axis), zone.width_mm(), 1e-12);
+}
+
+TEST(MinZoneCylinder, CarriesMultipliersThatProveItStationary) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE(seed);
+    const Points points = random_cylinder(seed, {3 + static_cast<int>(seed % 3), 5 + static_cast<int>(seed % 4)});
+    const auto zone = min_zone_cylinder(points, Eigen::Vector3d::UnitZ());
+    ASSERT_TRUE(zone.has_value());
+    EXPECT_EQ(zone->certificate.kind, Certificate::Kind::kLocal) << zone->certificate.reason;
+    EXPECT_LE(zone->certificate.gap_mm, 1e-10 * zone->width_mm());
+    EXPECT_LE(zone->width_mm(), ls_cylinder(points, Eigen::Vector3d::UnitZ())->deviation_mm + 1e-13);
+    expect_stationary(points, *zone);
+  }
+}
+
+TEST(MinZoneCylinder, IsNotBeatenByRandomAxesNearby) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const Points points = random_cylinder(seed, {});
+    const auto zone = min_zone_cylinder(points, Eigen::Vector3d::UnitZ());
+    ASSERT_TRUE(zone.has_value());
+    core::KeyedNoise noise(seed, {5});
+    for (int k = 0; k < 4000; ++k) {
+      const double size = 0.01 * std::pow(10.0, -6.0 * noise.uniform());
+      Axis axis = zone->axis;
+      axis.point_mm += size * Eigen::Vector3d(noise.normal(), noise.normal(), 0.0);
+      axis.direction += size / 35.0 * Eigen::Vector3d(noise.normal(), noise.normal(), 0.0);
+      axis.direction.normalize();
+      ASSERT_GE(zone_about(points, axis), zone->width_mm() - 1e-13);
+    }
+  }
+}
+
+TEST(MinZoneCylinder, DoesNotDependOnPlaceOrientationOrderOrScale) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const Points points = random_cylinder(seed, {});
+    const double width = min_zone_cylinder(points)->width_mm();
+    const Eigen::Isometry3d place = random_place(seed, 300.0);
+    Points moved;
+    Points scaled;
+    for (const auto& p : points) {
+      moved.emplace_back(place * p);
+      scaled.emplace_back(0.01 * p);
+    }
+    const Points reversed(points.rbegin(), points.rend());
+    const auto found = min_zone_cylinder(moved);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_NEAR(found->width_mm(), width, 1e-11);
+    EXPECT_NEAR(std::abs(found->axis.direction.dot(place.linear() * min_zone_cylinder(points)->axis.direction)), 1.0, 1e-12);
+    EXPECT_NEAR(min_zone_cylinder(scaled)->width_mm(), 0.01 * width, 1e-13);
+    EXPECT_NEAR(min_zone_cylinder(reversed)->width_mm(), width, 1e-12);
+  }
+}
+
+// Certificates section 1: on short discs the tilt is held by curvature and optima with five contacts
+// are common; a method that expects six stalls up to 1.1e-3 of the zone above them.
+TEST(MinZoneCylinder, ReachesOptimaWithFiveContacts) {
+  int fives = 0;
+  for (const double half_length : {5.0, 1.0, 0.25}) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+      SCOPED_TRACE(seed);
+      const Points points = random_cylinder(seed, {3, 7, half_length, 0.00125});
+      const auto zone = min_zone_cylinder(points, Eigen::Vector3d::UnitZ());
+      ASSERT_TRUE(zone.has_value());
+      EXPECT_EQ(zone->certificate.kind, Certificate::Kind::kLocal) << zone->certificate.reason;
+      EXPECT_LE(zone->certificate.gap_mm, 1e-10 * zone->width_mm());
+      if (zone->outer.size() + zone->inner.size() == 5) ++fives;
+    }
+  }
+  EXPECT_GE(fives, 5);
+}
+
+TEST(MinZoneCylinder, FindsThePlantedContactsOfALargeSet) {
+  // All points well inside the zone but six that hold it.
+  Points points = random_cylinder(9, {40, 500, 35.0, 0.0});
+  core::KeyedNoise noise(9, {6});
+  for (auto& p : points) {
+    const double r = 25.0 + 0.002 * (2.0 * noise.uniform() - 1.0);
+    p.head<2>() *= r / p.head<2>().norm();
+  }
+  const std::vector<std::size_t> outer = {100, 5170, 10330, 15440};
+  const std::vector<std::size_t> inner = {350, 19600};
+  for (const std::size_t i : outer) points[i].head<2>() *= 25.004 / points[i].head<2>().norm();
+  for (const std::size_t i : inner) points[i].head<2>() *= 24.996 / points[i].head<2>().norm();
+  const auto zone = min_zone_cylinder(points, Eigen::Vector3d::UnitZ());
+  ASSERT_TRUE(zone.has_value());
+  EXPECT_LE(zone->width_mm(), 0.008 + 1e-12);
+  EXPECT_EQ(zone->certificate.kind, Certificate::Kind::kLocal) << zone->certificate.reason;
+  expect_stationary(points, *zone);
+}
+
+TEST(MinZoneCylinder, RefusesWhatHasNoAxis) {
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  EXPECT_EQ(min_zone_cylinder({}).error().code, core::Code::kNoPoints);
+  EXPECT_EQ(min_zone_cylinder(Points{z, 2 * z, 3 * z, 4 * z}).error().code, core::Code::kTooFewPoints);
+  EXPECT_EQ(min_zone_cylinder(Points{z, 2 * z, 3 * z, 4 * z, 5 * z, 6 * z}).error().code, core::Code::kCollinear);
+  Points ring;
+  for (int k = 0; k < 12; ++k) ring.emplace_back(25 * std::cos(0.5 * k), 25 * std::sin(0.5 * k), 10.0);
+  const auto single = min_zone_cylinder(ring);
+  EXPECT_EQ(single.error().code, core::Code::kRank);
+  EXPECT_NE(single.error().what.find("roundness"), std::string::npos);
+  Points infinite = random_cylinder(1, {});
+  infinite[17].y() = std::numeric_limits<double>::infinity();
+  const auto bad = min_zone_cylinder(infinite);
+  EXPECT_EQ(bad.error().code, core::Code::kNotFinite);
+  EXPECT_NE(bad.error().what.find("point 17"), std::string::npos);
+}
+
+TEST(LsCylinder, IsExactOnPointsOfACylinder) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const Points points = random_cylinder(seed, {3, 6, 20.0, 0.0});
+    const Eigen::Isometry3d place = random_place(seed, 500.0);
+    Points moved;
+    for (const auto& p : points) moved.emplace_back(place * p);
+    const auto ls = ls_cylinder(moved);
+    ASSERT_TRUE(ls.has_value());
+    EXPECT_NEAR(ls->radius_mm, 25.0, 1e-11);
+    EXPECT_NEAR(distance_mm(ls->axis, place.translation()), 0.0, 1e-11);
+    EXPECT_LT(ls->deviation_mm, 1e-11);
+  }
+}
+
+}  // namespace
+}  // namespace rondure::fit
