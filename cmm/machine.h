@@ -13,23 +13,25 @@ namespace rondure::cmm {
 /// it there), searches along `direction` at most to  expected + search_mm * direction, and is back
 /// at its start when touch() returns, whatever the outcome.
 struct TouchCommand {
-  std::int64_t id = 0;               ///< Number of the touch in the journal.
-  Eigen::Vector3d expected_tip_W_mm = Eigen::Vector3d::Zero();  ///< Tip centre at the nominal contact.
-  Eigen::Vector3d direction_W = -Eigen::Vector3d::UnitX();      ///< Unit vector toward the surface.
+  std::int64_t id = 0;  ///< Number of the touch in the journal.
+  Eigen::Vector3d expected_tip_W_mm =
+      Eigen::Vector3d::Zero();                              ///< Tip centre at the nominal contact.
+  Eigen::Vector3d direction_W = -Eigen::Vector3d::UnitX();  ///< Unit vector toward the surface.
   double approach_mm = 3.0;
   double search_mm = 3.0;
 };
 
 /// What a touch gave.
 struct TouchReading {
-  Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();  ///< Tip centre at the trigger, machine frame.
-  double temperature_degC = 20.0;                      ///< Of the part.
-  double time_s = 0.0;                                 ///< Machine clock at the trigger.
+  Eigen::Vector3d tip_W_mm =
+      Eigen::Vector3d::Zero();     ///< Tip centre at the trigger, machine frame.
+  double temperature_degC = 20.0;  ///< Of the part.
+  double time_s = 0.0;             ///< Machine clock at the trigger.
 };
 
 /// A coordinate measuring machine with a touch probe. Errors: kNoTouch (nothing within the search
-/// distance; the tip is back at its start), kCollision (contact during a move; the machine stopped),
-/// kMachine (any other fault).
+/// distance; the tip is back at its start), kCollision (contact during a move; the machine
+/// stopped), kMachine (any other fault).
 class Machine {
  public:
   virtual ~Machine() = default;

@@ -8,10 +8,10 @@ namespace rondure::cmm {
 
 /// One lobing term of the form: amplitude * cos(order * theta + phase + twist * q).
 struct Lobe {
-  int order = 2;             ///< UPR.
+  int order = 2;  ///< UPR.
   double amplitude_mm = 0.0;
   double phase_rad = 0.0;
-  double twist_rad = 0.0;    ///< Helix: change of phase from mid-length to the upper end.
+  double twist_rad = 0.0;  ///< Helix: change of phase from mid-length to the upper end.
 };
 
 /// Form of a simulated part, radial, positive outward from the axis. q runs from -1 at the lower
@@ -26,11 +26,16 @@ struct PartForm {
   double bend_phase_rad = 0.0;
 };
 
+/// Thickness of the block around a simulated bore [mm].
+inline constexpr double kBlockWall_mm = 20.0;
+
 /// The real surface of a simulated cylinder in its own frame P: axis z, mid-length at z = 0.
+/// It bounds a solid with flat ends at z = -half_length and z = +half_length: a shaft, or a
+/// round block of outer radius  radius + kBlockWall_mm  with a bore.
 struct PartSurface {
   double radius_mm = 0.0;
   double half_length_mm = 0.0;
-  bool inside = false;       ///< true: a bore in a block, false: a shaft.
+  bool inside = false;  ///< true: a bore in a block, false: a shaft.
   PartForm form;
 
   /// Radius at an angle and height.

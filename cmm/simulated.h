@@ -25,15 +25,22 @@ struct SimulatedMachineOptions {
   double travel_speed_mm_s = 100.0;
   double touch_speed_mm_s = 5.0;
   double temperature_degC = 20.0;
-  MachineErrors errors;       ///< Hidden truth.
-  std::uint64_t seed = 1;     ///< Of the probe noise.
+  MachineErrors errors;    ///< Hidden truth.
+  std::uint64_t seed = 1;  ///< Of the probe noise.
 };
 
 /// A machine that exists in software. It knows the real part and where it really stands, finds the
 /// true contact of the tip sphere along the approach line, adds noise keyed with (seed, touch id),
-/// and refuses moves that would drive the tip into part or reference sphere (kCollision).
+/// and stops just before the tip would meet part or reference sphere in a move (kCollision; moves
+/// may graze them by 1e-6 mm). A touch that begins in contact is a kCollision too; a command that
+/// is not finite, or a touch that does not begin where the tip stands (1e-6 mm), is kMachine and
+/// moves nothing.
+///
+/// The clock advances by distance / speed: travel speed, touch speed along the search, and 0.2 s of
+/// settling after each touch. home() goes straight up to the park height, then across.
 class SimulatedMachine final : public Machine {
  public:
+  /// The tip stands in the park position.
   explicit SimulatedMachine(const SimulatedMachineOptions& options);
 
   /// Puts a part on the table (X_WP maps its frame to the machine), or moves it there.
@@ -52,6 +59,23 @@ class SimulatedMachine final : public Machine {
   [[nodiscard]] const Eigen::Vector3d& true_tip_W_mm() const { return true_tip_W_mm_; }
 
  private:
+  /// What the tip meets first on a straight line.
+  struct Obstacle {
+    double travel_mm = 0.0;
+    bool is_sphere = false;
+    Eigen::Vector3d point_W_mm = Eigen::Vector3d::Zero();
+  };
+
+  [[nodiscard]] double tip_radius_mm() const;
+  [[nodiscard]] core::Result<Obstacle> first_obstacle(const Eigen::Vector3d& start_W_mm,
+                                                      const Eigen::Vector3d& direction_W,
+                                                      double tip_radius_mm,
+                                                      double max_travel_mm) const;
+  [[nodiscard]] core::Error stop_before(const Obstacle& obstacle, const Eigen::Vector3d& direction,
+                                        const Eigen::Vector3d& target_W_mm);
+  [[nodiscard]] core::Result<void> check_command(const TouchCommand& command) const;
+  [[nodiscard]] core::Error touch_failed(const core::Error& cause, const TouchCommand& command);
+
   SimulatedMachineOptions options_;
   std::optional<PartSurface> part_;
   Eigen::Isometry3d X_WP_ = Eigen::Isometry3d::Identity();

@@ -16,7 +16,8 @@ std::optional<double> parse_number(std::string_view text) {
   double value = 0.0;
   const char* first = text.data();
   const char* last = first + text.size();
-  if (first != last && *first == '+') ++first;  // from_chars knows no plus sign
+  // from_chars knows no plus sign; behind one there must be no other sign.
+  if (last - first > 1 && *first == '+' && first[1] != '-') ++first;
   const auto end = std::from_chars(first, last, value);
   if (end.ec != std::errc() || end.ptr != last || !std::isfinite(value)) return std::nullopt;
   return value;

@@ -12,9 +12,9 @@
 
 namespace rondure::plans {
 
-// The plan as its JSON spells it: degrees and micrometres where the key says so. The one place where
-// keys, units, ranges, meanings and defaults stand is plans/plan_table.h; a member initialiser here
-// is the default.
+// The plan as its JSON spells it: degrees and micrometres where the key says so. The one place
+// where keys, units, ranges, meanings and defaults stand is plans/plan_table.h; a member
+// initialiser here is the default.
 
 struct PlanHead {
   std::string name;
@@ -26,14 +26,15 @@ struct PartPlan {
   std::string id;
   std::string name;
   std::string drawing;
-  double location_uncertainty_mm = 1.0;  ///< How far the surface may be from nominal at first touch.
+  double location_uncertainty_mm =
+      1.0;  ///< How far the surface may be from nominal at first touch.
 };
 
 struct MachinePlan {
   std::string driver = "simulated";
-  double approach_mm = 3.0;              ///< Start of the search before the expected contact.
-  double search_mm = 3.0;                ///< End of the search behind it.
-  double clearance_mm = 5.0;             ///< Kept from the part while travelling.
+  double approach_mm = 3.0;   ///< Start of the search before the expected contact.
+  double search_mm = 3.0;     ///< End of the search behind it.
+  double clearance_mm = 5.0;  ///< Kept from the part while travelling.
   double travel_speed_mm_s = 100.0;
   double touch_speed_mm_s = 5.0;
   std::array<double, 3> park_mm = {0.0, 0.0, 500.0};  ///< Tip position above everything.
@@ -41,21 +42,21 @@ struct MachinePlan {
 
 struct FixturePlan {
   std::string driver = "simulated";
-  std::array<double, 3> axis_point_mm = {0.0, 0.0, 0.0};   ///< A, machine frame.
-  std::array<double, 3> axis_offset_mm = {0.0, 0.0, 0.0};  ///< d, hoop frame.
-  std::array<double, 3> part_position_mm = {0.0, 0.0, 0.0};///< Part origin in the body frame.
+  std::array<double, 3> axis_point_mm = {0.0, 0.0, 0.0};     ///< A, machine frame.
+  std::array<double, 3> axis_offset_mm = {0.0, 0.0, 0.0};    ///< d, hoop frame.
+  std::array<double, 3> part_position_mm = {0.0, 0.0, 0.0};  ///< Part origin in the body frame.
   double min_alpha_deg = -90.0;
   double max_alpha_deg = 90.0;
   double min_beta_deg = -90.0;
   double max_beta_deg = 90.0;
   double resolution_deg = 0.05;
-  double rim_height_mm = -1000.0;        ///< Machine z below which the tip must not go.
-  double clamp_from_mm = 0.0;            ///< Clamped band on the part, part z; empty when from >= to.
+  double rim_height_mm = -1000.0;  ///< Machine z below which the tip must not go.
+  double clamp_from_mm = 0.0;      ///< Clamped band on the part, part z; empty when from >= to.
   double clamp_to_mm = 0.0;
 };
 
 struct QualificationPlan {
-  double sphere_diameter_mm = 25.0;      ///< Certified.
+  double sphere_diameter_mm = 25.0;  ///< Certified.
   std::array<double, 3> sphere_center_mm = {300.0, 0.0, 100.0};
   int points = 13;
   double form_limit_um = 5.0;
@@ -74,8 +75,8 @@ struct EnvironmentPlan {
 
 struct NominalPlan {
   double diameter_mm = 0.0;
-  double from_mm = 0.0;                  ///< Lower end of the surface, part z.
-  double to_mm = 0.0;                    ///< Upper end.
+  double from_mm = 0.0;  ///< Lower end of the surface, part z.
+  double to_mm = 0.0;    ///< Upper end.
 };
 
 struct SamplingPlan {
@@ -83,7 +84,7 @@ struct SamplingPlan {
   int points_per_layer = 7;
   double margin_mm = 5.0;
   double start_deg = 0.0;
-  double stagger = 1.0;                  ///< 0: every layer starts alike; 1: evenly interleaved.
+  double stagger = 1.0;  ///< 0: every layer starts alike; 1: evenly interleaved.
 };
 
 struct PoseSearchPlan {
@@ -91,9 +92,9 @@ struct PoseSearchPlan {
   double start_alpha_deg = 0.0;
   double start_beta_deg = 0.0;
   std::vector<double> steps_deg = {5.0, 2.0};
-  double min_step_deg = 0.05;            ///< End of step halving (refined, virtual).
-  int max_poses = 6;                     ///< guided: gives up levelling after so many.
-  int repeats = 5;                       ///< Touches of every point of the final cloud.
+  double min_step_deg = 0.05;  ///< End of step halving (refined, virtual).
+  int max_poses = 6;           ///< guided: gives up levelling after so many.
+  int repeats = 5;             ///< Touches of every point of the final cloud.
 };
 
 struct CharacteristicPlan {
@@ -105,8 +106,9 @@ struct CharacteristicPlan {
 };
 
 struct SourcePlan {
-  std::string file;                      ///< CSV of tip centres, relative to the plan.
-  std::optional<double> tip_diameter_mm; ///< Of the probe that took them; none: radii stay tip-centre radii.
+  std::string file;  ///< CSV of tip centres, relative to the plan.
+  std::optional<double>
+      tip_diameter_mm;  ///< Of the probe that took them; none: radii stay tip-centre radii.
 };
 
 struct FeaturePlan {
@@ -138,7 +140,7 @@ struct SimulatedPartPlan {
   double barrel_um = 0.0;
   double bend_um = 0.0;
   double bend_phase_deg = 0.0;
-  double tilt_deg = 0.0;                 ///< Of the part in the clamping ring.
+  double tilt_deg = 0.0;  ///< Of the part in the clamping ring.
   double tilt_toward_deg = 0.0;
   double offset_x_mm = 0.0;
   double offset_y_mm = 0.0;
@@ -173,7 +175,7 @@ struct ReportsPlan {
 struct Plan {
   PlanHead plan;
   PartPlan part;
-  std::optional<MachinePlan> machine;    ///< Needed when a feature is touched, not read from a file.
+  std::optional<MachinePlan> machine;  ///< Needed when a feature is touched, not read from a file.
   std::optional<FixturePlan> fixture;
   std::optional<ProbePlan> probe;
   EnvironmentPlan environment;
@@ -182,8 +184,8 @@ struct Plan {
   std::optional<SimulationPlan> simulation;
   ReportsPlan reports;
 
-  std::filesystem::path folder;          ///< Of the plan file: points files are relative to it.
-  std::string text;                      ///< The file, byte for byte.
+  std::filesystem::path folder;  ///< Of the plan file: points files are relative to it.
+  std::string text;              ///< The file, byte for byte.
 };
 
 /// A plan, or everything that is wrong with it.

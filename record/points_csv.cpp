@@ -1,0 +1,270 @@
+#include "record/points_csv.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace rondure::record {
+namespace {
+
+constexpr std::string_view kBlanks = " \t";
+constexpr std::string_view kAxes = "xyz";
+
+/// The columns of a file: fields[i] is the axis (0 x, 1 y, 2 z) of field i.
+struct Columns {
+  std::array<std::size_t, 3> fields{};
+  std::size_t count = 0;
+};
+
+/// Hands out lines without their LF or CRLF and counts them from 1.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : rest_(text) {}
+
+  std::optional<std::string_view> next() {
+    if (rest_.empty()) return std::nullopt;
+    ++number_;
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  }
+
+  [[nodiscard]] std::size_t number() const { return number_; }
+  [[nodiscard]] std::size_t bytes_left() const { return rest_.size(); }
+
+ private:
+  std::string_view rest_;
+  std::size_t number_ = 0;
+};
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+/// Blank lines and comments hold no point.
+bool holds_nothing(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(kBlanks);
+  return first == std::string_view::npos || line[first] == '#';
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> fields;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    fields.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// At most 40 characters of a file's text, in quotes, with bytes that do not print spelled out.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string shown = "\"";
+  for (const char c : text.substr(0, kLongest)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte >= 0x7f) {
+      shown += fmt::format("\\x{:02x}", byte);
+    } else {
+      shown += c;
+    }
+  }
+  return shown + (text.size() > kLongest ? "...\"" : "\"");
+}
+
+core::Error syntax(std::string what) { return {core::Code::kSyntax, std::move(what), {}}; }
+
+/// What spreadsheets and editors do to a table, or nothing.
+std::optional<core::Error> foreign_format(std::string_view line) {
+  const auto has = [&](char c) { return line.find(c) != std::string_view::npos; };
+  if (has('\0')) {
+    return syntax(
+        fmt::format("the line holds a NUL byte ({}); plain text is expected, saved as UTF-8 "
+                    "and not as UTF-16",
+                    quoted(line)));
+  }
+  if (has('\r')) {
+    return syntax(
+        fmt::format("{} holds a carriage return without a line feed; end lines with LF or "
+                    "CRLF",
+                    quoted(line)));
+  }
+  if (has('"') || has('\'')) {
+    return syntax(
+        fmt::format("{} holds quotes; write names and numbers without them", quoted(line)));
+  }
+  if (has(';')) {
+    return syntax(
+        fmt::format("{} is separated by semicolons; separate fields by commas and write "
+                    "12.5 with a point",
+                    quoted(line)));
+  }
+  if (!has(',') && trimmed(line).find_first_of(kBlanks) != std::string_view::npos) {
+    return syntax(
+        fmt::format("{} is separated by blanks; separate fields by commas", quoted(line)));
+  }
+  return std::nullopt;
+}
+
+core::Result<Columns> read_header(std::string_view line) {
+  if (auto foreign = foreign_format(line)) return core::fail(*std::move(foreign));
+  Columns columns;
+  std::array<bool, 3> seen{};
+  for (const std::string_view field : split(line)) {
+    const std::size_t axis = field.size() == 1 ? kAxes.find(field[0]) : std::string_view::npos;
+    if (axis == std::string_view::npos) {
+      return core::fail(
+          core::Code::kSyntax,
+          fmt::format("column {} is unknown; the first line must name the columns x,y "
+                      "or x,y,z (mm)",
+                      quoted(field)));
+    }
+    if (std::exchange(seen[axis], true)) {
+      return core::fail(
+          core::Code::kSyntax,
+          fmt::format("column {} stands twice; the columns are x,y or x,y,z, each once",
+                      quoted(field)));
+    }
+    columns.fields[columns.count++] = axis;
+  }
+  if (seen[0] && seen[1]) return columns;
+  return core::fail(core::Code::kSyntax,
+                    fmt::format("column \"{}\" is missing in {}; the columns are x,y or x,y,z (mm)",
+                                seen[0] ? "y" : "x", quoted(line)));
+}
+
+/// Reads one row; false when anything is wrong with it: explain() then says what.
+bool read_row(std::string_view line, const Columns& columns, Eigen::Vector3d& point_mm) {
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  const auto skip_blanks = [&] {
+    while (at != end && (*at == ' ' || *at == '\t')) ++at;
+  };
+  for (std::size_t i = 0; i < columns.count; ++i) {
+    if (i > 0 && (at == end || *at++ != ',')) return false;
+    skip_blanks();
+    if (at != end && *at == '+') {  // from_chars knows no plus sign
+      ++at;
+      if (at != end && *at == '-') return false;
+    }
+    double& value = point_mm[static_cast<Eigen::Index>(columns.fields[i])];
+    const auto [stop, problem] = std::from_chars(at, end, value);
+    if (problem != std::errc() || !std::isfinite(value)) return false;
+    at = stop;
+    skip_blanks();
+  }
+  return at == end;
+}
+
+/// What is wrong with one field, or nothing.
+std::optional<core::Error> explain_field(std::string_view field, char axis) {
+  double value = 0.0;
+  std::string_view digits = field;
+  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, problem] = std::from_chars(digits.data(), end, value);
+  const bool whole = !digits.empty() && stop == end;
+  if (whole && problem == std::errc() && std::isfinite(value)) return std::nullopt;
+  if (whole && problem == std::errc::result_out_of_range) {
+    return core::Error{core::Code::kNotFinite,
+                       fmt::format("{} is {}, beyond the range of numbers (4.9e-324 to 1.8e308)",
+                                   axis, quoted(field)),
+                       {}};
+  }
+  if (whole && problem == std::errc()) {
+    return core::Error{
+        core::Code::kNotFinite,
+        fmt::format("{} is {}; a finite number in mm is expected", axis, quoted(field)),
+        {}};
+  }
+  if (field.empty()) {
+    return syntax(fmt::format("{} is empty; a number in mm such as 12.5 is expected", axis));
+  }
+  return syntax(fmt::format(
+      "{} is {}; a number in mm such as 12.5 is expected{}", axis, quoted(field),
+      field.find('#') == std::string_view::npos ? "" : " (a comment needs a line of its own)"));
+}
+
+/// Why read_row() refused a row.
+core::Error explain(std::string_view line, const Columns& columns) {
+  if (auto foreign = foreign_format(line)) return *std::move(foreign);
+  const auto fields = split(line);
+  std::string names;
+  for (std::size_t i = 0; i < columns.count; ++i) {
+    if (i > 0) names += ',';
+    names += kAxes[columns.fields[i]];
+  }
+  if (fields.size() != columns.count) {
+    return syntax(fmt::format(
+        "{} field{} in {}, {} expected ({}){}", fields.size(), fields.size() == 1 ? "" : "s",
+        quoted(line), columns.count, names,
+        fields.size() == 2 * columns.count ? "; write decimals with a point, not a comma" : ""));
+  }
+  for (std::size_t i = 0; i < columns.count; ++i) {
+    if (auto error = explain_field(fields[i], kAxes[columns.fields[i]])) return *std::move(error);
+  }
+  return syntax(fmt::format("{} cannot be read; numbers for {} are expected", quoted(line), names));
+}
+
+bool is_utf16(std::string_view text) {
+  return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+}
+
+}  // namespace
+
+core::Result<PointTable> parse_points_csv(std::string_view text, std::string_view name) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  Lines lines(text);
+  const auto here = [&] {
+    return fmt::format("{}:{}", name, std::max<std::size_t>(lines.number(), 1));
+  };
+  if (is_utf16(text)) {
+    return core::fail(core::Code::kSyntax, "the file is saved as UTF-16; save it as UTF-8", here());
+  }
+  auto line = lines.next();
+  while (line && holds_nothing(*line)) line = lines.next();
+  if (!line) {
+    return core::fail(core::Code::kNoPoints,
+                      text.empty()
+                          ? "the file is empty; a header line x,y or x,y,z and a row a point "
+                            "are expected"
+                          : "the file holds only comments and blank lines; a header line x,y "
+                            "or x,y,z and a row a point are expected",
+                      here());
+  }
+  const auto columns = read_header(*line);
+  if (!columns) return core::fail(columns.error().at(here()));
+
+  PointTable table;
+  table.dimensions = static_cast<int>(columns->count);
+  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
+  while ((line = lines.next())) {
+    if (holds_nothing(*line)) continue;
+    if (!read_row(*line, *columns, point_mm)) {
+      return core::fail(explain(*line, *columns).at(here()));
+    }
+    if (table.points_mm.empty()) {  // rows are about as long as the first
+      table.points_mm.reserve(lines.bytes_left() / (line->size() + 1) + 1);
+    }
+    table.points_mm.push_back(point_mm);
+  }
+  if (table.points_mm.empty()) {
+    return core::fail(core::Code::kNoPoints,
+                      "the file holds a header line and no points; a row a point is expected",
+                      here());
+  }
+  return table;
+}
+
+}  // namespace rondure::record

@@ -1,35 +1,31 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "record/files.h"
 
 namespace rondure::record {
 
 /// Points of a CSV file. z is 0 for a file with the columns x,y.
 struct PointTable {
-  int dimensions = 3;                    ///< 2 for "x,y", 3 for "x,y,z".
+  int dimensions = 3;  ///< 2 for "x,y", 3 for "x,y,z".
   std::vector<Eigen::Vector3d> points_mm;
 };
 
 /// Reads points from CSV text: a header line naming the columns (`x,y` or `x,y,z`, any order, mm),
-/// then a row a point; `#` comments and blank lines are passed over; LF or CRLF; a UTF-8 byte order
-/// mark is passed over. Anything else is kSyntax with `where` "name:line": another header, a missing
-/// or extra field, text that is not a number, NaN or infinity (kNotFinite). An empty table is
-/// kNoPoints. One pass; about the speed of std::from_chars.
+/// then a row a point. Spaces around a field, blank lines, lines that begin with `#` and a UTF-8
+/// byte order mark are passed over; lines end with LF or CRLF. Anything else is an error with
+/// `where` "name:line", the text found and what is expected: kSyntax for another header, a missing
+/// or extra field or text that is not a number, kNotFinite for NaN, infinity or a number beyond
+/// double's range, kNoPoints for a table without rows. One pass; about the speed of
+/// std::from_chars.
 ///
 /// @param name  The file's name for `where`.
-[[nodiscard]] core::Result<PointTable> parse_points_csv(std::string_view text, std::string_view name);
-
-/// The bytes of a file, or kFile with the system's reason.
-[[nodiscard]] core::Result<std::string> read_file(const std::filesystem::path& path);
-
-/// Writes a file whole or not at all (temporary name, flush to disk, rename); kFile otherwise.
-[[nodiscard]] core::Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
+[[nodiscard]] core::Result<PointTable> parse_points_csv(std::string_view text,
+                                                        std::string_view name);
 
 }  // namespace rondure::record

@@ -30,11 +30,11 @@ enum class Strategy { kGuided, kRefined, kAsPublished, kVirtual, kPointsFile };
 
 /// One toleranced (or only reported) characteristic of a feature.
 struct Characteristic {
-  std::string id;                             ///< Name in the plan, unique within the feature.
-  Form form = Form::kCylindricity;            ///< CYLt, or RONt of the worst layer.
+  std::string id;                   ///< Name in the plan, unique within the feature.
+  Form form = Form::kCylindricity;  ///< CYLt, or RONt of the worst layer.
   Reference reference = Reference::kMinimumZone;
-  std::optional<double> tolerance_mm;         ///< Upper limit of the deviation [mm]; none: reported only.
-  std::string drawing_zone;                   ///< Where it stands on the drawing; may be empty.
+  std::optional<double> tolerance_mm;  ///< Upper limit of the deviation [mm]; none: reported only.
+  std::string drawing_zone;            ///< Where it stands on the drawing; may be empty.
 };
 
 /// One feature and how its points are obtained.
@@ -43,76 +43,77 @@ struct Feature {
   Shape shape = Shape::kCylinder;
   Side side = Side::kOutside;
   double nominal_diameter_mm = 0.0;
-  int layers = 0;             ///< 0 for a points file: layers are found in the data or unknown.
+  int layers = 0;  ///< 0 for a points file: layers are found in the data or unknown.
   int points_per_layer = 0;
   Strategy strategy = Strategy::kGuided;
-  std::vector<double> search_steps_deg;  ///< Steps of the software pose search (kVirtual), in order.
-  std::string points_file;    ///< For kPointsFile: the file, as the plan names it.
-  std::string points_sha256;  ///< Of that file's bytes.
+  std::vector<double> search_steps_deg;  ///< Steps of the software pose search, in order.
+  std::string points_file;               ///< For kPointsFile: the file, as the plan names it.
+  std::string points_sha256;             ///< Of that file's bytes.
+  std::optional<double> tip_radius_mm;   ///< Of the probe behind a points file, if stated.
   std::vector<Characteristic> characteristics;
 };
 
 /// Head of a run: who measured what with which program, and how it ended.
 struct Header {
-  std::string run_id;           ///< Name of the run, e.g. "01_spool_simulated-20261121T023302Z".
-  std::string version;          ///< core::kVersion that measured.
-  std::string processor;        ///< Model and vector units: same bits are promised on this kind.
-  std::string started_utc;      ///< ISO 8601.
-  std::string plan_file;        ///< As given on the command line, without folders.
+  std::string run_id;       ///< Name of the run, e.g. "01_spool_simulated-20261121T023302Z".
+  std::string version;      ///< core::kVersion that measured.
+  std::string processor;    ///< Model and vector units: same bits are promised on this kind.
+  std::string started_utc;  ///< ISO 8601.
+  std::string plan_file;    ///< As given on the command line, without folders.
   std::string plan_name;
   std::string plan_revision;
-  std::string plan_text;        ///< The plan itself, byte for byte.
+  std::string plan_text;  ///< The plan itself, byte for byte.
   std::string plan_sha256;
   std::string part_id;
   std::string part_name;
   std::string drawing;
-  std::string serial;           ///< --serial; may be empty.
-  std::string operator_name;    ///< --operator; may be empty.
-  std::string machine;          ///< e.g. "simulated CMM".
-  std::string fixture;          ///< e.g. "simulated two-axis fixture, resolution 0.05 deg".
-  std::string decision_rule;    ///< "simple-acceptance".
+  std::string serial;         ///< --serial; may be empty.
+  std::string operator_name;  ///< --operator; may be empty.
+  std::string machine;        ///< e.g. "simulated CMM".
+  std::string fixture;        ///< e.g. "simulated two-axis fixture, resolution 0.05 deg".
+  std::string decision_rule;  ///< "simple-acceptance".
   bool simulated = false;
-  std::uint64_t seed = 0;       ///< Of the simulation; 0 when nothing is simulated.
+  std::uint64_t seed = 0;             ///< Of the simulation; 0 when nothing is simulated.
   double temperature_min_degC = 0.0;  ///< Outside these limits a result is void.
   double temperature_max_degC = 0.0;
 };
 
 /// Reference sphere and limits of the probe qualification.
 struct Artefact {
-  double radius_mm = 0.0;                  ///< Certified radius of the sphere.
+  double radius_mm = 0.0;  ///< Certified radius of the sphere.
   double nominal_tip_radius_mm = 0.0;
-  double radius_tolerance_mm = 0.0;        ///< Limit of |rho - nominal|.
-  double form_limit_mm = 0.0;              ///< Limit of the probing form.
+  double radius_tolerance_mm = 0.0;  ///< Limit of |rho - nominal|.
+  double form_limit_mm = 0.0;        ///< Limit of the probing form.
 };
 
 /// A pose of the fixture in which a cloud was measured.
 struct PoseVisit {
-  int id = 0;                    ///< 0-based, counts through the whole run.
-  int feature = 0;               ///< Index into RunRecord::features.
+  int id = 0;       ///< 0-based, counts through the whole run.
+  int feature = 0;  ///< Index into RunRecord::features.
   core::Pose commanded;
-  core::Pose reached;            ///< As the fixture reads it back.
-  bool final_cloud = false;      ///< The cloud that is evaluated (set by a later decision).
-  double time_s = 0.0;           ///< Machine clock.
+  core::Pose reached;        ///< As the fixture reads it back.
+  bool final_cloud = false;  ///< The cloud that is evaluated (set by a later decision).
+  double time_s = 0.0;       ///< Machine clock.
 };
 
 /// One touch of the probe (or one row of a points file).
 struct Touch {
   enum class Purpose { kQualification, kMeasure };
-  std::int64_t id = 0;           ///< 0-based, counts through the whole run.
+  std::int64_t id = 0;  ///< 0-based, counts through the whole run.
   Purpose purpose = Purpose::kMeasure;
-  int pose = -1;                 ///< PoseVisit::id; -1 for a qualification touch.
-  int layer = 0;                 ///< 0-based from the lower end.
-  int point = 0;                 ///< 0-based within its layer.
-  int repeat = 0;                ///< 0-based.
-  Eigen::Vector3d tip_mm = Eigen::Vector3d::Zero();       ///< Tip centre, machine frame.
-  Eigen::Vector3d approach = Eigen::Vector3d::Zero();     ///< Unit direction of the approach.
+  int pose = -1;   ///< PoseVisit::id; -1 for a qualification touch.
+  int layer = 0;   ///< 0-based from the lower end.
+  int point = 0;   ///< 0-based within its layer.
+  int repeat = 0;  ///< 0-based.
+  Eigen::Vector3d tip_mm = Eigen::Vector3d::Zero();    ///< Tip centre, machine frame.
+  Eigen::Vector3d approach = Eigen::Vector3d::Zero();  ///< Unit direction of the approach.
   double temperature_degC = 20.0;
-  double time_s = 0.0;           ///< Machine clock.
+  double time_s = 0.0;  ///< Machine clock.
 };
 
 /// What the program decided during the run, in words, e.g. why the pose search stopped.
 struct Decision {
-  int feature = -1;              ///< -1: concerns the whole run.
+  int feature = -1;  ///< -1: concerns the whole run.
   double time_s = 0.0;
   std::string text;
 };
@@ -121,28 +122,28 @@ struct Decision {
 /// result; evaluation never reads it.
 struct SimulationTruth {
   int feature = 0;
-  double cylt_mm = 0.0;          ///< Minimum zone of the noise-free tip centres of the final cloud.
+  double cylt_mm = 0.0;  ///< Minimum zone of the noise-free tip centres of the final cloud.
 };
 
 /// A number of the evaluation as the run stored it, for verify.
 struct StoredResult {
-  std::string name;              ///< JSON pointer into report.json, e.g. "/features/0/mz/deviation_um".
+  std::string name;  ///< JSON pointer into report.json, e.g. "/features/0/mz/deviation_um".
   double value = 0.0;
 };
 
 /// Everything a run left behind: the contents of journal.db.
 struct RunRecord {
   Header header;
-  std::string ending;            ///< "finished", "stopped", "failed: ..."; "" while it runs.
+  std::string ending;                  ///< "finished", "stopped", "failed: ..."; "" while it runs.
   std::optional<core::Error> failure;  ///< Why a run did not finish.
-  Artefact artefact;             ///< Only meaningful when there are qualification touches.
+  Artefact artefact;                   ///< Only meaningful when there are qualification touches.
   std::vector<Feature> features;
   std::vector<PoseVisit> poses;
   std::vector<Touch> touches;
   std::vector<Decision> decisions;
   std::vector<SimulationTruth> truths;
   std::vector<StoredResult> results;
-  bool sealed = false;           ///< The journal was closed with digests of its tables.
+  bool sealed = false;  ///< The journal was closed with digests of its tables.
 };
 
 }  // namespace rondure::record

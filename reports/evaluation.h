@@ -28,9 +28,9 @@ struct CloudPoint {
   int point = 0;
   int repeats = 1;
   Eigen::Vector3d tip_mm = Eigen::Vector3d::Zero();  ///< Mean tip centre, machine frame.
-  double angle_rad = 0.0;      ///< About the minimum-zone axis, in [0, 2 pi).
-  double height_mm = 0.0;      ///< Along that axis, from the mean point.
-  double deviation_mm = 0.0;   ///< Distance from the axis minus the mean of the two zone radii.
+  double angle_rad = 0.0;                            ///< About the minimum-zone axis, in [0, 2 pi).
+  double height_mm = 0.0;                            ///< Along that axis, from the mean point.
+  double deviation_mm = 0.0;  ///< Distance from the axis minus the mean of the two zone radii.
   bool outer_contact = false;
   bool inner_contact = false;
 };
@@ -39,9 +39,9 @@ struct CloudPoint {
 struct PoseValue {
   core::Pose pose;
   double f_mm = 0.0;
-  std::string ending;          ///< "cross", "spoke", "co-circular", ...; or why there is no f.
-  bool valid = false;          ///< f could be computed.
-  bool physical = true;        ///< false: rotated in software.
+  std::string ending;    ///< "cross", "spoke", "co-circular", ...; or why there is no f.
+  bool valid = false;    ///< f could be computed.
+  bool physical = true;  ///< false: rotated in software.
   bool final_pose = false;
 };
 
@@ -49,18 +49,18 @@ struct PoseValue {
 struct LayerResult {
   int layer = 0;
   double height_mm = 0.0;
-  std::vector<std::size_t> rows;              ///< Of the cloud.
-  core::Result<fit::MinZoneCircle> mz;        ///< About its own minimum-zone centre (RONt).
+  std::vector<std::size_t> rows;        ///< Of the cloud.
+  core::Result<fit::MinZoneCircle> mz;  ///< About its own minimum-zone centre (RONt).
   core::Result<fit::LsCircle> ls;
 };
 
 /// Verdict on one characteristic.
 struct CharacteristicResult {
   record::Characteristic characteristic;
-  std::optional<double> value_mm;             ///< Nothing when it could not be evaluated.
+  std::optional<double> value_mm;  ///< Nothing when it could not be evaluated.
   Verdict verdict = Verdict::kVoid;
-  std::string reason;                         ///< One sentence behind the verdict.
-  std::string operator_text;                  ///< "MZCY; unfiltered; 4 x 7 points; ..."
+  std::string reason;         ///< One sentence behind the verdict.
+  std::string operator_text;  ///< "MZCY; unfiltered; 4 x 7 points; ..."
 };
 
 /// Everything evaluated of one feature.
@@ -70,23 +70,23 @@ struct FeatureResult {
   std::optional<fit::LsCylinder> ls_cylinder;
   std::optional<fit::MinZoneCylinder> mz_cylinder;  ///< Cylinder features.
   std::vector<LayerResult> layers;
-  std::vector<PoseValue> poses;               ///< In the order visited.
-  std::optional<double> tip_radius_mm;        ///< rho that was used; none for points of unknown tip.
-  std::optional<core::Pose> levelling_pose;   ///< That would turn the found axis to machine z.
-  std::optional<double> repeat_sigma_mm;      ///< Pooled standard deviation of repeated touches (1 touch).
+  std::vector<PoseValue> poses;              ///< In the order visited.
+  std::optional<double> tip_radius_mm;       ///< rho that was used; none for points of unknown tip.
+  std::optional<core::Pose> levelling_pose;  ///< That would turn the found axis to machine z.
+  std::optional<double> repeat_sigma_mm;  ///< Pooled standard deviation of a single touch.
   std::optional<double> repeat_zone_mean_mm;  ///< Mean of the zones of the single repeats.
   std::optional<double> repeat_zone_sd_mm;
   double mean_temperature_degC = 20.0;
   std::vector<CharacteristicResult> characteristics;
   std::vector<core::Error> warnings;
-  std::optional<core::Error> failure;         ///< Why there is no result.
+  std::optional<core::Error> failure;  ///< Why there is no result.
 };
 
 /// What a record says: a pure function of it.
 struct Evaluation {
   std::optional<fit::ProbeTip> probe;
   std::vector<FeatureResult> features;
-  Verdict verdict = Verdict::kVoid;           ///< The worst of all toleranced characteristics.
+  Verdict verdict = Verdict::kVoid;  ///< The worst of all toleranced characteristics.
 };
 
 /// Evaluates a record: averages repeated touches of the final pose, fits, checks the invariants,

@@ -7,8 +7,8 @@
 
 namespace rondure::reports {
 
-/// report.json: every number of the evaluation, in um and deg where the key says so; keys in a fixed
-/// order; numbers in the shortest form that reads back to the same double.
+/// report.json: every number of the evaluation, in um and deg where the key says so; keys in a
+/// fixed order; numbers in the shortest form that reads back to the same double.
 [[nodiscard]] std::string write_json(const record::RunRecord& record, const Evaluation& evaluation);
 
 /// report.html: one self-contained page (no network, no script needed to read it).

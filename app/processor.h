@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace rondure::app {
+
+/// Model and vector units of this processor: results are promised bit for bit on one kind only.
+[[nodiscard]] std::string processor();
+
+/// Now, as ISO 8601 in UTC: "2026-11-21T02:33:02Z".
+[[nodiscard]] std::string utc_now();
+
+}  // namespace rondure::app

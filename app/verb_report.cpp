@@ -1,0 +1,41 @@
+#include <fmt/format.h>
+
+#include "app/terminal.h"
+#include "app/verbs.h"
+#include "record/journal.h"
+#include "reports/evaluation.h"
+#include "reports/exports.h"
+#include "reports/writers.h"
+
+namespace rondure::app {
+
+int report(const ReportArguments& arguments) {
+  const auto read = record::read_journal(arguments.directory);
+  if (!read) {
+    complain(read.error());
+    return kBadInput;
+  }
+  for (const record::BrokenTable& broken : read->broken) {
+    fmt::print(stderr, "rondure: {}: table {} of the journal was changed after the run: {}\n",
+               arguments.directory, broken.table, broken.what);
+  }
+  if (!read->broken.empty()) return kBadInput;
+  const auto evaluation = reports::evaluate(read->record);
+  if (!evaluation) {
+    complain(evaluation.error());
+    return kBadInput;
+  }
+  const auto formats = arguments.formats.empty() ? reports::all_formats() : arguments.formats;
+  const auto written = reports::write_exports(arguments.directory, formats, read->record, *evaluation);
+  if (!written) {
+    complain(written.error());
+    return kBadInput;
+  }
+  fmt::print("{}", reports::write_summary(read->record, *evaluation));
+  for (const auto& file : *written) fmt::print("{}\n", file.string());
+  const bool well = evaluation->verdict == reports::Verdict::kConforms ||
+                    evaluation->verdict == reports::Verdict::kNotToleranced;
+  return well ? kAllWell : kNotConforming;
+}
+
+}  // namespace rondure::app

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+
+namespace rondure::plans {
+
+/// Everything that is wrong with a plan, and which keys it gives. Problems of structure come first,
+/// in the order of the document, then those of meaning, in the order they were found.
+class Findings {
+ public:
+  /// A problem of structure; `order` is that of the value (JsonValue::order).
+  void structure(std::size_t order, core::Error problem);
+  /// A problem of meaning.
+  void meaning(core::Code code, std::string where, std::string what);
+
+  /// Notes that the plan gives the value at this pointer.
+  void note_given(std::string pointer) { given_.insert(std::move(pointer)); }
+  [[nodiscard]] bool is_given(const std::string& pointer) const { return given_.contains(pointer); }
+
+  /// No problem of structure at that pointer, inside it or around it: its values can be judged.
+  [[nodiscard]] bool sound(std::string_view pointer) const;
+
+  /// All problems in order; leaves nothing behind.
+  [[nodiscard]] std::vector<core::Error> take();
+
+ private:
+  struct Placed {
+    std::size_t order = 0;
+    core::Error problem;
+  };
+  std::vector<Placed> structure_;
+  std::vector<core::Error> meaning_;
+  std::set<std::string> given_;
+};
+
+}  // namespace rondure::plans

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/result.h"
+#include "plans/cell.h"
+#include "plans/plan_reach.h"
+#include "plans/pose_search.h"
+#include "plans/runner.h"
+#include "plans/sampling.h"
+#include "plans/travel.h"
+#include "record/journal.h"
+
+namespace rondure::plans {
+
+/// What all features of a run share: cell, journal, the numbers of touches and poses, who watches.
+struct RunContext {
+  const Plan& plan;
+  const RunOptions& options;
+  Cell* cell;  ///< None when every feature comes from a file.
+  record::Journal& journal;
+  std::int64_t next_touch = 0;
+  int next_pose = 0;
+  Progress progress;
+
+  /// kStopped when the operator asked for it.
+  [[nodiscard]] core::Result<void> check_stop() const;
+  void show() const;
+};
+
+/// Moves the tip through the corners of a path given in a frame X (X_WX maps it to the machine).
+[[nodiscard]] core::Result<void> follow(cmm::Machine& machine, const Polyline& path,
+                                        const Eigen::Isometry3d& X_WX);
+
+/// Straight up to the park height, from above the part or from the reference sphere.
+[[nodiscard]] core::Result<void> rise(const Plan& plan, cmm::Machine& machine);
+
+/// One feature in the machine: turns, touches, journals. See PoseSession.
+class FeatureSession final : public PoseSession {
+ public:
+  FeatureSession(RunContext& context, int feature_index, std::vector<Target> targets);
+
+  [[nodiscard]] core::Result<Cloud> measure(const core::Pose& commanded) override;
+  [[nodiscard]] core::Result<void> repeat(int times) override;
+  [[nodiscard]] core::Result<void> keep_as_final() override;
+  void locate(const fit::Axis& axis_W) override;
+  [[nodiscard]] core::Pose levelling(const Eigen::Vector3d& direction_W) const override;
+  [[nodiscard]] const fixture::FixtureLimits& limits() const override;
+  [[nodiscard]] core::Result<void> note(const std::string& text) override;
+  void show(double f_mm) override;
+
+ private:
+  /// Touches all targets once in the present pose, rises, and gives the tip centres.
+  [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> touch_cloud();
+  [[nodiscard]] core::Result<Eigen::Vector3d> touch(const Target& target,
+                                                    const Eigen::Isometry3d& X_WP);
+  [[nodiscard]] Eigen::Isometry3d part_at(const core::Pose& pose) const;
+  [[nodiscard]] core::Result<void> check_targets(const core::Pose& pose) const;
+
+  RunContext& context_;
+  int index_;
+  const FeaturePlan& feature_;
+  std::vector<Target> targets_;
+  Eigen::Isometry3d X_BP_;        ///< Best knowledge of the part in the body frame.
+  PathGeometry geometry_;
+  core::Pose reached_;
+  int pose_id_ = -1;
+  int repeat_ = 0;
+  int visits_ = 0;
+  std::vector<Eigen::Vector3d> truth_;  ///< Noise-free tips of the last first cloud of a pose.
+};
+
+}  // namespace rondure::plans

@@ -1,0 +1,164 @@
+#include "plans/plan_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "plans/json_text.h"
+
+namespace rondure::plans {
+namespace {
+
+using core::Code;
+
+// The first earlier entry with the same id, as an index.
+template <class Entries>
+std::optional<std::size_t> earlier_with_same_id(const Entries& entries, std::size_t index) {
+  for (std::size_t k = 0; k < index; ++k) {
+    if (!entries[k].id.empty() && entries[k].id == entries[index].id) return k;
+  }
+  return std::nullopt;
+}
+
+void check_travel(double min_deg, double max_deg, std::string_view axis, Findings& findings) {
+  const std::string lower = fmt::format("/fixture/min_{}_deg", axis);
+  if (!findings.sound(lower) || !findings.sound(fmt::format("/fixture/max_{}_deg", axis))) return;
+  if (min_deg >= max_deg) {
+    findings.meaning(Code::kMeaning, lower,
+                     fmt::format("the lower limit {} deg is not below the upper limit {} deg; "
+                                 "exchange or correct them",
+                                 plain(min_deg), plain(max_deg)));
+  } else if (min_deg > 0.0 || max_deg < 0.0) {
+    findings.meaning(
+        Code::kPoseRange, lower,
+        fmt::format("the travel {}..{} deg leaves out 0 deg, the pose where the fixture "
+                    "starts; widen it",
+                    plain(min_deg), plain(max_deg)));
+  }
+}
+
+void check_environment(const Plan& plan, Findings& findings) {
+  const EnvironmentPlan& environment = plan.environment;
+  if (!findings.sound("/environment") || environment.min_degC < environment.max_degC) return;
+  findings.meaning(Code::kMeaning, "/environment",
+                   fmt::format("min_degC {} is not below max_degC {}; every temperature would make "
+                               "the result void",
+                               plain(environment.min_degC), plain(environment.max_degC)));
+}
+
+void check_needs(const Plan& plan, std::size_t touched, Findings& findings) {
+  constexpr std::array<std::string_view, 3> kNeeded = {"/machine", "/fixture", "/probe"};
+  for (const std::string_view section : kNeeded) {
+    if (findings.is_given(std::string(section))) continue;
+    findings.meaning(
+        Code::kMissingKey, std::string(section),
+        fmt::format("this key is missing: feature {} is touched by the machine; add it, or "
+                    "give the feature a \"source\" file",
+                    touched + 1));
+  }
+  const bool simulated = (plan.machine && plan.machine->driver == "simulated") ||
+                         (plan.fixture && plan.fixture->driver == "simulated");
+  if (simulated && !findings.is_given("/simulation")) {
+    findings.meaning(
+        Code::kMissingKey, "/simulation",
+        "this key is missing: the driver is \"simulated\"; say what is simulated, {} is "
+        "a part and a machine without errors");
+  }
+}
+
+void check_characteristic(const FeaturePlan& feature, std::size_t index, const std::string& where,
+                          Findings& findings) {
+  const CharacteristicPlan& c = feature.characteristics[index];
+  if (const auto twin = earlier_with_same_id(feature.characteristics, index)) {
+    findings.meaning(
+        Code::kMeaning, where + "/id",
+        fmt::format("the id {} names characteristic {} of this feature already; choose "
+                    "another",
+                    in_quotes(c.id), *twin + 1));
+  }
+  if (c.form == "cylindricity" && feature.type == "circle") {
+    findings.meaning(Code::kMeaning, where + "/form",
+                     "a circle has no cylindricity; ask for \"roundness\", or make the feature a "
+                     "\"cylinder\" with at least 2 layers");
+  }
+  if (c.tolerance_um && !c.reference && !findings.is_given(where + "/reference")) {
+    findings.meaning(
+        Code::kMeaning, where + "/reference",
+        fmt::format("the tolerance of {} um has no reference; add \"reference\": \"mz\" "
+                    "(minimum zone, the ISO default) or \"ls\" (least squares), as the "
+                    "drawing says",
+                    plain(*c.tolerance_um)));
+  }
+}
+
+// Keys of a feature that would be read and then ignored.
+void check_without_effect(const FeaturePlan& feature, const std::string& where,
+                          Findings& findings) {
+  const auto refuse = [&](const std::string& key, std::string_view why) {
+    if (!findings.is_given(where + key)) return;
+    findings.meaning(Code::kMeaning, where + key, fmt::format("has no effect: {}; remove it", why));
+  };
+  if (findings.is_given(where + "/source")) {
+    refuse("/sampling", "the points come from a file");
+    refuse("/pose_search", "the points come from a file");
+  } else if (feature.type == "circle") {
+    for (const std::string_view key : {"strategy", "steps_deg", "min_step_deg", "max_poses"}) {
+      refuse(fmt::format("/pose_search/{}", key), "a circle is measured in its start pose");
+    }
+  }
+}
+
+}  // namespace
+
+std::string feature_pointer(std::size_t index) { return item_pointer("/features", index); }
+
+bool is_touched(std::size_t index, const Findings& findings) {
+  return !findings.is_given(feature_pointer(index) + "/source");
+}
+
+void check_equipment(const Plan& plan, Findings& findings) {
+  if (plan.fixture) {
+    check_travel(plan.fixture->min_alpha_deg, plan.fixture->max_alpha_deg, "alpha", findings);
+    check_travel(plan.fixture->min_beta_deg, plan.fixture->max_beta_deg, "beta", findings);
+  }
+  check_environment(plan, findings);
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (is_touched(i, findings)) return check_needs(plan, i, findings);
+  }
+}
+
+void check_feature(const Plan& plan, std::size_t index, Findings& findings) {
+  const FeaturePlan& feature = plan.features[index];
+  const std::string where = feature_pointer(index);
+  if (const auto twin = earlier_with_same_id(plan.features, index)) {
+    findings.meaning(Code::kMeaning, where + "/id",
+                     fmt::format("the id {} names feature {} already; choose another",
+                                 in_quotes(feature.id), *twin + 1));
+  }
+  for (std::size_t k = 0; k < feature.characteristics.size(); ++k) {
+    const std::string place = item_pointer(where + "/characteristics", k);
+    if (findings.sound(place) && findings.sound(where + "/type")) {
+      check_characteristic(feature, k, place, findings);
+    }
+  }
+  check_without_effect(feature, where, findings);
+}
+
+void check_plan(const Plan& plan, Findings& findings) {
+  check_equipment(plan, findings);
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    check_feature(plan, i, findings);
+    if (is_touched(i, findings)) {
+      check_sampling(plan, i, findings);
+      check_pose_search(plan, i, findings);
+    } else {
+      check_points_file(plan, i, findings);
+    }
+  }
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,343 @@
+#pragma once
+
+#include "core/error.h"
+#include "plans/key_spec.h"
+#include "plans/plan.h"
+#include "plans/simulation_table.h"
+
+// The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
+// meaning, once. Defaults are the member initialisers of plan.h. A visitor walks it: TableReader
+// reads a plan, SchemaWriter writes the JSON Schema, KeyList the table of docs/plan.md.
+
+namespace rondure::plans {
+
+inline constexpr double kMaxCoordinate_mm = 10'000.0;
+inline constexpr double kMaxStep_deg = 5.0;
+
+template <class Visitor>
+void describe(Visitor& v, PlanHead& p) {
+  v.text("name", p.name,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Name of the plan, as the report shows it."});
+  v.text("revision", p.revision,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Revision of the plan, e.g. \"A\" or \"2\"."});
+  v.text("note", p.note, {.meaning = "Anything a reader of the plan should know."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, PartPlan& p) {
+  v.text("id", p.id, {.required = true, .empty_allowed = false, .meaning = "Part number."});
+  v.text("name", p.name, {.meaning = "What the part is called."});
+  v.text("drawing", p.drawing, {.meaning = "Drawing number with its issue."});
+  v.number("location_uncertainty_mm", p.location_uncertainty_mm,
+           {.at_least = 0.0,
+            .at_most = 100.0,
+            .meaning = "How far the surface may be from its nominal place at the first touch, from "
+                       "a tilted or shifted clamping."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, MachinePlan& p) {
+  v.text("driver", p.driver, {.one_of = {"simulated"}, .meaning = "Which machine measures."});
+  v.number("approach_mm", p.approach_mm,
+           {.at_least = 0.0,
+            .at_most = 100.0,
+            .above = true,
+            .meaning = "The slow search starts this far before the expected contact."});
+  v.number("search_mm", p.search_mm,
+           {.at_least = 0.0,
+            .at_most = 100.0,
+            .above = true,
+            .meaning = "The slow search gives up this far behind the expected contact."});
+  v.number("clearance_mm", p.clearance_mm,
+           {.at_least = 0.0,
+            .at_most = 500.0,
+            .above = true,
+            .meaning = "Distance kept from the part while travelling."});
+  v.number(
+      "travel_speed_mm_s", p.travel_speed_mm_s,
+      {.at_least = 0.0, .at_most = 1000.0, .above = true, .meaning = "Speed between touches."});
+  v.number("touch_speed_mm_s", p.touch_speed_mm_s,
+           {.at_least = 0.0,
+            .at_most = 50.0,
+            .above = true,
+            .meaning = "Speed while searching the surface."});
+  v.numbers("park_mm", p.park_mm,
+            {.at_least = -kMaxCoordinate_mm,
+             .at_most = kMaxCoordinate_mm,
+             .meaning = "Where the tip waits, above everything: x, y, z in the machine frame."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, FixturePlan& p) {
+  const NumberSpec coordinate = {
+      .at_least = -kMaxCoordinate_mm, .at_most = kMaxCoordinate_mm, .meaning = {}};
+  const auto place = [&](std::string_view meaning) {
+    NumberSpec spec = coordinate;
+    spec.meaning = meaning;
+    return spec;
+  };
+  const auto limit = [](std::string_view meaning) {
+    return NumberSpec{
+        .at_least = -90.0, .at_most = 90.0, .code = core::Code::kPoseRange, .meaning = meaning};
+  };
+  v.text("driver", p.driver,
+         {.one_of = {"simulated"}, .meaning = "Which fixture carries the part."});
+  v.numbers("axis_point_mm", p.axis_point_mm,
+            place("A point of the base-fixed axis (alpha): x, y, z in the machine frame."));
+  v.numbers("axis_offset_mm", p.axis_offset_mm,
+            place("From that axis to the carried axis (beta): x, y, z in the hoop frame; 0, 0, 0 "
+                  "when the axes intersect."));
+  v.numbers("part_position_mm", p.part_position_mm,
+            place("Origin of the part in the clamping ring: x, y, z in the frame of the ring."));
+  v.number("min_alpha_deg", p.min_alpha_deg,
+           limit("Lower end of travel about the base-fixed axis."));
+  v.number("max_alpha_deg", p.max_alpha_deg,
+           limit("Upper end of travel about the base-fixed axis."));
+  v.number("min_beta_deg", p.min_beta_deg, limit("Lower end of travel about the carried axis."));
+  v.number("max_beta_deg", p.max_beta_deg, limit("Upper end of travel about the carried axis."));
+  v.number(
+      "resolution_deg", p.resolution_deg,
+      {.at_least = 0.0, .at_most = 5.0, .meaning = "Smallest step the fixture can hold; 0: any."});
+  v.number("rim_height_mm", p.rim_height_mm,
+           place("Height of the rim of the bowl, machine z: the tip never goes below."));
+  v.number("clamp_from_mm", p.clamp_from_mm,
+           place("Lower end of the band that the clamping ring covers, part z. No band when it is "
+                 "not below clamp_to_mm."));
+  v.number("clamp_to_mm", p.clamp_to_mm, place("Upper end of the clamped band, part z."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, QualificationPlan& p) {
+  v.number("sphere_diameter_mm", p.sphere_diameter_mm,
+           {.at_least = 1.0,
+            .at_most = 200.0,
+            .meaning = "Certified diameter of the reference sphere."});
+  v.numbers("sphere_center_mm", p.sphere_center_mm,
+            {.at_least = -kMaxCoordinate_mm,
+             .at_most = kMaxCoordinate_mm,
+             .meaning = "Where the reference sphere stands: x, y, z in the machine frame."});
+  v.whole("points", p.points,
+          {.at_least = 5, .at_most = 100, .meaning = "Touches on the reference sphere."});
+  v.number(
+      "form_limit_um", p.form_limit_um,
+      {.at_least = 0.0,
+       .at_most = 1000.0,
+       .above = true,
+       .meaning =
+           "Largest probing form (spread of the touches about the sphere) of a usable probe."});
+  v.number("radius_tolerance_um", p.radius_tolerance_um,
+           {.at_least = 0.0,
+            .at_most = 1000.0,
+            .above = true,
+            .meaning = "Largest difference between the effective and the nominal tip radius."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, ProbePlan& p) {
+  v.number("tip_diameter_mm", p.tip_diameter_mm,
+           {.at_least = 0.0,
+            .at_most = 50.0,
+            .above = true,
+            .meaning = "Nominal diameter of the ball of the stylus."});
+  v.object(
+      "qualification", p.qualification,
+      {.meaning = "How the effective tip radius is found on a reference sphere before a run."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, EnvironmentPlan& p) {
+  v.number("min_degC", p.min_degC,
+           {.at_least = 10.0,
+            .at_most = 40.0,
+            .meaning = "A part colder than this makes the result void."});
+  v.number("max_degC", p.max_degC,
+           {.at_least = 10.0,
+            .at_most = 40.0,
+            .meaning = "A part warmer than this makes the result void."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, NominalPlan& p) {
+  v.number("diameter_mm", p.diameter_mm,
+           {.at_least = 1.0,
+            .at_most = 1000.0,
+            .code = core::Code::kUnits,
+            .hint = "that suggests metres or micrometres, give the diameter in mm",
+            .meaning = "Diameter on the drawing. Needed unless the points come from a file."});
+  v.number("from_mm", p.from_mm,
+           {.at_least = -kMaxCoordinate_mm,
+            .at_most = kMaxCoordinate_mm,
+            .meaning = "Lower end of the surface, part z; the height of the section of a circle."});
+  v.number("to_mm", p.to_mm,
+           {.at_least = -kMaxCoordinate_mm,
+            .at_most = kMaxCoordinate_mm,
+            .meaning = "Upper end of the surface, part z; left out for a circle."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, SamplingPlan& p) {
+  v.whole("layers", p.layers,
+          {.at_least = 1,
+           .at_most = 1000,
+           .meaning = "Sections along the axis: at least 2 for a cylinder; 1 for a circle, also "
+                      "when left out."});
+  v.whole("points_per_layer", p.points_per_layer,
+          {.at_least = 3,
+           .at_most = 100'000,
+           .meaning = "Equispaced points of every section; at least 4 for a circle."});
+  v.number("margin_mm", p.margin_mm,
+           {.at_least = 0.0,
+            .at_most = kMaxCoordinate_mm,
+            .meaning = "Distance of the first and the last layer from the ends of the surface."});
+  v.number("start_deg", p.start_deg,
+           {.at_least = -360.0,
+            .at_most = 360.0,
+            .meaning = "Angle of the first point of the lowest layer."});
+  v.number("stagger", p.stagger,
+           {.at_least = 0.0,
+            .at_most = 1.0,
+            .meaning = "Shift of the angles from layer to layer: 0, every layer starts alike; 1, "
+                       "the layers interleave evenly."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, PoseSearchPlan& p) {
+  const NumberSpec start = {.at_least = -90.0,
+                            .at_most = 90.0,
+                            .code = core::Code::kPoseRange,
+                            .meaning = "Angle of the fixture before the first touch."};
+  v.text("strategy", p.strategy,
+         {.one_of = {"guided", "refined", "as-published", "virtual"},
+          .meaning = "How the levelling pose is found. guided: solves each cloud and steps to the "
+                     "pose it predicts. as-published: grid of steps_deg. refined: that grid, then "
+                     "halved steps. virtual: one cloud, turned in software."});
+  v.number("start_alpha_deg", p.start_alpha_deg, start);
+  v.number("start_beta_deg", p.start_beta_deg, start);
+  v.numbers(
+      "steps_deg", p.steps_deg,
+      {.at_least = 0.0,
+       .at_most = kMaxStep_deg,
+       .above = true,
+       .code = core::Code::kStep,
+       .meaning =
+           "Steps of the grid search, from coarse to fine (as-published, refined, virtual)."});
+  v.number("min_step_deg", p.min_step_deg,
+           {.at_least = 0.0,
+            .at_most = kMaxStep_deg,
+            .above = true,
+            .code = core::Code::kStep,
+            .meaning = "Step halving ends below this step (refined, virtual)."});
+  v.whole("max_poses", p.max_poses,
+          {.at_least = 1,
+           .at_most = 100,
+           .meaning = "Levelling gives up after so many poses (guided)."});
+  v.whole("repeats", p.repeats,
+          {.at_least = 1,
+           .at_most = 1000,
+           .meaning = "Touches of every point of the final cloud; their mean is evaluated."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, CharacteristicPlan& p) {
+  v.text("id", p.id,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Name in the report, unique within the feature."});
+  v.text("form", p.form,
+         {.one_of = {"cylindricity", "roundness"},
+          .required = true,
+          .meaning = "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle or of the "
+                     "worst layer of a cylinder."});
+  v.text("reference", p.reference,
+         {.one_of = {"mz", "ls"},
+          .meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares. "
+                     "Needed with a tolerance."});
+  v.number(
+      "tolerance_um", p.tolerance_um,
+      {.at_least = 0.0,
+       .at_most = 10'000.0,
+       .above = true,
+       .meaning = "Upper limit on the drawing; without it the value is reported, not judged."});
+  v.text("drawing_zone", p.drawing_zone,
+         {.meaning = "Where it stands on the drawing, e.g. \"C4\"."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, SourcePlan& p) {
+  v.text("file", p.file,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning =
+              "CSV of tip centres in mm, with a header line x,y or x,y,z; relative to the plan."});
+  v.number(
+      "tip_diameter_mm", p.tip_diameter_mm,
+      {.at_least = 0.0,
+       .at_most = 50.0,
+       .above = true,
+       .meaning =
+           "Of the probe that took the points; without it radii stay those of the tip centre."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, FeaturePlan& p) {
+  v.text("id", p.id,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Name of the feature, unique in the plan."});
+  v.text("type", p.type,
+         {.one_of = {"cylinder", "circle"}, .required = true, .meaning = "What the surface is."});
+  v.text("side", p.side,
+         {.one_of = {"outside", "inside"}, .meaning = "outside: a shaft; inside: a bore."});
+  v.object("nominal", p.nominal, {.meaning = "The surface on the drawing, part frame: axis z."});
+  v.object("sampling", p.sampling, {.meaning = "Where it is touched."});
+  v.object("pose_search", p.pose_search, {.meaning = "How the fixture levels it."});
+  v.object("source", p.source,
+           {.meaning = "Points from a file in place of touches; no machine is needed then."});
+  v.list("characteristics", p.characteristics,
+         {.meaning = "What the drawing asks for, and what else is to be reported."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, DecisionRulePlan& p) {
+  v.text("rule", p.rule,
+         {.one_of = {"simple-acceptance"},
+          .meaning = "simple-acceptance: the value is compared with the tolerance, no uncertainty "
+                     "is taken into account."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, ReportsPlan& p) {
+  v.texts("formats", p.formats,
+          {.one_of = {"html", "json", "csv"},
+           .empty_allowed = false,
+           .meaning = "Reports that a run writes."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Plan& p) {
+  v.passed_over("$schema",
+                "Where an editor finds the schema of this file; the program does not read it.");
+  v.object("plan", p.plan, {.required = true, .meaning = "The plan itself."});
+  v.object("part", p.part, {.required = true, .meaning = "What is inspected."});
+  v.object("machine", p.machine,
+           {.meaning = "The coordinate measuring machine. Needed when a feature is touched."});
+  v.object("fixture", p.fixture,
+           {.meaning = "The two-axis fixture. Needed when a feature is touched."});
+  v.object("probe", p.probe, {.meaning = "The touch probe. Needed when a feature is touched."});
+  v.object("environment", p.environment,
+           {.meaning = "Temperature limits outside which a result is void."});
+  v.list("features", p.features,
+         {.required = true, .empty_allowed = false, .meaning = "What is measured, in this order."});
+  v.object("decision_rule", p.decision_rule,
+           {.meaning = "How a value and its tolerance make a verdict."});
+  v.object("simulation", p.simulation,
+           {.meaning = "The hidden truth of a simulation; no evaluation reads it. Needed with "
+                       "simulated drivers."});
+  v.object("reports", p.reports, {.meaning = "What a run writes besides its journal."});
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,166 @@
+#include "plans/pose_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "fit/center_search.h"
+#include "fit/min_zone_cylinder.h"
+#include "fit/pose_walk.h"
+
+namespace rondure::plans {
+namespace {
+
+/// An angle no fixture resolves: at 35 mm it moves a point by 1 nm.
+constexpr double kFinestStep = 2e-6 * core::kDegree;
+
+core::Pose start_pose(const FeaturePlan& feature) {
+  return {feature.pose_search.start_alpha_deg * core::kDegree,
+          feature.pose_search.start_beta_deg * core::kDegree};
+}
+
+bool within(const fixture::FixtureLimits& limits, const core::Pose& pose) {
+  return pose.alpha_rad >= limits.min_alpha_rad && pose.alpha_rad <= limits.max_alpha_rad &&
+         pose.beta_rad >= limits.min_beta_rad && pose.beta_rad <= limits.max_beta_rad;
+}
+
+std::string degrees(const core::Pose& pose) {
+  return fmt::format("({:.4f}, {:.4f}) deg", pose.alpha_rad / core::kDegree,
+                     pose.beta_rad / core::kDegree);
+}
+
+double f_of(const Cloud& cloud, bool as_published) {
+  std::vector<Eigen::Vector2d> section;
+  section.reserve(cloud.tips_W_mm.size());
+  for (const Eigen::Vector3d& tip : cloud.tips_W_mm) section.emplace_back(tip.head<2>());
+  const auto search =
+      as_published ? fit::center_search_as_published(section) : fit::center_search(section);
+  return search ? search->width_mm() : std::numeric_limits<double>::infinity();
+}
+
+core::Result<void> finish(PoseSession& session, const FeaturePlan& feature) {
+  if (auto kept = session.keep_as_final(); !kept) return kept;
+  return session.repeat(feature.pose_search.repeats - 1);
+}
+
+/// What the guided search does after a cloud.
+struct NextStep {
+  bool stop = false;
+  core::Pose pose;        ///< Where to go otherwise.
+  double size_rad = 0.0;  ///< Largest angle from the present pose to it.
+  std::string why;
+};
+
+NextStep next_step(const PoseSession& session, const Cloud& cloud,
+                   const Eigen::Vector3d& direction_W, double last_rad) {
+  NextStep out;
+  out.pose = session.levelling(direction_W);
+  out.size_rad = std::max(std::abs(out.pose.alpha_rad - cloud.reached.alpha_rad),
+                          std::abs(out.pose.beta_rad - cloud.reached.beta_rad));
+  const double finest = std::max(0.5 * session.limits().resolution_rad, kFinestStep);
+  const double step_deg = out.size_rad / core::kDegree;
+  if (out.size_rad <= finest * (1.0 + 1e-9)) {
+    out.why = fmt::format(
+        "level: the remaining step of {:.6f} deg is below what the fixture resolves", step_deg);
+  } else if (!within(session.limits(), out.pose)) {
+    out.why = fmt::format("not level: the levelling pose {} is beyond the limits of the fixture",
+                          degrees(out.pose));
+  } else if (out.size_rad >= 0.5 * last_rad) {
+    out.why = fmt::format(
+        "level: the step of {:.6f} deg is no longer smaller than half the one before; "
+        "probe and fixture scatter as much",
+        step_deg);
+  }
+  out.stop = !out.why.empty();
+  return out;
+}
+
+/// Solves each cloud as a cylinder and steps to the pose it predicts, until the fixture cannot do
+/// better.
+core::Result<void> guided(PoseSession& session, const FeaturePlan& feature) {
+  core::Pose pose = start_pose(feature);
+  double last_rad = std::numeric_limits<double>::infinity();
+  for (int visit = 1;; ++visit) {
+    const auto cloud = session.measure(pose);
+    if (!cloud) {
+      // The first pose is asked for by the plan; a later one is only wanted.
+      if (visit == 1 || cloud.error().code != core::Code::kUnreachable)
+        return core::fail(cloud.error());
+      if (auto noted = session.note("not level: " + cloud.error().what); !noted) return noted;
+      break;
+    }
+    session.show(f_of(*cloud, false));
+    const auto zone = fit::min_zone_cylinder(cloud->tips_W_mm, Eigen::Vector3d::UnitZ());
+    if (!zone) return core::fail(zone.error());
+    NextStep next = next_step(session, *cloud, zone->axis.direction, last_rad);
+    if (!next.stop && visit == feature.pose_search.max_poses) {
+      next.stop = true;
+      next.why = fmt::format("not level after {} poses: a step of {:.4f} deg is left", visit,
+                             next.size_rad / core::kDegree);
+    }
+    const std::string zone_text =
+        fmt::format("pose {}: zone of the cloud {:.3f} um; ", degrees(cloud->reached),
+                    zone->width_mm() / core::kMicrometre);
+    if (next.stop) {
+      if (auto noted = session.note(zone_text + next.why); !noted) return noted;
+      break;
+    }
+    if (auto noted = session.note(zone_text + "turning to " + degrees(next.pose)); !noted)
+      return noted;
+    // Located once: later clouds then touch the same material points.
+    if (visit == 1) session.locate(zone->axis);
+    pose = next.pose;
+    last_rad = next.size_rad;
+  }
+  return finish(session, feature);
+}
+
+/// The published grid, or the same followed by step halving; then the best pose measured anew.
+core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool as_published) {
+  const PoseSearchPlan& plan = feature.pose_search;
+  const auto f = [&](const core::Pose& pose) -> core::Result<double> {
+    const auto cloud = session.measure(pose);
+    if (!cloud) {
+      // A pose that cannot be measured is passed over, like one beyond the limits.
+      const bool unreachable = cloud.error().code == core::Code::kUnreachable;
+      return core::fail(unreachable ? core::Code::kPoseRange : cloud.error().code,
+                        cloud.error().what);
+    }
+    const double value = f_of(*cloud, as_published);
+    session.show(value);
+    return value;
+  };
+  const auto steps =
+      as_published ? plan.steps_deg : fit::halved_steps(plan.steps_deg, plan.min_step_deg);
+  const auto walk = fit::walk_poses(f, start_pose(feature), steps);
+  if (!walk) return core::fail(walk.error());
+  const fit::PoseStep& best = walk->visited[walk->best];
+  const std::string text = fmt::format(
+      "pose search ended at {} after {} poses with f = {:.3f} um, a search value; that pose is "
+      "measured anew",
+      degrees(best.pose), walk->visited.size(), best.f_mm / core::kMicrometre);
+  if (auto noted = session.note(text); !noted) return noted;
+  if (const auto cloud = session.measure(best.pose); !cloud) return core::fail(cloud.error());
+  return finish(session, feature);
+}
+
+/// One cloud in the start pose: a circle, or the cloud that is turned in software afterwards.
+core::Result<void> single(PoseSession& session, const FeaturePlan& feature) {
+  const auto cloud = session.measure(start_pose(feature));
+  if (!cloud) return core::fail(cloud.error());
+  session.show(f_of(*cloud, false));
+  return finish(session, feature);
+}
+
+}  // namespace
+
+core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature) {
+  const std::string& strategy = feature.pose_search.strategy;
+  if (feature.type == "circle" || strategy == "virtual") return single(session, feature);
+  if (strategy == "guided") return guided(session, feature);
+  return grid(session, feature, strategy == "as-published");
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "core/pose.h"
+#include "core/result.h"
+#include "fit/axis.h"
+#include "fixture/fixture.h"
+#include "plans/plan.h"
+
+#include <string>
+#include <vector>
+
+namespace rondure::plans {
+
+/// One cloud of tip centres, in the pose the fixture reached.
+struct Cloud {
+  core::Pose reached;
+  std::vector<Eigen::Vector3d> tips_W_mm;
+};
+
+/// What a pose search may do with the feature it inspects.
+class PoseSession {
+ public:
+  virtual ~PoseSession() = default;
+  PoseSession() = default;
+  PoseSession(const PoseSession&) = delete;
+  PoseSession& operator=(const PoseSession&) = delete;
+
+  /// Turns to a pose and measures one cloud there. kPoseRange or kUnreachable: nothing has moved.
+  [[nodiscard]] virtual core::Result<Cloud> measure(const core::Pose& commanded) = 0;
+  /// Measures `times` more clouds in the present pose.
+  [[nodiscard]] virtual core::Result<void> repeat(int times) = 0;
+  /// The cloud of the present pose, with its repeats, is the one to evaluate.
+  [[nodiscard]] virtual core::Result<void> keep_as_final() = 0;
+  /// From now on targets follow this axis (machine frame, present pose) instead of the nominal one.
+  virtual void locate(const fit::Axis& axis_W) = 0;
+  /// The pose that turns a direction seen in the present pose to machine z.
+  [[nodiscard]] virtual core::Pose levelling(const Eigen::Vector3d& direction_W) const = 0;
+  [[nodiscard]] virtual const fixture::FixtureLimits& limits() const = 0;
+  /// Writes a decision into the journal.
+  [[nodiscard]] virtual core::Result<void> note(const std::string& text) = 0;
+  /// Tells whoever watches.
+  virtual void show(double f_mm) = 0;
+};
+
+/// Runs the pose search of a feature: `guided`, `refined`, `as-published` or `virtual` (DESIGN: the
+/// result is always the minimum zone of the final cloud, never the least f met on the way).
+/// A circle feature is measured in its start pose.
+[[nodiscard]] core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature);
+
+}  // namespace rondure::plans

@@ -1,0 +1,225 @@
+#include "plans/runner.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "core/version.h"
+#include "fit/pose_walk.h"
+#include "plans/inspection.h"
+#include "plans/plan_reach.h"
+#include "plans/qualification.h"
+#include "record/points_csv.h"
+#include "record/sha256.h"
+
+namespace rondure::plans {
+namespace {
+
+bool from_file(const FeaturePlan& feature) { return feature.source.has_value(); }
+
+bool touches_anything(const Plan& plan) {
+  return !std::all_of(plan.features.begin(), plan.features.end(), from_file);
+}
+
+record::Strategy strategy_of(const FeaturePlan& feature) {
+  if (from_file(feature)) return record::Strategy::kPointsFile;
+  const std::string& name = feature.pose_search.strategy;
+  if (name == "refined") return record::Strategy::kRefined;
+  if (name == "as-published") return record::Strategy::kAsPublished;
+  if (name == "virtual") return record::Strategy::kVirtual;
+  return record::Strategy::kGuided;
+}
+
+record::Characteristic characteristic_of(const CharacteristicPlan& plan) {
+  record::Characteristic out;
+  out.id = plan.id;
+  out.form = plan.form == "roundness" ? record::Form::kRoundness : record::Form::kCylindricity;
+  out.reference = plan.reference.value_or("mz") == "ls" ? record::Reference::kLeastSquares
+                                                        : record::Reference::kMinimumZone;
+  if (plan.tolerance_um) out.tolerance_mm = *plan.tolerance_um * core::kMicrometre;
+  out.drawing_zone = plan.drawing_zone;
+  return out;
+}
+
+record::Feature feature_of(const FeaturePlan& plan) {
+  record::Feature out;
+  out.id = plan.id;
+  out.shape = plan.type == "circle" ? record::Shape::kCircle : record::Shape::kCylinder;
+  out.side = plan.side == "inside" ? record::Side::kInside : record::Side::kOutside;
+  out.nominal_diameter_mm = plan.nominal.diameter_mm;
+  out.strategy = strategy_of(plan);
+  if (!from_file(plan)) {
+    out.layers = plan.sampling.layers;
+    out.points_per_layer = plan.sampling.points_per_layer;
+  } else {
+    out.points_file = plan.source->file;
+    if (plan.source->tip_diameter_mm) out.tip_radius_mm = 0.5 * *plan.source->tip_diameter_mm;
+  }
+  if (out.strategy == record::Strategy::kVirtual) {
+    out.search_steps_deg = fit::halved_steps(plan.pose_search.steps_deg, plan.pose_search.min_step_deg);
+  }
+  for (const CharacteristicPlan& c : plan.characteristics) out.characteristics.push_back(characteristic_of(c));
+  return out;
+}
+
+record::Header header_of(const Plan& plan, const RunOptions& options, std::uint64_t seed) {
+  record::Header out;
+  out.run_id = options.run_id;
+  out.version = core::kVersion;
+  out.processor = options.processor;
+  out.started_utc = options.started_utc;
+  out.plan_file = options.plan_file;
+  out.plan_name = plan.plan.name;
+  out.plan_revision = plan.plan.revision;
+  out.plan_text = plan.text;
+  out.plan_sha256 = record::sha256_hex(plan.text);
+  out.part_id = plan.part.id;
+  out.part_name = plan.part.name;
+  out.drawing = plan.part.drawing;
+  out.serial = options.serial;
+  out.operator_name = options.operator_name;
+  out.decision_rule = plan.decision_rule.rule;
+  out.simulated = touches_anything(plan);
+  out.seed = out.simulated ? seed : 0;
+  out.temperature_min_degC = plan.environment.min_degC;
+  out.temperature_max_degC = plan.environment.max_degC;
+  return out;
+}
+
+record::Artefact artefact_of(const Plan& plan) {
+  if (!plan.probe) return {};
+  const QualificationPlan& q = plan.probe->qualification;
+  return {0.5 * q.sphere_diameter_mm, 0.5 * plan.probe->tip_diameter_mm,
+          q.radius_tolerance_um * core::kMicrometre, q.form_limit_um * core::kMicrometre};
+}
+
+/// Touches a strategy commonly needs, for the time left.
+std::size_t expected_touches(const FeaturePlan& feature, std::size_t targets) {
+  if (from_file(feature)) return 0;
+  const auto repeats = static_cast<std::size_t>(feature.pose_search.repeats);
+  switch (strategy_of(feature)) {
+    case record::Strategy::kGuided: return targets * (feature.type == "circle" ? repeats : 2 + repeats);
+    case record::Strategy::kVirtual: return targets * repeats;
+    case record::Strategy::kAsPublished: return targets * (25 + repeats);
+    default: return targets * (80 + repeats);
+  }
+}
+
+/// Where every feature's targets are, checked in its start pose before anything moves.
+core::Result<std::vector<std::vector<Target>>> plan_targets(const Plan& plan) {
+  std::vector<std::vector<Target>> out(plan.features.size());
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (from_file(plan.features[i])) continue;
+    auto targets = reachable_targets(plan, i);
+    if (!targets) return core::fail(targets.error());
+    out[i] = std::move(*targets);
+  }
+  return out;
+}
+
+/// A points file, read once: what is hashed is what is evaluated.
+struct PointsFile {
+  std::string sha256;
+  record::PointTable table;
+};
+
+core::Result<std::vector<PointsFile>> read_points_files(const Plan& plan) {
+  std::vector<PointsFile> out(plan.features.size());
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (!from_file(plan.features[i])) continue;
+    const std::string& name = plan.features[i].source->file;
+    const auto bytes = record::read_file(plan.folder / name);
+    if (!bytes) return core::fail(bytes.error());
+    auto table = record::parse_points_csv(*bytes, name);
+    if (!table) return core::fail(table.error());
+    out[i] = {record::sha256_hex(*bytes), std::move(*table)};
+  }
+  return out;
+}
+
+/// Puts the rows of a points file into the journal, as one cloud without a pose search.
+core::Result<void> take_points(RunContext& context, int index, const record::PointTable& table) {
+  const int pose = context.next_pose++;
+  if (auto kept = context.journal.add(record::PoseVisit{pose, index, {}, {}, true, 0.0}); !kept) return kept;
+  std::vector<record::Touch> rows;
+  rows.reserve(table.points_mm.size());
+  for (const Eigen::Vector3d& p : table.points_mm) {
+    record::Touch row;
+    row.id = context.next_touch++;
+    row.pose = pose;
+    row.point = static_cast<int>(rows.size());
+    row.tip_mm = p;
+    rows.push_back(row);
+  }
+  return context.journal.add(rows);
+}
+
+core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Target>>& targets,
+                           const std::vector<PointsFile>& files) {
+  for (std::size_t i = 0; i < context.plan.features.size(); ++i) {
+    const FeaturePlan& feature = context.plan.features[i];
+    const auto index = static_cast<int>(i);
+    if (from_file(feature)) {
+      if (auto taken = take_points(context, index, files[i].table); !taken) return taken;
+      continue;
+    }
+    context.cell->mount(feature);
+    FeatureSession session(context, index, targets[i]);
+    if (auto searched = search_pose(session, feature); !searched) {
+      return core::fail(searched.error().at(fmt::format("/features/{}", i)));
+    }
+  }
+  return {};
+}
+
+/// References machine and fixture and qualifies the probe.
+core::Result<void> prepare(RunContext& context) {
+  if (auto homed = context.cell->machine().home(); !homed) return homed;
+  if (auto turned = context.cell->home_fixture(); !turned) return core::fail(turned.error());
+  if (auto tip = qualify_probe(context); !tip) return core::fail(tip.error().at("/probe/qualification"));
+  return {};
+}
+
+}  // namespace
+
+core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
+  const auto targets = plan_targets(plan);
+  if (!targets) return core::fail(targets.error());
+  const auto files = read_points_files(plan);
+  if (!files) return core::fail(files.error());
+  const bool touching = touches_anything(plan);
+  const std::uint64_t seed = options.seed.value_or(plan.simulation ? plan.simulation->seed : 0);
+  std::optional<Cell> cell;
+  record::Header header = header_of(plan, options, seed);
+  if (touching) {
+    cell.emplace(plan, seed);
+    header.machine = cell->machine().description();
+    header.fixture = cell->fixture().description();
+  }
+  std::vector<record::Feature> features;
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    features.push_back(feature_of(plan.features[i]));
+    features.back().points_sha256 = (*files)[i].sha256;
+  }
+  auto journal = record::Journal::create(options.directory, header, artefact_of(plan), features);
+  if (!journal) return core::fail(journal.error());
+
+  Run run{std::move(*journal), std::nullopt};
+  RunContext context{plan, options, cell ? &*cell : nullptr, run.journal, 0, 0, {}};
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    context.progress.touches_expected += expected_touches(plan.features[i], (*targets)[i].size());
+  }
+  if (touching) context.progress.touches_expected += static_cast<std::size_t>(plan.probe->qualification.points);
+  auto done = touching ? prepare(context) : core::Result<void>{};
+  if (done) done = inspect(context, *targets, *files);
+  if (!done) run.failure = done.error();
+  const std::string ending = done ? "finished"
+                             : run.failure->code == core::Code::kStopped ? "stopped" : "failed";
+  if (auto ended = run.journal.end(ending, run.failure ? &*run.failure : nullptr); !ended && !run.failure) {
+    run.failure = ended.error();
+  }
+  return run;
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+#include "plans/plan.h"
+
+namespace rondure::plans {
+
+/// A place on the nominal surface to be touched, in the part frame (z along the part axis, heights
+/// as in the plan).
+struct Target {
+  int layer = 0;  ///< 0 is the lowest.
+  int point = 0;  ///< Within the layer.
+  double theta_rad = 0.0;
+  double z_mm = 0.0;
+
+  friend bool operator==(const Target&, const Target&) = default;
+};
+
+/// The targets of a feature, layer by layer from below, by angle within a layer:
+///   z_j = from + margin + j (to - from - 2 margin) / (m - 1)
+///   theta_ji = start + 360 deg (i / k + stagger j / (m k)).
+/// A single layer lies in the middle; a circle is one layer at the height from_mm.
+/// @return  kSampling when the layers or points cannot be placed.
+/// Source: methods, cylindricity section 4.
+[[nodiscard]] core::Result<std::vector<Target>> sampling_targets(const FeaturePlan& feature);
+
+/// Where to touch a reference sphere: unit vectors from its centre, all in the upper half space,
+/// pole first, then rings from above down to the equator, spread evenly over the half sphere.
+/// Fewer than 9 points are the pole and the equator.
+/// @param points  5..100, else kSampling.
+[[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> qualification_directions(int points);
+
+}  // namespace rondure::plans

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "plans/key_spec.h"
+#include "plans/plan.h"
+
+// The part of plan_table.h that describes the hidden truth of a simulation.
+
+namespace rondure::plans {
+
+inline constexpr double kMaxSeed = 9007199254740991.0;  // 2^53 - 1: exact in every JSON reader
+
+template <class Visitor>
+void describe(Visitor& v, LobePlan& p) {
+  v.whole(
+      "order", p.order,
+      {.at_least = 2, .at_most = 500, .required = true, .meaning = "Undulations per revolution."});
+  v.number("amplitude_um", p.amplitude_um,
+           {.at_least = 0.0, .at_most = 1000.0, .meaning = "Half of peak to valley."});
+  v.number("phase_deg", p.phase_deg,
+           {.at_least = -360.0, .at_most = 360.0, .meaning = "Phase at mid-length."});
+  v.number("twist_deg", p.twist_deg,
+           {.at_least = -3600.0,
+            .at_most = 3600.0,
+            .meaning = "Helix: change of phase from mid-length to the upper end."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, SimulatedPartPlan& p) {
+  const auto form = [](std::string_view meaning) {
+    return NumberSpec{.at_least = -1000.0, .at_most = 1000.0, .meaning = meaning};
+  };
+  v.number("diameter_error_um", p.diameter_error_um, form("Real minus nominal diameter."));
+  v.list("lobes", p.lobes, {.meaning = "Lobing of the sections."});
+  v.number("taper_um", p.taper_um, form("Radius at the upper end minus radius at mid-length."));
+  v.number("barrel_um", p.barrel_um,
+           form("Radius at the ends minus radius at mid-length; negative: a barrel."));
+  v.number("bend_um", p.bend_um, form("Shift of the axis at the ends against mid-length."));
+  v.number("bend_phase_deg", p.bend_phase_deg,
+           {.at_least = -360.0, .at_most = 360.0, .meaning = "Direction of the bend."});
+  v.number("tilt_deg", p.tilt_deg,
+           {.at_least = 0.0, .at_most = 45.0, .meaning = "Tilt of the part in the clamping ring."});
+  v.number("tilt_toward_deg", p.tilt_toward_deg,
+           {.at_least = -360.0,
+            .at_most = 360.0,
+            .meaning = "Direction toward which its upper end leans."});
+  const auto offset = [](std::string_view meaning) {
+    return NumberSpec{.at_least = -100.0, .at_most = 100.0, .meaning = meaning};
+  };
+  v.number("offset_x_mm", p.offset_x_mm, offset("Shift of the part in the clamping ring, x."));
+  v.number("offset_y_mm", p.offset_y_mm, offset("Shift of the part in the clamping ring, y."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, SimulatedProbePlan& p) {
+  v.number("repeatability_um", p.repeatability_um,
+           {.at_least = 0.0, .at_most = 1000.0, .meaning = "Standard deviation of one touch."});
+  v.number(
+      "tip_radius_error_um", p.tip_radius_error_um,
+      {.at_least = -1000.0, .at_most = 1000.0, .meaning = "Effective minus nominal tip radius."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, SimulatedFixturePlan& p) {
+  const auto angle = [](double least, std::string_view meaning) {
+    return NumberSpec{.at_least = least, .at_most = 5.0, .meaning = meaning};
+  };
+  const auto shift = [](std::string_view meaning) {
+    return NumberSpec{.at_least = -10'000.0, .at_most = 10'000.0, .meaning = meaning};
+  };
+  v.numbers("axis_point_error_um", p.axis_point_error_um,
+            shift("Real minus stated axis_point_mm."));
+  v.numbers("axis_offset_error_um", p.axis_offset_error_um,
+            shift("Real minus stated axis_offset_mm."));
+  v.number("zero_alpha_deg", p.zero_alpha_deg, angle(-5.0, "Real alpha when the fixture reads 0."));
+  v.number("zero_beta_deg", p.zero_beta_deg, angle(-5.0, "Real beta when the fixture reads 0."));
+  v.number("squareness_deg", p.squareness_deg,
+           angle(-5.0, "Departure of the two axes from 90 deg."));
+  v.number("repeatability_deg", p.repeatability_deg,
+           angle(0.0, "Standard deviation of a reached angle."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, SimulationPlan& p) {
+  v.whole("seed", p.seed,
+          {.at_least = 0,
+           .at_most = kMaxSeed,
+           .meaning = "Same seed, same noise; --seed overrides it."});
+  v.number("temperature_degC", p.temperature_degC,
+           {.at_least = 10.0, .at_most = 40.0, .meaning = "Temperature of the simulated part."});
+  v.object("part", p.part, {.meaning = "Form of the simulated part and how it sits in the ring."});
+  v.object("probe", p.probe, {.meaning = "Errors of the simulated probe."});
+  v.object("fixture", p.fixture, {.meaning = "Errors of the simulated fixture."});
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <soci/soci.h>
+
+#include "core/result.h"
+
+// Private to the room: the small part of SQLite that the journal needs, over SOCI.
+
+namespace rondure::record {
+
+/// What SOCI's session wants to hear to open a file of SQLite; kFile when the path cannot be said
+/// in it (a double quote).
+[[nodiscard]] core::Result<std::string> connection_string(const std::filesystem::path& file);
+
+/// What a failed call of SOCI or SQLite means, in words, and what can be done about it:
+/// "the disk is full; free space on the disk".
+[[nodiscard]] std::string reason_of(const std::exception& exception, soci::session* session);
+
+/// Number of rows of a table and the SHA-256 of all their values; docs/journal.md has the bytes.
+struct Digest {
+  std::int64_t rows = 0;
+  std::string sha256;
+
+  friend bool operator==(const Digest&, const Digest&) = default;
+};
+
+/// Reads all rows of a table in the order of their first column. Throws soci::soci_error.
+[[nodiscard]] Digest digest_of(soci::session& session, std::string_view table);
+
+}  // namespace rondure::record

@@ -1,0 +1,129 @@
+#include "record/files.h"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace rondure::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An open file of the system, closed when it leaves its scope.
+class OpenFile {
+ public:
+  OpenFile(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~OpenFile() { close(); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  [[nodiscard]] bool ok() const { return fd_ >= 0; }
+  [[nodiscard]] int fd() const { return fd_; }
+  /// False when the system could not keep what was written (network disks tell it only now).
+  bool close() { return fd_ < 0 || ::close(std::exchange(fd_, -1)) == 0; }
+
+ private:
+  int fd_;
+};
+
+tl::unexpected<core::Error> cannot(std::string_view verb, const fs::path& path, int error_number) {
+  return core::fail(
+      core::Code::kFile,
+      fmt::format("cannot {} {}: {}", verb, path.string(), system_reason(error_number)),
+      path.string());
+}
+
+/// Writes every byte and flushes them to the disk; false leaves the reason in errno.
+bool write_through(OpenFile& file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file.fd(), bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return ::fsync(file.fd()) == 0 && file.close();
+}
+
+/// A name in the folder of `path` that no other process or thread uses.
+fs::path temporary_name(const fs::path& path) {
+  static std::atomic<unsigned> counter = 0;
+  return path.parent_path() / fmt::format(".rondure-{}-{}.tmp", ::getpid(), ++counter);
+}
+
+}  // namespace
+
+std::string system_reason(int error_number) {
+  const std::string system = std::generic_category().message(error_number);
+  switch (error_number) {
+    case ENOENT:
+      return "there is no such file or folder";
+    case ENOTDIR:
+      return "a part of its path is a file, not a folder";
+    case EISDIR:
+      return "it is a folder, a file is expected";
+    case EACCES:
+    case EPERM:
+      return fmt::format("this user is not allowed to ({}); change the permissions", system);
+    case EROFS:
+      return fmt::format("the disk is read-only ({}); choose another folder", system);
+    case ENOSPC:
+    case EDQUOT:
+      return fmt::format("the disk is full ({}); free space on the disk", system);
+    case EFBIG:
+      return fmt::format("it would exceed the largest file allowed here ({}); raise the limit",
+                         system);
+    default:
+      return system;
+  }
+}
+
+core::Result<std::string> read_file(const fs::path& path) {
+  const OpenFile file(path, O_RDONLY);
+  if (!file.ok()) return cannot("read", path, errno);
+  struct stat status = {};
+  std::string bytes;
+  if (::fstat(file.fd(), &status) == 0 && S_ISREG(status.st_mode)) {
+    bytes.reserve(static_cast<std::size_t>(status.st_size) + 1);
+  }
+  std::array<char, 1 << 16>
+      piece;  // NOLINT(cppcoreguidelines-pro-type-member-init): read() fills it
+  while (true) {
+    const ssize_t count = ::read(file.fd(), piece.data(), piece.size());
+    if (count == 0) return bytes;
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return cannot("read", path, errno);
+    bytes.append(piece.data(), static_cast<std::size_t>(count));
+  }
+}
+
+core::Result<void> sync_directory(const fs::path& directory) {
+  const fs::path name = directory.empty() ? fs::path(".") : directory;
+  const OpenFile folder(name, O_RDONLY | O_DIRECTORY);
+  if (!folder.ok()) return cannot("flush the folder", name, errno);
+  // EINVAL: file systems that have nothing to flush for a folder.
+  if (::fsync(folder.fd()) != 0 && errno != EINVAL) return cannot("flush the folder", name, errno);
+  return {};
+}
+
+core::Result<void> write_file(const fs::path& path, std::string_view bytes) {
+  std::error_code ignored;  // whatever cannot be looked at fails again below, with its reason
+  if (fs::is_directory(path, ignored)) return cannot("write", path, EISDIR);
+  const fs::path temporary = temporary_name(path);
+  OpenFile file(temporary, O_WRONLY | O_CREAT | O_EXCL);
+  if (!file.ok()) return cannot("write", path, errno);
+  if (!write_through(file, bytes) || ::rename(temporary.c_str(), path.c_str()) != 0) {
+    const int reason = errno;
+    ::unlink(temporary.c_str());
+    return cannot("write", path, reason);
+  }
+  return sync_directory(path.parent_path());
+}
+
+}  // namespace rondure::record

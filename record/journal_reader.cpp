@@ -1,0 +1,356 @@
+#include "record/journal.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <initializer_list>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <soci/soci.h>
+#include <soci/sqlite3/soci-sqlite3.h>
+
+#include "record/database.h"
+#include "record/files.h"
+#include "record/journal_schema.h"
+#include "record/private_copy.h"
+
+namespace rondure::record {
+namespace {
+
+namespace fs = std::filesystem;
+using soci::into;
+
+/// The file is readable but says something that no journal of ours says.
+struct Contradiction : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+template <class Number>
+Number single(soci::session& sql, const std::string& query) {
+  Number number{};
+  sql << query, into(number);
+  return number;
+}
+
+void require_journal(soci::session& sql) {
+  const auto application = single<long long>(sql, "pragma application_id");
+  if (application != kApplicationId) {
+    throw Contradiction(
+        fmt::format("it is no journal of Rondure (application_id {:#x}, expected "
+                    "{:#x})",
+                    application, kApplicationId));
+  }
+  const auto version = single<long long>(sql, "pragma user_version");
+  if (version != kSchemaVersion) {
+    throw Contradiction(
+        fmt::format("its tables have version {}, this program reads version {}; read "
+                    "it with the program that wrote it",
+                    version, kSchemaVersion));
+  }
+  const auto verdict = single<std::string>(sql, "pragma integrity_check(1)");
+  if (verdict != "ok") throw Contradiction("it is damaged: " + verdict);
+}
+
+/// Every table is the one of docs/journal.md, and not a view or a look-alike.
+void require_table(soci::session& sql, const Table& table) {
+  const std::string name(table.name);
+  std::string found;
+  soci::indicator present = soci::i_null;
+  sql << "select sql from sqlite_schema where type = 'table' and name = :name",
+      into(found, present), soci::use(name);
+  if (!sql.got_data()) throw Contradiction(fmt::format("it has no table {}", table.name));
+  // SQLite keeps "CREATE TABLE " in capitals, and what follows it as it was written.
+  constexpr std::size_t kVerb = std::string_view("create table ").size();
+  if (found.size() < kVerb || std::string_view(found).substr(kVerb) != table.sql.substr(kVerb)) {
+    throw Contradiction(fmt::format("the columns of its table {} are not those of version {}",
+                                    table.name, kSchemaVersion));
+  }
+}
+
+/// The enumerator that is spelled `text`.
+template <class Enum>
+Enum named(std::string_view column, const std::string& text, std::initializer_list<Enum> all) {
+  for (const Enum candidate : all) {
+    if (name_of(candidate) == text) return candidate;
+  }
+  throw Contradiction(fmt::format("{} holds the unknown word \"{}\"", column, text.substr(0, 40)));
+}
+
+core::Code code_named(const std::string& text) {
+  for (int i = 0; i <= static_cast<int>(core::Code::kReferenceAbsent); ++i) {
+    if (core::code_name(static_cast<core::Code>(i)) == text) return static_cast<core::Code>(i);
+  }
+  throw Contradiction(fmt::format("header.failure_code is the unknown \"{}\"", text.substr(0, 40)));
+}
+
+std::uint64_t seed_from(const std::string& text) {
+  char* end = nullptr;
+  errno = 0;
+  const std::uint64_t seed = std::strtoull(text.c_str(), &end, 10);
+  if (errno != 0 || text.empty() || std::to_string(seed) != text) {
+    throw Contradiction(fmt::format("header.seed is \"{}\", no whole number", text.substr(0, 40)));
+  }
+  return seed;
+}
+
+/// Throws unless `feature` is an index into the features read before (or -1, where that is
+/// allowed).
+void require_feature(const RunRecord& record, int feature, int lowest, std::string_view table) {
+  if (feature >= lowest && feature < static_cast<int>(record.features.size())) return;
+  throw Contradiction(fmt::format("table {} names feature {}, the journal has {}", table, feature,
+                                  record.features.size()));
+}
+
+void read_header(soci::session& sql, RunRecord& record) {
+  Header& h = record.header;
+  int simulated = 0;
+  std::string seed;
+  std::array<std::string, 3> failure;
+  soci::indicator failed = soci::i_null;
+  sql << "select run_id, version, processor, started_utc, plan_file, plan_name, plan_revision, "
+         "plan_text, plan_sha256, part_id, part_name, drawing, serial, operator_name, machine, "
+         "fixture, decision_rule, simulated, seed, temperature_min_degC, temperature_max_degC, "
+         "ending, failure_code, coalesce(failure_what, ''), coalesce(failure_where, '') from "
+         "header",
+      into(h.run_id), into(h.version), into(h.processor), into(h.started_utc), into(h.plan_file),
+      into(h.plan_name), into(h.plan_revision), into(h.plan_text), into(h.plan_sha256),
+      into(h.part_id), into(h.part_name), into(h.drawing), into(h.serial), into(h.operator_name),
+      into(h.machine), into(h.fixture), into(h.decision_rule), into(simulated), into(seed),
+      into(h.temperature_min_degC), into(h.temperature_max_degC), into(record.ending),
+      into(failure[0], failed), into(failure[1]), into(failure[2]);
+  if (!sql.got_data()) throw Contradiction("its table header is empty");
+  h.simulated = simulated != 0;
+  h.seed = seed_from(seed);
+  if (failed == soci::i_ok) {
+    record.failure = core::Error{code_named(failure[0]), failure[1], failure[2]};
+  }
+}
+
+void read_artefact(soci::session& sql, RunRecord& record) {
+  Artefact& artefact = record.artefact;
+  sql << "select radius_mm, nominal_tip_radius_mm, radius_tolerance_mm, form_limit_mm from "
+         "artefact",
+      into(artefact.radius_mm), into(artefact.nominal_tip_radius_mm),
+      into(artefact.radius_tolerance_mm), into(artefact.form_limit_mm);
+  if (!sql.got_data()) throw Contradiction("its table artefact is empty");
+}
+
+void read_features(soci::session& sql, RunRecord& record) {
+  Feature row;
+  std::string shape;
+  std::string side;
+  std::string strategy;
+  double tip_radius_mm = 0.0;
+  soci::indicator tip_given = soci::i_null;
+  std::int64_t id = 0;
+  soci::statement rows =
+      (sql.prepare
+           << "select id, name, shape, side, nominal_diameter_mm, layers, points_per_layer, "
+              "strategy, points_file, points_sha256, tip_radius_mm from feature order by id",
+       into(id), into(row.id), into(shape), into(side), into(row.nominal_diameter_mm),
+       into(row.layers), into(row.points_per_layer), into(strategy), into(row.points_file),
+       into(row.points_sha256), into(tip_radius_mm, tip_given));
+  rows.execute();
+  while (rows.fetch()) {
+    if (id != static_cast<std::int64_t>(record.features.size())) {
+      throw Contradiction(fmt::format("feature {} is missing", record.features.size()));
+    }
+    row.shape = named("feature.shape", shape, {Shape::kCylinder, Shape::kCircle});
+    row.side = named("feature.side", side, {Side::kOutside, Side::kInside});
+    row.strategy = named("feature.strategy", strategy,
+                         {Strategy::kGuided, Strategy::kRefined, Strategy::kAsPublished,
+                          Strategy::kVirtual, Strategy::kPointsFile});
+    row.tip_radius_mm = tip_given == soci::i_ok ? std::optional(tip_radius_mm) : std::nullopt;
+    record.features.push_back(row);
+  }
+}
+
+void read_search_steps(soci::session& sql, RunRecord& record) {
+  int feature = 0;
+  double step_deg = 0.0;
+  soci::statement rows = (sql.prepare << "select feature, step_deg from search_step order by id",
+                          into(feature), into(step_deg));
+  rows.execute();
+  while (rows.fetch()) {
+    require_feature(record, feature, 0, "search_step");
+    record.features[static_cast<std::size_t>(feature)].search_steps_deg.push_back(step_deg);
+  }
+}
+
+void read_characteristics(soci::session& sql, RunRecord& record) {
+  Characteristic row;
+  int feature = 0;
+  std::string form;
+  std::string reference;
+  double tolerance_mm = 0.0;
+  soci::indicator given = soci::i_null;
+  soci::statement rows =
+      (sql.prepare << "select feature, name, form, reference, tolerance_mm, drawing_zone "
+                      "from characteristic order by id",
+       into(feature), into(row.id), into(form), into(reference), into(tolerance_mm, given),
+       into(row.drawing_zone));
+  rows.execute();
+  while (rows.fetch()) {
+    require_feature(record, feature, 0, "characteristic");
+    row.form = named("characteristic.form", form, {Form::kCylindricity, Form::kRoundness});
+    row.reference = named("characteristic.reference", reference,
+                          {Reference::kLeastSquares, Reference::kMinimumZone});
+    row.tolerance_mm = given == soci::i_ok ? std::optional(tolerance_mm) : std::nullopt;
+    record.features[static_cast<std::size_t>(feature)].characteristics.push_back(row);
+  }
+}
+
+void read_poses(soci::session& sql, RunRecord& record) {
+  PoseVisit row;
+  int final_cloud = 0;
+  soci::statement rows =
+      (sql.prepare << "select id, feature, commanded_alpha_rad, commanded_beta_rad, "
+                      "reached_alpha_rad, reached_beta_rad, final_cloud, time_s from pose "
+                      "order by id",
+       into(row.id), into(row.feature), into(row.commanded.alpha_rad), into(row.commanded.beta_rad),
+       into(row.reached.alpha_rad), into(row.reached.beta_rad), into(final_cloud),
+       into(row.time_s));
+  rows.execute();
+  while (rows.fetch()) {
+    require_feature(record, row.feature, 0, "pose");
+    row.final_cloud = final_cloud != 0;
+    record.poses.push_back(row);
+  }
+}
+
+void read_touches(soci::session& sql, RunRecord& record) {
+  Touch row;
+  std::string purpose;
+  soci::statement rows =
+      (sql.prepare
+           << "select id, purpose, pose, layer, point, repeat, tip_x_mm, tip_y_mm, tip_z_mm, "
+              "approach_x, approach_y, approach_z, temperature_degC, time_s from touch "
+              "order by id",
+       into(row.id), into(purpose), into(row.pose), into(row.layer), into(row.point),
+       into(row.repeat), into(row.tip_mm.x()), into(row.tip_mm.y()), into(row.tip_mm.z()),
+       into(row.approach.x()), into(row.approach.y()), into(row.approach.z()),
+       into(row.temperature_degC), into(row.time_s));
+  rows.execute();
+  while (rows.fetch()) {
+    if (purpose != "measure" && purpose != "qualification") {
+      throw Contradiction(
+          fmt::format("touch.purpose holds the unknown word \"{}\"", purpose.substr(0, 40)));
+    }
+    row.purpose = purpose == "measure" ? Touch::Purpose::kMeasure : Touch::Purpose::kQualification;
+    record.touches.push_back(row);
+  }
+}
+
+void read_decisions(soci::session& sql, RunRecord& record) {
+  Decision row;
+  soci::statement rows = (sql.prepare << "select feature, time_s, text from decision order by id",
+                          into(row.feature), into(row.time_s), into(row.text));
+  rows.execute();
+  while (rows.fetch()) {
+    require_feature(record, row.feature, -1, "decision");
+    record.decisions.push_back(row);
+  }
+}
+
+void read_truths(soci::session& sql, RunRecord& record) {
+  SimulationTruth row;
+  soci::statement rows = (sql.prepare << "select feature, cylt_mm from truth order by id",
+                          into(row.feature), into(row.cylt_mm));
+  rows.execute();
+  while (rows.fetch()) {
+    require_feature(record, row.feature, 0, "truth");
+    record.truths.push_back(row);
+  }
+}
+
+void read_results(soci::session& sql, RunRecord& record) {
+  StoredResult row;
+  soci::statement rows = (sql.prepare << "select name, value from result order by id",
+                          into(row.name), into(row.value));
+  rows.execute();
+  while (rows.fetch()) record.results.push_back(row);
+}
+
+/// Compares one table with its row in the seal.
+std::optional<BrokenTable> check_seal(soci::session& sql, std::string_view table) {
+  const std::string name(table);
+  Digest stored;
+  sql << "select row_count, sha256 from seal where table_name = :name", into(stored.rows),
+      into(stored.sha256), soci::use(name);
+  if (!sql.got_data()) return BrokenTable{name, "its digest is missing in the seal"};
+  const Digest found = digest_of(sql, table);
+  if (found.rows != stored.rows) {
+    return BrokenTable{name, fmt::format("{} rows, expected {}", found.rows, stored.rows)};
+  }
+  if (found != stored) return BrokenTable{name, "a value differs from the sealed one"};
+  return std::nullopt;
+}
+
+void check_seals(soci::session& sql, ReadJournal& journal) {
+  journal.record.sealed = single<long long>(sql, "select count(*) from seal") > 0;
+  if (!journal.record.sealed) return;
+  for (const Table& table : sealed_tables()) {
+    if (auto broken = check_seal(sql, table.name)) journal.broken.push_back(*std::move(broken));
+  }
+}
+
+ReadJournal read_tables(soci::session& sql) {
+  require_journal(sql);
+  for (const Table& table : sealed_tables()) require_table(sql, table);
+  require_table(sql, seal_table());
+  ReadJournal journal;
+  read_header(sql, journal.record);
+  read_artefact(sql, journal.record);
+  read_features(sql, journal.record);
+  read_search_steps(sql, journal.record);
+  read_characteristics(sql, journal.record);
+  read_poses(sql, journal.record);
+  read_touches(sql, journal.record);
+  read_decisions(sql, journal.record);
+  read_truths(sql, journal.record);
+  read_results(sql, journal.record);
+  check_seals(sql, journal);
+  return journal;
+}
+
+core::Result<void> require_file(const fs::path& directory, const fs::path& file) {
+  std::error_code problem;
+  const fs::file_status status = fs::status(file, problem);
+  const auto refuse = [&](std::string what) {
+    return core::fail(core::Code::kFile, std::move(what), file.string());
+  };
+  if (fs::is_regular_file(status)) return {};
+  if (status.type() == fs::file_type::not_found) {
+    return refuse(fmt::format("there is no {} in {}; name the directory of a run", kJournalName,
+                              directory.string()));
+  }
+  if (fs::exists(status)) return refuse("the journal is not a file; name the directory of a run");
+  return refuse(fmt::format("the journal cannot be looked at: {}", system_reason(problem.value())));
+}
+
+}  // namespace
+
+core::Result<ReadJournal> read_journal(const fs::path& directory) {
+  const fs::path file = directory / kJournalName;
+  if (auto found = require_file(directory, file); !found) return core::fail(found.error());
+  const auto copy = PrivateCopy::of(file);
+  if (!copy) return core::fail(copy.error());
+  const auto connection = connection_string(copy->file());
+  if (!connection) return core::fail(connection.error());
+  std::optional<soci::session> sql;
+  try {
+    sql.emplace(soci::sqlite3, *connection);
+    *sql << "pragma synchronous = off";  // the copy need not survive a power cut
+    return read_tables(*sql);
+  } catch (const std::exception& exception) {
+    return core::fail(
+        core::Code::kJournal,
+        fmt::format("the journal cannot be read: {}", reason_of(exception, sql ? &*sql : nullptr)),
+        file.string());
+  }
+}
+
+}  // namespace rondure::record

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include <soci/soci.h>
+
+#include "record/run_record.h"
+
+// Private to the room: how records become rows. Everything here throws soci::soci_error.
+
+namespace rondure::record {
+
+/// The statements that run during a measurement: prepared once, bound to the rows beside them.
+struct Statements {
+  Touch touch;
+  std::string purpose;
+  PoseVisit pose;
+  int final_cloud = 0;
+  Decision decision;
+  SimulationTruth truth;
+  int marked_pose = 0;
+  soci::statement insert_touch;
+  soci::statement insert_pose;
+  soci::statement insert_decision;
+  soci::statement insert_truth;
+  soci::statement update_final;
+
+  explicit Statements(soci::session& sql);
+  Statements(const Statements&) = delete;
+  Statements& operator=(const Statements&) = delete;
+};
+
+/// Makes the tables and fills those that are known before the first touch, in one transaction.
+void insert_head(soci::session& sql, const Header& header, const Artefact& artefact,
+                 std::span<const Feature> features);
+
+void insert_results(soci::session& sql, std::span<const StoredResult> results);
+
+/// Fills the seal with the digest of every other table.
+void insert_digests(soci::session& sql);
+
+}  // namespace rondure::record

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "core/result.h"
+
+// Private to the room.
+
+namespace rondure::record {
+
+/// The journal and its logs, copied into a folder of our own: SQLite may then finish what a killed
+/// run left in the log, and the original is never touched, not even in a read-only place.
+class PrivateCopy {
+ public:
+  /// Copies `journal` and the logs beside it; kFile when that fails.
+  [[nodiscard]] static core::Result<PrivateCopy> of(const std::filesystem::path& journal);
+
+  PrivateCopy(PrivateCopy&& other) noexcept;
+  PrivateCopy& operator=(PrivateCopy&&) = delete;
+  ~PrivateCopy();  ///< Removes the copy.
+
+  /// The copied database.
+  [[nodiscard]] std::filesystem::path file() const;
+
+ private:
+  explicit PrivateCopy(std::filesystem::path folder);
+  [[nodiscard]] std::error_code take(const std::filesystem::path& journal) const;
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace rondure::record

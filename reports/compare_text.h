@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace rondure::reports {
+
+// Pure functions for `rondure verify`: an export as rendered again from the journal (`expected`)
+// against the file on disk (`found`). Each gives the first difference in one sentence, or nothing
+// when the two are equal.
+//
+// `tolerance` is absolute, in the unit of the numbers, >= 0. With 0 every byte must match. Above 0,
+// for reports that another kind of processor wrote, two numbers that differ by no more are equal,
+// and all text between them must match.
+
+/// JSON: names the place by its JSON pointer, "/features/0/mz/deviation_um: the file says 7.43, the
+/// journal gives 7.42"; also missing and added keys, text that is not JSON any more, and equal
+/// values that are written differently. `expected` must be JSON.
+[[nodiscard]] std::optional<std::string> first_json_difference(std::string_view expected,
+                                                               std::string_view found,
+                                                               double tolerance);
+
+/// CSV with a header line: names the line of the file and the column.
+[[nodiscard]] std::optional<std::string> first_csv_difference(std::string_view expected,
+                                                              std::string_view found,
+                                                              double tolerance);
+
+/// Any text, such as HTML: names the line and shows a few words of both.
+[[nodiscard]] std::optional<std::string> first_text_difference(std::string_view expected,
+                                                               std::string_view found,
+                                                               double tolerance);
+
+}  // namespace rondure::reports

@@ -1,0 +1,137 @@
+#include "reports/conformance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace rondure::reports {
+namespace {
+
+using record::Form;
+using record::Reference;
+
+double um(double mm) { return mm / core::kMicrometre; }
+
+/// The section with the largest deviation.
+struct WorstSection {
+  std::optional<double> value_mm;
+  bool certified = true;
+};
+
+WorstSection worst_section(const FeatureResult& result, Reference reference) {
+  WorstSection out;
+  for (const LayerResult& layer : result.layers) {
+    if (!layer.mz || !layer.ls) return {};
+    const bool mz = reference == Reference::kMinimumZone;
+    const double value = mz ? layer.mz->width_mm() : layer.ls->deviation_mm;
+    out.value_mm = std::max(value, out.value_mm.value_or(0.0));
+    if (mz && layer.mz->certificate.kind == fit::Certificate::Kind::kNone) out.certified = false;
+  }
+  return out;
+}
+
+/// The value of a characteristic and whether what proves it is there.
+WorstSection value_of(const FeatureResult& result, const record::Characteristic& characteristic) {
+  if (result.failure) return {};
+  if (characteristic.form == Form::kRoundness)
+    return worst_section(result, characteristic.reference);
+  if (!result.mz_cylinder) return {};
+  if (characteristic.reference == Reference::kLeastSquares)
+    return {result.ls_cylinder->deviation_mm, true};
+  return {result.mz_cylinder->width_mm(),
+          result.mz_cylinder->certificate.kind != fit::Certificate::Kind::kNone};
+}
+
+/// "MZCY; unfiltered; 4 x 7 points; 5 touches a point; r_tip 1.9984 mm; 20.0 degC; at the sampled
+/// points".
+std::string operator_text(const FeatureResult& result,
+                          const record::Characteristic& characteristic) {
+  const bool cylinder = characteristic.form == Form::kCylindricity;
+  const bool mz = characteristic.reference == Reference::kMinimumZone;
+  std::string text = cylinder ? (mz ? "MZCY" : "LSCY") : (mz ? "MZCI" : "LSCI");
+  text += "; unfiltered";
+  const record::Feature& feature = result.feature;
+  text += feature.layers > 0
+              ? fmt::format("; {} x {} points", feature.layers, feature.points_per_layer)
+              : fmt::format("; {} points", result.cloud.size());
+  if (!cylinder && result.layers.size() > 1) text += "; worst layer";
+  if (!result.cloud.empty() && result.cloud.front().repeats > 1) {
+    text += fmt::format("; mean of {} touches a point", result.cloud.front().repeats);
+  }
+  text += result.tip_radius_mm ? fmt::format("; r_tip {:.4f} mm", *result.tip_radius_mm)
+                               : "; r_tip unknown";
+  if (feature.strategy != record::Strategy::kPointsFile) {
+    text += fmt::format("; {:.1f} degC", result.mean_temperature_degC);
+  }
+  return text + "; at the sampled points";
+}
+
+std::optional<std::string> reason_for_void(const record::RunRecord& record,
+                                           const FeatureResult& result, const WorstSection& value) {
+  if (result.failure) return result.failure->what;
+  if (!value.value_mm) return "the sections of this feature could not be evaluated";
+  if (!value.certified) return "no certificate stands behind the minimum zone";
+  if (record.ending != "finished") return "the run did not finish";
+  const bool touched = result.feature.strategy != record::Strategy::kPointsFile;
+  const double temperature = result.mean_temperature_degC;
+  if (touched && !(temperature >= record.header.temperature_min_degC &&
+                   temperature <= record.header.temperature_max_degC)) {
+    return fmt::format("temperature {:.2f} degC is outside {:g}..{:g} degC", temperature,
+                       record.header.temperature_min_degC, record.header.temperature_max_degC);
+  }
+  return std::nullopt;
+}
+
+void judge(const record::RunRecord& record, const FeatureResult& result,
+           CharacteristicResult& out) {
+  const WorstSection value = value_of(result, out.characteristic);
+  out.value_mm = value.value_mm;
+  if (const auto missing = reason_for_void(record, result, value)) {
+    out.verdict = Verdict::kVoid;
+    out.reason = *missing;
+    return;
+  }
+  if (!out.characteristic.tolerance_mm) {
+    out.verdict = Verdict::kNotToleranced;
+    out.reason = "reported only";
+    return;
+  }
+  const double tolerance = *out.characteristic.tolerance_mm;
+  const bool conforms = *out.value_mm <= tolerance;
+  out.verdict = conforms ? Verdict::kConforms : Verdict::kDoesNotConform;
+  out.reason = fmt::format("{:.3f} um is {} the tolerance of {:g} um by {:.3f} um",
+                           um(*out.value_mm), conforms ? "within" : "above", um(tolerance),
+                           um(std::abs(tolerance - *out.value_mm)));
+}
+
+}  // namespace
+
+void decide(const record::RunRecord& record, FeatureResult& result) {
+  for (const record::Characteristic& characteristic : result.feature.characteristics) {
+    CharacteristicResult out;
+    out.characteristic = characteristic;
+    out.operator_text = operator_text(result, characteristic);
+    judge(record, result, out);
+    result.characteristics.push_back(std::move(out));
+  }
+}
+
+Verdict overall(const std::vector<FeatureResult>& features) {
+  // From bad to good; void first, because nothing can be said then.
+  constexpr std::array kOrder = {Verdict::kVoid, Verdict::kDoesNotConform, Verdict::kUndecided,
+                                 Verdict::kConforms};
+  for (const Verdict verdict : kOrder) {
+    for (const FeatureResult& feature : features) {
+      for (const CharacteristicResult& c : feature.characteristics) {
+        if (c.verdict == verdict) return verdict;
+      }
+    }
+  }
+  return Verdict::kNotToleranced;
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,390 @@
+#include "reports/evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "core/units.h"
+#include "fit/center_search.h"
+#include "fit/pose_walk.h"
+#include "reports/conformance.h"
+
+namespace rondure::reports {
+namespace {
+
+using record::RunRecord;
+using record::Touch;
+
+/// Round-off allowed where one reported value must not exceed another [mm].
+constexpr double kInvariantSlack = 1e-9;
+
+std::optional<fit::ProbeTip> evaluate_probe(const RunRecord& record) {
+  std::vector<Eigen::Vector3d> tips;
+  for (const Touch& touch : record.touches) {
+    if (touch.purpose == Touch::Purpose::kQualification) tips.push_back(touch.tip_mm);
+  }
+  if (tips.empty()) return std::nullopt;
+  const auto tip = fit::qualify_tip(tips, record.artefact.radius_mm);
+  if (!tip) return std::nullopt;
+  return *tip;
+}
+
+std::vector<const Touch*> touches_of(const RunRecord& record, int pose) {
+  std::vector<const Touch*> out;
+  for (const Touch& touch : record.touches) {
+    if (touch.purpose == Touch::Purpose::kMeasure && touch.pose == pose) out.push_back(&touch);
+  }
+  return out;
+}
+
+/// Mean tip centre of every target, in the order of layer and point.
+std::vector<CloudPoint> averaged(const std::vector<const Touch*>& touches) {
+  std::map<std::pair<int, int>, CloudPoint> targets;
+  for (const Touch* touch : touches) {
+    auto [found, fresh] = targets.try_emplace({touch->layer, touch->point});
+    CloudPoint& point = found->second;
+    point.layer = touch->layer;
+    point.point = touch->point;
+    point.repeats = fresh ? 1 : point.repeats + 1;
+    // Running mean: keeps the digits of coordinates far from the origin.
+    point.tip_mm += (touch->tip_mm - point.tip_mm) / point.repeats;
+  }
+  std::vector<CloudPoint> out;
+  out.reserve(targets.size());
+  for (const auto& [key, point] : targets) out.push_back(point);
+  return out;
+}
+
+std::vector<Eigen::Vector3d> tips_of(const std::vector<CloudPoint>& cloud) {
+  std::vector<Eigen::Vector3d> out;
+  out.reserve(cloud.size());
+  for (const CloudPoint& point : cloud) out.push_back(point.tip_mm);
+  return out;
+}
+
+std::vector<Eigen::Vector2d> projected(const std::vector<Eigen::Vector3d>& points,
+                                       const Eigen::Matrix3d& turn) {
+  std::vector<Eigen::Vector2d> out;
+  out.reserve(points.size());
+  for (const Eigen::Vector3d& p : points) out.emplace_back((turn * p).head<2>());
+  return out;
+}
+
+Eigen::Matrix3d rotation(const core::Pose& pose) {
+  return (Eigen::AngleAxisd(pose.alpha_rad, Eigen::Vector3d::UnitX()) *
+          Eigen::AngleAxisd(pose.beta_rad, Eigen::Vector3d::UnitY()))
+      .toRotationMatrix();
+}
+
+/// f by the centre search the strategy names.
+PoseValue pose_value(const std::vector<Eigen::Vector2d>& section, record::Strategy strategy) {
+  PoseValue out;
+  const auto search = strategy == record::Strategy::kAsPublished
+                          ? fit::center_search_as_published(section)
+                          : fit::center_search(section);
+  if (!search) {
+    out.ending = search.error().what;
+    return out;
+  }
+  out.f_mm = search->width_mm();
+  out.ending = std::string(fit::name_of(search->ending));
+  out.valid = true;
+  return out;
+}
+
+/// f of every pose that was measured, from its own touches.
+void evaluate_poses(const RunRecord& record, int index, FeatureResult& result) {
+  if (result.feature.strategy == record::Strategy::kPointsFile) return;
+  for (const record::PoseVisit& visit : record.poses) {
+    if (visit.feature != index) continue;
+    const auto cloud = averaged(touches_of(record, visit.id));
+    if (cloud.empty()) continue;
+    PoseValue value =
+        pose_value(projected(tips_of(cloud), Eigen::Matrix3d::Identity()), result.feature.strategy);
+    value.pose = visit.reached;
+    value.final_pose = visit.final_cloud;
+    result.poses.push_back(value);
+  }
+}
+
+/// The software search of the strategy `virtual`: one cloud, turned.
+void search_virtual_poses(const record::PoseVisit& visit, FeatureResult& result) {
+  const Eigen::Matrix3d back = rotation(visit.reached).transpose();
+  const auto tips = tips_of(result.cloud);
+  std::vector<PoseValue> values;
+  const auto f = [&](const core::Pose& pose) -> core::Result<double> {
+    PoseValue value = pose_value(projected(tips, rotation(pose) * back), result.feature.strategy);
+    if (!value.valid) return core::fail(core::Code::kPoseRange, value.ending);
+    value.pose = pose;
+    value.physical = false;
+    values.push_back(value);
+    return value.f_mm;
+  };
+  const auto walk = fit::walk_poses(f, visit.reached, result.feature.search_steps_deg);
+  if (!walk) {
+    result.warnings.push_back(walk.error());
+    return;
+  }
+  for (PoseValue& value : values) {
+    value.final_pose = value.pose == walk->visited[walk->best].pose;
+  }
+  for (PoseValue& value : result.poses) value.final_pose = false;
+  result.poses.insert(result.poses.end(), values.begin(), values.end());
+}
+
+/// Angle, height and deviation of every point about an axis.
+void place_points(const fit::Axis& axis, double middle_radius_mm, const Eigen::Vector3d& mean,
+                  std::vector<CloudPoint>& cloud) {
+  const Eigen::Vector3d z =
+      axis.direction.z() < 0.0 ? Eigen::Vector3d(-axis.direction) : axis.direction;
+  // Angle 0 looks along machine x as far as the axis allows (along y for an axis near x).
+  Eigen::Vector3d x = Eigen::Vector3d::UnitX() - z * z.x();
+  if (x.norm() < 0.1) x = Eigen::Vector3d::UnitY() - z * z.y();
+  x.normalize();
+  const Eigen::Vector3d y = z.cross(x);
+  for (CloudPoint& point : cloud) {
+    const Eigen::Vector3d v = point.tip_mm - axis.point_mm;
+    const double u = v.dot(x);
+    const double w = v.dot(y);
+    point.angle_rad = std::atan2(w, u);
+    if (point.angle_rad < 0.0) point.angle_rad += core::kTwoPi;
+    point.height_mm = (point.tip_mm - mean).dot(z);
+    point.deviation_mm = std::hypot(u, w) - middle_radius_mm;
+  }
+}
+
+void mark_contacts(const std::vector<fit::Contact>& outer, const std::vector<fit::Contact>& inner,
+                   const std::vector<std::size_t>& rows, std::vector<CloudPoint>& cloud) {
+  for (const fit::Contact& c : outer) cloud[rows[c.index]].outer_contact = true;
+  for (const fit::Contact& c : inner) cloud[rows[c.index]].inner_contact = true;
+}
+
+/// Sections normal to an axis, by layer.
+std::vector<LayerResult> sections(const fit::Axis& axis, const std::vector<CloudPoint>& cloud) {
+  std::map<int, std::vector<std::size_t>> layers;
+  for (std::size_t i = 0; i < cloud.size(); ++i) layers[cloud[i].layer].push_back(i);
+  const auto frame = fit::across(axis.direction);
+  std::vector<LayerResult> out;
+  for (const auto& [layer, rows] : layers) {
+    std::vector<Eigen::Vector2d> section;
+    double height = 0.0;
+    for (const std::size_t i : rows) {
+      section.emplace_back(frame.transpose() * (cloud[i].tip_mm - axis.point_mm));
+      height += cloud[i].height_mm / static_cast<double>(rows.size());
+    }
+    out.push_back({layer, height, rows, fit::min_zone_circle(section), fit::ls_circle(section)});
+  }
+  return out;
+}
+
+Eigen::Vector3d mean_of(const std::vector<CloudPoint>& cloud) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const CloudPoint& point : cloud) sum += point.tip_mm - cloud.front().tip_mm;
+  return cloud.front().tip_mm + sum / static_cast<double>(cloud.size());
+}
+
+/// A rotary pose gives the axis of a touched part to within the tilt of the fixture, so machine z
+/// is the start; points of a file may lie any way.
+std::optional<Eigen::Vector3d> start_direction(const record::Feature& feature) {
+  if (feature.strategy == record::Strategy::kPointsFile) return std::nullopt;
+  return Eigen::Vector3d::UnitZ();
+}
+
+void evaluate_cylinder(FeatureResult& result) {
+  const auto tips = tips_of(result.cloud);
+  const auto direction = start_direction(result.feature);
+  auto ls = fit::ls_cylinder(tips, direction);
+  auto mz = fit::min_zone_cylinder(tips, direction);
+  if (!ls || !mz) {
+    result.failure = !ls ? ls.error() : mz.error();
+    return;
+  }
+  result.ls_cylinder = *ls;
+  result.mz_cylinder = *mz;
+  place_points(mz->axis, 0.5 * (mz->inner_radius_mm + mz->outer_radius_mm), mean_of(result.cloud),
+               result.cloud);
+  std::vector<std::size_t> rows(result.cloud.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
+  mark_contacts(mz->outer, mz->inner, rows, result.cloud);
+  const bool has_layers = result.feature.layers > 1;
+  if (has_layers) result.layers = sections(mz->axis, result.cloud);
+}
+
+void evaluate_circle(FeatureResult& result) {
+  const fit::Axis up{mean_of(result.cloud), Eigen::Vector3d::UnitZ()};
+  result.layers = sections(up, result.cloud);
+  LayerResult& section = result.layers.front();
+  if (!section.mz || !section.ls) {
+    result.failure = !section.mz ? section.mz.error() : section.ls.error();
+    return;
+  }
+  const fit::MinZoneCircle& zone = *section.mz;
+  const auto frame = fit::across(up.direction);
+  const fit::Axis axis{up.point_mm + frame * zone.center_mm, up.direction};
+  place_points(axis, 0.5 * (zone.inner_radius_mm + zone.outer_radius_mm), up.point_mm,
+               result.cloud);
+  mark_contacts(zone.outer, zone.inner, section.rows, result.cloud);
+}
+
+/// What the repeats of the final cloud say: scatter of a touch, and of the zone of a single cloud.
+void evaluate_repeats(const std::vector<const Touch*>& touches, FeatureResult& result) {
+  std::map<std::pair<int, int>, const CloudPoint*> means;
+  for (const CloudPoint& point : result.cloud) means[{point.layer, point.point}] = &point;
+  double squares = 0.0;
+  int freedoms = -static_cast<int>(result.cloud.size());
+  std::map<int, std::vector<Eigen::Vector3d>> clouds;
+  for (const Touch* touch : touches) {
+    // The probe scatters along its approach; across it the controller holds the line.
+    const Eigen::Vector3d apart = touch->tip_mm - means.at({touch->layer, touch->point})->tip_mm;
+    squares += std::pow(apart.dot(touch->approach), 2);
+    ++freedoms;
+    clouds[touch->repeat].push_back(touch->tip_mm);
+  }
+  if (freedoms > 0) result.repeat_sigma_mm = std::sqrt(squares / freedoms);
+  std::vector<double> zones;
+  for (const auto& [repeat, points] : clouds) {
+    if (points.size() != result.cloud.size() || !result.mz_cylinder) continue;
+    const auto zone = fit::min_zone_cylinder(points, start_direction(result.feature));
+    if (zone) zones.push_back(zone->width_mm());
+  }
+  if (zones.size() < 2) return;
+  double mean = 0.0;
+  for (const double zone : zones) mean += zone / static_cast<double>(zones.size());
+  double variance = 0.0;
+  for (const double zone : zones)
+    variance += std::pow(zone - mean, 2) / static_cast<double>(zones.size() - 1);
+  result.repeat_zone_mean_mm = mean;
+  result.repeat_zone_sd_mm = std::sqrt(variance);
+}
+
+/// The pose that would turn the found axis to machine z, from the pose in which it was found.
+core::Pose levelling(const core::Pose& reached, const Eigen::Vector3d& direction_W) {
+  Eigen::Vector3d t = rotation(reached).transpose() * direction_W;
+  if (t.z() < 0.0) t = -t;
+  return {std::asin(std::clamp(t.y(), -1.0, 1.0)), std::atan2(-t.x(), t.z())};
+}
+
+void warn(FeatureResult& result) {
+  const auto add = [&](core::Code code, std::string what) {
+    result.warnings.push_back({code, std::move(what), {}});
+  };
+  const record::Feature& feature = result.feature;
+  if (feature.layers > 0 && (feature.points_per_layer < 7 ||
+                             (feature.shape == record::Shape::kCylinder && feature.layers < 3))) {
+    add(core::Code::kSparse, fmt::format("{} x {} points see only part of the form; the deviation "
+                                         "of the whole surface is larger",
+                                         feature.layers, feature.points_per_layer));
+  }
+  if (result.mz_cylinder && result.mz_cylinder->certificate.kind == fit::Certificate::Kind::kNone) {
+    add(core::Code::kNoCertificate, result.mz_cylinder->certificate.reason);
+  }
+  for (const PoseValue& value : result.poses) {
+    if (!value.final_pose || !value.valid || !result.mz_cylinder) continue;
+    if (value.f_mm > 2.0 * result.mz_cylinder->width_mm()) {
+      add(core::Code::kNotLevel,
+          fmt::format("f = {:.3f} um in the final pose is more than twice the zone of {:.3f} um: "
+                      "it measures "
+                      "the tilt of the part, not its form; the minimum zone below is free of it",
+                      value.f_mm / core::kMicrometre,
+                      result.mz_cylinder->width_mm() / core::kMicrometre));
+    }
+  }
+}
+
+/// Relations that hold for any data: MZ <= LS, and no section is wider than the cylinder's zone.
+core::Result<void> check_invariants(const FeatureResult& result) {
+  const auto broken = [&](const char* rule, double left, double right) {
+    return core::fail(
+        core::Code::kInternal,
+        fmt::format("invariant {} does not hold for {} points: {:.17g} mm > {:.17g} mm; "
+                    "please report this with the run's journal.db",
+                    rule, result.cloud.size(), left, right),
+        result.feature.id);
+  };
+  if (result.mz_cylinder) {
+    const double mz = result.mz_cylinder->width_mm();
+    if (!(mz <= result.ls_cylinder->deviation_mm + kInvariantSlack)) {
+      return broken("MZ <= LS", mz, result.ls_cylinder->deviation_mm);
+    }
+  }
+  for (const LayerResult& layer : result.layers) {
+    if (!layer.mz || !layer.ls) continue;
+    if (!(layer.mz->width_mm() <= layer.ls->deviation_mm + kInvariantSlack)) {
+      return broken("MZ <= LS of a section", layer.mz->width_mm(), layer.ls->deviation_mm);
+    }
+    if (result.mz_cylinder &&
+        !(layer.mz->width_mm() <= result.mz_cylinder->width_mm() + kInvariantSlack)) {
+      return broken("RONt <= CYLt", layer.mz->width_mm(), result.mz_cylinder->width_mm());
+    }
+  }
+  return {};
+}
+
+core::Result<FeatureResult> evaluate_feature(const RunRecord& record, int index,
+                                             const std::optional<fit::ProbeTip>& probe) {
+  FeatureResult result;
+  result.feature = record.features[static_cast<std::size_t>(index)];
+  if (result.feature.strategy == record::Strategy::kPointsFile) {
+    if (result.feature.tip_radius_mm) result.tip_radius_mm = result.feature.tip_radius_mm;
+  } else if (probe) {
+    result.tip_radius_mm = probe->radius_mm;
+  }
+  const auto last = std::find_if(
+      record.poses.begin(), record.poses.end(),
+      [&](const record::PoseVisit& visit) { return visit.feature == index && visit.final_cloud; });
+  evaluate_poses(record, index, result);
+  if (last == record.poses.end()) {
+    result.failure =
+        core::Error{core::Code::kNoPoints,
+                    record.failure ? "not measured to its end: " + record.failure->what
+                                   : "the run ended before the final cloud was measured",
+                    {}};
+    return result;
+  }
+  const auto touches = touches_of(record, last->id);
+  result.cloud = averaged(touches);
+  double temperature = 0.0;
+  for (const Touch* touch : touches) temperature += touch->temperature_degC;
+  result.mean_temperature_degC =
+      temperature / static_cast<double>(std::max<std::size_t>(1, touches.size()));
+  if (result.cloud.empty()) {
+    result.failure = core::Error{core::Code::kNoPoints, "the final cloud holds no touches", {}};
+    return result;
+  }
+  if (result.feature.shape == record::Shape::kCylinder) {
+    evaluate_cylinder(result);
+  } else {
+    evaluate_circle(result);
+  }
+  if (result.failure) return result;
+  evaluate_repeats(touches, result);
+  if (result.mz_cylinder && result.feature.strategy != record::Strategy::kPointsFile) {
+    result.levelling_pose = levelling(last->reached, result.mz_cylinder->axis.direction);
+  }
+  if (result.feature.strategy == record::Strategy::kVirtual) search_virtual_poses(*last, result);
+  warn(result);
+  if (auto checked = check_invariants(result); !checked) return core::fail(checked.error());
+  return result;
+}
+
+}  // namespace
+
+core::Result<Evaluation> evaluate(const RunRecord& record) {
+  Evaluation out;
+  out.probe = evaluate_probe(record);
+  for (std::size_t i = 0; i < record.features.size(); ++i) {
+    auto feature = evaluate_feature(record, static_cast<int>(i), out.probe);
+    if (!feature) return core::fail(feature.error());
+    decide(record, *feature);
+    out.features.push_back(std::move(*feature));
+  }
+  out.verdict = overall(out.features);
+  return out;
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,50 @@
+#include "reports/exports.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "record/points_csv.h"
+#include "reports/writers.h"
+
+namespace rondure::reports {
+
+const std::vector<Export>& exports() {
+  static const std::vector<Export> all = {
+      {"html", "report.html"}, {"json", "report.json"}, {"csv", "touches.csv"}};
+  return all;
+}
+
+std::vector<std::string> all_formats() {
+  std::vector<std::string> out;
+  for (const Export& e : exports()) out.push_back(e.format);
+  return out;
+}
+
+std::string render(const Export& what, const record::RunRecord& record, const Evaluation& evaluation) {
+  if (what.format == "html") return write_html(record, evaluation);
+  if (what.format == "json") return write_json(record, evaluation);
+  return write_touches_csv(record);
+}
+
+core::Result<std::vector<std::filesystem::path>> write_exports(
+    const std::filesystem::path& directory, const std::vector<std::string>& formats,
+    const record::RunRecord& record, const Evaluation& evaluation) {
+  for (const std::string& format : formats) {
+    const auto known = all_formats();
+    if (std::find(known.begin(), known.end(), format) == known.end()) {
+      return core::fail(core::Code::kBadOption,
+                        fmt::format("format '{}' is unknown; html, json and csv can be written", format));
+    }
+  }
+  std::vector<std::filesystem::path> written;
+  for (const Export& e : exports()) {
+    if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) continue;
+    const auto path = directory / e.file;
+    if (auto done = record::write_file(path, render(e, record, evaluation)); !done) return core::fail(done.error());
+    written.push_back(path);
+  }
+  return written;
+}
+
+}  // namespace rondure::reports

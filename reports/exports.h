@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "record/run_record.h"
+#include "reports/evaluation.h"
+
+namespace rondure::reports {
+
+/// One file that is derived from a record.
+struct Export {
+  std::string format;  ///< "html", "json", "csv".
+  std::string file;    ///< Name in the run directory: report.html, report.json, touches.csv.
+};
+
+/// All exports, in the order in which they are written.
+[[nodiscard]] const std::vector<Export>& exports();
+[[nodiscard]] std::vector<std::string> all_formats();
+
+/// The bytes of one export.
+[[nodiscard]] std::string render(const Export& what, const record::RunRecord& record,
+                                 const Evaluation& evaluation);
+
+/// Writes exports into a run directory, each whole or not at all.
+/// @return The files written; kBadOption for an unknown format, kFile with the system's reason.
+[[nodiscard]] core::Result<std::vector<std::filesystem::path>> write_exports(
+    const std::filesystem::path& directory, const std::vector<std::string>& formats,
+    const record::RunRecord& record, const Evaluation& evaluation);
+
+}  // namespace rondure::reports

@@ -1,0 +1,149 @@
+#include "reports/facts.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+std::vector<fit::Contact> in_rows(const std::vector<fit::Contact>& contacts,
+                                  const std::vector<std::size_t>& rows) {
+  std::vector<fit::Contact> result;
+  for (const fit::Contact& contact : contacts) {
+    if (contact.index < rows.size()) result.push_back({rows[contact.index], contact.multiplier});
+  }
+  return result;
+}
+
+/// Zone of a fit that has radii and contacts, whatever its shape.
+template <class Fit>
+Zone zone_from(const Fit& fit, const FeatureResult& feature) {
+  const double offset_mm = surface_offset_mm(feature);
+  Zone zone;
+  zone.deviation_mm = fit.width_mm();
+  zone.inner_radius_mm = fit.inner_radius_mm + offset_mm;
+  zone.outer_radius_mm = fit.outer_radius_mm + offset_mm;
+  zone.mean_radius_mm = 0.5 * (zone.inner_radius_mm + zone.outer_radius_mm);
+  zone.of_surface = feature.tip_radius_mm.has_value();
+  zone.outer = fit.outer;
+  zone.inner = fit.inner;
+  zone.certificate = fit.certificate;
+  return zone;
+}
+
+}  // namespace
+
+std::optional<Zone> zone_of(const FeatureResult& feature) {
+  if (feature.mz_cylinder) return zone_from(*feature.mz_cylinder, feature);
+  if (feature.feature.shape != record::Shape::kCircle || feature.layers.empty()) return {};
+  const LayerResult& section = feature.layers.front();
+  if (!section.mz) return {};
+  Zone zone = zone_from(*section.mz, feature);
+  zone.outer = in_rows(zone.outer, section.rows);
+  zone.inner = in_rows(zone.inner, section.rows);
+  return zone;
+}
+
+double surface_offset_mm(const FeatureResult& feature) {
+  if (!feature.tip_radius_mm) return 0.0;
+  const bool outside = feature.feature.side == record::Side::kOutside;
+  return outside ? -*feature.tip_radius_mm : *feature.tip_radius_mm;
+}
+
+std::optional<LeastSquares> least_squares_of(const FeatureResult& feature) {
+  const double offset_mm = surface_offset_mm(feature);
+  if (feature.ls_cylinder) {
+    const fit::LsCylinder& ls = *feature.ls_cylinder;
+    return LeastSquares{ls.deviation_mm, ls.radius_mm + offset_mm, ls.rms_mm};
+  }
+  if (feature.feature.shape != record::Shape::kCircle || feature.layers.empty()) return {};
+  const auto& ls = feature.layers.front().ls;
+  if (!ls) return {};
+  return LeastSquares{ls->deviation_mm, ls->radius_mm + offset_mm, ls->rms_mm};
+}
+
+std::string symbol_of(const record::Characteristic& characteristic) {
+  return characteristic.form == record::Form::kCylindricity ? "CYLt" : "RONt";
+}
+
+std::string reference_of(const record::Characteristic& characteristic) {
+  const bool cylinder = characteristic.form == record::Form::kCylindricity;
+  const bool minimum = characteristic.reference == record::Reference::kMinimumZone;
+  return std::string(minimum ? "MZ" : "LS") + (cylinder ? "CY" : "CI");
+}
+
+const PoseValue* final_pose_of(const FeatureResult& feature) {
+  const auto found = std::find_if(feature.poses.begin(), feature.poses.end(),
+                                  [](const PoseValue& pose) { return pose.final_pose; });
+  return found == feature.poses.end() ? nullptr : &*found;
+}
+
+const record::SimulationTruth* truth_of(const record::RunRecord& record, std::size_t index) {
+  for (const record::SimulationTruth& truth : record.truths) {
+    if (truth.feature >= 0 && static_cast<std::size_t>(truth.feature) == index) return &truth;
+  }
+  return nullptr;
+}
+
+std::string pattern_of(const FeatureResult& feature) {
+  const std::size_t points = feature.cloud.size();
+  const auto layers = static_cast<std::size_t>(std::max(feature.feature.layers, 0));
+  const auto each = static_cast<std::size_t>(std::max(feature.feature.points_per_layer, 0));
+  if (layers > 0 && layers * each == points) return fmt::format("{} x {} points", layers, each);
+  return count(points, "point", "points");
+}
+
+std::string repeats_of(const FeatureResult& feature) {
+  if (feature.cloud.empty() || feature.feature.strategy == record::Strategy::kPointsFile) return {};
+  const auto [least, most] = std::minmax_element(
+      feature.cloud.begin(), feature.cloud.end(),
+      [](const CloudPoint& a, const CloudPoint& b) { return a.repeats < b.repeats; });
+  const auto high = static_cast<std::size_t>(most->repeats);
+  const std::string text = count(high, "touch a point", "touches a point");
+  return least->repeats == most->repeats ? text : fmt::format("{} to {}", least->repeats, text);
+}
+
+std::string sentence_of(const fit::Certificate& certificate) {
+  using Kind = fit::Certificate::Kind;
+  switch (certificate.kind) {
+    case Kind::kGlobal:
+      return fmt::format("Global: no narrower zone exists within the scope ({}).",
+                         certificate.scope);
+    case Kind::kLocal:
+      return fmt::format("Local: no narrower zone exists nearby (scope: {}).", certificate.scope);
+    case Kind::kNone:
+      return "None: the minimum is not proven.";
+  }
+  return {};
+}
+
+std::vector<std::string> missing_parts(const record::RunRecord& record,
+                                       const Evaluation& evaluation) {
+  std::vector<std::string> parts;
+  for (const FeatureResult& feature : evaluation.features) {
+    const record::Feature& asked = feature.feature;
+    const long planned = static_cast<long>(asked.layers) * asked.points_per_layer;
+    if (feature.failure) {
+      parts.push_back(fmt::format("Feature {} has no result.", printable(asked.id)));
+    } else if (planned > static_cast<long>(feature.cloud.size())) {
+      parts.push_back(fmt::format("Feature {} has {} of {} points.", printable(asked.id),
+                                  feature.cloud.size(), planned));
+    }
+  }
+  for (std::size_t i = evaluation.features.size(); i < record.features.size(); ++i) {
+    parts.push_back(fmt::format("Feature {} was not evaluated.", printable(record.features[i].id)));
+  }
+  if (parts.empty()) parts.emplace_back("Steps after the last touch on record were not done.");
+  return parts;
+}
+
+std::string rule_in_words(const record::Header& header) {
+  std::string words = header.decision_rule.empty() ? "simple-acceptance" : header.decision_rule;
+  std::replace(words.begin(), words.end(), '-', ' ');
+  return words;
+}
+
+}  // namespace rondure::reports

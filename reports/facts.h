@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/evaluation.h"
+
+namespace rondure::reports {
+
+/// The minimum zone of a feature as every report states it: of the cylinder, or of the one section
+/// of a circle.
+struct Zone {
+  double deviation_mm = 0.0;
+  double inner_radius_mm = 0.0;  ///< Of the surface when the tip is known, else of the points.
+  double outer_radius_mm = 0.0;
+  double mean_radius_mm = 0.0;      ///< Middle of the zone, of the same kind.
+  bool of_surface = false;          ///< The radii are corrected for the tip radius.
+  std::vector<fit::Contact> outer;  ///< `index` is the row of FeatureResult::cloud.
+  std::vector<fit::Contact> inner;
+  fit::Certificate certificate;
+};
+
+/// The zone of a feature, or nothing when it has none.
+[[nodiscard]] std::optional<Zone> zone_of(const FeatureResult& feature);
+
+/// What is added to a radius through tip centres to give the radius of the surface: minus rho on an
+/// outside feature, plus rho on an inside one, 0 when the tip is unknown [mm].
+[[nodiscard]] double surface_offset_mm(const FeatureResult& feature);
+
+/// Least-squares deviation of the feature (peak to valley about the least-squares axis or centre),
+/// its radius (of the same kind as the radii of the zone) and rms.
+struct LeastSquares {
+  double deviation_mm = 0.0;
+  double radius_mm = 0.0;
+  double rms_mm = 0.0;
+};
+[[nodiscard]] std::optional<LeastSquares> least_squares_of(const FeatureResult& feature);
+
+/// "CYLt" or "RONt"; "MZCY", "LSCY", "MZCI" or "LSCI".
+[[nodiscard]] std::string symbol_of(const record::Characteristic& characteristic);
+[[nodiscard]] std::string reference_of(const record::Characteristic& characteristic);
+
+/// The final pose, or nothing when no pose is marked.
+[[nodiscard]] const PoseValue* final_pose_of(const FeatureResult& feature);
+
+/// Hidden truth of the simulation for feature `index`, or nothing.
+[[nodiscard]] const record::SimulationTruth* truth_of(const record::RunRecord& record,
+                                                      std::size_t index);
+
+/// "4 x 7 points" for a regular cloud, "500 points" otherwise.
+[[nodiscard]] std::string pattern_of(const FeatureResult& feature);
+/// "3 touches a point", "1 to 3 touches a point"; empty for a points file.
+[[nodiscard]] std::string repeats_of(const FeatureResult& feature);
+/// What the certificate says, in one sentence.
+[[nodiscard]] std::string sentence_of(const fit::Certificate& certificate);
+
+/// What a run that did not finish lacks, one sentence each.
+[[nodiscard]] std::vector<std::string> missing_parts(const record::RunRecord& record,
+                                                     const Evaluation& evaluation);
+
+/// The decision rule in words: "simple acceptance".
+[[nodiscard]] std::string rule_in_words(const record::Header& header);
+
+}  // namespace rondure::reports

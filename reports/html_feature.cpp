@@ -1,0 +1,177 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/facts.h"
+#include "reports/html_plots.h"
+#include "reports/html_sections.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+std::string with_note(const std::string& value, const std::string& note) {
+  return note.empty() ? value : value + "<small>" + note + "</small>";
+}
+
+std::string zone_entries(const FeatureResult& feature, const Zone& zone) {
+  const bool cylinder = feature.feature.shape == record::Shape::kCylinder;
+  const std::string kind =
+      zone.of_surface
+          ? fmt::format("of the surface, tip radius {} mm {}", fixed(*feature.tip_radius_mm, 6),
+                        feature.feature.side == record::Side::kOutside ? "subtracted" : "added")
+          : "of the points as given; the tip radius is unknown";
+  std::string html = entry(
+      cylinder ? "Minimum zone CYLt (MZCY)" : "Minimum zone RONt (MZCI)",
+      with_note(um(zone.deviation_mm) + " µm", fmt::format("{} outer and {} inner contacts",
+                                                           zone.outer.size(), zone.inner.size())),
+      "lead");
+  if (const auto ls = least_squares_of(feature)) {
+    html += entry(
+        cylinder ? "Least squares (LSCY)" : "Least squares (LSCI)",
+        with_note(um(ls->deviation_mm) + " µm",
+                  fmt::format("radius {} mm, rms {} µm", fixed(ls->radius_mm, 6), um(ls->rms_mm))),
+        "lead");
+  }
+  html +=
+      entry("Inner radius of the zone", with_note(fixed(zone.inner_radius_mm, 6) + " mm", kind));
+  html +=
+      entry("Outer radius of the zone", with_note(fixed(zone.outer_radius_mm, 6) + " mm", kind));
+  return html;
+}
+
+std::string certificate_entry(const Zone& zone) {
+  const fit::Certificate& certificate = zone.certificate;
+  std::string note;
+  if (certificate.kind != fit::Certificate::Kind::kNone) {
+    note = fmt::format("Zone minus proven lower bound: {} µm.", tiny_um(certificate.gap_mm));
+  }
+  if (!certificate.reason.empty())
+    note += fmt::format(" Why not more: {}", isolated(certificate.reason));
+  return entry("Certificate of the minimum zone",
+               with_note(isolated(sentence_of(certificate)), note), "wide-key");
+}
+
+std::string axis_entry(const FeatureResult& feature) {
+  if (feature.mz_cylinder) {
+    const fit::Axis& axis = feature.mz_cylinder->axis;
+    const Eigen::Vector3d& d = axis.direction;
+    const double tilt = std::atan2(std::hypot(d.x(), d.y()), std::abs(d.z()));
+    return entry("Axis of the zone (machine frame)",
+                 fmt::format("through ({}, {}, {}) mm, direction ({}, {}, {}), {}° off machine z",
+                             fixed(axis.point_mm.x(), 6), fixed(axis.point_mm.y(), 6),
+                             fixed(axis.point_mm.z(), 6), fixed(d.x(), 8), fixed(d.y(), 8),
+                             fixed(d.z(), 8), deg(tilt, 6)),
+                 "wide-key");
+  }
+  if (feature.layers.empty() || !feature.layers.front().mz) return {};
+  const Eigen::Vector2d& center = feature.layers.front().mz->center_mm;
+  return entry("Centre of the zone",
+               fmt::format("({}, {}) mm", fixed(center.x(), 6), fixed(center.y(), 6)), "wide-key");
+}
+
+std::string pose_entries(const FeatureResult& feature) {
+  std::string html;
+  if (const PoseValue* pose = final_pose_of(feature)) {
+    const std::string angles =
+        fmt::format("alpha {}°, beta {}°", deg(pose->pose.alpha_rad), deg(pose->pose.beta_rad));
+    html += entry("f of the final pose", pose->valid ? with_note(f_um(pose->f_mm) + " µm", angles)
+                                                     : with_note("none", isolated(pose->ending)));
+  }
+  if (feature.levelling_pose) {
+    html += entry("Levelling pose",
+                  with_note(fmt::format("{}°, {}°", deg(feature.levelling_pose->alpha_rad, 6),
+                                        deg(feature.levelling_pose->beta_rad, 6)),
+                            "alpha and beta that would turn the axis found to machine z"));
+  }
+  return html;
+}
+
+std::string data_entries(const FeatureResult& feature) {
+  const bool from_file = feature.feature.strategy == record::Strategy::kPointsFile;
+  std::string html = entry(
+      "Points", with_note(pattern_of(feature),
+                          from_file ? fmt::format("file {}", isolated(feature.feature.points_file))
+                                    : repeats_of(feature)));
+  if (feature.repeat_sigma_mm) {
+    html += entry("Repeatability of one touch",
+                  with_note(um(*feature.repeat_sigma_mm) + " µm", "pooled standard deviation"));
+  }
+  if (feature.repeat_zone_mean_mm) {
+    html += entry("Zones of the single repeats",
+                  with_note(um(*feature.repeat_zone_mean_mm) + " µm mean",
+                            feature.repeat_zone_sd_mm
+                                ? um(*feature.repeat_zone_sd_mm) + " µm standard deviation"
+                                : std::string()));
+  }
+  if (!from_file)
+    html += entry("Mean temperature", fixed(feature.mean_temperature_degC, 2) + " °C");
+  return html;
+}
+
+std::string truth_box(const record::SimulationTruth* truth, const std::optional<Zone>& zone) {
+  if (truth == nullptr) return {};
+  std::string text =
+      fmt::format("<b>Hidden truth of the simulation:</b> CYLt {} µm", um(truth->cylt_mm));
+  if (zone)
+    text += fmt::format("; difference {} µm", signed_um(zone->deviation_mm - truth->cylt_mm));
+  return R"(<div class="truth">)" + text +
+         ". This is not part of the measurement: evaluation never reads it.</div>";
+}
+
+std::string messages(const FeatureResult& feature) {
+  std::string html;
+  if (feature.failure) {
+    html += fmt::format(
+        R"(<div class="banner alarm"><b>No result.</b> {} <span class="code">{}</span></div>)",
+        isolated(feature.failure->what), core::code_name(feature.failure->code));
+  }
+  if (feature.warnings.empty()) return html;
+  html += R"(<ul class="warnings">)";
+  for (const core::Error& warning : feature.warnings) {
+    html += fmt::format(
+        R"(<li><b>Warning:</b> {} <span class="code">{}</span>{}</li>)", isolated(warning.what),
+        core::code_name(warning.code),
+        warning.where.empty() ? std::string() : fmt::format(" {}", isolated(warning.where)));
+  }
+  return html + "</ul>";
+}
+
+std::string key_numbers(const FeatureResult& feature, const std::optional<Zone>& zone) {
+  std::string html = R"(<dl class="keys">)";
+  if (zone) html += zone_entries(feature, *zone);
+  html += pose_entries(feature) + data_entries(feature);
+  if (zone) html += certificate_entry(*zone) + axis_entry(feature);
+  return html + "</dl>";
+}
+
+}  // namespace
+
+std::string feature_section(const record::RunRecord& record, std::size_t index,
+                            const FeatureResult& feature) {
+  const auto zone = zone_of(feature);
+  const record::Feature& asked = feature.feature;
+  std::string nominal;
+  if (asked.nominal_diameter_mm > 0.0) {
+    nominal = fmt::format(", nominal diameter {:.10g} mm", asked.nominal_diameter_mm);
+  }
+  std::string html = fmt::format(
+      R"(<section><h2>Feature {}</h2><p class="note">{} {}{}; {}.</p>)", isolated(asked.id),
+      capitalised(record::name_of(asked.side)), record::name_of(asked.shape), nominal,
+      asked.strategy == record::Strategy::kPointsFile
+          ? std::string("points from a file")
+          : fmt::format("pose search: {}", record::name_of(asked.strategy)));
+  html += messages(feature);
+  html += key_numbers(feature, zone);
+  html += truth_box(truth_of(record, index), zone);
+  if (zone) html += polar_plots(feature, *zone) + deviation_map(feature, *zone);
+  if (feature.poses.empty()) return html + "</section>";
+  html +=
+      R"(<h3>Search for the pose</h3><p class="note">f is the narrowest zone whose axis is held )"
+      "parallel to machine z, so it holds the form of the part and its remaining tilt; the minimum "
+      "zone above is free of the tilt.</p>";
+  return html + pose_plots(feature, zone) + pose_table(feature) + "</section>";
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,63 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "reports/html_plots.h"
+#include "reports/html_svg.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+
+std::string verdict_mark(Verdict verdict, int size_px) {
+  std::string_view body;
+  switch (verdict) {
+    case Verdict::kConforms:
+      body = R"(<circle class="good" cx="32" cy="32" r="30"/>)"
+             R"(<path class="stroke" d="M18 33l10 10 19-21"/>)";
+      break;
+    case Verdict::kDoesNotConform:
+      body = R"(<path class="bad" d="M20.5 3h23L61 20.5v23L43.5 61h-23L3 43.5v-23z"/>)"
+             R"(<path class="stroke" d="M21 21l22 22M43 21l-22 22"/>)";
+      break;
+    case Verdict::kUndecided:
+      body = R"(<path class="open" d="M32 3l29 29-29 29L3 32z"/>)"
+             R"(<path class="pen" d="M25 26c0-9 14-9 14 0 0 6-7 6-7 12M32 44v2"/>)";
+      break;
+    case Verdict::kVoid:
+      body = R"(<circle class="hollow" cx="32" cy="32" r="27"/>)"
+             R"(<path class="pen" d="M13 51L51 13"/>)";
+      break;
+    case Verdict::kNotToleranced:
+      body = R"(<circle class="hollow" cx="32" cy="32" r="27"/>)"
+             R"(<path class="pen" d="M20 32h24"/>)";
+      break;
+  }
+  return fmt::format(R"(<svg class="mark" viewBox="0 0 64 64" width="{0}" height="{0}" )"
+                     R"(aria-hidden="true">{1}</svg>)",
+                     size_px, body);
+}
+
+std::string form_symbol(record::Form form) {
+  const std::string_view lines = form == record::Form::kCylindricity
+                                     ? R"(<circle cx="10" cy="10" r="4.5"/>)"
+                                       R"(<path d="M2 17L8.5 3M11.5 17L18 3"/>)"
+                                     : R"(<circle cx="10" cy="10" r="7"/>)";
+  return fmt::format(R"(<svg class="symbol" viewBox="0 0 20 20" width="18" height="18" role="img" )"
+                     R"(aria-label="{}">{}</svg>)",
+                     record::name_of(form), lines);
+}
+
+std::string tolerance_bar(double value_mm, double tolerance_mm, Verdict verdict) {
+  constexpr double kWidth = 150.0;
+  const Scale x{0.0, std::max(1.25 * tolerance_mm, 1.05 * value_mm), 1.0, kWidth - 1.0};
+  Svg svg(kWidth, 26.0, "bar", fmt::format("{} um of {} um", um(value_mm), um(tolerance_mm)));
+  svg.rect(x.from, 8.0, x.at(tolerance_mm) - x.from, 10.0, "allowed");
+  svg.rect(x.from, 8.0, x.at(value_mm) - x.from, 10.0,
+           verdict == Verdict::kConforms         ? "good"
+           : verdict == Verdict::kDoesNotConform ? "bad"
+                                                 : "neutral");
+  svg.line(x.at(tolerance_mm), 3.0, x.at(tolerance_mm), 23.0, "limit");
+  return svg.str();
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "reports/evaluation.h"
+#include "reports/facts.h"
+
+namespace rondure::reports {
+
+/// The drawings of the page, as HTML (inline SVG with captions). An empty string means that there
+/// is nothing to draw.
+
+/// Symbol of a verdict: a filled disc with a tick, a filled octagon with a cross, ... Shape and
+/// colour both differ.
+[[nodiscard]] std::string verdict_mark(Verdict verdict, int size_px);
+/// ISO 1101 symbol of cylindricity or roundness.
+[[nodiscard]] std::string form_symbol(record::Form form);
+/// Value against limit.
+[[nodiscard]] std::string tolerance_bar(double value_mm, double tolerance_mm, Verdict verdict);
+
+/// Polar plots of the layers, all at one magnification.
+[[nodiscard]] std::string polar_plots(const FeatureResult& feature, const Zone& zone);
+/// The lateral surface unrolled; for a single section its profile.
+[[nodiscard]] std::string deviation_map(const FeatureResult& feature, const Zone& zone);
+/// Deviation of one section against the angle.
+[[nodiscard]] std::string section_profile(const FeatureResult& feature, const Zone& zone);
+/// f against the visit, and where the poses lie.
+[[nodiscard]] std::string pose_plots(const FeatureResult& feature, const std::optional<Zone>& zone);
+
+}  // namespace rondure::reports

@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "reports/html_sections.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+constexpr std::size_t kMostRows = 40;
+constexpr std::size_t kEndRows = 10;
+
+/// Visits that the table shows: all, or the first and last ten, the best and the final one.
+std::set<std::size_t> rows_shown(const std::vector<PoseValue>& poses) {
+  std::set<std::size_t> rows;
+  const bool all = poses.size() <= kMostRows;
+  std::size_t best = poses.size();
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (all || i < kEndRows || i + kEndRows >= poses.size() || poses[i].final_pose) rows.insert(i);
+    if (poses[i].valid && (best == poses.size() || poses[i].f_mm < poses[best].f_mm)) best = i;
+  }
+  if (best < poses.size()) rows.insert(best);
+  return rows;
+}
+
+}  // namespace
+
+std::string pose_table(const FeatureResult& feature) {
+  const std::vector<PoseValue>& poses = feature.poses;
+  if (poses.empty()) return {};
+  const std::set<std::size_t> shown = rows_shown(poses);
+  std::string html =
+      fmt::format(R"(<div class="scroll"><table{}><thead><tr><th class="n">Visit</th><th )"
+                  R"(class="n">alpha / °</th><th class="n">beta / °</th><th class="n">f / µm</th>)"
+                  "<th>Search ended</th><th>Pose</th></tr></thead><tbody>",
+                  shown.size() <= 12 ? R"( class="short")" : "");
+  std::size_t expected = 0;
+  for (const std::size_t i : shown) {
+    if (i > expected) {
+      html += fmt::format(R"(<tr><td class="n">…</td><td colspan="5">{} left out</td></tr>)",
+                          count(i - expected, "pose", "poses"));
+    }
+    expected = i + 1;
+    const PoseValue& pose = poses[i];
+    html += fmt::format(R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td )"
+                        R"(class="n">{}</td><td>{}</td><td>{}{}</td></tr>)",
+                        i + 1, deg(pose.pose.alpha_rad), deg(pose.pose.beta_rad),
+                        pose.valid ? f_um(pose.f_mm) : "none", isolated(pose.ending),
+                        pose.physical ? "physical" : "software",
+                        pose.final_pose ? ", <b>final</b>" : "");
+  }
+  html += "</tbody></table></div>";
+  if (shown.size() < poses.size()) {
+    html += fmt::format(
+        R"(<p class="note">{} of {} poses were left out here; report.json has all of them.</p>)",
+        poses.size() - shown.size(), poses.size());
+  }
+  return html;
+}
+
+}  // namespace rondure::reports

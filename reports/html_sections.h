@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "record/run_record.h"
+#include "reports/evaluation.h"
+
+namespace rondure::reports {
+
+/// The parts of the page, in their order.
+[[nodiscard]] std::string head_section(const record::RunRecord& record);
+[[nodiscard]] std::string verdict_section(const record::RunRecord& record,
+                                          const Evaluation& evaluation);
+[[nodiscard]] std::string feature_section(const record::RunRecord& record, std::size_t index,
+                                          const FeatureResult& feature);
+/// Table of the poses of a feature; empty when it has none.
+[[nodiscard]] std::string pose_table(const FeatureResult& feature);
+[[nodiscard]] std::string probe_section(const record::RunRecord& record,
+                                        const Evaluation& evaluation);
+[[nodiscard]] std::string decisions_section(const record::RunRecord& record);
+[[nodiscard]] std::string provenance_section(const record::RunRecord& record);
+
+/// "<div><dt>name</dt><dd>html</dd></div>"; both are HTML already.
+[[nodiscard]] std::string entry(std::string_view name, std::string_view html,
+                                std::string_view css_class = {});
+
+}  // namespace rondure::reports

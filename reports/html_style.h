@@ -1,0 +1,130 @@
+#pragma once
+
+#include <string_view>
+
+namespace rondure::reports {
+
+/// Style of the page. Colours (Okabe and Ito's, darkened to read as text) stay apart for
+/// colour-blind eyes and in grey print; nothing is told by colour alone.
+inline constexpr std::string_view kStyle = R"css(
+:root{--ink:#16202a;--soft:#55616d;--line:#d8dee4;--pale:#f4f6f8;--blue:#0b5e9e;--orange:#c24e00;
+--good:#00715a;--bad:#b93c00;--amber:#8a6100;color-scheme:light}
+*{box-sizing:border-box}
+html{-webkit-text-size-adjust:100%;text-size-adjust:100%}
+body{margin:0;background:#fff;color:var(--ink);font:15px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,
+"Noto Sans","Noto Sans CJK SC","PingFang SC","Microsoft YaHei",Arial,sans-serif;
+font-variant-numeric:tabular-nums;overflow-wrap:anywhere;-webkit-print-color-adjust:exact;
+print-color-adjust:exact}
+main{max-width:920px;margin:0 auto;padding:36px 28px 72px}
+.brand{display:flex;justify-content:space-between;gap:16px;color:var(--soft);font-size:13px;
+border-bottom:1px solid var(--line);padding-bottom:10px;flex-wrap:wrap}
+.brand b{color:var(--ink);letter-spacing:.04em}
+h1{font-size:25px;line-height:1.25;font-weight:650;margin:22px 0 6px}
+h2{font-size:20px;font-weight:650;line-height:1.3;margin:52px 0 12px;padding-top:18px;
+border-top:1px solid var(--line)}
+h3{font-size:15px;font-weight:650;margin:30px 0 6px}
+p{margin:6px 0}
+.facts{display:flex;flex-wrap:wrap;gap:2px 26px;color:var(--soft);font-size:13.5px;margin:0}
+.facts div{display:flex;gap:7px}.facts dt{white-space:nowrap}.facts dd{margin:0;color:var(--ink)}
+.note{color:var(--soft);font-size:13px}
+.banner{border:1px solid var(--line);border-left:5px solid var(--blue);background:var(--pale);
+padding:10px 16px;margin:20px 0 0;border-radius:3px}
+.banner.alarm{border-left-color:var(--bad);background:#fdf3ec}
+.banner ul{margin:4px 0 0;padding-left:20px}
+.verdict{display:flex;align-items:center;gap:22px;margin:28px 0 6px}
+.verdict .mark{flex:none}
+.verdict .word{font-size:42px;line-height:1.1;font-weight:700;letter-spacing:-.01em}
+.verdict .why{font-size:16px;color:var(--soft);margin-top:4px}
+.is-conforms{color:var(--good)}.is-does-not-conform{color:var(--bad)}.is-undecided{color:var(--amber)}
+.is-void,.is-not-toleranced{color:var(--soft)}
+table{border-collapse:collapse;width:100%;font-size:13.5px;margin:12px 0}
+th{text-align:left;font-weight:600;color:var(--soft);font-size:12.5px;border-bottom:1.5px solid var(--ink);
+padding:5px 10px 5px 0;vertical-align:bottom}
+td{padding:6px 10px 6px 0;border-bottom:1px solid var(--line);vertical-align:top}
+th{overflow-wrap:normal}th.n,td.n{text-align:right;white-space:nowrap;padding-right:22px}
+table.props th{width:190px;border-bottom:1px solid var(--line);font-weight:400;vertical-align:top;padding-top:6px}
+th:last-child,td:last-child{padding-right:0}
+table.results td{vertical-align:middle;border-bottom:0;padding-top:14px}
+table.results td:first-child{min-width:165px}table.results td:last-child{min-width:34px}
+table.results td:first-child .note{margin-top:5px}
+table.results .value{font-size:19px;font-weight:650}
+table.results .verdict-word{font-weight:650;white-space:nowrap}
+table.results .bar,table.results .verdict-word .mark{max-width:none}
+table.results .verdict-word .mark{vertical-align:-4px;margin-right:6px}
+table.results tr.words td{color:var(--soft);font-size:12.5px;border-bottom:1px solid var(--line);
+padding:0 0 12px}
+.frame-box{display:inline-flex;border:1.2px solid var(--ink);font-size:13px;line-height:1;vertical-align:-7px;
+margin-right:8px}
+.frame-box>*{padding:3px 6px;display:flex;align-items:center}.frame-box>*+*{border-left:1.2px solid var(--ink)}
+.id{font-weight:650}
+.keys{display:grid;grid-template-columns:repeat(auto-fill,minmax(190px,1fr));gap:16px 24px;margin:14px 0 6px}
+.keys dt{color:var(--soft);font-size:12.5px}.keys dd{margin:1px 0 0;font-size:15.5px;font-weight:600}
+.keys dd small{display:block;font-weight:400;font-size:12.5px;color:var(--soft);line-height:1.4}
+.keys .lead dd{font-size:25px;line-height:1.25}
+.keys .wide-key{grid-column:1/-1}.keys .wide-key dd{font-weight:400;font-size:14px}
+.truth{border:1px dashed var(--soft);padding:8px 14px;margin:16px 0;font-size:13.5px;border-radius:3px}
+.warnings{margin:14px 0;padding:0;list-style:none}
+.warnings li{border-left:4px solid #d99a00;padding:3px 12px;margin:6px 0;font-size:13.5px}
+.code{font:12px ui-monospace,"DejaVu Sans Mono",Menlo,Consolas,monospace;color:var(--soft)}
+.mono{font:12.5px ui-monospace,"DejaVu Sans Mono",Menlo,Consolas,monospace}
+figure{margin:10px 0 18px}
+figcaption{color:var(--soft);font-size:12.5px;margin-top:4px}
+.scroll{overflow-x:auto}
+svg{display:inline-block;max-width:100%;height:auto;font-family:inherit}
+svg.wide{display:block;width:100%;max-width:760px;margin:0 auto}
+svg.polar{display:block;width:100%;max-width:340px;margin:0 auto}
+.multiples{display:grid;grid-template-columns:repeat(auto-fit,minmax(270px,1fr));gap:12px 20px}
+.multiples.single{grid-template-columns:minmax(0,360px);justify-content:center}
+.multiples.pairs{grid-template-columns:repeat(2,minmax(0,1fr));max-width:720px;margin:0 auto}
+.multiples figure{margin:6px 0;text-align:center}.multiples figcaption b{color:var(--ink)}
+.key{vertical-align:-1px}
+.mark .good{fill:var(--good)}.mark .bad{fill:var(--bad)}
+.mark .stroke{fill:none;stroke:#fff;stroke-width:7;stroke-linecap:round;stroke-linejoin:round}
+.mark .hollow{fill:#fff;stroke:var(--soft);stroke-width:5}.mark .open{fill:#fff;stroke:var(--amber);stroke-width:4}
+.mark .pen{fill:none;stroke:var(--soft);stroke-width:5;stroke-linecap:round}
+.symbol{fill:none;stroke:var(--ink);stroke-width:1.5}
+.bar .allowed{fill:#e9edf1}.bar .good{fill:var(--good)}.bar .bad{fill:var(--bad)}.bar .neutral{fill:var(--soft)}
+.bar .limit{stroke:var(--ink);stroke-width:2}
+.tick,.frame{stroke:#7c8792;stroke-width:1;fill:none}.grid{stroke:#e6eaee;stroke-width:1}
+.label{fill:#3c4752;font-size:12px}.title{fill:#3c4752;font-size:12.5px}
+.band{fill:#eef2f6;stroke:none}
+.zone-outer{fill:none;stroke:var(--orange);stroke-width:1.3}.zone-inner{fill:none;stroke:var(--blue);stroke-width:1.3}
+.mean{fill:none;stroke:#8a949e;stroke-width:1;stroke-dasharray:5 4}
+.profile{fill:none;stroke:#16202a;stroke-width:1;stroke-linejoin:round}
+.guide{fill:none;stroke:#6b7681;stroke-width:1;stroke-dasharray:2 3}
+.point{fill:#16202a}.outer{fill:var(--orange);stroke:#fff;stroke-width:.8}.inner{fill:var(--blue);stroke:#fff;stroke-width:.8}
+.scale{fill:none;stroke:var(--ink);stroke-width:1.5}
+.disc{stroke:#59636d;stroke-width:.6}.disc.contact{stroke:#000;stroke-width:1.8}
+.value{fill:#16202a;font-size:10px}.value.light{fill:#fff}
+.trail{fill:none;stroke:#9aa5af;stroke-width:1}.pose{fill:#16202a}.pose.virtual{fill:#fff;stroke:#16202a;stroke-width:1.2}
+.final{fill:var(--orange);stroke:#fff;stroke-width:1}.no-value{fill:none;stroke:var(--soft);stroke-width:1.5}
+.reference{stroke:var(--blue);stroke-width:1.3;stroke-dasharray:7 4}
+footer{margin-top:48px;padding-top:12px;border-top:1px solid var(--line);color:var(--soft);font-size:12.5px}
+@media screen and (max-width:640px){
+main{padding:20px 16px 48px}.verdict{gap:14px}.verdict .word{font-size:30px}.verdict .mark{width:52px}
+h1{font-size:21px}
+table.props th{width:104px}.scroll table{min-width:560px}
+.scroll svg.wide{width:600px;max-width:none}.multiples.single{grid-template-columns:minmax(0,360px);justify-content:center}
+.multiples.pairs{grid-template-columns:1fr}
+table.results,table.results tbody,table.results tr,table.results td{display:block}
+table.results thead{display:none}
+table.results tr:not(.words){padding-top:14px}
+table.results td,table.results td.n{min-width:0!important;padding:2px 0;text-align:left;white-space:normal}
+table.results td[data-l]:not(:empty):before{content:attr(data-l) " ";color:var(--soft);font-size:12.5px;font-weight:400}
+}
+@page{size:A4;margin:16mm 15mm 18mm}
+@media print{
+body{font-size:9.5pt}table{font-size:9pt}th,.note{font-size:8.5pt}table.results td:first-child{min-width:140px}
+table.results .bar{width:120px}table.results .value{font-size:13pt}th.n,td.n{padding-right:16px}.verdict .word{font-size:34px}main{max-width:none;padding:0}.scroll{overflow:visible}
+figure,tr,.verdict,.banner,.truth,.keys>div,.warnings li{break-inside:avoid;page-break-inside:avoid}
+table.short{break-inside:avoid;page-break-inside:avoid}
+h2,h3{break-after:avoid;page-break-after:avoid}h2{margin-top:22px;padding-top:12px}section:last-of-type tr{line-height:1.35}h3+p{break-after:avoid;page-break-after:avoid}
+thead{display:table-header-group}
+td{padding-top:3px;padding-bottom:3px}footer{margin-top:6px;padding-top:0;border:0;font-size:8pt}
+.multiples,.multiples.pairs,.multiples.single{display:block;max-width:none;text-align:center;orphans:1;widows:1}
+.multiples figure{display:inline-block;width:47%;vertical-align:top}svg.polar{max-width:230px}svg.wide{max-width:600px}
+.keys{gap:10px 20px}.facts,.note,figcaption{font-size:8.5pt}
+}
+)css";
+
+}  // namespace rondure::reports

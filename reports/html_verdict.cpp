@@ -1,0 +1,157 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "reports/facts.h"
+#include "reports/html_plots.h"
+#include "reports/html_sections.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+std::string css_name(Verdict verdict) {
+  std::string name = fmt::format("is-{}", name_of(verdict));
+  std::replace(name.begin(), name.end(), ' ', '-');
+  return name;
+}
+
+std::string fact(std::string_view name, const std::string& value) {
+  return value.empty() ? std::string() : entry(name, isolated(value));
+}
+
+/// Why the verdict is what it is, in one line.
+std::string sentence(const Evaluation& evaluation) {
+  std::size_t toleranced = 0;
+  std::size_t conforming = 0;
+  const CharacteristicResult* only = nullptr;
+  for (const FeatureResult& feature : evaluation.features) {
+    for (const CharacteristicResult& result : feature.characteristics) {
+      if (!result.characteristic.tolerance_mm) continue;
+      ++toleranced;
+      only = &result;
+      if (result.verdict == Verdict::kConforms) ++conforming;
+    }
+  }
+  if (toleranced == 0) return "No characteristic has a tolerance.";
+  if (toleranced > 1) {
+    return fmt::format("{} of {} toleranced characteristics {}.", conforming, toleranced,
+                       conforming == 1 ? "conforms" : "conform");
+  }
+  const std::string limit = um(*only->characteristic.tolerance_mm);
+  if (!only->value_mm) return fmt::format("There is no value to hold against {} µm.", limit);
+  return fmt::format("{} {} µm, limit {} µm.", symbol_of(only->characteristic), um(*only->value_mm),
+                     limit);
+}
+
+std::string unfinished_banner(const record::RunRecord& record, const Evaluation& evaluation) {
+  if (record.ending == "finished") return {};
+  std::string html = R"(<div class="banner alarm"><b>This run did not finish.</b> )";
+  html += record.ending.empty() ? "It has no end on record."
+                                : fmt::format("It ended: {}.", isolated(record.ending));
+  if (record.failure) {
+    html += fmt::format(R"( Reason: {} <span class="code">{}</span>)",
+                        isolated(record.failure->what), core::code_name(record.failure->code));
+    if (!record.failure->where.empty())
+      html += fmt::format(" at {}", isolated(record.failure->where));
+  }
+  html += "<ul>";
+  for (const std::string& part : missing_parts(record, evaluation)) {
+    html += fmt::format("<li>{}</li>", isolated(part));
+  }
+  return html + "</ul></div>";
+}
+
+/// The tolerance frame of a drawing: symbol, limit in mm.
+std::string tolerance_frame(const record::Characteristic& asked) {
+  std::string limit;
+  if (asked.tolerance_mm) limit = fmt::format("<span>{:g}</span>", *asked.tolerance_mm);
+  return fmt::format(R"(<span class="frame-box"><span>{}</span>{}</span>)", form_symbol(asked.form),
+                     limit);
+}
+
+std::string bar_cell(const CharacteristicResult& result) {
+  const auto& limit = result.characteristic.tolerance_mm;
+  if (!result.value_mm || !limit || !(*limit > 0.0)) return "<td></td>";
+  return fmt::format(R"(<td>{}<div class="note">{} % of the limit</div></td>)",
+                     tolerance_bar(*result.value_mm, *limit, result.verdict),
+                     fixed(100.0 * *result.value_mm / *limit, 0));
+}
+
+std::string row(const FeatureResult& feature, const CharacteristicResult& result) {
+  const record::Characteristic& asked = result.characteristic;
+  std::string html = fmt::format(
+      R"(<tr><td>{}<span class="id">{}</span><div class="note">{} {} · feature {}</div></td>)",
+      tolerance_frame(asked), isolated(asked.id), symbol_of(asked), reference_of(asked),
+      isolated(feature.feature.id));
+  html += fmt::format(R"(<td class="n" data-l="Value">{}</td>)",
+                      result.value_mm
+                          ? fmt::format(R"(<span class="value">{}</span> µm)", um(*result.value_mm))
+                          : "none");
+  html += fmt::format(R"(<td class="n" data-l="Limit">{}</td>)",
+                      asked.tolerance_mm ? um(*asked.tolerance_mm) + " µm" : "none");
+  html += bar_cell(result);
+  html += fmt::format(R"(<td class="verdict-word {}">{}{}</td>)", css_name(result.verdict),
+                      verdict_mark(result.verdict, 20), capitalised(name_of(result.verdict)));
+  html += asked.drawing_zone.empty()
+              ? std::string("<td></td></tr>")
+              : fmt::format(R"(<td data-l="Zone">{}</td></tr>)", isolated(asked.drawing_zone));
+  std::string words = isolated(result.reason);
+  if (!result.operator_text.empty())
+    words += fmt::format("<br>Verification operator: {}", isolated(result.operator_text));
+  return html + R"(<tr class="words"><td colspan="6">)" + words + "</td></tr>";
+}
+
+std::string results_table(const Evaluation& evaluation) {
+  std::string rows;
+  for (const FeatureResult& feature : evaluation.features) {
+    for (const CharacteristicResult& result : feature.characteristics) rows += row(feature, result);
+  }
+  if (rows.empty()) return "<p>No characteristic was asked for.</p>";
+  return R"(<table class="results"><thead><tr><th>Characteristic</th><th class="n">Value</th>)"
+         R"(<th class="n">Limit</th><th>Value against limit</th><th>Verdict</th><th>Zone</th></tr>)"
+         "</thead><tbody>" +
+         rows + "</tbody></table>";
+}
+
+}  // namespace
+
+std::string entry(std::string_view name, std::string_view html, std::string_view css_class) {
+  if (css_class.empty()) return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, html);
+  return fmt::format(R"(<div class="{}"><dt>{}</dt><dd>{}</dd></div>)", css_class, name, html);
+}
+
+std::string head_section(const record::RunRecord& record) {
+  const record::Header& header = record.header;
+  std::string html = fmt::format(R"(<header><div class="brand"><span><b>RONDURE</b> cylindricity )"
+                                 "report</span><span>{}</span></div>",
+                                 isolated(header.started_utc));
+  html += fmt::format("<h1>{}", isolated(header.part_id));
+  if (!header.part_name.empty()) html += fmt::format(" {}", isolated(header.part_name));
+  html += R"(</h1><dl class="facts">)";
+  html += fact("Serial", header.serial) + fact("Drawing", header.drawing) +
+          fact("Plan", header.plan_name) + fact("Revision", header.plan_revision) +
+          fact("Operator", header.operator_name) + fact("Run", header.run_id);
+  return html + "</dl></header>";
+}
+
+std::string verdict_section(const record::RunRecord& record, const Evaluation& evaluation) {
+  const Verdict verdict = evaluation.verdict;
+  std::string html = "<section>";
+  html += unfinished_banner(record, evaluation);
+  html += fmt::format(
+      R"(<div class="verdict">{}<div><div class="word {}">{}</div><div class="why">{}</div>)"
+      "</div></div>",
+      verdict_mark(verdict, 76), css_name(verdict), capitalised(name_of(verdict)),
+      sentence(evaluation));
+  if (record.header.simulated) {
+    html += R"(<div class="banner"><b>Simulated:</b> no real part was measured.</div>)";
+  }
+  html += results_table(evaluation);
+  html += fmt::format(
+      R"(<p class="note">No measurement uncertainty was taken into account (rule: {}).</p>)",
+      isolated(rule_in_words(record.header)));
+  return html + "</section>";
+}
+
+}  // namespace rondure::reports

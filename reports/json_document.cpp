@@ -1,0 +1,251 @@
+#include "reports/json_document.h"
+
+#include <optional>
+
+#include "core/units.h"
+#include "reports/facts.h"
+
+namespace rondure::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The one place where lengths become micrometres and angles degrees.
+double in_um(double length_mm) { return length_mm * 1000.0; }
+double in_deg(double angle_rad) { return angle_rad / core::kDegree; }
+
+Json optional_um(const std::optional<double>& length_mm) {
+  return length_mm ? Json(in_um(*length_mm)) : Json(nullptr);
+}
+Json vector_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
+Json vector_json(const Eigen::Vector2d& v) { return Json::array({v.x(), v.y()}); }
+
+Json axis_json(const fit::Axis& axis) {
+  return {{"point_mm", vector_json(axis.point_mm)}, {"direction", vector_json(axis.direction)}};
+}
+
+Json error_json(const core::Error& error) {
+  return {{"code", core::code_name(error.code)}, {"what", error.what}, {"where", error.where}};
+}
+
+Json header_json(const record::RunRecord& record) {
+  const record::Header& h = record.header;
+  return {{"run_id", h.run_id},
+          {"version", h.version},
+          {"processor", h.processor},
+          {"started_utc", h.started_utc},
+          {"plan_file", h.plan_file},
+          {"plan_name", h.plan_name},
+          {"plan_revision", h.plan_revision},
+          {"plan_sha256", h.plan_sha256},
+          {"part_id", h.part_id},
+          {"part_name", h.part_name},
+          {"drawing", h.drawing},
+          {"serial", h.serial},
+          {"operator", h.operator_name},
+          {"machine", h.machine},
+          {"fixture", h.fixture},
+          {"decision_rule", h.decision_rule},
+          {"simulated", h.simulated},
+          {"seed", h.seed},
+          {"temperature_min_degC", h.temperature_min_degC},
+          {"temperature_max_degC", h.temperature_max_degC},
+          {"touches", record.touches.size()},
+          {"ending", record.ending},
+          {"failure", record.failure ? error_json(*record.failure) : Json(nullptr)}};
+}
+
+Json probe_json(const std::optional<fit::ProbeTip>& probe) {
+  if (!probe) return nullptr;
+  return {{"sphere_center_mm", vector_json(probe->sphere_center_mm)},
+          {"tip_radius_mm", probe->radius_mm},
+          {"tip_radius_sigma_um", in_um(probe->radius_sigma_mm)},
+          {"form_um", in_um(probe->form_mm)}};
+}
+
+Json characteristic_json(const CharacteristicResult& result) {
+  const record::Characteristic& asked = result.characteristic;
+  return {{"id", asked.id},
+          {"form", record::name_of(asked.form)},
+          {"symbol", symbol_of(asked)},
+          {"reference", reference_of(asked)},
+          {"value_um", optional_um(result.value_mm)},
+          {"tolerance_um", optional_um(asked.tolerance_mm)},
+          {"verdict", name_of(result.verdict)},
+          {"reason", result.reason},
+          {"operator", result.operator_text},
+          {"drawing_zone", asked.drawing_zone}};
+}
+
+Json contacts_json(const std::vector<fit::Contact>& contacts, const FeatureResult& feature) {
+  Json list = Json::array();
+  for (const fit::Contact& contact : contacts) {
+    if (contact.index >= feature.cloud.size()) continue;
+    const CloudPoint& point = feature.cloud[contact.index];
+    list.push_back({{"layer", point.layer},
+                    {"point", point.point},
+                    {"row", contact.index},
+                    {"multiplier", contact.multiplier}});
+  }
+  return list;
+}
+
+Json certificate_json(const fit::Certificate& certificate) {
+  return {{"kind", fit::name_of(certificate.kind)},
+          {"scope", certificate.scope},
+          {"gap_um", in_um(certificate.gap_mm)},
+          {"reason", certificate.reason}};
+}
+
+Json zone_json(const FeatureResult& feature) {
+  const auto zone = zone_of(feature);
+  if (!zone) return nullptr;
+  Json json;
+  if (feature.mz_cylinder) {
+    json["axis"] = axis_json(feature.mz_cylinder->axis);
+  } else {
+    json["center_mm"] = vector_json(feature.layers.front().mz->center_mm);
+  }
+  json["inner_radius_mm"] = zone->inner_radius_mm;
+  json["outer_radius_mm"] = zone->outer_radius_mm;
+  json["radii_of"] = zone->of_surface ? "surface" : "points";
+  json["deviation_um"] = in_um(zone->deviation_mm);
+  json["contacts"] = {{"outer", contacts_json(zone->outer, feature)},
+                      {"inner", contacts_json(zone->inner, feature)}};
+  json["certificate"] = certificate_json(zone->certificate);
+  return json;
+}
+
+Json least_squares_json(const FeatureResult& feature) {
+  const auto ls = least_squares_of(feature);
+  if (!ls) return nullptr;
+  Json json;
+  if (feature.ls_cylinder) {
+    json["axis"] = axis_json(feature.ls_cylinder->axis);
+  } else {
+    json["center_mm"] = vector_json(feature.layers.front().ls->center_mm);
+  }
+  json["radius_mm"] = ls->radius_mm;
+  json["deviation_um"] = in_um(ls->deviation_mm);
+  json["rms_um"] = in_um(ls->rms_mm);
+  return json;
+}
+
+Json layer_json(const LayerResult& layer, const FeatureResult& feature) {
+  const double offset_mm = surface_offset_mm(feature);
+  Json json = {{"layer", layer.layer},
+               {"height_mm", layer.height_mm},
+               {"points", layer.rows.size()},
+               {"mz", nullptr},
+               {"ls", nullptr},
+               {"failure", nullptr}};
+  if (layer.mz) {
+    json["mz"] = {{"center_mm", vector_json(layer.mz->center_mm)},
+                  {"inner_radius_mm", layer.mz->inner_radius_mm + offset_mm},
+                  {"outer_radius_mm", layer.mz->outer_radius_mm + offset_mm},
+                  {"deviation_um", in_um(layer.mz->width_mm())},
+                  {"certificate", certificate_json(layer.mz->certificate)}};
+  } else {
+    json["failure"] = error_json(layer.mz.error());
+  }
+  if (layer.ls) {
+    json["ls"] = {{"center_mm", vector_json(layer.ls->center_mm)},
+                  {"radius_mm", layer.ls->radius_mm + offset_mm},
+                  {"deviation_um", in_um(layer.ls->deviation_mm)},
+                  {"rms_um", in_um(layer.ls->rms_mm)}};
+  }
+  return json;
+}
+
+Json pose_json(const PoseValue& pose) {
+  return {{"alpha_deg", in_deg(pose.pose.alpha_rad)},
+          {"beta_deg", in_deg(pose.pose.beta_rad)},
+          {"f_um", pose.valid ? Json(in_um(pose.f_mm)) : Json(nullptr)},
+          {"ending", pose.ending},
+          {"physical", pose.physical},
+          {"final", pose.final_pose}};
+}
+
+Json point_json(const CloudPoint& point) {
+  return {{"layer", point.layer},
+          {"point", point.point},
+          {"repeats", point.repeats},
+          {"tip_mm", vector_json(point.tip_mm)},
+          {"angle_deg", in_deg(point.angle_rad)},
+          {"height_mm", point.height_mm},
+          {"deviation_um", in_um(point.deviation_mm)},
+          {"contact", point.outer_contact   ? Json("outer")
+                      : point.inner_contact ? Json("inner")
+                                            : Json(nullptr)}};
+}
+
+Json levelling_json(const std::optional<core::Pose>& pose) {
+  if (!pose) return nullptr;
+  return {{"alpha_deg", in_deg(pose->alpha_rad)}, {"beta_deg", in_deg(pose->beta_rad)}};
+}
+
+template <class Range, class Convert>
+Json list_json(const Range& range, const Convert& convert) {
+  Json list = Json::array();
+  for (const auto& item : range) list.push_back(convert(item));
+  return list;
+}
+
+Json feature_json(const FeatureResult& feature) {
+  const record::Feature& asked = feature.feature;
+  Json json;
+  json["id"] = asked.id;
+  json["shape"] = record::name_of(asked.shape);
+  json["side"] = record::name_of(asked.side);
+  json["nominal_diameter_mm"] = asked.nominal_diameter_mm;
+  json["strategy"] = record::name_of(asked.strategy);
+  json["planned_layers"] = asked.layers;
+  json["planned_points_per_layer"] = asked.points_per_layer;
+  json["points_file"] = asked.points_file;
+  json["points_sha256"] = asked.points_sha256;
+  json["points"] = feature.cloud.size();
+  json["characteristics"] = list_json(feature.characteristics, characteristic_json);
+  json["mz"] = zone_json(feature);
+  json["ls"] = least_squares_json(feature);
+  json["tip_radius_mm"] = feature.tip_radius_mm ? Json(*feature.tip_radius_mm) : Json(nullptr);
+  json["levelling_pose"] = levelling_json(feature.levelling_pose);
+  json["repeat_sigma_um"] = optional_um(feature.repeat_sigma_mm);
+  json["repeat_zone_mean_um"] = optional_um(feature.repeat_zone_mean_mm);
+  json["repeat_zone_sd_um"] = optional_um(feature.repeat_zone_sd_mm);
+  json["mean_temperature_degC"] = feature.mean_temperature_degC;
+  json["layers"] = list_json(feature.layers,
+                             [&](const LayerResult& layer) { return layer_json(layer, feature); });
+  json["poses"] = list_json(feature.poses, pose_json);
+  json["cloud"] = list_json(feature.cloud, point_json);
+  json["warnings"] = list_json(feature.warnings, error_json);
+  json["failure"] = feature.failure ? error_json(*feature.failure) : Json(nullptr);
+  return json;
+}
+
+Json decision_json(const record::Decision& decision) {
+  return {{"feature", decision.feature < 0 ? Json(nullptr) : Json(decision.feature)},
+          {"time_s", decision.time_s},
+          {"text", decision.text}};
+}
+
+Json truth_json(const record::SimulationTruth& truth) {
+  return {{"feature", truth.feature}, {"cylt_um", in_um(truth.cylt_mm)}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json report_document(const record::RunRecord& record,
+                                       const Evaluation& evaluation) {
+  Json json;
+  json["schema_version"] = 1;
+  json["header"] = header_json(record);
+  json["verdict"] = name_of(evaluation.verdict);
+  json["measurement_uncertainty"] = nullptr;
+  json["probe"] = probe_json(evaluation.probe);
+  json["features"] = list_json(evaluation.features, feature_json);
+  json["decisions"] = list_json(record.decisions, decision_json);
+  json["simulation"] = list_json(record.truths, truth_json);
+  return json;
+}
+
+}  // namespace rondure::reports

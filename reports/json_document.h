@@ -1,0 +1,16 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "record/run_record.h"
+#include "reports/evaluation.h"
+
+namespace rondure::reports {
+
+/// report.json as a document, keys in their published order (docs/report.md). Included by sources
+/// of this room only. "/probe" and "/features" depend on the evaluation alone; a number that is not
+/// finite stands as null.
+[[nodiscard]] nlohmann::ordered_json report_document(const record::RunRecord& record,
+                                                     const Evaluation& evaluation);
+
+}  // namespace rondure::reports

@@ -1,0 +1,84 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/html_plots.h"
+#include "reports/html_svg.h"
+#include "reports/section.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+constexpr double kWidth = 680.0;
+constexpr double kHeight = 250.0;
+constexpr double kLeft = 62.0;
+constexpr double kRight = 664.0;
+constexpr double kTop = 12.0;
+constexpr double kBottom = 204.0;
+
+void draw_axes(Svg& svg, const Scale& x, const Scale& y, double half_zone_um) {
+  svg.rect(kLeft, y.at(half_zone_um), kRight - kLeft, y.at(-half_zone_um) - y.at(half_zone_um),
+           "band");
+  svg.line(kLeft, y.at(half_zone_um), kRight, y.at(half_zone_um), "zone-outer");
+  svg.line(kLeft, y.at(-half_zone_um), kRight, y.at(-half_zone_um), "zone-inner");
+  svg.line(kLeft, y.at(0.0), kRight, y.at(0.0), "mean");
+  svg.rect(kLeft, kTop, kRight - kLeft, kBottom - kTop, "frame");
+  for (int angle = 0; angle <= 360; angle += 45) {
+    svg.line(x.at(angle), kBottom, x.at(angle), kBottom + 5.0, "tick");
+    svg.text(x.at(angle), kBottom + 18.0, "middle", "label", std::to_string(angle));
+  }
+  svg.text(0.5 * (kLeft + kRight), kBottom + 36.0, "middle", "title", "angle about the centre / °");
+  for (const double value : round_ticks(y.low, y.high, 6)) {
+    svg.line(kLeft - 5.0, y.at(value), kLeft, y.at(value), "tick");
+    svg.text(kLeft - 8.0, y.at(value) + 4.0, "end", "label", tick_label(value));
+  }
+  svg.upward_text(14.0, 0.5 * (kTop + kBottom), "title", "deviation / µm");
+}
+
+std::string profile_path(const Section& section, const Scale& x, const Scale& y) {
+  std::string d;
+  for (std::size_t i = 0; i < section.profile.size(); ++i) {
+    const SectionPoint& point = section.profile[i];
+    const bool connected =
+        i > 0 && point.angle_rad - section.profile[i - 1].angle_rad <= section.widest_gap_rad;
+    d +=
+        fmt::format("{}{:.1f} {:.1f}", connected ? 'L' : 'M', x.at(point.angle_rad / core::kDegree),
+                    y.at(point.deviation_mm / core::kMicrometre));
+  }
+  return d;
+}
+
+}  // namespace
+
+std::string section_profile(const FeatureResult& feature, const Zone& zone) {
+  const std::vector<Section> sections = sections_of(feature);
+  if (sections.empty()) return {};
+  const Section& section = sections.front();
+  const double half_zone_um = std::max(0.5 * zone.deviation_mm / core::kMicrometre, 1e-2);
+  const Scale x{0.0, 360.0, kLeft, kRight};
+  const Scale y{-1.25 * half_zone_um, 1.25 * half_zone_um, kBottom, kTop};
+  Svg svg(kWidth, kHeight, "wide", "Deviation against the angle");
+  draw_axes(svg, x, y, half_zone_um);
+  svg.path(profile_path(section, x, y), section.rows.size() <= 40 ? "guide" : "profile");
+  for (const std::size_t row : section.rows) {
+    const CloudPoint& point = feature.cloud[row];
+    const double px = x.at(point.angle_rad / core::kDegree);
+    const double py = y.at(point.deviation_mm / core::kMicrometre);
+    if (point.outer_contact) {
+      svg.triangle(px, py, 5.5, "outer");
+    } else if (point.inner_contact) {
+      svg.square(px, py, 5.0, "inner");
+    } else if (has_marks(section)) {
+      svg.circle(px, py, section.rows.size() <= 60 ? 3.0 : 1.5, "point");
+    }
+  }
+  return fmt::format(
+      R"(<h3>Unrolled section</h3><figure><div class="scroll">{}</div><figcaption>Deviation from )"
+      "the middle of the zone (shaded); triangles touch the outer, squares the inner circle."
+      "</figcaption></figure>",
+      svg.str());
+}
+
+}  // namespace rondure::reports

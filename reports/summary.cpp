@@ -1,0 +1,134 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "reports/facts.h"
+#include "reports/text.h"
+#include "reports/writers.h"
+
+namespace rondure::reports {
+namespace {
+
+constexpr std::size_t kColumns = 80;
+constexpr std::size_t kLabel = 15;  ///< Where the values of labelled lines start.
+
+/// Appends `text` wrapped at spaces to lines of at most 80 columns, the first one after `head`
+/// (`kLabel` columns or less), the others indented below it.
+void add_wrapped(std::string& out, std::string_view head, std::string_view text) {
+  std::string line = fmt::format("{:<{}}", head, kLabel);
+  const std::string clean = printable(text);
+  std::string_view rest = clean;
+  bool fresh = true;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    const std::string word = shortened(rest.substr(0, end), kColumns - kLabel);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (!fresh && columns(line) + 1 + columns(word) > kColumns) {
+      out += line + "\n";
+      line = std::string(kLabel, ' ');
+      fresh = true;
+    }
+    line += (fresh ? "" : " ") + word;
+    fresh = false;
+  }
+  out += line + "\n";
+}
+
+std::string upper(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+  return result;
+}
+
+void add_head(std::string& out, const record::RunRecord& record, const Evaluation& evaluation) {
+  const record::Header& header = record.header;
+  out += upper(name_of(evaluation.verdict)) + "\n";
+  add_wrapped(out, "rule",
+              rule_in_words(header) + "; no measurement uncertainty taken into account");
+  std::string part = header.part_id;
+  for (const std::string& more : {header.part_name, header.drawing}) {
+    if (!more.empty()) part += ", " + more;
+  }
+  if (!header.serial.empty()) part += ", serial " + header.serial;
+  add_wrapped(out, "part", part);
+  add_wrapped(out, "run", header.run_id);
+  if (header.simulated) add_wrapped(out, "simulated", "no real part was measured");
+  if (record.ending == "finished") return;
+  add_wrapped(out, "not finished",
+              record.ending.empty() ? "the run has no end on record" : record.ending);
+  if (record.failure) add_wrapped(out, "reason", core::to_line(*record.failure));
+  for (const std::string& part_missing : missing_parts(record, evaluation)) {
+    add_wrapped(out, "missing", part_missing);
+  }
+}
+
+/// "  CYLt MZCY     8.300 um   limit 10.000 um   conforms   id".
+void add_characteristic(std::string& out, const CharacteristicResult& result) {
+  const record::Characteristic& asked = result.characteristic;
+  const std::string value = result.value_mm ? um(*result.value_mm) + " um" : "no value";
+  const std::string limit =
+      asked.tolerance_mm ? fmt::format("limit {} um", um(*asked.tolerance_mm)) : "no limit";
+  std::string line = fmt::format("  {} {}{:>14}   {:<19} {:<16}  ", symbol_of(asked),
+                                 reference_of(asked), value, limit, name_of(result.verdict));
+  line += shortened(printable(asked.id), kColumns - columns(line));
+  out += line + "\n";
+  if (result.verdict == Verdict::kVoid || result.verdict == Verdict::kUndecided) {
+    add_wrapped(out, "    because", result.reason);
+  }
+}
+
+void add_zone(std::string& out, const FeatureResult& feature) {
+  const auto zone = zone_of(feature);
+  if (!zone) return;
+  add_wrapped(out, "  zone",
+              fmt::format("radii {} and {} mm {}", fixed(zone->inner_radius_mm, 4),
+                          fixed(zone->outer_radius_mm, 4),
+                          zone->of_surface ? "of the surface" : "of the points, tip unknown"));
+  const fit::Certificate& certificate = zone->certificate;
+  std::string text = std::string(fit::name_of(certificate.kind));
+  if (!certificate.scope.empty()) text += ", " + certificate.scope;
+  if (certificate.kind != fit::Certificate::Kind::kNone) {
+    text += fmt::format(", gap {} um", tiny_um(certificate.gap_mm));
+  }
+  if (!certificate.reason.empty()) text += "; " + certificate.reason;
+  add_wrapped(out, "  certificate", text);
+}
+
+void add_truth(std::string& out, const record::SimulationTruth* truth,
+               const FeatureResult& feature) {
+  if (truth == nullptr) return;
+  std::string text = fmt::format("CYLt {} um", um(truth->cylt_mm));
+  if (const auto zone = zone_of(feature)) {
+    text += fmt::format(", difference {} um", signed_um(zone->deviation_mm - truth->cylt_mm));
+  }
+  add_wrapped(out, "  hidden truth", text + " (of the simulation, not of the measurement)");
+}
+
+}  // namespace
+
+std::string write_summary(const record::RunRecord& record, const Evaluation& evaluation) {
+  std::string out;
+  add_head(out, record, evaluation);
+  for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
+    const FeatureResult& feature = evaluation.features[i];
+    out += "\n";
+    add_wrapped(out, "feature",
+                fmt::format("{}: {} {}, {}", shortened(printable(feature.feature.id), 30),
+                            record::name_of(feature.feature.side),
+                            record::name_of(feature.feature.shape), pattern_of(feature)));
+    for (const CharacteristicResult& result : feature.characteristics) {
+      add_characteristic(out, result);
+    }
+    if (feature.failure) add_wrapped(out, "  no result", core::to_line(*feature.failure));
+    add_zone(out, feature);
+    add_truth(out, truth_of(record, i), feature);
+    for (const core::Error& warning : feature.warnings) {
+      add_wrapped(out, "  warning", core::to_line(warning));
+    }
+  }
+  return out;
+}
+
+}  // namespace rondure::reports

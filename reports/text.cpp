@@ -1,0 +1,167 @@
+#include "reports/text.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace rondure::reports {
+namespace {
+
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
+
+/// One character of UTF-8 text; a byte that starts none is a character by itself.
+struct Character {
+  std::uint32_t code = 0;
+  std::size_t bytes = 1;
+  bool valid = true;
+};
+
+Character next_character(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80) return {first, 1, true};
+  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || text.size() < length) return {0, 1, false};
+  std::uint32_t code = first & (0x7FU >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80U) return {0, 1, false};
+    code = (code << 6U) | (byte(i) & 0x3FU);
+  }
+  return {code, length, true};
+}
+
+bool is_control(std::uint32_t code) { return code < 0x20 || (code >= 0x7F && code < 0xA0); }
+
+/// Marks that reorder what follows, or line and paragraph separators.
+bool is_layout_mark(std::uint32_t code) {
+  return code == 0x061C || (code >= 0x200B && code <= 0x200F) ||
+         (code >= 0x2028 && code <= 0x202E) || (code >= 0x2060 && code <= 0x2069) || code == 0xFEFF;
+}
+
+bool is_wide(std::uint32_t code) {
+  constexpr std::array<std::array<std::uint32_t, 2>, 8> kWide = {{{0x1100, 0x115F},
+                                                                  {0x2E80, 0xA4CF},
+                                                                  {0xAC00, 0xD7A3},
+                                                                  {0xF900, 0xFAFF},
+                                                                  {0xFE30, 0xFE6F},
+                                                                  {0xFF00, 0xFF60},
+                                                                  {0x1F300, 0x1FAFF},
+                                                                  {0x20000, 0x3FFFD}}};
+  for (const auto& range : kWide) {
+    if (code >= range[0] && code <= range[1]) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string fixed(double value, int decimals) {
+  if (!std::isfinite(value)) return "\xE2\x80\x93";
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
+  return text;
+}
+
+std::string um(double length_mm) {
+  return fixed(length_mm / core::kMicrometre, std::abs(length_mm) < 1.0 ? 3 : 1);
+}
+
+std::string signed_um(double length_mm) {
+  std::string text = um(length_mm);
+  return text.front() == '-' || !std::isfinite(length_mm) ? text : text.insert(0, 1, '+');
+}
+
+std::string f_um(double f_mm) {
+  return fixed(f_mm / core::kMicrometre, std::abs(f_mm) > 0.1 ? 2 : 3);
+}
+
+std::string tiny_um(double length_mm) {
+  return fmt::format("{:.2g}", length_mm / core::kMicrometre);
+}
+
+std::string deg(double angle_rad, int decimals) {
+  return fixed(angle_rad / core::kDegree, decimals);
+}
+
+std::string count(std::size_t number, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", number, number == 1 ? one : many);
+}
+
+std::string capitalised(std::string_view text) {
+  std::string result(text);
+  if (!result.empty() && result.front() >= 'a' && result.front() <= 'z') {
+    result.front() = static_cast<char>(result.front() - 'a' + 'A');
+  }
+  return result;
+}
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  result.reserve(text.size() + text.size() / 8);
+  while (!text.empty()) {
+    const Character c = next_character(text);
+    if (!c.valid || (is_control(c.code) && c.code != '\n' && c.code != '\t')) {
+      result += kReplacement;
+    } else if (c.code == '&') {
+      result += "&amp;";
+    } else if (c.code == '<') {
+      result += "&lt;";
+    } else if (c.code == '>') {
+      result += "&gt;";
+    } else if (c.code == '"') {
+      result += "&quot;";
+    } else if (c.code == '\'') {
+      result += "&#39;";
+    } else {
+      result += text.substr(0, c.bytes);
+    }
+    text.remove_prefix(c.bytes);
+  }
+  return result;
+}
+
+std::string isolated(std::string_view text) { return fmt::format("<bdi>{}</bdi>", escaped(text)); }
+
+std::string printable(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const Character c = next_character(text);
+    if (!c.valid || is_control(c.code) || is_layout_mark(c.code)) {
+      result += '?';
+    } else {
+      result += text.substr(0, c.bytes);
+    }
+    text.remove_prefix(c.bytes);
+  }
+  return result;
+}
+
+std::size_t columns(std::string_view text) {
+  std::size_t sum = 0;
+  while (!text.empty()) {
+    const Character c = next_character(text);
+    sum += is_wide(c.code) ? 2 : 1;
+    text.remove_prefix(c.bytes);
+  }
+  return sum;
+}
+
+std::string shortened(std::string_view text, std::size_t limit) {
+  if (columns(text) <= limit) return std::string(text);
+  std::string result;
+  std::size_t used = 3;
+  while (!text.empty()) {
+    const Character c = next_character(text);
+    used += is_wide(c.code) ? 2 : 1;
+    if (used > limit) break;
+    result += text.substr(0, c.bytes);
+    text.remove_prefix(c.bytes);
+  }
+  return result + "...";
+}
+
+}  // namespace rondure::reports

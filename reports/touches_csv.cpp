@@ -1,0 +1,57 @@
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/numbers.h"
+#include "reports/text.h"
+#include "reports/writers.h"
+
+namespace rondure::reports {
+namespace {
+
+/// A field by RFC 4180: quoted when it holds a comma, a quote or a line break.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::string number(double value) { return std::isfinite(value) ? core::shortest(value) : ""; }
+
+}  // namespace
+
+std::string write_touches_csv(const record::RunRecord& record) {
+  std::map<int, std::string> feature_of_pose;
+  for (const record::PoseVisit& pose : record.poses) {
+    const auto index = static_cast<std::size_t>(pose.feature);
+    if (pose.feature >= 0 && index < record.features.size()) {
+      feature_of_pose[pose.id] = field(record.features[index].id);
+    }
+  }
+  std::string text = fmt::format("# rondure touches, run {}\n", printable(record.header.run_id));
+  text +=
+      "id,purpose,feature,pose,layer,point,repeat,x_mm,y_mm,z_mm,dir_x,dir_y,dir_z,"
+      "temperature_degC,time_s\n";
+  for (const record::Touch& touch : record.touches) {
+    const bool measures = touch.purpose == record::Touch::Purpose::kMeasure;
+    const auto feature = feature_of_pose.find(touch.pose);
+    text += fmt::format("{},{},{},{},{},{},{}", touch.id, measures ? "measure" : "qualification",
+                        feature == feature_of_pose.end() ? "" : feature->second, touch.pose,
+                        touch.layer, touch.point, touch.repeat);
+    for (const double value :
+         {touch.tip_mm.x(), touch.tip_mm.y(), touch.tip_mm.z(), touch.approach.x(),
+          touch.approach.y(), touch.approach.z(), touch.temperature_degC, touch.time_s}) {
+      text += ',';
+      text += number(value);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Builds rondure and runs it. Without arguments: the first example plan on the simulated CMM.
+#   ./run.sh                                  the main job; says where the report is
+#   ./run.sh fit cylinder points.csv --json   any other call of rondure
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+. "$here/.ci/packages.sh"
+ensure_packages $rondure_build_packages
+
+(cd "$here" && build release OFF rondure) >"/tmp/rondure-build.$$" 2>&1 || {
+  cat "/tmp/rondure-build.$$" >&2
+  exit 2
+}
+rm -f "/tmp/rondure-build.$$"
+
+if [ $# -gt 0 ]; then
+  exec "$here/build/release/rondure" "$@"
+fi
+cd "$here"
+run="runs/01_spool_simulated-$(date -u +%Y%m%dT%H%M%SZ)"
+status=0
+build/release/rondure run plans/examples/01_spool_simulated.json --out "$run" || status=$?
+[ -f "$run/report.html" ] && echo && echo "The report: $here/$run/report.html   (open it in a browser)"
+exit $status

@@ -1,0 +1,250 @@
+#include "cmm/simulated.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "random_parts.h"
+
+namespace rondure::cmm {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::HasSubstr;
+
+PartSurface plain_shaft() {
+  PartSurface part;
+  part.radius_mm = 25.0;
+  part.half_length_mm = 40.0;
+  return part;
+}
+
+void place_shaft(SimulatedMachine& machine) {
+  machine.place_part(plain_shaft(), Eigen::Isometry3d::Identity());
+}
+
+/// A touch of the plain shaft from +x at mid-length; the tip must stand at x = 30 first.
+TouchCommand touch_from_x(std::int64_t id) {
+  return {id, {27.0, 0.0, 0.0}, -Vector3d::UnitX(), 3.0, 3.0};
+}
+
+void go_to_x30(SimulatedMachine& machine) {
+  ASSERT_TRUE(machine.move_to({30.0, 0.0, 500.0}));
+  ASSERT_TRUE(machine.move_to({30.0, 0.0, 0.0}));
+}
+
+TEST(SimulatedMachine, TouchesTheSurfaceWhereItIs) {
+  SimulatedMachine machine({});
+  place_shaft(machine);
+  go_to_x30(machine);
+  const auto reading = machine.touch(touch_from_x(1));
+  ASSERT_TRUE(reading);
+  EXPECT_NEAR(reading->tip_W_mm.x(), 27.0, 1e-12);
+  EXPECT_EQ(reading->tip_W_mm, machine.true_tip_W_mm());
+  EXPECT_EQ(reading->temperature_degC, 20.0);
+  EXPECT_EQ(machine.position_W_mm(), Vector3d(30.0, 0.0, 0.0));
+}
+
+TEST(SimulatedMachine, TouchesATiltedPartWhereItReallyStands) {
+  core::KeyedNoise random(1, {1});
+  const PartSurface part = random_part(random, false);
+  Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();
+  X_WP.translate(Vector3d(200, 150, 80)).rotate(Eigen::AngleAxisd(0.3, Vector3d::UnitX()));
+  SimulatedMachine machine({});
+  machine.place_part(part, X_WP);
+  const double r = part.radius_mm + 2.0;
+  const Vector3d expected = X_WP * Vector3d(0.0, r, 5.0);
+  const Vector3d d = X_WP.linear() * -Vector3d::UnitY();
+  ASSERT_TRUE(machine.move_to(X_WP * Vector3d(0.0, r + 3.0, 300.0)));
+  ASSERT_TRUE(machine.move_to(expected - 3.0 * d));
+  const auto reading = machine.touch({1, expected, d, 3.0, 3.0});
+  ASSERT_TRUE(reading);
+  const Vector3d tip_P = X_WP.inverse() * reading->tip_W_mm;
+  EXPECT_NEAR(tip_P.y(), part.radius_at(M_PI / 2, 5.0) + 2.0, 1e-4);  // the wave is gentle
+}
+
+TEST(SimulatedMachine, UsesTheRealTipRadius) {
+  SimulatedMachineOptions options;
+  options.errors.tip_radius_error_mm = -0.0016;
+  SimulatedMachine machine(options);
+  place_shaft(machine);
+  go_to_x30(machine);
+  EXPECT_NEAR(machine.touch(touch_from_x(1))->tip_W_mm.x(), 26.9984, 1e-12);
+}
+
+TEST(SimulatedMachine, ClockAdvancesByDistanceAndSpeed) {
+  SimulatedMachine machine({});
+  place_shaft(machine);
+  EXPECT_EQ(machine.time_s(), 0.0);
+  go_to_x30(machine);
+  EXPECT_NEAR(machine.time_s(), 0.3 + 5.0, 1e-12);
+  const auto reading = machine.touch(touch_from_x(1));
+  EXPECT_NEAR(reading->time_s, 5.3 + 3.0 / 5.0, 1e-12);
+  EXPECT_NEAR(machine.time_s(), 5.3 + 3.0 / 5.0 + 3.0 / 100.0 + 0.2, 1e-12);
+}
+
+TEST(SimulatedMachine, NoiseHasTheStatedDeviationAlongTheApproachOnly) {
+  SimulatedMachineOptions options;
+  options.errors.repeatability_mm = 0.001;
+  SimulatedMachine machine(options);
+  place_shaft(machine);
+  go_to_x30(machine);
+  const int n = 4000;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const auto reading = machine.touch(touch_from_x(i));
+    ASSERT_TRUE(reading);
+    const Vector3d noise = reading->tip_W_mm - machine.true_tip_W_mm();
+    EXPECT_EQ(noise.y(), 0.0);
+    EXPECT_EQ(noise.z(), 0.0);
+    sum += noise.x();
+    squares += noise.x() * noise.x();
+  }
+  const double four_sigma = 4.0 / std::sqrt(n);
+  EXPECT_LT(std::abs(sum / n) / 0.001, four_sigma);
+  EXPECT_NEAR(std::sqrt(squares / n) / 0.001, 1.0, four_sigma / std::sqrt(2.0));
+}
+
+TEST(SimulatedMachine, NoiseDependsOnSeedAndTouchNotOnOrder) {
+  SimulatedMachineOptions options;
+  options.errors.repeatability_mm = 0.001;
+  SimulatedMachine one(options);
+  place_shaft(one);
+  SimulatedMachine two(options);
+  place_shaft(two);
+  options.seed = 2;
+  SimulatedMachine other(options);
+  place_shaft(other);
+  go_to_x30(one);
+  go_to_x30(two);
+  go_to_x30(other);
+  ASSERT_TRUE(one.touch(touch_from_x(6)));
+  const Vector3d seventh = one.touch(touch_from_x(7))->tip_W_mm;
+  EXPECT_EQ(two.touch(touch_from_x(7))->tip_W_mm, seventh);
+  EXPECT_NE(two.touch(touch_from_x(8))->tip_W_mm, seventh);
+  EXPECT_NE(other.touch(touch_from_x(7))->tip_W_mm, seventh);
+}
+
+TEST(SimulatedMachine, StopsJustBeforeAPartInItsWay) {
+  SimulatedMachine machine({});
+  place_shaft(machine);
+  go_to_x30(machine);
+  const auto crash = machine.move_to({-30.0, 0.0, 0.0});
+  ASSERT_FALSE(crash);
+  EXPECT_EQ(crash.error().code, core::Code::kCollision);
+  EXPECT_EQ(crash.error().what,
+            "the tip met the part at (25.000, 0.000, 0.000) mm on the move to (-30.000, 0.000, "
+            "0.000) mm; the machine stopped at (27.000, 0.000, 0.000) mm");
+  EXPECT_NEAR(machine.position_W_mm().x(), 27.0, 3e-6);
+  EXPECT_NEAR(machine.time_s(), 5.3 + 0.03, 1e-6);
+  EXPECT_TRUE(machine.move_to({30.0, 0.0, 0.0})) << "the way back is free";
+}
+
+TEST(SimulatedMachine, StopsBeforeTheFlatEndOfAPart) {
+  SimulatedMachine machine({});
+  place_shaft(machine);
+  const auto crash = machine.move_to({0.0, 0.0, 20.0});
+  ASSERT_FALSE(crash);
+  EXPECT_THAT(crash.error().what, HasSubstr("met the part at (0.000, 0.000, 40.000) mm"));
+}
+
+TEST(SimulatedMachine, MayGrazeASurfaceByAMicrometreThousandthButNotMore) {
+  SimulatedMachine machine({});
+  place_shaft(machine);
+  go_to_x30(machine);
+  EXPECT_TRUE(machine.move_to({27.0 - 0.9e-6, 0.0, 0.0}));
+  EXPECT_FALSE(machine.move_to({27.0 - 1.1e-6, 0.0, 0.0}));
+}
+
+TEST(SimulatedMachine, StopsBeforeTheReferenceSphere) {
+  SimulatedMachine machine({});
+  machine.place_sphere({{0, 0, 100}, 12.5});
+  const auto crash = machine.move_to({0.0, 0.0, 0.0});
+  ASSERT_FALSE(crash);
+  EXPECT_THAT(crash.error().what, HasSubstr("met the reference sphere at (0.000, 0.000, 112.500)"));
+  ASSERT_TRUE(machine.move_to({0.0, 0.0, 117.5}));
+  const auto reading = machine.touch({1, {0, 0, 114.5}, -Vector3d::UnitZ(), 3.0, 3.0});
+  ASSERT_TRUE(reading);
+  EXPECT_NEAR(reading->tip_W_mm.z(), 114.5, 1e-12);
+}
+
+TEST(SimulatedMachine, TouchesWhatComesFirst) {
+  SimulatedMachine machine({});
+  place_shaft(machine);
+  machine.place_sphere({{28.0, 0.0, 0.0}, 1.0});
+  ASSERT_TRUE(machine.move_to({34.0, 0.0, 500.0}));
+  ASSERT_TRUE(machine.move_to({34.0, 0.0, 0.0}));
+  const auto reading = machine.touch({1, {29.0, 0, 0}, -Vector3d::UnitX(), 5.0, 5.0});
+  ASSERT_TRUE(reading);
+  EXPECT_NEAR(reading->tip_W_mm.x(), 31.0, 1e-12);
+}
+
+TEST(SimulatedMachine, SaysWhereItSearchedInVain) {
+  SimulatedMachine machine({});
+  place_shaft(machine);
+  ASSERT_TRUE(machine.move_to({40.0, 0.0, 500.0}));
+  ASSERT_TRUE(machine.move_to({40.0, 0.0, 0.0}));
+  const double before_s = machine.time_s();
+  const auto missed = machine.touch({1, {37.0, 0, 0}, -Vector3d::UnitX(), 3.0, 3.0});
+  ASSERT_FALSE(missed);
+  EXPECT_EQ(missed.error().code, core::Code::kNoTouch);
+  EXPECT_EQ(missed.error().what,
+            "no contact within 3.000 mm beyond the expected surface (search from (40.000, 0.000, "
+            "0.000) mm to (34.000, 0.000, 0.000) mm)");
+  EXPECT_EQ(machine.position_W_mm(), Vector3d(40.0, 0.0, 0.0));
+  EXPECT_NEAR(machine.time_s() - before_s, 6.0 / 5.0 + 6.0 / 100.0, 1e-12);
+}
+
+TEST(SimulatedMachine, RefusesATouchThatStartsInContact) {
+  SimulatedMachine machine({});
+  ASSERT_TRUE(machine.move_to({26.0, 0.0, 0.0}));
+  machine.place_part(plain_shaft(), Eigen::Isometry3d::Identity());
+  const auto touch = machine.touch({1, {23.0, 0, 0}, -Vector3d::UnitX(), 3.0, 3.0});
+  ASSERT_FALSE(touch);
+  EXPECT_EQ(touch.error().code, core::Code::kCollision);
+  const auto move = machine.move_to({40.0, 0.0, 0.0});
+  ASSERT_FALSE(move);
+  EXPECT_EQ(move.error().code, core::Code::kCollision);
+  EXPECT_THAT(move.error().what, HasSubstr("did not move"));
+}
+
+TEST(SimulatedMachine, RefusesCommandsThatMakeNoSense) {
+  SimulatedMachine machine({});
+  place_shaft(machine);
+  go_to_x30(machine);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(machine.move_to({nan, 0, 0}).error().code, core::Code::kMachine);
+  TouchCommand command = touch_from_x(1);
+  command.expected_tip_W_mm.z() = nan;
+  EXPECT_EQ(machine.touch(command).error().code, core::Code::kMachine);
+  command = touch_from_x(1);
+  command.direction_W *= 1.1;
+  EXPECT_THAT(machine.touch(command).error().what, HasSubstr("length 1.1, not 1"));
+  command = touch_from_x(1);
+  command.expected_tip_W_mm.y() += 2e-6;
+  EXPECT_THAT(machine.touch(command).error().what, HasSubstr("move there first"));
+  command = touch_from_x(1);
+  command.search_mm = -4.0;
+  EXPECT_EQ(machine.touch(command).error().code, core::Code::kMachine);
+  EXPECT_EQ(machine.position_W_mm(), Vector3d(30.0, 0.0, 0.0));
+}
+
+TEST(SimulatedMachine, HomeLeavesUpwardsAndParks) {
+  SimulatedMachine machine({});
+  place_shaft(machine);
+  go_to_x30(machine);
+  ASSERT_TRUE(machine.home());
+  EXPECT_EQ(machine.position_W_mm(), Vector3d(0.0, 0.0, 500.0));
+  EXPECT_NEAR(machine.time_s(), 0.3 + 5.0 + 5.0 + 0.3, 1e-12);
+}
+
+TEST(SimulatedMachine, DescribesItself) {
+  EXPECT_EQ(SimulatedMachine({}).description(),
+            "simulated machine, tip diameter 4 mm, touch speed 5 mm/s");
+}
+
+}  // namespace
+}  // namespace rondure::cmm

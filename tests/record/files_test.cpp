@@ -1,0 +1,124 @@
+#include "record/files.h"
+
+#include <csignal>
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/record/sample_run.h"
+
+namespace rondure::record {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(Files, GiveBackTheBytesThatWereWritten) {
+  const Scratch scratch;
+  std::string bytes(300'000, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 7);
+  for (const std::string& content : {std::string(), std::string("x"), bytes}) {
+    ASSERT_TRUE(write_file(scratch / "a file", content));
+    const auto read = read_file(scratch / "a file");
+    ASSERT_TRUE(read) << read.error().what;
+    EXPECT_EQ(*read, content);
+  }
+  EXPECT_THAT(scratch.names(), ElementsAre("a file"));
+}
+
+TEST(Files, AreReadableForOthersAsTheUserWants) {
+  const Scratch scratch;
+  const mode_t before = ::umask(027);
+  ASSERT_TRUE(write_file(scratch / "file", "x"));
+  ::umask(before);
+  struct stat status = {};
+  ASSERT_EQ(::stat((scratch / "file").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0640U);
+}
+
+TEST(Files, ThatCannotBeReadAreNamedWithTheReason) {
+  const Scratch scratch;
+  const auto missing = read_file(scratch / "missing.csv");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, core::Code::kFile);
+  EXPECT_EQ(missing.error().what, "cannot read " + (scratch / "missing.csv").string() +
+                                      ": there is no such file or folder");
+  EXPECT_EQ(missing.error().where, (scratch / "missing.csv").string());
+  EXPECT_THAT(read_file(scratch.path()).error().what, HasSubstr("it is a folder"));
+  EXPECT_THAT(read_file("/dev/null/x").error().what, HasSubstr("a part of its path is a file"));
+}
+
+TEST(Files, ThatCannotBeWrittenAreNamedWithTheReason) {
+  const Scratch scratch;
+  const auto missing = write_file(scratch / "no/report.html", "x");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, core::Code::kFile);
+  EXPECT_THAT(missing.error().what, HasSubstr((scratch / "no/report.html").string()));
+  EXPECT_THAT(missing.error().what, HasSubstr("there is no such file or folder"));
+  EXPECT_THAT(write_file(scratch.path(), "x").error().what, HasSubstr("it is a folder"));
+  EXPECT_THAT(write_file("/dev/null/x", "x").error().what, HasSubstr("is a file, not a folder"));
+  EXPECT_TRUE(scratch.names().empty());
+}
+
+TEST(Files, OfAForeignUserAreNamedWithTheReason) {
+  const Scratch scratch;
+  ASSERT_TRUE(write_file(scratch / "secret", "x"));
+  ASSERT_EQ(::chmod((scratch / "secret").c_str(), 0), 0);
+  ASSERT_EQ(::chmod(scratch.path().c_str(), 0555), 0);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    constexpr uid_t kNobody = 65534;
+    if (::geteuid() == 0 && ::setuid(kNobody) != 0) ::_exit(1);  // permissions do not bind root
+    const auto read = read_file(scratch / "secret");
+    const auto written = write_file(scratch / "new", "x");
+    const auto says_so = [](const core::Error& error) {
+      return error.code == core::Code::kFile &&
+             error.what.find("this user is not allowed to") != std::string::npos;
+    };
+    ::_exit(!read && says_so(read.error()) && !written && says_so(written.error()) ? 0 : 2);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_EQ(::chmod(scratch.path().c_str(), 0755), 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST(Files, KeepTheOldContentWhenTheNewOneDoesNotFit) {
+  const Scratch scratch;
+  ASSERT_TRUE(write_file(scratch / "report.html", "old"));
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit = {1000, 1000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    const auto written = write_file(scratch / "report.html", std::string(5000, 'x'));
+    ::_exit(!written && written.error().what.find("largest file") != std::string::npos ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(*read_file(scratch / "report.html"), "old");
+  EXPECT_THAT(scratch.names(), ElementsAre("report.html"));
+}
+
+TEST(Files, SayThatADiskIsFull) {
+  // The device that is always full; a file there cannot be replaced, so only the words are tested.
+  const int full = ::open("/dev/full", O_WRONLY);
+  if (full < 0) GTEST_SKIP() << "this system has no /dev/full";
+  ASSERT_EQ(::write(full, "x", 1), -1);
+  EXPECT_EQ(system_reason(errno),
+            "the disk is full (No space left on device); free space on the disk");
+  ::close(full);
+}
+
+}  // namespace
+}  // namespace rondure::record

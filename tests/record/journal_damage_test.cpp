@@ -1,0 +1,230 @@
+// A damaged or foreign journal is named as such: no crash, no hang, no silent change.
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include "core/noise.h"
+#include "record/files.h"
+#include "record/journal.h"
+#include "tests/record/sample_run.h"
+
+namespace rondure::record {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+
+/// Runs SQL on a file behind the journal's back.
+void meddle(const fs::path& file, const std::string& sql) {
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+  char* problem = nullptr;
+  EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, &problem), SQLITE_OK) << problem;
+  sqlite3_free(problem);
+  sqlite3_close(database);
+}
+
+class JournalDamage : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    run = sample_run(3, 200);
+    run.failure.reset();
+    ASSERT_TRUE(write_run(scratch / "run", run));
+    bytes = *read_file(scratch / "run/journal.db");
+  }
+  void put(const std::string& damaged) const {
+    std::ofstream(scratch / "run/journal.db", std::ios::binary | std::ios::trunc) << damaged;
+  }
+  /// Damage is told, or it did not touch anything that is read.
+  void expect_told_or_intact() const {
+    const auto read = read_journal(scratch / "run");
+    if (!read) {
+      EXPECT_THAT(read.error().code, AnyOf(core::Code::kJournal, core::Code::kFile));
+      EXPECT_EQ(read.error().where, (scratch / "run/journal.db").string());
+      EXPECT_FALSE(read.error().what.empty());
+    } else if (read->broken.empty()) {
+      EXPECT_EQ(every_bit(read->record), every_bit(run));
+    }
+  }
+
+  Scratch scratch;
+  RunRecord run;
+  std::string bytes;
+};
+
+TEST_F(JournalDamage, OfEachTableIsFoundByItsDigest) {
+  const std::vector<std::pair<std::string, std::string>> changes = {
+      {"header", "update header set operator_name = 'somebody else'"},
+      {"header", "update header set temperature_max_degC = 99.0"},
+      {"artefact", "update artefact set radius_mm = 12.5"},
+      {"feature", "update feature set nominal_diameter_mm = 25.000000000000004 where id = 0"},
+      {"search_step", "update search_step set step_deg = 0.30000000000000004 where id = 1"},
+      {"characteristic", "update characteristic set tolerance_mm = 0.011 where id = 1"},
+      {"pose", "update pose set final_cloud = 1 - final_cloud where id = 2"},
+      {"touch", "update touch set tip_z_mm = 1.0000000000000002 where id = 17"},
+      {"decision", "update decision set text = text || '.' where id = 2"},
+      {"truth", "update truth set cylt_mm = 1e-300"},
+      {"result", "update result set value = 7.42 where id = 0"},
+      {"touch",
+       "update seal set sha256 = '0' || substr(sha256, 2) || 'x' where table_name = 'touch'"},
+  };
+  for (const auto& [table, sql] : changes) {
+    SCOPED_TRACE(sql);
+    put(bytes);
+    meddle(scratch / "run/journal.db", sql);
+    const auto read = read_journal(scratch / "run");
+    ASSERT_TRUE(read) << read.error().what;
+    ASSERT_EQ(read->broken.size(), 1U);
+    EXPECT_EQ(read->broken[0].table, table);
+    EXPECT_EQ(read->broken[0].what, "a value differs from the sealed one");
+  }
+}
+
+TEST_F(JournalDamage, MissingAndAddedRowsAreCounted) {
+  meddle(scratch / "run/journal.db", "delete from touch where id = 7");
+  auto read = read_journal(scratch / "run");
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->broken.size(), 1U);
+  EXPECT_EQ(read->broken[0].table, "touch");
+  EXPECT_EQ(read->broken[0].what, "199 rows, expected 200");
+
+  put(bytes);
+  meddle(scratch / "run/journal.db", "delete from seal where table_name = 'pose'");
+  read = read_journal(scratch / "run");
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->broken.size(), 1U);
+  EXPECT_EQ(read->broken[0].table, "pose");
+  EXPECT_EQ(read->broken[0].what, "its digest is missing in the seal");
+}
+
+TEST_F(JournalDamage, ContradictionsAreNamed) {
+  const std::vector<std::pair<std::string, std::string>> changes = {
+      {"update pose set feature = 12 where id = 0", "table pose names feature 12"},
+      {"update touch set purpose = 'probing'", "touch.purpose holds the unknown word \"probing\""},
+      {"update feature set shape = 'cone'", "feature.shape holds the unknown word \"cone\""},
+      {"update header set seed = '-1'", "header.seed"},
+      {"update header set failure_code = 'tired'", "header.failure_code"},
+      {"delete from header", "table header is empty"},
+      {"delete from artefact", "table artefact is empty"},
+      {"drop table touch", "no table touch"},
+      {"alter table touch add column z text", "columns of its table touch"},
+      {"alter table touch rename to t; create view touch as select * from t", "no table touch"},
+      {"pragma user_version = 2", "version 2, this program reads version 1"},
+      {"pragma application_id = 5", "no journal of Rondure"},
+  };
+  for (const auto& [sql, words] : changes) {
+    SCOPED_TRACE(sql);
+    put(bytes);
+    meddle(scratch / "run/journal.db", sql);
+    const auto read = read_journal(scratch / "run");
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, core::Code::kJournal);
+    EXPECT_THAT(read.error().what, HasSubstr(words));
+  }
+}
+
+TEST_F(JournalDamage, ByTruncationIsTold) {
+  std::uint64_t state = 5;
+  for (int i = 0; i < 20; ++i) {
+    const std::size_t size = core::splitmix64(state) % bytes.size();
+    SCOPED_TRACE(size);
+    put(bytes.substr(0, size));
+    const auto read = read_journal(scratch / "run");
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, core::Code::kJournal);
+    EXPECT_FALSE(read.error().what.empty());
+  }
+}
+
+TEST_F(JournalDamage, ByFlippedBitsIsToldOrHarmless) {
+  std::uint64_t state = 6;
+  for (int i = 0; i < 300; ++i) {
+    std::string damaged = bytes;
+    const std::size_t at = core::splitmix64(state) % damaged.size();
+    damaged[at] = static_cast<char>(damaged[at] ^ static_cast<char>(1U << (i % 8)));
+    SCOPED_TRACE(at);
+    put(damaged);
+    expect_told_or_intact();
+  }
+}
+
+TEST_F(JournalDamage, InTheHeadOfTheFileIsToldOrHarmless) {
+  for (std::size_t at = 0; at < 200; ++at) {
+    SCOPED_TRACE(at);
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
+    put(damaged);
+    expect_told_or_intact();
+  }
+}
+
+TEST_F(JournalDamage, ByRandomBlocksIsToldOrHarmless) {
+  std::uint64_t state = 7;
+  for (int i = 0; i < 100; ++i) {
+    std::string damaged = bytes;
+    const std::size_t at = core::splitmix64(state) % damaged.size();
+    for (std::size_t k = at; k < std::min(at + 300, damaged.size()); ++k) {
+      damaged[k] = static_cast<char>(core::splitmix64(state));
+    }
+    SCOPED_TRACE(at);
+    put(damaged);
+    expect_told_or_intact();
+  }
+}
+
+TEST_F(JournalDamage, ForeignFilesAreNamed) {
+  const auto expect = [&](core::Code code, const std::string& words) {
+    const auto read = read_journal(scratch / "run");
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, code);
+    EXPECT_THAT(read.error().what, HasSubstr(words));
+    EXPECT_EQ(read.error().where, (scratch / "run/journal.db").string());
+  };
+  put("");
+  expect(core::Code::kJournal, "it is no journal of Rondure");
+  put(std::string(5000, 'x') + "\n");
+  expect(core::Code::kJournal, "file is not a database");
+  fs::remove(scratch / "run/journal.db");
+  expect(core::Code::kFile, "there is no journal.db in " + (scratch / "run").string());
+  meddle(scratch / "run/journal.db", "create table touch (id integer primary key)");
+  expect(core::Code::kJournal, "it is no journal of Rondure");
+  fs::remove(scratch / "run/journal.db");
+  fs::create_directory(scratch / "run/journal.db");
+  expect(core::Code::kFile, "the journal is not a file");
+}
+
+TEST_F(JournalDamage, ADirectoryThatIsNoRunIsNamed) {
+  for (const fs::path& place : {scratch / "nothing", scratch.path(), scratch / "run/journal.db"}) {
+    const auto read = read_journal(place);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, core::Code::kFile);
+    EXPECT_THAT(read.error().what, HasSubstr("there is no journal.db in " + place.string()));
+  }
+}
+
+TEST_F(JournalDamage, OfTheLogCostsTheTouchesBehindItAndNothingElse) {
+  auto journal = Journal::create(scratch / "open", run.header, run.artefact, run.features);
+  ASSERT_TRUE(journal);
+  for (std::int64_t id = 0; id < 50; ++id) ASSERT_TRUE(journal->add(touch_number(id)));
+  const std::string log = *read_file(scratch / "open/journal.db-wal");
+  fs::create_directory(scratch / "copy");
+  fs::copy_file(scratch / "open/journal.db", scratch / "copy/journal.db");
+  std::uint64_t state = 8;
+  for (int i = 0; i < 50; ++i) {
+    std::string damaged = log;
+    damaged[core::splitmix64(state) % log.size()] ^= 0x10;
+    std::ofstream(scratch / "copy/journal.db-wal", std::ios::binary | std::ios::trunc) << damaged;
+    const auto read = read_journal(scratch / "copy");
+    ASSERT_TRUE(read) << read.error().what;
+    for (std::size_t k = 0; k < read->record.touches.size(); ++k) {
+      EXPECT_EQ(read->record.touches[k].tip_mm, touch_number(static_cast<std::int64_t>(k)).tip_mm);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rondure::record

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "record/journal.h"
+#include "record/run_record.h"
+
+namespace rondure::record {
+
+/// An empty folder of its own for one test, removed at its end.
+class Scratch {
+ public:
+  Scratch();
+  ~Scratch();
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
+    return path_ / name;
+  }
+  /// Names of the files in it and below it, sorted.
+  [[nodiscard]] std::vector<std::string> names() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A made-up run that fills every table; doubles of every size, -0.0, denormals and infinities
+/// among them. Same seed, same run.
+[[nodiscard]] RunRecord sample_run(std::uint64_t seed, int touches = 50);
+
+/// Writes a run as the program does: head, poses and touches one by one, ending, seal.
+/// A run with record.sealed == false stays open and is closed as by a crash of the program above.
+[[nodiscard]] core::Result<void> write_run(const std::filesystem::path& directory,
+                                           const RunRecord& record);
+
+/// A touch whose every value follows from its number.
+[[nodiscard]] Touch touch_number(std::int64_t id);
+
+/// Every value of a run as text, doubles by their bits: equal exactly when the runs are.
+[[nodiscard]] std::string every_bit(const RunRecord& record);
+
+}  // namespace rondure::record

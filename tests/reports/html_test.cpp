@@ -1,0 +1,239 @@
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "reports/writers.h"
+#include "synthetic.h"
+
+namespace rondure::reports {
+namespace {
+
+std::string page_of(const Case& made) { return write_html(made.record, made.evaluation); }
+
+bool holds(std::string_view page, std::string_view part) {
+  return page.find(part) != std::string_view::npos;
+}
+
+/// "nan" as a word, not as a part of one.
+bool shows_nan(const std::string& page) {
+  return std::regex_search(page, std::regex("[^a-z]-?nan[^a-z]"));
+}
+
+std::size_t occurrences(std::string_view text, std::string_view part) {
+  std::size_t number = 0;
+  for (std::size_t at = text.find(part); at != std::string_view::npos;
+       at = text.find(part, at + 1)) {
+    ++number;
+  }
+  return number;
+}
+
+bool is_void_element(std::string_view name) {
+  return name == "meta" || name == "br" || name == "!DOCTYPE";
+}
+
+/// The first tag that closes nothing, or stays open; empty for a balanced page. Quoted attribute
+/// values may hold anything but quotes.
+std::string first_unbalanced_tag(std::string_view page) {
+  std::vector<std::string> open;
+  for (std::size_t at = page.find('<'); at != std::string_view::npos; at = page.find('<', at)) {
+    const bool closes = page[at + 1] == '/';
+    const std::size_t from = at + (closes ? 2 : 1);
+    const std::size_t end_of_name = page.find_first_of(" />\n", from);
+    const std::string name(page.substr(from, end_of_name - from));
+    bool quoted = false;
+    for (at = end_of_name; at < page.size() && (quoted || page[at] != '>'); ++at) {
+      if (page[at] == '"') quoted = !quoted;
+      if (page[at] == '<') return "< inside " + name;
+    }
+    if (at >= page.size()) return "unended " + name;
+    if (closes) {
+      if (open.empty() || open.back() != name) return "/" + name;
+      open.pop_back();
+    } else if (page[at - 1] != '/' && !is_void_element(name)) {
+      open.push_back(name);
+    }
+  }
+  return open.empty() ? std::string() : open.back();
+}
+
+/// Set RONDURE_KEEP to a folder to look at the pages.
+void keep(const std::string& name, const std::string& page) {
+  if (const char* folder = std::getenv("RONDURE_KEEP")) {
+    std::ofstream(std::filesystem::path(folder) / (name + ".html"), std::ios::binary) << page;
+  }
+}
+
+TEST(Html, PagesOfAllKindsAreBalanced) {
+  const std::array<std::pair<const char*, Case>, 10> cases = {
+      {{"conforms", cylinder_case(4, 7, 3)},
+       {"refined", cylinder_case(4, 7, 150)},
+       {"fails", failing_case()},
+       {"circle", circle_case(500)},
+       {"unfinished", unfinished_case()},
+       {"hostile", hostile_case("<script>alert('x')</script> \"quoted\" & 圆柱度 \u202Eabc")},
+       {"dense", cylinder_case(12, 360, 8)},
+       {"spiral", spiral_case(150)},
+       {"long-spiral", spiral_case(20000)},
+       {"middle", cylinder_case(6, 48, 1)}}};
+  for (const auto& [name, made] : cases) {
+    SCOPED_TRACE(name);
+    const std::string page = page_of(made);
+    keep(name, page);
+    EXPECT_EQ(first_unbalanced_tag(page), "");
+    EXPECT_FALSE(shows_nan(page));
+    EXPECT_FALSE(holds(page, "\"inf"));
+  }
+}
+
+TEST(Html, TheBalanceCheckSeesAnUnclosedTag) {
+  EXPECT_EQ(first_unbalanced_tag("<p><b>x</p>"), "/p");
+  EXPECT_EQ(first_unbalanced_tag("<p>x"), "p");
+  EXPECT_EQ(first_unbalanced_tag("<p title=\"<\">x</p>"), "< inside p");
+  EXPECT_EQ(first_unbalanced_tag("<p>x<br>y<i/></p>"), "");
+}
+
+TEST(Html, LoadsNothingAndRunsNothing) {
+  for (const Case& made : {cylinder_case(4, 7, 3), circle_case(500), unfinished_case()}) {
+    const std::string page = page_of(made);
+    for (const char* part :
+         {"<script", "http://", "https://", "url(", "@import", "<link", "<img", "src=", "href="}) {
+      EXPECT_FALSE(holds(page, part));
+    }
+  }
+}
+
+TEST(Html, HostileNamesStayText) {
+  for (const std::string& name :
+       {std::string("<script>alert(1)</script>"), std::string("\"'><svg onload=alert(1)>"),
+        std::string("</style></title><script>"), std::string("{0} {{}} %s"),
+        std::string("\xff\xc3(\x01\x1b[31m"), std::string(10000, 'W'), std::string()}) {
+    SCOPED_TRACE(name.substr(0, 40));
+    const std::string page = page_of(hostile_case(name));
+    EXPECT_EQ(first_unbalanced_tag(page), "");
+    EXPECT_EQ(occurrences(page, "<script"), 0U);
+    EXPECT_EQ(occurrences(page, "<svg onload"), 0U);
+    EXPECT_EQ(occurrences(page, "</style>"), 1U);
+    EXPECT_EQ(page.find('\x1b'), std::string::npos);
+  }
+}
+
+TEST(Html, NamesAreShownAsTheyAreWritten) {
+  const std::string page = page_of(hostile_case("<b>R&D</b> 圆柱度"));
+  EXPECT_TRUE(holds(page, "<bdi>&lt;b&gt;R&amp;D&lt;/b&gt; 圆柱度</bdi>"));
+}
+
+TEST(Html, TheSameRecordGivesTheSameBytes) {
+  EXPECT_EQ(page_of(cylinder_case(4, 7, 3)), page_of(cylinder_case(4, 7, 3)));
+}
+
+TEST(Html, VerdictStandsBeforeEverythingThatExplainsIt) {
+  const std::string page = page_of(cylinder_case(4, 7, 3));
+  const std::size_t verdict = page.find(">Conforms<");
+  ASSERT_NE(verdict, std::string::npos);
+  EXPECT_LT(verdict, page.find("<table"));
+  EXPECT_LT(page.find("no real part was measured"), page.find("<table"));
+  EXPECT_TRUE(holds(page, "No measurement uncertainty was taken into account"));
+  EXPECT_TRUE(holds(page, "8.300"));
+}
+
+TEST(Html, NonConformityIsSaidInWords) {
+  const std::string page = page_of(failing_case());
+  EXPECT_TRUE(holds(page, ">Does not conform<"));
+  EXPECT_TRUE(holds(page, "2.300 um above the limit"));
+  EXPECT_TRUE(holds(page, "1 of 2 toleranced characteristics conforms."));
+}
+
+TEST(Html, RadiiOfAnOutsideFeatureAreReducedByTheTip) {
+  Case made = cylinder_case(4, 7, 3);
+  EXPECT_TRUE(holds(page_of(made), "24.995850 mm"));
+  made.evaluation.features[0].feature.side = record::Side::kInside;
+  EXPECT_TRUE(holds(page_of(made), "27.993050 mm"));
+  made.evaluation.features[0].tip_radius_mm.reset();
+  EXPECT_TRUE(holds(page_of(made), "26.494450 mm"));
+  EXPECT_TRUE(holds(page_of(made), "the tip radius is unknown"));
+}
+
+TEST(Html, HiddenTruthIsSetApartFromTheMeasurement) {
+  const std::string page = page_of(cylinder_case(4, 7, 3));
+  EXPECT_TRUE(
+      holds(page, "Hidden truth of the simulation:</b> CYLt 8.251 µm; difference +0.049 µm"));
+  EXPECT_TRUE(holds(page, "not part of the measurement"));
+  EXPECT_FALSE(holds(page_of(circle_case(500)), "Hidden truth"));
+}
+
+TEST(Html, UnfinishedRunSaysSoAboveTheVerdict) {
+  const std::string page = page_of(unfinished_case());
+  const std::size_t said = page.find("This run did not finish.");
+  ASSERT_NE(said, std::string::npos);
+  EXPECT_LT(said, page.find(">Void<"));
+  EXPECT_TRUE(holds(page, "The probe met something 3.1 mm before its target."));
+  EXPECT_TRUE(holds(page, "Feature bore-B has no result."));
+  EXPECT_TRUE(holds(page, "No cloud of a final pose is on record."));
+  EXPECT_FALSE(holds(page_of(cylinder_case(4, 7, 3)), "did not finish"));
+}
+
+TEST(Html, LongPoseTableKeepsBothEndsAndSaysWhatIsLeftOut) {
+  const std::string page = page_of(cylinder_case(4, 7, 150));
+  EXPECT_TRUE(holds(page, "130 poses left out"));
+  EXPECT_TRUE(holds(page, "130 of 150 poses were left out here"));
+  EXPECT_FALSE(holds(page_of(cylinder_case(4, 7, 40)), "left out"));
+}
+
+TEST(Html, EveryContactIsMarkedInTheSections) {
+  const std::string page = page_of(cylinder_case(4, 7, 3));
+  const std::size_t from = page.find("<div class=\"multiples");
+  const std::string sections = page.substr(from, page.find("Unrolled surface") - from);
+  EXPECT_EQ(occurrences(sections, "<path class=\"outer\""), 3U);
+  EXPECT_EQ(occurrences(sections, "<rect class=\"inner\""), 3U);
+  EXPECT_EQ(occurrences(sections, "<circle class=\"point\""), 22U);
+}
+
+TEST(Html, PointsOfManyHeightsAreNotJoinedByALine) {
+  const std::string page = page_of(spiral_case(150));
+  EXPECT_TRUE(holds(page, "All points, seen along the axis"));
+  EXPECT_FALSE(holds(page, "<path class=\"profile\""));
+  EXPECT_FALSE(holds(page, "guides the eye"));
+  EXPECT_EQ(occurrences(page, "<circle class=\"point\""), 144U);
+}
+
+TEST(Html, AFeatureWithoutZoneHasNoDrawings) {
+  Case made = cylinder_case(4, 7, 3);
+  made.evaluation.features[0].mz_cylinder.reset();
+  EXPECT_FALSE(holds(page_of(made), "Unrolled"));
+  EXPECT_EQ(first_unbalanced_tag(page_of(made)), "");
+}
+
+TEST(Html, AZoneOfNoWidthAndPosesWithoutValueAreDrawn) {
+  Case made = cylinder_case(2, 3, 4);
+  FeatureResult& feature = made.evaluation.features[0];
+  feature.mz_cylinder->inner_radius_mm = feature.mz_cylinder->outer_radius_mm;
+  for (CloudPoint& point : feature.cloud) point.deviation_mm = 0.0;
+  for (PoseValue& pose : feature.poses) pose.valid = false;
+  const std::string page = page_of(made);
+  EXPECT_EQ(first_unbalanced_tag(page), "");
+  EXPECT_FALSE(shows_nan(page));
+}
+
+TEST(Html, AHundredThousandPointsMakeAPageOfModestSizeAtOnce) {
+  const Case made = cylinder_case(1, 100000, 3);
+  const auto start = std::chrono::steady_clock::now();
+  const std::string page = page_of(made);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  keep("hundred-thousand", page);
+  EXPECT_LT(page.size(), 5'000'000U);
+  EXPECT_LT(took.count(), 1.0);
+  RecordProperty("bytes", std::to_string(page.size()));
+  RecordProperty("seconds", std::to_string(took.count()));
+}
+
+}  // namespace
+}  // namespace rondure::reports

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "record/run_record.h"
+#include "reports/evaluation.h"
+
+namespace rondure::reports {
+
+/// A record with an evaluation made by hand: plausible numbers for the writers, fitted by nobody.
+struct Case {
+  record::RunRecord record;
+  Evaluation evaluation;
+};
+
+/// A simulated outside cylinder, axis along z, zone 8.3 um wide, three outer and three inner
+/// contacts; `poses` poses whose f falls towards the last, final one.
+[[nodiscard]] Case cylinder_case(int layers, int points_per_layer, int poses);
+
+/// The same as cylinder_case(4, 7, 3), 2.3 um above its limit, with warnings.
+[[nodiscard]] Case failing_case();
+
+/// A circle of 500 points from a file: no poses, no tip, no temperature.
+[[nodiscard]] Case circle_case(int points);
+
+/// A cylinder of `points` points on a spiral from a file: layers unknown.
+[[nodiscard]] Case spiral_case(int points);
+
+/// A run that ended at a machine fault before its second feature.
+[[nodiscard]] Case unfinished_case();
+
+/// cylinder_case(4, 7, 3) whose every text is `text`.
+[[nodiscard]] Case hostile_case(const std::string& text);
+
+}  // namespace rondure::reports

@@ -1,0 +1,59 @@
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "reports/html_svg.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+TEST(Text, MicrometresHaveThreeDecimalsBelowAMillimetre) {
+  EXPECT_EQ(um(0.0083), "8.300");
+  EXPECT_EQ(um(-0.0000004), "0.000");
+  EXPECT_EQ(um(1.25), "1250.0");
+  EXPECT_EQ(signed_um(0.000049), "+0.049");
+  EXPECT_EQ(f_um(0.0999), "99.900");
+  EXPECT_EQ(f_um(0.25), "250.00");
+  EXPECT_EQ(um(std::numeric_limits<double>::quiet_NaN()), "–");
+}
+
+TEST(Text, MarkupBecomesEntities) {
+  EXPECT_EQ(escaped("<a href=\"x\" b='y'>&"), "&lt;a href=&quot;x&quot; b=&#39;y&#39;&gt;&amp;");
+  EXPECT_EQ(escaped(std::string_view("\0\x1b", 2)), "\uFFFD\uFFFD");
+  EXPECT_EQ(escaped("\xc3<"), "\uFFFD&lt;");
+  EXPECT_EQ(escaped("度 µ"), "度 µ");
+}
+
+TEST(Text, WideCharactersTakeTwoColumns) {
+  EXPECT_EQ(columns("abc"), 3U);
+  EXPECT_EQ(columns("度µ"), 3U);
+  EXPECT_EQ(shortened("abcdefgh", 8), "abcdefgh");
+  EXPECT_EQ(shortened("abcdefghi", 8), "abcde...");
+  EXPECT_EQ(columns(shortened("度度度度度", 8)), 7U);
+}
+
+TEST(Ticks, AreRoundAndInside) {
+  EXPECT_EQ(round_ticks(0.0, 10.0, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  for (const double high : {0.001, 0.7, 3.3, 12.0, 99.0, 4321.0}) {
+    for (const double low : {0.0, -0.4 * high, 0.9 * high}) {
+      const auto ticks = round_ticks(low, high, 5);
+      EXPECT_GE(ticks.size(), 3U);
+      EXPECT_LE(ticks.size(), 10U);
+      EXPECT_GE(ticks.front(), low - 1e-9 * high);
+      EXPECT_LE(ticks.back(), high + 1e-9 * high);
+    }
+  }
+  EXPECT_EQ(decade_ticks(3.0, 120.0), (std::vector<double>{5, 10, 20, 50, 100}));
+}
+
+TEST(Colours, OfDeviationsAreNeutralAtZeroAndDistinctAtTheEnds) {
+  EXPECT_EQ(diverging_colour(0.0), "#fafaf8");
+  EXPECT_EQ(diverging_colour(-1.0), "#084582");
+  EXPECT_EQ(diverging_colour(1.0), "#984608");
+  EXPECT_EQ(diverging_colour(7.0), diverging_colour(1.0));
+}
+
+}  // namespace
+}  // namespace rondure::reports
