@@ -1,12 +1,15 @@
 #include <algorithm>
-#include <cstdio>
+#include <exception>
 #include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/terminal.h"
 #include "app/verbs.h"
 #include "core/version.h"
+#include "plans/simulation_table.h"
+#include "reports/exports.h"
 
 namespace rondure::app {
 namespace {
@@ -14,6 +17,22 @@ namespace {
 constexpr const char* kExits =
     "\nExit status: run, report: 0 all conform, 1 finished but something does not conform or is void,\n"
     "2 bad input, 3 machine or run failed. verify: 0 equal, 1 not equal, 2 unreadable. Others: 0 or 2.";
+
+/// "--format html,json": one argument, so that the plan may follow it.
+void add_formats(CLI::App& verb, std::vector<std::string>& formats, const char* meaning) {
+  verb.add_option("--format", formats, meaning)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(reports::all_formats()))
+      ->type_name("LIST");
+}
+
+/// Whole numbers that every reader of JSON keeps, as in a plan.
+std::string check_seed(const std::string& text) {
+  const bool digits = !text.empty() && text.size() <= 16 && text.find_first_not_of("0123456789") == std::string::npos;
+  if (digits && std::stod(text) <= plans::kMaxSeed) return {};
+  return fmt::format("{} is not a whole number from 0 to {:.0f}", text, plans::kMaxSeed);
+}
 
 void add_validate(CLI::App& app, ValidateArguments& arguments) {
   auto* verb = app.add_subcommand("validate", "Checks a plan: every problem, one a line");
@@ -27,8 +46,8 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   verb->add_option("--out", arguments.out, "Run directory, absent or empty (default: runs/<plan>-<UTC>)");
   verb->add_option("--serial", arguments.serial, "Serial number of the part");
   verb->add_option("--operator", arguments.operator_name, "Who measures");
-  verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's");
-  verb->add_option("--format", arguments.formats, "html,json,csv (default: as the plan says)")->delimiter(',');
+  verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")->check(check_seed);
+  add_formats(*verb, arguments.formats, "html,json,csv (default: as the plan says)");
   verb->add_flag("--quiet", arguments.quiet, "No progress, no summary");
   verb->footer(std::string("\nExample: rondure run plans/examples/01_spool_simulated.json --serial 0042 --operator mk\n"
                            "Ctrl-C stops after the present touch; what was measured is kept.\n") + kExits);
@@ -48,7 +67,7 @@ void add_fit(CLI::App& app, FitArguments& arguments) {
 void add_report(CLI::App& app, ReportArguments& arguments) {
   auto* verb = app.add_subcommand("report", "Writes the reports of a run again, from its journal");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
-  verb->add_option("--format", arguments.formats, "html,json,csv (default: all)")->delimiter(',');
+  add_formats(*verb, arguments.formats, "html,json,csv (default: all)");
   verb->footer("\nExample: rondure report runs/01_spool_simulated-20261121T023302Z --format html");
 }
 
@@ -57,6 +76,28 @@ void add_verify(CLI::App& app, VerifyArguments& arguments) {
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
   verb->footer("\nExample: rondure verify runs/01_spool_simulated-20261121T023302Z\n"
                "Finds accidents; whoever can write into the directory can also forge its digests.");
+}
+
+/// Help and version go to standard output, everything else is a mistake in the arguments.
+int explain(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
+  if (error.get_exit_code() == 0) {
+    app.exit(error);
+    return kAllWell;
+  }
+  const auto verbs = app.get_subcommands([](const CLI::App*) { return true; });
+  const bool verb_known = std::any_of(verbs.begin(), verbs.end(), [&](const CLI::App* verb) {
+    return !words.empty() && verb->get_name() == words.front();
+  });
+  if (verb_known) {
+    tell(fmt::format("rondure: {}\n", error.what()));
+  } else if (words.empty() || words.front().starts_with('-')) {
+    tell("rondure: a verb is missing\n");
+  } else {
+    tell(fmt::format("rondure: there is no verb {}\n", words.front()));
+  }
+  tell(verb_known ? fmt::format("What it takes, with an example: rondure {} --help\n", words.front())
+                  : "The verbs: rondure --help\n");
+  return kBadInput;
 }
 
 int main_of(int argc, char** argv) {
@@ -77,8 +118,7 @@ int main_of(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? kAllWell : kBadInput;
+    return explain(app, error, {argv + 1, argv + argc});
   }
   if (app.got_subcommand("validate")) return validate(validate_arguments);
   if (app.got_subcommand("run")) return run(run_arguments);
@@ -90,4 +130,16 @@ int main_of(int argc, char** argv) {
 }  // namespace
 }  // namespace rondure::app
 
-int main(int argc, char** argv) { return rondure::app::main_of(argc, argv); }
+int main(int argc, char** argv) {
+  using namespace rondure::app;
+  hold_standard_streams();
+  int status = kRunFailed;
+  try {
+    status = main_of(argc, argv);
+  } catch (const std::bad_alloc&) {
+    tell("rondure: the memory of this computer is not enough; what was measured is kept\n");
+  } catch (const std::exception& error) {
+    tell(fmt::format("rondure: {} [internal]; what was measured is kept\n", error.what()));
+  }
+  return output_reached() ? status : std::max<int>(status, kBadInput);
+}

@@ -1,21 +1,32 @@
 #include "app/terminal.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <iostream>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "record/files.h"
 
 namespace rondure::app {
 namespace {
 
 volatile std::sig_atomic_t g_stop = 0;
+int g_output_error = 0;  ///< Of the system, for the first write to standard output that failed.
 
-extern "C" void on_stop(int /*signal*/) { g_stop = 1; }
+extern "C" void on_stop(int signal) {
+  if (g_stop != 0) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  g_stop = 1;
+}
 
 std::string line_of(const plans::Progress& progress, double elapsed_s) {
   const std::size_t expected = std::max(progress.touches_expected, progress.touches);
@@ -34,16 +45,45 @@ std::string line_of(const plans::Progress& progress, double elapsed_s) {
 
 }  // namespace
 
-void complain(const core::Error& error) { fmt::print(stderr, "rondure: {}\n", core::to_line(error)); }
+void hold_standard_streams() {
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(fd, F_GETFD) >= 0) continue;
+    // Read-only for standard output: what is written there is reported as lost. The lowest free
+    // number is the one that was closed.
+    (void)open("/dev/null", fd == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+void say(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) g_output_error = errno;
+}
+
+bool output_reached() {
+  if (std::fflush(stdout) != 0 && g_output_error == 0) g_output_error = errno;
+  if (g_output_error == 0 && std::ferror(stdout) == 0 && std::cout.good()) return true;
+  const std::string reason = g_output_error == EBADF ? "it is closed"
+                             : g_output_error == 0   ? "an earlier part of it was lost"
+                                                     : record::system_reason(g_output_error);
+  tell(fmt::format("rondure: cannot write to standard output: {}\n", reason));
+  return false;
+}
+
+void tell(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
+void complain(const core::Error& error) {
+  // A file's name stands in the sentence already.
+  const bool named = error.what.find(error.where) != std::string::npos;
+  tell(fmt::format("rondure: {}\n", core::to_line(named ? error.at({}) : error)));
+}
 
 void complain(const std::vector<core::Error>& errors) {
-  for (const core::Error& error : errors) fmt::print(stderr, "{}\n", core::to_line(error));
+  for (const core::Error& error : errors) tell(core::to_line(error) + "\n");
 }
 
 ProgressLine::ProgressLine(bool quiet) : visible_(!quiet && isatty(STDERR_FILENO) == 1) {}
 
 ProgressLine::~ProgressLine() {
-  if (drawn_) std::fputs("\r\x1b[K", stderr);
+  if (drawn_) tell("\r\x1b[K");
 }
 
 void ProgressLine::show(const plans::Progress& progress) {
@@ -52,17 +92,17 @@ void ProgressLine::show(const plans::Progress& progress) {
   if (drawn_ && now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
   drawn_ = true;
-  const std::string line = line_of(progress, std::chrono::duration<double>(now - start_).count());
-  fmt::print(stderr, "\r{:.100}\x1b[K", line);
-  std::fflush(stderr);
+  tell(fmt::format("\r{:.100}\x1b[K", line_of(progress, std::chrono::duration<double>(now - start_).count())));
 }
 
 void listen_for_stop() {
   struct sigaction action = {};
   action.sa_handler = on_stop;
-  action.sa_flags = SA_RESETHAND;  // the second one ends the program
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction present = {};
+    sigaction(signal, nullptr, &present);
+    if (present.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup stays nohup
+  }
 }
 
 bool stop_requested() { return g_stop != 0; }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
@@ -9,6 +10,17 @@
 
 namespace rondure::app {
 
+/// Opens what the caller closed: else the first file of a run would take its place, and the summary
+/// would be written into that file.
+void hold_standard_streams();
+
+/// Writes to standard output; whether that worked is asked once, by output_reached().
+void say(std::string_view text);
+/// Flushes standard output. False when not everything got there, after a message that says why.
+[[nodiscard]] bool output_reached();
+
+/// Writes to standard error. Never fails: a terminal that went away must not stop a machine.
+void tell(std::string_view text);
 /// Prints one line an error on standard error.
 void complain(const core::Error& error);
 void complain(const std::vector<core::Error>& errors);
@@ -32,8 +44,8 @@ class ProgressLine {
   Clock::time_point last_ = start_;
 };
 
-/// Ctrl-C and SIGTERM ask the run to stop after the present touch; a second Ctrl-C ends the program
-/// at once. Every touch is on disk by then.
+/// Ctrl-C, SIGTERM and the end of the terminal ask the run to stop after the present touch; a second
+/// signal ends the program at once. Every touch is on disk by then.
 void listen_for_stop();
 [[nodiscard]] bool stop_requested();
 

@@ -95,7 +95,7 @@ int fit(const FitArguments& arguments) {
     outcome.warnings.push_back({core::Code::kReferenceAbsent,
                                 "mc and mi (minimum circumscribed, maximum inscribed) are not computed by this version", {}});
   }
-  fmt::print("{}", arguments.json ? fit_json(outcome) : fit_table(outcome));
+  say(arguments.json ? fit_json(outcome) : fit_table(outcome));
   return kAllWell;
 }
 

@@ -16,8 +16,8 @@ int report(const ReportArguments& arguments) {
     return kBadInput;
   }
   for (const record::BrokenTable& broken : read->broken) {
-    fmt::print(stderr, "rondure: {}: table {} of the journal was changed after the run: {}\n",
-               arguments.directory, broken.table, broken.what);
+    tell(fmt::format("rondure: {}: table {} of the journal was changed after the run: {}\n", arguments.directory,
+                     broken.table, broken.what));
   }
   if (!read->broken.empty()) return kBadInput;
   const auto evaluation = reports::evaluate(read->record);
@@ -31,8 +31,8 @@ int report(const ReportArguments& arguments) {
     complain(written.error());
     return kBadInput;
   }
-  fmt::print("{}", reports::write_summary(read->record, *evaluation));
-  for (const auto& file : *written) fmt::print("{}\n", file.string());
+  say(reports::write_summary(read->record, *evaluation));
+  for (const auto& file : *written) say(file.string() + "\n");
   const bool well = evaluation->verdict == reports::Verdict::kConforms ||
                     evaluation->verdict == reports::Verdict::kNotToleranced;
   return well ? kAllWell : kNotConforming;

@@ -30,6 +30,12 @@ std::string run_name(const fs::path& plan, const std::string& utc, const fs::pat
   return unique;
 }
 
+/// The name of a run: the folder itself, also for "runs/7/" and ".".
+std::string last_folder(const fs::path& directory) {
+  const fs::path whole = fs::absolute(directory).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
 int exit_status(const plans::Run& run, reports::Verdict verdict) {
   if (run.failure) return kRunFailed;
   const bool well = verdict == reports::Verdict::kConforms || verdict == reports::Verdict::kNotToleranced;
@@ -47,9 +53,9 @@ int run(const RunArguments& arguments) {
   plans::RunOptions options;
   options.started_utc = utc_now();
   const fs::path parent = "runs";
-  options.run_id = arguments.out.empty() ? run_name(arguments.plan, options.started_utc, parent)
-                                         : fs::path(arguments.out).lexically_normal().filename().string();
-  options.directory = arguments.out.empty() ? parent / options.run_id : fs::path(arguments.out);
+  options.directory =
+      arguments.out.empty() ? parent / run_name(arguments.plan, options.started_utc, parent) : fs::path(arguments.out);
+  options.run_id = last_folder(options.directory);
   options.plan_file = fs::path(arguments.plan).filename().string();
   options.serial = arguments.serial;
   options.operator_name = arguments.operator_name;
@@ -80,12 +86,6 @@ int run(const RunArguments& arguments) {
     complain(evaluation.error());
     return kRunFailed;
   }
-  const auto formats = arguments.formats.empty() ? plan->reports.formats : arguments.formats;
-  const auto written = reports::write_exports(options.directory, formats, read->record, *evaluation);
-  if (!written) {
-    complain(written.error());
-    return kRunFailed;
-  }
   // An unfinished run stays open: it has no results to seal.
   if (!run->failure) {
     if (auto sealed = run->journal.seal(reports::stored_results(*evaluation)); !sealed) {
@@ -93,9 +93,17 @@ int run(const RunArguments& arguments) {
       return kRunFailed;
     }
   }
+  const auto formats = arguments.formats.empty() ? plan->reports.formats : arguments.formats;
+  const auto written = reports::write_exports(options.directory, formats, read->record, *evaluation);
+  if (!written) {
+    complain(written.error());
+    tell(fmt::format("rondure: the measurement is kept; then write the reports: rondure report {}\n",
+                     options.directory.string()));
+    return kRunFailed;
+  }
   if (!arguments.quiet) {
-    fmt::print("{}", reports::write_summary(read->record, *evaluation));
-    for (const fs::path& file : *written) fmt::print("{}\n", file.string());
+    say(reports::write_summary(read->record, *evaluation));
+    for (const fs::path& file : *written) say(file.string() + "\n");
   }
   return exit_status(*run, evaluation->verdict);
 }

@@ -10,12 +10,12 @@ int validate(const ValidateArguments& arguments) {
   const auto plan = plans::read_plan(arguments.plan);
   if (!plan) {
     complain(plan.error());
-    fmt::print(stderr, "{}: {} problem{}\n", arguments.plan, plan.error().size(),
-               plan.error().size() == 1 ? "" : "s");
+    tell(fmt::format("{}: {} problem{}\n", arguments.plan, plan.error().size(),
+                     plan.error().size() == 1 ? "" : "s"));
     return kBadInput;
   }
-  fmt::print("{}: valid; {} {}, {} feature{}\n", arguments.plan, plan->plan.name, plan->plan.revision,
-             plan->features.size(), plan->features.size() == 1 ? "" : "s");
+  say(fmt::format("{}: valid; {} {}, {} feature{}\n", arguments.plan, plan->plan.name, plan->plan.revision,
+                  plan->features.size(), plan->features.size() == 1 ? "" : "s"));
   return kAllWell;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "fit/ls_cylinder.h"
 #include "fit/min_zone_circle.h"
 #include "fit/min_zone_cylinder.h"
 
@@ -50,14 +51,23 @@ Eigen::Isometry3d FeatureSession::part_at(const core::Pose& pose) const {
   return fixture::body_to_machine(context_.cell->kinematics(), pose) * X_BP_;
 }
 
-core::Result<void> FeatureSession::check_targets(const core::Pose& pose) const {
-  const FixturePlan& fixture = *context_.plan.fixture;
-  return check_reachable(targets_, geometry_, part_at(pose),
-                         {fixture.rim_height_mm, fixture.clamp_from_mm, fixture.clamp_to_mm});
+/// The same fault with the point it happened at, and what a person can do about it.
+tl::unexpected<core::Error> FeatureSession::fault_at(const Target& target, const core::Error& error) const {
+  std::string advice;
+  if (error.code == core::Code::kNoTouch || error.code == core::Code::kCollision) {
+    advice = "; check that the part of the plan is clamped where the plan says (location_uncertainty_mm)";
+  }
+  if (error.code == core::Code::kCollision) advice += ", and move the tip clear by hand before the next run";
+  return core::fail(error.code, fmt::format("feature {}, layer {}, point {}: {}{}", feature_.id, target.layer + 1,
+                                            target.point + 1, error.what, advice));
 }
 
-core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
-  if (auto reachable = check_targets(commanded); !reachable) return core::fail(reachable.error());
+bool FeatureSession::must_locate() const { return context_.plan.part.location_uncertainty_mm > 0.0; }
+
+core::Result<void> FeatureSession::turn(const core::Pose& commanded, const std::vector<Target>& targets) {
+  const FixturePlan& fixture = *context_.plan.fixture;
+  const Surroundings surroundings{fixture.rim_height_mm, fixture.clamp_from_mm, fixture.clamp_to_mm};
+  if (auto reach = check_reachable(targets, geometry_, part_at(commanded), surroundings); !reach) return reach;
   const auto reached = context_.cell->turn_to(commanded);
   if (!reached) return core::fail(reached.error());
   reached_ = *reached;
@@ -66,11 +76,25 @@ core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
   context_.progress.pose_number = ++visits_;
   context_.progress.pose = reached_;
   const double now = context_.cell->machine().time_s();
-  if (auto kept = context_.journal.add(record::PoseVisit{pose_id_, index_, commanded, reached_, false, now}); !kept) {
-    return core::fail(kept.error());
-  }
+  return context_.journal.add(record::PoseVisit{pose_id_, index_, commanded, reached_, false, now});
+}
+
+core::Result<fit::Axis> FeatureSession::locate(const core::Pose& commanded) {
+  const auto targets = locating_targets(feature_, context_.plan.part.location_uncertainty_mm);
+  if (!targets) return core::fail(targets.error());
+  if (auto turned = turn(commanded, *targets); !turned) return core::fail(turned.error());
+  const auto tips = touch_cloud(*targets, record::Touch::Purpose::kLocate);
+  if (!tips) return core::fail(tips.error());
+  const auto cylinder = fit::ls_cylinder(*tips, Eigen::Vector3d::UnitZ());
+  if (!cylinder) return core::fail(cylinder.error());
+  follow_axis(cylinder->axis);
+  return cylinder->axis;
+}
+
+core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
+  if (auto turned = turn(commanded, targets_); !turned) return core::fail(turned.error());
   truth_.clear();
-  auto tips = touch_cloud();
+  auto tips = touch_cloud(targets_, record::Touch::Purpose::kMeasure);
   if (!tips) return core::fail(tips.error());
   return Cloud{reached_, std::move(*tips)};
 }
@@ -78,7 +102,7 @@ core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
 core::Result<void> FeatureSession::repeat(int times) {
   for (int i = 0; i < times; ++i) {
     ++repeat_;
-    if (auto tips = touch_cloud(); !tips) return core::fail(tips.error());
+    if (auto tips = touch_cloud(targets_, record::Touch::Purpose::kMeasure); !tips) return core::fail(tips.error());
   }
   return {};
 }
@@ -100,7 +124,7 @@ core::Result<void> FeatureSession::keep_as_final() {
   return context_.journal.add(record::SimulationTruth{index_, zone_mm});
 }
 
-void FeatureSession::locate(const fit::Axis& axis_W) {
+void FeatureSession::follow_axis(const fit::Axis& axis_W) {
   const Eigen::Isometry3d X_BW = fixture::body_to_machine(context_.cell->kinematics(), reached_).inverse();
   Eigen::Vector3d z = X_BW.linear() * axis_W.direction;
   if (z.z() < 0.0) z = -z;
@@ -128,36 +152,40 @@ void FeatureSession::show(double f_mm) {
   context_.show();
 }
 
-core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud() {
+core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud(const std::vector<Target>& targets,
+                                                                       record::Touch::Purpose purpose) {
   cmm::Machine& machine = context_.cell->machine();
   const Eigen::Isometry3d X_WP = part_at(reached_);
-  Polyline way = entry_path(geometry_, targets_.front());
+  Polyline way = entry_path(geometry_, targets.front());
   // Sideways only at park height; then straight down to above the part.
   Eigen::Vector3d above = X_WP * way.front();
   above.z() = std::max(above.z(), context_.plan.machine->park_mm[2]);
-  if (auto moved = machine.move_to(above); !moved) return core::fail(moved.error());
+  if (auto moved = machine.move_to(above); !moved) return fault_at(targets.front(), moved.error());
 
   std::vector<Eigen::Vector3d> tips;
-  for (std::size_t i = 0; i < targets_.size(); ++i) {
-    if (i > 0) way = path_between(geometry_, targets_[i - 1], targets_[i]);
-    if (auto moved = follow(machine, way, X_WP); !moved) return core::fail(moved.error());
-    auto tip = touch(targets_[i], X_WP);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (i > 0) way = path_between(geometry_, targets[i - 1], targets[i]);
+    if (auto moved = follow(machine, way, X_WP); !moved) return fault_at(targets[i], moved.error());
+    auto tip = touch(targets[i], X_WP, purpose);
     if (!tip) {
       // The tip stands at the pre-touch point, except after a collision: then the machine has
       // stopped and only a person may move it.
       if (tip.error().code != core::Code::kCollision) {
-        if (auto out = follow(machine, exit_path(geometry_, targets_[i]), X_WP); out) (void)rise(context_.plan, machine);
+        if (auto out = follow(machine, exit_path(geometry_, targets[i]), X_WP); out) (void)rise(context_.plan, machine);
       }
       return core::fail(tip.error());
     }
     tips.push_back(*tip);
   }
-  if (auto moved = follow(machine, exit_path(geometry_, targets_.back()), X_WP); !moved) return core::fail(moved.error());
-  if (auto moved = rise(context_.plan, machine); !moved) return core::fail(moved.error());
+  if (auto moved = follow(machine, exit_path(geometry_, targets.back()), X_WP); !moved) {
+    return fault_at(targets.back(), moved.error());
+  }
+  if (auto moved = rise(context_.plan, machine); !moved) return fault_at(targets.back(), moved.error());
   return tips;
 }
 
-core::Result<Eigen::Vector3d> FeatureSession::touch(const Target& target, const Eigen::Isometry3d& X_WP) {
+core::Result<Eigen::Vector3d> FeatureSession::touch(const Target& target, const Eigen::Isometry3d& X_WP,
+                                                      record::Touch::Purpose purpose) {
   if (auto stop = context_.check_stop(); !stop) return core::fail(stop.error());
   cmm::TouchCommand command;
   command.id = context_.next_touch;
@@ -166,13 +194,10 @@ core::Result<Eigen::Vector3d> FeatureSession::touch(const Target& target, const 
   command.approach_mm = geometry_.approach_mm;
   command.search_mm = context_.plan.machine->search_mm + geometry_.approach_mm - context_.plan.machine->approach_mm;
   const auto reading = context_.cell->machine().touch(command);
-  if (!reading) {
-    return core::fail(reading.error().code,
-                      fmt::format("feature {}, layer {}, point {}: {}", feature_.id, target.layer + 1,
-                                  target.point + 1, reading.error().what));
-  }
+  if (!reading) return fault_at(target, reading.error());
   record::Touch row;
   row.id = context_.next_touch;
+  row.purpose = purpose;
   row.pose = pose_id_;
   row.layer = target.layer;
   row.point = target.point;
@@ -183,7 +208,7 @@ core::Result<Eigen::Vector3d> FeatureSession::touch(const Target& target, const 
   row.time_s = reading->time_s;
   if (auto kept = context_.journal.add(row); !kept) return core::fail(kept.error());
   ++context_.next_touch;
-  if (repeat_ == 0) truth_.push_back(context_.cell->true_tip_W_mm());
+  if (purpose == record::Touch::Purpose::kMeasure && repeat_ == 0) truth_.push_back(context_.cell->true_tip_W_mm());
   context_.progress.touches = static_cast<std::size_t>(context_.next_touch);
   context_.show();
   return reading->tip_W_mm;

@@ -45,19 +45,29 @@ class FeatureSession final : public PoseSession {
   [[nodiscard]] core::Result<Cloud> measure(const core::Pose& commanded) override;
   [[nodiscard]] core::Result<void> repeat(int times) override;
   [[nodiscard]] core::Result<void> keep_as_final() override;
-  void locate(const fit::Axis& axis_W) override;
+  [[nodiscard]] core::Result<fit::Axis> locate(const core::Pose& commanded) override;
+  [[nodiscard]] bool must_locate() const override;
   [[nodiscard]] core::Pose levelling(const Eigen::Vector3d& direction_W) const override;
   [[nodiscard]] const fixture::FixtureLimits& limits() const override;
   [[nodiscard]] core::Result<void> note(const std::string& text) override;
   void show(double f_mm) override;
 
  private:
-  /// Touches all targets once in the present pose, rises, and gives the tip centres.
-  [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> touch_cloud();
+  /// Turns to a pose in which all targets can be reached.
+  [[nodiscard]] core::Result<void> turn(const core::Pose& commanded,
+                                        const std::vector<Target>& targets);
+  /// Touches targets once in the present pose, rises, and gives the tip centres.
+  [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> touch_cloud(
+      const std::vector<Target>& targets, record::Touch::Purpose purpose);
   [[nodiscard]] core::Result<Eigen::Vector3d> touch(const Target& target,
-                                                    const Eigen::Isometry3d& X_WP);
+                                                    const Eigen::Isometry3d& X_WP,
+                                                    record::Touch::Purpose purpose);
+  /// The same fault with the point it happened at, and what a person can do about it.
+  [[nodiscard]] tl::unexpected<core::Error> fault_at(const Target& target,
+                                                     const core::Error& error) const;
+  /// From now on targets follow this axis, seen in the present pose.
+  void follow_axis(const fit::Axis& axis_W);
   [[nodiscard]] Eigen::Isometry3d part_at(const core::Pose& pose) const;
-  [[nodiscard]] core::Result<void> check_targets(const core::Pose& pose) const;
 
   RunContext& context_;
   int index_;

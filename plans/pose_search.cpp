@@ -69,8 +69,7 @@ NextStep next_step(const PoseSession& session, const Cloud& cloud,
                           degrees(out.pose));
   } else if (out.size_rad >= 0.5 * last_rad) {
     out.why = fmt::format(
-        "level: the step of {:.6f} deg is no longer smaller than half the one before; "
-        "probe and fixture scatter as much",
+        "as level as probe and fixture scatter: the step of {:.6f} deg is not below half the last one",
         step_deg);
   }
   out.stop = !out.why.empty();
@@ -79,17 +78,21 @@ NextStep next_step(const PoseSession& session, const Cloud& cloud,
 
 /// Solves each cloud as a cylinder and steps to the pose it predicts, until the fixture cannot do
 /// better.
-core::Result<void> guided(PoseSession& session, const FeaturePlan& feature) {
-  core::Pose pose = start_pose(feature);
+///
+/// @param pose  First pose: where the located part should be level.
+core::Result<void> guided(PoseSession& session, const FeaturePlan& feature, core::Pose pose) {
   double last_rad = std::numeric_limits<double>::infinity();
   for (int visit = 1;; ++visit) {
     const auto cloud = session.measure(pose);
     if (!cloud) {
-      // The first pose is asked for by the plan; a later one is only wanted.
-      if (visit == 1 || cloud.error().code != core::Code::kUnreachable)
+      // The start pose is asked for by the plan; any other is only wanted.
+      const bool wanted = visit > 1 || !(pose == start_pose(feature));
+      if (!wanted || cloud.error().code != core::Code::kUnreachable)
         return core::fail(cloud.error());
       if (auto noted = session.note("not level: " + cloud.error().what); !noted) return noted;
-      break;
+      if (visit > 1) break;
+      pose = start_pose(feature);
+      continue;
     }
     session.show(f_of(*cloud, false));
     const auto zone = fit::min_zone_cylinder(cloud->tips_W_mm, Eigen::Vector3d::UnitZ());
@@ -109,8 +112,6 @@ core::Result<void> guided(PoseSession& session, const FeaturePlan& feature) {
     }
     if (auto noted = session.note(zone_text + "turning to " + degrees(next.pose)); !noted)
       return noted;
-    // Located once: later clouds then touch the same material points.
-    if (visit == 1) session.locate(zone->axis);
     pose = next.pose;
     last_rad = next.size_rad;
   }
@@ -158,8 +159,20 @@ core::Result<void> single(PoseSession& session, const FeaturePlan& feature) {
 
 core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature) {
   const std::string& strategy = feature.pose_search.strategy;
-  if (feature.type == "circle" || strategy == "virtual") return single(session, feature);
-  if (strategy == "guided") return guided(session, feature);
+  if (feature.type == "circle") return single(session, feature);
+  core::Pose pose = start_pose(feature);
+  if (session.must_locate()) {
+    const auto axis = session.locate(pose);
+    if (!axis) return core::fail(axis.error());
+    const core::Pose level = session.levelling(axis->direction);
+    const std::string text = fmt::format("part located in pose {}: its axis is level at {}",
+                                         degrees(pose), degrees(level));
+    if (auto noted = session.note(text); !noted) return noted;
+    // The other strategies start where the plan says: that is what they are compared for.
+    if (strategy == "guided" && within(session.limits(), level)) pose = level;
+  }
+  if (strategy == "virtual") return single(session, feature);
+  if (strategy == "guided") return guided(session, feature, pose);
   return grid(session, feature, strategy == "as-published");
 }
 

@@ -31,8 +31,11 @@ class PoseSession {
   [[nodiscard]] virtual core::Result<void> repeat(int times) = 0;
   /// The cloud of the present pose, with its repeats, is the one to evaluate.
   [[nodiscard]] virtual core::Result<void> keep_as_final() = 0;
-  /// From now on targets follow this axis (machine frame, present pose) instead of the nominal one.
-  virtual void locate(const fit::Axis& axis_W) = 0;
+  /// Finds where the part sits, with a few touches in a pose that enter no result; from then on
+  /// targets follow the axis found. Gives it, in the machine frame.
+  [[nodiscard]] virtual core::Result<fit::Axis> locate(const core::Pose& commanded) = 0;
+  /// Whether the plan leaves open where the part sits.
+  [[nodiscard]] virtual bool must_locate() const = 0;
   /// The pose that turns a direction seen in the present pose to machine z.
   [[nodiscard]] virtual core::Pose levelling(const Eigen::Vector3d& direction_W) const = 0;
   [[nodiscard]] virtual const fixture::FixtureLimits& limits() const = 0;

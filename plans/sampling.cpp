@@ -80,6 +80,18 @@ core::Result<std::vector<Target>> sampling_targets(const FeaturePlan& feature) {
   return targets;
 }
 
+core::Result<std::vector<Target>> locating_targets(const FeaturePlan& feature,
+                                                   double uncertainty_mm) {
+  FeaturePlan locating = feature;
+  const double length_mm = feature.nominal.to_mm - feature.nominal.from_mm;
+  locating.sampling.layers = 2;
+  locating.sampling.points_per_layer = 5;
+  // A fifth of the length must stay between the layers, or the tilt could not be told.
+  locating.sampling.margin_mm =
+      std::min(feature.sampling.margin_mm + uncertainty_mm, 0.4 * length_mm);
+  return sampling_targets(locating);
+}
+
 core::Result<std::vector<Eigen::Vector3d>> qualification_directions(int points) {
   if (points < 5 || points > 100) {
     return core::fail(core::Code::kSampling,

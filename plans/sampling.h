@@ -28,6 +28,13 @@ struct Target {
 /// Source: methods, cylindricity section 4.
 [[nodiscard]] core::Result<std::vector<Target>> sampling_targets(const FeaturePlan& feature);
 
+/// Targets that find where a cylinder sits before it is measured: two layers of five points, kept
+/// from both ends by the margin and by how far the surface may be from nominal, so that a crooked
+/// part is met on its side and not on its rim.
+/// @return  As sampling_targets().
+[[nodiscard]] core::Result<std::vector<Target>> locating_targets(const FeaturePlan& feature,
+                                                                 double uncertainty_mm);
+
 /// Where to touch a reference sphere: unit vectors from its centre, all in the upper half space,
 /// pole first, then rings from above down to the equator, spread evenly over the half sphere.
 /// Fewer than 9 points are the pole and the equator.

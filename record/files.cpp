@@ -40,6 +40,9 @@ tl::unexpected<core::Error> cannot(std::string_view verb, const fs::path& path, 
       path.string());
 }
 
+/// Of a pipe or a device, which may never end: some ten million points.
+constexpr std::size_t kLongestStream = std::size_t{1} << 29;
+
 /// Writes every byte and flushes them to the disk; false leaves the reason in errno.
 bool write_through(OpenFile& file, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -89,12 +92,17 @@ core::Result<std::string> read_file(const fs::path& path) {
   if (!file.ok()) return cannot("read", path, errno);
   struct stat status = {};
   std::string bytes;
-  if (::fstat(file.fd(), &status) == 0 && S_ISREG(status.st_mode)) {
-    bytes.reserve(static_cast<std::size_t>(status.st_size) + 1);
-  }
+  const bool endless = ::fstat(file.fd(), &status) != 0 || !S_ISREG(status.st_mode);
+  if (!endless) bytes.reserve(static_cast<std::size_t>(status.st_size) + 1);
   std::array<char, 1 << 16>
       piece;  // NOLINT(cppcoreguidelines-pro-type-member-init): read() fills it
   while (true) {
+    if (endless && bytes.size() > kLongestStream) {
+      return core::fail(core::Code::kFile,
+                        fmt::format("{} is no file and does not end after {} MiB; name a file",
+                                    path.string(), kLongestStream >> 20),
+                        path.string());
+    }
     const ssize_t count = ::read(file.fd(), piece.data(), piece.size());
     if (count == 0) return bytes;
     if (count < 0 && errno == EINTR) continue;

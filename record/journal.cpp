@@ -157,8 +157,7 @@ struct Journal::Impl {
 
   void insert(const Touch& touch) {
     statements->touch = touch;
-    statements->purpose =
-        touch.purpose == Touch::Purpose::kQualification ? "qualification" : "measure";
+    statements->purpose = name_of(touch.purpose);
     statements->insert_touch.execute(true);
   }
 

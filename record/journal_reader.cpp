@@ -221,6 +221,14 @@ void read_poses(soci::session& sql, RunRecord& record) {
   }
 }
 
+Touch::Purpose purpose_of(const std::string& word) {
+  for (const auto purpose :
+       {Touch::Purpose::kQualification, Touch::Purpose::kLocate, Touch::Purpose::kMeasure}) {
+    if (word == name_of(purpose)) return purpose;
+  }
+  throw Contradiction(fmt::format("touch.purpose holds the unknown word \"{}\"", word.substr(0, 40)));
+}
+
 void read_touches(soci::session& sql, RunRecord& record) {
   Touch row;
   std::string purpose;
@@ -235,11 +243,7 @@ void read_touches(soci::session& sql, RunRecord& record) {
        into(row.temperature_degC), into(row.time_s));
   rows.execute();
   while (rows.fetch()) {
-    if (purpose != "measure" && purpose != "qualification") {
-      throw Contradiction(
-          fmt::format("touch.purpose holds the unknown word \"{}\"", purpose.substr(0, 40)));
-    }
-    row.purpose = purpose == "measure" ? Touch::Purpose::kMeasure : Touch::Purpose::kQualification;
+    row.purpose = purpose_of(purpose);
     record.touches.push_back(row);
   }
 }

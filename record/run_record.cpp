@@ -58,4 +58,16 @@ std::string_view name_of(Strategy strategy) {
   return "";
 }
 
+std::string_view name_of(Touch::Purpose purpose) {
+  switch (purpose) {
+    case Touch::Purpose::kQualification:
+      return "qualification";
+    case Touch::Purpose::kLocate:
+      return "locate";
+    case Touch::Purpose::kMeasure:
+      return "measure";
+  }
+  return "measure";
+}
+
 }  // namespace rondure::record

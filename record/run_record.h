@@ -98,7 +98,8 @@ struct PoseVisit {
 
 /// One touch of the probe (or one row of a points file).
 struct Touch {
-  enum class Purpose { kQualification, kMeasure };
+  /// kLocate: finds where the part sits before the first measuring touch; enters no result.
+  enum class Purpose { kQualification, kLocate, kMeasure };
   std::int64_t id = 0;  ///< 0-based, counts through the whole run.
   Purpose purpose = Purpose::kMeasure;
   int pose = -1;   ///< PoseVisit::id; -1 for a qualification touch.
@@ -110,6 +111,9 @@ struct Touch {
   double temperature_degC = 20.0;
   double time_s = 0.0;  ///< Machine clock.
 };
+
+/// "qualification", "locate", "measure".
+[[nodiscard]] std::string_view name_of(Touch::Purpose purpose);
 
 /// What the program decided during the run, in words, e.g. why the pose search stopped.
 struct Decision {

@@ -38,9 +38,8 @@ std::string write_touches_csv(const record::RunRecord& record) {
       "id,purpose,feature,pose,layer,point,repeat,x_mm,y_mm,z_mm,dir_x,dir_y,dir_z,"
       "temperature_degC,time_s\n";
   for (const record::Touch& touch : record.touches) {
-    const bool measures = touch.purpose == record::Touch::Purpose::kMeasure;
     const auto feature = feature_of_pose.find(touch.pose);
-    text += fmt::format("{},{},{},{},{},{},{}", touch.id, measures ? "measure" : "qualification",
+    text += fmt::format("{},{},{},{},{},{},{}", touch.id, record::name_of(touch.purpose),
                         feature == feature_of_pose.end() ? "" : feature->second, touch.pose,
                         touch.layer, touch.point, touch.repeat);
     for (const double value :

@@ -107,7 +107,7 @@ PoseVisit sample_pose(Numbers& n, int id, int features) {
 Touch sample_touch(Numbers& n, std::int64_t id) {
   Touch touch;
   touch.id = id;
-  touch.purpose = n.whole(2) == 0 ? Touch::Purpose::kQualification : Touch::Purpose::kMeasure;
+  touch.purpose = static_cast<Touch::Purpose>(n.whole(3));
   touch.pose = n.whole(5) - 1;
   touch.layer = n.whole(10);
   touch.point = n.whole(100);

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "plans/plan.h"
+#include "record/run_record.h"
+#include "reports/evaluation.h"
+
+namespace rondure::test {
+
+/// A plan with a random part of method specification section 12.1: form 5 to 20 um of lobes 2, 3, 4,
+/// 5, 7 with twist, taper, barrel and bend; tilt to 20 deg; 4 x 7 points; probe noise off.
+[[nodiscard]] plans::Plan random_plan(std::uint64_t seed, const std::string& strategy,
+                                      double resolution_deg);
+
+/// A run of a plan, from its journal.
+struct Inspection {
+  record::RunRecord record;
+  reports::Evaluation evaluation;
+};
+
+/// Runs the plan in a temporary directory, which is removed. Fails the test when the run fails.
+[[nodiscard]] Inspection inspect(const plans::Plan& plan);
+
+/// Tip centres of the final cloud.
+[[nodiscard]] std::vector<Eigen::Vector3d> final_cloud(const record::RunRecord& record);
+
+/// Least zone found by an independent search: the plane centre search in every direction that a
+/// pattern search and random directions around `near` try. Never below the true minimum.
+[[nodiscard]] double searched_zone_mm(const std::vector<Eigen::Vector3d>& points,
+                                      const Eigen::Vector3d& near, std::uint64_t seed);
+
+}  // namespace rondure::test
