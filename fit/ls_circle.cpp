@@ -59,7 +59,9 @@ NormalEquations normal_equations(std::span<const Eigen::Vector2d> points_mm,
 core::Result<LsCircle> algebraic_circle(std::span<const Eigen::Vector2d> points_mm) {
   if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
   if (distinct_points(points_mm, 3) < 3) {
-    return core::fail(core::Code::kTooFewPoints, "a circle needs at least 3 different points");
+    return core::fail(core::Code::kTooFewPoints,
+                      fmt::format("a circle needs at least 3 different points, there are {}",
+                                  distinct_points(points_mm, 3)));
   }
   const Eigen::Vector2d mean = mean_point(points_mm);
   double suu = 0.0, suv = 0.0, svv = 0.0, a = 0.0, b = 0.0;
