@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 
 #include "fit/points.h"
 
@@ -123,9 +123,10 @@ core::Result<LsCircle> ls_circle(std::span<const Eigen::Vector2d> points_mm) {
   // Steps that no longer shrink below 1e-15 but stay at the round-off of the sums are the minimum.
   const Eigen::Vector3d rest = now.matrix.ldlt().solve(now.right);
   if (rest.norm() > 1e-11 * (radius + center.norm())) {
-    return core::fail(core::Code::kNotConverged,
-                      fmt::format("the least-squares circle still moves by {:.3g} mm after {} steps",
-                                  rest.norm(), kIterationLimit));
+    return core::fail(
+        core::Code::kNotConverged,
+        fmt::format("the least-squares circle still moves by {:.3g} mm after {} steps", rest.norm(),
+                    kIterationLimit));
   }
   LsCircle circle;
   circle.center_mm = origin + center;

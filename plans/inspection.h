@@ -73,7 +73,7 @@ class FeatureSession final : public PoseSession {
   int index_;
   const FeaturePlan& feature_;
   std::vector<Target> targets_;
-  Eigen::Isometry3d X_BP_;        ///< Best knowledge of the part in the body frame.
+  Eigen::Isometry3d X_BP_;  ///< Best knowledge of the part in the body frame.
   PathGeometry geometry_;
   core::Pose reached_;
   int pose_id_ = -1;

@@ -26,11 +26,12 @@ std::pair<fs::file_time_type, std::string> stamp_of(const fs::path& journal) {
 }
 
 tl::unexpected<core::Error> cannot_copy(const fs::path& journal, std::string_view reason) {
-  return core::fail(core::Code::kFile,
-                    fmt::format("the journal cannot be copied to a temporary folder in {}: {}; "
-                                "free space there, or name another place in TMPDIR",
-                                std::getenv("TMPDIR") == nullptr ? "/tmp" : std::getenv("TMPDIR"), reason),
-                    journal.string());
+  return core::fail(
+      core::Code::kFile,
+      fmt::format("the journal cannot be copied to a temporary folder in {}: {}; "
+                  "free space there, or name another place in TMPDIR",
+                  std::getenv("TMPDIR") == nullptr ? "/tmp" : std::getenv("TMPDIR"), reason),
+      journal.string());
 }
 
 }  // namespace

@@ -66,7 +66,8 @@ TEST(IncludeArrows, PointOneWay) {
   for (const auto& [room, allowed] : kMayInclude) {
     for (const Include& include : includes_of(room)) {
       const std::string target = include.header.substr(0, include.header.find('/'));
-      EXPECT_TRUE(allowed.count(target) == 1 || (room == "reports" && is_error_model(include.header)))
+      EXPECT_TRUE(allowed.count(target) == 1 ||
+                  (room == "reports" && is_error_model(include.header)))
           << include.file << " includes " << include.header;
       ++checked;
     }
@@ -85,7 +86,8 @@ TEST(IncludeArrows, KeepsEveryTopLevelFolderARoomOfTheDesign) {
 
 TEST(PublicHeaders, KeepHeavyLibrariesInTheirSourceFiles) {
   // JSON in private headers of plans and reports only; CGAL, Ceres, libusb and Asio in no header.
-  const std::set<std::string> heavy = {"CGAL", "ceres", "libusb.h", "libusb-1.0", "asio", "asio.hpp", "CLI"};
+  const std::set<std::string> heavy = {"CGAL", "ceres",    "libusb.h", "libusb-1.0",
+                                       "asio", "asio.hpp", "CLI"};
   for (const auto& [room, allowed] : kMayInclude) {
     const fs::path folder = fs::path(RONDURE_SOURCE_DIR) / room;
     if (!fs::exists(folder)) continue;
@@ -94,7 +96,8 @@ TEST(PublicHeaders, KeepHeavyLibrariesInTheirSourceFiles) {
       std::ifstream file(entry.path());
       for (std::string line; std::getline(file, line);) {
         const std::string header = included(line, '<', '>');
-        EXPECT_EQ(heavy.count(header.substr(0, header.find('/'))), 0U) << entry.path() << ": " << line;
+        EXPECT_EQ(heavy.count(header.substr(0, header.find('/'))), 0U)
+            << entry.path() << ": " << line;
       }
     }
   }

@@ -3,7 +3,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +23,12 @@ bool holds(std::string_view page, std::string_view part) {
 
 /// "nan" as a word, not as a part of one.
 bool shows_nan(const std::string& page) {
-  return std::regex_search(page, std::regex("[^a-z]-?nan[^a-z]"));
+  const auto letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  for (std::size_t at = page.find("nan"); at != std::string::npos; at = page.find("nan", at + 1)) {
+    if (at > 0 && at + 3 < page.size() && !letter(page[at - 1]) && !letter(page[at + 3]))
+      return true;
+  }
+  return false;
 }
 
 std::size_t occurrences(std::string_view text, std::string_view part) {
