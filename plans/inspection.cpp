@@ -23,6 +23,23 @@ void RunContext::show() const {
   if (options.progress) options.progress(progress);
 }
 
+core::Result<record::Touch> RunContext::touch(cmm::TouchCommand command, record::Touch row) {
+  if (auto stop = check_stop(); !stop) return core::fail(stop.error());
+  command.id = next_touch;
+  const auto reading = cell->machine().touch(command);
+  if (!reading) return core::fail(reading.error());
+  row.id = next_touch;
+  row.tip_mm = reading->tip_W_mm;
+  row.approach = command.direction_W;
+  row.temperature_degC = reading->temperature_degC;
+  row.time_s = reading->time_s;
+  if (auto kept = journal.add(row); !kept) return core::fail(kept.error());
+  ++next_touch;
+  progress.touches = static_cast<std::size_t>(next_touch);
+  show();
+  return row;
+}
+
 core::Result<void> follow(cmm::Machine& machine, const Polyline& path,
                           const Eigen::Isometry3d& X_WX) {
   for (const Eigen::Vector3d& corner : path) {
@@ -58,6 +75,10 @@ Eigen::Isometry3d FeatureSession::part_at(const core::Pose& pose) const {
 /// The same fault with the point it happened at, and what a person can do about it.
 tl::unexpected<core::Error> FeatureSession::fault_at(const Target& target,
                                                      const core::Error& error) const {
+  // A stop by the operator and a journal that cannot be written have no place on the part.
+  if (error.code == core::Code::kStopped || error.code == core::Code::kJournal) {
+    return core::fail(error);
+  }
   std::string advice;
   if (error.code == core::Code::kNoTouch || error.code == core::Code::kCollision) {
     advice =
@@ -207,34 +228,24 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud(
 core::Result<Eigen::Vector3d> FeatureSession::touch(const Target& target,
                                                     const Eigen::Isometry3d& X_WP,
                                                     record::Touch::Purpose purpose) {
-  if (auto stop = context_.check_stop(); !stop) return core::fail(stop.error());
   cmm::TouchCommand command;
-  command.id = context_.next_touch;
   command.expected_tip_W_mm = X_WP * contact_tip(geometry_, target);
   command.direction_W = X_WP.linear() * approach_direction(geometry_, target);
   command.approach_mm = geometry_.approach_mm;
   command.search_mm =
       context_.plan.machine->search_mm + geometry_.approach_mm - context_.plan.machine->approach_mm;
-  const auto reading = context_.cell->machine().touch(command);
-  if (!reading) return fault_at(target, reading.error());
   record::Touch row;
-  row.id = context_.next_touch;
   row.purpose = purpose;
   row.pose = pose_id_;
   row.layer = target.layer;
   row.point = target.point;
   row.repeat = repeat_;
-  row.tip_mm = reading->tip_W_mm;
-  row.approach = command.direction_W;
-  row.temperature_degC = reading->temperature_degC;
-  row.time_s = reading->time_s;
-  if (auto kept = context_.journal.add(row); !kept) return core::fail(kept.error());
-  ++context_.next_touch;
-  if (purpose == record::Touch::Purpose::kMeasure && repeat_ == 0)
+  const auto touched = context_.touch(command, row);
+  if (!touched) return fault_at(target, touched.error());
+  if (purpose == record::Touch::Purpose::kMeasure && repeat_ == 0) {
     truth_.push_back(context_.cell->true_tip_W_mm());
-  context_.progress.touches = static_cast<std::size_t>(context_.next_touch);
-  context_.show();
-  return reading->tip_W_mm;
+  }
+  return touched->tip_mm;
 }
 
 }  // namespace rondure::plans

@@ -10,8 +10,6 @@
 namespace rondure::plans {
 namespace {
 
-Eigen::Vector3d vector3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
-
 /// The nominal part in the machine frame, in the start pose of a feature.
 Eigen::Isometry3d nominal_part(const FixturePlan& fixture, const PoseSearchPlan& search) {
   const core::Pose start{search.start_alpha_deg * core::kDegree,

@@ -33,35 +33,21 @@ core::Result<void> check_limits(const fit::ProbeTip& tip, const ProbePlan& plan)
 
 core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, const Eigen::Vector3d& outward,
                                            int point, const PathGeometry& geometry) {
-  if (auto stop = context.check_stop(); !stop) return core::fail(stop.error());
   const QualificationPlan& plan = context.plan.probe->qualification;
-  const Eigen::Vector3d center(plan.sphere_center_mm[0], plan.sphere_center_mm[1],
-                               plan.sphere_center_mm[2]);
   cmm::TouchCommand command;
-  command.id = context.next_touch;
-  command.expected_tip_W_mm =
-      center + (0.5 * plan.sphere_diameter_mm + geometry.tip_radius_mm) * outward;
+  command.expected_tip_W_mm = vector3(plan.sphere_center_mm) +
+                              (0.5 * plan.sphere_diameter_mm + geometry.tip_radius_mm) * outward;
   command.direction_W = -outward;
   command.approach_mm = geometry.approach_mm;
   command.search_mm = context.plan.machine->search_mm;
-  const auto reading = context.cell->machine().touch(command);
-  if (!reading) {
-    return core::fail(reading.error().code, fmt::format("reference sphere, point {}: {}", point + 1,
-                                                        reading.error().what));
-  }
   record::Touch row;
-  row.id = context.next_touch;
   row.purpose = record::Touch::Purpose::kQualification;
   row.point = point;
-  row.tip_mm = reading->tip_W_mm;
-  row.approach = command.direction_W;
-  row.temperature_degC = reading->temperature_degC;
-  row.time_s = reading->time_s;
-  if (auto kept = context.journal.add(row); !kept) return core::fail(kept.error());
-  ++context.next_touch;
-  context.progress.touches = static_cast<std::size_t>(context.next_touch);
-  context.show();
-  return reading->tip_W_mm;
+  const auto touched = context.touch(command, row);
+  if (touched) return touched->tip_mm;
+  if (touched.error().code == core::Code::kStopped) return core::fail(touched.error());
+  return core::fail(touched.error().code,
+                    fmt::format("reference sphere, point {}: {}", point + 1, touched.error().what));
 }
 
 }  // namespace
@@ -71,8 +57,7 @@ core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
   cmm::Machine& machine = context.cell->machine();
   const auto directions = qualification_directions(plan.points);
   if (!directions) return core::fail(directions.error());
-  const Eigen::Vector3d center(plan.sphere_center_mm[0], plan.sphere_center_mm[1],
-                               plan.sphere_center_mm[2]);
+  const Eigen::Vector3d center = vector3(plan.sphere_center_mm);
   PathGeometry geometry;
   geometry.tip_radius_mm = 0.5 * context.plan.probe->tip_diameter_mm;
   geometry.approach_mm = context.plan.machine->approach_mm;
