@@ -152,7 +152,7 @@ TEST(Html, VerdictStandsBeforeEverythingThatExplainsIt) {
 TEST(Html, NonConformityIsSaidInWords) {
   const std::string page = page_of(failing_case());
   EXPECT_TRUE(holds(page, ">Does not conform<"));
-  EXPECT_TRUE(holds(page, "2.300 um above the limit"));
+  EXPECT_TRUE(holds(page, "2.300 µm above the limit"));
   EXPECT_TRUE(holds(page, "1 of 2 toleranced characteristics conforms."));
 }
 
