@@ -54,6 +54,8 @@ std::string_view code_name(Code code) {
       return "no-touch";
     case Code::kCollision:
       return "collision";
+    case Code::kLocation:
+      return "location";
     case Code::kCalibration:
       return "calibration";
     case Code::kMachine:

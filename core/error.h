@@ -35,6 +35,7 @@ enum class Code {
   kUnreachable,  ///< unreachable: a target the probe cannot reach; named before anything moves
   kNoTouch,      ///< no-touch: the probe met nothing within its search distance
   kCollision,    ///< collision: the probe met something where nothing was expected
+  kLocation,     ///< location: the part does not sit where the plan says
   kCalibration,  ///< calibration: probe qualification outside its limits
   kMachine,      ///< machine: fault reported by the machine or by the fixture
   kStopped,      ///< stopped: by the operator

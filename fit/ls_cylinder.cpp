@@ -20,6 +20,9 @@ namespace {
 
 constexpr int kIterationLimit = 300;
 
+// Squared extents below this share are round-off of the sums: 3e-8 of the largest extent.
+constexpr double kFlat = 1e-15;
+
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 using Points = std::span<const Eigen::Vector3d>;
@@ -120,10 +123,10 @@ core::Result<void> check_rank(Points points) {
   for (const Eigen::Vector3d& p : points) scatter += p * p.transpose();
   const Eigen::Vector3d spread =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
-  if (spread(1) <= 1e-18 * spread(2)) {
+  if (spread(1) <= kFlat * spread(2)) {
     return core::fail(core::Code::kCollinear, "the points lie on one straight line");
   }
-  if (spread(0) <= 1e-18 * spread(2)) {
+  if (spread(0) <= kFlat * spread(2)) {
     return core::fail(core::Code::kRank,
                       "all points lie in one plane: the tilt of a cylinder is undetermined, only "
                       "roundness can be given (fit circle)");

@@ -312,6 +312,11 @@ MinZoneCylinder finish(Points points, const State& state, const Eigen::Vector3d&
   out.outer_radius_mm = state.zone.high;
   out.programmes = state.programmes;
 
+  // All points on one cylinder to round-off: nothing is left to prove, no zone is narrower than 0.
+  if (state.zone.width() <= 16.0 * round_off) {
+    out.certificate = {Certificate::Kind::kGlobal, "all directions", state.zone.width(), ""};
+    return out;
+  }
   const auto proof = prove(points, state, round_off);
   out.certificate =
       certify_local<4>(proof, state.zone.width(), round_off, "next to the least-squares axis");

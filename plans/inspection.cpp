@@ -114,14 +114,42 @@ core::Result<void> FeatureSession::turn(const core::Pose& commanded,
   return context_.journal.add(record::PoseVisit{pose_id_, index_, commanded, reached_, false, now});
 }
 
+Eigen::Vector3d FeatureSession::expected_axis() const {
+  return part_at(reached_).linear() * Eigen::Vector3d::UnitZ();
+}
+
+core::Result<void> FeatureSession::check_location(const fit::LsCylinder& found) const {
+  const double allowed = context_.plan.part.location_uncertainty_mm;
+  const auto refuse = [&](const char* what, double value) {
+    return core::fail(
+        core::Code::kLocation,
+        fmt::format("feature {}: the {} of the located part differs by {:.3f} mm, the plan "
+                    "allows {:g} mm (location_uncertainty_mm); check the part and its "
+                    "clamping, nothing was measured",
+                    feature_.id, what, value, allowed));
+  };
+  const double sign = geometry_.inside ? -1.0 : 1.0;
+  const double radius = found.radius_mm - sign * geometry_.tip_radius_mm;
+  if (!(std::abs(radius - geometry_.radius_mm) <= allowed)) {
+    return refuse("radius", std::abs(radius - geometry_.radius_mm));
+  }
+  if (!(found.deviation_mm <= allowed)) return refuse("form", found.deviation_mm);
+  const double cosine = std::min(1.0, std::abs(found.axis.direction.dot(expected_axis())));
+  const double reach =
+      0.5 * (geometry_.to_mm - geometry_.from_mm) * std::sqrt(1.0 - cosine * cosine);
+  if (!(reach <= allowed)) return refuse("end of the axis", reach);
+  return {};
+}
+
 core::Result<fit::Axis> FeatureSession::locate(const core::Pose& commanded) {
   const auto targets = locating_targets(feature_, context_.plan.part.location_uncertainty_mm);
   if (!targets) return core::fail(targets.error());
   if (auto turned = turn(commanded, *targets); !turned) return core::fail(turned.error());
   const auto tips = touch_cloud(*targets, record::Touch::Purpose::kLocate);
   if (!tips) return core::fail(tips.error());
-  const auto cylinder = fit::ls_cylinder(*tips, Eigen::Vector3d::UnitZ());
+  const auto cylinder = fit::ls_cylinder(*tips, expected_axis());
   if (!cylinder) return core::fail(cylinder.error());
+  if (auto plausible = check_location(*cylinder); !plausible) return core::fail(plausible.error());
   follow_axis(cylinder->axis);
   return cylinder->axis;
 }
@@ -145,26 +173,25 @@ core::Result<void> FeatureSession::repeat(int times) {
 
 core::Result<void> FeatureSession::keep_as_final() {
   if (auto marked = context_.journal.mark_final(pose_id_); !marked) return marked;
-  double zone_mm = 0.0;
+  // Only a comparison for simulations: a truth that cannot be evaluated must not end the run.
+  std::optional<double> zone_mm;
   if (feature_.type == "circle") {
+    const auto frame = fit::across(expected_axis());
     std::vector<Eigen::Vector2d> section;
-    for (const Eigen::Vector3d& tip : truth_) section.emplace_back(tip.head<2>());
-    const auto zone = fit::min_zone_circle(section);
-    if (!zone) return core::fail(zone.error());
-    zone_mm = zone->width_mm();
-  } else {
-    const auto zone = fit::min_zone_cylinder(truth_, Eigen::Vector3d::UnitZ());
-    if (!zone) return core::fail(zone.error());
+    for (const Eigen::Vector3d& tip : truth_) section.emplace_back(frame.transpose() * tip);
+    if (const auto zone = fit::min_zone_circle(section)) zone_mm = zone->width_mm();
+  } else if (const auto zone = fit::min_zone_cylinder(truth_, expected_axis())) {
     zone_mm = zone->width_mm();
   }
-  return context_.journal.add(record::SimulationTruth{index_, zone_mm});
+  if (!zone_mm) return {};
+  return context_.journal.add(record::SimulationTruth{index_, *zone_mm});
 }
 
 void FeatureSession::follow_axis(const fit::Axis& axis_W) {
   const Eigen::Isometry3d X_BW =
       fixture::body_to_machine(context_.cell->kinematics(), reached_).inverse();
   Eigen::Vector3d z = X_BW.linear() * axis_W.direction;
-  if (z.z() < 0.0) z = -z;
+  if (z.z() < 0.0) z = -z;  // a cylinder's axis has two directions; the part stands upright
   // Neither the turn about the axis nor the shift along it shows in a cylinder: both stay nominal.
   const Eigen::Isometry3d nominal = context_.cell->nominal_part();
   const Eigen::Vector3d on_axis = X_BW * axis_W.point_mm;

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/result.h"
+#include "fit/ls_cylinder.h"
 #include "plans/cell.h"
 #include "plans/plan_reach.h"
 #include "plans/pose_search.h"
@@ -50,6 +51,7 @@ class FeatureSession final : public PoseSession {
   [[nodiscard]] core::Result<void> keep_as_final() override;
   [[nodiscard]] core::Result<fit::Axis> locate(const core::Pose& commanded) override;
   [[nodiscard]] bool must_locate() const override;
+  [[nodiscard]] Eigen::Vector3d expected_axis() const override;
   [[nodiscard]] core::Pose levelling(const Eigen::Vector3d& direction_W) const override;
   [[nodiscard]] const fixture::FixtureLimits& limits() const override;
   [[nodiscard]] core::Result<void> note(const std::string& text) override;
@@ -68,6 +70,8 @@ class FeatureSession final : public PoseSession {
   /// The same fault with the point it happened at, and what a person can do about it.
   [[nodiscard]] tl::unexpected<core::Error> fault_at(const Target& target,
                                                      const core::Error& error) const;
+  /// Whether a located cylinder can be the part of the plan; otherwise nothing may move on it.
+  [[nodiscard]] core::Result<void> check_location(const fit::LsCylinder& found) const;
   /// From now on targets follow this axis, seen in the present pose.
   void follow_axis(const fit::Axis& axis_W);
   [[nodiscard]] Eigen::Isometry3d part_at(const core::Pose& pose) const;

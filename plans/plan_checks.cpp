@@ -70,8 +70,9 @@ void check_needs(const Plan& plan, std::size_t touched, Findings& findings) {
   }
 }
 
-void check_characteristic(const FeaturePlan& feature, std::size_t index, const std::string& where,
-                          Findings& findings) {
+void check_characteristic(const FeaturePlan& feature, std::size_t index,
+                          const std::string& feature_where, Findings& findings) {
+  const std::string where = item_pointer(feature_where + "/characteristics", index);
   const CharacteristicPlan& c = feature.characteristics[index];
   if (const auto twin = earlier_with_same_id(feature.characteristics, index)) {
     findings.meaning(
@@ -84,6 +85,19 @@ void check_characteristic(const FeaturePlan& feature, std::size_t index, const s
     findings.meaning(Code::kMeaning, where + "/form",
                      "a circle has no cylindricity; ask for \"roundness\", or make the feature a "
                      "\"cylinder\" with at least 2 layers");
+  }
+  if (c.form == "roundness" && feature.type == "cylinder") {
+    if (findings.is_given(feature_where + "/source")) {
+      findings.meaning(
+          Code::kMeaning, where + "/form",
+          "the points of a file have no layers, so a cylinder from a file has no roundness; "
+          "ask for \"cylindricity\", or give each section as a \"circle\"");
+    } else if (feature.sampling.points_per_layer < 4) {
+      findings.meaning(Code::kSampling, where + "/form",
+                       fmt::format("{} points a layer lie on a circle exactly, whatever the part; "
+                                   "roundness needs at least 4",
+                                   feature.sampling.points_per_layer));
+    }
   }
   if (c.tolerance_um && !c.reference && !findings.is_given(where + "/reference")) {
     findings.meaning(
@@ -142,7 +156,7 @@ void check_feature(const Plan& plan, std::size_t index, Findings& findings) {
   for (std::size_t k = 0; k < feature.characteristics.size(); ++k) {
     const std::string place = item_pointer(where + "/characteristics", k);
     if (findings.sound(place) && findings.sound(where + "/type")) {
-      check_characteristic(feature, k, place, findings);
+      check_characteristic(feature, k, where, findings);
     }
   }
   check_without_effect(feature, where, findings);

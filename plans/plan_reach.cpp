@@ -1,6 +1,8 @@
 #include "plans/plan_reach.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -49,6 +51,47 @@ core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_
     return core::fail(reach.error().at(where));
   }
   return targets;
+}
+
+core::Result<void> check_room(const Plan& plan) {
+  const FixturePlan& fixture = *plan.fixture;
+  const QualificationPlan& sphere = plan.probe->qualification;
+  // Ball about the base-fixed axis that holds the part, wherever the fixture turns it.
+  double reach_mm = 0.0;
+  for (const FeaturePlan& feature : plan.features) {
+    if (feature.source) continue;
+    const double height =
+        std::max(std::abs(feature.nominal.from_mm), std::abs(feature.nominal.to_mm));
+    reach_mm = std::max(reach_mm, std::hypot(0.5 * feature.nominal.diameter_mm, height));
+  }
+  reach_mm += vector3(fixture.axis_offset_mm).norm() + vector3(fixture.part_position_mm).norm() +
+              plan.part.location_uncertainty_mm;
+  const double tip_mm = 0.5 * plan.probe->tip_diameter_mm;
+  const double room_mm = tip_mm + plan.machine->clearance_mm;
+  const Eigen::Vector3d axis = vector3(fixture.axis_point_mm);
+  const Eigen::Vector3d center = vector3(sphere.sphere_center_mm);
+  const double top_mm =
+      std::max(axis.z() + reach_mm, center.z() + 0.5 * sphere.sphere_diameter_mm) + room_mm;
+  if (plan.machine->park_mm[2] < top_mm) {
+    return core::fail(
+        core::Code::kUnreachable,
+        fmt::format("park height {:g} mm is below {:.3f} mm, where part or reference sphere, "
+                    "tip and clearance end; raise it",
+                    plan.machine->park_mm[2], top_mm),
+        "/machine/park_mm");
+  }
+  const double apart_mm = (center - axis).norm();
+  const double needed_mm =
+      reach_mm + 0.5 * sphere.sphere_diameter_mm + 2.0 * tip_mm + plan.machine->approach_mm;
+  if (apart_mm < needed_mm) {
+    return core::fail(
+        core::Code::kUnreachable,
+        fmt::format("the reference sphere stands {:.3f} mm from the fixture's axis, the part "
+                    "can sweep it below {:.3f} mm; move it away",
+                    apart_mm, needed_mm),
+        "/probe/qualification/sphere_center_mm");
+  }
+  return {};
 }
 
 }  // namespace rondure::plans

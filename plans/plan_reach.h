@@ -29,4 +29,9 @@ namespace rondure::plans {
 [[nodiscard]] core::Result<std::vector<Target>> reachable_targets(const Plan& plan,
                                                                   std::size_t index);
 
+/// Checks what no single feature shows: that the park height clears the part in every pose and the
+/// reference sphere, and that the sphere stands beside whatever the fixture can sweep.
+/// @return kUnreachable with the pointer of the key to change.
+[[nodiscard]] core::Result<void> check_room(const Plan& plan);
+
 }  // namespace rondure::plans

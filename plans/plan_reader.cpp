@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -22,15 +23,13 @@ tl::unexpected<std::vector<core::Error>> refuse(core::Error problem) {
   return tl::unexpected(std::vector<core::Error>{std::move(problem)});
 }
 
-// A circle is one layer at one height; both may be left out of the plan.
+// A circle is one layer; a plan may leave that out.
 void complete_circles(Plan& plan, const Findings& findings) {
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     FeaturePlan& feature = plan.features[i];
     if (feature.type != "circle") continue;
     const std::string where = feature_pointer(i);
     if (!findings.is_given(where + "/sampling/layers")) feature.sampling.layers = 1;
-    if (!findings.is_given(where + "/nominal/to_mm"))
-      feature.nominal.to_mm = feature.nominal.from_mm;
   }
 }
 
@@ -52,6 +51,11 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
   std::vector<core::Error> problems = findings.take();
   // Reach can be judged only once every number is sound.
   if (problems.empty()) {
+    const bool touching = std::any_of(plan.features.begin(), plan.features.end(),
+                                      [](const FeaturePlan& feature) { return !feature.source; });
+    if (touching) {
+      if (auto room = check_room(plan); !room) problems.push_back(room.error());
+    }
     for (std::size_t i = 0; i < plan.features.size(); ++i) {
       if (!is_touched(i, findings)) continue;
       if (auto targets = reachable_targets(plan, i); !targets) problems.push_back(targets.error());

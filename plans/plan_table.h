@@ -168,14 +168,16 @@ void describe(Visitor& v, NominalPlan& p) {
             .code = core::Code::kUnits,
             .hint = "that suggests metres or micrometres, give the diameter in mm",
             .meaning = "Diameter on the drawing. Needed unless the points come from a file."});
-  v.number("from_mm", p.from_mm,
-           {.at_least = -kMaxCoordinate_mm,
-            .at_most = kMaxCoordinate_mm,
-            .meaning = "Lower end of the surface, part z; the height of the section of a circle."});
+  v.number(
+      "from_mm", p.from_mm,
+      {.at_least = -kMaxCoordinate_mm,
+       .at_most = kMaxCoordinate_mm,
+       .meaning =
+           "Lower end of the surface, part z. A circle is touched in the middle of its surface."});
   v.number("to_mm", p.to_mm,
            {.at_least = -kMaxCoordinate_mm,
             .at_most = kMaxCoordinate_mm,
-            .meaning = "Upper end of the surface, part z; left out for a circle."});
+            .meaning = "Upper end of the surface, part z."});
 }
 
 template <class Visitor>

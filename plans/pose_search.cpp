@@ -63,7 +63,8 @@ NextStep next_step(const PoseSession& session, const Cloud& cloud,
   const double step_deg = out.size_rad / core::kDegree;
   if (out.size_rad <= finest * (1.0 + 1e-9)) {
     out.why = fmt::format(
-        "level: the remaining step of {:.6f} deg is below what the fixture resolves", step_deg);
+        "as level as the fixture can be set: {:.6f} deg is left, its resolution is {:.6f} deg",
+        step_deg, session.limits().resolution_rad / core::kDegree);
   } else if (!within(session.limits(), out.pose)) {
     out.why = fmt::format("not level: the levelling pose {} is beyond the limits of the fixture",
                           degrees(out.pose));
@@ -96,7 +97,7 @@ core::Result<void> guided(PoseSession& session, const FeaturePlan& feature, core
       continue;
     }
     session.show(f_of(*cloud, false));
-    const auto zone = fit::min_zone_cylinder(cloud->tips_W_mm, Eigen::Vector3d::UnitZ());
+    const auto zone = fit::min_zone_cylinder(cloud->tips_W_mm, session.expected_axis());
     if (!zone) return core::fail(zone.error());
     NextStep next = next_step(session, *cloud, zone->axis.direction, last_rad);
     if (!next.stop && visit == feature.pose_search.max_poses) {
@@ -160,7 +161,6 @@ core::Result<void> single(PoseSession& session, const FeaturePlan& feature) {
 
 core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature) {
   const std::string& strategy = feature.pose_search.strategy;
-  if (feature.type == "circle") return single(session, feature);
   core::Pose pose = start_pose(feature);
   if (session.must_locate()) {
     const auto axis = session.locate(pose);
@@ -170,9 +170,10 @@ core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature)
                                          degrees(pose), degrees(level));
     if (auto noted = session.note(text); !noted) return noted;
     // The other strategies start where the plan says: that is what they are compared for.
-    if (strategy == "guided" && within(session.limits(), level)) pose = level;
+    if (feature.type == "cylinder" && strategy == "guided" && within(session.limits(), level))
+      pose = level;
   }
-  if (strategy == "virtual") return single(session, feature);
+  if (feature.type == "circle" || strategy == "virtual") return single(session, feature);
   if (strategy == "guided") return guided(session, feature, pose);
   return grid(session, feature, strategy == "as-published");
 }

@@ -36,6 +36,8 @@ class PoseSession {
   [[nodiscard]] virtual core::Result<fit::Axis> locate(const core::Pose& commanded) = 0;
   /// Whether the plan leaves open where the part sits.
   [[nodiscard]] virtual bool must_locate() const = 0;
+  /// Where the axis should point in the present pose: nominal, or as located. Fits start there.
+  [[nodiscard]] virtual Eigen::Vector3d expected_axis() const = 0;
   /// The pose that turns a direction seen in the present pose to machine z.
   [[nodiscard]] virtual core::Pose levelling(const Eigen::Vector3d& direction_W) const = 0;
   [[nodiscard]] virtual const fixture::FixtureLimits& limits() const = 0;
@@ -47,7 +49,7 @@ class PoseSession {
 
 /// Runs the pose search of a feature: `guided`, `refined`, `as-published` or `virtual` (DESIGN: the
 /// result is always the minimum zone of the final cloud, never the least f met on the way).
-/// A circle feature is measured in its start pose.
+/// A circle is located, then measured in its start pose.
 [[nodiscard]] core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature);
 
 }  // namespace rondure::plans

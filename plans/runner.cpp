@@ -182,6 +182,10 @@ core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Ta
 
 /// References machine and fixture and qualifies the probe.
 core::Result<void> prepare(RunContext& context) {
+  // The part is in the ring from the start: whatever moves must keep clear of it.
+  const auto first =
+      std::find_if_not(context.plan.features.begin(), context.plan.features.end(), from_file);
+  context.cell->mount(*first);
   if (auto homed = context.cell->machine().home(); !homed) return homed;
   if (auto turned = context.cell->home_fixture(); !turned) return core::fail(turned.error());
   if (auto tip = qualify_probe(context); !tip)

@@ -34,7 +34,6 @@ core::Result<void> check(const FeaturePlan& feature, int layers) {
 
 double layer_height(const FeaturePlan& feature, int layer, int layers) {
   const NominalPlan& nominal = feature.nominal;
-  if (feature.type == "circle") return nominal.from_mm;
   if (layers == 1) return 0.5 * (nominal.from_mm + nominal.to_mm);
   const double margin_mm = feature.sampling.margin_mm;
   const double span_mm = nominal.to_mm - nominal.from_mm - 2.0 * margin_mm;
@@ -84,6 +83,7 @@ core::Result<std::vector<Target>> locating_targets(const FeaturePlan& feature,
                                                    double uncertainty_mm) {
   FeaturePlan locating = feature;
   const double length_mm = feature.nominal.to_mm - feature.nominal.from_mm;
+  locating.type = "cylinder";  // a circle's surface has an axis too
   locating.sampling.layers = 2;
   locating.sampling.points_per_layer = 5;
   // A fifth of the length must stay between the layers, or the tilt could not be told.

@@ -23,12 +23,12 @@ struct Target {
 /// The targets of a feature, layer by layer from below, by angle within a layer:
 ///   z_j = from + margin + j (to - from - 2 margin) / (m - 1)
 ///   theta_ji = start + 360 deg (i / k + stagger j / (m k)).
-/// A single layer lies in the middle; a circle is one layer at the height from_mm.
+/// A single layer, as of a circle, lies in the middle.
 /// @return  kSampling when the layers or points cannot be placed.
 /// Source: methods, cylindricity section 4.
 [[nodiscard]] core::Result<std::vector<Target>> sampling_targets(const FeaturePlan& feature);
 
-/// Targets that find where a cylinder sits before it is measured: two layers of five points, kept
+/// Targets that find where a part sits before it is measured: two layers of five points, kept
 /// from both ends by the margin and by how far the surface may be from nominal, so that a crooked
 /// part is met on its side and not on its rim.
 /// @return  As sampling_targets().

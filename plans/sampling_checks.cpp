@@ -15,7 +15,7 @@ using core::Code;
 // Millimetres as messages print them: six digits.
 std::string mm(double value_mm) { return fmt::format("{:.6g} mm", value_mm); }
 
-bool check_nominal_given(bool circle, const std::string& nominal, Findings& findings) {
+bool check_nominal_given(const std::string& nominal, Findings& findings) {
   bool complete = true;
   const auto need = [&](std::string_view key, std::string_view meaning) {
     if (findings.is_given(member_pointer(nominal, key))) return;
@@ -24,9 +24,8 @@ bool check_nominal_given(bool circle, const std::string& nominal, Findings& find
                      fmt::format("this key is missing: {}", meaning));
   };
   need("diameter_mm", "the diameter on the drawing");
-  need("from_mm",
-       circle ? "the height of the section, part z" : "the lower end of the surface, part z");
-  if (!circle) need("to_mm", "the upper end of the surface, part z");
+  need("from_mm", "the lower end of the surface, part z");
+  need("to_mm", "the upper end of the surface, part z");
   return complete;
 }
 
@@ -38,18 +37,13 @@ bool check_extent(const FeaturePlan& feature, const std::string& where, Findings
     findings.meaning(code, where + key, std::move(what));
     return false;
   };
-  if (feature.type == "circle") {
-    if (length_mm == 0.0) return true;
-    return refuse(Code::kMeaning, "/nominal/to_mm",
-                  fmt::format("a circle has one height, {} and {} are given; leave to_mm out",
-                              mm(nominal.from_mm), mm(nominal.to_mm)));
-  }
   if (length_mm <= 0.0) {
     return refuse(
         Code::kMeaning, "/nominal/from_mm",
         fmt::format("the lower end {} is not below the upper end {}; exchange or correct them",
                     mm(nominal.from_mm), mm(nominal.to_mm)));
   }
+  if (feature.type == "circle") return true;  // one section, in the middle
   const double margin_mm = feature.sampling.margin_mm;
   if (2.0 * margin_mm >= length_mm) {
     return refuse(
@@ -141,8 +135,7 @@ void check_sampling(const Plan& plan, std::size_t index, Findings& findings) {
   const std::string where = feature_pointer(index);
   if (!findings.sound(where + "/type")) return;
   const bool counts = findings.sound(where + "/sampling") && check_counts(feature, where, findings);
-  if (!findings.sound(where + "/nominal") ||
-      !check_nominal_given(feature.type == "circle", where + "/nominal", findings)) {
+  if (!findings.sound(where + "/nominal") || !check_nominal_given(where + "/nominal", findings)) {
     return;
   }
   const bool extent = findings.sound(where + "/sampling") && check_extent(feature, where, findings);

@@ -47,7 +47,7 @@ core::Result<void> check_height(const Vector3d& tip_P_mm, const Target& target,
   return core::fail(
       core::Code::kUnreachable,
       fmt::format("layer {}, point {}: the tip would go down to machine z {:.3f} mm, below the "
-                  "limit of {:.3f} mm (rim and clearance)",
+                  "limit of {:.3f} mm (rim, clearance and tip radius)",
                   target.layer + 1, target.point + 1, height_mm, limit_mm));
 }
 
@@ -137,7 +137,9 @@ Polyline path_around_sphere(const Vector3d& center_W_mm, double radius_mm,
 core::Result<void> check_reachable(std::span<const Target> targets, const PathGeometry& geometry,
                                    const Eigen::Isometry3d& X_WP,
                                    const Surroundings& surroundings) {
-  const double limit_mm = surroundings.rim_height_mm + geometry.clearance_mm;
+  // The lowest point of the tip is its ball's, not its centre.
+  const double limit_mm =
+      surroundings.rim_height_mm + geometry.clearance_mm + geometry.tip_radius_mm;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const Target& target = targets[i];
     if (auto free = check_clamp(target, geometry, surroundings); !free) return free;

@@ -20,6 +20,7 @@ double um(double mm) { return mm / core::kMicrometre; }
 struct WorstSection {
   std::optional<double> value_mm;
   bool certified = true;
+  bool exact_fit = false;  ///< 0 by construction.
 };
 
 WorstSection worst_section(const FeatureResult& result, Reference reference) {
@@ -29,6 +30,7 @@ WorstSection worst_section(const FeatureResult& result, Reference reference) {
     const bool mz = reference == Reference::kMinimumZone;
     const double value = mz ? layer.mz->width_mm() : layer.ls->deviation_mm;
     out.value_mm = std::max(value, out.value_mm.value_or(0.0));
+    if (layer.mz->exact_fit) out.exact_fit = true;
     if (mz && layer.mz->certificate.kind == fit::Certificate::Kind::kNone) out.certified = false;
   }
   return out;
@@ -41,9 +43,9 @@ WorstSection value_of(const FeatureResult& result, const record::Characteristic&
     return worst_section(result, characteristic.reference);
   if (!result.mz_cylinder) return {};
   if (characteristic.reference == Reference::kLeastSquares)
-    return {result.ls_cylinder->deviation_mm, true};
+    return {result.ls_cylinder->deviation_mm, true, false};
   return {result.mz_cylinder->width_mm(),
-          result.mz_cylinder->certificate.kind != fit::Certificate::Kind::kNone};
+          result.mz_cylinder->certificate.kind != fit::Certificate::Kind::kNone, false};
 }
 
 /// "MZCY; unfiltered; 4 x 7 points; 5 touches a point; r_tip 1.9984 mm; 20.0 degC; at the sampled
@@ -64,33 +66,58 @@ std::string operator_text(const FeatureResult& result,
   }
   text += result.tip_radius_mm ? fmt::format("; r_tip {:.4f} mm", *result.tip_radius_mm)
                                : "; r_tip unknown";
-  if (feature.strategy != record::Strategy::kPointsFile) {
-    text += fmt::format("; {:.1f} degC", result.mean_temperature_degC);
+  if (result.temperatures) {
+    text += fmt::format("; {:.1f} degC", result.temperatures->mean_degC);
   }
   return text + "; at the sampled points";
 }
 
-std::optional<std::string> reason_for_void(const record::RunRecord& record,
-                                           const FeatureResult& result, const WorstSection& value) {
-  if (result.failure) return result.failure->what;
-  if (!value.value_mm) return "the sections of this feature could not be evaluated";
-  if (!value.certified) return "no certificate stands behind the minimum zone";
-  if (record.ending != "finished") return "the run did not finish";
-  const bool touched = result.feature.strategy != record::Strategy::kPointsFile;
-  const double temperature = result.mean_temperature_degC;
-  if (touched && !(temperature >= record.header.temperature_min_degC &&
-                   temperature <= record.header.temperature_max_degC)) {
-    return fmt::format("temperature {:.2f} degC is outside {:g}..{:g} degC", temperature,
-                       record.header.temperature_min_degC, record.header.temperature_max_degC);
+/// Why the probe cannot vouch for a touched feature.
+std::optional<std::string> probe_fault(const record::RunRecord& record,
+                                       const std::optional<fit::ProbeTip>& probe) {
+  const record::Artefact& limits = record.artefact;
+  if (!probe) return "the probe was not qualified";
+  if (!(std::abs(probe->radius_mm - limits.nominal_tip_radius_mm) <= limits.radius_tolerance_mm)) {
+    return fmt::format("the effective tip radius {:.6f} mm is not within {:g} um of {:g} mm",
+                       probe->radius_mm, um(limits.radius_tolerance_mm),
+                       limits.nominal_tip_radius_mm);
+  }
+  if (!(probe->form_mm <= limits.form_limit_mm)) {
+    return fmt::format("the probing form {:.3f} um is above its limit of {:g} um",
+                       um(probe->form_mm), um(limits.form_limit_mm));
   }
   return std::nullopt;
 }
 
-void judge(const record::RunRecord& record, const FeatureResult& result,
-           CharacteristicResult& out) {
+std::optional<std::string> temperature_fault(const record::Header& header,
+                                             const FeatureResult& result) {
+  if (!result.temperatures) return "the temperature is not known";
+  for (const double value : {result.temperatures->least_degC, result.temperatures->greatest_degC}) {
+    if (value >= header.temperature_min_degC && value <= header.temperature_max_degC) continue;
+    return fmt::format("temperature {:.2f} degC is outside {:g}..{:g} degC", value,
+                       header.temperature_min_degC, header.temperature_max_degC);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> reason_for_void(const record::RunRecord& record,
+                                           const std::optional<fit::ProbeTip>& probe,
+                                           const FeatureResult& result, const WorstSection& value) {
+  if (result.failure) return result.failure->what;
+  if (!value.value_mm) return "the sections of this feature could not be evaluated";
+  if (value.exact_fit) return "a section of three different points has no roundness";
+  if (!value.certified) return "no certificate stands behind the minimum zone";
+  if (record.ending != "finished") return "the run did not finish";
+  if (result.feature.strategy == record::Strategy::kPointsFile) return std::nullopt;
+  if (auto fault = probe_fault(record, probe)) return fault;
+  return temperature_fault(record.header, result);
+}
+
+void judge(const record::RunRecord& record, const std::optional<fit::ProbeTip>& probe,
+           const FeatureResult& result, CharacteristicResult& out) {
   const WorstSection value = value_of(result, out.characteristic);
   out.value_mm = value.value_mm;
-  if (const auto missing = reason_for_void(record, result, value)) {
+  if (const auto missing = reason_for_void(record, probe, result, value)) {
     out.verdict = Verdict::kVoid;
     out.reason = *missing;
     return;
@@ -110,12 +137,13 @@ void judge(const record::RunRecord& record, const FeatureResult& result,
 
 }  // namespace
 
-void decide(const record::RunRecord& record, FeatureResult& result) {
+void decide(const record::RunRecord& record, const std::optional<fit::ProbeTip>& probe,
+            FeatureResult& result) {
   for (const record::Characteristic& characteristic : result.feature.characteristics) {
     CharacteristicResult out;
     out.characteristic = characteristic;
     out.operator_text = operator_text(result, characteristic);
-    judge(record, result, out);
+    judge(record, probe, result, out);
     result.characteristics.push_back(std::move(out));
   }
 }
@@ -124,10 +152,12 @@ Verdict overall(const std::vector<FeatureResult>& features) {
   // From bad to good; void first, because nothing can be said then.
   constexpr std::array kOrder = {Verdict::kVoid, Verdict::kDoesNotConform, Verdict::kUndecided,
                                  Verdict::kConforms};
+  const auto failed = [](const FeatureResult& feature) { return feature.failure.has_value(); };
+  if (std::any_of(features.begin(), features.end(), failed)) return Verdict::kVoid;
   for (const Verdict verdict : kOrder) {
     for (const FeatureResult& feature : features) {
       for (const CharacteristicResult& c : feature.characteristics) {
-        if (c.verdict == verdict) return verdict;
+        if (c.characteristic.tolerance_mm && c.verdict == verdict) return verdict;
       }
     }
   }

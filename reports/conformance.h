@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "record/run_record.h"
@@ -11,10 +12,13 @@ namespace rondure::reports {
 /// under the rule `simple acceptance`: conforms when the value is at most the tolerance; no
 /// uncertainty is taken into account. Void when a condition is missing: no result, no certificate
 /// behind a minimum zone, temperature outside the limits of the plan, or a run that did not finish.
-void decide(const record::RunRecord& record, FeatureResult& result);
+///
+/// @param probe  The qualification of the run; a touched feature without a sound one is void.
+void decide(const record::RunRecord& record, const std::optional<fit::ProbeTip>& probe,
+            FeatureResult& result);
 
-/// The worst verdict of all toleranced characteristics, in the order void, does not conform,
-/// undecided, conforms; not toleranced when there is none.
+/// Void when a feature failed; else the worst verdict of all toleranced characteristics, in the
+/// order void, does not conform, undecided, conforms; not toleranced when there is none.
 [[nodiscard]] Verdict overall(const std::vector<FeatureResult>& features);
 
 }  // namespace rondure::reports

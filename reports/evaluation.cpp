@@ -13,6 +13,7 @@
 #include "fit/center_search.h"
 #include "fit/pose_walk.h"
 #include "reports/conformance.h"
+#include "reports/warnings.h"
 
 namespace rondure::reports {
 namespace {
@@ -188,16 +189,36 @@ Eigen::Vector3d mean_of(const std::vector<CloudPoint>& cloud) {
   return cloud.front().tip_mm + sum / static_cast<double>(cloud.size());
 }
 
-/// A rotary pose gives the axis of a touched part to within the tilt of the fixture, so machine z
-/// is the start; points of a file may lie any way.
-std::optional<Eigen::Vector3d> start_direction(const record::Feature& feature) {
-  if (feature.strategy == record::Strategy::kPointsFile) return std::nullopt;
-  return Eigen::Vector3d::UnitZ();
+/// Where the axis of a feature points, machine frame. A touched part stands along the ring's z, or
+/// as it was located; points of a file may lie any way, a circle of a file lies across z.
+std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record,
+                                             const record::Feature& feature,
+                                             const record::PoseVisit& visit) {
+  const bool circle = feature.shape == record::Shape::kCircle;
+  if (feature.strategy == record::Strategy::kPointsFile) {
+    return circle ? std::optional<Eigen::Vector3d>(Eigen::Vector3d::UnitZ()) : std::nullopt;
+  }
+  const Eigen::Matrix3d turn = rotation(visit.reached);
+  const Eigen::Vector3d nominal = turn * Eigen::Vector3d::UnitZ();
+  if (!circle) return nominal;
+  // One section shows no tilt; the touches that located the part do.
+  for (const record::PoseVisit& other : record.poses) {
+    if (other.feature != visit.feature) continue;
+    std::vector<Eigen::Vector3d> tips;
+    for (const Touch& touch : record.touches) {
+      if (touch.purpose == Touch::Purpose::kLocate && touch.pose == other.id)
+        tips.push_back(touch.tip_mm);
+    }
+    if (tips.empty()) continue;
+    const Eigen::Matrix3d back = rotation(other.reached);
+    const auto located = fit::ls_cylinder(tips, back * Eigen::Vector3d::UnitZ());
+    if (located) return turn * back.transpose() * located->axis.direction;
+  }
+  return nominal;
 }
 
-void evaluate_cylinder(FeatureResult& result) {
+void evaluate_cylinder(const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
   const auto tips = tips_of(result.cloud);
-  const auto direction = start_direction(result.feature);
   auto ls = fit::ls_cylinder(tips, direction);
   auto mz = fit::min_zone_cylinder(tips, direction);
   if (!ls || !mz) {
@@ -215,8 +236,8 @@ void evaluate_cylinder(FeatureResult& result) {
   if (has_layers) result.layers = sections(mz->axis, result.cloud);
 }
 
-void evaluate_circle(FeatureResult& result) {
-  const fit::Axis up{mean_of(result.cloud), Eigen::Vector3d::UnitZ()};
+void evaluate_circle(const Eigen::Vector3d& direction, FeatureResult& result) {
+  const fit::Axis up{mean_of(result.cloud), direction};
   result.layers = sections(up, result.cloud);
   LayerResult& section = result.layers.front();
   if (!section.mz || !section.ls) {
@@ -232,7 +253,8 @@ void evaluate_circle(FeatureResult& result) {
 }
 
 /// What the repeats of the final cloud say: scatter of a touch, and of the zone of a single cloud.
-void evaluate_repeats(const std::vector<const Touch*>& touches, FeatureResult& result) {
+void evaluate_repeats(const std::vector<const Touch*>& touches,
+                      const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
   std::map<std::pair<int, int>, const CloudPoint*> means;
   for (const CloudPoint& point : result.cloud) means[{point.layer, point.point}] = &point;
   double squares = 0.0;
@@ -249,7 +271,7 @@ void evaluate_repeats(const std::vector<const Touch*>& touches, FeatureResult& r
   std::vector<double> zones;
   for (const auto& [repeat, points] : clouds) {
     if (points.size() != result.cloud.size() || !result.mz_cylinder) continue;
-    const auto zone = fit::min_zone_cylinder(points, start_direction(result.feature));
+    const auto zone = fit::min_zone_cylinder(points, direction);
     if (zone) zones.push_back(zone->width_mm());
   }
   if (zones.size() < 2) return;
@@ -267,33 +289,6 @@ core::Pose levelling(const core::Pose& reached, const Eigen::Vector3d& direction
   Eigen::Vector3d t = rotation(reached).transpose() * direction_W;
   if (t.z() < 0.0) t = -t;
   return {std::asin(std::clamp(t.y(), -1.0, 1.0)), std::atan2(-t.x(), t.z())};
-}
-
-void warn(FeatureResult& result) {
-  const auto add = [&](core::Code code, std::string what) {
-    result.warnings.push_back({code, std::move(what), {}});
-  };
-  const record::Feature& feature = result.feature;
-  if (feature.layers > 0 && (feature.points_per_layer < 7 ||
-                             (feature.shape == record::Shape::kCylinder && feature.layers < 3))) {
-    add(core::Code::kSparse, fmt::format("{} x {} points see only part of the form; the deviation "
-                                         "of the whole surface is larger",
-                                         feature.layers, feature.points_per_layer));
-  }
-  if (result.mz_cylinder && result.mz_cylinder->certificate.kind == fit::Certificate::Kind::kNone) {
-    add(core::Code::kNoCertificate, result.mz_cylinder->certificate.reason);
-  }
-  for (const PoseValue& value : result.poses) {
-    if (!value.final_pose || !value.valid || !result.mz_cylinder) continue;
-    if (value.f_mm > 2.0 * result.mz_cylinder->width_mm()) {
-      add(core::Code::kNotLevel,
-          fmt::format("f = {:.3f} um in the final pose is more than twice the zone of {:.3f} um: "
-                      "it measures "
-                      "the tilt of the part, not its form; the minimum zone below is free of it",
-                      value.f_mm / core::kMicrometre,
-                      result.mz_cylinder->width_mm() / core::kMicrometre));
-    }
-  }
 }
 
 /// Relations that hold for any data: MZ <= LS, and no section is wider than the cylinder's zone.
@@ -325,6 +320,16 @@ core::Result<void> check_invariants(const FeatureResult& result) {
   return {};
 }
 
+void take_temperatures(const std::vector<const Touch*>& touches, FeatureResult& result) {
+  Temperatures out{touches.front()->temperature_degC, touches.front()->temperature_degC, 0.0};
+  for (const Touch* touch : touches) {
+    out.least_degC = std::min(out.least_degC, touch->temperature_degC);
+    out.greatest_degC = std::max(out.greatest_degC, touch->temperature_degC);
+    out.mean_degC += touch->temperature_degC / static_cast<double>(touches.size());
+  }
+  result.temperatures = out;
+}
+
 core::Result<FeatureResult> evaluate_feature(const RunRecord& record, int index,
                                              const std::optional<fit::ProbeTip>& probe) {
   FeatureResult result;
@@ -348,21 +353,19 @@ core::Result<FeatureResult> evaluate_feature(const RunRecord& record, int index,
   }
   const auto touches = touches_of(record, last->id);
   result.cloud = averaged(touches);
-  double temperature = 0.0;
-  for (const Touch* touch : touches) temperature += touch->temperature_degC;
-  result.mean_temperature_degC =
-      temperature / static_cast<double>(std::max<std::size_t>(1, touches.size()));
   if (result.cloud.empty()) {
     result.failure = core::Error{core::Code::kNoPoints, "the final cloud holds no touches", {}};
     return result;
   }
+  if (result.feature.strategy != record::Strategy::kPointsFile) take_temperatures(touches, result);
+  const auto direction = expected_axis(record, result.feature, *last);
   if (result.feature.shape == record::Shape::kCylinder) {
-    evaluate_cylinder(result);
+    evaluate_cylinder(direction, result);
   } else {
-    evaluate_circle(result);
+    evaluate_circle(*direction, result);
   }
   if (result.failure) return result;
-  evaluate_repeats(touches, result);
+  evaluate_repeats(touches, direction, result);
   if (result.mz_cylinder && result.feature.strategy != record::Strategy::kPointsFile) {
     result.levelling_pose = levelling(last->reached, result.mz_cylinder->axis.direction);
   }
@@ -380,7 +383,7 @@ core::Result<Evaluation> evaluate(const RunRecord& record) {
   for (std::size_t i = 0; i < record.features.size(); ++i) {
     auto feature = evaluate_feature(record, static_cast<int>(i), out.probe);
     if (!feature) return core::fail(feature.error());
-    decide(record, *feature);
+    decide(record, out.probe, *feature);
     out.features.push_back(std::move(*feature));
   }
   out.verdict = overall(out.features);

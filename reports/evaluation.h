@@ -63,6 +63,13 @@ struct CharacteristicResult {
   std::string operator_text;  ///< "MZCY; unfiltered; 4 x 7 points; ..."
 };
 
+/// Part temperature while the final cloud was touched.
+struct Temperatures {
+  double least_degC = 0.0;
+  double greatest_degC = 0.0;
+  double mean_degC = 0.0;
+};
+
 /// Everything evaluated of one feature.
 struct FeatureResult {
   record::Feature feature;
@@ -76,7 +83,7 @@ struct FeatureResult {
   std::optional<double> repeat_sigma_mm;     ///< Pooled standard deviation of a single touch.
   std::optional<double> repeat_zone_mean_mm;  ///< Mean of the zones of the single repeats.
   std::optional<double> repeat_zone_sd_mm;
-  double mean_temperature_degC = 20.0;
+  std::optional<Temperatures> temperatures;  ///< Of the final cloud; none for points of a file.
   std::vector<CharacteristicResult> characteristics;
   std::vector<core::Error> warnings;
   std::optional<core::Error> failure;  ///< Why there is no result.

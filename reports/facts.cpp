@@ -65,6 +65,10 @@ std::optional<LeastSquares> least_squares_of(const FeatureResult& feature) {
   return LeastSquares{ls->deviation_mm, ls->radius_mm + offset_mm, ls->rms_mm};
 }
 
+std::string_view symbol_of(record::Shape shape) {
+  return shape == record::Shape::kCircle ? "RONt" : "CYLt";
+}
+
 std::string symbol_of(const record::Characteristic& characteristic) {
   return characteristic.form == record::Form::kCylindricity ? "CYLt" : "RONt";
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reports/evaluation.h"
@@ -40,6 +41,8 @@ struct LeastSquares {
 
 /// "CYLt" or "RONt"; "MZCY", "LSCY", "MZCI" or "LSCI".
 [[nodiscard]] std::string symbol_of(const record::Characteristic& characteristic);
+/// Symbol of the zone of a feature: "CYLt", or "RONt" of a circle.
+[[nodiscard]] std::string_view symbol_of(record::Shape shape);
 [[nodiscard]] std::string reference_of(const record::Characteristic& characteristic);
 
 /// The final pose, or nothing when no pose is marked.

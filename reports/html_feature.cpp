@@ -106,14 +106,16 @@ std::string data_entries(const FeatureResult& feature) {
                                 : std::string()));
   }
   if (!from_file)
-    html += entry("Mean temperature", fixed(feature.mean_temperature_degC, 2) + " °C");
+    html += entry("Mean temperature",
+                  feature.temperatures ? fixed(feature.temperatures->mean_degC, 2) + " °C" : "–");
   return html;
 }
 
-std::string truth_box(const record::SimulationTruth* truth, const std::optional<Zone>& zone) {
+std::string truth_box(const record::SimulationTruth* truth, const std::optional<Zone>& zone,
+                      record::Shape shape) {
   if (truth == nullptr) return {};
-  std::string text =
-      fmt::format("<b>Hidden truth of the simulation:</b> CYLt {} µm", um(truth->cylt_mm));
+  std::string text = fmt::format("<b>Hidden truth of the simulation:</b> {} {} µm",
+                                 symbol_of(shape), um(truth->cylt_mm));
   if (zone)
     text += fmt::format("; difference {} µm", signed_um(zone->deviation_mm - truth->cylt_mm));
   return R"(<div class="truth">)" + text +
@@ -164,7 +166,7 @@ std::string feature_section(const record::RunRecord& record, std::size_t index,
           : fmt::format("pose search: {}", record::name_of(asked.strategy)));
   html += messages(feature);
   html += key_numbers(feature, zone);
-  html += truth_box(truth_of(record, index), zone);
+  html += truth_box(truth_of(record, index), zone, feature.feature.shape);
   if (zone) html += polar_plots(feature, *zone) + deviation_map(feature, *zone);
   if (feature.poses.empty()) return html + "</section>";
   html +=

@@ -212,7 +212,8 @@ Json feature_json(const FeatureResult& feature) {
   json["repeat_sigma_um"] = optional_um(feature.repeat_sigma_mm);
   json["repeat_zone_mean_um"] = optional_um(feature.repeat_zone_mean_mm);
   json["repeat_zone_sd_um"] = optional_um(feature.repeat_zone_sd_mm);
-  json["mean_temperature_degC"] = feature.mean_temperature_degC;
+  json["mean_temperature_degC"] =
+      feature.temperatures ? Json(feature.temperatures->mean_degC) : Json(nullptr);
   json["layers"] = list_json(feature.layers,
                              [&](const LayerResult& layer) { return layer_json(layer, feature); });
   json["poses"] = list_json(feature.poses, pose_json);

@@ -99,7 +99,7 @@ void add_zone(std::string& out, const FeatureResult& feature) {
 void add_truth(std::string& out, const record::SimulationTruth* truth,
                const FeatureResult& feature) {
   if (truth == nullptr) return;
-  std::string text = fmt::format("CYLt {} um", um(truth->cylt_mm));
+  std::string text = fmt::format("{} {} um", symbol_of(feature.feature.shape), um(truth->cylt_mm));
   if (const auto zone = zone_of(feature)) {
     text += fmt::format(", difference {} um", signed_um(zone->deviation_mm - truth->cylt_mm));
   }

@@ -31,7 +31,9 @@ void compare_results(const record::RunRecord& record, const Evaluation& evaluati
   std::string first;
   for (const auto& result : now) {
     const auto found = stored.find(result.name);
-    const bool equal = found != stored.end() && std::abs(found->second - result.value) <= tolerance;
+    const bool equal =
+        found != stored.end() &&
+        (found->second == result.value || std::abs(found->second - result.value) <= tolerance);
     if (found != stored.end()) stored.erase(found->first);
     if (equal) continue;
     if (!first.empty()) {
@@ -68,8 +70,12 @@ core::Result<std::string> compare_exports(const fs::path& directory,
                                           const Evaluation& evaluation, double tolerance,
                                           Verification& out) {
   std::string names;
+  std::string absent;
   for (const Export& e : exports()) {
-    if (!fs::exists(directory / e.file)) continue;
+    if (!fs::exists(directory / e.file)) {
+      absent += (absent.empty() ? "; not there: " : ", ") + e.file;
+      continue;
+    }
     const auto bytes = record::read_file(directory / e.file);
     if (!bytes) return core::fail(bytes.error());
     names += (names.empty() ? "" : ", ") + e.file;
@@ -78,7 +84,7 @@ core::Result<std::string> compare_exports(const fs::path& directory,
       out.differences.push_back(fmt::format("{}: {}", e.file, *difference));
     }
   }
-  return names;
+  return (names.empty() ? "none" : names) + absent;
 }
 
 }  // namespace
@@ -107,11 +113,12 @@ core::Result<Verification> verify_run(const fs::path& directory, const std::stri
   const auto names = compare_exports(directory, record, *evaluation, tolerance, out);
   if (!names) return core::fail(names.error());
   out.what_was_compared =
-      fmt::format("{} touches, {} results{}{} follow from the journal, {}", record.touches.size(),
-                  record.results.size(), names->empty() ? "" : ", ", *names,
+      fmt::format("{} touches, {} results follow from the journal, {}; exports compared: {}",
+                  record.touches.size(), record.results.size(),
                   same ? "bit for bit (same kind of processor)"
                        : fmt::format("numbers within 1e-9 (measured on {}, verified on {})",
-                                     record.header.processor, processor));
+                                     record.header.processor, processor),
+                  *names);
   return out;
 }
 

@@ -66,7 +66,9 @@ TEST_F(FinishedRun, AChangedDigitOfTheJsonReportIsNamed) {
   const auto report = nlohmann::json::parse(read(run_ / "report.json"));
   const std::string value = report.at("/features/0/mz/deviation_um"_json_pointer).dump();
   std::string changed = value;
-  changed.back() = changed.back() == '7' ? '8' : '7';
+  // Not the last of 17 digits: two texts of those may be the same double.
+  char& digit = changed.at(8);
+  digit = digit == '7' ? '8' : '7';
   const std::string key = "\"deviation_um\": ";
   std::string bytes = read(run_ / "report.json");
   const std::size_t at = bytes.find(key + value);
@@ -97,11 +99,11 @@ TEST_F(FinishedRun, AChangedFieldOfTheTouchesIsNamed) {
   EXPECT_THAT(difference(), HasSubstr("touches.csv: "));
 }
 
-TEST_F(FinishedRun, ADeletedReportIsNoDifference) {
+TEST_F(FinishedRun, ADeletedReportIsNoDifferenceButIsNamed) {
   fs::remove(run_ / "report.html");
   const Outcome outcome = verify();
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_THAT(outcome.out, ::testing::Not(HasSubstr("report.html")));
+  EXPECT_THAT(outcome.out, HasSubstr("not there: report.html"));
 }
 
 TEST_F(FinishedRun, ReportsAreWrittenAgainByteForByte) {

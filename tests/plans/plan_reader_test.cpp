@@ -99,14 +99,13 @@ TEST(PlanReader, AnArrayInThePlanReplacesTheDefault) {
   EXPECT_EQ(result->features[0].pose_search.steps_deg, std::vector<double>{1.0});
 }
 
-TEST(PlanReader, ACircleIsOneLayerAtOneHeight) {
+TEST(PlanReader, ACircleIsOneLayerOfItsSurface) {
   const PlanOrProblems result =
       parse(R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": "p"},)" + kMachines +
             R"("probe": {}, "features": [{"id": "f", "type": "circle",
-          "nominal": {"diameter_mm": 50, "from_mm": -12.5}}], "simulation": {}})");
+          "nominal": {"diameter_mm": 50, "from_mm": -12.5, "to_mm": 7.5}}], "simulation": {}})");
   ASSERT_TRUE(result) << lines_of(result);
   EXPECT_EQ(result->features[0].sampling.layers, 1);
-  EXPECT_EQ(result->features[0].nominal.to_mm, -12.5);
 }
 
 TEST(PlanReader, ByteOrderMarkCrLfAndSchemaKeyAreAccepted) {

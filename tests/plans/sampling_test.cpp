@@ -49,18 +49,18 @@ TEST(SamplingTargets, FullStaggerInterleavesTheLayersEvenly) {
   }
 }
 
-TEST(SamplingTargets, ASingleLayerLiesInTheMiddleAndACircleAtItsHeight) {
+TEST(SamplingTargets, ASingleLayerAndACircleLieInTheMiddle) {
   FeaturePlan feature = four_by_seven();
   feature.nominal.to_mm = 60.0;
   feature.sampling.layers = 1;
   EXPECT_EQ(sampling_targets(feature)->front().z_mm, 10.0);
   feature.type = "circle";
-  feature.nominal = {50.0, 12.0, 0.0};
+  feature.nominal = {50.0, 12.0, 32.0};
   feature.sampling.layers = 4;
   const auto circle = sampling_targets(feature);
   ASSERT_TRUE(circle);
   EXPECT_EQ(circle->size(), 7U);
-  EXPECT_EQ(circle->back().z_mm, 12.0);
+  EXPECT_EQ(circle->back().z_mm, 22.0);
 }
 
 TEST(SamplingTargets, RefusesWhatCannotBePlaced) {

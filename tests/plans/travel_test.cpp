@@ -260,13 +260,13 @@ TEST(CheckReachable, NamesTheFirstTargetBelowTheRim) {
   feature.nominal = {40.0, 0.0, 50.0};
   const auto targets = *sampling_targets(feature);
   const Eigen::Isometry3d upright = Eigen::Isometry3d::Identity();
-  EXPECT_TRUE(check_reachable(targets, g, upright, {0.0, 0.0, 0.0}));
-  const auto low = check_reachable(targets, g, upright, {0.001, 0.0, 0.0});
+  EXPECT_TRUE(check_reachable(targets, g, upright, {-2.0, 0.0, 0.0}));
+  const auto low = check_reachable(targets, g, upright, {-1.999, 0.0, 0.0});
   ASSERT_FALSE(low);
   EXPECT_EQ(low.error().code, core::Code::kUnreachable);
   EXPECT_EQ(low.error().what,
             "layer 1, point 1: the tip would go down to machine z 5.000 mm, below the limit of "
-            "5.001 mm (rim and clearance)");
+            "5.001 mm (rim, clearance and tip radius)");
 }
 
 TEST(CheckReachable, SeesTheSideThatATiltLowers) {
@@ -279,10 +279,10 @@ TEST(CheckReachable, SeesTheSideThatATiltLowers) {
   Eigen::Isometry3d tilted = Eigen::Isometry3d::Identity();
   tilted.rotate(Eigen::AngleAxisd(0.3, Vector3d::UnitX()));  // +y goes up, -y down
   const double lowest = (tilted * pre_touch(g, targets[3])).z();
-  const auto refused = check_reachable(targets, g, tilted, {lowest - 5.0, 0.0, 0.0});
+  const auto refused = check_reachable(targets, g, tilted, {lowest - 7.0, 0.0, 0.0});
   ASSERT_FALSE(refused) << "the travel circle is wider than the pre-touch circle";
   EXPECT_THAT(refused.error().what, HasSubstr("layer 1"));
-  EXPECT_TRUE(check_reachable(targets, g, tilted, {lowest - 6.0, 0.0, 0.0}));
+  EXPECT_TRUE(check_reachable(targets, g, tilted, {lowest - 8.0, 0.0, 0.0}));
 }
 
 TEST(CheckReachable, RefusesTargetsThatTheClampHides) {

@@ -91,7 +91,7 @@ TEST(Json, FailureStandsWithItsCodeAndTheZoneIsNull) {
 
 TEST(Json, BytesThatAreNotUtf8AndNumbersThatAreNotFiniteStillMakeJson) {
   Case made = hostile_case("\xff\xfe \"x\" \x01");
-  made.evaluation.features[0].mean_temperature_degC = std::numeric_limits<double>::quiet_NaN();
+  made.evaluation.features[0].temperatures.reset();
   const ordered_json document = document_of(made);
   EXPECT_TRUE(document["features"][0]["mean_temperature_degC"].is_null());
 }

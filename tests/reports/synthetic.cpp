@@ -191,7 +191,7 @@ Case cylinder_case(int layers, int points_per_layer, int poses) {
   feature.repeat_sigma_mm = 0.00031;
   feature.repeat_zone_mean_mm = 0.00882;
   feature.repeat_zone_sd_mm = 0.00014;
-  feature.mean_temperature_degC = 20.12;
+  feature.temperatures = Temperatures{20.1, 20.14, 20.12};
   feature.characteristics.push_back(
       {feature.feature.characteristics.front(), 2.0 * kHalfZone, Verdict::kConforms,
        "8.300 um is not above the limit of 10.000 um.",
