@@ -36,10 +36,13 @@ struct ZoneStep {
 /// Dantzig's rule, Bland's after 300 pivots. The basis is factorised anew at every pivot: it is at
 /// most 6 x 6, and no error accumulates.
 ///
-/// @param rows  At least one point. Distances may be given minus a common value.
+/// @param rows  At least one point. Distances may be given minus a common value (if `inner_gain` is 1).
+/// @param inner_gain  The minimum counts this often: minimises max - inner_gain * min; > 0. The
+///                    inner multipliers still sum to 1.
 /// Cost: O(n K) a pivot, commonly 5 to 20 pivots.
 /// Source: methods, cylindricity sections 9.3 and 11.2 (the box is its trust region).
 template <int K>
-[[nodiscard]] ZoneStep<K> solve_zone_program(std::span<const ZoneRow<K>> rows, double box_mm);
+[[nodiscard]] ZoneStep<K> solve_zone_program(std::span<const ZoneRow<K>> rows, double box_mm,
+                                             double inner_gain = 1.0);
 
 }  // namespace rondure::fit
