@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "fit/axis.h"
+#include "fit/axis_cover.h"
 #include "fit/certificate.h"
 
 namespace rondure::fit {
@@ -47,5 +48,22 @@ struct GlobalSearch {
 [[nodiscard]] GlobalSearch<Eigen::Vector2d> search_centers(
     std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
     const ZoneClaim& claim, const GlobalSearchOptions& options = {});
+
+/// Proves that no axis whose direction is in one of `directions` has a narrower zone, or finds one.
+///
+/// Branch and bound over directions. Turning a box of directions to its middle moves no point by more
+/// than |z| sin + rho (1 - cos) of its opening, so the projected points leave a square of centres at
+/// most (center_region.h); what is left, four parameters of the axis, is bounded by one linear programme
+/// (zone_box.h). Around the optimum first-order growth, less the curvature K e^2, closes a ball; where
+/// growth is of second order (five contacts) boxes are closed `tolerance_mm` below the zone.
+///
+/// @param axis        Axis of the claim, among the directions; its point midway between the ends.
+/// @param half_length_mm  Scale of the tilts in claim.growth.
+/// Source: methods, certificates section 3.
+[[nodiscard]] GlobalSearch<Axis> search_axes(std::span<const Eigen::Vector3d> points_mm,
+                                             const Axis& axis, double half_length_mm,
+                                             const ZoneClaim& claim,
+                                             std::span<const DirectionBox> directions,
+                                             const GlobalSearchOptions& options = {});
 
 }  // namespace rondure::fit
