@@ -2,7 +2,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <utility>
+#include <optional>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -19,6 +19,8 @@ namespace {
 constexpr double kOutward = 1e-12;
 /// Wider boxes of directions are split unseen: their bounds say nothing.
 constexpr double kWidestOpening = 0.35;
+/// Squares of centres are quartered this often before the directions are.
+constexpr int kSquareLevels = 6;
 
 using Points = std::span<const Eigen::Vector3d>;
 
@@ -53,7 +55,7 @@ class AxisSearcher {
       range = std::max(range, points_.back().norm());
     }
     slack_ = kOutward * range;
-    // Growth was computed from contacts that hold the zone only to the solver's round-off.
+    options_.tolerance_mm = std::max(options.tolerance_mm, 4.0 * slack_);
     ball_ = ball_size(claim.growth, inner, outer, half_length);
     for (const std::size_t i : rows_.rows()) chosen_.push_back(points_[i]);
   }
@@ -76,7 +78,6 @@ class AxisSearcher {
     Eigen::Matrix3d frame;                 ///< Columns; the third is the middle of the box.
     std::vector<Eigen::Vector3d> points;   ///< The chosen ones, in the frame.
     ZoneBox box;                           ///< Axes that are left.
-    double lower_mm = 0.0;                 ///< Of the zones of all axes of the box.
     bool excluded = false;
     bool bounded = false;
   };
@@ -117,14 +118,15 @@ class AxisSearcher {
     return view;
   }
 
-  /// Whether all axes left of a box are in the ball of the claim.
-  [[nodiscard]] bool closed_by_growth(const DirectionBox& box, const View& view) const {
+  /// Whether all axes of a box that cross a square are in the ball of the claim.
+  [[nodiscard]] bool closed_by_growth(const DirectionBox& box, const View& view,
+                                      const ZoneBox& square) const {
     const double apart = view.frame.col(2).cross(axis_.direction).norm();
     if (std::abs(view.frame.col(2).dot(axis_.direction)) < 0.5) return false;
     const double angle = std::asin(std::min(1.0, apart)) + box.opening_rad();
     if (angle > 0.5 || half_length_ * std::tan(angle) > ball_) return false;
     // Crossing with the plane of the claim: along a direction at `angle` at most.
-    const double farthest = view.box.center_mm.norm() + std::sqrt(2.0) * view.box.half_side_mm;
+    const double farthest = square.center_mm.norm() + std::sqrt(2.0) * square.half_side_mm;
     return farthest * (1.0 + apart / std::cos(angle)) <= ball_;
   }
 
@@ -134,12 +136,9 @@ class AxisSearcher {
     const View view = look(box);
     if (view.excluded) return;
     if (!view.bounded) return split(box);
-    if (closed_by_growth(box, view)) return;
-    const ZoneBoxBound found = bound(view);
-    if (found.lower_mm >= claim_.width_mm - options_.tolerance_mm) {
-      out_.lower_mm = std::min(out_.lower_mm, found.lower_mm);
-      return;
-    }
+    const auto open = first_open(box, view, view.box);
+    if (!open) return;
+    const ZoneBoxBound& found = *open;
     const Axis candidate = axis_of(view, found);
     if (zone_of(chosen_, candidate).width >= claim_.width_mm) return split(box);
     const Zone zone = zone_of(points_, candidate);
@@ -165,8 +164,31 @@ class AxisSearcher {
     for (const DirectionBox& quarter : box.quarters()) boxes_.push_back(quarter);
   }
 
-  [[nodiscard]] ZoneBoxBound bound(const View& view) const {
-    return bound_zone_box<4>(view.points, view.box, claim_.width_mm, options_.tolerance_mm, slack_);
+  /// Closes the squares of centres of a box, splitting them while they are wide against the move of
+  /// the ends of the axis over its directions; narrower ones gain nothing.
+  /// @return What is known of the first square that stays open; nothing when all are closed.
+  std::optional<ZoneBoxBound> first_open(const DirectionBox& box, const View& view,
+                                         const ZoneBox& square, int levels = kSquareLevels) {
+    if (closed_by_growth(box, view, square)) return std::nullopt;
+    ++out_.boxes;
+    const ZoneBoxBound found = bound_zone_box<4>(view.points, square, claim_.width_mm,
+                                                 options_.tolerance_mm, slack_);
+    if (found.lower_mm >= claim_.width_mm - options_.tolerance_mm) {
+      out_.lower_mm = std::min(out_.lower_mm, found.lower_mm);
+      return std::nullopt;
+    }
+    const bool narrow = square.half_side_mm <= half_length_ * square.lean;
+    if (narrow || levels == 0 || out_.boxes >= options_.max_boxes) return found;
+    auto squares = quarters(square);
+    // The square that holds the best looking axis will most likely stay open: it comes first.
+    std::sort(squares.begin(), squares.end(), [&](const ZoneBox& a, const ZoneBox& b) {
+      return (a.center_mm - found.center_mm).squaredNorm() <
+             (b.center_mm - found.center_mm).squaredNorm();
+    });
+    for (const ZoneBox& quarter : squares) {
+      if (auto open = first_open(box, view, quarter, levels - 1)) return open;
+    }
+    return std::nullopt;
   }
 
   [[nodiscard]] static Axis axis_of(const View& view, const ZoneBoxBound& found) {
@@ -203,11 +225,17 @@ class AxisSearcher {
     return out;
   }
 
+  [[nodiscard]] double least_bound(const DirectionBox& box, const View& view) const {
+    if (closed_by_growth(box, view, view.box)) return claim_.width_mm;
+    return bound_zone_box<4>(view.points, view.box, claim_.width_mm, options_.tolerance_mm, slack_)
+        .lower_mm;
+  }
+
   GlobalSearch<Axis> give_up() {
     for (const DirectionBox& box : boxes_) {
       const View view = look(box);
-      if (view.excluded || (view.bounded && closed_by_growth(box, view))) continue;
-      out_.lower_mm = view.bounded ? std::min(out_.lower_mm, bound(view).lower_mm) : 0.0;
+      if (view.excluded) continue;
+      out_.lower_mm = view.bounded ? std::min(out_.lower_mm, least_bound(box, view)) : 0.0;
     }
     out_.reason = fmt::format("{} boxes of directions were left after {}; lower bound {:.9g} mm",
                               boxes_.size(), out_.boxes, out_.lower_mm);

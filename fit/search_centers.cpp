@@ -47,6 +47,7 @@ class CenterSearcher {
       range = std::max(range, points_.back().norm());
     }
     slack_ = kOutward * range;
+    options_.tolerance_mm = std::max(options.tolerance_mm, 4.0 * slack_);
     closed_ = closed_half_side(claim.growth, nearest);
     for (const std::size_t i : rows_.rows()) take(i);
   }
@@ -125,16 +126,7 @@ class CenterSearcher {
     if (more) {
       boxes_.push_front(box);
     } else {
-      split(box);
-    }
-  }
-
-  void split(const ZoneBox& box) {
-    const double half = 0.5 * box.half_side_mm;
-    for (const double x : {-half, half}) {
-      for (const double y : {-half, half}) {
-        boxes_.push_back({box.center_mm + Eigen::Vector2d(x, y), half, 0.0});
-      }
+      for (const ZoneBox& quarter : quarters(box)) boxes_.push_back(quarter);
     }
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "fit/zone_program.h"
 
@@ -10,6 +12,7 @@ namespace rondure::fit {
 namespace {
 
 constexpr int kBisections = 10;
+constexpr int kPivots = 60;
 
 using Points = std::span<const Eigen::Vector3d>;
 
@@ -31,8 +34,7 @@ class BoxProof {
   [[nodiscard]] bool proves(double width, double slack) const {
     if (outer_.empty() || inner_.empty()) return false;
     const double asked = width + slack;
-    const double threshold = asked * (radius_ + asked);
-    return least_difference(asked) > threshold + 2.0 * slack * radius_;
+    return least_difference(asked) > asked * (radius_ + asked) + slack * radius_;
   }
 
  private:
@@ -101,6 +103,14 @@ class BoxProof {
 
 }  // namespace
 
+std::array<ZoneBox, 4> quarters(const ZoneBox& box) {
+  const double half = 0.5 * box.half_side_mm;
+  const auto quarter = [&](double x, double y) -> ZoneBox {
+    return {box.center_mm + Eigen::Vector2d(x, y), half, box.lean};
+  };
+  return {quarter(-half, -half), quarter(-half, half), quarter(half, -half), quarter(half, half)};
+}
+
 template <int K>
 ZoneBoxBound bound_zone_box(Points points_mm, const ZoneBox& box, double width_mm,
                             double tolerance_mm, double slack_mm) {
@@ -118,7 +128,7 @@ ZoneBoxBound bound_zone_box(Points points_mm, const ZoneBox& box, double width_m
   }
   // Any radius would do; the one of the data is the sharpest.
   const double radius = std::max(std::sqrt(nearest), width_mm);
-  const auto step = solve_zone_program<K>(rows, 1.0, 1.0 + width_mm / radius);
+  const auto step = solve_zone_program<K>(rows, 1.0, 1.0 + width_mm / radius, kPivots);
 
   ZoneBoxBound out;
   out.center_mm = box.center_mm + box.half_side_mm * step.step.template head<2>();

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <array>
 #include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -17,6 +17,9 @@ struct ZoneBox {
   double half_side_mm = 0.0;
   double lean = 0.0;
 };
+
+/// The same axes in four squares.
+[[nodiscard]] std::array<ZoneBox, 4> quarters(const ZoneBox& box);
 
 /// What a linear programme says about the zones of all axes of a box.
 struct ZoneBoxBound {

@@ -12,7 +12,6 @@ namespace rondure::fit {
 namespace {
 
 constexpr int kDantzigPivots = 300;
-constexpr int kPivotLimit = 5000;
 
 /// A column of the dual programme. Order of the kinds is Bland's order.
 struct Column {
@@ -35,9 +34,9 @@ class DualSimplexTable {
     start_basis();
   }
 
-  ZoneStep<K> solve() {
+  ZoneStep<K> solve(int pivot_limit) {
     ZoneStep<K> out;
-    for (; out.pivots < kPivotLimit; ++out.pivots) {
+    for (; out.pivots < pivot_limit; ++out.pivots) {
       factorise();
       const auto entering = price(out.pivots >= kDantzigPivots);
       if (!entering || !pivot(*entering)) {
@@ -190,13 +189,14 @@ class DualSimplexTable {
 }  // namespace
 
 template <int K>
-ZoneStep<K> solve_zone_program(std::span<const ZoneRow<K>> rows, double box_mm, double inner_gain) {
-  return DualSimplexTable<K>(rows, box_mm, inner_gain).solve();
+ZoneStep<K> solve_zone_program(std::span<const ZoneRow<K>> rows, double box_mm, double inner_gain,
+                               int pivot_limit) {
+  return DualSimplexTable<K>(rows, box_mm, inner_gain).solve(pivot_limit);
 }
 
-template ZoneStep<1> solve_zone_program<1>(std::span<const ZoneRow<1>>, double, double);
-template ZoneStep<2> solve_zone_program<2>(std::span<const ZoneRow<2>>, double, double);
-template ZoneStep<3> solve_zone_program<3>(std::span<const ZoneRow<3>>, double, double);
-template ZoneStep<4> solve_zone_program<4>(std::span<const ZoneRow<4>>, double, double);
+template ZoneStep<1> solve_zone_program<1>(std::span<const ZoneRow<1>>, double, double, int);
+template ZoneStep<2> solve_zone_program<2>(std::span<const ZoneRow<2>>, double, double, int);
+template ZoneStep<3> solve_zone_program<3>(std::span<const ZoneRow<3>>, double, double, int);
+template ZoneStep<4> solve_zone_program<4>(std::span<const ZoneRow<4>>, double, double, int);
 
 }  // namespace rondure::fit
