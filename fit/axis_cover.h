@@ -9,7 +9,8 @@ namespace rondure::fit {
 
 /// A set of directions: those through a square of the plane z = 1 of a frame.
 struct DirectionBox {
-  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< Columns; the plane's normal is the third.
+  Eigen::Matrix3d frame =
+      Eigen::Matrix3d::Identity();  ///< Columns; the plane's normal is the third.
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
   double half_side = 0.0;
 

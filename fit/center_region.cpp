@@ -33,9 +33,9 @@ CenterRegion center_region(std::span<const Eigen::Vector2d> points_mm, double wi
   const auto least = solve_zone_program<2>(rows, kReach, 1.0, kPivots);
   out.center_mm = mean + reach * least.step;
 
-  // From here on the programme is not trusted: only its centre is used. Points up to `depth` off the
-  // contacts lose area but may gain growth, where the contacts themselves lie close together; with all
-  // points the growth is that of a strip.
+  // From here on the programme is not trusted: only its centre is used. Points up to `depth` off
+  // the contacts lose area but may gain growth, where the contacts themselves lie close together;
+  // with all points the growth is that of a strip.
   std::vector<double> squares;
   for (const Eigen::Vector2d& p : points_mm) squares.push_back((p - out.center_mm).squaredNorm());
   const auto [near, far] = std::minmax_element(squares.begin(), squares.end());

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 namespace rondure::fit {
 namespace {
@@ -55,8 +55,10 @@ ZoneCheck check(std::size_t count, int unknowns, const MovedDistance& distance,
   if (held) {
     Eigen::Vector4d balance = Eigen::Vector4d::Zero();
     const double step = kStep * zone.outer_radius_mm;
-    const double high = weigh(zone.outer, zone.outer_radius_mm, 1.0, unknowns, step, distance, balance, out);
-    const double low = weigh(zone.inner, zone.inner_radius_mm, -1.0, unknowns, step, distance, balance, out);
+    const double high =
+        weigh(zone.outer, zone.outer_radius_mm, 1.0, unknowns, step, distance, balance, out);
+    const double low =
+        weigh(zone.inner, zone.inner_radius_mm, -1.0, unknowns, step, distance, balance, out);
     out.imbalance = balance.cwiseAbs().maxCoeff();
     const double width = zone.outer_radius_mm - zone.inner_radius_mm;
     out.gap_mm = low - high + balance.lpNorm<1>() * width;

@@ -16,7 +16,7 @@ namespace rondure::fit {
 struct GlobalSearchOptions {
   int max_boxes = 20000;       ///< Boxes bounded before the search gives up; >= 1.
   double tolerance_mm = 1e-9;  ///< Boxes are closed this far below the zone, or 4e-12 of the
-                                ///< coordinate range, if that is more; enters the gap.
+                               ///< coordinate range, if that is more; enters the gap.
 };
 
 /// What a zone is compared with: the solver's result.
@@ -52,11 +52,12 @@ struct GlobalSearch {
 
 /// Proves that no axis whose direction is in one of `directions` has a narrower zone, or finds one.
 ///
-/// Branch and bound over directions. Turning a box of directions to its middle moves no point by more
-/// than |z| sin + rho (1 - cos) of its opening, so the projected points leave a square of centres at
-/// most (center_region.h); what is left, four parameters of the axis, is bounded by one linear programme
-/// (zone_box.h). Around the optimum first-order growth, less the curvature K e^2, closes a ball; where
-/// growth is of second order (five contacts) boxes are closed `tolerance_mm` below the zone.
+/// Branch and bound over directions. Turning a box of directions to its middle moves no point by
+/// more than |z| sin + rho (1 - cos) of its opening, so the projected points leave a square of
+/// centres at most (center_region.h); what is left, four parameters of the axis, is bounded by one
+/// linear programme (zone_box.h). Around the optimum first-order growth, less the curvature K e^2,
+/// closes a ball; where growth is of second order (five contacts) boxes are closed `tolerance_mm`
+/// below the zone.
 ///
 /// @param axis        Axis of the claim, among the directions; its point midway between the ends.
 /// @param half_length_mm  Scale of the tilts in claim.growth.

@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "fit/center_region.h"
 #include "fit/global_search.h"
@@ -32,8 +32,7 @@ double ball_size(double growth, double inner_radius, double outer_radius, double
   const double quadratic = 2.0 * std::sqrt(2.0) * square;
   const double size = std::max(growth, 0.0);
   // The root of  quadratic e^2 + linear e = sigma, in the form that does not cancel.
-  const double root =
-      2.0 * size / (linear + std::sqrt(linear * linear + 4.0 * quadratic * size));
+  const double root = 2.0 * size / (linear + std::sqrt(linear * linear + 4.0 * quadratic * size));
   return std::min(root, inner_radius / 20.0);
 }
 
@@ -41,7 +40,10 @@ class AxisSearcher {
  public:
   AxisSearcher(Points points, const Axis& axis, double half_length, const ZoneClaim& claim,
                const GlobalSearchOptions& options)
-      : axis_(axis), half_length_(half_length), claim_(claim), options_(options),
+      : axis_(axis),
+        half_length_(half_length),
+        claim_(claim),
+        options_(options),
         rows_(points.size(), claim.outer, claim.inner) {
     double range = 0.0;
     double inner = std::numeric_limits<double>::infinity();
@@ -75,9 +77,9 @@ class AxisSearcher {
 
  private:
   struct View {
-    Eigen::Matrix3d frame;                 ///< Columns; the third is the middle of the box.
-    std::vector<Eigen::Vector3d> points;   ///< The chosen ones, in the frame.
-    ZoneBox box;                           ///< Axes that are left.
+    Eigen::Matrix3d frame;                ///< Columns; the third is the middle of the box.
+    std::vector<Eigen::Vector3d> points;  ///< The chosen ones, in the frame.
+    ZoneBox box;                          ///< Axes that are left.
     bool excluded = false;
     bool bounded = false;
   };
@@ -114,7 +116,8 @@ class AxisSearcher {
     // at most |c| (sin tan + 1 - cos) <= 2 |c| tan^2.
     const double lean = std::tan(opening);
     const double farthest = region.center_mm.norm() + std::sqrt(2.0) * region.half_side_mm;
-    view.box = {region.center_mm, region.half_side_mm + 2.0 * farthest * lean * lean + slack_, lean};
+    view.box = {region.center_mm, region.half_side_mm + 2.0 * farthest * lean * lean + slack_,
+                lean};
     return view;
   }
 
@@ -171,8 +174,8 @@ class AxisSearcher {
                                          const ZoneBox& square, int levels = kSquareLevels) {
     if (closed_by_growth(box, view, square)) return std::nullopt;
     ++out_.boxes;
-    const ZoneBoxBound found = bound_zone_box<4>(view.points, square, claim_.width_mm,
-                                                 options_.tolerance_mm, slack_);
+    const ZoneBoxBound found =
+        bound_zone_box<4>(view.points, square, claim_.width_mm, options_.tolerance_mm, slack_);
     if (found.lower_mm >= claim_.width_mm - options_.tolerance_mm) {
       out_.lower_mm = std::min(out_.lower_mm, found.lower_mm);
       return std::nullopt;

@@ -13,15 +13,13 @@
 #include "fit/center_search.h"
 #include "fit/pose_walk.h"
 #include "reports/conformance.h"
+#include "reports/invariants.h"
 
 namespace rondure::reports {
 namespace {
 
 using record::RunRecord;
 using record::Touch;
-
-/// Round-off allowed where one reported value must not exceed another [mm].
-constexpr double kInvariantSlack = 1e-9;
 
 std::optional<fit::ProbeTip> evaluate_probe(const RunRecord& record) {
   std::vector<Eigen::Vector3d> tips;
@@ -195,13 +193,28 @@ std::optional<Eigen::Vector3d> start_direction(const record::Feature& feature) {
   return Eigen::Vector3d::UnitZ();
 }
 
+/// Directions a reported zone is compared with: about machine z for what was touched; of a points
+/// file nothing is known, so all, or, where that takes too long, those about its least-squares axis.
+std::vector<fit::AxisScope> certificate_scopes(const record::Feature& feature,
+                                               const fit::LsCylinder& ls) {
+  fit::AxisScope cone{fit::AxisScope::Kind::kCone};
+  if (feature.strategy != record::Strategy::kPointsFile) return {cone};
+  cone.nominal = ls.axis.direction;
+  return {fit::AxisScope{fit::AxisScope::Kind::kHalfSphere}, cone};
+}
+
 void evaluate_cylinder(FeatureResult& result) {
   const auto tips = tips_of(result.cloud);
   const auto direction = start_direction(result.feature);
   auto ls = fit::ls_cylinder(tips, direction);
-  auto mz = fit::min_zone_cylinder(tips, direction);
-  if (!ls || !mz) {
-    result.failure = !ls ? ls.error() : mz.error();
+  if (!ls) {
+    result.failure = ls.error();
+    return;
+  }
+  auto mz = fit::min_zone_cylinder(
+      tips, direction, {.scopes = certificate_scopes(result.feature, *ls), .search = {}});
+  if (!mz) {
+    result.failure = mz.error();
     return;
   }
   result.ls_cylinder = *ls;
@@ -294,35 +307,6 @@ void warn(FeatureResult& result) {
                       result.mz_cylinder->width_mm() / core::kMicrometre));
     }
   }
-}
-
-/// Relations that hold for any data: MZ <= LS, and no section is wider than the cylinder's zone.
-core::Result<void> check_invariants(const FeatureResult& result) {
-  const auto broken = [&](const char* rule, double left, double right) {
-    return core::fail(
-        core::Code::kInternal,
-        fmt::format("invariant {} does not hold for {} points: {:.17g} mm > {:.17g} mm; "
-                    "please report this with the run's journal.db",
-                    rule, result.cloud.size(), left, right),
-        result.feature.id);
-  };
-  if (result.mz_cylinder) {
-    const double mz = result.mz_cylinder->width_mm();
-    if (!(mz <= result.ls_cylinder->deviation_mm + kInvariantSlack)) {
-      return broken("MZ <= LS", mz, result.ls_cylinder->deviation_mm);
-    }
-  }
-  for (const LayerResult& layer : result.layers) {
-    if (!layer.mz || !layer.ls) continue;
-    if (!(layer.mz->width_mm() <= layer.ls->deviation_mm + kInvariantSlack)) {
-      return broken("MZ <= LS of a section", layer.mz->width_mm(), layer.ls->deviation_mm);
-    }
-    if (result.mz_cylinder &&
-        !(layer.mz->width_mm() <= result.mz_cylinder->width_mm() + kInvariantSlack)) {
-      return broken("RONt <= CYLt", layer.mz->width_mm(), result.mz_cylinder->width_mm());
-    }
-  }
-  return {};
 }
 
 core::Result<FeatureResult> evaluate_feature(const RunRecord& record, int index,
