@@ -66,9 +66,11 @@ Solved solved(Points points, const CylinderDescent& state, double round_off) {
   }
   out.axis.point_mm += (low + out.half_length) * out.axis.direction;
   out.half_length = std::max(out.half_length, round_off);
-  const CylinderFrame frame(out.axis, out.half_length);
-  out.proof = prove_cylinder(points, frame, state.zone, round_off);
-  out.certificate = certify_local<4>(out.proof, state.zone.width(), round_off,
+  // A move along the axis changes no distance but by rounding; contacts must match what is stated.
+  out.state.frame = CylinderFrame(out.axis, out.half_length);
+  out.state.zone = extremes(points, out.state.frame);
+  out.proof = prove_cylinder(points, out.state.frame, out.state.zone, round_off);
+  out.certificate = certify_local<4>(out.proof, out.state.zone.width(), round_off,
                                      "next to the least-squares axis");
   return out;
 }
