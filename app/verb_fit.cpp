@@ -56,13 +56,15 @@ core::Result<void> fit_circle(const FitArguments& arguments,
 
 core::Result<void> fit_cylinder(const FitArguments& arguments,
                                 const std::vector<Eigen::Vector3d>& points, FitOutcome& out) {
-  if (wants(arguments, "ls")) {
-    const auto ls = fit::ls_cylinder(points);
-    if (!ls) return core::fail(ls.error());
-    out.ls_cylinder = *ls;
-  }
+  const auto ls = fit::ls_cylinder(points);
+  if (!ls) return core::fail(ls.error());
+  if (wants(arguments, "ls")) out.ls_cylinder = *ls;
   if (wants(arguments, "mz")) {
-    const auto mz = fit::min_zone_cylinder(points);
+    // All directions, or, where that takes too long, those about the least-squares axis.
+    const fit::AxisScope all{fit::AxisScope::Kind::kHalfSphere};
+    const fit::AxisScope cone{fit::AxisScope::Kind::kCone, ls->axis.direction};
+    const auto mz =
+        fit::min_zone_cylinder(points, std::nullopt, {.scopes = {all, cone}, .search = {}});
     if (!mz) return core::fail(mz.error());
     out.mz_cylinder = *mz;
   }

@@ -34,16 +34,6 @@ double growth_on_face(const Rows<K>& outer, const Rows<K>& inner, int k, double 
 }
 
 template <int K>
-double least_growth(const Rows<K>& outer, const Rows<K>& inner) {
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < K; ++k) {
-    least = std::min(
-        {least, growth_on_face<K>(outer, inner, k, 1.0), growth_on_face<K>(outer, inner, k, -1.0)});
-  }
-  return least;
-}
-
-template <int K>
 const ContactRow<K>& row_of(const Rows<K>& rows, std::size_t index) {
   return *std::find_if(rows.begin(), rows.end(),
                        [&](const ContactRow<K>& row) { return row.index == index; });
@@ -82,6 +72,16 @@ void test_curvature(const Rows<K>& outer, const Rows<K>& inner, LocalProof<K>& p
 }  // namespace
 
 template <int K>
+double first_order_growth(const Rows<K>& outer, const Rows<K>& inner) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < K; ++k) {
+    least = std::min(
+        {least, growth_on_face<K>(outer, inner, k, 1.0), growth_on_face<K>(outer, inner, k, -1.0)});
+  }
+  return least;
+}
+
+template <int K>
 LocalProof<K> prove_local(const Rows<K>& outer, const Rows<K>& inner, double reach_mm) {
   // Distances relative to the inner contacts keep their digits; the sum of the multipliers of each
   // side is 1, so a common value cancels.
@@ -113,7 +113,7 @@ LocalProof<K> prove_local(const Rows<K>& outer, const Rows<K>& inner, double rea
   for (const auto& c : outer) high = std::max(high, c.distance - base);
   for (const auto& c : inner) low = std::min(low, c.distance - base);
   proof.gap_mm = high - low - supported + imbalance.template lpNorm<1>() * reach_mm;
-  proof.growth = least_growth<K>(outer, inner);
+  proof.growth = first_order_growth<K>(outer, inner);
   proof.strict = proof.growth > kGrowthNoise;
   if (!proof.strict) test_curvature<K>(outer, inner, proof);
   return proof;
@@ -143,6 +143,8 @@ Certificate certify_local(const LocalProof<K>& proof, double width_mm, double ro
 
 template struct LocalProof<2>;
 template struct LocalProof<4>;
+template double first_order_growth<2>(const Rows<2>&, const Rows<2>&);
+template double first_order_growth<4>(const Rows<4>&, const Rows<4>&);
 template LocalProof<2> prove_local<2>(const Rows<2>&, const Rows<2>&, double);
 template LocalProof<4> prove_local<4>(const Rows<4>&, const Rows<4>&, double);
 template Certificate certify_local<2>(const LocalProof<2>&, double, double, std::string);

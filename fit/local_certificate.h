@@ -30,6 +30,14 @@ struct LocalProof {
   Eigen::Matrix<double, K, 1> descent = Eigen::Matrix<double, K, 1>::Zero();
 };
 
+/// sigma: least growth of max over `outer` minus min over `inner`, both linearised, per unit move
+/// in the max norm; <= 0 where some move does not widen the zone to first order.
+///
+/// @param outer, inner  Not empty; only the gradients are used, each of size 2 at most.
+template <int K>
+[[nodiscard]] double first_order_growth(const std::vector<ContactRow<K>>& outer,
+                                        const std::vector<ContactRow<K>>& inner);
+
 /// Tests the contacts of a zone for a local minimum: finds multipliers with
 /// sum lam J_h = sum mu J_l, the least first-order growth sigma, and, where sigma vanishes, the
 /// sign of the curvature on the directions left free.

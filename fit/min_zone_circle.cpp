@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t kEnumerated = 40;  // points up to which all bisector crossings are tried
 constexpr int kProgrammeLimit = 100;
+constexpr int kRestartLimit = 20;
 
 using Points = std::span<const Eigen::Vector2d>;
 
@@ -77,7 +78,8 @@ ContactRow<2> contact_row(Points points, const Eigen::Vector2d& center, std::siz
 }
 
 /// Contacts, multipliers and the local grade of the certificate at a centre.
-void certify(Points points, double round_off, MinZoneCircle& out) {
+/// @return The first-order growth of the zone there.
+double certify(Points points, double round_off, MinZoneCircle& out) {
   const Zone zone = zone_at(points, out.center_mm);
   out.inner_radius_mm = zone.low;
   out.outer_radius_mm = zone.high;
@@ -94,6 +96,27 @@ void certify(Points points, double round_off, MinZoneCircle& out) {
   out.inner = proof.inner;
   out.certificate =
       certify_local<2>(proof, zone.width(), round_off, "next to the least-squares centre");
+  return proof.growth;
+}
+
+/// Branch and bound over all centres; every better centre it meets becomes the new start.
+void search_all_centers(Points points, double round_off, const GlobalSearchOptions& options,
+                        MinZoneCircle& out) {
+  for (int restart = 0; restart < kRestartLimit; ++restart) {
+    const double growth = certify(points, round_off, out);
+    if (out.certificate.kind == Certificate::Kind::kNone) return;
+    const auto search = search_centers(points, out.center_mm,
+                                       {out.width_mm(), growth, out.outer, out.inner}, options);
+    out.squares += search.boxes;
+    if (search.better) {
+      out.center_mm = complete(points, *search.better, round_off);
+      continue;
+    }
+    const double gap = std::max(out.certificate.gap_mm, out.width_mm() - search.lower_mm);
+    if (search.proven) out.certificate = {Certificate::Kind::kGlobal, "all centres", gap, ""};
+    out.certificate.reason = search.reason;
+    return;
+  }
 }
 
 /// Three different points lie on one circle: nothing is left to minimise.
@@ -108,7 +131,7 @@ MinZoneCircle exact_fit(const LsCircle& circle) {
 
 }  // namespace
 
-core::Result<MinZoneCircle> min_zone_circle(Points points_mm) {
+core::Result<MinZoneCircle> min_zone_circle(Points points_mm, const MinZoneCircleOptions& options) {
   const auto start = algebraic_circle(points_mm);
   if (!start) return core::fail(start.error());
   if (distinct_points(points_mm, 4) < 4) return exact_fit(*start);
@@ -126,8 +149,12 @@ core::Result<MinZoneCircle> min_zone_circle(Points points_mm) {
   if (search->ending != CenterSearch::Ending::kCross) {
     out.center_mm = complete(points_mm, search->center_mm, round_off);
   }
-  if (points_mm.size() > kEnumerated) {
+  if (!options.global) {
     certify(points_mm, round_off, out);
+    return out;
+  }
+  if (points_mm.size() > kEnumerated) {
+    search_all_centers(points_mm, round_off, options.search, out);
     return out;
   }
   const BisectorSearch all = search_bisectors(points_mm, out.center_mm);

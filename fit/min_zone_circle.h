@@ -8,6 +8,7 @@
 
 #include "core/result.h"
 #include "fit/certificate.h"
+#include "fit/global_search.h"
 
 namespace rondure::fit {
 
@@ -19,23 +20,33 @@ struct MinZoneCircle {
   std::vector<Contact> outer;  ///< Points on the outer circle that carry the minimum.
   std::vector<Contact> inner;
   Certificate certificate;
+  int squares = 0;         ///< Squares of centres the global search bounded.
   bool exact_fit = false;  ///< Three distinct points: the deviation is 0 by construction.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
+};
+
+/// How far a minimum-zone circle is proven.
+struct MinZoneCircleOptions {
+  /// Search all centres, for a reported value; false inside loops: the local proof only.
+  bool global = true;
+  GlobalSearchOptions search;
 };
 
 /// Finds the minimum-zone circle of one plane section.
 ///
 /// Minimises  f(c) = max |p_i - c| - min |p_i - c|.  Corrected centre search (center_search.h) from
 /// the algebraic circle; a linear programme, re-linearised, where that search does not end at a
-/// stationary point; for up to 40 points on a full section the enumeration of all bisector
-/// crossings proves the minimum global.
+/// stationary point. Then all centres are searched for a narrower zone: for up to 40 points by the
+/// enumeration of all bisector crossings, else by branch and bound (global_search.h). A better
+/// centre found there becomes the start, so the proof is the global search too.
 ///
 /// @param points_mm  n >= 3 distinct points, any order [mm].
 /// @return kNoPoints, kNotFinite (row), kTooFewPoints (fewer than 3 distinct), kCollinear,
-///         kNotConverged. Same input, same bits. O(n) a step; the enumeration costs n^5/8.
+///         kNotConverged. Same input, same bits. O(n) a step; the enumeration costs n^5/8. A search
+///         that reaches its limit leaves a local certificate that says how far it came.
 /// Sources: ISO 12181-1 (definition); methods, cylindricity sections 7 and 9.
 [[nodiscard]] core::Result<MinZoneCircle> min_zone_circle(
-    std::span<const Eigen::Vector2d> points_mm);
+    std::span<const Eigen::Vector2d> points_mm, const MinZoneCircleOptions& options = {});
 
 }  // namespace rondure::fit

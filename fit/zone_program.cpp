@@ -12,7 +12,6 @@ namespace rondure::fit {
 namespace {
 
 constexpr int kDantzigPivots = 300;
-constexpr int kPivotLimit = 5000;
 
 /// A column of the dual programme. Order of the kinds is Bland's order.
 struct Column {
@@ -30,13 +29,14 @@ class DualSimplexTable {
   using Unknowns = Eigen::Matrix<double, K, 1>;
 
  public:
-  DualSimplexTable(std::span<const ZoneRow<K>> rows, double box_mm) : rows_(rows), box_(box_mm) {
+  DualSimplexTable(std::span<const ZoneRow<K>> rows, double box_mm, double inner_gain)
+      : rows_(rows), box_(box_mm), gain_(inner_gain) {
     start_basis();
   }
 
-  ZoneStep<K> solve() {
+  ZoneStep<K> solve(int pivot_limit) {
     ZoneStep<K> out;
-    for (; out.pivots < kPivotLimit; ++out.pivots) {
+    for (; out.pivots < pivot_limit; ++out.pivots) {
       factorise();
       const auto entering = price(out.pivots >= kDantzigPivots);
       if (!entering || !pivot(*entering)) {
@@ -63,7 +63,7 @@ class DualSimplexTable {
     basis_[0] = {Column::Kind::kOuter, far};
     basis_[1] = {Column::Kind::kInner, near};
     // The box takes up whatever the two points do not balance.
-    const Unknowns rest = rows_[far].gradient - rows_[near].gradient;
+    const Unknowns rest = rows_[far].gradient - gain_ * rows_[near].gradient;
     for (int k = 0; k < K; ++k) {
       basis_[static_cast<std::size_t>(k) + 2] = {
           rest(k) > 0.0 ? Column::Kind::kBoxDown : Column::Kind::kBoxUp,
@@ -80,7 +80,7 @@ class DualSimplexTable {
         break;
       case Column::Kind::kInner:
         a(1) = 1.0;
-        a.template tail<K>() = -rows_[c.index].gradient;
+        a.template tail<K>() = -gain_ * rows_[c.index].gradient;
         break;
       case Column::Kind::kBoxUp:
         a(static_cast<Eigen::Index>(c.index) + 2) = 1.0;
@@ -97,7 +97,7 @@ class DualSimplexTable {
       case Column::Kind::kOuter:
         return rows_[c.index].distance;
       case Column::Kind::kInner:
-        return -rows_[c.index].distance;
+        return -gain_ * rows_[c.index].distance;
       default:
         return -box_;
     }
@@ -134,7 +134,7 @@ class DualSimplexTable {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const double moved = rows_[i].distance + rows_[i].gradient.dot(move);
       offer(moved - outer, Column::Kind::kOuter, i);
-      offer(inner - moved, Column::Kind::kInner, i);
+      offer(inner - gain_ * moved, Column::Kind::kInner, i);
     }
     for (std::size_t k = 0; k < K; ++k) {
       offer(move(static_cast<Eigen::Index>(k)) - box_, Column::Kind::kBoxUp, k);
@@ -185,6 +185,7 @@ class DualSimplexTable {
 
   std::span<const ZoneRow<K>> rows_;
   double box_;
+  double gain_;
   double tolerance_ = 0.0;
   std::array<Column, kRows> basis_;
   Eigen::PartialPivLU<Eigen::Matrix<double, kRows, kRows>> factor_;
@@ -195,13 +196,14 @@ class DualSimplexTable {
 }  // namespace
 
 template <int K>
-ZoneStep<K> solve_zone_program(std::span<const ZoneRow<K>> rows, double box_mm) {
-  return DualSimplexTable<K>(rows, box_mm).solve();
+ZoneStep<K> solve_zone_program(std::span<const ZoneRow<K>> rows, double box_mm, double inner_gain,
+                               int pivot_limit) {
+  return DualSimplexTable<K>(rows, box_mm, inner_gain).solve(pivot_limit);
 }
 
-template ZoneStep<1> solve_zone_program<1>(std::span<const ZoneRow<1>>, double);
-template ZoneStep<2> solve_zone_program<2>(std::span<const ZoneRow<2>>, double);
-template ZoneStep<3> solve_zone_program<3>(std::span<const ZoneRow<3>>, double);
-template ZoneStep<4> solve_zone_program<4>(std::span<const ZoneRow<4>>, double);
+template ZoneStep<1> solve_zone_program<1>(std::span<const ZoneRow<1>>, double, double, int);
+template ZoneStep<2> solve_zone_program<2>(std::span<const ZoneRow<2>>, double, double, int);
+template ZoneStep<3> solve_zone_program<3>(std::span<const ZoneRow<3>>, double, double, int);
+template ZoneStep<4> solve_zone_program<4>(std::span<const ZoneRow<4>>, double, double, int);
 
 }  // namespace rondure::fit

@@ -29,6 +29,8 @@ struct ZoneStep {
   int pivots = 0;
 };
 
+inline constexpr int kZonePivotLimit = 5000;
+
 /// Minimises  max_i (r_i + J_i d) - min_i (r_i + J_i d)  over moves d with |d_k| <= box_mm.
 ///
 /// Primal simplex on the dual programme (K + 2 rows; a column for each point on each side and for
@@ -36,10 +38,18 @@ struct ZoneStep {
 /// Dantzig's rule, Bland's after 300 pivots. The basis is factorised anew at every pivot: it is at
 /// most 6 x 6, and no error accumulates.
 ///
-/// @param rows  At least one point. Distances may be given minus a common value.
+/// @param rows  At least one point. Distances may be given minus a common value (if `inner_gain` is
+/// 1).
+/// @param inner_gain  The minimum counts this often: minimises max - inner_gain * min; > 0. The
+///                    inner multipliers still sum to 1.
+/// @param pivot_limit  Where only a bound is wanted, a degenerate programme is not worth many
+/// pivots:
+///                     the multipliers of any basis are valid.
 /// Cost: O(n K) a pivot, commonly 5 to 20 pivots.
 /// Source: methods, cylindricity sections 9.3 and 11.2 (the box is its trust region).
 template <int K>
-[[nodiscard]] ZoneStep<K> solve_zone_program(std::span<const ZoneRow<K>> rows, double box_mm);
+[[nodiscard]] ZoneStep<K> solve_zone_program(std::span<const ZoneRow<K>> rows, double box_mm,
+                                             double inner_gain = 1.0,
+                                             int pivot_limit = kZonePivotLimit);
 
 }  // namespace rondure::fit

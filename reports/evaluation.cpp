@@ -13,6 +13,7 @@
 #include "fit/center_search.h"
 #include "fit/pose_walk.h"
 #include "reports/conformance.h"
+#include "reports/invariants.h"
 #include "reports/warnings.h"
 
 namespace rondure::reports {
@@ -20,9 +21,6 @@ namespace {
 
 using record::RunRecord;
 using record::Touch;
-
-/// Round-off allowed where one reported value must not exceed another [mm].
-constexpr double kInvariantSlack = 1e-9;
 
 std::optional<fit::ProbeTip> evaluate_probe(const RunRecord& record) {
   std::vector<Eigen::Vector3d> tips;
@@ -217,12 +215,27 @@ std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record,
   return nominal;
 }
 
+/// Directions a reported zone is compared with: about the expected axis for what was touched, or,
+/// where the part lies outside that cone, about its least-squares axis; of a points file nothing is
+/// known, so all, or, where that takes too long, those about its least-squares axis.
+std::vector<fit::AxisScope> certificate_scopes(const std::optional<Eigen::Vector3d>& direction,
+                                               const fit::LsCylinder& ls) {
+  const fit::AxisScope found{fit::AxisScope::Kind::kCone, ls.axis.direction};
+  if (direction) return {fit::AxisScope{fit::AxisScope::Kind::kCone, *direction}, found};
+  return {fit::AxisScope{fit::AxisScope::Kind::kHalfSphere}, found};
+}
+
 void evaluate_cylinder(const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
   const auto tips = tips_of(result.cloud);
   auto ls = fit::ls_cylinder(tips, direction);
-  auto mz = fit::min_zone_cylinder(tips, direction);
-  if (!ls || !mz) {
-    result.failure = !ls ? ls.error() : mz.error();
+  if (!ls) {
+    result.failure = ls.error();
+    return;
+  }
+  auto mz = fit::min_zone_cylinder(tips, direction,
+                                   {.scopes = certificate_scopes(direction, *ls), .search = {}});
+  if (!mz) {
+    result.failure = mz.error();
     return;
   }
   result.ls_cylinder = *ls;
@@ -289,35 +302,6 @@ core::Pose levelling(const core::Pose& reached, const Eigen::Vector3d& direction
   Eigen::Vector3d t = rotation(reached).transpose() * direction_W;
   if (t.z() < 0.0) t = -t;
   return {std::asin(std::clamp(t.y(), -1.0, 1.0)), std::atan2(-t.x(), t.z())};
-}
-
-/// Relations that hold for any data: MZ <= LS, and no section is wider than the cylinder's zone.
-core::Result<void> check_invariants(const FeatureResult& result) {
-  const auto broken = [&](const char* rule, double left, double right) {
-    return core::fail(
-        core::Code::kInternal,
-        fmt::format("invariant {} does not hold for {} points: {:.17g} mm > {:.17g} mm; "
-                    "please report this with the run's journal.db",
-                    rule, result.cloud.size(), left, right),
-        result.feature.id);
-  };
-  if (result.mz_cylinder) {
-    const double mz = result.mz_cylinder->width_mm();
-    if (!(mz <= result.ls_cylinder->deviation_mm + kInvariantSlack)) {
-      return broken("MZ <= LS", mz, result.ls_cylinder->deviation_mm);
-    }
-  }
-  for (const LayerResult& layer : result.layers) {
-    if (!layer.mz || !layer.ls) continue;
-    if (!(layer.mz->width_mm() <= layer.ls->deviation_mm + kInvariantSlack)) {
-      return broken("MZ <= LS of a section", layer.mz->width_mm(), layer.ls->deviation_mm);
-    }
-    if (result.mz_cylinder &&
-        !(layer.mz->width_mm() <= result.mz_cylinder->width_mm() + kInvariantSlack)) {
-      return broken("RONt <= CYLt", layer.mz->width_mm(), result.mz_cylinder->width_mm());
-    }
-  }
-  return {};
 }
 
 void take_temperatures(const std::vector<const Touch*>& touches, FeatureResult& result) {

@@ -114,8 +114,7 @@ std::string sentence_of(const fit::Certificate& certificate) {
   using Kind = fit::Certificate::Kind;
   switch (certificate.kind) {
     case Kind::kGlobal:
-      return fmt::format("Global: no narrower zone exists within the scope ({}).",
-                         certificate.scope);
+      return fmt::format("Global: no narrower zone exists; searched: {}.", certificate.scope);
     case Kind::kLocal:
       return fmt::format("Local: no narrower zone exists nearby (scope: {}).", certificate.scope);
     case Kind::kNone:

@@ -85,10 +85,11 @@ TEST(MinZoneCircle, HoldsTiesDuplicatesAndSpokes) {
   }
 }
 
-TEST(MinZoneCircle, CertifiesLargeSetsLocally) {
+TEST(MinZoneCircle, CertifiesLocallyWhenAskedForNoMore) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
-    const auto zone = min_zone_circle(noisy_circle(seed, 500, 360.0, 0.002));
+    const auto zone =
+        min_zone_circle(noisy_circle(seed, 500, 360.0, 0.002), {.global = false, .search = {}});
     ASSERT_TRUE(zone.has_value());
     EXPECT_EQ(zone->certificate.kind, Certificate::Kind::kLocal) << zone->certificate.reason;
     EXPECT_LE(zone->certificate.gap_mm, 1e-10 * zone->width_mm());

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "fit/axis.h"
+#include "fit/axis_cover.h"
+#include "fit/certificate.h"
+
+namespace rondure::fit {
+
+/// Limits of a global search. They are counts, never times: same input, same result.
+struct GlobalSearchOptions {
+  int max_boxes = 20000;       ///< Boxes bounded before the search gives up; >= 1.
+  double tolerance_mm = 1e-9;  ///< Boxes are closed this far below the zone, or 4e-12 of the
+                               ///< coordinate range, if that is more; enters the gap.
+};
+
+/// What a zone is compared with: the solver's result.
+struct ZoneClaim {
+  double width_mm = 0.0;
+  double growth = 0.0;  ///< sigma: first-order growth per mm, of the contacts below.
+  std::span<const Contact> outer;
+  std::span<const Contact> inner;
+};
+
+/// Outcome of a search through all centres, or all axes of a scope.
+template <class Place>
+struct GlobalSearch {
+  bool proven = false;          ///< No narrower zone exists; else see `better`, then `reason`.
+  double lower_mm = 0.0;        ///< Proven: no zone of the scope is narrower than this [mm].
+  std::optional<Place> better;  ///< A place with a narrower zone: solve again from there.
+  int boxes = 0;                ///< Boxes bounded.
+  std::string reason;           ///< Why it is not proven.
+};
+
+/// Proves that no centre of the plane has a narrower zone, or finds one that has.
+///
+/// The centres that can hold a narrower zone lie in one square (center_region.h). It is searched by
+/// branch and bound (zone_box.h); around the optimum itself first-order growth, less the
+/// curvature K e^2 that could oppose it, closes a square of its own.
+///
+/// @param points_mm  The data of the claim.
+/// @param center_mm  Centre of the claim.
+/// Source: methods, certificates section 2.
+[[nodiscard]] GlobalSearch<Eigen::Vector2d> search_centers(
+    std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
+    const ZoneClaim& claim, const GlobalSearchOptions& options = {});
+
+/// Proves that no axis whose direction is in one of `directions` has a narrower zone, or finds one.
+///
+/// Branch and bound over directions. Turning a box of directions to its middle moves no point by
+/// more than |z| sin + rho (1 - cos) of its opening, so the projected points leave a square of
+/// centres at most (center_region.h); what is left, four parameters of the axis, is bounded by one
+/// linear programme (zone_box.h). Around the optimum first-order growth, less the curvature K e^2,
+/// closes a ball; where growth is of second order (five contacts) boxes are closed `tolerance_mm`
+/// below the zone.
+///
+/// @param axis        Axis of the claim, among the directions; its point midway between the ends.
+/// @param half_length_mm  Scale of the tilts in claim.growth.
+/// Source: methods, certificates section 3.
+[[nodiscard]] GlobalSearch<Axis> search_axes(std::span<const Eigen::Vector3d> points_mm,
+                                             const Axis& axis, double half_length_mm,
+                                             const ZoneClaim& claim,
+                                             std::span<const DirectionBox> directions,
+                                             const GlobalSearchOptions& options = {});
+
+}  // namespace rondure::fit

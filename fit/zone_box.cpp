@@ -1,0 +1,155 @@
+#include "fit/zone_box.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "fit/zone_program.h"
+
+namespace rondure::fit {
+namespace {
+
+constexpr int kBisections = 10;
+constexpr int kPivots = 60;
+
+using Points = std::span<const Eigen::Vector3d>;
+
+/// Weak duality for one box: the multipliers of its programme and what they prove for any width.
+class BoxProof {
+ public:
+  BoxProof(Points points, const ZoneBox& box, double guess_radius, std::vector<Contact> outer,
+           std::vector<Contact> inner)
+      : points_(points),
+        box_(box),
+        radius_(guess_radius),
+        outer_(std::move(outer)),
+        inner_(std::move(inner)) {
+    normalise(outer_);
+    normalise(inner_);
+  }
+
+  /// Whether every axis of the box has a zone wider than `width`, with `slack` to spare.
+  [[nodiscard]] bool proves(double width, double slack) const {
+    if (outer_.empty() || inner_.empty()) return false;
+    const double asked = width + slack;
+    return least_difference(asked) > asked * (radius_ + asked) + slack * radius_;
+  }
+
+ private:
+  static void normalise(std::vector<Contact>& side) {
+    double sum = 0.0;
+    for (const Contact& c : side) sum += c.multiplier;
+    for (Contact& c : side) c.multiplier /= sum;
+  }
+
+  /// Lower bound over the box of  max r^2 - (1 + W/g) min r^2.
+  [[nodiscard]] double least_difference(double width) const {
+    Sums sums;
+    add(outer_, 1.0, sums);
+    add(inner_, -(1.0 + width / radius_), sums);
+    const double h = box_.half_side_mm;
+    const double t = box_.lean;
+    // |o|^2 does not cancel quite: the multipliers of the two sides differ by W/g.
+    double least = sums.constant - width / radius_ * 2.0 * h * h;
+    least -= h * sums.across.lpNorm<1>() + t * sums.tilt.norm();
+    least -= 2.0 * std::abs(sums.heights) * std::sqrt(2.0) * h * t;
+    least += std::min(0.0, least_eigenvalue(sums.quadratic)) * t * t;
+    return least - sums.rest;
+  }
+
+  /// Terms of the weighted sum of r^2 as a function of the axis.
+  struct Sums {
+    double constant = 0.0;
+    Eigen::Vector2d across = Eigen::Vector2d::Zero();     ///< Linear in the crossing point.
+    Eigen::Vector2d tilt = Eigen::Vector2d::Zero();       ///< Linear in the tilt.
+    double heights = 0.0;                                 ///< Half the factor of o.t.
+    Eigen::Matrix2d quadratic = Eigen::Matrix2d::Zero();  ///< In the tilt.
+    double rest = 0.0;                                    ///< Bound of third and higher orders.
+  };
+
+  void add(const std::vector<Contact>& side, double sign, Sums& sums) const {
+    const double t = box_.lean;
+    for (const Contact& contact : side) {
+      const Eigen::Vector3d& point = points_[contact.index];
+      const Eigen::Vector2d p = point.head<2>() - box_.center_mm;
+      const double s = point.z();
+      const double c = sign * contact.multiplier;
+      sums.constant += c * p.squaredNorm();
+      sums.across -= 2.0 * c * p;
+      if (t == 0.0) continue;
+      sums.tilt -= 2.0 * c * s * p;
+      sums.heights += c * s;
+      sums.quadratic += c * (s * s * Eigen::Matrix2d::Identity() - p * p.transpose());
+      const double moved = std::sqrt(2.0) * box_.half_side_mm * t + std::abs(s) * t * t;
+      const double lean = p.norm() * t;
+      const double most = lean + moved;
+      sums.rest += std::abs(c) * (2.0 * lean * moved + moved * moved + most * most * t * t);
+    }
+  }
+
+  static double least_eigenvalue(const Eigen::Matrix2d& m) {
+    const double middle = 0.5 * (m(0, 0) + m(1, 1));
+    return middle - std::hypot(0.5 * (m(0, 0) - m(1, 1)), m(0, 1));
+  }
+
+  Points points_;
+  ZoneBox box_;
+  double radius_;
+  std::vector<Contact> outer_;
+  std::vector<Contact> inner_;
+};
+
+}  // namespace
+
+std::array<ZoneBox, 4> quarters(const ZoneBox& box) {
+  const double half = 0.5 * box.half_side_mm;
+  const auto quarter = [&](double x, double y) -> ZoneBox {
+    return {box.center_mm + Eigen::Vector2d(x, y), half, box.lean};
+  };
+  return {quarter(-half, -half), quarter(-half, half), quarter(half, -half), quarter(half, half)};
+}
+
+template <int K>
+ZoneBoxBound bound_zone_box(Points points_mm, const ZoneBox& box, double width_mm,
+                            double tolerance_mm, double slack_mm) {
+  std::vector<ZoneRow<K>> rows;
+  rows.reserve(points_mm.size());
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3d& point : points_mm) {
+    const Eigen::Vector2d p = point.head<2>() - box.center_mm;
+    ZoneRow<K> row;
+    row.distance = p.squaredNorm();
+    row.gradient.template head<2>() = -2.0 * box.half_side_mm * p;
+    if constexpr (K == 4) row.gradient.template tail<2>() = -2.0 * point.z() * box.lean * p;
+    nearest = std::min(nearest, row.distance);
+    rows.push_back(row);
+  }
+  // Any radius would do; the one of the data is the sharpest.
+  const double radius = std::max(std::sqrt(nearest), width_mm);
+  const auto step = solve_zone_program<K>(rows, 1.0, 1.0 + width_mm / radius, kPivots);
+
+  ZoneBoxBound out;
+  out.center_mm = box.center_mm + box.half_side_mm * step.step.template head<2>();
+  if constexpr (K == 4) out.tilt = box.lean * step.step.template tail<2>();
+  const BoxProof proof(points_mm, box, radius, step.outer, step.inner);
+  out.excluded = proof.proves(width_mm, slack_mm);
+  if (out.excluded) {
+    out.lower_mm = width_mm;
+    return out;
+  }
+  double high = width_mm;
+  // Near the width asked for every digit counts, far below it a few do.
+  if (proof.proves(width_mm - tolerance_mm, slack_mm)) out.lower_mm = width_mm - tolerance_mm;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = 0.5 * (out.lower_mm + high);
+    (proof.proves(middle, slack_mm) ? out.lower_mm : high) = middle;
+  }
+  return out;
+}
+
+template ZoneBoxBound bound_zone_box<2>(Points, const ZoneBox&, double, double, double);
+template ZoneBoxBound bound_zone_box<4>(Points, const ZoneBox&, double, double, double);
+
+}  // namespace rondure::fit
