@@ -75,7 +75,7 @@ TEST_F(FinishedRun, AChangedDigitOfTheJsonReportIsNamed) {
   ASSERT_NE(at, std::string::npos);
   write(run_ / "report.json", bytes.replace(at, (key + value).size(), key + changed));
   EXPECT_THAT(difference(), AllOf(HasSubstr("report.json: /features/0/"), HasSubstr("deviation_um"),
-                                  HasSubstr(value), HasSubstr(changed)));
+                                  HasSubstr(value), HasSubstr(changed.substr(0, 12))));
 }
 
 TEST_F(FinishedRun, AChangedNumberOfTheHtmlReportIsNamed) {
