@@ -39,6 +39,8 @@ std::string_view code_name(Code code) {
     case Code::kNoCertificate: return "no-certificate";
     case Code::kExactFit: return "exact-fit";
     case Code::kNotLevel: return "not-level";
+    case Code::kUndersampled: return "undersampled";
+    case Code::kAngleOrder: return "angle-order";
     case Code::kReferenceAbsent: return "reference-absent";
   }
   return "internal";
