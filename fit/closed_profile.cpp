@@ -19,6 +19,8 @@ constexpr double kSameAngle = 1e-9;
 constexpr double kUniformShare = 1e-6;
 constexpr double kArcGap = std::numbers::pi / 2.0;
 constexpr std::size_t kLeastSamples = 1024;
+/// By how much all points are better than every other one, at least.
+constexpr double kHalvingGain = 4.0;
 
 /// The angle in [0, 2 pi).
 double within_turn(double theta) {
@@ -186,7 +188,7 @@ core::Result<ResampledProfile> resampled(const AngularProfile& profile) {
     out.profile.r_mm[i] = all(theta);
     if (!rough) continue;
     out.error_mm =
-        std::max(out.error_mm, std::abs(out.profile.r_mm[i] - (*rough)(theta)) / 15.0);
+        std::max(out.error_mm, std::abs(out.profile.r_mm[i] - (*rough)(theta)) / kHalvingGain);
   }
   return out;
 }
