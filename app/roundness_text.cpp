@@ -72,14 +72,15 @@ std::string filter_line(const fit::RoundnessEvaluation& evaluation) {
   const fit::FilterOptions& filter = evaluation.filter;
   if (filter.filter == fit::ProfileFilter::kNone) return "  filter    none\n";
   const bool band = filter.pass == fit::PassBand::kBand;
-  std::string out = fmt::format(
-      "  filter    {}, {} pass, {} UPR, {:.1f} points per undulation{}", fit::name_of(filter.filter),
-      fit::name_of(filter.pass),
-      band ? fmt::format("{} to {}", filter.cutoff_upr, filter.upper_cutoff_upr)
-           : fmt::format("{}", filter.cutoff_upr),
-      evaluation.sampling.points_per_undulation,
-      evaluation.sampling.overridden ? " (too few, overridden)" : "");
-  if (evaluation.filter_iterations > 0) out += fmt::format(", {} iterations", evaluation.filter_iterations);
+  std::string out =
+      fmt::format("  filter    {}, {} pass, {} UPR, {:.1f} points per undulation{}",
+                  fit::name_of(filter.filter), fit::name_of(filter.pass),
+                  band ? fmt::format("{} to {}", filter.cutoff_upr, filter.upper_cutoff_upr)
+                       : fmt::format("{}", filter.cutoff_upr),
+                  evaluation.sampling.points_per_undulation,
+                  evaluation.sampling.overridden ? " (too few, overridden)" : "");
+  if (evaluation.filter_iterations > 0)
+    out += fmt::format(", {} iterations", evaluation.filter_iterations);
   if (evaluation.interpolated) {
     out += fmt::format("\n  resampled {} values by a periodic cubic spline, error about {:.2g} um",
                        evaluation.samples, um(evaluation.resampling_error_mm));
@@ -96,8 +97,9 @@ std::string degrees_list(const std::vector<double>& angles) {
 std::string value_lines(const fit::RoundnessEvaluation& evaluation, const fit::Roundness& value,
                         bool polar) {
   std::string name(fit::name_of(value.reference));
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
   std::string out = fmt::format("  {}CI  RONt {:.4f} um", name, um(value.total_mm));
   if (value.parameters) {
     out += fmt::format(", RONp {:.4f} um, RONv {:.4f} um, RONq {:.4f} um",
@@ -118,25 +120,27 @@ std::string value_lines(const fit::RoundnessEvaluation& evaluation, const fit::R
   return out + "\n";
 }
 
-/// The ten greatest harmonics from 2 on, by number.
+/// The ten greatest harmonics from 2 on that show in four decimals, by number.
 std::string harmonic_lines(const fit::HarmonicTable& table) {
   constexpr std::size_t kShown = 10;
+  constexpr double kLeastUm = 5e-5;
   std::vector<fit::Harmonic> form;
   for (const fit::Harmonic& h : table.harmonics) {
-    if (h.number > 1) form.push_back(h);
+    if (h.number > 1 && um(h.amplitude_mm) >= kLeastUm) form.push_back(h);
   }
   if (form.empty()) return {};
-  std::stable_sort(form.begin(), form.end(), [](const auto& a, const auto& b) {
-    return a.amplitude_mm > b.amplitude_mm;
-  });
+  std::stable_sort(form.begin(), form.end(),
+                   [](const auto& a, const auto& b) { return a.amplitude_mm > b.amplitude_mm; });
   form.resize(std::min(form.size(), kShown));
   std::sort(form.begin(), form.end(),
             [](const auto& a, const auto& b) { return a.number < b.number; });
-  std::string out = fmt::format("  harmonics before the filter, the {} greatest of 2 to {}\n    UPR  amplitude um  phase deg\n",
-                                form.size(), table.harmonics.back().number);
+  std::string out = fmt::format(
+      "  harmonics before the filter, the {} greatest of 2 to {}\n    UPR  amplitude um  phase "
+      "deg\n",
+      form.size(), table.harmonics.back().number);
   for (const fit::Harmonic& h : form) {
-    out += fmt::format("    {:3d}  {:12.4f}  {:9.3f}\n", h.number, um(h.amplitude_mm),
-                       h.phase_rad ? deg(*h.phase_rad) : 0.0);
+    out += fmt::format("    {:3d}  {:12.4f}  {:>9}\n", h.number, um(h.amplitude_mm),
+                       h.phase_rad ? fmt::format("{:.3f}", deg(*h.phase_rad)) : "-");
   }
   return out;
 }
@@ -163,8 +167,10 @@ std::string roundness_json(const fit::RoundnessEvaluation& evaluation, bool pola
 }
 
 std::string roundness_table(const fit::RoundnessEvaluation& evaluation, bool polar) {
-  std::string out = fmt::format("roundness, {} points\n", evaluation.points) + filter_line(evaluation);
-  for (const fit::Roundness& value : evaluation.values) out += value_lines(evaluation, value, polar);
+  std::string out =
+      fmt::format("roundness, {} points\n", evaluation.points) + filter_line(evaluation);
+  for (const fit::Roundness& value : evaluation.values)
+    out += value_lines(evaluation, value, polar);
   out += harmonic_lines(evaluation.harmonics);
   for (const core::Error& w : evaluation.warnings) {
     out += fmt::format("  warning: {} [{}]\n", w.what, core::code_name(w.code));
@@ -173,9 +179,10 @@ std::string roundness_table(const fit::RoundnessEvaluation& evaluation, bool pol
 }
 
 std::string selftest_table(std::span<const fit::FilterSelfTest> tests) {
-  std::string out = fmt::format("Gaussian low pass (ISO 16610-21) at {} UPR, impulse on {} values\n"
-                                "    n    transmission   2^-(n/fc)^2    difference\n",
-                                tests.front().cutoff_upr, tests.front().samples);
+  std::string out = fmt::format(
+      "Gaussian low pass (ISO 16610-21) at {} UPR, impulse on {} values\n"
+      "    n    transmission   2^-(n/fc)^2    difference\n",
+      tests.front().cutoff_upr, tests.front().samples);
   for (const fit::TransmissionRow& row : tests.front().rows) {
     out += fmt::format("{:5d}  {:14.12f} {:14.12f}  {:.1e}\n", row.harmonic, row.found,
                        row.expected, row.difference);

@@ -78,7 +78,8 @@ core::Result<fit::RoundnessEvaluation> evaluate_polar(const record::ProfileTable
   if (auto checked = check_angle_unit(theta_deg); !checked) return core::fail(checked.error());
   auto out = fit::evaluate_profile(theta, r, options);
   if (!out) return out;
-  const auto [low, high] = std::minmax_element(out->measured.r_mm.begin(), out->measured.r_mm.end());
+  const auto [low, high] =
+      std::minmax_element(out->measured.r_mm.begin(), out->measured.r_mm.end());
   const double range_um = (*high - *low) / core::kMicrometre;
   if (range_um > 0.0 && range_um < kLeastRoundnessUm) {
     out->warnings.push_back(
@@ -97,16 +98,17 @@ core::Result<fit::RoundnessEvaluation> evaluate_points(const record::ProfileTabl
   if (!out) return out;
   const double radius = out->values.front().radius_mm;
   if (radius < kLeastRadius || radius > kGreatestRadius) {
-    out->warnings.push_back({core::Code::kUnits,
-                             fmt::format("the radius is {:.4g} mm, outside {} to {} mm: x and y are "
-                                         "in mm",
-                                         radius, kLeastRadius, kGreatestRadius),
-                             {}});
+    out->warnings.push_back(
+        {core::Code::kUnits,
+         fmt::format("the radius is {:.4g} mm, outside {} to {} mm: x and y are "
+                     "in mm",
+                     radius, kLeastRadius, kGreatestRadius),
+         {}});
   }
   return out;
 }
 
-/// The error with the line in place of a bare row: row numbers of messages count from 0.
+/// The error with the file it came from, where it has no place yet.
 core::Error placed(const core::Error& error, const std::string& file) {
   return error.where.empty() ? error.at(std::filesystem::path(file).filename().string()) : error;
 }
@@ -124,7 +126,8 @@ int roundness(const RoundnessArguments& arguments) {
     complain(table.error());
     return kBadInput;
   }
-  const auto out = table->polar ? evaluate_polar(*table, *options) : evaluate_points(*table, *options);
+  const auto out =
+      table->polar ? evaluate_polar(*table, *options) : evaluate_points(*table, *options);
   if (!out) {
     complain(placed(out.error(), arguments.file));
     return kBadInput;

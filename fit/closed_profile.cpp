@@ -139,9 +139,9 @@ core::Result<AngularProfile> ordered_profile(std::span<const double> theta_rad,
   Merger merger(out);
   for (const std::size_t row : order) merger.add(turned[row], r_mm[row], row);
   if (out.theta_rad.size() < 4) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("{} different angles; a profile needs at least 4",
-                                  out.theta_rad.size()));
+    return core::fail(
+        core::Code::kTooFewPoints,
+        fmt::format("{} different angles; a profile needs at least 4", out.theta_rad.size()));
   }
   for (std::size_t i = 0; i < out.theta_rad.size(); ++i) {
     out.largest_gap_rad = std::max(out.largest_gap_rad, gap_after(out.theta_rad, i));

@@ -18,13 +18,13 @@ struct UniformProfile {
 
 /// A profile at any angles, brought in order.
 struct AngularProfile {
-  std::vector<double> theta_rad;   ///< Strictly ascending, in [0, 2 pi).
-  std::vector<double> r_mm;        ///< Mean of the values at that angle.
-  std::vector<std::size_t> rows;   ///< Input row of each (the first, where several were merged).
-  std::size_t merged = 0;          ///< Values that shared an angle (1e-9 rad) with another.
-  std::size_t reversals = 0;       ///< Steps against the prevailing direction of the input.
-  double turns = 0.0;              ///< Revolutions the input went through.
-  double largest_gap_rad = 0.0;    ///< Between neighbours, the end to the begin included.
+  std::vector<double> theta_rad;  ///< Strictly ascending, in [0, 2 pi).
+  std::vector<double> r_mm;       ///< Mean of the values at that angle.
+  std::vector<std::size_t> rows;  ///< Input row of each (the first, where several were merged).
+  std::size_t merged = 0;         ///< Values that shared an angle (1e-9 rad) with another.
+  std::size_t reversals = 0;      ///< Steps against the prevailing direction of the input.
+  double turns = 0.0;             ///< Revolutions the input went through.
+  double largest_gap_rad = 0.0;   ///< Between neighbours, the end to the begin included.
 
   /// Equal steps to 1e-6 of a step: no interpolation is needed.
   [[nodiscard]] bool uniform() const;
@@ -47,7 +47,8 @@ struct ResampledProfile {
   bool interpolated = false;  ///< false: the angles were uniform, the values are the input's.
   /// Estimated interpolation error before the filter [mm]: the greatest difference to the spline
   /// through every other point, divided by 4. The error falls with the fourth power of the largest
-  /// gap; leaving every other point out widens that 2 times in even angles, 1.6 times in jittered ones.
+  /// gap; leaving every other point out widens that 2 times in even angles, 1.6 times in jittered
+  /// ones.
   double error_mm = 0.0;
 };
 

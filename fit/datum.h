@@ -13,7 +13,8 @@ namespace rondure::fit {
 
 /// Coaxiality deviation (ISO 1101): diameter of the least cylinder about the datum axis that holds
 /// the toleranced axis = 2 max |c_i - datum|.
-/// @param median_mm  Points of the extracted median line: the circle centres of the sections, or the
+/// @param median_mm  Points of the extracted median line: the circle centres of the sections, or
+/// the
 ///                   two ends of a fitted axis.
 /// @return kNoPoints, kNotFinite (row).
 [[nodiscard]] core::Result<double> coaxiality_mm(std::span<const Eigen::Vector3d> median_mm,
@@ -27,8 +28,8 @@ struct RunOut {
   [[nodiscard]] double deviation_mm() const { return sections_mm[greatest]; }
 };
 
-/// Circular radial run-out (ISO 1101): in each section the greatest less the least distance from the
-/// datum axis; the greatest of the sections counts.
+/// Circular radial run-out (ISO 1101): in each section the greatest less the least distance from
+/// the datum axis; the greatest of the sections counts.
 /// @return kNoPoints (no section, or an empty one), kNotFinite; `what` names section and row.
 [[nodiscard]] core::Result<RunOut> radial_run_out(
     std::span<const std::vector<Eigen::Vector3d>> sections_mm, const Axis& datum);

@@ -44,9 +44,9 @@ bool FilterSelfTest::passed() const { return !rows.empty() && greatest_differenc
 
 core::Result<FilterSelfTest> filter_selftest(double cutoff_upr) {
   if (!(cutoff_upr >= 1.0 && cutoff_upr <= 1e4)) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("the cut-off is {} UPR; the self-test takes 1 to 10000",
-                                  cutoff_upr));
+    return core::fail(
+        core::Code::kBadOption,
+        fmt::format("the cut-off is {} UPR; the self-test takes 1 to 10000", cutoff_upr));
   }
   FilterSelfTest out;
   out.cutoff_upr = cutoff_upr;
@@ -62,8 +62,7 @@ core::Result<FilterSelfTest> filter_selftest(double cutoff_upr) {
     const auto found = harmonic_of(response->r_mm, n, circle);
     const double ratio = static_cast<double>(n) / cutoff_upr;
     const double expected = std::pow(2.0, -(ratio * ratio));
-    out.rows.push_back(
-        {static_cast<int>(n), found.real(), expected, std::abs(found - expected)});
+    out.rows.push_back({static_cast<int>(n), found.real(), expected, std::abs(found - expected)});
   }
   return out;
 }

@@ -27,8 +27,8 @@ struct FilterSelfTest {
 };
 
 /// Filters an impulse, which holds every harmonic with the same amplitude, through filter_closed()
-/// and finds the harmonics of the response by direct summation, not by the transform the filter uses.
-/// The profile has 7 values per undulation of 3 fc.
+/// and finds the harmonics of the response by direct summation, not by the transform the filter
+/// uses. The profile has 7 values per undulation of 3 fc.
 ///
 /// @param cutoff_upr  1 to 10000.
 /// @return kBadOption outside that range; what filter_closed() refuses.

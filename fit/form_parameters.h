@@ -9,8 +9,8 @@
 
 namespace rondure::fit {
 
-/// Parameters of a set of local deviations from a reference (ISO 12180-1, 12181-1, 12780-1; RON, CYL
-/// or STR stand before the letter). Peak, valley and rms are defined about the least-squares
+/// Parameters of a set of local deviations from a reference (ISO 12180-1, 12181-1, 12780-1; RON,
+/// CYL or STR stand before the letter). Peak, valley and rms are defined about the least-squares
 /// reference.
 struct FormParameters {
   double total_mm = 0.0;   ///< t: peak to valley.

@@ -16,7 +16,8 @@ namespace {
 constexpr int kTurnLimit = 50;
 
 /// Least-squares line r = mean + slope (z - mean z); nothing where all z are alike.
-std::optional<double> ls_slope(std::span<const Eigen::Vector2d> points, const Eigen::Vector2d& mean) {
+std::optional<double> ls_slope(std::span<const Eigen::Vector2d> points,
+                               const Eigen::Vector2d& mean) {
   double zz = 0.0;
   double zr = 0.0;
   double size = 0.0;
@@ -44,8 +45,8 @@ std::vector<Eigen::Vector2d> turned(std::span<const Eigen::Vector2d> points,
 }
 
 /// Least zone across the first axis, over the slope: repeated until the slope no longer changes.
-core::Result<double> least_zone(std::span<const Eigen::Vector2d> points, const Eigen::Vector2d& mean,
-                                double slope) {
+core::Result<double> least_zone(std::span<const Eigen::Vector2d> points,
+                                const Eigen::Vector2d& mean, double slope) {
   for (int turn = 0; turn < kTurnLimit; ++turn) {
     const auto frame = turned(points, mean, slope);
     double half = 0.0;
@@ -67,14 +68,16 @@ core::Result<double> least_zone(std::span<const Eigen::Vector2d> points, const E
     const double change = step.step(0) / half;
     slope = (slope + change) / (1.0 - slope * change);
   }
-  return core::fail(core::Code::kNotConverged,
-                    fmt::format("the zone of the generatrix still shrinks after {} turns",
-                                kTurnLimit));
+  return core::fail(
+      core::Code::kNotConverged,
+      fmt::format("the zone of the generatrix still shrinks after {} turns", kTurnLimit));
 }
 
 core::Error no_length() {
-  return {core::Code::kRank, "all points stand at one position along the axis; straightness and "
-                             "taper need at least two sections", {}};
+  return {core::Code::kRank,
+          "all points stand at one position along the axis; straightness and "
+          "taper need at least two sections",
+          {}};
 }
 
 }  // namespace
@@ -90,9 +93,9 @@ core::Result<GeneratrixStraightness> generatrix_straightness(std::span<const dou
   for (std::size_t i = 0; i < z_mm.size(); ++i) points.emplace_back(z_mm[i], r_mm[i]);
   if (auto checked = check_points(points); !checked) return core::fail(checked.error());
   if (points.size() < 3) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("{} points on a generatrix; straightness needs at least 3",
-                                  points.size()));
+    return core::fail(
+        core::Code::kTooFewPoints,
+        fmt::format("{} points on a generatrix; straightness needs at least 3", points.size()));
   }
   const Eigen::Vector2d mean = mean_point(points);
   const auto slope = ls_slope(points, mean);

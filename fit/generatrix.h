@@ -13,9 +13,9 @@ namespace rondure::fit {
 
 /// Straightness of one generatrix in the plane through the axis (ISO 12780-1).
 struct GeneratrixStraightness {
-  FormParameters ls;        ///< STRt, STRp, STRv, STRq about the least-squares line.
-  double zone_mm = 0.0;     ///< STRt about the minimum-zone line: the least distance of two parallels.
-  double ls_slope = 0.0;    ///< Radius per length of the least-squares line.
+  FormParameters ls;     ///< STRt, STRp, STRv, STRq about the least-squares line.
+  double zone_mm = 0.0;  ///< STRt about the minimum-zone line: the least distance of two parallels.
+  double ls_slope = 0.0;  ///< Radius per length of the least-squares line.
 };
 
 /// @param z_mm  Positions along the axis; n >= 3, at least two different [mm].
@@ -28,8 +28,8 @@ struct GeneratrixStraightness {
 
 /// Taper of a cylinder about its axis: the radii are fitted by r = r0 + slope z (least squares).
 struct Taper {
-  double slope = 0.0;         ///< Radius per length along the axis direction; > 0: it widens.
-  double diameter_mm = 0.0;   ///< Change of the diameter over the length of the data, signed [mm].
+  double slope = 0.0;        ///< Radius per length along the axis direction; > 0: it widens.
+  double diameter_mm = 0.0;  ///< Change of the diameter over the length of the data, signed [mm].
   double cone_angle_rad = 0.0;  ///< Between opposite generatrices, signed: 2 atan(slope).
 };
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <complex>
 
+#include <fmt/format.h>
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <fmt/format.h>
 
 #include "core/units.h"
 #include "fit/dft.h"
@@ -53,7 +53,8 @@ void fill_basis(double theta, Eigen::Ref<Eigen::VectorXd> row) {
   }
 }
 
-/// Normal equations, summed in blocks: with gaps below half an undulation they are well conditioned.
+/// Normal equations, summed in blocks: with gaps below half an undulation they are well
+/// conditioned.
 Eigen::VectorXd least_squares(const AngularProfile& profile, int highest) {
   constexpr std::size_t kBlock = 256;
   const std::size_t n = profile.r_mm.size();
@@ -119,8 +120,7 @@ core::Result<HarmonicTable> harmonics(const UniformProfile& profile,
   for (int k = 1; k <= options.highest; ++k) {
     const auto turned = scale * f[static_cast<std::size_t>(k)] *
                         std::polar(1.0, -static_cast<double>(k) * profile.start_rad);
-    out.harmonics.push_back(
-        harmonic_of(k, turned.real(), -turned.imag(), out.amplitude_sigma_mm));
+    out.harmonics.push_back(harmonic_of(k, turned.real(), -turned.imag(), out.amplitude_sigma_mm));
   }
   return out;
 }

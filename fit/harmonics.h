@@ -12,7 +12,7 @@ namespace rondure::fit {
 
 /// One undulation number of a profile: amplitude_mm * cos(number theta - phase_rad).
 struct Harmonic {
-  int number = 1;               ///< Undulations per revolution; 1 is eccentricity.
+  int number = 1;  ///< Undulations per revolution; 1 is eccentricity.
   double amplitude_mm = 0.0;
   /// In (-pi, pi]; absent where the amplitude is below 3 of its standard uncertainties.
   std::optional<double> phase_rad;

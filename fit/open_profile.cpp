@@ -4,17 +4,17 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <fmt/format.h>
 
 namespace rondure::fit {
 namespace {
 
 /// sqrt(ln 2 / pi): 50 % at the cut-off for the plain mean and for the local line.
 const double kGaussian = std::sqrt(std::numbers::ln2 / std::numbers::pi);
-/// The local parabola transmits exp(-q)(1 + q), q = pi (alpha lambda_c / lambda)^2; q = 1.678347 gives
-/// 50 %, alpha = sqrt(q / pi) = 0.7309.
+/// The local parabola transmits exp(-q)(1 + q), q = pi (alpha lambda_c / lambda)^2; q = 1.678347
+/// gives 50 %, alpha = sqrt(q / pi) = 0.7309.
 const double kWide = std::sqrt(1.6783469900166605 / std::numbers::pi);
 /// Weights beyond this many cut-offs are below 1e-16 of the middle one.
 constexpr double kReach = 2.0;
@@ -32,14 +32,15 @@ core::Result<void> check(std::span<const double> x, std::span<const double> r,
                       fmt::format("{} points; an open profile needs at least 3", x.size()));
   }
   if (!std::isfinite(options.cutoff) || options.cutoff <= 0.0) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("the cut-off is {}; a positive wavelength is needed",
-                                  options.cutoff));
+    return core::fail(
+        core::Code::kBadOption,
+        fmt::format("the cut-off is {}; a positive wavelength is needed", options.cutoff));
   }
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!std::isfinite(x[i]) || !std::isfinite(r[i])) {
-      return core::fail(core::Code::kNotFinite,
-                        fmt::format("row {} is ({}, {}); finite numbers are needed", i, x[i], r[i]));
+      return core::fail(
+          core::Code::kNotFinite,
+          fmt::format("row {} is ({}, {}); finite numbers are needed", i, x[i], r[i]));
     }
     if (i > 0 && x[i] <= x[i - 1]) {
       return core::fail(core::Code::kBadOption,
@@ -121,11 +122,12 @@ core::Result<OpenProfile> filter_open(std::span<const double> position,
   const double gap = greatest_gap(position);
   out.sampling_overridden = 7.0 * gap > options.cutoff * (1.0 + 1e-9);
   if (out.sampling_overridden && !options.override_sampling) {
-    return core::fail(core::Code::kSampling,
-                      fmt::format("neighbouring points are up to {:.6g} apart, a cut-off of {:.6g} "
-                                  "allows {:.6g} (7 points per undulation): measure more densely or "
-                                  "take a longer cut-off; the check can be overridden",
-                                  gap, options.cutoff, options.cutoff / 7.0));
+    return core::fail(
+        core::Code::kSampling,
+        fmt::format("neighbouring points are up to {:.6g} apart, a cut-off of {:.6g} "
+                    "allows {:.6g} (7 points per undulation): measure more densely or "
+                    "take a longer cut-off; the check can be overridden",
+                    gap, options.cutoff, options.cutoff / 7.0));
   }
   const double margin = options.ends == OpenEnds::kDiscard ? 0.5 * options.cutoff : 0.0;
   for (std::size_t i = 0; i < position.size(); ++i) {
@@ -134,15 +136,22 @@ core::Result<OpenProfile> filter_open(std::span<const double> position,
     out.position.push_back(position[i]);
   }
   if (out.position.empty()) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("the profile is {:.6g} long; half a cut-off of {:.6g} discarded at "
-                                  "both ends leaves nothing",
-                                  position.back() - position.front(), options.cutoff));
+    return core::fail(
+        core::Code::kBadOption,
+        fmt::format("the profile is {:.6g} long; half a cut-off of {:.6g} discarded at "
+                    "both ends leaves nothing",
+                    position.back() - position.front(), options.cutoff));
   }
   switch (options.ends) {
-    case OpenEnds::kLine: fill<2>(position, r_mm, options, out); break;
-    case OpenEnds::kParabola: fill<3>(position, r_mm, options, out); break;
-    case OpenEnds::kDiscard: fill<1>(position, r_mm, options, out); break;
+    case OpenEnds::kLine:
+      fill<2>(position, r_mm, options, out);
+      break;
+    case OpenEnds::kParabola:
+      fill<3>(position, r_mm, options, out);
+      break;
+    case OpenEnds::kDiscard:
+      fill<1>(position, r_mm, options, out);
+      break;
   }
   return out;
 }

@@ -12,8 +12,7 @@ namespace {
 /// Solves the tridiagonal system (below, diagonal, above) by elimination; diagonally dominant.
 std::vector<double> solve_tridiagonal(const std::vector<double>& below,
                                       std::vector<double> diagonal,
-                                      const std::vector<double>& above,
-                                      std::vector<double> right) {
+                                      const std::vector<double>& above, std::vector<double> right) {
   const std::size_t n = right.size();
   for (std::size_t i = 1; i < n; ++i) {
     const double factor = below[i] / diagonal[i - 1];
@@ -21,7 +20,8 @@ std::vector<double> solve_tridiagonal(const std::vector<double>& below,
     right[i] -= factor * right[i - 1];
   }
   right[n - 1] /= diagonal[n - 1];
-  for (std::size_t i = n - 1; i-- > 0;) right[i] = (right[i] - above[i] * right[i + 1]) / diagonal[i];
+  for (std::size_t i = n - 1; i-- > 0;)
+    right[i] = (right[i] - above[i] * right[i + 1]) / diagonal[i];
   return right;
 }
 
@@ -45,8 +45,8 @@ PeriodicSpline::PeriodicSpline(std::vector<double> theta_rad, std::vector<double
     below[i] = h0;
     diagonal[i] = 2.0 * (h0 + h1);
     above[i] = h1;
-    right[i] = 6.0 * ((values_[i + 1] - values_[i]) / h1 -
-                      (values_[last + 1] - values_[last]) / h0);
+    right[i] =
+        6.0 * ((values_[i + 1] - values_[i]) / h1 - (values_[last + 1] - values_[last]) / h0);
   }
   // The two corners of the cyclic matrix are a rank-one change (Sherman, Morrison).
   const double gamma = -diagonal[0];

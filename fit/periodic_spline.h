@@ -16,7 +16,7 @@ class PeriodicSpline {
   [[nodiscard]] double operator()(double theta_rad) const;
 
  private:
-  std::vector<double> theta_;   ///< The first point stands again at the end, one turn on.
+  std::vector<double> theta_;  ///< The first point stands again at the end, one turn on.
   std::vector<double> values_;
   std::vector<double> second_;  ///< Second derivatives at the points.
 };

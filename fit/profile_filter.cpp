@@ -20,16 +20,18 @@ bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 
 Complex low_pass(ProfileFilter filter, double n, double cutoff, double samples) {
   switch (filter) {
-    case ProfileFilter::kNone: return 1.0;
+    case ProfileFilter::kNone:
+      return 1.0;
     case ProfileFilter::kGaussian:
-    case ProfileFilter::kRobustGaussian: return gaussian_transmission(n, cutoff);
+    case ProfileFilter::kRobustGaussian:
+      return gaussian_transmission(n, cutoff);
     case ProfileFilter::kTwoRc: {
       const Complex stage = 1.0 / Complex(1.0, n / (std::numbers::sqrt3 * cutoff));
       return stage * stage;
     }
     case ProfileFilter::kSpline: {
-      const double ratio = std::sin(std::numbers::pi * n / samples) /
-                           std::sin(std::numbers::pi * cutoff / samples);
+      const double ratio =
+          std::sin(std::numbers::pi * n / samples) / std::sin(std::numbers::pi * cutoff / samples);
       return 1.0 / (1.0 + ratio * ratio * ratio * ratio);
     }
   }
@@ -79,20 +81,28 @@ core::Result<FilteredProfile> robust(std::span<const double> r, const FilterOpti
 
 std::string_view name_of(ProfileFilter filter) {
   switch (filter) {
-    case ProfileFilter::kNone: return "none";
-    case ProfileFilter::kGaussian: return "gaussian";
-    case ProfileFilter::kTwoRc: return "2rc";
-    case ProfileFilter::kRobustGaussian: return "robust";
-    case ProfileFilter::kSpline: return "spline";
+    case ProfileFilter::kNone:
+      return "none";
+    case ProfileFilter::kGaussian:
+      return "gaussian";
+    case ProfileFilter::kTwoRc:
+      return "2rc";
+    case ProfileFilter::kRobustGaussian:
+      return "robust";
+    case ProfileFilter::kSpline:
+      return "spline";
   }
   return "none";
 }
 
 std::string_view name_of(PassBand pass) {
   switch (pass) {
-    case PassBand::kLow: return "low";
-    case PassBand::kHigh: return "high";
-    case PassBand::kBand: return "band";
+    case PassBand::kLow:
+      return "low";
+    case PassBand::kHigh:
+      return "high";
+    case PassBand::kBand:
+      return "band";
   }
   return "low";
 }
@@ -146,9 +156,12 @@ Complex transmission(const FilterOptions& options, double harmonic, std::size_t 
   const auto n = static_cast<double>(samples);
   if (options.filter == ProfileFilter::kNone) return 1.0;
   switch (options.pass) {
-    case PassBand::kLow: return low_pass(options.filter, harmonic, options.cutoff_upr, n);
-    case PassBand::kHigh: return high_pass(options.filter, harmonic, options.cutoff_upr, n);
-    case PassBand::kBand: break;
+    case PassBand::kLow:
+      return low_pass(options.filter, harmonic, options.cutoff_upr, n);
+    case PassBand::kHigh:
+      return high_pass(options.filter, harmonic, options.cutoff_upr, n);
+    case PassBand::kBand:
+      break;
   }
   return low_pass(options.filter, harmonic, options.upper_cutoff_upr, n) *
          high_pass(options.filter, harmonic, options.cutoff_upr, n);

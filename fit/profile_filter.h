@@ -30,8 +30,8 @@ enum class PassBand {
 [[nodiscard]] std::string_view name_of(ProfileFilter filter);
 [[nodiscard]] std::string_view name_of(PassBand pass);
 
-/// Settings of filter_closed(). Cut-offs are undulations per revolution (UPR), commonly 15, 50, 150,
-/// 500 or 1500; any positive number is taken.
+/// Settings of filter_closed(). Cut-offs are undulations per revolution (UPR), commonly 15, 50,
+/// 150, 500 or 1500; any positive number is taken.
 struct FilterOptions {
   ProfileFilter filter = ProfileFilter::kGaussian;
   PassBand pass = PassBand::kLow;
@@ -53,8 +53,9 @@ struct Sampling {
 /// Checks the cut-offs of a filter against the number of points measured.
 ///
 /// @return kBadOption for a cut-off that is not a positive number, a band whose limits are not in
-///         order, and a cut-off at or above half the number of points (nothing could be told apart);
-///         kSampling for fewer than 7 points per undulation, unless the options override it.
+///         order, and a cut-off at or above half the number of points (nothing could be told
+///         apart); kSampling for fewer than 7 points per undulation, unless the options override
+///         it.
 [[nodiscard]] core::Result<Sampling> check_sampling(std::size_t points,
                                                     const FilterOptions& options);
 
@@ -85,10 +86,10 @@ struct FilteredProfile {
 /// Filters a closed profile at uniform angles.
 ///
 /// The linear filters multiply the spectrum, which for a closed profile is the convolution of the
-/// standards without truncation and without end effects. The robust filter is iterated: Tukey weights
-/// with c = 4.4478 median|r - w| (three standard deviations of normal residuals), then the weighted
-/// Gaussian mean w, until w moves by less than 1e-9 c; its high pass is r - w, its band the robust low
-/// pass at the upper cut-off, less the robust low pass of that at the lower one.
+/// standards without truncation and without end effects. The robust filter is iterated: Tukey
+/// weights with c = 4.4478 median|r - w| (three standard deviations of normal residuals), then the
+/// weighted Gaussian mean w, until w moves by less than 1e-9 c; its high pass is r - w, its band
+/// the robust low pass at the upper cut-off, less the robust low pass of that at the lower one.
 ///
 /// @param r_mm  N values at uniform angles [mm]; not changed.
 /// @return kNoPoints, kNotFinite (row), check_sampling()'s errors, kNotConverged (robust filter).

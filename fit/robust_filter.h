@@ -14,7 +14,8 @@ struct RobustMeanLine {
 };
 
 /// Robust Gaussian regression of order 0 of a closed profile (ISO 16610-31): minimises
-/// sum_i rho(r_i - w_k) s_ik at every k, s the Gaussian weight of ISO 16610-21, rho Tukey's function.
+/// sum_i rho(r_i - w_k) s_ik at every k, s the Gaussian weight of ISO 16610-21, rho Tukey's
+/// function.
 ///
 /// Solved by repeated weighting: w = conv(s, delta r) / conv(s, delta),
 /// delta = (1 - ((r - w)/c)^2)^2 where |r - w| <= c and 0 beyond, c = 4.4478 median|r - w|. The

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
+#include <Eigen/QR>
 
 #include "fit/ls_circle.h"
 #include "fit/min_zone_circle.h"
@@ -21,7 +21,8 @@ constexpr int kBoxes = 12;
 
 /// Deviations from the circle (center, radius), peaks positive.
 template <class Radius>
-FormParameters parameters_of(std::size_t count, const Radius& deviation, const RoundnessSide& side) {
+FormParameters parameters_of(std::size_t count, const Radius& deviation,
+                             const RoundnessSide& side) {
   std::vector<double> deviations(count);
   for (std::size_t i = 0; i < count; ++i) {
     deviations[i] = side.inside ? -deviation(i) : deviation(i);
@@ -72,15 +73,15 @@ core::Result<void> check_profile(std::span<const double> theta, std::span<const 
                                   theta.size(), r.size()));
   }
   if (theta.size() < least) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("{} points; this reference circle needs at least {}",
-                                  theta.size(), least));
+    return core::fail(
+        core::Code::kTooFewPoints,
+        fmt::format("{} points; this reference circle needs at least {}", theta.size(), least));
   }
   for (std::size_t i = 0; i < theta.size(); ++i) {
     if (std::isfinite(theta[i]) && std::isfinite(r[i])) continue;
-    return core::fail(core::Code::kNotFinite,
-                      fmt::format("row {} is ({} rad, {} mm); finite numbers are needed", i,
-                                  theta[i], r[i]));
+    return core::fail(
+        core::Code::kNotFinite,
+        fmt::format("row {} is ({} rad, {} mm); finite numbers are needed", i, theta[i], r[i]));
   }
   return {};
 }
@@ -129,8 +130,9 @@ std::vector<ZoneRow<2>> zone_rows(std::span<const double> theta, std::span<const
 }
 
 core::Result<ZoneStep<2>> solve_zone(const std::vector<ZoneRow<2>>& rows) {
-  const auto [low, high] = std::minmax_element(
-      rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  const auto [low, high] =
+      std::minmax_element(rows.begin(), rows.end(),
+                          [](const auto& a, const auto& b) { return a.distance < b.distance; });
   double box = std::max(kFirstBox * (high->distance - low->distance), 1e-12);
   for (int k = 0; k < kBoxes; ++k, box *= kBoxGrowth) {
     auto step = solve_zone_program<2>(rows, box);
@@ -171,8 +173,10 @@ core::Result<Roundness> mz_profile(std::span<const double> theta, std::span<cons
 
 std::string_view name_of(CircleReference reference) {
   switch (reference) {
-    case CircleReference::kLs: return "ls";
-    case CircleReference::kMz: return "mz";
+    case CircleReference::kLs:
+      return "ls";
+    case CircleReference::kMz:
+      return "mz";
   }
   return "ls";
 }
@@ -180,19 +184,22 @@ std::string_view name_of(CircleReference reference) {
 core::Result<Roundness> roundness_of_points(std::span<const Eigen::Vector2d> points_mm,
                                             CircleReference reference, const RoundnessSide& side) {
   switch (reference) {
-    case CircleReference::kLs: return ls_points(points_mm, side);
-    case CircleReference::kMz: return mz_points(points_mm);
+    case CircleReference::kLs:
+      return ls_points(points_mm, side);
+    case CircleReference::kMz:
+      return mz_points(points_mm);
   }
   return core::fail(core::Code::kInternal, "there is no such reference circle");
 }
 
 core::Result<Roundness> roundness_of_profile(std::span<const double> theta_rad,
                                              std::span<const double> r_mm,
-                                             CircleReference reference,
-                                             const RoundnessSide& side) {
+                                             CircleReference reference, const RoundnessSide& side) {
   switch (reference) {
-    case CircleReference::kLs: return ls_profile(theta_rad, r_mm, side);
-    case CircleReference::kMz: return mz_profile(theta_rad, r_mm);
+    case CircleReference::kLs:
+      return ls_profile(theta_rad, r_mm, side);
+    case CircleReference::kMz:
+      return mz_profile(theta_rad, r_mm);
   }
   return core::fail(core::Code::kInternal, "there is no such reference circle");
 }

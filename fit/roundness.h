@@ -28,13 +28,13 @@ enum class CircleReference {
 struct Roundness {
   CircleReference reference = CircleReference::kLs;
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();
-  double radius_mm = 0.0;      ///< Of the zone: its middle. Of a profile of deviations: their level.
-  double total_mm = 0.0;       ///< RONt: peak to valley.
+  double radius_mm = 0.0;  ///< Of the zone: its middle. Of a profile of deviations: their level.
+  double total_mm = 0.0;   ///< RONt: peak to valley.
   /// RONp, RONv, RONq: defined about the least-squares circle only.
   std::optional<FormParameters> parameters;
   std::vector<std::size_t> outer;  ///< Rows on the outer circle of the zone; empty for kLs.
   std::vector<std::size_t> inner;
-  Certificate certificate;         ///< Of the zone; kNone for kLs.
+  Certificate certificate;  ///< Of the zone; kNone for kLs.
 
   /// Distance of the centre from the origin of the profile [mm].
   [[nodiscard]] double eccentricity_mm() const { return center_mm.norm(); }
@@ -52,9 +52,10 @@ struct RoundnessSide {
     std::span<const Eigen::Vector2d> points_mm, CircleReference reference,
     const RoundnessSide& side = {});
 
-/// Roundness of a profile whose nominal radius is not known or of no interest: small deviations from
-/// a circle, r = r0 + a cos(theta) + b sin(theta) + form (limacon). The references are then linear
-/// problems: least squares by QR; the minimum zone by one linear programme, global by duality.
+/// Roundness of a profile whose nominal radius is not known or of no interest: small deviations
+/// from a circle, r = r0 + a cos(theta) + b sin(theta) + form (limacon). The references are then
+/// linear problems: least squares by QR; the minimum zone by one linear programme, global by
+/// duality.
 ///
 /// @param theta_rad, r_mm  n >= 3 (LS) or 4 (MZ) values [rad, mm].
 /// @return kNoPoints, kNotFinite, kTooFewPoints, kRank (fewer than 3 different angles),

@@ -56,8 +56,9 @@ core::Result<void> check_coverage(RoundnessEvaluation& out) {
                      360.0 - gap_deg));
   }
   if (out.measured.r_mm.size() < kSparsePoints) {
-    warn(out, core::Code::kSparse,
-         fmt::format("{} points; RONt is a lower bound of the section's", out.measured.r_mm.size()));
+    warn(
+        out, core::Code::kSparse,
+        fmt::format("{} points; RONt is a lower bound of the section's", out.measured.r_mm.size()));
   }
   return {};
 }
@@ -91,12 +92,12 @@ core::Result<void> fill_filtered(RoundnessEvaluation& out) {
   out.sampling = *sampling;
   if (auto checked = check_gap(out); !checked) return checked;
   if (out.sampling.overridden) {
-    warn(out, core::Code::kUndersampled,
-         fmt::format("filtered by option although {} points ({:.2f} per undulation, largest gap "
-                     "{:.4g} deg) do not carry {} UPR",
-                     out.measured.r_mm.size(), out.sampling.points_per_undulation,
-                     out.measured.largest_gap_rad / core::kDegree,
-                     out.filter.highest_cutoff_upr()));
+    warn(
+        out, core::Code::kUndersampled,
+        fmt::format("filtered by option although {} points ({:.2f} per undulation, largest gap "
+                    "{:.4g} deg) do not carry {} UPR",
+                    out.measured.r_mm.size(), out.sampling.points_per_undulation,
+                    out.measured.largest_gap_rad / core::kDegree, out.filter.highest_cutoff_upr()));
   }
   const auto even = resampled(out.measured);
   if (!even) return core::fail(even.error());

@@ -168,10 +168,10 @@ core::Result<Columns> read_header(std::string_view line, const Format& format) {
   }
   for (std::size_t i = 0; i < columns.set.required; ++i) {
     if (seen[i]) continue;
-    return core::fail(core::Code::kSyntax,
-                      fmt::format("column \"{}\" is missing in {}; the columns are {}{}",
-                                  columns.set.names[i], quoted(line), format.columns,
-                                  format.units));
+    return core::fail(
+        core::Code::kSyntax,
+        fmt::format("column \"{}\" is missing in {}; the columns are {}{}", columns.set.names[i],
+                    quoted(line), format.columns, format.units));
   }
   return columns;
 }
@@ -245,7 +245,8 @@ core::Error explain(std::string_view line, const Columns& columns) {
         fields.size() == 2 * columns.count ? "; write decimals with a point, not a comma" : ""));
   }
   for (std::size_t i = 0; i < columns.count; ++i) {
-    if (auto error = explain_field(fields[i], columns.name(i), columns.unit(i))) return *std::move(error);
+    if (auto error = explain_field(fields[i], columns.name(i), columns.unit(i)))
+      return *std::move(error);
   }
   return syntax(fmt::format("{} cannot be read; numbers for {} are expected", quoted(line), names));
 }
@@ -254,7 +255,8 @@ bool is_utf16(std::string_view text) {
   return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
 }
 
-/// Reads a whole file: `begin(columns)` once, then `row(values, line, bytes left)` for each row.
+/// Reads a whole file: `begin(columns)` once, then `row(values, rows to come)` for each
+/// row; rows to come is an estimate at the first row and 0 after it.
 template <class Begin, class Row>
 core::Result<void> parse(std::string_view text, std::string_view name, const Format& format,
                          const Begin& begin, const Row& row) {
@@ -272,8 +274,7 @@ core::Result<void> parse(std::string_view text, std::string_view name, const For
   if (!line) {
     return core::fail(core::Code::kNoPoints,
                       fmt::format("the file {}; a header line {} and a row a point are expected",
-                                  text.empty() ? "is empty"
-                                               : "holds only comments and blank lines",
+                                  text.empty() ? "is empty" : "holds only comments and blank lines",
                                   format.columns),
                       here());
   }
@@ -288,11 +289,12 @@ core::Result<void> parse(std::string_view text, std::string_view name, const For
     // Rows are about as long as the first.
     const std::size_t rows_to_come = any ? 0 : lines.bytes_left() / (line->size() + 1) + 1;
     any = true;
-    row(values, lines.number(), rows_to_come);
+    row(values, rows_to_come);
   }
   if (any) return {};
   return core::fail(core::Code::kNoPoints,
-                    "the file holds a header line and no points; a row a point is expected", here());
+                    "the file holds a header line and no points; a row a point is expected",
+                    here());
 }
 
 }  // namespace
@@ -302,7 +304,7 @@ core::Result<PointTable> parse_points_csv(std::string_view text, std::string_vie
   const auto parsed = parse(
       text, name, kPointFormat,
       [&](const Columns& columns) { table.dimensions = static_cast<int>(columns.count); },
-      [&](const Eigen::Vector3d& values, std::size_t, std::size_t rows_to_come) {
+      [&](const Eigen::Vector3d& values, std::size_t rows_to_come) {
         if (rows_to_come > 0) table.points_mm.reserve(rows_to_come);
         table.points_mm.push_back(values);
       });
@@ -315,10 +317,9 @@ core::Result<ProfileTable> parse_profile_csv(std::string_view text, std::string_
   const auto parsed = parse(
       text, name, kProfileFormat,
       [&](const Columns& columns) { table.polar = columns.set.names[0] == kPolar.names[0]; },
-      [&](const Eigen::Vector3d& values, std::size_t line, std::size_t rows_to_come) {
+      [&](const Eigen::Vector3d& values, std::size_t rows_to_come) {
         if (rows_to_come > 0) table.rows.reserve(rows_to_come);
         table.rows.emplace_back(values.head<2>());
-        table.lines.push_back(line);
       });
   if (!parsed) return core::fail(parsed.error());
   return table;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -31,9 +30,9 @@ struct PointTable {
 
 /// A section of a CSV file, as angles and deviations or as points.
 struct ProfileTable {
-  bool polar = true;                   ///< Columns theta_deg,r_um; otherwise x,y.
-  std::vector<Eigen::Vector2d> rows;   ///< (theta, r) in deg and um, or (x, y) in mm: as in the file.
-  std::vector<std::size_t> lines;      ///< Line of the file each row stands in, from 1.
+  bool polar = true;  ///< Columns theta_deg,r_um; otherwise x,y.
+  std::vector<Eigen::Vector2d>
+      rows;  ///< (theta, r) in deg and um, or (x, y) in mm: as in the file.
 };
 
 /// Reads a section from CSV text: columns `theta_deg,r_um` or `x,y` (mm), in any order. The rest as

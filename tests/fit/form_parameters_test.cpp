@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "core/noise.h"
 #include "core/units.h"
@@ -62,7 +62,8 @@ TEST(FormParameters, OfACylinderAgreeWithItsFits) {
   EXPECT_NEAR(p->peak_mm + p->valley_mm, p->total_mm, 1e-15);
   EXPECT_NEAR(p->rms_mm, ls->rms_mm, 1e-12);
   EXPECT_NEAR(p->peak_mm, 3.2e-3, 1e-8);
-  const auto zone = cylindricity_parameters(points, mz->axis, 0.5 * (mz->inner_radius_mm + mz->outer_radius_mm));
+  const auto zone =
+      cylindricity_parameters(points, mz->axis, 0.5 * (mz->inner_radius_mm + mz->outer_radius_mm));
   EXPECT_NEAR(zone->total_mm, mz->width_mm(), 1e-12);
   EXPECT_LE(zone->total_mm, p->total_mm + 1e-12);
   const auto bore = cylindricity_parameters(points, ls->axis, ls->radius_mm, true);
@@ -141,7 +142,8 @@ TEST(Generatrix, RefusesWhatHasNoLength) {
 
 TEST(Datum, CoaxialityIsTwiceTheGreatestDistance) {
   const Part part;
-  const Points median = {part.at(0.3, -20.0, 4e-3), part.at(2.0, 0.0, 1e-3), part.at(5.0, 20.0, 6e-3)};
+  const Points median = {part.at(0.3, -20.0, 4e-3), part.at(2.0, 0.0, 1e-3),
+                         part.at(5.0, 20.0, 6e-3)};
   EXPECT_NEAR(*coaxiality_mm(median, part.axis), 12e-3, 1e-12);
   EXPECT_EQ(coaxiality_mm({}, part.axis).error().code, core::Code::kNoPoints);
 }

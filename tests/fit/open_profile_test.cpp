@@ -92,8 +92,7 @@ TEST(OpenProfile, RefusesGapsThatHideAnUndulationUnlessOverridden) {
   const auto back = filter_open(x, Values(100, 0.0), {0.8});
   EXPECT_EQ(back.error().code, core::Code::kBadOption);
   EXPECT_NE(back.error().what.find("row 50"), std::string::npos);
-  EXPECT_EQ(filter_open(Values{0, 1}, Values{0, 1}, {0.8}).error().code,
-            core::Code::kTooFewPoints);
+  EXPECT_EQ(filter_open(Values{0, 1}, Values{0, 1}, {0.8}).error().code, core::Code::kTooFewPoints);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ struct Undulation {
 /// Form of A.11 with the two high undulations of B.9.
 inline const std::vector<Undulation>& spec_undulations() {
   static const std::vector<Undulation> all = {
-      {2, 3.0, 20.0},  {3, 2.0, -45.0}, {5, 0.8, 100.0}, {7, 0.6, -10.0},   {11, 0.4, 75.0},
-      {16, 0.5, 0.0},  {23, 0.3, 33.0}, {40, 0.2, -60.0}, {60, 0.4, 15.0}, {150, 0.3, -120.0}};
+      {2, 3.0, 20.0}, {3, 2.0, -45.0}, {5, 0.8, 100.0},  {7, 0.6, -10.0}, {11, 0.4, 75.0},
+      {16, 0.5, 0.0}, {23, 0.3, 33.0}, {40, 0.2, -60.0}, {60, 0.4, 15.0}, {150, 0.3, -120.0}};
   return all;
 }
 
@@ -35,8 +35,7 @@ inline double spec_form_um(double theta) {
 
 /// B.9: centre (10, -5) um, limacon, deviations [mm].
 inline double spec_profile_mm(double theta) {
-  return (spec_form_um(theta) + 10.0 * std::cos(theta) - 5.0 * std::sin(theta)) *
-         core::kMicrometre;
+  return (spec_form_um(theta) + 10.0 * std::cos(theta) - 5.0 * std::sin(theta)) * core::kMicrometre;
 }
 
 inline std::vector<double> uniform_angles(std::size_t count) {

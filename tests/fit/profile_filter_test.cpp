@@ -4,8 +4,8 @@
 #include <limits>
 #include <numbers>
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include "fit/filter_selftest.h"
 #include "tests/fit/profile_cases.h"
@@ -81,8 +81,8 @@ TEST(ProfileFilter, SplineSolvesTheEquationsOfTheStandard) {
     second(i, i) = -2.0;
     second(i, (i + 1) % second.rows()) = second((i + 1) % second.rows(), i) = 1.0;
   }
-  const Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(kCount, kCount) +
-                                 std::pow(alpha, 4) * second.transpose() * second;
+  const Eigen::MatrixXd matrix =
+      Eigen::MatrixXd::Identity(kCount, kCount) + std::pow(alpha, 4) * second.transpose() * second;
   const Profile r = rough_profile(5, kCount);
   const Eigen::VectorXd w =
       matrix.partialPivLu().solve(Eigen::Map<const Eigen::VectorXd>(r.data(), kCount));
@@ -141,7 +141,8 @@ TEST(ProfileFilter, RobustGaussianKeepsItsLineUnderABurr) {
   EXPECT_LT(moved(ProfileFilter::kRobustGaussian), 0.0004);
 }
 
-/// Two first-order stages y' = a (x - y), stepped exactly for a piecewise linear input until periodic.
+/// Two first-order stages y' = a (x - y), stepped exactly for a piecewise linear input until
+/// periodic.
 Profile two_rc_by_hand(const Profile& r, double cutoff) {
   const double a = std::numbers::sqrt3 * cutoff;
   const double h = core::kTwoPi / static_cast<double>(r.size());
@@ -178,7 +179,8 @@ TEST(ProfileFilter, PassesHalfAtTheCutOffAndThreeQuartersWithTwoRc) {
   for (const PassBand pass : {PassBand::kLow, PassBand::kHigh}) {
     const FilterOptions two_rc{ProfileFilter::kTwoRc, pass, 50.0};
     EXPECT_NEAR(std::abs(transmission(two_rc, 50.0, 1024)), 0.75, 1e-15);
-    EXPECT_NEAR(std::abs(std::arg(transmission(two_rc, 50.0, 1024))), std::numbers::pi / 3.0, 1e-15);
+    EXPECT_NEAR(std::abs(std::arg(transmission(two_rc, 50.0, 1024))), std::numbers::pi / 3.0,
+                1e-15);
   }
 }
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "fit/roundness_evaluation.h"
 #include "tests/fit/profile_cases.h"
@@ -136,8 +136,8 @@ double zone_by_trial(const Values& theta, const Values& r) {
     const Eigen::Vector4d x = lu.solve(right);
     double most = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-      most = std::max(most, std::abs(r[i] - x(0) - x(1) * std::cos(theta[i]) -
-                                     x(2) * std::sin(theta[i])));
+      most = std::max(
+          most, std::abs(r[i] - x(0) - x(1) * std::cos(theta[i]) - x(2) * std::sin(theta[i])));
     }
     best = std::min(best, 2.0 * most);
   };
