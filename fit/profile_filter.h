@@ -93,7 +93,7 @@ struct FilteredProfile {
 ///
 /// @param r_mm  N values at uniform angles [mm]; not changed.
 /// @return kNoPoints, kNotFinite (row), check_sampling()'s errors, kNotConverged (robust filter).
-///         O(N log N), for the robust filter each of its some 20 to 100 iterations.
+///         O(N log N), for the robust filter each of its iterations, some 40 to 700.
 /// Sources: ISO 16610-21, -22, -31; ISO 4291 (2RC); methods, roundness B.2.
 [[nodiscard]] core::Result<FilteredProfile> filter_closed(std::span<const double> r_mm,
                                                           const FilterOptions& options);

@@ -13,7 +13,12 @@
 namespace rondure::fit {
 namespace {
 
-constexpr int kIterationLimit = 1000;
+constexpr int kIterationLimit = 3000;
+/// After so many iterations only half of each step is taken, then a quarter, then an eighth: where
+/// strong undulations lie next to the cut-off the full step overshoots for ever. A line that
+/// settles does so with any share.
+constexpr int kIterationsPerDamping = 100;
+constexpr int kDampings = 3;
 constexpr double kStandardised = 4.4478;  // 3 standard deviations: median|e| = 0.67449 sigma
 constexpr double kStep = 1e-9;
 /// Weight of a neighbourhood below which its mean is round-off of the transform.
@@ -77,7 +82,8 @@ core::Result<RobustMeanLine> settled_line(const std::vector<double>& r, double c
       line[i] /= weight[i];
     }
     const double step = greatest_step(line, out.r_mm);
-    out.r_mm = std::move(line);
+    const double share = std::exp2(-std::min(out.iterations / kIterationsPerDamping, kDampings));
+    for (std::size_t i = 0; i < line.size(); ++i) out.r_mm[i] += share * (line[i] - out.r_mm[i]);
     if (step <= kStep * c + round_off) return out;
   }
   return core::fail(core::Code::kNotConverged,

@@ -23,7 +23,7 @@ struct RobustMeanLine {
 ///
 /// @param r_mm        Finite values at uniform angles [mm].
 /// @param cutoff_upr  > 0, below half the number of values.
-/// @return kNotConverged after 1000 iterations, or where outliers fill a whole undulation.
+/// @return kNotConverged after 3000 iterations, or where outliers fill a whole undulation.
 [[nodiscard]] core::Result<RobustMeanLine> robust_mean_line(std::span<const double> r_mm,
                                                             double cutoff_upr);
 
