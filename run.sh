@@ -17,8 +17,9 @@ if [ $# -gt 0 ]; then
   exec "$here/build/release/rondure" "$@"
 fi
 cd "$here"
-run="runs/01_spool_simulated-$(date -u +%Y%m%dT%H%M%SZ)"
 status=0
-build/release/rondure run plans/examples/01_spool_simulated.json --out "$run" || status=$?
-[ -f "$run/report.html" ] && echo && echo "The report: $here/$run/report.html   (open it in a browser)"
+output=$(build/release/rondure run plans/examples/01_spool_simulated.json) || status=$?
+printf '%s\n' "$output"
+report=$(grep -o 'runs/.*report\.html$' <<<"$output" || true)
+[ -n "$report" ] && echo && echo "The report: $here/$report   (open it in a browser)"
 exit $status

@@ -50,19 +50,22 @@ double um(double mm) { return mm / core::kMicrometre; }
 
 template <class Zone>
 std::string zone_lines(const Zone& zone) {
-  std::string out = fmt::format("    inner radius {:.6f} mm, outer radius {:.6f} mm\n    contacts", zone.inner_radius_mm,
-                                zone.outer_radius_mm);
+  std::string out = fmt::format("    inner radius {:.6f} mm, outer radius {:.6f} mm\n    contacts",
+                                zone.inner_radius_mm, zone.outer_radius_mm);
   for (const auto& c : zone.outer) out += fmt::format(" +{}", c.index);
   for (const auto& c : zone.inner) out += fmt::format(" -{}", c.index);
-  out += fmt::format(" (+ outer, - inner, rows from 0)\n    certificate {}, {}, gap {:.1e} mm", fit::name_of(zone.certificate.kind),
-                     zone.certificate.scope, zone.certificate.gap_mm);
+  out += fmt::format(" (+ outer, - inner, rows from 0)\n    certificate {}, {}, gap {:.1e} mm",
+                     fit::name_of(zone.certificate.kind), zone.certificate.scope,
+                     zone.certificate.gap_mm);
   if (!zone.certificate.reason.empty()) out += "; " + zone.certificate.reason;
   return out + "\n";
 }
 
 std::string axis_line(const fit::Axis& axis) {
-  return fmt::format("    axis through ({:.6f}, {:.6f}, {:.6f}) mm along ({:.9f}, {:.9f}, {:.9f})\n", axis.point_mm.x(),
-                     axis.point_mm.y(), axis.point_mm.z(), axis.direction.x(), axis.direction.y(), axis.direction.z());
+  return fmt::format(
+      "    axis through ({:.6f}, {:.6f}, {:.6f}) mm along ({:.9f}, {:.9f}, {:.9f})\n",
+      axis.point_mm.x(), axis.point_mm.y(), axis.point_mm.z(), axis.direction.x(),
+      axis.direction.y(), axis.direction.z());
 }
 
 std::string center_line(const Eigen::Vector2d& center) {
@@ -71,8 +74,8 @@ std::string center_line(const Eigen::Vector2d& center) {
 
 template <class Fit>
 std::string ls_line(const char* name, const Fit& fit) {
-  return fmt::format("  {}  deviation {:.4f} um, rms {:.4f} um\n    radius {:.6f} mm\n", name, um(fit.deviation_mm),
-                     um(fit.rms_mm), fit.radius_mm);
+  return fmt::format("  {}  deviation {:.4f} um, rms {:.4f} um\n    radius {:.6f} mm\n", name,
+                     um(fit.deviation_mm), um(fit.rms_mm), fit.radius_mm);
 }
 
 }  // namespace
@@ -105,17 +108,21 @@ std::string fit_json(const FitOutcome& outcome) {
 
 std::string fit_table(const FitOutcome& outcome) {
   std::string out = fmt::format("{}, {} points\n", outcome.shape, outcome.points);
-  if (outcome.ls_circle) out += ls_line("LSCI", *outcome.ls_circle) + center_line(outcome.ls_circle->center_mm);
-  if (outcome.ls_cylinder) out += ls_line("LSCY", *outcome.ls_cylinder) + axis_line(outcome.ls_cylinder->axis);
+  if (outcome.ls_circle)
+    out += ls_line("LSCI", *outcome.ls_circle) + center_line(outcome.ls_circle->center_mm);
+  if (outcome.ls_cylinder)
+    out += ls_line("LSCY", *outcome.ls_cylinder) + axis_line(outcome.ls_cylinder->axis);
   if (outcome.mz_circle) {
     out += fmt::format("  MZCI  deviation {:.4f} um (RONt)\n", um(outcome.mz_circle->width_mm())) +
            center_line(outcome.mz_circle->center_mm) + zone_lines(*outcome.mz_circle);
   }
   if (outcome.mz_cylinder) {
-    out += fmt::format("  MZCY  deviation {:.4f} um (CYLt)\n", um(outcome.mz_cylinder->width_mm())) +
-           axis_line(outcome.mz_cylinder->axis) + zone_lines(*outcome.mz_cylinder);
+    out +=
+        fmt::format("  MZCY  deviation {:.4f} um (CYLt)\n", um(outcome.mz_cylinder->width_mm())) +
+        axis_line(outcome.mz_cylinder->axis) + zone_lines(*outcome.mz_cylinder);
   }
-  for (const core::Error& w : outcome.warnings) out += fmt::format("  warning: {} [{}]\n", w.what, core::code_name(w.code));
+  for (const core::Error& w : outcome.warnings)
+    out += fmt::format("  warning: {} [{}]\n", w.what, core::code_name(w.code));
   return out;
 }
 

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <string>
+#include <string_view>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "app/terminal.h"
 #include "app/verbs.h"
@@ -15,8 +17,10 @@ namespace rondure::app {
 namespace {
 
 constexpr const char* kExits =
-    "\nExit status: run, report: 0 all conform, 1 finished but something does not conform or is void,\n"
-    "2 bad input, 3 machine or run failed. verify: 0 equal, 1 not equal, 2 unreadable. Others: 0 or 2.";
+    "\nExit status: run, report: 0 all conform, 1 finished but something does not conform or is "
+    "void,\n"
+    "2 bad input, 3 machine or run failed. verify: 0 equal, 1 not equal, 2 unreadable. Others: 0 "
+    "or 2.";
 
 /// "--format html,json": one argument, so that the plan may follow it.
 void add_formats(CLI::App& verb, std::vector<std::string>& formats, const char* meaning) {
@@ -29,7 +33,8 @@ void add_formats(CLI::App& verb, std::vector<std::string>& formats, const char* 
 
 /// Whole numbers that every reader of JSON keeps, as in a plan.
 std::string check_seed(const std::string& text) {
-  const bool digits = !text.empty() && text.size() <= 16 && text.find_first_not_of("0123456789") == std::string::npos;
+  const bool digits = !text.empty() && text.size() <= 16 &&
+                      text.find_first_not_of("0123456789") == std::string::npos;
   if (digits && std::stod(text) <= plans::kMaxSeed) return {};
   return fmt::format("{} is not a whole number from 0 to {:.0f}", text, plans::kMaxSeed);
 }
@@ -43,14 +48,18 @@ void add_validate(CLI::App& app, ValidateArguments& arguments) {
 void add_run(CLI::App& app, RunArguments& arguments) {
   auto* verb = app.add_subcommand("run", "Executes a plan and writes its reports");
   verb->add_option("PLAN", arguments.plan, "Plan file (JSON)")->required();
-  verb->add_option("--out", arguments.out, "Run directory, absent or empty (default: runs/<plan>-<UTC>)");
+  verb->add_option("--out", arguments.out,
+                   "Run directory, absent or empty (default: runs/<plan>-<UTC>)");
   verb->add_option("--serial", arguments.serial, "Serial number of the part");
   verb->add_option("--operator", arguments.operator_name, "Who measures");
-  verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")->check(check_seed);
+  verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
+      ->check(check_seed);
   add_formats(*verb, arguments.formats, "html,json,csv (default: as the plan says)");
   verb->add_flag("--quiet", arguments.quiet, "No progress, no summary");
-  verb->footer(std::string("\nExample: rondure run plans/examples/01_spool_simulated.json --serial 0042 --operator mk\n"
-                           "Ctrl-C stops after the present touch; what was measured is kept.\n") + kExits);
+  verb->footer(std::string("\nExample: rondure run plans/examples/01_spool_simulated.json --serial "
+                           "0042 --operator mk\n"
+                           "Ctrl-C stops after the present touch; what was measured is kept.\n") +
+               kExits);
 }
 
 CLI::App* add_fit(CLI::App& app, FitArguments& arguments) {
@@ -58,7 +67,8 @@ CLI::App* add_fit(CLI::App& app, FitArguments& arguments) {
   verb->add_option("SHAPE", arguments.shape, "circle (columns x,y) or cylinder (columns x,y,z), mm")
       ->check(CLI::IsMember({"circle", "cylinder"}));
   verb->add_option("FILE", arguments.file, "CSV with a header line; # comments");
-  verb->add_option("--reference", arguments.reference, "ls, mz or all")->check(CLI::IsMember({"ls", "mz", "all"}));
+  verb->add_option("--reference", arguments.reference, "ls, mz or all")
+      ->check(CLI::IsMember({"ls", "mz", "all"}));
   verb->add_flag("--json", arguments.json, "The stable JSON contract instead of text");
   verb->footer("\nExample: rondure fit cylinder tests/data/nist_cyl_13/points.csv --json");
   verb->require_subcommand(0, 1);
@@ -71,24 +81,31 @@ CLI::App* add_fit(CLI::App& app, FitArguments& arguments) {
 }
 
 void add_roundness(CLI::App& fit_verb, RoundnessArguments& arguments) {
-  auto* verb = fit_verb.add_subcommand("roundness", "Filters one section and gives RONt, RONp, RONv, RONq and harmonics");
-  verb->add_option("FILE", arguments.file, "CSV with the columns theta_deg,r_um or x,y (mm)")->required();
-  verb->add_option("--cutoff-upr", arguments.cutoff_upr, "Cut-off in undulations per revolution (default: 50); LO,HI for a band")
+  auto* verb = fit_verb.add_subcommand(
+      "roundness", "Filters one section and gives RONt, RONp, RONv, RONq and harmonics");
+  verb->add_option("FILE", arguments.file, "CSV with the columns theta_deg,r_um or x,y (mm)")
+      ->required();
+  verb->add_option("--cutoff-upr", arguments.cutoff_upr,
+                   "Cut-off in undulations per revolution (default: 50); LO,HI for a band")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("N[,N]");
   verb->add_option("--filter", arguments.filter, "gaussian (default), 2rc, robust, spline or none")
       ->check(CLI::IsMember({"gaussian", "2rc", "robust", "spline", "none"}));
-  verb->add_option("--pass", arguments.pass, "low (default), high or band")->check(CLI::IsMember({"low", "high", "band"}));
-  verb->add_flag("--override-sampling", arguments.override_sampling, "Filter also with fewer than 7 points per undulation");
+  verb->add_option("--pass", arguments.pass, "low (default), high or band")
+      ->check(CLI::IsMember({"low", "high", "band"}));
+  verb->add_flag("--override-sampling", arguments.override_sampling,
+                 "Filter also with fewer than 7 points per undulation");
   verb->add_flag("--inside", arguments.inside, "A bore: peaks point to the centre");
   verb->add_flag("--json", arguments.json, "JSON instead of text");
-  verb->footer("\nExample: rondure fit roundness tests/data/spec_roundness/profile.csv --cutoff-upr 150\n"
-               "Filters, formulas and end effects: docs/filters.md");
+  verb->footer(
+      "\nExample: rondure fit roundness tests/data/spec_roundness/profile.csv --cutoff-upr 150\n"
+      "Filters, formulas and end effects: docs/filters.md");
 }
 
 void add_selftest(CLI::App& fit_verb, SelfTestArguments& arguments) {
-  auto* verb = fit_verb.add_subcommand("filter-selftest", "Measures the transmission of the Gaussian filter: 0 passed, 2 failed");
+  auto* verb = fit_verb.add_subcommand(
+      "filter-selftest", "Measures the transmission of the Gaussian filter: 0 passed, 2 failed");
   verb->add_option("--cutoff-upr", arguments.cutoff_upr, "Cut-off of the table (default: 50)");
   verb->footer("\nExample: rondure fit filter-selftest --cutoff-upr 15");
 }
@@ -101,14 +118,17 @@ void add_report(CLI::App& app, ReportArguments& arguments) {
 }
 
 void add_verify(CLI::App& app, VerifyArguments& arguments) {
-  auto* verb = app.add_subcommand("verify", "Recomputes a run from its journal and compares every digit");
+  auto* verb =
+      app.add_subcommand("verify", "Recomputes a run from its journal and compares every digit");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
-  verb->footer("\nExample: rondure verify runs/01_spool_simulated-20261121T023302Z\n"
-               "Finds accidents; whoever can write into the directory can also forge its digests.");
+  verb->footer(
+      "\nExample: rondure verify runs/01_spool_simulated-20261121T023302Z\n"
+      "Finds accidents; whoever can write into the directory can also forge its digests.");
 }
 
 /// Help and version go to standard output, everything else is a mistake in the arguments.
-int explain(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
+int explain(const CLI::App& app, const CLI::ParseError& error,
+            const std::vector<std::string>& words) {
   if (error.get_exit_code() == 0) {
     app.exit(error);
     return kAllWell;
@@ -124,8 +144,9 @@ int explain(const CLI::App& app, const CLI::ParseError& error, const std::vector
   } else {
     tell(fmt::format("rondure: there is no verb {}\n", words.front()));
   }
-  tell(verb_known ? fmt::format("What it takes, with an example: rondure {} --help\n", words.front())
-                  : "The verbs: rondure --help\n");
+  tell(verb_known
+           ? fmt::format("What it takes, with an example: rondure {} --help\n", words.front())
+           : "The verbs: rondure --help\n");
   return kBadInput;
 }
 
@@ -168,13 +189,13 @@ int main_of(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace rondure::app;
   hold_standard_streams();
-  int status = kRunFailed;
+  int status = argc > 1 && std::string_view(argv[1]) == "run" ? kRunFailed : kBadInput;
   try {
     status = main_of(argc, argv);
   } catch (const std::bad_alloc&) {
-    tell("rondure: the memory of this computer is not enough; what was measured is kept\n");
+    tell("rondure: the memory of this computer is not enough; use fewer points\n");
   } catch (const std::exception& error) {
-    tell(fmt::format("rondure: {} [internal]; what was measured is kept\n", error.what()));
+    tell(fmt::format("rondure: {}; please report this [internal]\n", error.what()));
   }
   return output_reached() ? status : std::max<int>(status, kBadInput);
 }

@@ -15,7 +15,8 @@ std::string processor() {
   for (std::string line; std::getline(info, line);) {
     const auto colon = line.find(':');
     if (colon == std::string::npos) continue;
-    if (line.rfind("model name", 0) == 0 && colon + 2 <= line.size()) model = line.substr(colon + 2);
+    if (line.rfind("model name", 0) == 0 && colon + 2 <= line.size())
+      model = line.substr(colon + 2);
     if (line.rfind("flags", 0) != 0) continue;
     std::istringstream flags(line.substr(colon + 1));
     for (std::string flag; flags >> flag;) {

@@ -29,6 +29,10 @@ extern "C" void on_stop(int signal) {
 }
 
 std::string line_of(const plans::Progress& progress, double elapsed_s) {
+  if (progress.pose_number == 0) {
+    return fmt::format("qualifying the probe  touch {}/{}", progress.touches,
+                       progress.touches_expected);
+  }
   const std::size_t expected = std::max(progress.touches_expected, progress.touches);
   std::string out = fmt::format("{}  pose {} ({:.2f}, {:.2f}) deg  touch {}/{}", progress.feature,
                                 progress.pose_number, progress.pose.alpha_rad / core::kDegree,
@@ -92,7 +96,8 @@ void ProgressLine::show(const plans::Progress& progress) {
   if (drawn_ && now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
   drawn_ = true;
-  tell(fmt::format("\r{:.100}\x1b[K", line_of(progress, std::chrono::duration<double>(now - start_).count())));
+  tell(fmt::format("\r{:.100}\x1b[K",
+                   line_of(progress, std::chrono::duration<double>(now - start_).count())));
 }
 
 void listen_for_stop() {

@@ -44,8 +44,8 @@ class ProgressLine {
   Clock::time_point last_ = start_;
 };
 
-/// Ctrl-C, SIGTERM and the end of the terminal ask the run to stop after the present touch; a second
-/// signal ends the program at once. Every touch is on disk by then.
+/// Ctrl-C, SIGTERM and the end of the terminal ask the run to stop after the present touch; a
+/// second signal ends the program at once. Every touch is on disk by then.
 void listen_for_stop();
 [[nodiscard]] bool stop_requested();
 

@@ -30,8 +30,8 @@ core::Result<record::PointTable> load(const FitArguments& arguments) {
   return table;
 }
 
-core::Result<void> fit_circle(const FitArguments& arguments, const std::vector<Eigen::Vector3d>& points,
-                              FitOutcome& out) {
+core::Result<void> fit_circle(const FitArguments& arguments,
+                              const std::vector<Eigen::Vector3d>& points, FitOutcome& out) {
   std::vector<Eigen::Vector2d> flat;
   flat.reserve(points.size());
   for (const Eigen::Vector3d& p : points) flat.emplace_back(p.head<2>());
@@ -45,15 +45,17 @@ core::Result<void> fit_circle(const FitArguments& arguments, const std::vector<E
     if (!mz) return core::fail(mz.error());
     out.mz_circle = *mz;
     if (mz->exact_fit) {
-      out.warnings.push_back({core::Code::kExactFit, "three different points lie on a circle exactly: the deviation "
-                                                     "says nothing about form", {}});
+      out.warnings.push_back({core::Code::kExactFit,
+                              "three different points lie on a circle exactly: the deviation "
+                              "says nothing about form",
+                              {}});
     }
   }
   return {};
 }
 
-core::Result<void> fit_cylinder(const FitArguments& arguments, const std::vector<Eigen::Vector3d>& points,
-                                FitOutcome& out) {
+core::Result<void> fit_cylinder(const FitArguments& arguments,
+                                const std::vector<Eigen::Vector3d>& points, FitOutcome& out) {
   if (wants(arguments, "ls")) {
     const auto ls = fit::ls_cylinder(points);
     if (!ls) return core::fail(ls.error());
@@ -79,21 +81,25 @@ int fit(const FitArguments& arguments) {
   outcome.shape = arguments.shape;
   outcome.points = table->points_mm.size();
   outcome.all_references = arguments.reference == "all";
-  const auto fitted = arguments.shape == "circle" ? fit_circle(arguments, table->points_mm, outcome)
-                                                  : fit_cylinder(arguments, table->points_mm, outcome);
+  const auto fitted = arguments.shape == "circle"
+                          ? fit_circle(arguments, table->points_mm, outcome)
+                          : fit_cylinder(arguments, table->points_mm, outcome);
   if (!fitted) {
-    complain(fitted.error().at(fitted.error().where.empty() ? arguments.file : fitted.error().where));
+    complain(
+        fitted.error().at(fitted.error().where.empty() ? arguments.file : fitted.error().where));
     return kBadInput;
   }
-  const auto& certificate = outcome.mz_circle ? &outcome.mz_circle->certificate
+  const auto& certificate = outcome.mz_circle     ? &outcome.mz_circle->certificate
                             : outcome.mz_cylinder ? &outcome.mz_cylinder->certificate
                                                   : nullptr;
   if (certificate != nullptr && certificate->kind == fit::Certificate::Kind::kNone) {
     outcome.warnings.push_back({core::Code::kNoCertificate, certificate->reason, {}});
   }
   if (outcome.all_references) {
-    outcome.warnings.push_back({core::Code::kReferenceAbsent,
-                                "mc and mi (minimum circumscribed, maximum inscribed) are not computed by this version", {}});
+    outcome.warnings.push_back(
+        {core::Code::kReferenceAbsent,
+         "mc and mi (minimum circumscribed, maximum inscribed) are not computed by this version",
+         {}});
   }
   say(arguments.json ? fit_json(outcome) : fit_table(outcome));
   return kAllWell;

@@ -16,8 +16,8 @@ int report(const ReportArguments& arguments) {
     return kBadInput;
   }
   for (const record::BrokenTable& broken : read->broken) {
-    tell(fmt::format("rondure: {}: table {} of the journal was changed after the run: {}\n", arguments.directory,
-                     broken.table, broken.what));
+    tell(fmt::format("rondure: {}: table {} of the journal was changed after the run: {}\n",
+                     arguments.directory, broken.table, broken.what));
   }
   if (!read->broken.empty()) return kBadInput;
   const auto evaluation = reports::evaluate(read->record);
@@ -26,7 +26,8 @@ int report(const ReportArguments& arguments) {
     return kBadInput;
   }
   const auto formats = arguments.formats.empty() ? reports::all_formats() : arguments.formats;
-  const auto written = reports::write_exports(arguments.directory, formats, read->record, *evaluation);
+  const auto written =
+      reports::write_exports(arguments.directory, formats, read->record, *evaluation);
   if (!written) {
     complain(written.error());
     return kBadInput;

@@ -26,7 +26,8 @@ std::string run_name(const fs::path& plan, const std::string& utc, const fs::pat
   }
   const std::string name = plan.stem().string() + "-" + compact;
   std::string unique = name;
-  for (int i = 2; fs::exists(parent / unique); ++i) unique = fmt::format("{}-{}", name, i);
+  std::error_code unknown;  // what cannot be looked at cannot be made either, and that is reported
+  for (int i = 2; fs::exists(parent / unique, unknown); ++i) unique = fmt::format("{}-{}", name, i);
   return unique;
 }
 
@@ -38,7 +39,8 @@ std::string last_folder(const fs::path& directory) {
 
 int exit_status(const plans::Run& run, reports::Verdict verdict) {
   if (run.failure) return kRunFailed;
-  const bool well = verdict == reports::Verdict::kConforms || verdict == reports::Verdict::kNotToleranced;
+  const bool well =
+      verdict == reports::Verdict::kConforms || verdict == reports::Verdict::kNotToleranced;
   return well ? kAllWell : kNotConforming;
 }
 
@@ -53,8 +55,9 @@ int run(const RunArguments& arguments) {
   plans::RunOptions options;
   options.started_utc = utc_now();
   const fs::path parent = "runs";
-  options.directory =
-      arguments.out.empty() ? parent / run_name(arguments.plan, options.started_utc, parent) : fs::path(arguments.out);
+  options.directory = arguments.out.empty()
+                          ? parent / run_name(arguments.plan, options.started_utc, parent)
+                          : fs::path(arguments.out);
   options.run_id = last_folder(options.directory);
   options.plan_file = fs::path(arguments.plan).filename().string();
   options.serial = arguments.serial;
@@ -94,11 +97,13 @@ int run(const RunArguments& arguments) {
     }
   }
   const auto formats = arguments.formats.empty() ? plan->reports.formats : arguments.formats;
-  const auto written = reports::write_exports(options.directory, formats, read->record, *evaluation);
+  const auto written =
+      reports::write_exports(options.directory, formats, read->record, *evaluation);
   if (!written) {
     complain(written.error());
-    tell(fmt::format("rondure: the measurement is kept; then write the reports: rondure report {}\n",
-                     options.directory.string()));
+    tell(
+        fmt::format("rondure: the measurement is kept; then write the reports: rondure report {}\n",
+                    options.directory.string()));
     return kRunFailed;
   }
   if (!arguments.quiet) {

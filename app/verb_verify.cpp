@@ -13,7 +13,8 @@ int verify(const VerifyArguments& arguments) {
     complain(outcome.error());
     return kBadInput;
   }
-  for (const std::string& difference : outcome->differences) say(fmt::format("not equal: {}\n", difference));
+  for (const std::string& difference : outcome->differences)
+    say(fmt::format("not equal: {}\n", difference));
   if (!outcome->differences.empty()) return kNotConforming;
   say(fmt::format("equal: {}\n", outcome->what_was_compared));
   return kAllWell;

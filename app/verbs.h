@@ -9,10 +9,11 @@ namespace rondure::app {
 
 /// Exit status of the program (DESIGN, command line).
 enum Exit : int {
-  kAllWell = 0,      ///< Done; for run and report: everything conforms or is not toleranced.
-  kNotConforming = 1,///< Finished, but something does not conform, is undecided or void; verify: not equal.
-  kBadInput = 2,     ///< Plan, file or arguments; verify: unreadable.
-  kRunFailed = 3,    ///< Machine, fixture or run failed; what was measured is kept.
+  kAllWell = 0,  ///< Done; for run and report: everything conforms or is not toleranced.
+  kNotConforming =
+      1,  ///< Finished, but something does not conform, is undecided or void; verify: not equal.
+  kBadInput = 2,   ///< Plan, file or arguments; verify: unreadable.
+  kRunFailed = 3,  ///< Machine, fixture or run failed; what was measured is kept.
 };
 
 struct ValidateArguments {
@@ -22,11 +23,11 @@ struct ValidateArguments {
 
 struct RunArguments {
   std::string plan;
-  std::string out;                      ///< Empty: runs/<plan>-<UTC>.
+  std::string out;  ///< Empty: runs/<plan>-<UTC>.
   std::string serial;
   std::string operator_name;
   std::optional<std::uint64_t> seed;
-  std::vector<std::string> formats;     ///< Empty: as the plan says.
+  std::vector<std::string> formats;  ///< Empty: as the plan says.
   bool quiet = false;
 };
 [[nodiscard]] int run(const RunArguments& arguments);
@@ -43,7 +44,7 @@ struct VerifyArguments {
 [[nodiscard]] int verify(const VerifyArguments& arguments);
 
 struct FitArguments {
-  std::string shape;                    ///< "circle" or "cylinder".
+  std::string shape;  ///< "circle" or "cylinder".
   std::string file;
   std::string reference = "all";
   bool json = false;
@@ -62,7 +63,7 @@ struct RoundnessArguments {
 [[nodiscard]] int roundness(const RoundnessArguments& arguments);
 
 struct SelfTestArguments {
-  double cutoff_upr = 50.0;             ///< Of the table; the standard ones are checked besides.
+  double cutoff_upr = 50.0;  ///< Of the table; the standard ones are checked besides.
 };
 [[nodiscard]] int selftest_filters(const SelfTestArguments& arguments);
 

@@ -6,42 +6,78 @@ namespace rondure::core {
 
 std::string_view code_name(Code code) {
   switch (code) {
-    case Code::kNoPoints: return "no-points";
-    case Code::kNotFinite: return "not-finite";
-    case Code::kTooFewPoints: return "too-few-points";
-    case Code::kCollinear: return "collinear";
-    case Code::kNotFullSection: return "not-full-section";
-    case Code::kRank: return "rank";
-    case Code::kNotConverged: return "not-converged";
-    case Code::kUnits: return "units";
-    case Code::kBadOption: return "bad-option";
-    case Code::kSyntax: return "syntax";
-    case Code::kUnknownKey: return "unknown-key";
-    case Code::kRepeatedKey: return "repeated-key";
-    case Code::kWrongUnit: return "wrong-unit";
-    case Code::kMissingKey: return "missing-key";
-    case Code::kWrongType: return "wrong-type";
-    case Code::kOutOfRange: return "out-of-range";
-    case Code::kPoseRange: return "pose-range";
-    case Code::kStep: return "step";
-    case Code::kSampling: return "sampling";
-    case Code::kMeaning: return "meaning";
-    case Code::kFile: return "file";
-    case Code::kUnreachable: return "unreachable";
-    case Code::kNoTouch: return "no-touch";
-    case Code::kCollision: return "collision";
-    case Code::kCalibration: return "calibration";
-    case Code::kMachine: return "machine";
-    case Code::kStopped: return "stopped";
-    case Code::kJournal: return "journal";
-    case Code::kInternal: return "internal";
-    case Code::kSparse: return "sparse";
-    case Code::kNoCertificate: return "no-certificate";
-    case Code::kExactFit: return "exact-fit";
-    case Code::kNotLevel: return "not-level";
-    case Code::kUndersampled: return "undersampled";
-    case Code::kAngleOrder: return "angle-order";
-    case Code::kReferenceAbsent: return "reference-absent";
+    case Code::kNoPoints:
+      return "no-points";
+    case Code::kNotFinite:
+      return "not-finite";
+    case Code::kTooFewPoints:
+      return "too-few-points";
+    case Code::kCollinear:
+      return "collinear";
+    case Code::kNotFullSection:
+      return "not-full-section";
+    case Code::kRank:
+      return "rank";
+    case Code::kNotConverged:
+      return "not-converged";
+    case Code::kUnits:
+      return "units";
+    case Code::kBadOption:
+      return "bad-option";
+    case Code::kSyntax:
+      return "syntax";
+    case Code::kUnknownKey:
+      return "unknown-key";
+    case Code::kRepeatedKey:
+      return "repeated-key";
+    case Code::kWrongUnit:
+      return "wrong-unit";
+    case Code::kMissingKey:
+      return "missing-key";
+    case Code::kWrongType:
+      return "wrong-type";
+    case Code::kOutOfRange:
+      return "out-of-range";
+    case Code::kPoseRange:
+      return "pose-range";
+    case Code::kStep:
+      return "step";
+    case Code::kSampling:
+      return "sampling";
+    case Code::kMeaning:
+      return "meaning";
+    case Code::kFile:
+      return "file";
+    case Code::kUnreachable:
+      return "unreachable";
+    case Code::kNoTouch:
+      return "no-touch";
+    case Code::kCollision:
+      return "collision";
+    case Code::kCalibration:
+      return "calibration";
+    case Code::kMachine:
+      return "machine";
+    case Code::kStopped:
+      return "stopped";
+    case Code::kJournal:
+      return "journal";
+    case Code::kInternal:
+      return "internal";
+    case Code::kSparse:
+      return "sparse";
+    case Code::kNoCertificate:
+      return "no-certificate";
+    case Code::kExactFit:
+      return "exact-fit";
+    case Code::kNotLevel:
+      return "not-level";
+    case Code::kUndersampled:
+      return "undersampled";
+    case Code::kAngleOrder:
+      return "angle-order";
+    case Code::kReferenceAbsent:
+      return "reference-absent";
   }
   return "internal";
 }

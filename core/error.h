@@ -18,36 +18,36 @@ enum class Code {
   kNotConverged,    ///< not-converged: an iteration limit ended the computation
   kUnits,           ///< units: a size that suggests metres or micrometres
   // Plans, files, arguments.
-  kBadOption,       ///< bad-option: a setting outside its range
-  kSyntax,          ///< syntax: the text is not JSON or not CSV
-  kUnknownKey,      ///< unknown-key
-  kRepeatedKey,     ///< repeated-key
-  kWrongUnit,       ///< wrong-unit: the key exists with another unit suffix
-  kMissingKey,      ///< missing-key
-  kWrongType,       ///< wrong-type
-  kOutOfRange,      ///< out-of-range: a number beyond its stated limit
-  kPoseRange,       ///< pose-range: an angle beyond the limits of the fixture
-  kStep,            ///< step: an angle step that is not positive or above 5 deg
-  kSampling,        ///< sampling: layers or points that cannot be placed, or are too few for a filter
-  kMeaning,         ///< meaning: keys that contradict each other
-  kFile,            ///< file: cannot be opened, read or written
+  kBadOption,    ///< bad-option: a setting outside its range
+  kSyntax,       ///< syntax: the text is not JSON or not CSV
+  kUnknownKey,   ///< unknown-key
+  kRepeatedKey,  ///< repeated-key
+  kWrongUnit,    ///< wrong-unit: the key exists with another unit suffix
+  kMissingKey,   ///< missing-key
+  kWrongType,    ///< wrong-type
+  kOutOfRange,   ///< out-of-range: a number beyond its stated limit
+  kPoseRange,    ///< pose-range: an angle beyond the limits of the fixture
+  kStep,         ///< step: an angle step that is not positive or above 5 deg
+  kSampling,     ///< sampling: layers or points that cannot be placed, or too few for a filter
+  kMeaning,      ///< meaning: keys that contradict each other
+  kFile,         ///< file: cannot be opened, read or written
   // Machine, fixture, run.
-  kUnreachable,     ///< unreachable: a target the probe cannot reach; named before anything moves
-  kNoTouch,         ///< no-touch: the probe met nothing within its search distance
-  kCollision,       ///< collision: the probe met something where nothing was expected
-  kCalibration,     ///< calibration: probe qualification outside its limits
-  kMachine,         ///< machine: fault reported by the machine or by the fixture
-  kStopped,         ///< stopped: by the operator
-  kJournal,         ///< journal: the record cannot be written, read, or contradicts itself
-  kInternal,        ///< internal: a broken invariant; a defect of the program
+  kUnreachable,  ///< unreachable: a target the probe cannot reach; named before anything moves
+  kNoTouch,      ///< no-touch: the probe met nothing within its search distance
+  kCollision,    ///< collision: the probe met something where nothing was expected
+  kCalibration,  ///< calibration: probe qualification outside its limits
+  kMachine,      ///< machine: fault reported by the machine or by the fixture
+  kStopped,      ///< stopped: by the operator
+  kJournal,      ///< journal: the record cannot be written, read, or contradicts itself
+  kInternal,     ///< internal: a broken invariant; a defect of the program
   // Warnings.
-  kSparse,          ///< sparse: fewer than 3 layers or 7 points a layer
-  kNoCertificate,   ///< no-certificate: the optimum is not proven
-  kExactFit,        ///< exact-fit: no more points than unknowns, the deviation is 0 by construction
-  kNotLevel,        ///< not-level: f(pose) > 2 MZ, the pose and not the part dominates f
-  kUndersampled,    ///< undersampled: filtered by option with fewer than 7 points per undulation
-  kAngleOrder,      ///< angle-order: angles that were unsorted, repeated or ran over one turn
-  kReferenceAbsent, ///< reference-absent: a reference that does not exist for these data
+  kSparse,         ///< sparse: fewer than 3 layers or 7 points a layer
+  kNoCertificate,  ///< no-certificate: the optimum is not proven
+  kExactFit,       ///< exact-fit: no more points than unknowns, the deviation is 0 by construction
+  kNotLevel,       ///< not-level: f(pose) > 2 MZ, the pose and not the part dominates f
+  kUndersampled,   ///< undersampled: filtered by option with fewer than 7 points per undulation
+  kAngleOrder,     ///< angle-order: angles that were unsorted, repeated or ran over one turn
+  kReferenceAbsent,  ///< reference-absent: a reference that does not exist for these data
 };
 
 /// The name of a code as JSON and messages spell it, e.g. "too-few-points".

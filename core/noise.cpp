@@ -20,9 +20,7 @@ KeyedNoise::KeyedNoise(std::uint64_t seed, std::initializer_list<std::uint64_t> 
   for (const std::uint64_t part : key) state_ = splitmix64(state_) ^ part;
 }
 
-double KeyedNoise::uniform() {
-  return static_cast<double>(splitmix64(state_) >> 11U) * 0x1.0p-53;
-}
+double KeyedNoise::uniform() { return static_cast<double>(splitmix64(state_) >> 11U) * 0x1.0p-53; }
 
 double KeyedNoise::normal() {
   const double u1 = uniform();

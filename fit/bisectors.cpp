@@ -68,8 +68,8 @@ double strip_width(const std::vector<Eigen::Vector2d>& points) {
   return least;
 }
 
-/// Radius about the start that holds every centre with a zone of at most `width`; nothing if none can
-/// be given.
+/// Radius about the start that holds every centre with a zone of at most `width`; nothing if none
+/// can be given.
 std::optional<double> disc_radius(const std::vector<Eigen::Vector2d>& points, double width) {
   const Eigen::Vector2d origin = Eigen::Vector2d::Zero();
   double nearest = std::numeric_limits<double>::infinity();
@@ -113,8 +113,9 @@ BisectorSearch search_bisectors(std::span<const Eigen::Vector2d> points_mm,
       const Eigen::Vector2d& b = lines[j].normal;
       const double determinant = a.x() * b.y() - a.y() * b.x();
       if (std::abs(determinant) < 1e-14) continue;
-      const Eigen::Vector2d crossing((lines[i].offset * b.y() - lines[j].offset * a.y()) / determinant,
-                                     (a.x() * lines[j].offset - b.x() * lines[i].offset) / determinant);
+      const Eigen::Vector2d crossing(
+          (lines[i].offset * b.y() - lines[j].offset * a.y()) / determinant,
+          (a.x() * lines[j].offset - b.x() * lines[i].offset) / determinant);
       if (crossing.squaredNorm() > radius * radius) continue;
       const double width = width_at(points, crossing, out.width_mm);
       if (width >= out.width_mm) continue;

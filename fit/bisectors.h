@@ -14,13 +14,15 @@ struct BisectorSearch {
   bool complete = false;            ///< The disc is proven to hold all of them.
 };
 
-/// Exact global minimum-zone centre of a small set: a minimum lies where two perpendicular bisectors
-/// of point pairs cross, so all crossings inside the disc that can hold a better centre are tried.
+/// Exact global minimum-zone centre of a small set: a minimum lies where two perpendicular
+/// bisectors of point pairs cross, so all crossings inside the disc that can hold a better centre
+/// are tried.
 ///
 /// @param points_mm  n >= 3, finite.
 /// @param start_mm   A good centre; the disc around it follows from its zone.
-/// For a full section the disc is some tens of micrometres wide. For an arc it follows from the least
-/// width S of a strip that holds the points: farther out every zone is wider than the start's.
+/// For a full section the disc is some tens of micrometres wide. For an arc it follows from the
+/// least width S of a strip that holds the points: farther out every zone is wider than the
+/// start's.
 ///
 /// @return `complete` is false only where S is not above the zone of the start: then the narrowest
 ///         zone may be a strip, with its centre at infinity. Cost n^4/8 crossings.

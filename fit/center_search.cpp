@@ -32,8 +32,8 @@ double contact_tolerance(std::span<const Eigen::Vector2d> points_mm) {
   }
   const double range = (high - low).maxCoeff();
   const double size = std::max(high.cwiseAbs().maxCoeff(), low.cwiseAbs().maxCoeff());
-  return std::max({kContactTolerance, 1e-13 * range,
-                   16.0 * std::numeric_limits<double>::epsilon() * size});
+  return std::max(
+      {kContactTolerance, 1e-13 * range, 16.0 * std::numeric_limits<double>::epsilon() * size});
 }
 
 Contacts contacts_at(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center,
@@ -64,11 +64,16 @@ std::vector<Eigen::Vector2d> directions(std::span<const Eigen::Vector2d> points_
 
 std::string_view name_of(CenterSearch::Ending ending) {
   switch (ending) {
-    case CenterSearch::Ending::kCross: return "cross";
-    case CenterSearch::Ending::kSpoke: return "spoke";
-    case CenterSearch::Ending::kCoCircular: return "co-circular";
-    case CenterSearch::Ending::kUnbounded: return "unbounded";
-    case CenterSearch::Ending::kMoveLimit: return "move-limit";
+    case CenterSearch::Ending::kCross:
+      return "cross";
+    case CenterSearch::Ending::kSpoke:
+      return "spoke";
+    case CenterSearch::Ending::kCoCircular:
+      return "co-circular";
+    case CenterSearch::Ending::kUnbounded:
+      return "unbounded";
+    case CenterSearch::Ending::kMoveLimit:
+      return "move-limit";
   }
   return "move-limit";
 }
@@ -85,7 +90,8 @@ std::vector<ContactCandidate> contact_candidates(std::span<const Eigen::Vector2d
   const std::size_t l = *std::max_element(inner.begin(), inner.end(), by_along);
   // Difference of squared distances without squaring: (a - b).(a + b), exact to the last digits.
   const auto squared_difference = [&](std::size_t a, std::size_t b) {
-    return (points_mm[a] - points_mm[b]).dot((points_mm[a] - center_mm) + (points_mm[b] - center_mm));
+    return (points_mm[a] - points_mm[b])
+        .dot((points_mm[a] - center_mm) + (points_mm[b] - center_mm));
   };
   const auto holds = [](std::span<const std::size_t> set, std::size_t i) {
     return std::find(set.begin(), set.end(), i) != set.end();
@@ -102,9 +108,9 @@ std::vector<ContactCandidate> contact_candidates(std::span<const Eigen::Vector2d
       if (step > 0.0) out.push_back({i, true, step});
     }
   }
-  std::stable_sort(out.begin(), out.end(), [](const ContactCandidate& a, const ContactCandidate& b) {
-    return a.step_mm < b.step_mm;
-  });
+  std::stable_sort(
+      out.begin(), out.end(),
+      [](const ContactCandidate& a, const ContactCandidate& b) { return a.step_mm < b.step_mm; });
   return out;
 }
 

@@ -14,8 +14,8 @@ namespace rondure::fit {
 /// A point that would become a contact when the centre moves along a direction.
 struct ContactCandidate {
   std::size_t index = 0;
-  bool inner = false;     ///< Becomes as near as the inner reference; otherwise as far as the outer.
-  double step_mm = 0.0;   ///< Exact move at which it does; > 0.
+  bool inner = false;    ///< Becomes as near as the inner reference; otherwise as far as the outer.
+  double step_mm = 0.0;  ///< Exact move at which it does; > 0.
 };
 
 /// All candidates of a move from `center` along the unit vector `direction`, by step.
@@ -31,12 +31,12 @@ struct ContactCandidate {
 /// One move of a centre search, for the log and for tests.
 struct CenterMove {
   Eigen::Vector2d from_mm = Eigen::Vector2d::Zero();
-  double width_mm = 0.0;              ///< Zone before the move.
-  std::vector<std::size_t> outer;     ///< Contacts before the move.
+  double width_mm = 0.0;           ///< Zone before the move.
+  std::vector<std::size_t> outer;  ///< Contacts before the move.
   std::vector<std::size_t> inner;
   Eigen::Vector2d direction = Eigen::Vector2d::Zero();
-  double descent = 0.0;               ///< Rate at which the zone shrinks, |p_h - p_l|; 0 as published.
-  ContactCandidate met;               ///< The new contact that ended the move.
+  double descent = 0.0;  ///< Rate at which the zone shrinks, |p_h - p_l|; 0 as published.
+  ContactCandidate met;  ///< The new contact that ended the move.
 };
 
 /// Where a centre search ended.
@@ -49,9 +49,9 @@ struct CenterSearch {
     kMoveLimit,   ///< 100 moves made.
   };
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();
-  double inner_radius_mm = 0.0;       ///< Least distance of all points at the end.
+  double inner_radius_mm = 0.0;  ///< Least distance of all points at the end.
   double outer_radius_mm = 0.0;
-  std::vector<std::size_t> outer;     ///< Contacts the search holds at its end.
+  std::vector<std::size_t> outer;  ///< Contacts the search holds at its end.
   std::vector<std::size_t> inner;
   std::vector<CenterMove> moves;
   Ending ending = Ending::kMoveLimit;
@@ -66,9 +66,9 @@ struct CenterSearch {
 /// Iterative minimum-zone centre search [301-306], corrected.
 ///
 /// Starts at the algebraic least-squares centre. At each centre the contacts' unit vectors span two
-/// convex polygons, outer and inner; the shortest vector between them is the steepest descent of the
-/// zone. The centre moves along it until a new point comes into contact, exactly. It ends where the
-/// polygons meet: outer and inner contacts alternate.
+/// convex polygons, outer and inner; the shortest vector between them is the steepest descent of
+/// the zone. The centre moves along it until a new point comes into contact, exactly. It ends where
+/// the polygons meet: outer and inner contacts alternate.
 ///
 /// @param points_mm  At least 3 different points of a projected section [mm].
 /// @return kNoPoints, kNotFinite, kTooFewPoints, kCollinear (from algebraic_circle()). Every other

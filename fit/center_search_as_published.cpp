@@ -82,8 +82,9 @@ core::Result<CenterSearch> center_search_as_published(Points points_mm) {
   measure(points_mm, out, true);
   for (int move = 0; move < kMoveLimit; ++move) {
     const Eigen::Vector2d u = direction(points_mm, out);
-    const auto met = u.isZero() ? std::vector<ContactCandidate>()
-                                : contact_candidates(points_mm, out.center_mm, u, out.outer, out.inner);
+    const auto met = u.isZero()
+                         ? std::vector<ContactCandidate>()
+                         : contact_candidates(points_mm, out.center_mm, u, out.outer, out.inner);
     if (met.empty()) {
       out.ending = CenterSearch::Ending::kUnbounded;
       break;

@@ -4,9 +4,12 @@ namespace rondure::fit {
 
 std::string_view name_of(Certificate::Kind kind) {
   switch (kind) {
-    case Certificate::Kind::kNone: return "none";
-    case Certificate::Kind::kLocal: return "local";
-    case Certificate::Kind::kGlobal: return "global";
+    case Certificate::Kind::kNone:
+      return "none";
+    case Certificate::Kind::kLocal:
+      return "local";
+    case Certificate::Kind::kGlobal:
+      return "global";
   }
   return "none";
 }

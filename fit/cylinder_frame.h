@@ -11,9 +11,9 @@
 
 namespace rondure::fit {
 
-/// An axis under iteration with the four unknowns that move it, all in mm: shifts a, b across it and
-/// tilts scaled by the half length Z of the points, x = (a, b, Z tx, Z ty). The frame follows the
-/// axis, so the linearisation is always at tilt 0.
+/// An axis under iteration with the four unknowns that move it, all in mm: shifts a, b across it
+/// and tilts scaled by the half length Z of the points, x = (a, b, Z tx, Z ty). The frame follows
+/// the axis, so the linearisation is always at tilt 0.
 ///
 /// Points are given relative to their mean. Source: methods, certificates section 1.
 class CylinderFrame {

@@ -12,8 +12,8 @@
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kSample = 200;      // points looked at
-constexpr int kDirections = 240;          // on the half sphere, some 9 deg apart
+constexpr std::size_t kSample = 200;  // points looked at
+constexpr int kDirections = 240;      // on the half sphere, some 9 deg apart
 constexpr std::size_t kKept = 8;
 const double kApart = std::cos(12.0 * core::kDegree);
 
@@ -49,8 +49,9 @@ std::vector<Eigen::Vector3d> start_directions(std::span<const Eigen::Vector3d> p
   std::vector<Eigen::Vector2d> flat(sample.size());
   for (const Eigen::Vector3d& direction : spread(sample)) {
     const auto frame = across(direction);
-    std::transform(sample.begin(), sample.end(), flat.begin(),
-                   [&](const Eigen::Vector3d& p) -> Eigen::Vector2d { return frame.transpose() * p; });
+    std::transform(
+        sample.begin(), sample.end(), flat.begin(),
+        [&](const Eigen::Vector3d& p) -> Eigen::Vector2d { return frame.transpose() * p; });
     if (const auto circle = algebraic_circle(flat)) scored.push_back({direction, circle->rms_mm});
   }
   std::stable_sort(scored.begin(), scored.end(),

@@ -17,8 +17,8 @@ struct HullDistance {
 /// Distance between the convex hulls of two sets of unit vectors (the contacts of a centre).
 ///
 /// Points of one circle are in convex position: the hull's edges are the chords between neighbours
-/// by angle, and two such hulls meet only where chords cross or vertices coincide. Testing all pairs
-/// of edges is therefore exact.
+/// by angle, and two such hulls meet only where chords cross or vertices coincide. Testing all
+/// pairs of edges is therefore exact.
 ///
 /// @param first, second  Not empty; unit vectors, any order, duplicates allowed.
 [[nodiscard]] HullDistance hull_distance(std::vector<Eigen::Vector2d> first,

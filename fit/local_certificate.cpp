@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include "fit/zone_program.h"
 
@@ -37,8 +37,8 @@ template <int K>
 double least_growth(const Rows<K>& outer, const Rows<K>& inner) {
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < K; ++k) {
-    least = std::min({least, growth_on_face<K>(outer, inner, k, 1.0),
-                      growth_on_face<K>(outer, inner, k, -1.0)});
+    least = std::min(
+        {least, growth_on_face<K>(outer, inner, k, 1.0), growth_on_face<K>(outer, inner, k, -1.0)});
   }
   return least;
 }
@@ -127,8 +127,9 @@ Certificate certify_local(const LocalProof<K>& proof, double width_mm, double ro
   out.gap_mm = std::max(proof.gap_mm, 0.0);
   const double limit = std::max(1e-10 * width_mm, 8.0 * round_off_mm);
   if (!(proof.gap_mm <= limit)) {
-    out.reason = fmt::format("the contacts leave a gap of {:.3g} mm to the lower bound, {:.3g} mm is allowed",
-                             proof.gap_mm, limit);
+    out.reason = fmt::format(
+        "the contacts leave a gap of {:.3g} mm to the lower bound, {:.3g} mm is allowed",
+        proof.gap_mm, limit);
     return out;
   }
   if (!proof.strict) {

@@ -21,18 +21,18 @@ struct ContactRow {
 /// Evidence that a zone is a local minimum.
 template <int K>
 struct LocalProof {
-  std::vector<Contact> outer;   ///< Multipliers >= 0, sum 1.
+  std::vector<Contact> outer;  ///< Multipliers >= 0, sum 1.
   std::vector<Contact> inner;
   double gap_mm = std::numeric_limits<double>::infinity();  ///< Zone minus its lower bound nearby.
-  double growth = 0.0;          ///< sigma: least first-order growth per mm (max norm of the move).
-  bool strict = false;          ///< growth > 0, or positive curvature where it vanishes.
+  double growth = 0.0;  ///< sigma: least first-order growth per mm (max norm of the move).
+  bool strict = false;  ///< growth > 0, or positive curvature where it vanishes.
   /// Where not strict: the unit move of most negative curvature, along which the zone shrinks.
   Eigen::Matrix<double, K, 1> descent = Eigen::Matrix<double, K, 1>::Zero();
 };
 
 /// Tests the contacts of a zone for a local minimum: finds multipliers with
-/// sum lam J_h = sum mu J_l, the least first-order growth sigma, and, where sigma vanishes, the sign
-/// of the curvature on the directions left free.
+/// sum lam J_h = sum mu J_l, the least first-order growth sigma, and, where sigma vanishes, the
+/// sign of the curvature on the directions left free.
 ///
 /// @param outer, inner  Contacts, not empty; unknowns scaled to mm.
 /// @param reach_mm      B: weight of a remaining imbalance of the multipliers in the gap.

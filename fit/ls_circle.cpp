@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 
 #include "fit/points.h"
 
@@ -59,7 +59,9 @@ NormalEquations normal_equations(std::span<const Eigen::Vector2d> points_mm,
 core::Result<LsCircle> algebraic_circle(std::span<const Eigen::Vector2d> points_mm) {
   if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
   if (distinct_points(points_mm, 3) < 3) {
-    return core::fail(core::Code::kTooFewPoints, "a circle needs at least 3 different points");
+    return core::fail(core::Code::kTooFewPoints,
+                      fmt::format("a circle needs at least 3 different points, there are {}",
+                                  distinct_points(points_mm, 3)));
   }
   const Eigen::Vector2d mean = mean_point(points_mm);
   double suu = 0.0, suv = 0.0, svv = 0.0, a = 0.0, b = 0.0;
@@ -121,9 +123,10 @@ core::Result<LsCircle> ls_circle(std::span<const Eigen::Vector2d> points_mm) {
   // Steps that no longer shrink below 1e-15 but stay at the round-off of the sums are the minimum.
   const Eigen::Vector3d rest = now.matrix.ldlt().solve(now.right);
   if (rest.norm() > 1e-11 * (radius + center.norm())) {
-    return core::fail(core::Code::kNotConverged,
-                      fmt::format("the least-squares circle still moves by {:.3g} mm after {} steps",
-                                  rest.norm(), kIterationLimit));
+    return core::fail(
+        core::Code::kNotConverged,
+        fmt::format("the least-squares circle still moves by {:.3g} mm after {} steps", rest.norm(),
+                    kIterationLimit));
   }
   LsCircle circle;
   circle.center_mm = origin + center;

@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
-#include <fmt/format.h>
 
 #include "core/units.h"
 #include "fit/cylinder_frame.h"
@@ -89,10 +89,10 @@ core::Result<State> start(Points points, const Eigen::Vector3d& direction) {
   const auto circle = algebraic_circle(flat);
   if (!circle) return core::fail(circle.error());
   const double half = half_extent(points, direction);
-  State state{CylinderFrame({frame * circle->center_mm, direction},
-                            half > 0.0 ? half : circle->radius_mm),
-              circle->radius_mm,
-              {}};
+  State state{
+      CylinderFrame({frame * circle->center_mm, direction}, half > 0.0 ? half : circle->radius_mm),
+      circle->radius_mm,
+      {}};
   state.sums = sums_at(points, state.frame, state.radius);
   return state;
 }

@@ -16,7 +16,7 @@
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kEnumerated = 40;   // points up to which all bisector crossings are tried
+constexpr std::size_t kEnumerated = 40;  // points up to which all bisector crossings are tried
 constexpr int kProgrammeLimit = 100;
 
 using Points = std::span<const Eigen::Vector2d>;
@@ -92,7 +92,8 @@ void certify(Points points, double round_off, MinZoneCircle& out) {
   const auto proof = prove_local<2>(outer, inner, zone.width());
   out.outer = proof.outer;
   out.inner = proof.inner;
-  out.certificate = certify_local<2>(proof, zone.width(), round_off, "next to the least-squares centre");
+  out.certificate =
+      certify_local<2>(proof, zone.width(), round_off, "next to the least-squares centre");
 }
 
 /// Three different points lie on one circle: nothing is left to minimise.
@@ -130,7 +131,8 @@ core::Result<MinZoneCircle> min_zone_circle(Points points_mm) {
     return out;
   }
   const BisectorSearch all = search_bisectors(points_mm, out.center_mm);
-  // A crossing that is better by more than round-off is another minimum; keep the polished one else.
+  // A crossing that is better by more than round-off is another minimum; keep the polished one
+  // else.
   if (all.width_mm < zone_at(points_mm, out.center_mm).width() - round_off) {
     out.center_mm = all.center_mm;
   }

@@ -19,7 +19,7 @@ struct MinZoneCircle {
   std::vector<Contact> outer;  ///< Points on the outer circle that carry the minimum.
   std::vector<Contact> inner;
   Certificate certificate;
-  bool exact_fit = false;      ///< Three distinct points: the deviation is 0 by construction.
+  bool exact_fit = false;  ///< Three distinct points: the deviation is 0 by construction.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
 };
@@ -28,8 +28,8 @@ struct MinZoneCircle {
 ///
 /// Minimises  f(c) = max |p_i - c| - min |p_i - c|.  Corrected centre search (center_search.h) from
 /// the algebraic circle; a linear programme, re-linearised, where that search does not end at a
-/// stationary point; for up to 40 points on a full section the enumeration of all bisector crossings
-/// proves the minimum global.
+/// stationary point; for up to 40 points on a full section the enumeration of all bisector
+/// crossings proves the minimum global.
 ///
 /// @param points_mm  n >= 3 distinct points, any order [mm].
 /// @return kNoPoints, kNotFinite (row), kTooFewPoints (fewer than 3 distinct), kCollinear,

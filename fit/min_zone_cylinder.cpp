@@ -18,8 +18,8 @@ namespace {
 constexpr int kProgrammeLimit = 200;
 constexpr int kNewtonLimit = 8;
 constexpr int kSaddleLimit = 20;
-constexpr std::size_t kWorkingStart = 600;   // up to here all points are the working set
-constexpr std::size_t kWorkingMore = 64;     // worst points added a side and scan
+constexpr std::size_t kWorkingStart = 600;  // up to here all points are the working set
+constexpr std::size_t kWorkingMore = 64;    // worst points added a side and scan
 
 using Points = std::span<const Eigen::Vector3d>;
 
@@ -102,7 +102,8 @@ bool all_nonnegative(const std::vector<Contact>& contacts) {
 }
 
 /// Newton on the stationarity equations of the current contacts.
-/// @return Whether it settled at a zone that is not wider, with multipliers >= 0; then `state` is it.
+/// @return Whether it settled at a zone that is not wider, with multipliers >= 0; then `state` is
+/// it.
 bool polish(Points points, State& state, double round_off) {
   if (state.outer.empty() || state.inner.empty()) return false;
   State trial = state;
@@ -249,8 +250,8 @@ std::vector<Eigen::Vector3d> pick(Points points, const std::vector<std::size_t>&
   return out;
 }
 
-/// Working-set method: minimise over some points, look at all, add those outside, repeat. The zone of
-/// a subset is a lower bound, so the end is a minimum of the whole set.
+/// Working-set method: minimise over some points, look at all, add those outside, repeat. The zone
+/// of a subset is a lower bound, so the end is a minimum of the whole set.
 void descend_large(Points points, State& state, double round_off) {
   std::vector<std::size_t> working;
   for (std::size_t i = 0; i < points.size(); i += points.size() / kWorkingStart + 1) {

@@ -20,7 +20,7 @@ struct MinZoneCylinder {
   std::vector<Contact> outer;  ///< Points on the outer cylinder that carry the minimum.
   std::vector<Contact> inner;
   Certificate certificate;
-  int programmes = 0;          ///< Linear programmes solved.
+  int programmes = 0;  ///< Linear programmes solved.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
 };

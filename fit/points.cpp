@@ -16,8 +16,9 @@ core::Result<void> check(std::span<const Vector> points_mm) {
   if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
   for (std::size_t i = 0; i < points_mm.size(); ++i) {
     if (!points_mm[i].allFinite()) {
-      return core::fail(core::Code::kNotFinite,
-                        fmt::format("a coordinate of point {} (counted from 0) is not a finite number", i));
+      return core::fail(
+          core::Code::kNotFinite,
+          fmt::format("a coordinate of point {} (counted from 0) is not a finite number", i));
     }
   }
   return {};

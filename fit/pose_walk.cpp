@@ -24,7 +24,8 @@ class Walker {
 
   /// Index of the pose among the visited; nothing when it cannot be taken.
   core::Result<std::optional<std::size_t>> visit(const Degrees& at, double step_deg) {
-    const std::pair<long long, long long> key{std::llround(at.alpha / 1e-7), std::llround(at.beta / 1e-7)};
+    const std::pair<long long, long long> key{std::llround(at.alpha / 1e-7),
+                                              std::llround(at.beta / 1e-7)};
     if (const auto seen = seen_.find(key); seen != seen_.end()) return seen->second;
     const core::Pose pose{at.alpha * core::kDegree, at.beta * core::kDegree};
     const auto value = f_(pose);
@@ -50,7 +51,8 @@ class Walker {
               visit({around.alpha + i * step_deg, around.beta + j * step_deg}, step_deg);
           if (!index) return core::fail(index.error());
           if (!*index) continue;
-          if (walk_.visited[**index].f_mm < walk_.visited[walk_.best].f_mm - kTie) walk_.best = **index;
+          if (walk_.visited[**index].f_mm < walk_.visited[walk_.best].f_mm - kTie)
+            walk_.best = **index;
         }
       }
       if (walk_.best == center) return {};

@@ -43,8 +43,9 @@ core::Result<ProbeTip> qualify_tip(std::span<const Eigen::Vector3d> tip_centers_
                                    double sphere_radius_mm) {
   if (auto checked = check_points(tip_centers_mm); !checked) return core::fail(checked.error());
   if (distinct_points(tip_centers_mm, 5) < 5) {
-    return core::fail(core::Code::kTooFewPoints,
-                      "the qualification needs at least 5 different touches of the reference sphere");
+    return core::fail(
+        core::Code::kTooFewPoints,
+        "the qualification needs at least 5 different touches of the reference sphere");
   }
   const Eigen::Vector3d mean = mean_point(tip_centers_mm);
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();

@@ -11,7 +11,7 @@ namespace rondure::fit {
 /// Effective tip radius of a probe, from touches of a reference sphere.
 struct ProbeTip {
   Eigen::Vector3d sphere_center_mm = Eigen::Vector3d::Zero();
-  double radius_mm = 0.0;        ///< rho: effective (pre-travel included), below the nominal as a rule.
+  double radius_mm = 0.0;  ///< rho: effective (pre-travel included), below the nominal as a rule.
   double radius_sigma_mm = 0.0;  ///< Standard deviation of rho from the residuals.
   double form_mm = 0.0;          ///< Probing form: peak to valley of the residuals.
 };

@@ -58,8 +58,8 @@ class DualSimplexTable {
     }
     const double spread = rows_[far].distance - rows_[near].distance;
     // Violations below this are round-off of the distances; they are not worth a pivot.
-    tolerance_ = 1e-13 * spread + 4.0 * std::numeric_limits<double>::epsilon() *
-                                      std::abs(rows_[far].distance);
+    tolerance_ = 1e-13 * spread +
+                 4.0 * std::numeric_limits<double>::epsilon() * std::abs(rows_[far].distance);
     basis_[0] = {Column::Kind::kOuter, far};
     basis_[1] = {Column::Kind::kInner, near};
     // The box takes up whatever the two points do not balance.
@@ -82,17 +82,24 @@ class DualSimplexTable {
         a(1) = 1.0;
         a.template tail<K>() = -rows_[c.index].gradient;
         break;
-      case Column::Kind::kBoxUp: a(static_cast<Eigen::Index>(c.index) + 2) = 1.0; break;
-      case Column::Kind::kBoxDown: a(static_cast<Eigen::Index>(c.index) + 2) = -1.0; break;
+      case Column::Kind::kBoxUp:
+        a(static_cast<Eigen::Index>(c.index) + 2) = 1.0;
+        break;
+      case Column::Kind::kBoxDown:
+        a(static_cast<Eigen::Index>(c.index) + 2) = -1.0;
+        break;
     }
     return a;
   }
 
   [[nodiscard]] double cost(const Column& c) const {
     switch (c.kind) {
-      case Column::Kind::kOuter: return rows_[c.index].distance;
-      case Column::Kind::kInner: return -rows_[c.index].distance;
-      default: return -box_;
+      case Column::Kind::kOuter:
+        return rows_[c.index].distance;
+      case Column::Kind::kInner:
+        return -rows_[c.index].distance;
+      default:
+        return -box_;
     }
   }
 

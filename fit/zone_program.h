@@ -21,11 +21,11 @@ struct ZoneRow {
 template <int K>
 struct ZoneStep {
   Eigen::Matrix<double, K, 1> step = Eigen::Matrix<double, K, 1>::Zero();  ///< The move d [mm].
-  double width = 0.0;           ///< Zone the linearisation predicts after the move [mm].
-  std::vector<Contact> outer;   ///< Points that bind, with their multipliers (> 0).
+  double width = 0.0;          ///< Zone the linearisation predicts after the move [mm].
+  std::vector<Contact> outer;  ///< Points that bind, with their multipliers (> 0).
   std::vector<Contact> inner;
-  bool inside_box = false;      ///< No side of the box binds.
-  bool solved = false;          ///< false: the pivot limit ended it.
+  bool inside_box = false;  ///< No side of the box binds.
+  bool solved = false;      ///< false: the pivot limit ended it.
   int pivots = 0;
 };
 

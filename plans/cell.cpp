@@ -3,11 +3,10 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "plans/plan_reach.h"
 
 namespace rondure::plans {
 namespace {
-
-Eigen::Vector3d vector3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 fixture::Kinematics kinematics_of(const FixturePlan& plan) {
   return {vector3(plan.axis_point_mm), vector3(plan.axis_offset_mm)};

@@ -28,6 +28,9 @@ struct RunContext {
   /// kStopped when the operator asked for it.
   [[nodiscard]] core::Result<void> check_stop() const;
   void show() const;
+  /// Makes a touch and journals it: `row` says what it is for; number, reading and direction are
+  /// filled in. The command's number is set here. Nothing is journalled when it fails.
+  [[nodiscard]] core::Result<record::Touch> touch(cmm::TouchCommand command, record::Touch row);
 };
 
 /// Moves the tip through the corners of a path given in a frame X (X_WX maps it to the machine).
@@ -73,7 +76,7 @@ class FeatureSession final : public PoseSession {
   int index_;
   const FeaturePlan& feature_;
   std::vector<Target> targets_;
-  Eigen::Isometry3d X_BP_;        ///< Best knowledge of the part in the body frame.
+  Eigen::Isometry3d X_BP_;  ///< Best knowledge of the part in the body frame.
   PathGeometry geometry_;
   core::Pose reached_;
   int pose_id_ = -1;

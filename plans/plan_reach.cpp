@@ -10,11 +10,10 @@
 namespace rondure::plans {
 namespace {
 
-Eigen::Vector3d vector3(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
-
 /// The nominal part in the machine frame, in the start pose of a feature.
 Eigen::Isometry3d nominal_part(const FixturePlan& fixture, const PoseSearchPlan& search) {
-  const core::Pose start{search.start_alpha_deg * core::kDegree, search.start_beta_deg * core::kDegree};
+  const core::Pose start{search.start_alpha_deg * core::kDegree,
+                         search.start_beta_deg * core::kDegree};
   Eigen::Isometry3d X_WP = fixture::body_to_machine(
       {vector3(fixture.axis_point_mm), vector3(fixture.axis_offset_mm)}, start);
   X_WP.translate(vector3(fixture.part_position_mm));
@@ -43,7 +42,8 @@ core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_
   const PathGeometry geometry = path_geometry(plan, feature, plan.part.location_uncertainty_mm);
   if (auto fits = check_fits(geometry); !fits) return core::fail(fits.error().at(where));
   const FixturePlan& fixture = *plan.fixture;
-  const Surroundings surroundings{fixture.rim_height_mm, fixture.clamp_from_mm, fixture.clamp_to_mm};
+  const Surroundings surroundings{fixture.rim_height_mm, fixture.clamp_from_mm,
+                                  fixture.clamp_to_mm};
   const Eigen::Isometry3d X_WP = nominal_part(fixture, feature.pose_search);
   if (auto reach = check_reachable(*targets, geometry, X_WP, surroundings); !reach) {
     return core::fail(reach.error().at(where));

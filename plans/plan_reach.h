@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "core/result.h"
 #include "plans/plan.h"
@@ -9,6 +12,11 @@
 #include "plans/travel.h"
 
 namespace rondure::plans {
+
+/// Three numbers of the plan as a vector.
+[[nodiscard]] inline Eigen::Vector3d vector3(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
 
 /// The way of the tip around a feature. `location_mm` is added to approach and clearance while the
 /// part is not located.

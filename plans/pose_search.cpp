@@ -69,7 +69,8 @@ NextStep next_step(const PoseSession& session, const Cloud& cloud,
                           degrees(out.pose));
   } else if (out.size_rad >= 0.5 * last_rad) {
     out.why = fmt::format(
-        "as level as probe and fixture scatter: the step of {:.6f} deg is not below half the last one",
+        "as level as probe and fixture scatter: the step of {:.6f} deg is not below half the last "
+        "one",
         step_deg);
   }
   out.stop = !out.why.empty();

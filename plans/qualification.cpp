@@ -15,48 +15,39 @@ core::Result<void> check_limits(const fit::ProbeTip& tip, const ProbePlan& plan)
   const QualificationPlan& limits = plan.qualification;
   if (!(tip.radius_mm > 0.0) ||
       std::abs(tip.radius_mm - nominal) > limits.radius_tolerance_um * core::kMicrometre) {
-    return core::fail(core::Code::kCalibration,
-                      fmt::format("effective tip radius {:.6f} mm differs from the nominal {:g} mm by more than "
-                                  "{:g} um: check tip_diameter_mm and the certified sphere diameter",
-                                  tip.radius_mm, nominal, limits.radius_tolerance_um));
+    return core::fail(
+        core::Code::kCalibration,
+        fmt::format("effective tip radius {:.6f} mm differs from the nominal {:g} mm by more than "
+                    "{:g} um: check tip_diameter_mm and the certified sphere diameter",
+                    tip.radius_mm, nominal, limits.radius_tolerance_um));
   }
   if (tip.form_mm > limits.form_limit_um * core::kMicrometre) {
-    return core::fail(core::Code::kCalibration,
-                      fmt::format("probing form {:.3f} um is above its limit of {:g} um: clean tip and sphere, "
-                                  "check that both are tight, and run again",
-                                  tip.form_mm / core::kMicrometre, limits.form_limit_um));
+    return core::fail(
+        core::Code::kCalibration,
+        fmt::format("probing form {:.3f} um is above its limit of {:g} um: clean tip and sphere, "
+                    "check that both are tight, and run again",
+                    tip.form_mm / core::kMicrometre, limits.form_limit_um));
   }
   return {};
 }
 
-core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, const Eigen::Vector3d& outward, int point,
-                                           const PathGeometry& geometry) {
-  if (auto stop = context.check_stop(); !stop) return core::fail(stop.error());
+core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, const Eigen::Vector3d& outward,
+                                           int point, const PathGeometry& geometry) {
   const QualificationPlan& plan = context.plan.probe->qualification;
-  const Eigen::Vector3d center(plan.sphere_center_mm[0], plan.sphere_center_mm[1], plan.sphere_center_mm[2]);
   cmm::TouchCommand command;
-  command.id = context.next_touch;
-  command.expected_tip_W_mm = center + (0.5 * plan.sphere_diameter_mm + geometry.tip_radius_mm) * outward;
+  command.expected_tip_W_mm = vector3(plan.sphere_center_mm) +
+                              (0.5 * plan.sphere_diameter_mm + geometry.tip_radius_mm) * outward;
   command.direction_W = -outward;
   command.approach_mm = geometry.approach_mm;
   command.search_mm = context.plan.machine->search_mm;
-  const auto reading = context.cell->machine().touch(command);
-  if (!reading) {
-    return core::fail(reading.error().code, fmt::format("reference sphere, point {}: {}", point + 1, reading.error().what));
-  }
   record::Touch row;
-  row.id = context.next_touch;
   row.purpose = record::Touch::Purpose::kQualification;
   row.point = point;
-  row.tip_mm = reading->tip_W_mm;
-  row.approach = command.direction_W;
-  row.temperature_degC = reading->temperature_degC;
-  row.time_s = reading->time_s;
-  if (auto kept = context.journal.add(row); !kept) return core::fail(kept.error());
-  ++context.next_touch;
-  context.progress.touches = static_cast<std::size_t>(context.next_touch);
-  context.show();
-  return reading->tip_W_mm;
+  const auto touched = context.touch(command, row);
+  if (touched) return touched->tip_mm;
+  if (touched.error().code == core::Code::kStopped) return core::fail(touched.error());
+  return core::fail(touched.error().code,
+                    fmt::format("reference sphere, point {}: {}", point + 1, touched.error().what));
 }
 
 }  // namespace
@@ -66,7 +57,7 @@ core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
   cmm::Machine& machine = context.cell->machine();
   const auto directions = qualification_directions(plan.points);
   if (!directions) return core::fail(directions.error());
-  const Eigen::Vector3d center(plan.sphere_center_mm[0], plan.sphere_center_mm[1], plan.sphere_center_mm[2]);
+  const Eigen::Vector3d center = vector3(plan.sphere_center_mm);
   PathGeometry geometry;
   geometry.tip_radius_mm = 0.5 * context.plan.probe->tip_diameter_mm;
   geometry.approach_mm = context.plan.machine->approach_mm;
@@ -77,13 +68,16 @@ core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
   // From park height straight down to the pole; from there around the sphere.
   const Eigen::Vector3d pole =
       center + (radius + geometry.tip_radius_mm + geometry.approach_mm) * directions->front();
-  if (auto moved = machine.move_to({pole.x(), pole.y(), std::max(pole.z(), context.plan.machine->park_mm[2])}); !moved) {
+  if (auto moved = machine.move_to(
+          {pole.x(), pole.y(), std::max(pole.z(), context.plan.machine->park_mm[2])});
+      !moved) {
     return core::fail(moved.error());
   }
   std::vector<Eigen::Vector3d> tips;
   Polyline way = {pole};
   for (std::size_t i = 0; i < directions->size(); ++i) {
-    if (i > 0) way = path_around_sphere(center, radius, geometry, (*directions)[i - 1], (*directions)[i]);
+    if (i > 0)
+      way = path_around_sphere(center, radius, geometry, (*directions)[i - 1], (*directions)[i]);
     if (auto moved = follow(machine, way, here); !moved) return core::fail(moved.error());
     auto tip = touch_sphere(context, (*directions)[i], static_cast<int>(i), geometry);
     if (!tip) {
@@ -96,7 +90,8 @@ core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
   if (auto moved = rise(context.plan, machine); !moved) return core::fail(moved.error());
   const auto tip = fit::qualify_tip(tips, radius);
   if (!tip) return core::fail(tip.error());
-  if (auto checked = check_limits(*tip, *context.plan.probe); !checked) return core::fail(checked.error());
+  if (auto checked = check_limits(*tip, *context.plan.probe); !checked)
+    return core::fail(checked.error());
   return *tip;
 }
 

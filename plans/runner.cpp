@@ -57,9 +57,11 @@ record::Feature feature_of(const FeaturePlan& plan) {
     if (plan.source->tip_diameter_mm) out.tip_radius_mm = 0.5 * *plan.source->tip_diameter_mm;
   }
   if (out.strategy == record::Strategy::kVirtual) {
-    out.search_steps_deg = fit::halved_steps(plan.pose_search.steps_deg, plan.pose_search.min_step_deg);
+    out.search_steps_deg =
+        fit::halved_steps(plan.pose_search.steps_deg, plan.pose_search.min_step_deg);
   }
-  for (const CharacteristicPlan& c : plan.characteristics) out.characteristics.push_back(characteristic_of(c));
+  for (const CharacteristicPlan& c : plan.characteristics)
+    out.characteristics.push_back(characteristic_of(c));
   return out;
 }
 
@@ -99,10 +101,14 @@ std::size_t expected_touches(const FeaturePlan& feature, std::size_t targets) {
   if (from_file(feature)) return 0;
   const auto repeats = static_cast<std::size_t>(feature.pose_search.repeats);
   switch (strategy_of(feature)) {
-    case record::Strategy::kGuided: return targets * (feature.type == "circle" ? repeats : 2 + repeats);
-    case record::Strategy::kVirtual: return targets * repeats;
-    case record::Strategy::kAsPublished: return targets * (25 + repeats);
-    default: return targets * (80 + repeats);
+    case record::Strategy::kGuided:
+      return targets * (feature.type == "circle" ? repeats : 2 + repeats);
+    case record::Strategy::kVirtual:
+      return targets * repeats;
+    case record::Strategy::kAsPublished:
+      return targets * (25 + repeats);
+    default:
+      return targets * (80 + repeats);
   }
 }
 
@@ -141,7 +147,8 @@ core::Result<std::vector<PointsFile>> read_points_files(const Plan& plan) {
 /// Puts the rows of a points file into the journal, as one cloud without a pose search.
 core::Result<void> take_points(RunContext& context, int index, const record::PointTable& table) {
   const int pose = context.next_pose++;
-  if (auto kept = context.journal.add(record::PoseVisit{pose, index, {}, {}, true, 0.0}); !kept) return kept;
+  if (auto kept = context.journal.add(record::PoseVisit{pose, index, {}, {}, true, 0.0}); !kept)
+    return kept;
   std::vector<record::Touch> rows;
   rows.reserve(table.points_mm.size());
   for (const Eigen::Vector3d& p : table.points_mm) {
@@ -177,7 +184,8 @@ core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Ta
 core::Result<void> prepare(RunContext& context) {
   if (auto homed = context.cell->machine().home(); !homed) return homed;
   if (auto turned = context.cell->home_fixture(); !turned) return core::fail(turned.error());
-  if (auto tip = qualify_probe(context); !tip) return core::fail(tip.error().at("/probe/qualification"));
+  if (auto tip = qualify_probe(context); !tip)
+    return core::fail(tip.error().at("/probe/qualification"));
   return {};
 }
 
@@ -210,13 +218,16 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     context.progress.touches_expected += expected_touches(plan.features[i], (*targets)[i].size());
   }
-  if (touching) context.progress.touches_expected += static_cast<std::size_t>(plan.probe->qualification.points);
+  if (touching)
+    context.progress.touches_expected += static_cast<std::size_t>(plan.probe->qualification.points);
   auto done = touching ? prepare(context) : core::Result<void>{};
   if (done) done = inspect(context, *targets, *files);
   if (!done) run.failure = done.error();
-  const std::string ending = done ? "finished"
-                             : run.failure->code == core::Code::kStopped ? "stopped" : "failed";
-  if (auto ended = run.journal.end(ending, run.failure ? &*run.failure : nullptr); !ended && !run.failure) {
+  const std::string ending = done                                        ? "finished"
+                             : run.failure->code == core::Code::kStopped ? "stopped"
+                                                                         : "failed";
+  if (auto ended = run.journal.end(ending, run.failure ? &*run.failure : nullptr);
+      !ended && !run.failure) {
     run.failure = ended.error();
   }
   return run;

@@ -16,24 +16,24 @@ namespace rondure::plans {
 /// Where a run stands, for whoever watches.
 struct Progress {
   std::string feature;
-  int pose_number = 0;            ///< From 1, within the feature.
-  core::Pose pose;                ///< As the fixture reads it.
-  std::size_t touches = 0;        ///< Done, in the whole run.
+  int pose_number = 0;               ///< From 1, within the feature.
+  core::Pose pose;                   ///< As the fixture reads it.
+  std::size_t touches = 0;           ///< Done, in the whole run.
   std::size_t touches_expected = 0;  ///< Estimate for the whole run.
-  std::optional<double> f_mm;     ///< Least zone of the last complete cloud in its pose.
+  std::optional<double> f_mm;        ///< Least zone of the last complete cloud in its pose.
 };
 
 /// Everything about a run that does not stand in the plan.
 struct RunOptions {
   std::filesystem::path directory;  ///< Is made; must be absent or empty.
   std::string run_id;
-  std::string plan_file;            ///< Name for the record.
+  std::string plan_file;  ///< Name for the record.
   std::string serial;
   std::string operator_name;
   std::string started_utc;
   std::string processor;
-  std::optional<std::uint64_t> seed;          ///< Takes the place of the plan's.
-  std::function<bool()> stop_requested;       ///< Asked before every touch.
+  std::optional<std::uint64_t> seed;     ///< Takes the place of the plan's.
+  std::function<bool()> stop_requested;  ///< Asked before every touch.
   std::function<void(const Progress&)> progress;
 };
 
@@ -47,8 +47,8 @@ struct Run {
 /// writes each touch into the journal before the next command goes to the machine.
 ///
 /// @return An error when nothing has moved and nothing was written (unreachable target in the start
-///         pose, directory in use); otherwise the run, whose journal says how it ended. After a fault
-///         the tip was retracted, unless the machine itself had stopped on a collision.
+///         pose, directory in use); otherwise the run, whose journal says how it ended. After a
+///         fault the tip was retracted, unless the machine itself had stopped on a collision.
 [[nodiscard]] core::Result<Run> run_plan(const Plan& plan, const RunOptions& options);
 
 }  // namespace rondure::plans

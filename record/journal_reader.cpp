@@ -226,7 +226,8 @@ Touch::Purpose purpose_of(const std::string& word) {
        {Touch::Purpose::kQualification, Touch::Purpose::kLocate, Touch::Purpose::kMeasure}) {
     if (word == name_of(purpose)) return purpose;
   }
-  throw Contradiction(fmt::format("touch.purpose holds the unknown word \"{}\"", word.substr(0, 40)));
+  throw Contradiction(
+      fmt::format("touch.purpose holds the unknown word \"{}\"", word.substr(0, 40)));
 }
 
 void read_touches(soci::session& sql, RunRecord& record) {

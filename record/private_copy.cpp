@@ -26,9 +26,12 @@ std::pair<fs::file_time_type, std::string> stamp_of(const fs::path& journal) {
 }
 
 tl::unexpected<core::Error> cannot_copy(const fs::path& journal, std::string_view reason) {
-  return core::fail(core::Code::kFile,
-                    fmt::format("the journal cannot be copied to a temporary folder: {}", reason),
-                    journal.string());
+  return core::fail(
+      core::Code::kFile,
+      fmt::format("the journal cannot be copied to a temporary folder in {}: {}; "
+                  "free space there, or name another place in TMPDIR",
+                  std::getenv("TMPDIR") == nullptr ? "/tmp" : std::getenv("TMPDIR"), reason),
+      journal.string());
 }
 
 }  // namespace
@@ -47,7 +50,9 @@ core::Result<PrivateCopy> PrivateCopy::of(const fs::path& journal) {
     if (!problem && stamp_of(journal) == before) return copy;
   }
   if (problem) return cannot_copy(journal, system_reason(problem.value()));
-  return cannot_copy(journal, "the run writes faster than it can be read; wait until it has ended");
+  return core::fail(core::Code::kFile,
+                    "the run writes faster than its journal can be read; wait until it has ended",
+                    journal.string());
 }
 
 PrivateCopy::PrivateCopy(fs::path folder) : folder_(std::move(folder)) {}

@@ -257,8 +257,9 @@ std::optional<std::string> first_csv_difference(std::string_view expected, std::
   if (expected == found) return std::nullopt;
   const auto left = lines_of(expected);
   const auto right = lines_of(found);
-  const auto names = fields_of(left.front());
+  std::vector<std::string_view> names;  // of the columns: none before the header line
   for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
+    if (names.empty() && !left[i].starts_with('#')) names = fields_of(left[i]);
     if (auto difference = row_difference(left[i], right[i], names, tolerance)) {
       return fmt::format("line {}, {}", i + 1, *difference);
     }

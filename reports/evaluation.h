@@ -73,7 +73,7 @@ struct FeatureResult {
   std::vector<PoseValue> poses;              ///< In the order visited.
   std::optional<double> tip_radius_mm;       ///< rho that was used; none for points of unknown tip.
   std::optional<core::Pose> levelling_pose;  ///< That would turn the found axis to machine z.
-  std::optional<double> repeat_sigma_mm;  ///< Pooled standard deviation of a single touch.
+  std::optional<double> repeat_sigma_mm;     ///< Pooled standard deviation of a single touch.
   std::optional<double> repeat_zone_mean_mm;  ///< Mean of the zones of the single repeats.
   std::optional<double> repeat_zone_sd_mm;
   double mean_temperature_degC = 20.0;

@@ -21,7 +21,8 @@ std::vector<std::string> all_formats() {
   return out;
 }
 
-std::string render(const Export& what, const record::RunRecord& record, const Evaluation& evaluation) {
+std::string render(const Export& what, const record::RunRecord& record,
+                   const Evaluation& evaluation) {
   if (what.format == "html") return write_html(record, evaluation);
   if (what.format == "json") return write_json(record, evaluation);
   return write_touches_csv(record);
@@ -33,15 +34,17 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
   for (const std::string& format : formats) {
     const auto known = all_formats();
     if (std::find(known.begin(), known.end(), format) == known.end()) {
-      return core::fail(core::Code::kBadOption,
-                        fmt::format("format '{}' is unknown; html, json and csv can be written", format));
+      return core::fail(
+          core::Code::kBadOption,
+          fmt::format("format '{}' is unknown; html, json and csv can be written", format));
     }
   }
   std::vector<std::filesystem::path> written;
   for (const Export& e : exports()) {
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) continue;
     const auto path = directory / e.file;
-    if (auto done = record::write_file(path, render(e, record, evaluation)); !done) return core::fail(done.error());
+    if (auto done = record::write_file(path, render(e, record, evaluation)); !done)
+      return core::fail(done.error());
     written.push_back(path);
   }
   return written;

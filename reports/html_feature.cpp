@@ -48,7 +48,7 @@ std::string certificate_entry(const Zone& zone) {
     note = fmt::format("Zone minus proven lower bound: {} µm.", tiny_um(certificate.gap_mm));
   }
   if (!certificate.reason.empty())
-    note += fmt::format(" Why not more: {}", isolated(certificate.reason));
+    note += fmt::format(" Why not more: {}", in_sentence(certificate.reason));
   return entry("Certificate of the minimum zone",
                with_note(isolated(sentence_of(certificate)), note), "wide-key");
 }
@@ -131,7 +131,7 @@ std::string messages(const FeatureResult& feature) {
   html += R"(<ul class="warnings">)";
   for (const core::Error& warning : feature.warnings) {
     html += fmt::format(
-        R"(<li><b>Warning:</b> {} <span class="code">{}</span>{}</li>)", isolated(warning.what),
+        R"(<li><b>Warning:</b> {} <span class="code">{}</span>{}</li>)", in_sentence(warning.what),
         core::code_name(warning.code),
         warning.where.empty() ? std::string() : fmt::format(" {}", isolated(warning.where)));
   }

@@ -27,7 +27,7 @@ std::string decision_row(const record::RunRecord& record, const record::Decision
   const bool known = decision.feature >= 0 && index < record.features.size();
   return fmt::format(R"(<tr><td class="n">{}</td><td>{}</td><td>{}</td></tr>)",
                      fixed(decision.time_s, 1), known ? isolated(record.features[index].id) : "run",
-                     isolated(decision.text));
+                     in_sentence(decision.text));
 }
 
 std::string qualification_rows(const record::RunRecord& record, const fit::ProbeTip& tip) {

@@ -96,9 +96,9 @@ std::string row(const FeatureResult& feature, const CharacteristicResult& result
   html += asked.drawing_zone.empty()
               ? std::string("<td></td></tr>")
               : fmt::format(R"(<td data-l="Zone">{}</td></tr>)", isolated(asked.drawing_zone));
-  std::string words = isolated(result.reason);
+  std::string words = in_sentence(result.reason);
   if (!result.operator_text.empty())
-    words += fmt::format("<br>Verification operator: {}", isolated(result.operator_text));
+    words += fmt::format("<br>Verification operator: {}", in_sentence(result.operator_text));
   return html + R"(<tr class="words"><td colspan="6">)" + words + "</td></tr>";
 }
 

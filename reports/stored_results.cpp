@@ -24,7 +24,8 @@ void collect(const Json& node, const std::string& pointer, std::vector<record::S
     }
   }
   if (node.is_array()) {
-    for (std::size_t i = 0; i < node.size(); ++i) collect(node[i], pointer + "/" + std::to_string(i), out);
+    for (std::size_t i = 0; i < node.size(); ++i)
+      collect(node[i], pointer + "/" + std::to_string(i), out);
   }
 }
 
@@ -33,7 +34,8 @@ void collect(const Json& node, const std::string& pointer, std::vector<record::S
 std::vector<record::StoredResult> stored_results(const Evaluation& evaluation) {
   const Json document = report_document(record::RunRecord{}, evaluation);
   std::vector<record::StoredResult> out;
-  for (const char* part : {"probe", "features"}) collect(document.at(part), std::string("/") + part, out);
+  for (const char* part : {"probe", "features"})
+    collect(document.at(part), std::string("/") + part, out);
   return out;
 }
 

@@ -126,6 +126,20 @@ std::string escaped(std::string_view text) {
 
 std::string isolated(std::string_view text) { return fmt::format("<bdi>{}</bdi>", escaped(text)); }
 
+std::string in_sentence(std::string_view text) {
+  std::string out(text);
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto replace = [&](std::string_view from, std::string_view to) {
+    for (std::size_t at = out.find(from); at != std::string::npos; at = out.find(from, at + 1)) {
+      const std::size_t end = at + from.size();
+      if (end == out.size() || !letter(out[end])) out.replace(at, from.size(), to);
+    }
+  };
+  replace(" um", " \u00b5m");
+  replace(" degC", " \u00b0C");
+  return isolated(out);
+}
+
 std::string printable(std::string_view text) {
   std::string result;
   while (!text.empty()) {

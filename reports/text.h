@@ -32,6 +32,10 @@ namespace rondure::reports {
 /// Escaped and isolated (<bdi>), so that a right-to-left name does not reorder its neighbours.
 [[nodiscard]] std::string isolated(std::string_view text);
 
+/// A sentence of the program, which spells units in ASCII, as a page shows it: " um" and " degC"
+/// with their signs, escaped and isolated.
+[[nodiscard]] std::string in_sentence(std::string_view text);
+
 /// Text for a terminal: control characters, line breaks and marks that change the direction of
 /// writing become "?".
 [[nodiscard]] std::string printable(std::string_view text);

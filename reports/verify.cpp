@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 constexpr double kAcrossProcessors = 1e-9;
 
 /// The first stored result that no longer follows, and how many others.
-void compare_results(const record::RunRecord& record, const Evaluation& evaluation, double tolerance,
-                     Verification& out) {
+void compare_results(const record::RunRecord& record, const Evaluation& evaluation,
+                     double tolerance, Verification& out) {
   std::map<std::string, double> stored;
   for (const auto& result : record.results) stored[result.name] = result.value;
   const auto now = stored_results(evaluation);
@@ -41,9 +41,11 @@ void compare_results(const record::RunRecord& record, const Evaluation& evaluati
     const auto stored_value = std::find_if(record.results.begin(), record.results.end(),
                                            [&](const auto& r) { return r.name == result.name; });
     first = stored_value == record.results.end()
-                ? fmt::format("result {} is not stored; the touches give {}", result.name, core::shortest(result.value))
-                : fmt::format("result {} no longer follows: stored {}, the touches give {}", result.name,
-                              core::shortest(stored_value->value), core::shortest(result.value));
+                ? fmt::format("result {} is not stored; the touches give {}", result.name,
+                              core::shortest(result.value))
+                : fmt::format("result {} no longer follows: stored {}, the touches give {}",
+                              result.name, core::shortest(stored_value->value),
+                              core::shortest(result.value));
   }
   if (first.empty() && !stored.empty()) {
     first = fmt::format("stored result {} = {} has no counterpart", stored.begin()->first,
@@ -61,15 +63,18 @@ std::optional<std::string> compare_export(const Export& what, const std::string&
 }
 
 /// Compares each export that exists; gives their names.
-core::Result<std::string> compare_exports(const fs::path& directory, const record::RunRecord& record,
-                                          const Evaluation& evaluation, double tolerance, Verification& out) {
+core::Result<std::string> compare_exports(const fs::path& directory,
+                                          const record::RunRecord& record,
+                                          const Evaluation& evaluation, double tolerance,
+                                          Verification& out) {
   std::string names;
   for (const Export& e : exports()) {
     if (!fs::exists(directory / e.file)) continue;
     const auto bytes = record::read_file(directory / e.file);
     if (!bytes) return core::fail(bytes.error());
     names += (names.empty() ? "" : ", ") + e.file;
-    if (const auto difference = compare_export(e, render(e, record, evaluation), *bytes, tolerance)) {
+    if (const auto difference =
+            compare_export(e, render(e, record, evaluation), *bytes, tolerance)) {
       out.differences.push_back(fmt::format("{}: {}", e.file, *difference));
     }
   }
@@ -87,10 +92,12 @@ core::Result<Verification> verify_run(const fs::path& directory, const std::stri
     out.differences.push_back(fmt::format("journal, table {}: {}", broken.table, broken.what));
   }
   if (record.ending != "finished") {
-    out.differences.push_back(fmt::format("the run did not finish ({}); it has no results to verify",
-                                          record.ending.empty() ? "it was interrupted" : record.ending));
+    out.differences.push_back(
+        fmt::format("the run did not finish ({}); it has no results to verify",
+                    record.ending.empty() ? "it was interrupted" : record.ending));
   } else if (!record.sealed) {
-    out.differences.push_back("the journal was not closed: the run was interrupted after its last touch");
+    out.differences.push_back(
+        "the journal was not closed: the run was interrupted after its last touch");
   }
   const auto evaluation = evaluate(record);
   if (!evaluation) return core::fail(evaluation.error());
@@ -99,11 +106,12 @@ core::Result<Verification> verify_run(const fs::path& directory, const std::stri
   if (record.sealed) compare_results(record, *evaluation, tolerance, out);
   const auto names = compare_exports(directory, record, *evaluation, tolerance, out);
   if (!names) return core::fail(names.error());
-  out.what_was_compared = fmt::format(
-      "{} touches, {} results{}{} follow from the journal, {}", record.touches.size(), record.results.size(),
-      names->empty() ? "" : ", ", *names,
-      same ? "bit for bit (same kind of processor)"
-           : fmt::format("numbers within 1e-9 (measured on {}, verified on {})", record.header.processor, processor));
+  out.what_was_compared =
+      fmt::format("{} touches, {} results{}{} follow from the journal, {}", record.touches.size(),
+                  record.results.size(), names->empty() ? "" : ", ", *names,
+                  same ? "bit for bit (same kind of processor)"
+                       : fmt::format("numbers within 1e-9 (measured on {}, verified on {})",
+                                     record.header.processor, processor));
   return out;
 }
 

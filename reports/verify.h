@@ -14,8 +14,8 @@ struct Verification {
   std::string what_was_compared;         ///< One sentence, also says how exactly.
 };
 
-/// Recomputes a run from its journal and compares: the digests of the journal's tables, every stored
-/// result, and every export that stands in the directory. Changes nothing.
+/// Recomputes a run from its journal and compares: the digests of the journal's tables, every
+/// stored result, and every export that stands in the directory. Changes nothing.
 ///
 /// Bits must be equal on the kind of processor that measured; on another, where the last bit of sin
 /// and atan2 differs, numbers may differ by 1e-9 and the sentence says so.

@@ -27,7 +27,7 @@ struct Outcome {
 
 Outcome rondure(const std::string& arguments) {
   Outcome out;
-  FILE* pipe = popen((std::string(RONDURE_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
+  FILE* pipe = popen((std::string(RONDURE_BINARY) + " " + arguments + " 2>&1").c_str(), "r");
   if (pipe == nullptr) return out;
   std::array<char, 4096> buffer{};
   while (const std::size_t got = fread(buffer.data(), 1, buffer.size(), pipe)) {

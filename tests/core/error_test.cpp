@@ -20,7 +20,8 @@ TEST(Error, HasANameOfItsOwnForEveryCode) {
 TEST(Error, PrintsPlaceSentenceAndCodeOnOneLine) {
   const Error error{Code::kPoseRange, "tilt 97 deg is outside -5..90 deg", ""};
   EXPECT_EQ(to_line(error), "tilt 97 deg is outside -5..90 deg [pose-range]");
-  EXPECT_EQ(to_line(error.at("/fixture")), "/fixture: tilt 97 deg is outside -5..90 deg [pose-range]");
+  EXPECT_EQ(to_line(error.at("/fixture")),
+            "/fixture: tilt 97 deg is outside -5..90 deg [pose-range]");
 }
 
 }  // namespace

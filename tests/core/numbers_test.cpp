@@ -23,7 +23,8 @@ TEST(Numbers, ReadBackTheSameBits) {
 }
 
 TEST(Numbers, RefuseWhatIsNotOneFiniteNumber) {
-  for (const char* text : {"", "+", "+-1", "1,5", "1 ", " 1", "nan", "inf", "1e999", "0x10", "1.5mm", "--1"}) {
+  for (const char* text :
+       {"", "+", "+-1", "1,5", "1 ", " 1", "nan", "inf", "1e999", "0x10", "1.5mm", "--1"}) {
     EXPECT_FALSE(parse_number(text).has_value()) << text;
   }
   EXPECT_EQ(parse_number("+1.5"), 1.5);

@@ -17,12 +17,15 @@ namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-const Points kExample1 = {{25.005, 0},  {17.679084, 17.679084},   {0, 25},      {-17.675548, 17.675548},
-                          {-24.998, 0}, {-17.673427, -17.673427}, {0, -24.994}, {17.673427, -17.673427}};
-const Points kExample2 = {{25.006, 0},  {17.674841, 17.674841},   {0, 24.994}, {-17.679084, 17.679084},
-                          {-24.997, 0}, {-17.673427, -17.673427}, {0, -25},    {17.680498, -17.680498}};
-const Points kExample3 = {{25.006, 0},  {17.679084, 17.679084},   {0, 25.002},  {-17.681205, 17.681205},
-                          {-25.001, 0}, {-17.680498, -17.680498}, {0, -25.004}, {17.674841, -17.674841}};
+const Points kExample1 = {
+    {25.005, 0},  {17.679084, 17.679084},   {0, 25},      {-17.675548, 17.675548},
+    {-24.998, 0}, {-17.673427, -17.673427}, {0, -24.994}, {17.673427, -17.673427}};
+const Points kExample2 = {
+    {25.006, 0},  {17.674841, 17.674841},   {0, 24.994}, {-17.679084, 17.679084},
+    {-24.997, 0}, {-17.673427, -17.673427}, {0, -25},    {17.680498, -17.680498}};
+const Points kExample3 = {
+    {25.006, 0},  {17.679084, 17.679084},   {0, 25.002},  {-17.681205, 17.681205},
+    {-25.001, 0}, {-17.680498, -17.680498}, {0, -25.004}, {17.674841, -17.674841}};
 
 /// Half a unit of the last digit printed.
 constexpr double kSix = 0.5e-6;
@@ -98,52 +101,89 @@ void expect_distances(const Points& points, const Eigen::Vector2d& center,
 
 TEST(CenterSearch, FollowsWorkedExample1) {
   expect_start(kExample1, {0.002634485, 0.003444339}, 24.998000343);
-  expect_distances(kExample1, {0.002634485, 0.003444339},
-                   {25.002366, 24.997702, 24.996556, 24.996427, 25.000635, 24.998299, 24.997444, 24.994573});
+  expect_distances(
+      kExample1, {0.002634485, 0.003444339},
+      {25.002366, 24.997702, 24.996556, 24.996427, 25.000635, 24.998299, 24.997444, 24.994573});
   expect_course(kExample1,
-                {{7.792572, {1}, {8}, 0.765398472, {0.382826506, 0.923820257},
-                  {{3, true, 1.517504}, {5, false, 2.260855}, {2, true, 2.394505},
-                   {4, true, 2.423587}, {6, false, 3.112814}, {7, false, 3.766743}},
+                {{7.792572,
+                  {1},
+                  {8},
+                  0.765398472,
+                  {0.382826506, 0.923820257},
+                  {{3, true, 1.517504},
+                   {5, false, 2.260855},
+                   {2, true, 2.394505},
+                   {4, true, 2.423587},
+                   {6, false, 3.112814},
+                   {7, false, 3.766743}},
                   {0.003215425, 0.004846240}},
-                 {6.631077, {1}, {3, 8}, 0.541305718, {0.923898555, 0.382637506},
+                 {6.631077,
+                  {1},
+                  {3, 8},
+                  0.541305718,
+                  {0.923898555, 0.382637506},
                   {{5, false, 0.308015}, {6, false, 1.128127}, {2, true, 2.116710}},
                   {0.003500000, 0.004964098}}},
                 6.464346, {1, 5}, {3, 8});
-  expect_distances(kExample1, {0.003215425, 0.004846240},
-                   {25.001785, 24.996300, 24.995154, 24.995847, 25.001216, 24.999701, 24.998846, 24.995154});
-  expect_distances(kExample1, {0.003500000, 0.004964098},
-                   {25.001500, 24.996015, 24.995036, 24.995965, 25.001500, 24.999985, 24.998964, 24.995036});
+  expect_distances(
+      kExample1, {0.003215425, 0.004846240},
+      {25.001785, 24.996300, 24.995154, 24.995847, 25.001216, 24.999701, 24.998846, 24.995154});
+  expect_distances(
+      kExample1, {0.003500000, 0.004964098},
+      {25.001500, 24.996015, 24.995036, 24.995965, 25.001500, 24.999985, 24.998964, 24.995036});
 }
 
 TEST(CenterSearch, FollowsWorkedExample2ThroughOneToThreeContacts) {
   expect_start(kExample2, {0.002957125, -0.001499619}, 24.999125422);
   expect_course(kExample2,
-                {{10.182336, {4}, {2}, 1.414153552, {-0.999999997, -0.000083649},
+                {{10.182336,
+                  {4},
+                  {2},
+                  1.414153552,
+                  {-0.999999997, -0.000083649},
                   {{6, true, 0.043502}, {3, true, 0.750034}, {1, false, 1.235371}},
                   {0.002913622, -0.001499622}},
-                 {10.120817, {4}, {2, 6}, 0.999875149, {-0.707106781, 0.707106781},
+                 {10.120817,
+                  {4},
+                  {2, 6},
+                  0.999875149,
+                  {-0.707106781, 0.707106781},
                   {{3, true, 0.706564}, {1, false, 1.191860}},
                   {0.002414006, -0.001000006}},
-                 {9.414332, {4}, {2, 3, 6}, 0.541122175, {-0.923879532, 0.382683434},
+                 {9.414332,
+                  {4},
+                  {2, 3, 6},
+                  0.541122175,
+                  {-0.923879532, 0.382683434},
                   {{1, false, 0.448349}, {8, false, 1.530743}},
                   {0.001999786, -0.000828430}}},
                 9.171717, {1, 4}, {3, 6});
-  expect_distances(kExample2, {0.001999786, -0.000828430},
-                   {25.004000, 24.995172, 24.994829, 25.004000, 24.999000, 24.994829, 24.999172, 25.002000});
+  expect_distances(
+      kExample2, {0.001999786, -0.000828430},
+      {25.004000, 24.995172, 24.994829, 25.004000, 24.999000, 24.994829, 24.999172, 25.002000});
 }
 
 TEST(CenterSearch, FollowsWorkedExample3WithTheOuterContactFirst) {
   expect_start(kExample3, {-0.000694019, 0.000737109}, 25.002500194);
   expect_course(kExample3,
-                {{9.682215, {1}, {8}, 0.765340758, {0.382697612, 0.923873659},
+                {{9.682215,
+                  {1},
+                  {8},
+                  0.765340758,
+                  {0.382697612, 0.923873659},
                   {{7, false, 1.497813}, {6, false, 2.038571}, {3, true, 3.253546}},
                   {-0.000120810, 0.002120899}},
-                 {8.535877, {1, 7}, {8}, 0.292861525, {-0.707078502, 0.707135059},
+                 {8.535877,
+                  {1, 7},
+                  {8},
+                  0.292861525,
+                  {-0.707078502, 0.707135059},
                   {{3, true, 1.343831}, {5, true, 1.929853}},
                   {-0.001071004, 0.003071169}}},
                 8.142339, {1, 7}, {3, 8});
-  expect_distances(kExample3, {-0.001071004, 0.003071169},
-                   {25.007071, 25.000586, 24.998929, 25.002071, 24.999929, 25.005415, 25.007071, 24.998929});
+  expect_distances(
+      kExample3, {-0.001071004, 0.003071169},
+      {25.007071, 25.000586, 24.998929, 25.002071, 24.999929, 25.005415, 25.007071, 24.998929});
 }
 
 TEST(CenterSearchAsPublished, GivesTheCoursesPrintedForReadingD) {
@@ -167,8 +207,8 @@ struct Section {
 };
 
 Points random_section(std::uint64_t seed, const Section& kind) {
-  core::KeyedNoise noise(seed, {8, static_cast<std::uint64_t>(kind.layers),
-                                static_cast<std::uint64_t>(kind.points)});
+  core::KeyedNoise noise(
+      seed, {8, static_cast<std::uint64_t>(kind.layers), static_cast<std::uint64_t>(kind.points)});
   std::vector<std::array<double, 3>> lobes;
   for (const double order : {2.0, 3.0, 4.0, 5.0, 7.0}) {
     lobes.push_back({order, 0.004 * noise.normal() / order, core::kTwoPi * noise.uniform()});
@@ -178,10 +218,11 @@ Points random_section(std::uint64_t seed, const Section& kind) {
   for (int layer = 0; layer < kind.layers; ++layer) {
     for (int k = 0; k < kind.points; ++k) {
       const double jitter = kind.layers > 1 ? 0.5 * core::kDegree * noise.normal() : 0.0;
-      const double theta = core::kTwoPi *
-                               (k + kind.stagger * layer / kind.layers) / kind.points + jitter;
+      const double theta =
+          core::kTwoPi * (k + kind.stagger * layer / kind.layers) / kind.points + jitter;
       double r = 25.0 + 0.001 * noise.normal();
-      for (const auto& [order, amplitude, phase] : lobes) r += amplitude * std::cos(order * theta + phase);
+      for (const auto& [order, amplitude, phase] : lobes)
+        r += amplitude * std::cos(order * theta + phase);
       out.emplace_back(offset + r * Eigen::Vector2d(std::cos(theta), std::sin(theta)));
     }
   }
@@ -189,7 +230,8 @@ Points random_section(std::uint64_t seed, const Section& kind) {
 }
 
 TEST(CenterSearch, EndsAtTheEnumeratedMinimumInEveryRandomSection) {
-  for (const Section& kind : {Section{1, 12, 0}, Section{3, 5, 0}, Section{4, 7, 0}, Section{4, 7, 1}}) {
+  for (const Section& kind :
+       {Section{1, 12, 0}, Section{3, 5, 0}, Section{4, 7, 0}, Section{4, 7, 1}}) {
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
       SCOPED_TRACE(seed);
       const Points points = random_section(seed, kind);
@@ -210,7 +252,8 @@ TEST(CenterSearchAsPublished, EndsWrongAsOftenAsTheSpecificationStates) {
     int right = 0;
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
       const Points points = random_section(seed, kind);
-      const double excess = center_search_as_published(points)->width_mm() - center_search(points)->width_mm();
+      const double excess =
+          center_search_as_published(points)->width_mm() - center_search(points)->width_mm();
       if (std::abs(excess) <= 1e-6) ++right;
     }
     return right / 3.0;
@@ -246,7 +289,10 @@ TEST(CenterSearch, StopsWhenTheEnclosingPairIsCloserThanTheChordTestOfPointsAllo
   const double one = 1.0 * core::kDegree;
   const Points points = {{25.010 * std::cos(one), 25.010 * std::sin(one)},
                          {25.010 * std::cos(-one), 25.010 * std::sin(-one)},
-                         {24.990, 0.0}, {-24.990, 0.0}, {0.0, 25.0}, {0.0, -25.0}};
+                         {24.990, 0.0},
+                         {-24.990, 0.0},
+                         {0.0, 25.0},
+                         {0.0, -25.0}};
   const auto search = center_search(points);
   ASSERT_TRUE(search.has_value());
   const auto all = search_bisectors(points, search->center_mm);
@@ -256,7 +302,8 @@ TEST(CenterSearch, StopsWhenTheEnclosingPairIsCloserThanTheChordTestOfPointsAllo
 TEST(CenterSearch, RefusesWhatIsNoSection) {
   EXPECT_EQ(center_search({}).error().code, core::Code::kNoPoints);
   EXPECT_EQ(center_search(Points{{1, 2}}).error().code, core::Code::kTooFewPoints);
-  EXPECT_EQ(center_search(Points{{0, 0}, {1, 1}, {2, 2}, {3, 3}}).error().code, core::Code::kCollinear);
+  EXPECT_EQ(center_search(Points{{0, 0}, {1, 1}, {2, 2}, {3, 3}}).error().code,
+            core::Code::kCollinear);
   const auto nan = center_search(Points{{0, 0}, {1, std::nan("")}, {2, 2}});
   EXPECT_EQ(nan.error().code, core::Code::kNotFinite);
   EXPECT_NE(nan.error().what.find("point 1"), std::string::npos);

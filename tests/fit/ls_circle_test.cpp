@@ -52,8 +52,10 @@ TEST(AlgebraicCircle, IsExactForThreePoints) {
 }
 
 TEST(AlgebraicCircle, RefusesPointsOnALine) {
-  EXPECT_EQ(algebraic_circle(Points{{0, 0}, {1, 2}, {2, 4}, {5, 10}}).error().code, core::Code::kCollinear);
-  EXPECT_EQ(algebraic_circle(Points{{3, 3}, {3, 3}, {3, 3}}).error().code, core::Code::kTooFewPoints);
+  EXPECT_EQ(algebraic_circle(Points{{0, 0}, {1, 2}, {2, 4}, {5, 10}}).error().code,
+            core::Code::kCollinear);
+  EXPECT_EQ(algebraic_circle(Points{{3, 3}, {3, 3}, {3, 3}}).error().code,
+            core::Code::kTooFewPoints);
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ double brute_force(const Points& points) {
   std::vector<Line> lines;
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t j = i + 1; j < points.size(); ++j) {
-      lines.push_back({points[j] - points[i], 0.5 * (points[j].squaredNorm() - points[i].squaredNorm())});
+      lines.push_back(
+          {points[j] - points[i], 0.5 * (points[j].squaredNorm() - points[i].squaredNorm())});
     }
   }
   double best = std::numeric_limits<double>::infinity();

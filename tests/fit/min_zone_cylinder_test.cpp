@@ -5,8 +5,8 @@
 #include <numeric>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "core/noise.h"
 #include "core/units.h"
@@ -42,7 +42,8 @@ Points random_cylinder(std::uint64_t seed, const Kind& kind) {
 Eigen::Isometry3d random_place(std::uint64_t seed, double far_mm) {
   core::KeyedNoise noise(seed, {4});
   Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
-  place.rotate(Eigen::Quaterniond(noise.normal(), noise.normal(), noise.normal(), noise.normal()).normalized());
+  place.rotate(Eigen::Quaterniond(noise.normal(), noise.normal(), noise.normal(), noise.normal())
+                   .normalized());
   place.pretranslate(far_mm * Eigen::Vector3d(noise.normal(), noise.normal(), noise.normal()));
   return place;
 }
@@ -78,8 +79,10 @@ void expect_stationary(const Points& points, const MinZoneCylinder& zone) {
       EXPECT_NEAR(distance_mm(zone.axis, points[c.index]), radius, 1e-11);
       sum += c.multiplier;
       for (int k = 0; k < 4; ++k) {
-        balance(k) += sign * c.multiplier * (distance_mm(moved(k, h), points[c.index]) -
-                                             distance_mm(moved(k, -h), points[c.index])) / (2.0 * h);
+        balance(k) += sign * c.multiplier *
+                      (distance_mm(moved(k, h), points[c.index]) -
+                       distance_mm(moved(k, -h), points[c.index])) /
+                      (2.0 * h);
       }
     }
     EXPECT_NEAR(sum, 1.0, 1e-12);
@@ -93,12 +96,14 @@ void expect_stationary(const Points& points, const MinZoneCylinder& zone) {
 TEST(MinZoneCylinder, CarriesMultipliersThatProveItStationary) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = random_cylinder(seed, {3 + static_cast<int>(seed % 3), 5 + static_cast<int>(seed % 4)});
+    const Points points =
+        random_cylinder(seed, {3 + static_cast<int>(seed % 3), 5 + static_cast<int>(seed % 4)});
     const auto zone = min_zone_cylinder(points, Eigen::Vector3d::UnitZ());
     ASSERT_TRUE(zone.has_value());
     EXPECT_EQ(zone->certificate.kind, Certificate::Kind::kLocal) << zone->certificate.reason;
     EXPECT_LE(zone->certificate.gap_mm, 1e-10 * zone->width_mm());
-    EXPECT_LE(zone->width_mm(), ls_cylinder(points, Eigen::Vector3d::UnitZ())->deviation_mm + 1e-13);
+    EXPECT_LE(zone->width_mm(),
+              ls_cylinder(points, Eigen::Vector3d::UnitZ())->deviation_mm + 1e-13);
     expect_stationary(points, *zone);
   }
 }
@@ -137,14 +142,16 @@ TEST(MinZoneCylinder, DoesNotDependOnPlaceOrientationOrderOrScale) {
     const auto found = min_zone_cylinder(moved);
     ASSERT_TRUE(found.has_value());
     EXPECT_NEAR(found->width_mm(), width, 1e-11);
-    EXPECT_NEAR(std::abs(found->axis.direction.dot(place.linear() * min_zone_cylinder(points)->axis.direction)), 1.0, 1e-12);
+    EXPECT_NEAR(std::abs(found->axis.direction.dot(place.linear() *
+                                                   min_zone_cylinder(points)->axis.direction)),
+                1.0, 1e-12);
     EXPECT_NEAR(min_zone_cylinder(scaled)->width_mm(), 0.01 * width, 1e-13);
     EXPECT_NEAR(min_zone_cylinder(reversed)->width_mm(), width, 1e-12);
   }
 }
 
-// Certificates section 1: on short discs the tilt is held by curvature and optima with five contacts
-// are common; a method that expects six stalls up to 1.1e-3 of the zone above them.
+// Certificates section 1: on short discs the tilt is held by curvature and optima with five
+// contacts are common; a method that expects six stalls up to 1.1e-3 of the zone above them.
 TEST(MinZoneCylinder, ReachesOptimaWithFiveContacts) {
   int fives = 0;
   for (const double half_length : {5.0, 1.0, 0.25}) {
@@ -183,10 +190,13 @@ TEST(MinZoneCylinder, FindsThePlantedContactsOfALargeSet) {
 TEST(MinZoneCylinder, RefusesWhatHasNoAxis) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
   EXPECT_EQ(min_zone_cylinder({}).error().code, core::Code::kNoPoints);
-  EXPECT_EQ(min_zone_cylinder(Points{z, 2 * z, 3 * z, 4 * z}).error().code, core::Code::kTooFewPoints);
-  EXPECT_EQ(min_zone_cylinder(Points{z, 2 * z, 3 * z, 4 * z, 5 * z, 6 * z}).error().code, core::Code::kCollinear);
+  EXPECT_EQ(min_zone_cylinder(Points{z, 2 * z, 3 * z, 4 * z}).error().code,
+            core::Code::kTooFewPoints);
+  EXPECT_EQ(min_zone_cylinder(Points{z, 2 * z, 3 * z, 4 * z, 5 * z, 6 * z}).error().code,
+            core::Code::kCollinear);
   Points ring;
-  for (int k = 0; k < 12; ++k) ring.emplace_back(25 * std::cos(0.5 * k), 25 * std::sin(0.5 * k), 10.0);
+  for (int k = 0; k < 12; ++k)
+    ring.emplace_back(25 * std::cos(0.5 * k), 25 * std::sin(0.5 * k), 10.0);
   const auto single = min_zone_cylinder(ring);
   EXPECT_EQ(single.error().code, core::Code::kRank);
   EXPECT_NE(single.error().what.find("roundness"), std::string::npos);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include "fit/axis.h"
@@ -33,7 +33,8 @@ Set load(const std::string& name) {
   const fs::path folder = fs::path(RONDURE_SOURCE_DIR) / "tests/data" / name;
   Set set;
   set.certified = json::parse(record::read_file(folder / "certified.json").value());
-  set.table = record::parse_points_csv(record::read_file(folder / "points.csv").value(), name).value();
+  set.table =
+      record::parse_points_csv(record::read_file(folder / "points.csv").value(), name).value();
   return set;
 }
 
@@ -41,14 +42,16 @@ std::vector<std::string> sets_of(const std::string& kind) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(fs::path(RONDURE_SOURCE_DIR) / "tests/data")) {
     if (!fs::exists(entry.path() / "certified.json")) continue;
-    if (load(entry.path().filename()).certified["kind"] == kind) names.push_back(entry.path().filename());
+    if (load(entry.path().filename()).certified["kind"] == kind)
+      names.push_back(entry.path().filename());
   }
   std::sort(names.begin(), names.end());
   return names;
 }
 
 double number(const json& value) {
-  return value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr) : value.get<double>();
+  return value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr)
+                           : value.get<double>();
 }
 
 Eigen::Vector3d vector3(const json& value) {

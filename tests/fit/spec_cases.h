@@ -1,6 +1,7 @@
 #pragma once
 
-// Points of the method specification, cylindricity sections 12.2 and 13, and helpers for seeded sets.
+// Points of the method specification, cylindricity sections 12.2 and 13, and helpers for seeded
+// sets.
 
 #include <cmath>
 #include <cstdint>

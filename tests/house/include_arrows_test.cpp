@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <string>
 
@@ -36,8 +35,17 @@ struct Include {
   std::string header;
 };
 
+/// What stands between the marks of an #include of this kind; empty for another line.
+std::string included(const std::string& line, char open, char close) {
+  const auto hash = line.find_first_not_of(" \t");
+  if (hash == std::string::npos || line.compare(hash, 8, "#include") != 0) return "";
+  const auto first = line.find(open, hash);
+  const auto last = line.find(close, first + 1);
+  if (first == std::string::npos || last == std::string::npos) return "";
+  return line.substr(first + 1, last - first - 1);
+}
+
 std::vector<Include> includes_of(const std::string& room) {
-  static const std::regex pattern("^\\s*#include\\s+\"([^\"]+)\"");
   std::vector<Include> out;
   const fs::path folder = fs::path(RONDURE_SOURCE_DIR) / room;
   if (!fs::exists(folder)) return out;
@@ -46,8 +54,8 @@ std::vector<Include> includes_of(const std::string& room) {
     if (extension != ".h" && extension != ".cpp") continue;
     std::ifstream file(entry.path());
     for (std::string line; std::getline(file, line);) {
-      std::smatch found;
-      if (std::regex_search(line, found, pattern)) out.push_back({entry.path(), found[1]});
+      const std::string header = included(line, '"', '"');
+      if (!header.empty()) out.push_back({entry.path(), header});
     }
   }
   return out;
@@ -58,7 +66,8 @@ TEST(IncludeArrows, PointOneWay) {
   for (const auto& [room, allowed] : kMayInclude) {
     for (const Include& include : includes_of(room)) {
       const std::string target = include.header.substr(0, include.header.find('/'));
-      EXPECT_TRUE(allowed.count(target) == 1 || (room == "reports" && is_error_model(include.header)))
+      EXPECT_TRUE(allowed.count(target) == 1 ||
+                  (room == "reports" && is_error_model(include.header)))
           << include.file << " includes " << include.header;
       ++checked;
     }
@@ -77,7 +86,8 @@ TEST(IncludeArrows, KeepsEveryTopLevelFolderARoomOfTheDesign) {
 
 TEST(PublicHeaders, KeepHeavyLibrariesInTheirSourceFiles) {
   // JSON in private headers of plans and reports only; CGAL, Ceres, libusb and Asio in no header.
-  static const std::regex heavy("^\\s*#include\\s+<(CGAL|ceres|libusb|asio|CLI)");
+  const std::set<std::string> heavy = {"CGAL", "ceres",    "libusb.h", "libusb-1.0",
+                                       "asio", "asio.hpp", "CLI"};
   for (const auto& [room, allowed] : kMayInclude) {
     const fs::path folder = fs::path(RONDURE_SOURCE_DIR) / room;
     if (!fs::exists(folder)) continue;
@@ -85,7 +95,9 @@ TEST(PublicHeaders, KeepHeavyLibrariesInTheirSourceFiles) {
       if (entry.path().extension() != ".h") continue;
       std::ifstream file(entry.path());
       for (std::string line; std::getline(file, line);) {
-        EXPECT_FALSE(std::regex_search(line, heavy)) << entry.path() << ": " << line;
+        const std::string header = included(line, '<', '>');
+        EXPECT_EQ(heavy.count(header.substr(0, header.find('/'))), 0U)
+            << entry.path() << ": " << line;
       }
     }
   }

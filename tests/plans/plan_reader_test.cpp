@@ -139,7 +139,8 @@ TEST(PlanReader, LayersMayTouchTheEndsButNotTheClampedBand) {
                    R"("machine": {}, "fixture": {"clamp_from_mm": )" + core::shortest(from_mm) +
                        R"(, "clamp_to_mm": )" + core::shortest(to_mm) + "},");
   };
-  EXPECT_EQ(lines_of(parse(with_clamp(0.001, 39.999))), "");  // layers at -40, 0, 40
+  // Layers at -40, 0, 40. Between two layers the band holds none, but the tip cannot pass it.
+  EXPECT_EQ(only_problem(with_clamp(0.001, 39.999)).code, Code::kUnreachable);
   EXPECT_EQ(only_problem(with_clamp(0.0, 39.999)).code, Code::kSampling);
   EXPECT_EQ(only_problem(with_clamp(0.001, 40.0)).code, Code::kSampling);
   EXPECT_EQ(lines_of(parse(with_clamp(5.0, -5.0))), "");  // no band

@@ -34,8 +34,8 @@ struct Column {
 struct Row {
   Column poses;
   Column zone_um;
-  Column excess_um;   ///< Reported minimum zone above the independent search.
-  Column f_over_um;   ///< f of the final pose above the zone.
+  Column excess_um;  ///< Reported minimum zone above the independent search.
+  Column f_over_um;  ///< f of the final pose above the zone.
 };
 
 void measure(std::uint64_t seed, const std::string& strategy, double resolution_deg, Row& row) {
@@ -44,7 +44,8 @@ void measure(std::uint64_t seed, const std::string& strategy, double resolution_
   const reports::FeatureResult& feature = run.evaluation.features.front();
   ASSERT_TRUE(feature.mz_cylinder.has_value());
   const double zone = feature.mz_cylinder->width_mm();
-  const double truth = test::searched_zone_mm(test::final_cloud(run.record), feature.mz_cylinder->axis.direction, seed);
+  const double truth = test::searched_zone_mm(test::final_cloud(run.record),
+                                              feature.mz_cylinder->axis.direction, seed);
   row.poses.values.push_back(static_cast<double>(run.record.poses.size()));
   row.zone_um.values.push_back(zone * 1e3);
   row.excess_um.values.push_back((zone - truth) * 1e3);
@@ -54,8 +55,10 @@ void measure(std::uint64_t seed, const std::string& strategy, double resolution_
 }
 
 void print(const char* name, const Row& row) {
-  std::puts(fmt::format("| {} | {} | {} | {} | {} |", name, row.poses.text("{:.0f}"), row.zone_um.text("{:.3f}"),
-                        row.excess_um.text("{:.1e}"), row.f_over_um.text("{:.3g}")).c_str());
+  std::puts(fmt::format("| {} | {} | {} | {} | {} |", name, row.poses.text("{:.0f}"),
+                        row.zone_um.text("{:.3f}"), row.excess_um.text("{:.1e}"),
+                        row.f_over_um.text("{:.3g}"))
+                .c_str());
 }
 
 TEST(PoseSearchFigures, HoldOnRandomParts) {
@@ -68,11 +71,14 @@ TEST(PoseSearchFigures, HoldOnRandomParts) {
     measure(seed, "guided", 0.05, coarse);
     measure(seed, "as-published", 0.0, published);
   }
-  std::puts(fmt::format("{} random parts, form 5-20 um, tilt 0-20 deg, 4 x 7 points, probe noise off\n"
-                        "min / median / max:\n"
-                        "| strategy | poses | minimum zone um | above an independent search um | f(final pose) - zone um |\n"
-                        "|---|---|---|---|---|",
-                        parts()).c_str());
+  std::puts(
+      fmt::format("{} random parts, form 5-20 um, tilt 0-20 deg, 4 x 7 points, probe noise off\n"
+                  "min / median / max:\n"
+                  "| strategy | poses | minimum zone um | above an independent search um | f(final "
+                  "pose) - zone um |\n"
+                  "|---|---|---|---|---|",
+                  parts())
+          .c_str());
   print("guided, ideal fixture", ideal);
   print("guided, resolution 0.05 deg", coarse);
   print("as-published", published);
@@ -102,7 +108,8 @@ TEST(SimulationTruth, AgreesWithTheMeasuredZoneWhenTheProbeIsPerfect) {
     SCOPED_TRACE(seed);
     const auto run = test::inspect(test::random_plan(seed, "guided", 0.05));
     ASSERT_EQ(run.record.truths.size(), 1U);
-    EXPECT_NEAR(run.record.truths.front().cylt_mm, run.evaluation.features.front().mz_cylinder->width_mm(), 1e-12);
+    EXPECT_NEAR(run.record.truths.front().cylt_mm,
+                run.evaluation.features.front().mz_cylinder->width_mm(), 1e-12);
   }
 }
 

@@ -92,8 +92,9 @@ plans::Plan random_plan(std::uint64_t seed, const std::string& strategy, double 
 
 Inspection inspect(const plans::Plan& plan) {
   static int count = 0;
-  const auto directory = std::filesystem::temp_directory_path() /
-                         ("rondure-test-" + std::to_string(getpid()) + "-" + std::to_string(count++));
+  const auto directory =
+      std::filesystem::temp_directory_path() /
+      ("rondure-test-" + std::to_string(getpid()) + "-" + std::to_string(count++));
   plans::RunOptions options;
   options.directory = directory;
   options.run_id = "test";

@@ -12,8 +12,8 @@
 
 namespace rondure::test {
 
-/// A plan with a random part of method specification section 12.1: form 5 to 20 um of lobes 2, 3, 4,
-/// 5, 7 with twist, taper, barrel and bend; tilt to 20 deg; 4 x 7 points; probe noise off.
+/// A plan with a random part of method specification section 12.1: form 5 to 20 um of lobes 2, 3,
+/// 4, 5, 7 with twist, taper, barrel and bend; tilt to 20 deg; 4 x 7 points; probe noise off.
 [[nodiscard]] plans::Plan random_plan(std::uint64_t seed, const std::string& strategy,
                                       double resolution_deg);
 

@@ -136,7 +136,8 @@ TEST(ProfileCsv, RefusesEverythingElseWithLineValueAndExpectation) {
       {"r_um\n1\n", core::Code::kSyntax, "p.csv:1", "column \"theta_deg\" is missing"},
       {"x,y,z\n", core::Code::kSyntax, "p.csv:1", "column \"z\" is unknown"},
       {"theta_deg,r_um\n0,1\n1,nan\n", core::Code::kNotFinite, "p.csv:3", "a finite number in um"},
-      {"theta_deg,r_um\n,1\n", core::Code::kSyntax, "p.csv:2", "theta_deg is empty; a number in deg"},
+      {"theta_deg,r_um\n,1\n", core::Code::kSyntax, "p.csv:2",
+       "theta_deg is empty; a number in deg"},
       {"theta_deg,r_um\n1\n", core::Code::kSyntax, "p.csv:2", "2 expected (theta_deg,r_um)"},
       {"theta_deg,r_um\n", core::Code::kNoPoints, "p.csv:1", "no points"},
   };

@@ -3,7 +3,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +23,12 @@ bool holds(std::string_view page, std::string_view part) {
 
 /// "nan" as a word, not as a part of one.
 bool shows_nan(const std::string& page) {
-  return std::regex_search(page, std::regex("[^a-z]-?nan[^a-z]"));
+  const auto letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  for (std::size_t at = page.find("nan"); at != std::string::npos; at = page.find("nan", at + 1)) {
+    if (at > 0 && at + 3 < page.size() && !letter(page[at - 1]) && !letter(page[at + 3]))
+      return true;
+  }
+  return false;
 }
 
 std::size_t occurrences(std::string_view text, std::string_view part) {
@@ -148,7 +152,7 @@ TEST(Html, VerdictStandsBeforeEverythingThatExplainsIt) {
 TEST(Html, NonConformityIsSaidInWords) {
   const std::string page = page_of(failing_case());
   EXPECT_TRUE(holds(page, ">Does not conform<"));
-  EXPECT_TRUE(holds(page, "2.300 um above the limit"));
+  EXPECT_TRUE(holds(page, "2.300 µm above the limit"));
   EXPECT_TRUE(holds(page, "1 of 2 toleranced characteristics conforms."));
 }
 

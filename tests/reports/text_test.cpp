@@ -48,6 +48,11 @@ TEST(Ticks, AreRoundAndInside) {
   EXPECT_EQ(decade_ticks(3.0, 120.0), (std::vector<double>{5, 10, 20, 50, 100}));
 }
 
+TEST(Text, OfTheProgramShowsUnitsWithTheirSigns) {
+  EXPECT_EQ(in_sentence("5 um is within 12 um"), "<bdi>5 µm is within 12 µm</bdi>");
+  EXPECT_EQ(in_sentence("20.4 degC, an umbrella, <um"), "<bdi>20.4 °C, an umbrella, &lt;um</bdi>");
+}
+
 TEST(Colours, OfDeviationsAreNeutralAtZeroAndDistinctAtTheEnds) {
   EXPECT_EQ(diverging_colour(0.0), "#fafaf8");
   EXPECT_EQ(diverging_colour(-1.0), "#084582");

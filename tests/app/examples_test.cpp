@@ -1,0 +1,116 @@
+#include <cmath>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/app/files.h"
+#include "tests/app/program.h"
+
+namespace rondure::app::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// How far the zone of noisy points can be from that of the true ones [um].
+///
+/// If no radial distance changes by more than d, the gap max - min about any axis changes by no
+/// more than 2 d, and so does its least value over all axes. The mean of r touches of one point
+/// errs by a normal deviate of sigma / sqrt(r), which exceeds four of its standard deviations once
+/// in 16 000 points: d = 4 sigma / sqrt(r). Turning the whole cloud (fixture) or changing all radii
+/// alike (tip) leaves the gap as it is.
+double noise_bound_um(const json& plan) {
+  const double sigma_um = plan.at("/simulation/probe/repeatability_um"_json_pointer);
+  const double repeats = plan.at("/features/0/pose_search/repeats"_json_pointer);
+  return 2.0 * 4.0 * sigma_um / std::sqrt(repeats);
+}
+
+/// The lines of touches.csv without the comment that names the run.
+std::string touches_of(const fs::path& run) {
+  const std::string text = read(run / "touches.csv");
+  return text.substr(text.find('\n') + 1);
+}
+
+TEST(Examples, RunConformVerifyAndWriteTheirReports) {
+  const auto plans = plans_in(example(""));
+  EXPECT_GE(plans.size(), 7U);
+  for (const fs::path& plan : plans) {
+    SCOPED_TRACE(plan.filename().string());
+    const TemporaryFolder folder;
+    const Outcome ran = rondure({"run", plan, "--out", folder / "run"});
+    const json report = json::parse(read(folder / "run" / "report.json"));
+    const std::string verdict = report.at("verdict");
+    EXPECT_EQ(ran.status, verdict == "conforms" || verdict == "not toleranced" ? 0 : 1) << ran.err;
+    EXPECT_THAT(ran.err, IsEmpty());
+    EXPECT_THAT(names_in(folder / "run"),
+                ::testing::ElementsAre("journal.db", "report.html", "report.json", "touches.csv"));
+    const Outcome verified = rondure({"verify", folder / "run"});
+    EXPECT_EQ(verified.status, 0);
+    EXPECT_THAT(verified.out, HasSubstr("equal: "));
+    EXPECT_THAT(verified.out, HasSubstr("report.html, report.json, touches.csv"));
+  }
+}
+
+TEST(Examples, TheReportedCyltAgreesWithTheHiddenTruthWithinTheNoise) {
+  int simulated = 0;
+  for (const fs::path& plan : plans_in(example(""))) {
+    const json asked = json::parse(read(plan));
+    if (!asked.contains("simulation")) continue;
+    SCOPED_TRACE(plan.filename().string());
+    ++simulated;
+    const TemporaryFolder folder;
+    ASSERT_LE(rondure({"run", plan, "--out", folder / "run", "--seed", "1"}).status, 1);
+    const json report = json::parse(read(folder / "run" / "report.json"));
+    const double truth_um = 1e3 * journal_of(folder / "run").truths.at(0).cylt_mm;
+    const double cylt_um = report.at("/features/0/mz/deviation_um"_json_pointer);
+    EXPECT_NEAR(cylt_um, truth_um, noise_bound_um(asked));
+    EXPECT_GT(truth_um, noise_bound_um(asked) / 2.0);
+  }
+  EXPECT_GE(simulated, 5);
+}
+
+TEST(Examples, OneSeedGivesTheSameTouchesAndAnotherGivesOthers) {
+  const TemporaryFolder folder;
+  const std::string plan = example("01_spool_simulated.json");
+  for (const char* run : {"a", "b"})
+    ASSERT_EQ(rondure({"run", plan, "--out", folder / run}).status, 0);
+  ASSERT_LE(rondure({"run", plan, "--out", folder / "c", "--seed", "5"}).status, 1);
+  EXPECT_GT(touches_of(folder / "a").size(), 1000U);
+  EXPECT_EQ(touches_of(folder / "a"), touches_of(folder / "b"));
+  EXPECT_NE(touches_of(folder / "a"), touches_of(folder / "c"));
+}
+
+TEST(Examples, TheDefaultSeedIsThatOfThePlan) {
+  const TemporaryFolder folder;
+  const fs::path plan = example("02_bore_simulated.json");
+  const json asked = json::parse(read(plan));
+  const std::string seed = asked.at("/simulation/seed"_json_pointer).dump();
+  ASSERT_LE(rondure({"run", plan, "--out", folder / "a"}).status, 1);
+  ASSERT_LE(rondure({"run", plan, "--out", folder / "b", "--seed", seed}).status, 1);
+  EXPECT_EQ(touches_of(folder / "a"), touches_of(folder / "b"));
+}
+
+TEST(BadExamples, AreRefusedWordForWordAndLeaveNothing) {
+  const auto plans = plans_in(example("bad"));
+  EXPECT_GE(plans.size(), 56U);
+  for (const fs::path& plan : plans) {
+    SCOPED_TRACE(plan.filename().string());
+    const TemporaryFolder folder;
+    fs::path expected = plan;
+    expected.replace_extension(".expected");
+    const Outcome validated = rondure({"validate", plan});
+    const Outcome ran = rondure({"run", plan, "--out", folder / "run"});
+    EXPECT_EQ(validated.status, 2);
+    EXPECT_EQ(ran.status, 2);
+    EXPECT_EQ(ran.err, read(expected));
+    EXPECT_THAT(validated.err, ::testing::StartsWith(read(expected)));
+    EXPECT_THAT(validated.out + ran.out, IsEmpty());
+    EXPECT_THAT(names_in(folder.path()), IsEmpty());
+  }
+}
+
+}  // namespace
+}  // namespace rondure::app::testing

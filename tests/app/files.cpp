@@ -1,0 +1,76 @@
+#include "tests/app/files.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "record/journal.h"
+
+namespace rondure::app::testing {
+
+namespace fs = std::filesystem;
+
+fs::path source_dir() { return RONDURE_SOURCE_DIR; }
+
+fs::path example(const std::string& name) { return source_dir() / "plans" / "examples" / name; }
+
+std::vector<fs::path> plans_in(const fs::path& folder) {
+  std::vector<fs::path> out;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".json") out.push_back(entry.path());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+std::string read(const fs::path& file) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(file, std::ios::binary).rdbuf();
+  return bytes.str();
+}
+
+void write(const fs::path& file, std::string_view bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> out;
+  std::error_code absent;
+  for (const auto& entry : fs::directory_iterator(folder, absent)) {
+    out.push_back(entry.path().filename().string());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+void replace_in(const fs::path& file, const std::string& from, const std::string& to) {
+  std::string bytes = read(file);
+  const std::size_t at = bytes.find(from);
+  if (at == std::string::npos) throw std::runtime_error(file.string() + " does not hold " + from);
+  write(file, bytes.replace(at, from.size(), to));
+}
+
+void write_plan(const fs::path& file, const std::vector<Change>& changes) {
+  auto plan = nlohmann::ordered_json::parse(read(example("01_spool_simulated.json")));
+  plan.erase("$schema");
+  for (const Change& change : changes) {
+    plan[nlohmann::ordered_json::json_pointer(change.pointer)] = change.value;
+  }
+  write(file, plan.dump(2));
+}
+
+record::RunRecord journal_of(const fs::path& run) {
+  auto read = record::read_journal(run);
+  if (!read) {
+    ADD_FAILURE() << core::to_line(read.error());
+    return {};
+  }
+  EXPECT_TRUE(read->broken.empty());
+  return std::move(read->record);
+}
+
+}  // namespace rondure::app::testing

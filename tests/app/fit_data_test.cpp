@@ -1,0 +1,133 @@
+#include <cmath>
+#include <random>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/app/files.h"
+#include "tests/app/program.h"
+
+namespace rondure::app::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// Text that is no points file, and what the message must hold.
+struct BadFile {
+  std::string shape;
+  std::string bytes;
+  std::string place;
+  std::string word;
+};
+
+TEST(FitData, ABadFileIsRefusedWithItsPlace) {
+  const std::string square = "x,y\n1,0\n0,1\n-1,0\n0,-1\n";
+  std::string ring;
+  for (int i = 0; i < 8; ++i)
+    ring += fmt::format("{},{},5\n", std::cos(0.7 * i), std::sin(0.7 * i));
+  const std::vector<BadFile> files = {
+      {"circle", "", "bad.csv:1", "empty"},
+      {"circle", "# nothing\n\n", "bad.csv:2", "comments"},
+      {"circle", "x,y\n", "bad.csv:1", "no points"},
+      {"circle", square + "nan,1\n", "bad.csv:6", "nan"},
+      {"circle", square + "1,-inf\n", "bad.csv:6", "inf"},
+      {"circle", square + "1,1e999\n", "bad.csv:6", "1e999"},
+      {"circle", square + "1,zwei\n", "bad.csv:6", "zwei"},
+      {"circle", square + "1\n", "bad.csv:6", "1 field"},
+      {"circle", square + "1,\n", "bad.csv:6", "y is empty"},
+      {"circle", square + "1,2,3\n", "bad.csv:6", "3 fields"},
+      {"circle", square + "1;2\n", "bad.csv:6", "semicolons"},
+      {"circle", square + "0x10,1\n", "bad.csv:6", "0x10"},
+      {"circle", "u,v\n1,2\n", "bad.csv:1", "\"u\""},
+      {"circle", "x,x\n1,2\n", "bad.csv:1", "twice"},
+      {"circle", std::string("x,y\n1,\0\n", 8), "bad.csv:2", "NUL"},
+      {"circle",
+       "\x7f"
+       "ELF\x02\x01\x01\xff\xfe\xfd\n\x01\x02",
+       "bad.csv:1", "unknown"},
+      {"circle", "\xff\xfex\1,\1y\1\n\1", "bad.csv:1", "UTF-16"},
+      {"circle", "x,y,z\n1,2,3\n", "bad.csv:1", "x,y"},
+      {"cylinder", square, "bad.csv:1", "x,y,z"},
+      {"circle", "x,y\n1,1\n", "bad.csv", "[too-few-points]"},
+      {"circle", "x,y\n0,0\n1,1\n2,2\n3,3\n", "bad.csv", "[collinear]"},
+      {"circle", "x,y\n1,1\n1,1\n1,1\n1,1\n1,1\n", "bad.csv", "[too-few-points]"},
+      {"cylinder", "x,y,z\n0,0,0\n1,1,1\n2,2,2\n3,3,3\n4,4,4\n5,5,5\n6,6,6\n7,7,7\n", "bad.csv",
+       "["},
+      {"cylinder", "x,y,z\n" + ring, "bad.csv", "["},
+  };
+  for (const BadFile& file : files) {
+    SCOPED_TRACE(file.shape + ": " + ::testing::PrintToString(file.bytes));
+    const TemporaryFolder folder;
+    write(folder / "bad.csv", file.bytes);
+    const Outcome outcome = rondure({"fit", file.shape, folder / "bad.csv", "--json"});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, ::testing::AllOf(HasSubstr(file.place), HasSubstr(file.word)));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+    EXPECT_THAT(outcome.out, IsEmpty());
+  }
+}
+
+TEST(FitData, WhatIsNoFileIsRefused) {
+  const TemporaryFolder folder;
+  write(folder / "locked.csv", "x,y\n");
+  fs::permissions(folder / "locked.csv", fs::perms::none);
+  std::vector<fs::path> places = {folder.path(), folder / "absent.csv", "/dev/null"};
+  if (::access((folder / "locked.csv").c_str(), R_OK) != 0)
+    places.push_back(folder / "locked.csv");  // not for root
+  for (const fs::path& place : places) {
+    SCOPED_TRACE(place);
+    const Outcome outcome = rondure({"fit", "circle", place});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(place.filename().string()));
+    EXPECT_THAT(outcome.out, IsEmpty());
+  }
+}
+
+/// Radius r + a cos(3 t) + even noise of +-h: the zone is 2 (a + h) as the points grow dense.
+struct Planted {
+  double radius_mm = 25.0;
+  double amplitude_mm = 0.004;
+  double noise_mm = 0.0005;
+};
+
+std::string planted_points(const Planted& part, bool cylinder, int count) {
+  std::mt19937_64 random(20261121);
+  std::uniform_real_distribution<double> even(-1.0, 1.0);
+  std::string text = cylinder ? "x,y,z\n" : "x,y\n";
+  for (int i = 0; i < count; ++i) {
+    const double t = kPi * even(random);
+    const double r =
+        part.radius_mm + part.amplitude_mm * std::cos(3.0 * t) + part.noise_mm * even(random);
+    text += fmt::format("{:.9f},{:.9f}", 300.0 + r * std::cos(t), -200.0 + r * std::sin(t));
+    text += cylinder ? fmt::format(",{:.9f}\n", 40.0 * even(random)) : "\n";
+  }
+  return text;
+}
+
+TEST(FitData, AHundredThousandPointsGiveThePlantedForm) {
+  const Planted part;
+  const double zone_mm = 2.0 * (part.amplitude_mm + part.noise_mm);
+  for (const bool cylinder : {false, true}) {
+    SCOPED_TRACE(cylinder);
+    const TemporaryFolder folder;
+    write(folder / "points.csv", planted_points(part, cylinder, 100'000));
+    const Outcome outcome =
+        rondure({"fit", cylinder ? "cylinder" : "circle", folder / "points.csv", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto fit = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(fit["points"], 100'000);
+    const double mz = fit["mz"]["deviation_mm"];
+    EXPECT_LE(mz, zone_mm);         // the planted axis is one candidate
+    EXPECT_GT(mz, 0.97 * zone_mm);  // and no other is much better: extremes lie densely
+    EXPECT_LE(mz, fit["ls"]["deviation_mm"].get<double>());
+    EXPECT_NEAR(fit["ls"]["radius_mm"], part.radius_mm, 1e-4);
+  }
+}
+
+}  // namespace
+}  // namespace rondure::app::testing

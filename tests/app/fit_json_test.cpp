@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "tests/app/files.h"
+#include "tests/app/program.h"
+
+namespace rondure::app::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::UnorderedElementsAre;
+
+constexpr double kEqual_mm = 1e-9;
+
+/// A reader of its own: two or three numbers a line behind one header line.
+std::vector<Eigen::Vector3d> points_of(const std::filesystem::path& file) {
+  std::ifstream lines(file);
+  std::string line;
+  std::getline(lines, line);
+  std::vector<Eigen::Vector3d> out;
+  while (std::getline(lines, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream fields(line);
+    Eigen::Vector3d p = Eigen::Vector3d::Zero();
+    fields >> p.x() >> p.y();
+    fields >> p.z();
+    out.push_back(p);
+  }
+  return out;
+}
+
+std::vector<std::string> keys_of(const json& object) {
+  std::vector<std::string> out;
+  for (const auto& [key, value] : object.items()) out.push_back(key);
+  return out;
+}
+
+Eigen::Vector3d vector_of(const json& array) {
+  return {array.at(0).get<double>(), array.at(1).get<double>(),
+          array.size() > 2 ? array.at(2).get<double>() : 0.0};
+}
+
+/// Distances of points from the axis (or centre) that one reference states.
+std::vector<double> radii_about(const json& reference, const std::vector<Eigen::Vector3d>& points) {
+  const bool circle = reference.contains("center_mm");
+  const Eigen::Vector3d at =
+      vector_of(circle ? reference["center_mm"] : reference["axis"]["point_mm"]);
+  const Eigen::Vector3d along =
+      circle ? Eigen::Vector3d::UnitZ() : vector_of(reference["axis"]["direction"]);
+  std::vector<double> out;
+  for (const Eigen::Vector3d& p : points) out.push_back((p - at).cross(along).norm());
+  return out;
+}
+
+void expect_deviation(const json& reference, const std::vector<Eigen::Vector3d>& points) {
+  const auto radii = radii_about(reference, points);
+  const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
+  EXPECT_NEAR(reference["deviation_mm"], *most - *least, kEqual_mm);
+}
+
+void expect_zone(const json& zone, const std::vector<Eigen::Vector3d>& points) {
+  expect_deviation(zone, points);
+  const auto radii = radii_about(zone, points);
+  EXPECT_THAT(keys_of(zone["contacts"]), UnorderedElementsAre("outer", "inner"));
+  for (const std::size_t row : zone["contacts"]["outer"]) {
+    EXPECT_NEAR(radii.at(row), zone["outer_radius_mm"], kEqual_mm) << row;
+  }
+  for (const std::size_t row : zone["contacts"]["inner"]) {
+    EXPECT_NEAR(radii.at(row), zone["inner_radius_mm"], kEqual_mm) << row;
+  }
+  EXPECT_FALSE(zone["contacts"]["outer"].empty());
+  EXPECT_FALSE(zone["contacts"]["inner"].empty());
+  EXPECT_THAT(keys_of(zone["certificate"]),
+              UnorderedElementsAre("kind", "scope", "gap_mm", "reason"));
+  EXPECT_THAT(zone["certificate"]["kind"].get<std::string>(),
+              ::testing::AnyOf("global", "local", "none"));
+}
+
+void expect_axis(const json& axis, const std::vector<Eigen::Vector3d>& points) {
+  const Eigen::Vector3d along = vector_of(axis["direction"]);
+  EXPECT_NEAR(along.norm(), 1.0, 1e-12);
+  Eigen::Index largest = 0;
+  along.cwiseAbs().maxCoeff(&largest);
+  EXPECT_GT(along[largest], 0.0);
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) mean += p / static_cast<double>(points.size());
+  // The nearest point of a line: the way there is square to the line.
+  EXPECT_NEAR((vector_of(axis["point_mm"]) - mean).dot(along), 0.0, kEqual_mm);
+}
+
+void expect_absent_references(const json& fit) {
+  EXPECT_TRUE(fit.at("mc").is_null());
+  EXPECT_TRUE(fit.at("mi").is_null());
+  EXPECT_TRUE(std::any_of(fit["warnings"].begin(), fit["warnings"].end(), [](const json& warning) {
+    return warning.at("code") == "reference-absent" &&
+           !warning.at("what").get<std::string>().empty();
+  }));
+}
+
+json fit(const std::string& shape, const std::filesystem::path& file,
+         const std::string& reference = "all") {
+  const Outcome outcome = rondure({"fit", shape, file, "--json", "--reference", reference});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return json::parse(outcome.out);
+}
+
+TEST(FitJson, HoldsTheContractForACircle) {
+  const auto file = source_dir() / "tests/data/axle_mzc_3/points.csv";
+  const auto points = points_of(file);
+  const json found = fit("circle", file);
+  EXPECT_EQ(found["shape"], "circle");
+  EXPECT_EQ(found["points"], 24);
+  EXPECT_THAT(keys_of(found),
+              UnorderedElementsAre("shape", "points", "ls", "mz", "mc", "mi", "warnings"));
+  EXPECT_THAT(keys_of(found["ls"]),
+              UnorderedElementsAre("center_mm", "radius_mm", "deviation_mm", "rms_mm"));
+  EXPECT_THAT(keys_of(found["mz"]),
+              UnorderedElementsAre("center_mm", "inner_radius_mm", "outer_radius_mm",
+                                   "deviation_mm", "contacts", "certificate"));
+  expect_deviation(found["ls"], points);
+  expect_zone(found["mz"], points);
+  expect_absent_references(found);
+  // tests/data/axle_mzc_3/certified.json
+  EXPECT_NEAR(found["ls"]["deviation_mm"], 0.039101674003819755214, kEqual_mm);
+  EXPECT_NEAR(found["mz"]["deviation_mm"], 0.03823094398156937045, kEqual_mm);
+  EXPECT_THAT(found["mz"]["contacts"]["outer"], UnorderedElementsAre(7, 19));
+  EXPECT_THAT(found["mz"]["contacts"]["inner"], UnorderedElementsAre(0, 15));
+}
+
+TEST(FitJson, HoldsTheContractForACylinder) {
+  const auto file = source_dir() / "tests/data/nist_cyl_13/points.csv";
+  const auto points = points_of(file);
+  const json found = fit("cylinder", file);
+  EXPECT_EQ(found["shape"], "cylinder");
+  EXPECT_EQ(found["points"], 184);
+  EXPECT_THAT(keys_of(found),
+              UnorderedElementsAre("shape", "points", "ls", "mz", "mc", "mi", "warnings"));
+  EXPECT_THAT(keys_of(found["ls"]),
+              UnorderedElementsAre("axis", "radius_mm", "deviation_mm", "rms_mm"));
+  EXPECT_THAT(keys_of(found["mz"]),
+              UnorderedElementsAre("axis", "inner_radius_mm", "outer_radius_mm", "deviation_mm",
+                                   "contacts", "certificate"));
+  for (const char* reference : {"ls", "mz"}) expect_axis(found[reference]["axis"], points);
+  expect_deviation(found["ls"], points);
+  expect_zone(found["mz"], points);
+  EXPECT_LE(found["mz"]["deviation_mm"], found["ls"]["deviation_mm"]);
+  expect_absent_references(found);
+}
+
+TEST(FitJson, OneReferenceLeavesTheOthersOut) {
+  for (const auto& [shape, set] :
+       {std::pair{"circle", "axle_mzc_3"}, std::pair{"cylinder", "nist_cyl_13"}}) {
+    const auto file = source_dir() / "tests/data" / set / "points.csv";
+    EXPECT_THAT(keys_of(fit(shape, file, "ls")),
+                UnorderedElementsAre("shape", "points", "ls", "warnings"));
+    EXPECT_THAT(keys_of(fit(shape, file, "mz")),
+                UnorderedElementsAre("shape", "points", "mz", "warnings"));
+  }
+}
+
+TEST(FitJson, OneReferenceGivesTheSameNumbersAsAll) {
+  const auto file = source_dir() / "tests/data/nist_cyl_13/points.csv";
+  const json all = fit("cylinder", file);
+  EXPECT_EQ(fit("cylinder", file, "ls")["ls"], all["ls"]);
+  EXPECT_EQ(fit("cylinder", file, "mz")["mz"], all["mz"]);
+}
+
+}  // namespace
+}  // namespace rondure::app::testing

@@ -1,0 +1,101 @@
+#include "tests/app/program.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "tests/app/files.h"
+
+namespace rondure::app::testing {
+namespace {
+
+void redirect(const std::filesystem::path& file, int fd) {
+  const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  if (opened < 0 || ::dup2(opened, fd) < 0) ::_exit(126);
+  ::close(opened);
+}
+
+void limit_files(std::size_t bytes) {
+  // SIGXFSZ ignored, a write beyond the limit gives an error, as a full disk does.
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{bytes, bytes};
+  if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
+}
+
+/// In the child, between fork and exec.
+void enter(const Surroundings& surroundings, const std::filesystem::path& folder) {
+  redirect(folder / "err", STDERR_FILENO);
+  if (surroundings.standard_output == "closed") {
+    ::close(STDOUT_FILENO);
+  } else {
+    const std::string& named = surroundings.standard_output;
+    redirect(named.empty() ? folder / "out" : std::filesystem::path(named), STDOUT_FILENO);
+  }
+  if (surroundings.largest_file_bytes) limit_files(*surroundings.largest_file_bytes);
+  if (surroundings.empty_environment) ::clearenv();
+}
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "rondure-test-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+Program::Program(const std::vector<std::string>& arguments, const Surroundings& surroundings) {
+  std::vector<std::string> words = {RONDURE_BINARY};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_ = ::fork();
+  if (pid_ < 0) throw std::runtime_error("no process can be started");
+  if (pid_ > 0) return;
+  enter(surroundings, folder_.path());
+  ::execv(RONDURE_BINARY, argv.data());
+  ::_exit(127);
+}
+
+Program::~Program() {
+  if (pid_ <= 0) return;
+  ::kill(pid_, SIGKILL);
+  ::waitpid(pid_, nullptr, 0);
+}
+
+void Program::send(int signal) const { ::kill(pid_, signal); }
+
+bool Program::ended() const {
+  siginfo_t info{};
+  return ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == pid_;
+}
+
+Outcome Program::wait() {
+  int state = 0;
+  ::waitpid(pid_, &state, 0);
+  pid_ = -1;
+  Outcome out;
+  if (WIFEXITED(state)) out.status = WEXITSTATUS(state);
+  if (WIFSIGNALED(state)) out.signal = WTERMSIG(state);
+  out.out = read(folder_ / "out");
+  out.err = read(folder_ / "err");
+  return out;
+}
+
+Outcome rondure(const std::vector<std::string>& arguments, const Surroundings& surroundings) {
+  return Program(arguments, surroundings).wait();
+}
+
+}  // namespace rondure::app::testing

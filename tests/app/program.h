@@ -1,0 +1,67 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rondure::app::testing {
+
+/// A new folder, removed with everything in it at the end of the test.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// How the program is started.
+struct Surroundings {
+  std::optional<std::size_t> largest_file_bytes;  ///< As a full disk: writes beyond it fail.
+  std::string standard_output;  ///< Empty: captured; "closed"; else a file to write to.
+  bool empty_environment = false;
+};
+
+/// How the program ended.
+struct Outcome {
+  int status = -1;  ///< Exit status; -1 when a signal ended it.
+  int signal = 0;   ///< The signal that ended it, or 0.
+  std::string out;  ///< Standard output.
+  std::string err;  ///< Standard error.
+};
+
+/// The program at work.
+class Program {
+ public:
+  explicit Program(const std::vector<std::string>& arguments,
+                   const Surroundings& surroundings = {});
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  void send(int signal) const;
+  [[nodiscard]] bool ended() const;
+  [[nodiscard]] Outcome wait();
+
+ private:
+  TemporaryFolder folder_;  ///< Holds what it prints.
+  pid_t pid_ = -1;
+};
+
+/// Runs the program to its end.
+[[nodiscard]] Outcome rondure(const std::vector<std::string>& arguments,
+                              const Surroundings& surroundings = {});
+
+}  // namespace rondure::app::testing
