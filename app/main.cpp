@@ -62,16 +62,52 @@ void add_run(CLI::App& app, RunArguments& arguments) {
                kExits);
 }
 
-void add_fit(CLI::App& app, FitArguments& arguments) {
+CLI::App* add_fit(CLI::App& app, FitArguments& arguments) {
   auto* verb = app.add_subcommand("fit", "Fits a circle or a cylinder to a points file");
   verb->add_option("SHAPE", arguments.shape, "circle (columns x,y) or cylinder (columns x,y,z), mm")
-      ->required()
       ->check(CLI::IsMember({"circle", "cylinder"}));
-  verb->add_option("FILE", arguments.file, "CSV with a header line; # comments")->required();
+  verb->add_option("FILE", arguments.file, "CSV with a header line; # comments");
   verb->add_option("--reference", arguments.reference, "ls, mz or all")
       ->check(CLI::IsMember({"ls", "mz", "all"}));
   verb->add_flag("--json", arguments.json, "The stable JSON contract instead of text");
   verb->footer("\nExample: rondure fit cylinder tests/data/nist_cyl_13/points.csv --json");
+  verb->require_subcommand(0, 1);
+  verb->callback([verb, &arguments] {  // a verb of its own, such as roundness, needs neither
+    if (!verb->get_subcommands().empty()) return;
+    if (arguments.shape.empty()) throw CLI::RequiredError("SHAPE");
+    if (arguments.file.empty()) throw CLI::RequiredError("FILE");
+  });
+  return verb;
+}
+
+void add_roundness(CLI::App& fit_verb, RoundnessArguments& arguments) {
+  auto* verb = fit_verb.add_subcommand(
+      "roundness", "Filters one section and gives RONt, RONp, RONv, RONq and harmonics");
+  verb->add_option("FILE", arguments.file, "CSV with the columns theta_deg,r_um or x,y (mm)")
+      ->required();
+  verb->add_option("--cutoff-upr", arguments.cutoff_upr,
+                   "Cut-off in undulations per revolution (default: 50); LO,HI for a band")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("N[,N]");
+  verb->add_option("--filter", arguments.filter, "gaussian (default), 2rc, robust, spline or none")
+      ->check(CLI::IsMember({"gaussian", "2rc", "robust", "spline", "none"}));
+  verb->add_option("--pass", arguments.pass, "low (default), high or band")
+      ->check(CLI::IsMember({"low", "high", "band"}));
+  verb->add_flag("--override-sampling", arguments.override_sampling,
+                 "Filter also with fewer than 7 points per undulation");
+  verb->add_flag("--inside", arguments.inside, "A bore: peaks point to the centre");
+  verb->add_flag("--json", arguments.json, "JSON instead of text");
+  verb->footer(
+      "\nExample: rondure fit roundness tests/data/spec_roundness/profile.csv --cutoff-upr 150\n"
+      "Filters, formulas and end effects: docs/filters.md");
+}
+
+void add_selftest(CLI::App& fit_verb, SelfTestArguments& arguments) {
+  auto* verb = fit_verb.add_subcommand(
+      "filter-selftest", "Measures the transmission of the Gaussian filter: 0 passed, 2 failed");
+  verb->add_option("--cutoff-upr", arguments.cutoff_upr, "Cut-off of the table (default: 50)");
+  verb->footer("\nExample: rondure fit filter-selftest --cutoff-upr 15");
 }
 
 void add_report(CLI::App& app, ReportArguments& arguments) {
@@ -122,11 +158,15 @@ int main_of(int argc, char** argv) {
   ValidateArguments validate_arguments;
   RunArguments run_arguments;
   FitArguments fit_arguments;
+  RoundnessArguments roundness_arguments;
+  SelfTestArguments selftest_arguments;
   ReportArguments report_arguments;
   VerifyArguments verify_arguments;
   add_validate(app, validate_arguments);
   add_run(app, run_arguments);
-  add_fit(app, fit_arguments);
+  CLI::App* const fit_verb = add_fit(app, fit_arguments);
+  add_roundness(*fit_verb, roundness_arguments);
+  add_selftest(*fit_verb, selftest_arguments);
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
   try {
@@ -136,6 +176,8 @@ int main_of(int argc, char** argv) {
   }
   if (app.got_subcommand("validate")) return validate(validate_arguments);
   if (app.got_subcommand("run")) return run(run_arguments);
+  if (fit_verb->got_subcommand("roundness")) return roundness(roundness_arguments);
+  if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
   return verify(verify_arguments);

@@ -51,4 +51,20 @@ struct FitArguments {
 };
 [[nodiscard]] int fit(const FitArguments& arguments);
 
+struct RoundnessArguments {
+  std::string file;
+  std::string filter = "gaussian";
+  std::string pass = "low";
+  std::vector<double> cutoff_upr = {50.0};  ///< Two for a band.
+  bool override_sampling = false;
+  bool inside = false;
+  bool json = false;
+};
+[[nodiscard]] int roundness(const RoundnessArguments& arguments);
+
+struct SelfTestArguments {
+  double cutoff_upr = 50.0;  ///< Of the table; the standard ones are checked besides.
+};
+[[nodiscard]] int selftest_filters(const SelfTestArguments& arguments);
+
 }  // namespace rondure::app

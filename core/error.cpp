@@ -74,6 +74,10 @@ std::string_view code_name(Code code) {
       return "exact-fit";
     case Code::kNotLevel:
       return "not-level";
+    case Code::kUndersampled:
+      return "undersampled";
+    case Code::kAngleOrder:
+      return "angle-order";
     case Code::kReferenceAbsent:
       return "reference-absent";
   }

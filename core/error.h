@@ -28,7 +28,7 @@ enum class Code {
   kOutOfRange,   ///< out-of-range: a number beyond its stated limit
   kPoseRange,    ///< pose-range: an angle beyond the limits of the fixture
   kStep,         ///< step: an angle step that is not positive or above 5 deg
-  kSampling,     ///< sampling: layers or points that cannot be placed on the part
+  kSampling,     ///< sampling: layers or points that cannot be placed, or too few for a filter
   kMeaning,      ///< meaning: keys that contradict each other
   kFile,         ///< file: cannot be opened, read or written
   // Machine, fixture, run.
@@ -46,6 +46,8 @@ enum class Code {
   kNoCertificate,  ///< no-certificate: the optimum is not proven
   kExactFit,       ///< exact-fit: no more points than unknowns, the deviation is 0 by construction
   kNotLevel,       ///< not-level: f(pose) > 2 MZ, the pose and not the part dominates f
+  kUndersampled,   ///< undersampled: filtered by option with fewer than 7 points per undulation
+  kAngleOrder,     ///< angle-order: angles that were unsorted, repeated or ran over one turn
   kReferenceAbsent,  ///< reference-absent: a reference that does not exist for these data
 };
 

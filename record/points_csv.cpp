@@ -14,12 +14,34 @@ namespace rondure::record {
 namespace {
 
 constexpr std::string_view kBlanks = " \t";
-constexpr std::string_view kAxes = "xyz";
 
-/// The columns of a file: fields[i] is the axis (0 x, 1 y, 2 z) of field i.
+/// Columns that belong together, and the unit of each.
+struct ColumnSet {
+  std::array<std::string_view, 3> names;
+  std::array<std::string_view, 3> units;
+  std::size_t required;  ///< The first so many must be there.
+};
+constexpr ColumnSet kPoints = {{"x", "y", "z"}, {"mm", "mm", "mm"}, 2};
+constexpr ColumnSet kSection = {{"x", "y", ""}, {"mm", "mm", ""}, 2};
+constexpr ColumnSet kPolar = {{"theta_deg", "r_um", ""}, {"deg", "um", ""}, 2};
+
+/// What a kind of file may hold.
+struct Format {
+  std::array<ColumnSet, 2> sets;
+  std::string_view columns;  ///< As a message names them.
+  std::string_view units;
+};
+constexpr Format kPointFormat = {{kPoints, kPoints}, "x,y or x,y,z", " (mm)"};
+constexpr Format kProfileFormat = {{kPolar, kSection}, "theta_deg,r_um or x,y", " (mm)"};
+
+/// The columns of a file: fields[i] is the place in the set of field i.
 struct Columns {
+  ColumnSet set;
   std::array<std::size_t, 3> fields{};
   std::size_t count = 0;
+
+  [[nodiscard]] std::string_view name(std::size_t i) const { return set.names[fields[i]]; }
+  [[nodiscard]] std::string_view unit(std::size_t i) const { return set.units[fields[i]]; }
 };
 
 /// Hands out lines without their LF or CRLF and counts them from 1.
@@ -116,31 +138,42 @@ std::optional<core::Error> foreign_format(std::string_view line) {
   return std::nullopt;
 }
 
-core::Result<Columns> read_header(std::string_view line) {
-  if (auto foreign = foreign_format(line)) return core::fail(*std::move(foreign));
-  Columns columns;
-  std::array<bool, 3> seen{};
-  for (const std::string_view field : split(line)) {
-    const std::size_t axis = field.size() == 1 ? kAxes.find(field[0]) : std::string_view::npos;
-    if (axis == std::string_view::npos) {
-      return core::fail(
-          core::Code::kSyntax,
-          fmt::format("column {} is unknown; the first line must name the columns x,y "
-                      "or x,y,z (mm)",
-                      quoted(field)));
-    }
-    if (std::exchange(seen[axis], true)) {
-      return core::fail(
-          core::Code::kSyntax,
-          fmt::format("column {} stands twice; the columns are x,y or x,y,z, each once",
-                      quoted(field)));
-    }
-    columns.fields[columns.count++] = axis;
+std::optional<std::size_t> place_of(std::string_view field, const ColumnSet& set) {
+  for (std::size_t i = 0; i < set.names.size(); ++i) {
+    if (!field.empty() && field == set.names[i]) return i;
   }
-  if (seen[0] && seen[1]) return columns;
-  return core::fail(core::Code::kSyntax,
-                    fmt::format("column \"{}\" is missing in {}; the columns are x,y or x,y,z (mm)",
-                                seen[0] ? "y" : "x", quoted(line)));
+  return std::nullopt;
+}
+
+core::Result<Columns> read_header(std::string_view line, const Format& format) {
+  if (auto foreign = foreign_format(line)) return core::fail(*std::move(foreign));
+  const auto names = split(line);
+  Columns columns;
+  columns.set = place_of(names.front(), format.sets[0]) ? format.sets[0] : format.sets[1];
+  std::array<bool, 3> seen{};
+  for (const std::string_view field : names) {
+    const auto place = place_of(field, columns.set);
+    if (!place) {
+      return core::fail(core::Code::kSyntax,
+                        fmt::format("column {} is unknown; the first line must name the columns "
+                                    "{}{}",
+                                    quoted(field), format.columns, format.units));
+    }
+    if (std::exchange(seen[*place], true)) {
+      return core::fail(core::Code::kSyntax,
+                        fmt::format("column {} stands twice; the columns are {}, each once",
+                                    quoted(field), format.columns));
+    }
+    columns.fields[columns.count++] = *place;
+  }
+  for (std::size_t i = 0; i < columns.set.required; ++i) {
+    if (seen[i]) continue;
+    return core::fail(
+        core::Code::kSyntax,
+        fmt::format("column \"{}\" is missing in {}; the columns are {}{}", columns.set.names[i],
+                    quoted(line), format.columns, format.units));
+  }
+  return columns;
 }
 
 /// Reads one row; false when anything is wrong with it: explain() then says what.
@@ -167,7 +200,8 @@ bool read_row(std::string_view line, const Columns& columns, Eigen::Vector3d& po
 }
 
 /// What is wrong with one field, or nothing.
-std::optional<core::Error> explain_field(std::string_view field, char axis) {
+std::optional<core::Error> explain_field(std::string_view field, std::string_view axis,
+                                         std::string_view unit) {
   double value = 0.0;
   std::string_view digits = field;
   if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
@@ -184,14 +218,14 @@ std::optional<core::Error> explain_field(std::string_view field, char axis) {
   if (whole && problem == std::errc()) {
     return core::Error{
         core::Code::kNotFinite,
-        fmt::format("{} is {}; a finite number in mm is expected", axis, quoted(field)),
+        fmt::format("{} is {}; a finite number in {} is expected", axis, quoted(field), unit),
         {}};
   }
   if (field.empty()) {
-    return syntax(fmt::format("{} is empty; a number in mm such as 12.5 is expected", axis));
+    return syntax(fmt::format("{} is empty; a number in {} such as 12.5 is expected", axis, unit));
   }
   return syntax(fmt::format(
-      "{} is {}; a number in mm such as 12.5 is expected{}", axis, quoted(field),
+      "{} is {}; a number in {} such as 12.5 is expected{}", axis, quoted(field), unit,
       field.find('#') == std::string_view::npos ? "" : " (a comment needs a line of its own)"));
 }
 
@@ -202,7 +236,7 @@ core::Error explain(std::string_view line, const Columns& columns) {
   std::string names;
   for (std::size_t i = 0; i < columns.count; ++i) {
     if (i > 0) names += ',';
-    names += kAxes[columns.fields[i]];
+    names += columns.name(i);
   }
   if (fields.size() != columns.count) {
     return syntax(fmt::format(
@@ -211,7 +245,8 @@ core::Error explain(std::string_view line, const Columns& columns) {
         fields.size() == 2 * columns.count ? "; write decimals with a point, not a comma" : ""));
   }
   for (std::size_t i = 0; i < columns.count; ++i) {
-    if (auto error = explain_field(fields[i], kAxes[columns.fields[i]])) return *std::move(error);
+    if (auto error = explain_field(fields[i], columns.name(i), columns.unit(i)))
+      return *std::move(error);
   }
   return syntax(fmt::format("{} cannot be read; numbers for {} are expected", quoted(line), names));
 }
@@ -220,9 +255,11 @@ bool is_utf16(std::string_view text) {
   return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
 }
 
-}  // namespace
-
-core::Result<PointTable> parse_points_csv(std::string_view text, std::string_view name) {
+/// Reads a whole file: `begin(columns)` once, then `row(values, rows to come)` for each
+/// row; rows to come is an estimate at the first row and 0 after it.
+template <class Begin, class Row>
+core::Result<void> parse(std::string_view text, std::string_view name, const Format& format,
+                         const Begin& begin, const Row& row) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   Lines lines(text);
@@ -236,34 +273,55 @@ core::Result<PointTable> parse_points_csv(std::string_view text, std::string_vie
   while (line && holds_nothing(*line)) line = lines.next();
   if (!line) {
     return core::fail(core::Code::kNoPoints,
-                      text.empty()
-                          ? "the file is empty; a header line x,y or x,y,z and a row a point "
-                            "are expected"
-                          : "the file holds only comments and blank lines; a header line x,y "
-                            "or x,y,z and a row a point are expected",
+                      fmt::format("the file {}; a header line {} and a row a point are expected",
+                                  text.empty() ? "is empty" : "holds only comments and blank lines",
+                                  format.columns),
                       here());
   }
-  const auto columns = read_header(*line);
+  const auto columns = read_header(*line, format);
   if (!columns) return core::fail(columns.error().at(here()));
-
-  PointTable table;
-  table.dimensions = static_cast<int>(columns->count);
-  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
+  begin(*columns);
+  Eigen::Vector3d values = Eigen::Vector3d::Zero();
+  bool any = false;
   while ((line = lines.next())) {
     if (holds_nothing(*line)) continue;
-    if (!read_row(*line, *columns, point_mm)) {
-      return core::fail(explain(*line, *columns).at(here()));
-    }
-    if (table.points_mm.empty()) {  // rows are about as long as the first
-      table.points_mm.reserve(lines.bytes_left() / (line->size() + 1) + 1);
-    }
-    table.points_mm.push_back(point_mm);
+    if (!read_row(*line, *columns, values)) return core::fail(explain(*line, *columns).at(here()));
+    // Rows are about as long as the first.
+    const std::size_t rows_to_come = any ? 0 : lines.bytes_left() / (line->size() + 1) + 1;
+    any = true;
+    row(values, rows_to_come);
   }
-  if (table.points_mm.empty()) {
-    return core::fail(core::Code::kNoPoints,
-                      "the file holds a header line and no points; a row a point is expected",
-                      here());
-  }
+  if (any) return {};
+  return core::fail(core::Code::kNoPoints,
+                    "the file holds a header line and no points; a row a point is expected",
+                    here());
+}
+
+}  // namespace
+
+core::Result<PointTable> parse_points_csv(std::string_view text, std::string_view name) {
+  PointTable table;
+  const auto parsed = parse(
+      text, name, kPointFormat,
+      [&](const Columns& columns) { table.dimensions = static_cast<int>(columns.count); },
+      [&](const Eigen::Vector3d& values, std::size_t rows_to_come) {
+        if (rows_to_come > 0) table.points_mm.reserve(rows_to_come);
+        table.points_mm.push_back(values);
+      });
+  if (!parsed) return core::fail(parsed.error());
+  return table;
+}
+
+core::Result<ProfileTable> parse_profile_csv(std::string_view text, std::string_view name) {
+  ProfileTable table;
+  const auto parsed = parse(
+      text, name, kProfileFormat,
+      [&](const Columns& columns) { table.polar = columns.set.names[0] == kPolar.names[0]; },
+      [&](const Eigen::Vector3d& values, std::size_t rows_to_come) {
+        if (rows_to_come > 0) table.rows.reserve(rows_to_come);
+        table.rows.emplace_back(values.head<2>());
+      });
+  if (!parsed) return core::fail(parsed.error());
   return table;
 }
 

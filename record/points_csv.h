@@ -28,4 +28,16 @@ struct PointTable {
 [[nodiscard]] core::Result<PointTable> parse_points_csv(std::string_view text,
                                                         std::string_view name);
 
+/// A section of a CSV file, as angles and deviations or as points.
+struct ProfileTable {
+  bool polar = true;  ///< Columns theta_deg,r_um; otherwise x,y.
+  std::vector<Eigen::Vector2d>
+      rows;  ///< (theta, r) in deg and um, or (x, y) in mm: as in the file.
+};
+
+/// Reads a section from CSV text: columns `theta_deg,r_um` or `x,y` (mm), in any order. The rest as
+/// in parse_points_csv().
+[[nodiscard]] core::Result<ProfileTable> parse_profile_csv(std::string_view text,
+                                                           std::string_view name);
+
 }  // namespace rondure::record

@@ -110,6 +110,47 @@ TEST(PointsCsv, RefusesEverythingElseWithLineValueAndExpectation) {
   }
 }
 
+TEST(ProfileCsv, ReadsAnglesOrPointsInAnyOrderOfColumns) {
+  const auto polar = parse_profile_csv("# spindle 2\nr_um,theta_deg\n1.5,0\n-2,90\n", "p.csv");
+  ASSERT_TRUE(polar);
+  EXPECT_TRUE(polar->polar);
+  EXPECT_EQ(polar->rows[1], Eigen::Vector2d(90.0, -2.0));
+  const auto points = parse_profile_csv("y,x\n1,2\n", "p.csv");
+  ASSERT_TRUE(points);
+  EXPECT_FALSE(points->polar);
+  EXPECT_EQ(points->rows[0], Eigen::Vector2d(2.0, 1.0));
+}
+
+TEST(ProfileCsv, RefusesEverythingElseWithLineValueAndExpectation) {
+  struct Case {
+    std::string_view text;
+    core::Code code;
+    std::string_view where;
+    std::string_view what;
+  };
+  const Case cases[] = {
+      {"", core::Code::kNoPoints, "p.csv:1", "a header line theta_deg,r_um or x,y"},
+      {"theta_rad,r_um\n", core::Code::kSyntax, "p.csv:1", "column \"theta_rad\" is unknown"},
+      {"theta_deg,x\n", core::Code::kSyntax, "p.csv:1", "column \"x\" is unknown"},
+      {"theta_deg,theta_deg\n", core::Code::kSyntax, "p.csv:1", "stands twice"},
+      {"r_um\n1\n", core::Code::kSyntax, "p.csv:1", "column \"theta_deg\" is missing"},
+      {"x,y,z\n", core::Code::kSyntax, "p.csv:1", "column \"z\" is unknown"},
+      {"theta_deg,r_um\n0,1\n1,nan\n", core::Code::kNotFinite, "p.csv:3", "a finite number in um"},
+      {"theta_deg,r_um\n,1\n", core::Code::kSyntax, "p.csv:2",
+       "theta_deg is empty; a number in deg"},
+      {"theta_deg,r_um\n1\n", core::Code::kSyntax, "p.csv:2", "2 expected (theta_deg,r_um)"},
+      {"theta_deg,r_um\n", core::Code::kNoPoints, "p.csv:1", "no points"},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.text);
+    const auto table = parse_profile_csv(c.text, "p.csv");
+    ASSERT_FALSE(table);
+    EXPECT_EQ(table.error().code, c.code);
+    EXPECT_EQ(table.error().where, c.where);
+    EXPECT_THAT(table.error().what, HasSubstr(std::string(c.what)));
+  }
+}
+
 TEST(PointsCsv, RefusesZeroBytes) {
   using namespace std::string_view_literals;
   EXPECT_THAT(refusal("x,y\n1,\0002\n"sv).what, HasSubstr("a NUL byte (\"1,\\x002\")"));

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "fit/filter_selftest.h"
+#include "fit/roundness_evaluation.h"
+
+namespace rondure::app {
+
+/// A roundness evaluation as JSON (keys with their units), one line feed at the end.
+/// @param polar  The input was theta_deg,r_um: centres are offsets, radii a level.
+[[nodiscard]] std::string roundness_json(const fit::RoundnessEvaluation& evaluation, bool polar);
+/// The same for a person.
+[[nodiscard]] std::string roundness_table(const fit::RoundnessEvaluation& evaluation, bool polar);
+
+/// The transmission table of the first test, then a line for each of them.
+[[nodiscard]] std::string selftest_table(std::span<const fit::FilterSelfTest> tests);
+
+}  // namespace rondure::app

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+
+namespace rondure::fit {
+
+/// Filters of closed profiles.
+enum class ProfileFilter {
+  kNone,            ///< The profile as it is.
+  kGaussian,        ///< ISO 16610-21: 50 % at the cut-off, no phase.
+  kTwoRc,           ///< Two RC stages (ISO 4291): 75 % at the cut-off, with their phase.
+  kRobustGaussian,  ///< ISO 16610-31, order 0: outliers do not pull the mean line.
+  kSpline,          ///< ISO 16610-22, periodic: 50 % at the cut-off, no phase.
+};
+
+/// Which undulations stay.
+enum class PassBand {
+  kLow,   ///< Up to the cut-off: the mean line.
+  kHigh,  ///< From the cut-off on: what the mean line leaves.
+  kBand,  ///< Between two cut-offs.
+};
+
+/// "none", "gaussian", "2rc", "robust", "spline"; "low", "high", "band".
+[[nodiscard]] std::string_view name_of(ProfileFilter filter);
+[[nodiscard]] std::string_view name_of(PassBand pass);
+
+/// Settings of filter_closed(). Cut-offs are undulations per revolution (UPR), commonly 15, 50,
+/// 150, 500 or 1500; any positive number is taken.
+struct FilterOptions {
+  ProfileFilter filter = ProfileFilter::kGaussian;
+  PassBand pass = PassBand::kLow;
+  double cutoff_upr = 50.0;         ///< Of low and high pass; the lower limit of a band.
+  double upper_cutoff_upr = 500.0;  ///< The upper limit of a band; not looked at otherwise.
+  /// Filter also with fewer than 7 points per undulation; the result records it.
+  bool override_sampling = false;
+
+  /// The cut-off the sampling has to resolve: the highest one.
+  [[nodiscard]] double highest_cutoff_upr() const;
+};
+
+/// How many points stand for one undulation at the cut-off, and whether that was waived.
+struct Sampling {
+  double points_per_undulation = 0.0;
+  bool overridden = false;  ///< Fewer than 7, filtered by option.
+};
+
+/// Checks the cut-offs of a filter against the number of points measured.
+///
+/// @return kBadOption for a cut-off that is not a positive number, a band whose limits are not in
+///         order, and a cut-off at or above half the number of points (nothing could be told
+///         apart); kSampling for fewer than 7 points per undulation, unless the options override
+///         it.
+[[nodiscard]] core::Result<Sampling> check_sampling(std::size_t points,
+                                                    const FilterOptions& options);
+
+/// A filtered profile: the same angles.
+struct FilteredProfile {
+  std::vector<double> r_mm;
+  Sampling sampling;
+  int iterations = 0;  ///< Of the robust filter; 0 for the linear ones.
+};
+
+/// Transmission of the Gaussian low pass at harmonic n: 2^-(n/fc)^2 = exp(-ln 2 (n/fc)^2).
+[[nodiscard]] double gaussian_transmission(double harmonic, double cutoff_upr);
+
+/// Transmission of a linear filter at harmonic n: the output is the input times its magnitude,
+/// turned by its argument (0 for all but 2RC). For kRobustGaussian, which has none, the one of the
+/// Gaussian filter it becomes without outliers.
+///
+///   low pass   Gaussian  2^-(n/fc)^2
+///              spline    1 / (1 + (sin(pi n/N) / sin(pi fc/N))^4)
+///              2RC       1 / (1 + j n / (sqrt(3) fc))^2
+///   high pass  1 - low pass; 2RC: 1 / (1 - j fc / (sqrt(3) n))^2
+///   band       low pass of the upper cut-off times high pass of the lower one
+///
+/// @param samples  N of the profile: the spline of sampled data depends on it.
+[[nodiscard]] std::complex<double> transmission(const FilterOptions& options, double harmonic,
+                                                std::size_t samples);
+
+/// Filters a closed profile at uniform angles.
+///
+/// The linear filters multiply the spectrum, which for a closed profile is the convolution of the
+/// standards without truncation and without end effects. The robust filter is iterated: Tukey
+/// weights with c = 4.4478 median|r - w| (three standard deviations of normal residuals), then the
+/// weighted Gaussian mean w, until w moves by less than 1e-9 c; its high pass is r - w, its band
+/// the robust low pass at the upper cut-off, less the robust low pass of that at the lower one.
+///
+/// @param r_mm  N values at uniform angles [mm]; not changed.
+/// @return kNoPoints, kNotFinite (row), check_sampling()'s errors, kNotConverged (robust filter).
+///         O(N log N), for the robust filter each of its iterations, some 40 to 700.
+/// Sources: ISO 16610-21, -22, -31; ISO 4291 (2RC); methods, roundness B.2.
+[[nodiscard]] core::Result<FilteredProfile> filter_closed(std::span<const double> r_mm,
+                                                          const FilterOptions& options);
+
+}  // namespace rondure::fit

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/result.h"
+
+namespace rondure::fit {
+
+/// Mean line of the robust Gaussian filter.
+struct RobustMeanLine {
+  std::vector<double> r_mm;
+  int iterations = 0;
+};
+
+/// Robust Gaussian regression of order 0 of a closed profile (ISO 16610-31): minimises
+/// sum_i rho(r_i - w_k) s_ik at every k, s the Gaussian weight of ISO 16610-21, rho Tukey's
+/// function.
+///
+/// Solved by repeated weighting: w = conv(s, delta r) / conv(s, delta),
+/// delta = (1 - ((r - w)/c)^2)^2 where |r - w| <= c and 0 beyond, c = 4.4478 median|r - w|. The
+/// convolutions are products of spectra, so they do not end anywhere.
+///
+/// @param r_mm        Finite values at uniform angles [mm].
+/// @param cutoff_upr  > 0, below half the number of values.
+/// @return kNotConverged after 3000 iterations, or where outliers fill a whole undulation.
+[[nodiscard]] core::Result<RobustMeanLine> robust_mean_line(std::span<const double> r_mm,
+                                                            double cutoff_upr);
+
+}  // namespace rondure::fit

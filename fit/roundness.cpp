@@ -1,0 +1,207 @@
+#include "fit/roundness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <Eigen/QR>
+
+#include "fit/ls_circle.h"
+#include "fit/min_zone_circle.h"
+#include "fit/zone_program.h"
+
+namespace rondure::fit {
+namespace {
+
+/// A box of this many spreads of the profile, grown where it binds.
+constexpr double kFirstBox = 4.0;
+constexpr double kBoxGrowth = 16.0;
+constexpr int kBoxes = 12;
+
+/// Deviations from the circle (center, radius), peaks positive.
+template <class Radius>
+FormParameters parameters_of(std::size_t count, const Radius& deviation,
+                             const RoundnessSide& side) {
+  std::vector<double> deviations(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    deviations[i] = side.inside ? -deviation(i) : deviation(i);
+  }
+  return form_parameters(deviations, side.cells);
+}
+
+std::vector<std::size_t> rows_of(const std::vector<Contact>& contacts) {
+  std::vector<std::size_t> rows;
+  for (const Contact& c : contacts) rows.push_back(c.index);
+  return rows;
+}
+
+core::Result<Roundness> ls_points(std::span<const Eigen::Vector2d> points,
+                                  const RoundnessSide& side) {
+  const auto circle = ls_circle(points);
+  if (!circle) return core::fail(circle.error());
+  Roundness out;
+  out.center_mm = circle->center_mm;
+  out.radius_mm = circle->radius_mm;
+  out.parameters = parameters_of(
+      points.size(),
+      [&](std::size_t i) { return (points[i] - circle->center_mm).norm() - circle->radius_mm; },
+      side);
+  out.total_mm = out.parameters->total_mm;
+  return out;
+}
+
+core::Result<Roundness> mz_points(std::span<const Eigen::Vector2d> points) {
+  const auto zone = min_zone_circle(points);
+  if (!zone) return core::fail(zone.error());
+  Roundness out;
+  out.reference = CircleReference::kMz;
+  out.center_mm = zone->center_mm;
+  out.radius_mm = 0.5 * (zone->inner_radius_mm + zone->outer_radius_mm);
+  out.total_mm = zone->width_mm();
+  out.outer = rows_of(zone->outer);
+  out.inner = rows_of(zone->inner);
+  out.certificate = zone->certificate;
+  return out;
+}
+
+core::Result<void> check_profile(std::span<const double> theta, std::span<const double> r,
+                                 std::size_t least) {
+  if (theta.size() != r.size() || theta.empty()) {
+    return core::fail(core::Code::kNoPoints,
+                      fmt::format("{} angles and {} radii; a profile needs as many of both",
+                                  theta.size(), r.size()));
+  }
+  if (theta.size() < least) {
+    return core::fail(
+        core::Code::kTooFewPoints,
+        fmt::format("{} points; this reference circle needs at least {}", theta.size(), least));
+  }
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    if (std::isfinite(theta[i]) && std::isfinite(r[i])) continue;
+    return core::fail(
+        core::Code::kNotFinite,
+        fmt::format("row {} is ({} rad, {} mm); finite numbers are needed", i, theta[i], r[i]));
+  }
+  return {};
+}
+
+double mean_of(std::span<const double> r) {
+  double sum = 0.0;
+  for (const double value : r) sum += value - r.front();
+  return r.front() + sum / static_cast<double>(r.size());
+}
+
+core::Result<Roundness> ls_profile(std::span<const double> theta, std::span<const double> r,
+                                   const RoundnessSide& side) {
+  if (auto checked = check_profile(theta, r, 3); !checked) return core::fail(checked.error());
+  const double mean = mean_of(r);
+  const auto n = static_cast<Eigen::Index>(r.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 3> basis(n, 3);
+  Eigen::VectorXd right(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    basis.row(i) << 1.0, std::cos(theta[row]), std::sin(theta[row]);
+    right(i) = r[row] - mean;
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 3>> qr(basis);
+  if (qr.rank() < 3) {
+    return core::fail(core::Code::kRank,
+                      "fewer than 3 different angles; the centre is undetermined");
+  }
+  const Eigen::Vector3d x = qr.solve(right);
+  const Eigen::VectorXd residual = right - basis * x;
+  Roundness out;
+  out.center_mm = x.tail<2>();
+  out.radius_mm = mean + x(0);
+  out.parameters = parameters_of(
+      r.size(), [&](std::size_t i) { return residual(static_cast<Eigen::Index>(i)); }, side);
+  out.total_mm = out.parameters->total_mm;
+  return out;
+}
+
+std::vector<ZoneRow<2>> zone_rows(std::span<const double> theta, std::span<const double> r,
+                                  double mean) {
+  std::vector<ZoneRow<2>> rows(r.size());
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    rows[i] = {r[i] - mean, {-std::cos(theta[i]), -std::sin(theta[i])}};
+  }
+  return rows;
+}
+
+core::Result<ZoneStep<2>> solve_zone(const std::vector<ZoneRow<2>>& rows) {
+  const auto [low, high] =
+      std::minmax_element(rows.begin(), rows.end(),
+                          [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  double box = std::max(kFirstBox * (high->distance - low->distance), 1e-12);
+  for (int k = 0; k < kBoxes; ++k, box *= kBoxGrowth) {
+    auto step = solve_zone_program<2>(rows, box);
+    if (step.solved && step.inside_box) return step;
+  }
+  return core::fail(core::Code::kNotConverged,
+                    "the minimum zone of the profile has no centre within reach; the arc is too "
+                    "short for it");
+}
+
+core::Result<Roundness> mz_profile(std::span<const double> theta, std::span<const double> r) {
+  if (auto checked = check_profile(theta, r, 4); !checked) return core::fail(checked.error());
+  const double mean = mean_of(r);
+  const auto rows = zone_rows(theta, r, mean);
+  const auto step = solve_zone(rows);
+  if (!step) return core::fail(step.error());
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const auto& row : rows) {
+    const double moved = row.distance + row.gradient.dot(step->step);
+    low = std::min(low, moved);
+    high = std::max(high, moved);
+  }
+  Roundness out;
+  out.reference = CircleReference::kMz;
+  out.center_mm = step->step;
+  out.radius_mm = mean + 0.5 * (low + high);
+  out.total_mm = high - low;
+  out.outer = rows_of(step->outer);
+  out.inner = rows_of(step->inner);
+  // The programme's dual value is a lower bound of every zone in the linear model.
+  out.certificate = {Certificate::Kind::kGlobal, "all centres, limacon model",
+                     std::max(0.0, out.total_mm - step->width), ""};
+  return out;
+}
+
+}  // namespace
+
+std::string_view name_of(CircleReference reference) {
+  switch (reference) {
+    case CircleReference::kLs:
+      return "ls";
+    case CircleReference::kMz:
+      return "mz";
+  }
+  return "ls";
+}
+
+core::Result<Roundness> roundness_of_points(std::span<const Eigen::Vector2d> points_mm,
+                                            CircleReference reference, const RoundnessSide& side) {
+  switch (reference) {
+    case CircleReference::kLs:
+      return ls_points(points_mm, side);
+    case CircleReference::kMz:
+      return mz_points(points_mm);
+  }
+  return core::fail(core::Code::kInternal, "there is no such reference circle");
+}
+
+core::Result<Roundness> roundness_of_profile(std::span<const double> theta_rad,
+                                             std::span<const double> r_mm,
+                                             CircleReference reference, const RoundnessSide& side) {
+  switch (reference) {
+    case CircleReference::kLs:
+      return ls_profile(theta_rad, r_mm, side);
+    case CircleReference::kMz:
+      return mz_profile(theta_rad, r_mm);
+  }
+  return core::fail(core::Code::kInternal, "there is no such reference circle");
+}
+
+}  // namespace rondure::fit

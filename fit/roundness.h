@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+#include "fit/certificate.h"
+#include "fit/form_parameters.h"
+
+namespace rondure::fit {
+
+/// Reference circles of ISO 12181-1. A further one is one enumerator, its name and its case in
+/// roundness_of_points() and roundness_of_profile().
+enum class CircleReference {
+  kLs,  ///< LSCI, least squares.
+  kMz,  ///< MZCI, minimum zone.
+};
+
+/// "ls", "mz".
+[[nodiscard]] std::string_view name_of(CircleReference reference);
+
+/// Roundness about one reference circle.
+struct Roundness {
+  CircleReference reference = CircleReference::kLs;
+  Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();
+  double radius_mm = 0.0;  ///< Of the zone: its middle. Of a profile of deviations: their level.
+  double total_mm = 0.0;   ///< RONt: peak to valley.
+  /// RONp, RONv, RONq: defined about the least-squares circle only.
+  std::optional<FormParameters> parameters;
+  std::vector<std::size_t> outer;  ///< Rows on the outer circle of the zone; empty for kLs.
+  std::vector<std::size_t> inner;
+  Certificate certificate;  ///< Of the zone; kNone for kLs.
+
+  /// Distance of the centre from the origin of the profile [mm].
+  [[nodiscard]] double eccentricity_mm() const { return center_mm.norm(); }
+};
+
+/// What the parameters of roundness need beside the data.
+struct RoundnessSide {
+  std::span<const double> cells = {};  ///< Angle each value stands for, in RONq; empty: all alike.
+  bool inside = false;                 ///< A bore: peaks point to the centre.
+};
+
+/// Roundness of points of a plane section: the circle fits of ls_circle.h and min_zone_circle.h.
+/// @return their errors.
+[[nodiscard]] core::Result<Roundness> roundness_of_points(
+    std::span<const Eigen::Vector2d> points_mm, CircleReference reference,
+    const RoundnessSide& side = {});
+
+/// Roundness of a profile whose nominal radius is not known or of no interest: small deviations
+/// from a circle, r = r0 + a cos(theta) + b sin(theta) + form (limacon). The references are then
+/// linear problems: least squares by QR; the minimum zone by one linear programme, global by
+/// duality.
+///
+/// @param theta_rad, r_mm  n >= 3 (LS) or 4 (MZ) values [rad, mm].
+/// @return kNoPoints, kNotFinite, kTooFewPoints, kRank (fewer than 3 different angles),
+///         kNotConverged.
+/// Source: methods, roundness B.3 to B.5.
+[[nodiscard]] core::Result<Roundness> roundness_of_profile(std::span<const double> theta_rad,
+                                                           std::span<const double> r_mm,
+                                                           CircleReference reference,
+                                                           const RoundnessSide& side = {});
+
+}  // namespace rondure::fit

@@ -1,0 +1,190 @@
+// `rondure fit roundness` and `rondure fit filter-selftest`, as a shell sees them.
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <numbers>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+namespace rondure::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Outcome {
+  int status = -1;
+  std::string text;  ///< Both streams.
+};
+
+Outcome rondure(const std::string& arguments) {
+  Outcome out;
+  FILE* pipe = popen((std::string(RONDURE_BINARY) + " " + arguments + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return out;
+  std::array<char, 4096> buffer{};
+  while (const std::size_t got = fread(buffer.data(), 1, buffer.size(), pipe)) {
+    out.text.append(buffer.data(), got);
+  }
+  const int ended = pclose(pipe);
+  out.status = WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
+  return out;
+}
+
+const std::string kProfile =
+    std::string(RONDURE_SOURCE_DIR) + "/tests/data/spec_roundness/profile.csv";
+
+class RoundnessVerb : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("rondure_roundness_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string file(const std::string& text) {
+    const auto path = folder_ / "part.csv";
+    std::ofstream(path) << text;
+    return path.string();
+  }
+  /// 360 rows of a two-lobed profile, each given to `row(degrees, um)`.
+  std::string profile(const std::function<std::string(int, double)>& row) {
+    std::string text = "theta_deg,r_um\n";
+    for (int i = 0; i < 360; ++i) {
+      text += row(i, 3.0 * std::cos(2.0 * i * std::numbers::pi / 180.0));
+    }
+    return file(text);
+  }
+  static std::string plain(double degrees, double um) {
+    return std::to_string(degrees) + "," + std::to_string(um) + "\n";
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(RoundnessVerb, GivesTheNumbersOfTheWorkedExampleAsJson) {
+  const auto out = rondure("fit roundness " + kProfile + " --json");
+  ASSERT_EQ(out.status, 0) << out.text;
+  const auto json = nlohmann::json::parse(out.text);
+  EXPECT_NEAR(json["ls"]["RONt_um"], 12.507570, 1e-6);
+  EXPECT_NEAR(json["ls"]["RONq_um"], 2.684543, 1e-6);
+  EXPECT_NEAR(json["mz"]["RONt_um"], 10.664776, 1e-6);
+  EXPECT_EQ(json["mz"]["certificate"]["kind"], "global");
+  EXPECT_EQ(json["filter"]["cutoff_upr"], 50.0);
+  EXPECT_EQ(json["filter"]["sampling_overridden"], false);
+  EXPECT_NEAR(json["harmonics"][15]["amplitude_um"], 0.5, 1e-9);
+  EXPECT_TRUE(json["warnings"].empty());
+}
+
+TEST_F(RoundnessVerb, RefusesACutOffTooHighAndRecordsWhenItIsOverridden) {
+  const auto refused = rondure("fit roundness " + kProfile + " --cutoff-upr 500");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.text, HasSubstr("2.05 per undulation at 500 UPR, at least 7 are needed"));
+  const auto taken =
+      rondure("fit roundness " + kProfile + " --cutoff-upr 500 --override-sampling --json");
+  ASSERT_EQ(taken.status, 0) << taken.text;
+  const auto json = nlohmann::json::parse(taken.text);
+  EXPECT_NEAR(json["ls"]["RONt_um"], 13.285998, 1e-6);
+  EXPECT_EQ(json["filter"]["sampling_overridden"], true);
+  EXPECT_EQ(json["warnings"][0]["code"], "undersampled");
+}
+
+TEST_F(RoundnessVerb, TakesEveryFilterAndPass) {
+  for (const std::string filter : {"gaussian", "2rc", "robust", "spline", "none"}) {
+    for (const std::string pass : {"low", "high", "band --cutoff-upr 15,100"}) {
+      const auto out =
+          rondure("fit roundness " + kProfile + " --filter " + filter + " --pass " + pass);
+      EXPECT_EQ(out.status, 0) << out.text;
+    }
+  }
+}
+
+TEST_F(RoundnessVerb, AsksForTwoCutOffsInABandOnly) {
+  EXPECT_THAT(rondure("fit roundness " + kProfile + " --pass band").text, HasSubstr("15,150"));
+  EXPECT_EQ(rondure("fit roundness " + kProfile + " --cutoff-upr 15,50").status, 2);
+  EXPECT_EQ(rondure("fit roundness " + kProfile + " --cutoff-upr 0").status, 2);
+}
+
+TEST_F(RoundnessVerb, EvaluatesPointsToo) {
+  std::string text = "x,y\n";
+  for (int i = 0; i < 720; ++i) {
+    const double theta = i * std::numbers::pi / 360.0;
+    const double r = 25.0 + 2e-3 * std::cos(3.0 * theta);
+    text += std::to_string(100.0 + r * std::cos(theta)) + "," +
+            std::to_string(r * std::sin(theta)) + "\n";
+  }
+  const auto out = rondure("fit roundness " + file(text) + " --cutoff-upr 15 --json");
+  ASSERT_EQ(out.status, 0) << out.text;
+  const auto json = nlohmann::json::parse(out.text);
+  EXPECT_NEAR(json["ls"]["RONt_um"], 4.0 * std::exp2(-0.04), 0.01);  // six decimals of a mm
+  EXPECT_NEAR(json["ls"]["center_mm"][0], 100.0, 1e-6);
+}
+
+TEST_F(RoundnessVerb, NamesTheLineOfWhatIsNotANumber) {
+  const auto out = rondure("fit roundness " + profile([](int i, double um) {
+                             return i == 7 ? std::string("7,nan\n") : plain(i, um);
+                           }));
+  EXPECT_EQ(out.status, 2);
+  EXPECT_THAT(out.text, HasSubstr("part.csv:9: r_um is \"nan\""));
+}
+
+TEST_F(RoundnessVerb, RefusesMissingAnglesAndArcs) {
+  const auto gap = rondure("fit roundness --cutoff-upr 15 " + profile([](int i, double um) {
+                             return i > 90 && i < 100 ? std::string() : plain(i, um);
+                           }));
+  EXPECT_EQ(gap.status, 2);
+  EXPECT_THAT(gap.text, HasSubstr("the largest gap between angles is 10 deg"));
+  const auto arc = rondure("fit roundness --filter none " + profile([](int i, double um) {
+                             return i < 10 ? plain(i, um) : std::string();
+                           }));
+  EXPECT_EQ(arc.status, 2);
+  EXPECT_THAT(arc.text, HasSubstr("cover 9.00 deg"));
+}
+
+TEST_F(RoundnessVerb, WarnsOfAnglesOutOfOrder) {
+  const auto out = rondure("fit roundness --cutoff-upr 15 " + profile([](int i, double um) {
+                             return i == 100 ? plain(i, um) + plain(i - 1.5, um) : plain(i, um);
+                           }));
+  EXPECT_EQ(out.status, 0);
+  EXPECT_THAT(out.text, HasSubstr("[angle-order]"));
+}
+
+TEST_F(RoundnessVerb, SuspectsMillimetresAndRadians) {
+  const auto mm = rondure("fit roundness --cutoff-upr 15 " +
+                          profile([](int i, double um) { return plain(i, um * 1e-3); }));
+  EXPECT_EQ(mm.status, 0);
+  EXPECT_THAT(mm.text, HasSubstr("are these mm? Then it is 6 um"));
+  const auto radians = rondure("fit roundness --cutoff-upr 15 " + profile([](int i, double um) {
+                                 return plain(i * std::numbers::pi / 180.0, um);
+                               }));
+  EXPECT_EQ(radians.status, 2);
+  EXPECT_THAT(radians.text, HasSubstr("one turn in radians"));
+}
+
+TEST_F(RoundnessVerb, RefusesTooFewPointsAndMissingFiles) {
+  EXPECT_THAT(
+      rondure("fit roundness --filter none " + file("theta_deg,r_um\n0,1\n90,2\n180,1\n")).text,
+      HasSubstr("3 different angles; a profile needs at least 4"));
+  EXPECT_EQ(rondure("fit roundness nowhere.csv").status, 2);
+  EXPECT_EQ(rondure("fit roundness").status, 2);
+  EXPECT_EQ(rondure("fit").status, 2);
+}
+
+TEST(FilterSelfTestVerb, PrintsTheTableAndPasses) {
+  const auto out = rondure("fit filter-selftest --cutoff-upr 15");
+  EXPECT_EQ(out.status, 0);
+  EXPECT_THAT(out.text, HasSubstr("   15  0.500000000000 0.500000000000"));
+  EXPECT_THAT(out.text, HasSubstr("1500 UPR: n = 1 to 4500"));
+  EXPECT_EQ(rondure("fit filter-selftest --cutoff-upr 0").status, 2);
+}
+
+}  // namespace
+}  // namespace rondure::app

@@ -1,0 +1,291 @@
+#include "fit/roundness.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+#include "fit/roundness_evaluation.h"
+#include "tests/fit/profile_cases.h"
+
+namespace rondure::fit {
+namespace {
+
+using Values = std::vector<double>;
+
+constexpr double kUm = core::kMicrometre;
+constexpr double kPrinted = 0.5e-6 * kUm;  // half a unit of the sixth decimal of a micrometre
+
+RoundnessOptions with_cutoff(std::optional<double> cutoff) {
+  RoundnessOptions options;
+  options.filter.filter = cutoff ? ProfileFilter::kGaussian : ProfileFilter::kNone;
+  if (cutoff) options.filter.cutoff_upr = *cutoff;
+  options.filter.override_sampling = true;  // the spec's table goes up to 500 UPR on 1024 points
+  return options;
+}
+
+RoundnessEvaluation spec_evaluation(std::optional<double> cutoff) {
+  const Values theta = test::uniform_angles(1024);
+  const auto out = evaluate_profile(theta, test::spec_profile(theta), with_cutoff(cutoff));
+  EXPECT_TRUE(out.has_value());
+  return *out;
+}
+
+struct Printed {
+  std::optional<double> cutoff;
+  double total, peak, valley, rms, zone;
+};
+
+TEST(Roundness, ReproducesTheTableOfTheSpecification) {
+  const Printed table[] = {{std::nullopt, 13.328968, 6.083152, 7.245816, 2.719375, 11.563472},
+                           {15.0, 11.250942, 4.959613, 6.291329, 2.599131, 9.242822},
+                           {50.0, 12.507570, 5.681668, 6.825902, 2.684543, 10.664776},
+                           {150.0, 13.048523, 5.949307, 7.099216, 2.708544, 11.271485},
+                           {500.0, 13.285998, 6.061896, 7.224102, 2.717960, 11.524651}};
+  for (const Printed& row : table) {
+    SCOPED_TRACE(row.cutoff.value_or(0.0));
+    const auto out = spec_evaluation(row.cutoff);
+    EXPECT_NEAR(out.values[0].total_mm, row.total * kUm, kPrinted);
+    EXPECT_NEAR(out.values[0].parameters->peak_mm, row.peak * kUm, kPrinted);
+    EXPECT_NEAR(out.values[0].parameters->valley_mm, row.valley * kUm, kPrinted);
+    EXPECT_NEAR(out.values[0].parameters->rms_mm, row.rms * kUm, kPrinted);
+    EXPECT_NEAR(out.values[1].total_mm, row.zone * kUm, kPrinted);
+    EXPECT_LE(out.values[1].total_mm, out.values[0].total_mm);
+    EXPECT_EQ(out.values[1].certificate.kind, Certificate::Kind::kGlobal);
+    EXPECT_LT(out.values[1].certificate.gap_mm, 1e-16);
+  }
+}
+
+TEST(Roundness, ReproducesCentresContactsAndHarmonicsOfTheSpecification) {
+  const auto out = spec_evaluation(50.0);
+  EXPECT_NEAR(out.values[0].center_mm.x(), 9.997228 * kUm, kPrinted);
+  EXPECT_NEAR(out.values[0].center_mm.y(), -4.998614 * kUm, kPrinted);
+  EXPECT_NEAR(out.values[1].center_mm.x(), 10.126291 * kUm, kPrinted);
+  EXPECT_NEAR(out.values[1].center_mm.y(), -3.247782 * kUm, kPrinted);
+  const auto degrees = [&](const std::vector<std::size_t>& rows, std::size_t i) {
+    return out.theta_rad[rows.at(i)] / core::kDegree;
+  };
+  EXPECT_NEAR(degrees(out.values[1].outer, 0), 0.351562, 1e-6);
+  EXPECT_NEAR(degrees(out.values[1].outer, 1), 204.609375, 1e-6);
+  EXPECT_NEAR(degrees(out.values[1].inner, 0), 57.304687, 1e-6);
+  EXPECT_NEAR(degrees(out.values[1].inner, 1), 279.843750, 1e-6);
+  const auto filtered = harmonics({0.0, out.r_mm}, {.highest = 150, .override_sampling = true});
+  ASSERT_TRUE(filtered.has_value());
+  const std::pair<std::size_t, double> printed[] = {
+      {2, 2.996675}, {16, 0.465741}, {40, 0.128343}, {60, 0.147427}, {150, 0.000586}};
+  for (const auto& [k, amplitude] : printed) {
+    EXPECT_NEAR(filtered->harmonics[k - 1].amplitude_mm, amplitude * kUm, kPrinted) << k;
+  }
+}
+
+/// The filtered profile of the spec as points about the nominal circle of 24.56 mm.
+std::vector<Eigen::Vector2d> spec_points() {
+  const auto out = spec_evaluation(50.0);
+  std::vector<Eigen::Vector2d> points;
+  for (std::size_t i = 0; i < out.r_mm.size(); ++i) {
+    const double r = 24.56 + out.r_mm[i];
+    points.emplace_back(r * std::cos(out.theta_rad[i]), r * std::sin(out.theta_rad[i]));
+  }
+  return points;
+}
+
+TEST(Roundness, ReproducesTheExactPointsOfTheSpecification) {
+  const auto points = spec_points();
+  const auto ls = roundness_of_points(points, CircleReference::kLs);
+  const auto mz = roundness_of_points(points, CircleReference::kMz);
+  ASSERT_TRUE(ls && mz);
+  EXPECT_NEAR(ls->total_mm, 12.505564 * kUm, kPrinted);
+  EXPECT_NEAR(ls->parameters->peak_mm, 5.680446 * kUm, kPrinted);
+  EXPECT_NEAR(ls->parameters->valley_mm, 6.825118 * kUm, kPrinted);
+  EXPECT_NEAR(ls->parameters->rms_mm, 2.684337 * kUm, kPrinted);
+  EXPECT_NEAR(mz->total_mm, 10.663316 * kUm, kPrinted);
+}
+
+TEST(Roundness, ReproducesTheArcOfTheSpecification) {
+  Values theta;
+  for (int i = -170; i <= 170; ++i) theta.push_back(core::kTwoPi * i / 1024.0);
+  const auto out = evaluate_profile(theta, test::spec_profile(theta), with_cutoff(std::nullopt));
+  ASSERT_TRUE(out.has_value());
+  EXPECT_NEAR(out->values[0].total_mm, 4.261628 * kUm, kPrinted);
+  EXPECT_NEAR(out->values[0].parameters->rms_mm, 0.812042 * kUm, kPrinted);
+  EXPECT_NEAR(out->values[0].center_mm.x(), 24.503 * kUm, 0.5e-3 * kUm);
+  EXPECT_NEAR(out->values[0].center_mm.y(), -5.379 * kUm, 0.5e-3 * kUm);
+  ASSERT_EQ(out->warnings.size(), 1U);
+  EXPECT_EQ(out->warnings[0].code, core::Code::kNotFullSection);
+  EXPECT_TRUE(out->harmonics.harmonics.empty());
+}
+
+/// All centres there are: a zone of the limacon model is carried by four points.
+double zone_by_trial(const Values& theta, const Values& r) {
+  const std::size_t n = r.size();
+  double best = std::numeric_limits<double>::infinity();
+  const auto try_four = [&](const std::array<std::size_t, 4>& rows, unsigned sides) {
+    Eigen::Matrix4d matrix;
+    Eigen::Vector4d right;
+    for (Eigen::Index k = 0; k < 4; ++k) {
+      const std::size_t i = rows[static_cast<std::size_t>(k)];
+      matrix.row(k) << 1.0, std::cos(theta[i]), std::sin(theta[i]),
+          (sides >> static_cast<unsigned>(k) & 1U) != 0U ? 1.0 : -1.0;
+      right(k) = r[i];
+    }
+    const Eigen::FullPivLU<Eigen::Matrix4d> lu(matrix);
+    if (!lu.isInvertible()) return;
+    const Eigen::Vector4d x = lu.solve(right);
+    double most = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      most = std::max(
+          most, std::abs(r[i] - x(0) - x(1) * std::cos(theta[i]) - x(2) * std::sin(theta[i])));
+    }
+    best = std::min(best, 2.0 * most);
+  };
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = a + 1; b < n; ++b) {
+      for (std::size_t c = b + 1; c < n; ++c) {
+        for (std::size_t d = c + 1; d < n; ++d) {
+          for (unsigned sides = 0; sides < 8; ++sides) try_four({a, b, c, d}, sides);
+        }
+      }
+    }
+  }
+  return best;
+}
+
+TEST(Roundness, ZoneOfAProfileAgreesWithAllContactSets) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    core::KeyedNoise noise(seed, {18});
+    const std::size_t n = 5 + seed % 8;
+    Values theta;
+    Values r;
+    const double arc = seed % 3 == 0 ? 1.5 : core::kTwoPi;
+    for (std::size_t i = 0; i < n; ++i) {
+      theta.push_back(arc * noise.uniform());
+      r.push_back(25.0 + 5e-3 * noise.normal());
+    }
+    const auto zone = roundness_of_profile(theta, r, CircleReference::kMz);
+    ASSERT_TRUE(zone.has_value());
+    EXPECT_NEAR(zone->total_mm, zone_by_trial(theta, r), 1e-13);
+  }
+}
+
+TEST(Roundness, DoesNotDependOnStartAngleConstantOrScale) {
+  const Values theta = test::uniform_angles(720);
+  const Values r = test::rough_profile(3, 720);
+  for (const ProfileFilter filter : {ProfileFilter::kGaussian, ProfileFilter::kRobustGaussian,
+                                     ProfileFilter::kSpline, ProfileFilter::kTwoRc}) {
+    SCOPED_TRACE(name_of(filter));
+    RoundnessOptions options;
+    options.filter.filter = filter;
+    const auto plain = evaluate_profile(theta, r, options);
+    Values turned;
+    Values changed;
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      turned.push_back(theta[i] + 0.7);
+      changed.push_back(2.0 * r[i] + 0.3);
+    }
+    const auto other = evaluate_profile(turned, changed, options);
+    ASSERT_TRUE(plain && other);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_NEAR(other->values[k].total_mm, 2.0 * plain->values[k].total_mm, 1e-12);
+      EXPECT_NEAR(other->values[k].eccentricity_mm(), 2.0 * plain->values[k].eccentricity_mm(),
+                  1e-12);
+    }
+  }
+}
+
+TEST(Roundness, OfABoreSwapsPeakAndValley) {
+  const Values theta = test::uniform_angles(400);
+  const Values r = test::rough_profile(5, 400);
+  const auto outside = roundness_of_profile(theta, r, CircleReference::kLs);
+  const auto inside = roundness_of_profile(theta, r, CircleReference::kLs, {{}, true});
+  ASSERT_TRUE(outside && inside);
+  EXPECT_EQ(outside->parameters->peak_mm, inside->parameters->valley_mm);
+  EXPECT_EQ(outside->parameters->total_mm, inside->parameters->total_mm);
+}
+
+TEST(RoundnessEvaluation, OfPointsFarAwayIsThatOfTheirProfile) {
+  const Values theta = test::uniform_angles(720);
+  std::vector<Eigen::Vector2d> points;
+  Values form;
+  for (const double t : theta) {
+    form.push_back(test::spec_form_um(t) * kUm);
+    points.emplace_back(400.0 + (25.0 + form.back()) * std::cos(t),
+                        -300.0 + (25.0 + form.back()) * std::sin(t));
+  }
+  const auto by_points = evaluate_section(points, {});
+  const auto by_profile = evaluate_profile(theta, form, {});
+  ASSERT_TRUE(by_points && by_profile);
+  EXPECT_NEAR(by_points->values[0].center_mm.x(), 400.0, 1e-6);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_NEAR(by_points->values[k].total_mm, by_profile->values[k].total_mm, 3e-6);
+  }
+}
+
+TEST(RoundnessEvaluation, WithoutAFilterSeesEveryPoint) {
+  std::vector<Eigen::Vector2d> points;
+  for (const double t : test::uniform_angles(12)) {
+    points.emplace_back(10.0 * std::cos(t), 10.0 * std::sin(t));
+  }
+  points.emplace_back(10.01, 0.0);  // a second point on the ray of the first
+  RoundnessOptions options;
+  options.filter.filter = ProfileFilter::kNone;
+  const auto out = evaluate_section(points, options);
+  ASSERT_TRUE(out.has_value());
+  EXPECT_EQ(out->samples, 13U);
+  EXPECT_GT(out->values[1].total_mm, 0.009);
+}
+
+TEST(RoundnessEvaluation, BringsAnglesInOrderAndSaysSo) {
+  Values theta = test::uniform_angles(720);
+  Values r = test::spec_profile(theta);
+  const auto plain = evaluate_profile(theta, r, {});
+  std::swap(theta[10], theta[20]);
+  std::swap(r[10], r[20]);
+  theta.push_back(core::kTwoPi);
+  r.push_back(r[0]);
+  const auto out = evaluate_profile(theta, r, {});
+  ASSERT_TRUE(plain && out);
+  EXPECT_NEAR(out->values[0].total_mm, plain->values[0].total_mm, 1e-15);
+  ASSERT_GE(out->warnings.size(), 2U);
+  for (const auto& w : out->warnings) EXPECT_EQ(w.code, core::Code::kAngleOrder);
+}
+
+TEST(RoundnessEvaluation, RefusesMissingAnglesUnlessOverridden) {
+  Values theta = test::uniform_angles(720);
+  theta.erase(theta.begin() + 100, theta.begin() + 104);  // a gap of 2.5 deg; 50 UPR allow 1.8
+  const Values r = test::spec_profile(theta);
+  RoundnessOptions options;
+  const auto refused = evaluate_profile(theta, r, options);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, core::Code::kSampling);
+  EXPECT_NE(refused.error().what.find("2.5 deg"), std::string::npos) << refused.error().what;
+  options.filter.override_sampling = true;
+  const auto taken = evaluate_profile(theta, r, options);
+  ASSERT_TRUE(taken.has_value());
+  EXPECT_TRUE(taken->sampling.overridden && taken->interpolated);
+  ASSERT_EQ(taken->warnings.size(), 1U);
+  EXPECT_EQ(taken->warnings[0].code, core::Code::kUndersampled);
+  options.filter.override_sampling = false;
+  options.filter.cutoff_upr = 15.0;
+  EXPECT_TRUE(evaluate_profile(theta, r, options).has_value());
+}
+
+TEST(RoundnessEvaluation, RefusesArcsAFilterOrACircleCannotHold) {
+  Values theta;
+  for (int i = 0; i < 1000; ++i) theta.push_back(0.002 * i);
+  RoundnessOptions options;
+  options.filter.override_sampling = true;
+  EXPECT_EQ(evaluate_profile(theta, Values(1000, 0.0), options).error().code,
+            core::Code::kNotFullSection);
+  options.filter.filter = ProfileFilter::kNone;
+  EXPECT_TRUE(evaluate_profile(theta, test::spec_profile(theta), options).has_value());
+  theta.resize(150);  // 17 deg
+  EXPECT_EQ(evaluate_profile(theta, Values(150, 0.0), options).error().code,
+            core::Code::kNotFullSection);
+}
+
+}  // namespace
+}  // namespace rondure::fit
