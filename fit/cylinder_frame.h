@@ -36,7 +36,8 @@ class CylinderFrame {
   [[nodiscard]] Place place(const Eigen::Vector3d& origin) const;
   /// The axis that rounding of place() leaves, so that a scan and the iteration see the same.
   [[nodiscard]] CylinderFrame snapped(const Eigen::Vector3d& origin) const;
-  /// Whether it left another: went farther than a limit, or leans by more than 10 deg.
+  /// Whether it left another: went farther than a limit, or leans by more than 10 deg. Never
+  /// for an infinite limit.
   [[nodiscard]] bool strayed(const CylinderFrame& from, double limit_mm) const;
 
   [[nodiscard]] double distance(const Eigen::Vector3d& p) const;
