@@ -1,7 +1,10 @@
 #include "fit/points.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,6 +13,8 @@
 
 namespace rondure::fit {
 namespace {
+
+constexpr std::size_t kMostDistinct = 8;
 
 template <class Vector>
 core::Result<void> check(std::span<const Vector> points_mm) {
@@ -34,13 +39,35 @@ Vector mean(std::span<const Vector> points_mm) {
 // Stops at `enough`, which is small: comparing with those found so far beats sorting all points.
 template <class Vector>
 std::size_t distinct(std::span<const Vector> points_mm, std::size_t enough) {
-  std::vector<Vector> found;
+  std::array<const Vector*, kMostDistinct> found;
+  assert(enough <= found.size());
+  std::size_t count = 0;
   for (const Vector& p : points_mm) {
-    if (std::find(found.begin(), found.end(), p) != found.end()) continue;
-    found.push_back(p);
-    if (found.size() == enough) break;
+    const auto end = found.begin() + static_cast<std::ptrdiff_t>(count);
+    if (std::any_of(found.begin(), end, [&](const Vector* q) { return *q == p; })) continue;
+    found[count++] = &p;
+    if (count == enough) break;
   }
-  return found.size();
+  return count;
+}
+
+/// A number that looks random and is the same for the same k (splitmix64).
+std::uint64_t scattered(std::uint64_t k) {
+  k = (k + 1) * 0x9e3779b97f4a7c15U;
+  k = (k ^ (k >> 30)) * 0xbf58476d1ce4e5b9U;
+  k = (k ^ (k >> 27)) * 0x94d049bb133111ebU;
+  return k ^ (k >> 31);
+}
+
+template <class Vector>
+void sample(std::span<const Vector> points_mm, std::span<Vector> out_mm) {
+  const std::size_t n = points_mm.size();
+  const std::size_t m = out_mm.size();
+  for (std::size_t k = 0; k < m; ++k) {
+    const std::size_t first = k * n / m;
+    const std::size_t end = (k + 1) * n / m;
+    out_mm[k] = points_mm[first + scattered(k) % (end - first)];
+  }
 }
 
 }  // namespace
@@ -58,6 +85,13 @@ std::size_t distinct_points(std::span<const Eigen::Vector2d> points_mm, std::siz
 }
 std::size_t distinct_points(std::span<const Eigen::Vector3d> points_mm, std::size_t enough) {
   return distinct(points_mm, enough);
+}
+
+void sample_points(std::span<const Eigen::Vector2d> points_mm, std::span<Eigen::Vector2d> out_mm) {
+  sample(points_mm, out_mm);
+}
+void sample_points(std::span<const Eigen::Vector3d> points_mm, std::span<Eigen::Vector3d> out_mm) {
+  sample(points_mm, out_mm);
 }
 
 double largest_gap_rad(std::span<const Eigen::Vector2d> points_mm,

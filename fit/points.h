@@ -18,11 +18,19 @@ namespace rondure::fit {
 [[nodiscard]] Eigen::Vector2d mean_point(std::span<const Eigen::Vector2d> points_mm);
 [[nodiscard]] Eigen::Vector3d mean_point(std::span<const Eigen::Vector3d> points_mm);
 
-/// Number of different points, counted up to `enough`.
+/// Number of different points, counted up to `enough` <= 8.
 [[nodiscard]] std::size_t distinct_points(std::span<const Eigen::Vector2d> points_mm,
                                           std::size_t enough);
 [[nodiscard]] std::size_t distinct_points(std::span<const Eigen::Vector3d> points_mm,
                                           std::size_t enough);
+
+/// Fills `out_mm` with points of a large set in order, one drawn from each of as many equal
+/// stretches: a fixed stride would meet every ring of a scan at the same angles. Same n, same
+/// choice.
+///
+/// @param out_mm  At most as many as there are points.
+void sample_points(std::span<const Eigen::Vector2d> points_mm, std::span<Eigen::Vector2d> out_mm);
+void sample_points(std::span<const Eigen::Vector3d> points_mm, std::span<Eigen::Vector3d> out_mm);
 
 /// Largest angle without a point, seen from a centre [rad]; 2 pi for a single direction.
 [[nodiscard]] double largest_gap_rad(std::span<const Eigen::Vector2d> points_mm,
