@@ -46,7 +46,7 @@ template <class Model, class SumsAt>
     if (rounding && damping == 0.0) {
       stalled += size >= 0.5 * last ? 1 : 0;
       const double left = size * std::min(1.0, size / last);
-      if (left <= 1e-15 * scale || (stalled > 0 && size <= 1e-12 * scale) ||
+      if (left <= 1e-14 * scale || (stalled > 0 && size <= 1e-12 * scale) ||
           (stalled > 9 && size <= 1e-11 * scale)) {
         squares = std::max(0.0, sums.squares - sums.right.dot(step));
         model = next;
@@ -90,7 +90,7 @@ template <class Model, class SumsAt>
     model = model.moved(last_step);
     const bool slow = size >= 0.3 * last;
     if (pass > 0 &&
-        (size * std::min(1.0, size / last) <= 1e-14 * scale || (slow && size <= 1e-12 * scale))) {
+        (size * std::min(1.0, size / last) <= 1e-13 * scale || (slow && size <= 1e-12 * scale))) {
       squares = std::max(0.0, sums.squares - sums.right.dot(last_step));
       return true;
     }

@@ -54,27 +54,31 @@ struct Settled {
 core::Result<CylinderModel> start(Points points, const Eigen::Vector3d& origin,
                                   const Eigen::Vector3d& direction) {
   const auto frame = across(direction);
-  Eigen::Matrix2d uv = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d cubes = Eigen::Vector2d::Zero();
+  // Plain numbers: sums in Eigen matrices would go through memory at every point.
+  double uu = 0.0, uv = 0.0, vv = 0.0, uc = 0.0, vc = 0.0;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const Eigen::Vector3d& p : points) {
-    const Eigen::Vector3d v = p - origin;
-    const Eigen::Vector2d q = frame.transpose() * v;
-    uv += q * q.transpose();
-    cubes += 0.5 * q.squaredNorm() * q;
-    const double s = v.dot(direction);
+    const Eigen::Vector3d at = p - origin;
+    const double u = frame.col(0).dot(at), v = frame.col(1).dot(at), s = direction.dot(at);
+    const double square = u * u + v * v;
+    uu += u * u;
+    uv += u * v;
+    vv += v * v;
+    uc += u * square;
+    vc += v * square;
     low = std::min(low, s);
     high = std::max(high, s);
   }
-  const double determinant = uv.determinant();
-  if (!(determinant > kCollinearShare * uv.trace() * uv.trace())) {
+  const double determinant = uu * vv - uv * uv;
+  if (!(determinant > kCollinearShare * (uu + vv) * (uu + vv))) {
     return core::fail(core::Code::kCollinear,
                       "seen along the start direction the points lie on one straight line");
   }
-  const Eigen::Vector2d center = uv.inverse() * cubes;
+  const Eigen::Vector2d center(0.5 * (uc * vv - vc * uv) / determinant,
+                               0.5 * (vc * uu - uc * uv) / determinant);
   const double radius =
-      std::sqrt(center.squaredNorm() + uv.trace() / static_cast<double>(points.size()));
+      std::sqrt(center.squaredNorm() + (uu + vv) / static_cast<double>(points.size()));
   const double half = 0.5 * (high - low);
   return CylinderModel{CylinderFrame({frame * center, direction}, half > 0.0 ? half : radius),
                        radius};
@@ -94,8 +98,18 @@ LsCylinder finished(const Settled& settled, const Eigen::Vector3d& origin,
 
 /// Refuses points of one line and of one plane; they are relative to `origin`, their mean.
 core::Result<void> check_rank(Points points, const Eigen::Vector3d& origin) {
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : points) scatter += (p - origin) * (p - origin).transpose();
+  double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+  for (const Eigen::Vector3d& p : points) {
+    const double x = p.x() - origin.x(), y = p.y() - origin.y(), z = p.z() - origin.z();
+    xx += x * x;
+    xy += x * y;
+    xz += x * z;
+    yy += y * y;
+    yz += y * z;
+    zz += z * z;
+  }
+  Eigen::Matrix3d scatter;
+  scatter << xx, xy, xz, xy, yy, yz, xz, yz, zz;
   // The least share of extents is at least the determinant's; eigenvalues only where that is small.
   if (scatter.determinant() > 1e-9 * std::pow(scatter.trace(), 3)) return {};
   const Eigen::Vector3d spread =
