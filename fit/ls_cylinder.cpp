@@ -170,12 +170,14 @@ std::optional<LsCylinder> from_sample(Points points_mm,
   if (!settled) return std::nullopt;
   StretchExtremes extremes(points_mm.size());
   double lever = 0.0;
-  double along_mm = 0.0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();  // from the origin
   const auto sums_at = [&](const CylinderModel& at, bool matrix) {
     extremes = StretchExtremes(points_mm.size());
     const auto sums = cylinder_sums(points_mm, origin, at.frame, at.radius, {matrix, &extremes});
     lever = std::max(lever, sums.lever);
-    along_mm = sums.along_mm / static_cast<double>(points_mm.size());
+    const Axis& axis = at.frame.axis();
+    if (matrix) mean = axis.point_mm + at.frame.across_axis() * sums.across_mm;
+    mean += axis.direction * (sums.along_mm - axis.direction.dot(mean));
     return sums;
   };
   Vector5 step = Vector5::Zero();
@@ -187,8 +189,7 @@ std::optional<LsCylinder> from_sample(Points points_mm,
       points_mm.size(), [&](std::size_t i) { return frame.distance(points_mm[i] - origin); },
       &extremes, change + 1e-13 * settled->model.scale_mm());
   // conventional() asks of the mean only its place along the axis.
-  return finished(*settled, origin, origin + frame.axis().direction * along_mm, range,
-                  points_mm.size());
+  return finished(*settled, origin, origin + mean, range, points_mm.size());
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ PassSums<5> cylinder_sums(std::span<const Eigen::Vector3d> points_mm,
   Sums raw = total(pass, 0, points_mm.size());
   const double* m = raw.sum;
   const auto n = static_cast<double>(points_mm.size());
-  out.along_mm = m[kS] * frame.half_length_mm();
+  out.along_mm = m[kS] / n * frame.half_length_mm();
   out.squares = radius_mm * radius_mm * m[kDD];
   out.right << m[kQ1K], m[kQ2K], m[kSQ1K] - foot * m[kQ1K], m[kSQ2K] - foot * m[kQ2K], m[kD];
   out.right *= radius_mm;
@@ -125,6 +125,7 @@ PassSums<5> cylinder_sums(std::span<const Eigen::Vector3d> points_mm,
   const double t22 = twice(ssm22, sm22, m22);
   const double s1 = once(m[kSN1], m[kN1]), s2 = once(m[kSN2], m[kN2]);
   out.lever = std::sqrt(t11 + t22);
+  out.across_mm = Eigen::Vector2d(m[kN1], m[kN2]) * (radius_mm / n);
   out.matrix << m[kM11], m[kM12], s11, s12, m[kN1],  //
       m[kM12], m22, s12, s22, m[kN2],                //
       s11, s12, t11, t12, s1,                        //

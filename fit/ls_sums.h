@@ -68,7 +68,10 @@ template <class Distance>
 /// What a pass over the points gives.
 template <int N>
 struct PassSums : NormalSums<N> {
-  double along_mm = 0.0;  ///< Sum of the places along the axis, from the origin [mm].
+  double along_mm = 0.0;  ///< Mean of the places along the axis, from the origin [mm].
+  /// Mean of the unit vectors from the axis to the points, times the radius: their mean but for
+  /// their form [mm]; with matrix.
+  Eigen::Vector2d across_mm = Eigen::Vector2d::Zero();
   double lever = 0.0;  ///< No tilt moves a point by more than this times the move x; with matrix.
 };
 

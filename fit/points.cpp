@@ -4,7 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -51,22 +51,15 @@ std::size_t distinct(std::span<const Vector> points_mm, std::size_t enough) {
   return count;
 }
 
-/// A number that looks random and is the same for the same k (splitmix64).
-std::uint64_t scattered(std::uint64_t k) {
-  k = (k + 1) * 0x9e3779b97f4a7c15U;
-  k = (k ^ (k >> 30)) * 0xbf58476d1ce4e5b9U;
-  k = (k ^ (k >> 27)) * 0x94d049bb133111ebU;
-  return k ^ (k >> 31);
-}
-
 template <class Vector>
 void sample(std::span<const Vector> points_mm, std::span<Vector> out_mm) {
-  const std::size_t n = points_mm.size();
-  const std::size_t m = out_mm.size();
-  for (std::size_t k = 0; k < m; ++k) {
-    const std::size_t first = k * n / m;
-    const std::size_t end = (k + 1) * n / m;
-    out_mm[k] = points_mm[first + scattered(k) % (end - first)];
+  assert(out_mm.size() <= points_mm.size());
+  if (out_mm.size() == points_mm.size()) {
+    std::copy(points_mm.begin(), points_mm.end(), out_mm.begin());
+    return;
+  }
+  for (std::size_t k = 0; k < out_mm.size(); ++k) {
+    out_mm[k] = points_mm[spread_row(k, points_mm.size())];
   }
 }
 
@@ -85,6 +78,13 @@ std::size_t distinct_points(std::span<const Eigen::Vector2d> points_mm, std::siz
 }
 std::size_t distinct_points(std::span<const Eigen::Vector3d> points_mm, std::size_t enough) {
   return distinct(points_mm, enough);
+}
+
+std::size_t spread_row(std::size_t k, std::size_t count) {
+  const double place = static_cast<double>(k) / std::numbers::phi;
+  const auto row =
+      static_cast<std::size_t>((place - std::floor(place)) * static_cast<double>(count));
+  return std::min(row, count - 1);
 }
 
 void sample_points(std::span<const Eigen::Vector2d> points_mm, std::span<Eigen::Vector2d> out_mm) {

@@ -24,9 +24,12 @@ namespace rondure::fit {
 [[nodiscard]] std::size_t distinct_points(std::span<const Eigen::Vector3d> points_mm,
                                           std::size_t enough);
 
-/// Fills `out_mm` with points of a large set in order, one drawn from each of as many equal
-/// stretches: a fixed stride would meet every ring of a scan at the same angles. Same n, same
-/// choice.
+/// The k-th of the rows that stand for `count` rows: multiples of the golden ratio, even over the
+/// whole for any number of them, and in step with no layer or turn of a scan.
+[[nodiscard]] std::size_t spread_row(std::size_t k, std::size_t count);
+
+/// Fills `out_mm` with the points of the first so many spread_row(), or with all points where it
+/// holds as many.
 ///
 /// @param out_mm  At most as many as there are points.
 void sample_points(std::span<const Eigen::Vector2d> points_mm, std::span<Eigen::Vector2d> out_mm);

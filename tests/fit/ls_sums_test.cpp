@@ -91,7 +91,7 @@ struct Plain {
 Plain plain_sums(const Points& points, const CylinderFrame& frame, double radius) {
   Plain out;
   for (const auto& p : points) {
-    const ZoneRow<4> row = frame.row(p - kOrigin);
+    const ContactRow<4> row = frame.contact_row(p - kOrigin, 0);
     Eigen::Matrix<double, 5, 1> g;
     g << row.gradient, -1.0;
     const auto wide = g.cast<long double>();
