@@ -29,6 +29,8 @@ class CylinderFrame {
 
   [[nodiscard]] const Axis& axis() const { return axis_; }
   [[nodiscard]] double half_length_mm() const { return half_length_; }
+  /// Two unit vectors across the axis, along which a and b are measured.
+  [[nodiscard]] const Eigen::Matrix<double, 3, 2>& across_axis() const { return across_; }
   /// The axis after a move x.
   [[nodiscard]] CylinderFrame moved(const Eigen::Vector4d& x_mm) const;
 
