@@ -44,7 +44,7 @@ struct VerifyArguments {
 [[nodiscard]] int verify(const VerifyArguments& arguments);
 
 struct FitArguments {
-  std::string shape;  ///< "circle" or "cylinder".
+  std::string shape;  ///< "circle", "cylinder", "sphere" or "line".
   std::string file;
   std::string reference = "all";
   bool json = false;
