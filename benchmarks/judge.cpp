@@ -55,8 +55,13 @@ double best_known_mm(const SetKey& key, const Set& set, double width_mm) {
   return it->second;
 }
 
-std::string fault_of(const fit::ZoneCheck& check, double width_mm, double gap_mm) {
+/// The gap of a global certificate is that of its search, which has its own tolerance.
+std::string fault_of(const fit::ZoneCheck& check, double width_mm,
+                     const fit::Certificate& certificate) {
+  const double gap_mm = certificate.gap_mm;
   if (!check.fault.empty()) return check.fault;
+  if (certificate.kind == fit::Certificate::Kind::kGlobal) return {};
+  if (certificate.kind == fit::Certificate::Kind::kNone) return certificate.reason;
   if (gap_mm <= kLargestGap * width_mm) return {};
   return fmt::format("gap {:.3g} mm, more than {:g} of the width {:.3g} mm", gap_mm, kLargestGap,
                      width_mm);
@@ -67,7 +72,7 @@ Judgement judged(const SetKey& key, const Set& set, const Zone& zone, const fit:
   const double width_mm = zone.width_mm();
   const double best_mm = best_known_mm(key, set, width_mm);
   return {1e3 * width_mm, std::max(0.0, (width_mm - best_mm) / best_mm),
-          fault_of(check, width_mm, zone.certificate.gap_mm)};
+          fault_of(check, width_mm, zone.certificate)};
 }
 
 template <class Zone>
