@@ -4,6 +4,7 @@
 
 #include "benchmarks/own_fits.h"
 #include "benchmarks/sample_sets.h"
+#include "fit/certificate_check.h"
 
 namespace rondure::benchmarks {
 
@@ -17,8 +18,18 @@ struct Judgement {
 /// Judges a zone of a set. Best known: the least of this zone, of the reported zone with its global
 /// search (up to 1000 points) and of ten starts with axes turned by up to 10 deg (cylinders); from
 /// 1e6 points on, for the first six seeds only, one start for the others. It is kept for each set.
-/// The witness is checked by fit/certificate_check.h, the gap against 1e-10 of the width.
-[[nodiscard]] Judgement judge(const SetKey& key, const CylinderSet& set, const OwnCylinder& zone);
-[[nodiscard]] Judgement judge(const SetKey& key, const CircleSet& set, const OwnCircle& zone);
+/// The witness is checked by fit/certificate_check.h; here the gap of its multipliers, against
+/// 1e-10 of the width or the round-off of distances, if that is more.
+[[nodiscard]] Judgement judge(const SetKey& key, const CylinderSet& set, const fit::Axis& axis,
+                              const fit::StatedZone& zone);
+[[nodiscard]] Judgement judge(const SetKey& key, const CircleSet& set,
+                              const Eigen::Vector2d& center_mm, const fit::StatedZone& zone);
+
+/// The same for what the fits return.
+template <class Set, class Zone>
+[[nodiscard]] Judgement judge(const SetKey& key, const Set& set, const Zone& zone) {
+  return judge(key, set, place_of(zone),
+               fit::StatedZone{zone.inner_radius_mm, zone.outer_radius_mm, zone.outer, zone.inner});
+}
 
 }  // namespace rondure::benchmarks

@@ -34,6 +34,14 @@ namespace rondure::benchmarks {
 using OwnCylinder = decltype(own_zone(CylinderSet{}))::value_type;
 using OwnCircle = decltype(own_zone(CircleSet{}))::value_type;
 
+/// Where a zone lies.
+[[nodiscard]] inline const fit::Axis& place_of(const fit::MinZoneCylinder& zone) {
+  return zone.axis;
+}
+[[nodiscard]] inline const Eigen::Vector2d& place_of(const fit::MinZoneCircle& zone) {
+  return zone.center_mm;
+}
+
 /// Passes over all points and pivots of the linear programmes; 0 where the fit does not tell.
 struct Effort {
   int passes = 0;
