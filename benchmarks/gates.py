@@ -12,18 +12,17 @@ import argparse
 import json
 import math
 import pathlib
-import platform
 import re
-import subprocess
 import sys
 from collections import namedtuple
 from statistics import median
 
-LARGE = 1_000_000
-NS = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
-BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
+from runs import LARGE, Runs, worst_of
+from tables import about, peer_table, time_table, write_doc
+
 LARGEST_VARIATION = 0.05  # of S1, between repetitions
 LARGEST_LOAD = 1.0
+SEEDS = 20  # sets behind a "worst" clause, at least
 
 # One demand of a gate. value None: not measured. at_least: the value must not be below accept.
 Part = namedtuple("Part", "value accept stretch at_least", defaults=(False,))
@@ -31,75 +30,10 @@ Part = namedtuple("Part", "value accept stretch at_least", defaults=(False,))
 Gate = namedtuple("Gate", "id goal parts timed")
 
 
-class Runs:
-    """The rows of a JSON file by name and statistic."""
-
-    def __init__(self, report):
-        self.context = report["context"]
-        self.rows = {}
-        for row in report["benchmarks"]:
-            name = re.sub(r"/(iterations|repeats):\d+", "", row["run_name"])
-            kind = row.get("aggregate_name", "once")
-            self.rows.setdefault(name, {})[kind] = row
-
-    def names(self, pattern):
-        return [name for name in self.rows if re.fullmatch(pattern, name)]
-
-    def time_ns(self, name):
-        rows = self.rows.get(name, {})
-        row = rows.get("median") or rows.get("once")
-        return row["cpu_time"] * NS[row["time_unit"]] if row else None
-
-    def worst(self, name, counter):
-        """The largest value of a counter over the repetitions; None without it."""
-        rows = self.rows.get(name, {})
-        row = rows.get("max") or rows.get("median") or rows.get("once") or {}
-        return row.get(counter)
-
-    def ratio(self, name, other):
-        a, b = self.time_ns(name), self.time_ns(other)
-        return a / b if a and b else None
-
-    def ratios_over_seeds(self, what, other):
-        """time(what) / time(other) of each seed at the large size."""
-        found = []
-        for name in self.names(re.escape(f"{what}/n:{LARGE}") + r"/seed:\d+"):
-            seed = name.rsplit("/", 1)[1]
-            found.append(self.ratio(name, f"{other}/n:{LARGE}/{seed}"))
-        return [value for value in found if value is not None]
-
-    def worst_ratio(self, what, peer, smallest=0, largest=LARGE):
-        """The largest time(what) / time(peer) over the sizes both were measured at."""
-        found = []
-        for name in self.names(re.escape(f"{peer}/scan/n:") + r"\d+(/seed:\d+)?"):
-            tail = name[len(peer):]
-            points = int(re.search(r"/n:(\d+)", name).group(1))
-            if smallest <= points <= largest:
-                found.append(self.ratio(what + tail, name))
-        return max((value for value in found if value is not None), default=None)
-
-    def total(self, pattern, counter):
-        """Sum of a counter over the benchmarks of a pattern; None when there are none."""
-        found = [self.worst(name, counter) for name in self.names(pattern)]
-        found = [value for value in found if value is not None]
-        return sum(found) if found else None
-
-    def largest(self, pattern, counter):
-        found = [self.worst(name, counter) for name in self.names(pattern)]
-        return max((value for value in found if value is not None), default=None)
-
-    def variation(self):
-        """Coefficient of variation of S1 at the large size, median over the sets."""
-        rows = [self.rows[name].get("cv") for name in self.names(rf"s1/cylinder/scan/n:{LARGE}/.*")]
-        values = [row["cpu_time"] for row in rows if row]
-        return median(values) if values else None
-
-
 def over_seeds(ratios, accept, stretch):
-    """The demands "median; worst" of a list of ratios."""
-    if not ratios:
-        return [Part(None, accept[0], stretch[0]), Part(None, accept[1], stretch[1])]
-    return [Part(median(ratios), accept[0], stretch[0]), Part(max(ratios), accept[1], stretch[1])]
+    """The demands "median; worst" of a list of ratios; of too few sets there is no worst."""
+    worst = worst_of(ratios) if len(ratios) >= SEEDS else None
+    return [Part(median_or_none(ratios), accept[0], stretch[0]), Part(worst, accept[1], stretch[1])]
 
 
 def median_or_none(values):
@@ -228,79 +162,6 @@ def gate_table(gates, noise):
                      f"{joined(gate, 'stretch')} | {joined(gate, 'value')} | "
                      f"{verdict(gate, noise)} |")
     return lines
-
-
-def rows_by_size(runs, what):
-    """(variant, points) -> names of all seeds."""
-    out = {}
-    for name in runs.names(re.escape(what) + r"/[^/]+/n:\d+(/seed:\d+)?"):
-        variant, points = re.search(r"/([^/]+)/n:(\d+)", name).groups()
-        out.setdefault((int(points), variant), []).append(name)
-    return dict(sorted(out.items()))
-
-
-def time_table(runs):
-    lines = ["| shape | points | order | T us | T / S1 | passes | pivots |",
-             "|---|---|---|---|---|---|---|"]
-    for shape in ("cylinder", "circle"):
-        for (points, variant), names in rows_by_size(runs, f"mz/{shape}").items():
-            time = median(runs.time_ns(name) for name in names)
-            ratios = [runs.ratio(name, "s1" + name[2:]) for name in names]
-            ratios = [value for value in ratios if value]
-            ratio = f"{median(ratios):.3g}" if ratios else "-"
-            effort = [max(runs.worst(name, key) or 0 for name in names) or "-"
-                      for key in ("passes", "pivots")]
-            lines.append(f"| {shape} | {points} | {variant} | {time / 1e3:.4g} | {ratio} | "
-                         f"{effort[0]} | {effort[1]} |")
-    return lines
-
-
-PEERS = [("nlopt-slsqp/cylinder", "mz/cylinder"), ("nlopt-nelder-mead/cylinder", "mz/cylinder"),
-         ("ceres/cylinder", "ls/cylinder"), ("cgal-annulus/circle", "mz/circle"),
-         ("alglib-fitspheremz/circle", "mz/circle"), ("cgal-delaunay/circle", "mz/circle"),
-         ("cgal-sphere/circle", "mc/circle")]
-
-
-def peer_table(runs):
-    lines = ["| peer | points | T us | peer / ours |", "|---|---|---|---|"]
-    for peer, ours in PEERS:
-        for (points, _), names in rows_by_size(runs, peer).items():
-            ratio = runs.ratio(names[0], ours + names[0][len(peer):])
-            lines.append(f"| {peer} | {points} | {runs.time_ns(names[0]) / 1e3:.4g} | "
-                         f"{f'{ratio:.4g}' if ratio else '-'} |")
-    return lines
-
-
-def processor():
-    try:
-        text = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
-        return re.search(r"model name\s*:\s*(.*)", text).group(1)
-    except (OSError, AttributeError):
-        return platform.machine()
-
-
-def commit():
-    def git(*words):
-        return subprocess.run(["git", *words], capture_output=True, text=True, check=False,
-                              cwd=pathlib.Path(__file__).parent).stdout.strip()
-    changed = git("status", "--porcelain", "--untracked-files=no")
-    return (git("rev-parse", "--short", "HEAD") or "unknown") + (" with changes" if changed else "")
-
-
-def about(runs, command):
-    c = runs.context
-    caches = ", ".join(f"L{x['level']} {x['type'].lower()} {x['size'] // 1024} KiB"
-                       for x in c.get("caches", []))
-    load = (c.get("load_avg") or ["-"])[0]
-    return [f"{processor()}, {c.get('num_cpus')} cores, {c.get('mhz_per_cpu')} MHz; {caches}.",
-            f"Load average {load}; commit {commit()}; {c.get('date', '')[:10]}; `{command}`."]
-
-
-def write_doc(path, lines):
-    """Replaces what stands between the two marks."""
-    text = path.read_text(encoding="utf-8")
-    begin, end = text.index(BEGIN) + len(BEGIN), text.index(END)
-    path.write_text(text[:begin] + "\n" + "\n".join(lines) + "\n" + text[end:], encoding="utf-8")
 
 
 def main():

@@ -131,6 +131,18 @@ class GatesTest(unittest.TestCase):
         status, verdicts = judge(data)
         self.assertEqual((status, verdicts["M1"]), (1, "**not met**"))
 
+    def test_a_counter_that_is_no_number_fails(self):
+        counts = good_counts()
+        counts["exact/circle/scan/n:1000"]["excess"] = float("nan")
+        status, verdicts = judge(report(good_times(), counts))
+        self.assertEqual((status, verdicts["A1"]), (1, "**not met**"))
+
+    def test_the_worst_of_too_few_sets_is_not_measured(self):
+        times = good_times()
+        del times[f"mz/circle/scan/n:{LARGE}/seed:0"]
+        status, verdicts = judge(report(times, good_counts()))
+        self.assertEqual((status, verdicts["R3"]), (1, "not measured"))
+
     def test_a_marked_zone_that_was_not_reached_is_accepted_on_narrow_arcs(self):
         counts = good_counts()
         counts["reported/cylinder/arc:60/n:9"].update({"reached": 490, "flagged": 10})
