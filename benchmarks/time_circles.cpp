@@ -9,14 +9,17 @@ namespace {
 constexpr std::size_t kAlglibLimit = 10'000;
 
 void register_peers(const Rotation& rotation) {
-  register_call<CircleSet>("cgal-annulus/circle", rotation, [](const CircleSet& set) {
+  register_call<CircleSet>("mc/circle", rotation, [](const CircleSet& set) {
+    return own_fit(set, fit::kMinimumCircumscribed);
+  });
+  register_peer<CircleSet>("cgal-annulus/circle", rotation, [](const CircleSet& set) {
     return cgal_annulus_width_mm(set.points_mm);
   });
   register_call<CircleSet>("cgal-sphere/circle", rotation, [](const CircleSet& set) {
     return cgal_smallest_circle_mm(set.points_mm);
   });
   if (rotation.points > kAlglibLimit) return;
-  register_call<CircleSet>("alglib-fitspheremz/circle", rotation, [](const CircleSet& set) {
+  register_peer<CircleSet>("alglib-fitspheremz/circle", rotation, [](const CircleSet& set) {
     return alglib_zone_width_mm(set.points_mm);
   });
 }

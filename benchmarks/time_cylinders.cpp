@@ -3,7 +3,6 @@
 #include "benchmarks/peers/ceres_peer.h"
 #include "benchmarks/peers/nlopt_peer.h"
 #include "benchmarks/sections.h"
-#include "benchmarks/streaming_pass.h"
 #include "benchmarks/timing.h"
 #include "fit/ls_cylinder.h"
 
@@ -23,19 +22,17 @@ fit::Axis sampled_start(const CylinderSet& set) {
 }
 
 /// The downhill simplex with S1 as its objective, so that the comparison is about the algorithm.
-PeerZone nelder_mead(const CylinderSet& set) {
-  const auto width = [&](const fit::Axis& axis) {
-    return streaming_pass(set.points_mm, axis).width_mm();
-  };
-  return nlopt_nelder_mead_zone(width, sampled_start(set), kHalfLength_mm);
+double nelder_mead_mm(const CylinderSet& set) {
+  const auto width = [&](const fit::Axis& axis) { return width_about_mm(set, axis); };
+  return nlopt_nelder_mead_zone(width, sampled_start(set), kHalfLength_mm).width_mm;
 }
 
 /// 24 points, start 5 deg off: the part on the shop floor.
 void register_small(const Extent& extent) {
   const Rotation five{Variant::kStart5, 24, 0, extent.seeds()};
   register_zone<CylinderSet>("mz/cylinder", five);
-  register_call<CylinderSet>("nlopt-slsqp/cylinder", five, [](const CylinderSet& set) {
-    return nlopt_slsqp_zone(set.points_mm, set.start_direction);
+  register_peer<CylinderSet>("nlopt-slsqp/cylinder", five, [](const CylinderSet& set) {
+    return nlopt_slsqp_zone(set.points_mm, set.start_direction).width_mm;
   });
 }
 
@@ -44,7 +41,7 @@ void register_sizes(const Extent& extent) {
     if (points >= extent.large()) break;
     const Rotation rotation{Variant::kScanOrder, points, 0, extent.seeds()};
     register_zone<CylinderSet>("mz/cylinder", rotation);
-    register_call<CylinderSet>("nlopt-nelder-mead/cylinder", rotation, nelder_mead);
+    register_peer<CylinderSet>("nlopt-nelder-mead/cylinder", rotation, nelder_mead_mm);
   }
   for (const std::size_t points : {9, 12, 36, 72, 360, 3'600}) {
     register_zone<CylinderSet>("mz/cylinder", {Variant::kScanOrder, points, 0, extent.seeds()});
@@ -64,7 +61,7 @@ void register_large(const Extent& extent) {
                                });
   }
   const Rotation first{Variant::kScanOrder, extent.large(), 0, 1};
-  register_call<CylinderSet>("nlopt-nelder-mead/cylinder", first, nelder_mead);
+  register_peer<CylinderSet>("nlopt-nelder-mead/cylinder", first, nelder_mead_mm);
   register_call<CylinderSet>("ceres/cylinder", first, [](const CylinderSet& set) {
     return ceres_ls_cylinder(set.points_mm, set.start_direction);
   });

@@ -1,6 +1,7 @@
+#include "benchmarks/read_and_sum.h"
 #include "benchmarks/sections.h"
-#include "benchmarks/streaming_pass.h"
 #include "benchmarks/timing.h"
+#include "fit/scan.h"
 
 namespace rondure::benchmarks {
 namespace {
@@ -9,13 +10,13 @@ fit::Axis axis_of(const CylinderSet& set) { return {set.axis_point_mm, set.axis_
 
 void register_cylinder_pass(const Rotation& rotation) {
   register_call<CylinderSet>("s1/cylinder", rotation, [](const CylinderSet& set) {
-    return streaming_pass(set.points_mm, axis_of(set));
+    return fit::scan(set.points_mm, axis_of(set));
   });
 }
 
 void register_circle_pass(const Rotation& rotation) {
   register_call<CircleSet>("s1/circle", rotation, [](const CircleSet& set) {
-    return streaming_pass(set.points_mm, set.center_mm);
+    return fit::scan(set.points_mm, set.center_mm);
   });
 }
 
