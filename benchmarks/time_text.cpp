@@ -38,8 +38,8 @@ void register_text(const Extent& extent) {
   benchmark::RegisterBenchmark(name("text/ours").c_str(), [=](benchmark::State& state) {
     fill();
     for ([[maybe_unused]] auto _ : state) {
-      auto table = record::parse_points_csv(*text, "points.csv");
-      benchmark::DoNotOptimize(table);
+      const auto table = record::parse_points_csv(*text, "points.csv");
+      keep(table);
     }
   });
   benchmark::RegisterBenchmark(name("text/from_chars").c_str(), [=](benchmark::State& state) {
@@ -47,7 +47,7 @@ void register_text(const Extent& extent) {
     std::vector<double> numbers(3 * std::size_t{extent.large()});
     for ([[maybe_unused]] auto _ : state) {
       bare_read(*text, numbers);
-      benchmark::DoNotOptimize(numbers.data());
+      keep(numbers.data());
       benchmark::ClobberMemory();
     }
   });

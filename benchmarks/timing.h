@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -48,6 +49,13 @@ std::vector<std::shared_ptr<const Set>> sets_of(const Rotation& rotation) {
   return out;
 }
 
+/// Makes the compiler compute a value. Read only: benchmark::DoNotOptimize of a variable, as in
+/// version 1.7 with g++ 12, may lose a double that was just stored in it (google/benchmark #903).
+template <class T>
+void keep(const T& value) {
+  benchmark::DoNotOptimize(value);
+}
+
 /// Adds the statistic "max" to those of Google Benchmark: one bad repetition must show.
 inline void with_largest(benchmark::internal::Benchmark* entry) {
   entry->ComputeStatistics(
@@ -62,8 +70,9 @@ void register_call(const std::string& what, const Rotation& rotation, Call call)
                                             [rotation, call, turn](benchmark::State& state) {
                                               const auto sets = sets_of<Set>(rotation);
                                               for ([[maybe_unused]] auto _ : state) {
-                                                auto result = call(*sets[(*turn)++ % sets.size()]);
-                                                benchmark::DoNotOptimize(result);
+                                                const auto result =
+                                                    call(*sets[(*turn)++ % sets.size()]);
+                                                keep(result);
                                               }
                                             }));
 }
@@ -77,14 +86,16 @@ void register_peer(const std::string& what, const Rotation& rotation, Call call)
       [rotation, call, turn](benchmark::State& state) {
         const auto sets = sets_of<Set>(rotation);
         std::vector<double> widths_mm(sets.size(), 0.0);
+        std::vector<bool> timed(sets.size(), false);
         for ([[maybe_unused]] auto _ : state) {
           const std::size_t i = (*turn)++ % sets.size();
           widths_mm[i] = call(*sets[i]);
-          benchmark::DoNotOptimize(widths_mm[i]);
+          keep(widths_mm[i]);
+          timed[i] = true;
         }
-        double excess = 0.0;
+        double excess = -std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < sets.size(); ++i) {
-          if (widths_mm[i] == 0.0) continue;  // its turn did not come
+          if (!timed[i]) continue;  // its turn did not come
           excess = std::max(excess, excess_of(rotation.key(i), *sets[i], widths_mm[i]));
         }
         state.counters["excess"] = excess;
@@ -144,8 +155,8 @@ double allocations_of_zone(const Set& set) {
   const std::uint64_t before = allocations();
   const auto again = own_zone(set);
   const auto count = static_cast<double>(allocations() - before);
-  benchmark::DoNotOptimize(warm);
-  benchmark::DoNotOptimize(again);
+  keep(warm);
+  keep(again);
   return count;
 }
 
@@ -163,7 +174,7 @@ void register_zone(const std::string& what, const Rotation& rotation) {
         for ([[maybe_unused]] auto _ : state) {
           const std::size_t i = (*turn)++ % sets.size();
           zones[i] = own_zone(*sets[i]);
-          benchmark::DoNotOptimize(zones[i]);
+          keep(zones[i]);
           timed[i] = true;
         }
         for (std::size_t i = 0; i < sets.size(); ++i) {
