@@ -64,6 +64,14 @@ Running scan_plain(const double* p, std::size_t count, const View& view) {
   return out;
 }
 
+template <class View>
+std::size_t find_plain(const double* p, std::size_t count, const View& view, double value) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (square(p + i * kWidth<View>, view) == value) return i;
+  }
+  return count;
+}
+
 #if defined(__x86_64__)
 #define RONDURE_AVX2 __attribute__((target("avx2"))) inline
 
@@ -147,6 +155,19 @@ RONDURE_AVX2 Running scan_wide(const double* p, std::size_t count, const View& v
   return out;
 }
 
+template <class View>
+RONDURE_AVX2 std::size_t find_wide(const double* p, std::size_t count, const View& view,
+                                   double value) {
+  const __m256d wanted = _mm256_set1_pd(value);
+  std::size_t i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const __m256d equal =
+        _mm256_cmp_pd(four_squares(p + i * kWidth<View>, view), wanted, _CMP_EQ_OQ);
+    if (_mm256_movemask_pd(equal) != 0) break;
+  }
+  return i + find_plain(p + i * kWidth<View>, count - i, view, value);
+}
+
 bool has_avx2() {
   static const bool has = __builtin_cpu_supports("avx2") != 0;
   return has;
@@ -159,6 +180,16 @@ Running scan_some(const double* p, std::size_t count, const View& view) {
   if (has_avx2()) return scan_wide(p, count, view);
 #endif
   return scan_plain(p, count, view);
+}
+
+template <class Point, class View>
+std::size_t find_one(std::span<const Point> points, const View& view, double value) {
+  if (points.empty()) return 0;
+  const double* p = points.data()->data();
+#if defined(__x86_64__)
+  if (has_avx2()) return find_wide(p, points.size(), view, value);
+#endif
+  return find_plain(p, points.size(), view, value);
 }
 
 template <class Point, class View>
@@ -209,6 +240,19 @@ void scan_blocks(std::span<const Eigen::Vector3d> points_mm, const Eigen::Vector
 void scan_blocks(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
                  BlockScan& out) {
   scan_each_block(points_mm, center_mm, out);
+}
+
+std::size_t find_square(std::span<const Eigen::Vector3d> points_mm, const Axis& axis,
+                        double square_mm2) {
+  return find_one(points_mm, AxisView(axis), square_mm2);
+}
+std::size_t find_square(std::span<const Eigen::Vector3d> points_mm,
+                        const Eigen::Vector3d& center_mm, double square_mm2) {
+  return find_one(points_mm, center_mm, square_mm2);
+}
+std::size_t find_square(std::span<const Eigen::Vector2d> points_mm,
+                        const Eigen::Vector2d& center_mm, double square_mm2) {
+  return find_one(points_mm, center_mm, square_mm2);
 }
 
 }  // namespace rondure::fit

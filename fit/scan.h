@@ -45,4 +45,13 @@ void scan_blocks(std::span<const Eigen::Vector3d> points_mm, const Eigen::Vector
 void scan_blocks(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
                  BlockScan& out);
 
+/// The first point whose squared distance is exactly `square_mm2`, as scan_blocks() found it;
+/// the number of points when there is none.
+[[nodiscard]] std::size_t find_square(std::span<const Eigen::Vector3d> points_mm, const Axis& axis,
+                                      double square_mm2);
+[[nodiscard]] std::size_t find_square(std::span<const Eigen::Vector3d> points_mm,
+                                      const Eigen::Vector3d& center_mm, double square_mm2);
+[[nodiscard]] std::size_t find_square(std::span<const Eigen::Vector2d> points_mm,
+                                      const Eigen::Vector2d& center_mm, double square_mm2);
+
 }  // namespace rondure::fit

@@ -19,13 +19,11 @@ constexpr int kSaddleLimit = 20;
 constexpr double kFirm = 1e-9;
 
 /// Points of the first sample: enough to come near, few against a pass.
-std::size_t sample_size(std::size_t count) {
-  return std::clamp<std::size_t>(count / 2000, 48, 480);
-}
+std::size_t sample_size(std::size_t count) { return std::clamp<std::size_t>(count / 500, 48, 480); }
 /// Points a block of a pass: each block gives one candidate a side at most.
 std::size_t block_size(std::size_t count) { return count < 20000 ? 32 : 128; }
 /// Candidates a side and pass: the first pass meets a place that is not yet good.
-std::size_t candidates(int pass) { return pass == 1 ? 128 : 24; }
+std::size_t candidates(int pass) { return pass == 1 ? 128 : 48; }
 
 bool all_nonnegative(const Contacts& contacts) {
   return std::all_of(contacts.begin(), contacts.end(),
@@ -137,18 +135,11 @@ std::size_t ZoneDescent<Frame>::add_worst(Points points, const Point& origin, co
   };
   std::nth_element(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(most), order_.end(),
                    worse);
+  const auto place = state.frame.place(origin);
   for (std::size_t k = 0; k < most; ++k) {
     const std::size_t begin = order_[k] * blocks_.block;
-    const std::size_t end = std::min(begin + blocks_.block, points.size());
-    std::size_t found = begin;
-    double best = state.frame.distance(points[begin] - origin);
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      const double r = state.frame.distance(points[i] - origin);
-      if (high ? r <= best : r >= best) continue;
-      best = r;
-      found = i;
-    }
-    take(points, origin, found);
+    const auto block = points.subspan(begin, std::min(blocks_.block, points.size() - begin));
+    take(points, origin, begin + find_square(block, place, extreme[order_[k]]));
   }
   return most;
 }

@@ -8,6 +8,8 @@ namespace rondure::fit {
 namespace {
 
 constexpr int kDantzigPivots = 300;
+/// More pivots than this mean near ties: from here on every basis is factorised and refined.
+constexpr int kSwiftPivots = 40;
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 /// Multipliers off by more than this are computed from a fresh factorisation.
 constexpr double kWorn = 1e-13;
@@ -127,8 +129,9 @@ bool ZoneProgram<K>::factorise() {
   Eigen::Matrix<double, kRows, kRows> basis;
   for (int k = 0; k < kRows; ++k) basis.col(k) = column(basis_[static_cast<std::size_t>(k)]);
   const Eigen::PartialPivLU<Eigen::Matrix<double, kRows, kRows>> factor(basis);
-  inverse_ = factor.inverse();
-  if (!inverse_.allFinite()) return false;
+  const Eigen::Matrix<double, kRows, kRows> inverse = factor.inverse();
+  if (!inverse.allFinite()) return false;
+  inverse_ = inverse;
   values_ = inverse_.col(0) + inverse_.col(1);
   return true;
 }
@@ -138,7 +141,10 @@ ZoneStep<K> ZoneProgram<K>::run(int pivot_limit) {
   ZoneStep<K> out;
   bool fresh = false;
   for (; out.pivots < pivot_limit; ++out.pivots) {
+    const bool careful = out.pivots >= kSwiftPivots;
+    if (careful) factorise();
     settle_prices();
+    if (careful) worn();
     const Entering entering = price(out.pivots >= kDantzigPivots);
     if (entering.found && pivot(entering.column)) {
       fresh = false;

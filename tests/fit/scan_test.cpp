@@ -82,6 +82,8 @@ TEST(Scan, ByBlocksFindsTheExtremesOfEachBlock) {
           k * size, std::min(size, points.size() - k * size));
       EXPECT_EQ(blocks.low[k], scan(part, axis).low);
       EXPECT_EQ(blocks.high[k], scan(part, axis).high);
+      EXPECT_EQ(square(part[find_square(part, axis, blocks.high[k])], axis), blocks.high[k]);
+      EXPECT_EQ(find_square(part, axis, -1.0), part.size());
     }
     EXPECT_EQ(blocks.all.low, scan(std::span<const Eigen::Vector3d>(points), axis).low);
     EXPECT_EQ(blocks.all.high, scan(std::span<const Eigen::Vector3d>(points), axis).high);
