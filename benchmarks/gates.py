@@ -139,7 +139,7 @@ def number(value, at_least=False):
         return "-"
     if at_least:
         return f"{100 * value:.4g} %"
-    if 1e-6 < value < 1 and (value < 0.1 or abs(1 / value - round(1 / value)) < 1e-9):
+    if 1e-4 < value < 1 and (value < 0.1 or abs(1 / value - round(1 / value)) < 1e-9):
         return f"1/{1 / value:.4g}"
     return f"{value:.3g}"
 

@@ -27,10 +27,10 @@ def time_table(runs):
             ratios = [runs.ratio(name, "s1" + name[2:]) for name in names]
             ratios = [value for value in ratios if value]
             ratio = f"{median(ratios):.3g}" if ratios else "-"
-            effort = [max(runs.worst(name, key) or 0 for name in names) or "-"
+            effort = [max(runs.worst(name, key) or 0 for name in names) 
                       for key in ("passes", "pivots")]
             lines.append(f"| {shape} | {points} | {variant} | {time / 1e3:.4g} | {ratio} | "
-                         f"{effort[0]} | {effort[1]} |")
+                         f"{effort[0]:.4g} | {effort[1]:.4g} |")
     return lines
 
 

@@ -59,6 +59,8 @@ void register_large(const Extent& extent) {
                                [](const CylinderSet& set) {
                                  return fit::ls_cylinder(set.points_mm, set.start_direction);
                                });
+    register_call<CylinderSet>("four/cylinder", {Variant::kScanOrder, extent.large(), seed, 1},
+                               own_criteria);
   }
   const Rotation first{Variant::kScanOrder, extent.large(), 0, 1};
   register_peer<CylinderSet>("nlopt-nelder-mead/cylinder", first, nelder_mead_mm);

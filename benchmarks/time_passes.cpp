@@ -38,6 +38,13 @@ void register_passes(const Extent& extent) {
   const std::size_t middle = extent.large() / 10;
   register_cylinder_pass({Variant::kScanOrder, middle, 0, extent.seeds()});
   register_circle_pass({Variant::kScanOrder, middle, 0, extent.seeds()});
+  for (const std::size_t points : {9, 12, 20, 24, 36, 72, 100, 360, 1'000, 3'600, 10'000}) {
+    if (points == middle || points >= extent.large()) continue;
+    register_cylinder_pass({Variant::kScanOrder, points, 0, extent.seeds()});
+    register_circle_pass({Variant::kScanOrder, points, 0, extent.seeds()});
+  }
+  register_cylinder_pass({Variant::kStart5, 24, 0, extent.seeds()});
+  register_cylinder_pass({Variant::kShuffled, 100'000, 0, extent.seeds()});
   if (extent.full) register_cylinder_pass({Variant::kScanOrder, 10'000'000, 0, 1});
   if (extent.full) register_circle_pass({Variant::kScanOrder, 10'000'000, 0, 1});
 }
