@@ -104,8 +104,22 @@ void expect_circle(const Extreme& extreme, std::uint64_t seed) {
               extreme.plot.radius_mm);
 }
 
+std::vector<Extreme> far_circles() {
+  const Reference mz = Reference::kMinZone;
+  return {{"far", {mz, 25.0, 0.0, 0.02}, 1e6},
+          {"far duplicates on spokes", {mz, 25.0, 0.0, 0.02}, 1e6, true, true}};
+}
+
 TEST(ExtremeData, MinZoneCircle) {
   for (const Extreme& extreme : circles()) {
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(40)); ++seed) {
+      expect_circle(extreme, seed);
+    }
+  }
+}
+
+TEST(ExtremeData, MinZoneCircleFarAway) {
+  for (const Extreme& extreme : far_circles()) {
     for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(40)); ++seed) {
       expect_circle(extreme, seed);
     }

@@ -56,6 +56,20 @@ std::vector<std::size_t> sorted(std::vector<std::size_t> rows) {
   return rows;
 }
 
+TEST(OneSided, CircumscribedCircleEqualsTheEnumeration) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(500)); ++seed) {
+    SCOPED_TRACE(name_of(kind_of(seed)) + " " + std::to_string(seed));
+    const Points2 points = hard_set(seed, 4, 12);
+    const auto circle = fit::min_circumscribed_circle(points);
+    ASSERT_TRUE(circle.has_value()) << circle.error().what;
+    EXPECT_NEAR(circle->radius_mm, static_cast<double>(brute_circumscribed(points).value_mm),
+                1e-12);
+    const Reach at = reach_from(points, circle->center_mm.cast<Real>());
+    EXPECT_NEAR(circle->radius_mm, static_cast<double>(at.high_mm), 1e-12);
+    EXPECT_NEAR(circle->deviation_mm, static_cast<double>(at.high_mm - at.low_mm), 1e-12);
+  }
+}
+
 TEST(OneSided, InscribedCircleIsAnEnumeratedOne) {
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(500)); ++seed) {
     SCOPED_TRACE(name_of(kind_of(seed)) + " " + std::to_string(seed));
@@ -130,9 +144,16 @@ void expect_planted_cylinders(Reference reference, bool curved) {
 TEST(OneSided, PlantedCircumscribedCylinders) {
   expect_planted_cylinders(Reference::kCircumscribed, false);
 }
+TEST(OneSided, PlantedCircumscribedCylindersHeldByCurvature) {
+  expect_planted_cylinders(Reference::kCircumscribed, true);
+}
 TEST(OneSided, PlantedInscribedCylinders) {
   expect_planted_cylinders(Reference::kInscribed, false);
 }
+TEST(OneSided, PlantedInscribedCylindersHeldByCurvature) {
+  expect_planted_cylinders(Reference::kInscribed, true);
+}
+
 TEST(OneSided, CylindersAreLocalOptimaOfTheDescent) {
   for (const Reference reference : {Reference::kCircumscribed, Reference::kInscribed}) {
     for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(100)); ++seed) {
@@ -154,6 +175,23 @@ TEST(OneSided, CylindersAreLocalOptimaOfTheDescent) {
       const AxisOptimum below = descend(points, point, direction, reference, 1e-4L);
       EXPECT_NEAR(static_cast<double>(below.at.value_mm(reference) - at.value_mm(reference)), 0.0,
                   1e-12);
+    }
+  }
+}
+
+TEST(OneSided, ShaftsHaveTheOptimumBelowTheLeastSquaresAxis) {
+  for (const Reference reference : {Reference::kCircumscribed, Reference::kInscribed}) {
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(300)); ++seed) {
+      SCOPED_TRACE(seed);
+      const Measured shaft = part(seed, core::kTwoPi);
+      if (shaft.half_length_mm < 15.0) continue;
+      const auto start = fit::ls_cylinder(shaft.points, Eigen::Vector3d::UnitZ());
+      const auto cylinder = fit_cylinder(shaft.points, reference, Eigen::Vector3d::UnitZ());
+      ASSERT_TRUE(cylinder.has_value()) << cylinder.error().what;
+      const AxisOptimum truth = descend(shaft.points, start->axis.point_mm.cast<Real>(),
+                                        start->axis.direction.cast<Real>(), reference, 0.01L);
+      EXPECT_NEAR(cylinder->radius_mm, static_cast<double>(std::abs(truth.at.value_mm(reference))),
+                  1e-9);
     }
   }
 }

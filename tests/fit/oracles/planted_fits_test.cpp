@@ -80,6 +80,8 @@ void expect_min_zone_cylinders(bool curved) {
 
 TEST(PlantedFits, MinZoneCylinderWithSixContacts) { expect_min_zone_cylinders(false); }
 
+TEST(PlantedFits, MinZoneCylinderWithFiveContacts) { expect_min_zone_cylinders(true); }
+
 TEST(PlantedFits, MinZoneCylinderFoundWithoutAStartDirection) {
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(200)); ++seed) {
     SCOPED_TRACE(seed);
