@@ -87,6 +87,7 @@ class ZoneDescent {
   [[nodiscard]] Extremes linearise(const Frame& frame, ZoneRows<K>& rows) const;
   ZoneStep<K> programme(Result& state, double box);
   void settle(Result& state);
+  bool stride(Result& state, double least);
   void settle_by_curvature(Result& state, double box);
   bool level(Result& state, const ZoneStep<K>& step);
   [[nodiscard]] bool is_vertex(const ZoneStep<K>& step) const;
