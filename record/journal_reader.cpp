@@ -15,6 +15,7 @@
 #include "record/database.h"
 #include "record/files.h"
 #include "record/journal_schema.h"
+#include "record/journal_seal.h"
 #include "record/private_copy.h"
 
 namespace rondure::record {
@@ -35,7 +36,8 @@ Number single(soci::session& sql, const std::string& query) {
   return number;
 }
 
-void require_journal(soci::session& sql) {
+/// The version of its tables.
+std::int64_t require_journal(soci::session& sql) {
   const auto application = single<long long>(sql, "pragma application_id");
   if (application != kApplicationId) {
     throw Contradiction(
@@ -44,18 +46,19 @@ void require_journal(soci::session& sql) {
                     application, kApplicationId));
   }
   const auto version = single<long long>(sql, "pragma user_version");
-  if (version != kSchemaVersion) {
+  if (version < kOldestSchemaVersion || version > kSchemaVersion) {
     throw Contradiction(
-        fmt::format("its tables have version {}, this program reads version {}; read "
+        fmt::format("its tables have version {}, this program reads versions {} to {}; read "
                     "it with the program that wrote it",
-                    version, kSchemaVersion));
+                    version, kOldestSchemaVersion, kSchemaVersion));
   }
   const auto verdict = single<std::string>(sql, "pragma integrity_check(1)");
   if (verdict != "ok") throw Contradiction("it is damaged: " + verdict);
+  return version;
 }
 
 /// Every table is the one of docs/journal.md, and not a view or a look-alike.
-void require_table(soci::session& sql, const Table& table) {
+void require_table(soci::session& sql, const Table& table, std::int64_t version) {
   const std::string name(table.name);
   std::string found;
   soci::indicator present = soci::i_null;
@@ -66,7 +69,7 @@ void require_table(soci::session& sql, const Table& table) {
   constexpr std::size_t kVerb = std::string_view("create table ").size();
   if (found.size() < kVerb || std::string_view(found).substr(kVerb) != table.sql.substr(kVerb)) {
     throw Contradiction(fmt::format("the columns of its table {} are not those of version {}",
-                                    table.name, kSchemaVersion));
+                                    table.name, version));
   }
 }
 
@@ -279,34 +282,12 @@ void read_results(soci::session& sql, RunRecord& record) {
   while (rows.fetch()) record.results.push_back(row);
 }
 
-/// Compares one table with its row in the seal.
-std::optional<BrokenTable> check_seal(soci::session& sql, std::string_view table) {
-  const std::string name(table);
-  Digest stored;
-  sql << "select row_count, sha256 from seal where table_name = :name", into(stored.rows),
-      into(stored.sha256), soci::use(name);
-  if (!sql.got_data()) return BrokenTable{name, "its digest is missing in the seal"};
-  const Digest found = digest_of(sql, table);
-  if (found.rows != stored.rows) {
-    return BrokenTable{name, fmt::format("{} rows, expected {}", found.rows, stored.rows)};
-  }
-  if (found != stored) return BrokenTable{name, "a value differs from the sealed one"};
-  return std::nullopt;
-}
-
-void check_seals(soci::session& sql, ReadJournal& journal) {
-  journal.record.sealed = single<long long>(sql, "select count(*) from seal") > 0;
-  if (!journal.record.sealed) return;
-  for (const Table& table : sealed_tables()) {
-    if (auto broken = check_seal(sql, table.name)) journal.broken.push_back(*std::move(broken));
-  }
-}
-
 ReadJournal read_tables(soci::session& sql) {
-  require_journal(sql);
-  for (const Table& table : sealed_tables()) require_table(sql, table);
-  require_table(sql, seal_table());
   ReadJournal journal;
+  journal.version = static_cast<int>(require_journal(sql));
+  for (const Table& table : chained_tables()) require_table(sql, table, journal.version);
+  if (journal.version >= kFirstChainedVersion) require_table(sql, chain_table(), journal.version);
+  require_table(sql, seal_table(), journal.version);
   read_header(sql, journal.record);
   read_artefact(sql, journal.record);
   read_features(sql, journal.record);
@@ -317,7 +298,8 @@ ReadJournal read_tables(soci::session& sql) {
   read_decisions(sql, journal.record);
   read_truths(sql, journal.record);
   read_results(sql, journal.record);
-  check_seals(sql, journal);
+  journal.record.sealed = is_sealed(sql);
+  journal.broken = check_seal(sql, journal.version);
   return journal;
 }
 

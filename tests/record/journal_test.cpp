@@ -252,7 +252,7 @@ TEST(Journal, TheDocumentShowsTheTablesAsTheyAre) {
     EXPECT_THAT(*document, HasSubstr(sql));
     ++tables;
   }
-  EXPECT_EQ(tables, 11);
+  EXPECT_EQ(tables, 12);
 }
 
 }  // namespace
