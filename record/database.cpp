@@ -78,6 +78,8 @@ std::string reason_of(const std::exception& exception, soci::session* session) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return "another program holds it open; close that program";
+    case SQLITE_CORRUPT:
+      return fmt::format("it is damaged: {}", words_of(*error));
     case SQLITE_CONSTRAINT:
       return reason_of_constraint(words_of(*error));
     default:

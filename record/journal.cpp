@@ -12,11 +12,13 @@
 #include <unistd.h>
 
 #include "record/chain.h"
+#include "record/checksums.h"
 #include "record/database.h"
 #include "record/files.h"
 #include "record/journal_rows.h"
 #include "record/journal_schema.h"
 #include "record/journal_seal.h"
+#include "record/sha256.h"
 
 namespace rondure::record {
 namespace {
@@ -136,7 +138,7 @@ std::string why_not_to_go_on(const ReadJournal& journal) {
 }  // namespace
 
 struct Journal::Impl {
-  enum class State { kOpen, kDigested, kClosed };
+  enum class State { kOpen, kDigested, kFolded, kClosed };
 
   fs::path file;
   soci::session sql;
@@ -194,6 +196,22 @@ struct Journal::Impl {
     sql << "update header set ending = '', failure_code = null, failure_what = null, "
            "failure_where = null";
     chain->append("header", 0);
+  }
+
+  /// Makes one closed file of the journal and its log.
+  core::Result<void> fold() {
+    try {
+      fold_log(sql);
+      statements.reset();
+      chain.reset();
+      std::string mode;
+      sql << "pragma journal_mode = delete", soci::into(mode);
+      sql.close();
+      state = State::kFolded;
+      return {};
+    } catch (const std::exception& exception) {  // the digests are safe
+      return failure("the folded log", reason_of(exception, &sql));
+    }
   }
 
   void keep(const Touch& touch) {
@@ -354,18 +372,14 @@ core::Result<void> Journal::seal(std::span<const StoredResult> results) {
   if (impl.state == Impl::State::kClosed) {
     return impl.failure("the seal", "it stands there already");
   }
-  try {
-    fold_log(impl.sql);
-    impl.statements.reset();
-    impl.chain.reset();
-    std::string mode;
-    impl.sql << "pragma journal_mode = delete", soci::into(mode);
-    impl.sql.close();
-    impl.state = Impl::State::kClosed;
-    return {};
-  } catch (const std::exception& exception) {  // the digests are safe; a second call folds again
-    return impl.failure("the folded log", reason_of(exception, &impl.sql));
+  if (impl.state == Impl::State::kDigested) {
+    if (auto folded = impl.fold(); !folded) return folded;
   }
+  const auto bytes = read_file(impl.file);
+  if (!bytes) return core::fail(bytes.error());
+  auto listed = update_checksums(impl.file.parent_path(), {{kJournalName, sha256_hex(*bytes)}});
+  if (listed) impl.state = Impl::State::kClosed;
+  return listed;
 }
 
 }  // namespace rondure::record

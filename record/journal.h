@@ -49,8 +49,9 @@ class Journal {
   [[nodiscard]] core::Result<void> mark_final(int pose_id);
   /// Writes how the run ended; call once, or once again after reopen().
   [[nodiscard]] core::Result<void> end(const std::string& ending, const core::Error* failure);
-  /// Stores the numbers of the evaluation and a digest of every table, then folds the write-ahead
-  /// log into the one file. The journal takes nothing more afterwards.
+  /// Stores the numbers of the evaluation and a digest of every table, folds the write-ahead log
+  /// into the one file, closes it and writes its SHA-256 into SHA256SUMS beside it. The journal
+  /// takes nothing more afterwards. When a step fails, a second call goes on with it.
   [[nodiscard]] core::Result<void> seal(std::span<const StoredResult> results);
 
  private:

@@ -14,6 +14,7 @@
 
 #include "record/database.h"
 #include "record/files.h"
+#include "record/journal_damage.h"
 #include "record/journal_schema.h"
 #include "record/journal_seal.h"
 #include "record/private_copy.h"
@@ -27,6 +28,11 @@ using soci::into;
 /// The file is readable but says something that no journal of ours says.
 struct Contradiction : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+/// The database itself is not whole.
+struct Damage : Contradiction {
+  using Contradiction::Contradiction;
 };
 
 template <class Number>
@@ -52,8 +58,12 @@ std::int64_t require_journal(soci::session& sql) {
                     "it with the program that wrote it",
                     version, kOldestSchemaVersion, kSchemaVersion));
   }
+  if (version == 1 && single<int>(sql, "select count(*) from sqlite_schema where name = 'chain'")) {
+    throw Contradiction(
+        "its tables have version 1, which has no chain, and there is a table chain");
+  }
   const auto verdict = single<std::string>(sql, "pragma integrity_check(1)");
-  if (verdict != "ok") throw Contradiction("it is damaged: " + verdict);
+  if (verdict != "ok") throw Damage("it is damaged: " + verdict);
   return version;
 }
 
@@ -303,6 +313,18 @@ ReadJournal read_tables(soci::session& sql) {
   return journal;
 }
 
+bool is_damage(const std::exception& exception) {
+  const auto* error = dynamic_cast<const soci::sqlite3_soci_error*>(&exception);
+  return (error != nullptr && (error->result() & 0xff) == SQLITE_CORRUPT) ||
+         dynamic_cast<const Damage*>(&exception) != nullptr;
+}
+
+std::string advice_after(const std::string& loss) {
+  return fmt::format(
+      "{}{}; copy the run directory again from where it was measured, or from a backup",
+      loss.empty() ? "" : "; ", loss);
+}
+
 core::Result<void> require_file(const fs::path& directory, const fs::path& file) {
   std::error_code problem;
   const fs::file_status status = fs::status(file, problem);
@@ -328,16 +350,20 @@ core::Result<ReadJournal> read_journal(const fs::path& directory) {
   const auto connection = connection_string(copy->file());
   if (!connection) return core::fail(connection.error());
   std::optional<soci::session> sql;
+  std::string reason;
   try {
     sql.emplace(soci::sqlite3, *connection);
     *sql << "pragma synchronous = off";  // the copy need not survive a power cut
     return read_tables(*sql);
   } catch (const std::exception& exception) {
-    return core::fail(
-        core::Code::kJournal,
-        fmt::format("the journal cannot be read: {}", reason_of(exception, sql ? &*sql : nullptr)),
-        file.string());
+    reason = reason_of(exception, sql ? &*sql : nullptr);
+    if (is_damage(exception)) {
+      sql.reset();
+      reason += advice_after(loss_in_words(copy->file()));
+    }
   }
+  return core::fail(core::Code::kJournal, fmt::format("the journal cannot be read: {}", reason),
+                    file.string());
 }
 
 }  // namespace rondure::record
