@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/noise.h"
 #include "record/files.h"
 #include "record/journal.h"
 #include "tests/record/meddle.h"
@@ -59,6 +60,27 @@ class InterruptedRun : public ::testing::Test {
       found += fmt::format("{}{}: {}", found.empty() ? "" : "\n", broken.table, broken.what);
     }
     return found;
+  }
+
+  /// The journal is refused or called broken, with words, or gives the first rows of the run, each
+  /// with every bit: then true.
+  [[nodiscard]] bool expect_a_beginning_or_told(const fs::path& directory) const {
+    const auto read = read_journal(directory);
+    if (!read || !read->broken.empty()) {
+      EXPECT_FALSE((read ? read->broken.front().what : read.error().what).empty());
+      return false;
+    }
+    const RunRecord& found = read->record;
+    RunRecord expected = run;
+    EXPECT_LE(found.touches.size(), run.touches.size());
+    expected.poses.resize(found.poses.size());
+    expected.touches.resize(found.touches.size());
+    expected.decisions.resize(found.decisions.size());
+    expected.truths.resize(found.truths.size());
+    const bool before_the_mark = found.touches.empty() && found.poses.size() > 2;
+    if (before_the_mark) expected.poses[2].final_cloud = found.poses[2].final_cloud;
+    EXPECT_EQ(every_bit(found), every_bit(expected));
+    return true;
   }
 
   Scratch scratch;
@@ -130,6 +152,41 @@ TEST_F(InterruptedRun, AnEditedLinkDoesNotFollow) {
   EXPECT_THAT(found_after("update chain set table_name = 'coat' where id = 5"),
               HasSubstr("a link names the unknown table \"coat\""));
   EXPECT_THAT(found_after("delete from chain"), HasSubstr("the header has no link"));
+}
+
+TEST_F(InterruptedRun, CutAnywhereKeepsABeginningOrIsTold) {
+  std::uint64_t state = 31;
+  int kept = 0;
+  int told = 0;
+  for (int i = 0; i < 100; ++i) {
+    fs::remove_all(scratch / "cut");
+    fs::copy(scratch / "run", scratch / "cut");
+    for (const char* name : {"journal.db", "journal.db-wal"}) {
+      const fs::path file = scratch / "cut" / name;
+      const bool cut = core::splitmix64(state) % 2 == 0;
+      if (cut) fs::resize_file(file, core::splitmix64(state) % fs::file_size(file));
+    }
+    SCOPED_TRACE(i);
+    (expect_a_beginning_or_told(scratch / "cut") ? kept : told) += 1;
+  }
+  EXPECT_GT(kept, 10);
+  EXPECT_GT(told, 10);
+}
+
+TEST_F(InterruptedRun, WithFlippedBytesKeepsABeginningOrIsTold) {
+  std::uint64_t state = 32;
+  for (const std::string name : {"journal.db", "journal.db-wal"}) {
+    const std::string bytes = *read_file(scratch / "run" / name);
+    for (int i = 0; i < 200; ++i) {
+      std::string damaged = bytes;
+      const std::size_t at = core::splitmix64(state) % damaged.size();
+      damaged[at] = static_cast<char>(damaged[at] ^ (1 + core::splitmix64(state) % 255));
+      std::ofstream(scratch / "run" / name, std::ios::binary) << damaged;
+      SCOPED_TRACE(name + " byte " + std::to_string(at));
+      (void)expect_a_beginning_or_told(scratch / "run");
+    }
+    std::ofstream(scratch / "run" / name, std::ios::binary) << bytes;
+  }
 }
 
 TEST_F(InterruptedRun, GoesOnAsIfItHadNotBeenInterrupted) {
