@@ -1,20 +1,18 @@
 #include "record/journal.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <optional>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
-#include <unistd.h>
 
 #include "record/chain.h"
 #include "record/checksums.h"
 #include "record/database.h"
 #include "record/files.h"
+#include "record/journal_place.h"
 #include "record/journal_rows.h"
 #include "record/journal_schema.h"
 #include "record/journal_seal.h"
@@ -25,82 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using soci::use;
-
-/// Removes what create() made, last first, unless it succeeded.
-struct Undo {
-  std::vector<fs::path> made;
-
-  Undo() = default;
-  Undo(const Undo&) = delete;
-  Undo& operator=(const Undo&) = delete;
-  ~Undo() {
-    std::error_code ignored;  // a folder that another program filled meanwhile stays
-    for (auto path = made.rbegin(); path != made.rend(); ++path) fs::remove(*path, ignored);
-  }
-};
-
-core::Result<void> make_directory(const fs::path& directory, Undo& undo) {
-  std::vector<fs::path> missing;
-  std::error_code problem;
-  for (fs::path path = directory;
-       !fs::exists(path, problem) && !problem && path.has_relative_path();
-       path = path.parent_path()) {
-    missing.push_back(path);
-  }
-  for (auto path = missing.rbegin(); path != missing.rend() && !problem; ++path) {
-    if (fs::create_directory(*path, problem)) undo.made.push_back(*path);
-  }
-  if (problem) {
-    return core::fail(core::Code::kFile,
-                      fmt::format("the run directory {} cannot be made: {}", directory.string(),
-                                  system_reason(problem.value())),
-                      directory.string());
-  }
-  return {};
-}
-
-core::Result<void> require_empty_directory(const fs::path& directory) {
-  std::error_code problem;
-  const fs::directory_iterator entry(directory, problem);
-  if (problem) {
-    return core::fail(
-        core::Code::kFile,
-        problem.value() == ENOTDIR
-            ? fmt::format("{} is a file; name a new directory for this run", directory.string())
-            : fmt::format("the run directory {} cannot be looked at: {}", directory.string(),
-                          system_reason(problem.value())),
-        directory.string());
-  }
-  if (entry == fs::directory_iterator()) return {};
-  return core::fail(core::Code::kFile,
-                    fmt::format("{} is not empty (it holds {}); name a new directory for this run",
-                                directory.string(), entry->path().filename().string()),
-                    directory.string());
-}
-
-/// Makes the empty file itself, so that two runs can never share one.
-core::Result<void> make_file(const fs::path& file, Undo& undo) {
-  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (fd < 0) {
-    return core::fail(
-        core::Code::kFile,
-        fmt::format("the journal {} cannot be made: {}", file.string(), system_reason(errno)),
-        file.string());
-  }
-  ::close(fd);
-  for (const char* suffix : {"-shm", "-wal", "-journal", ""}) {
-    undo.made.emplace_back(file.string() + suffix);
-  }
-  return {};
-}
-
-/// The new names reach the disk before the first touch does.
-core::Result<void> sync_names(const Undo& undo) {
-  for (const fs::path& path : undo.made) {
-    if (auto synced = sync_directory(path.parent_path()); !synced) return synced;
-  }
-  return {};
-}
 
 /// Exclusive: no other program can hold up a touch. WAL and synchronous=full: one flush a commit,
 /// on disk when the call returns.
@@ -233,9 +155,7 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
   if (!connection) return core::fail(connection.error());
 
   Undo undo;
-  if (auto made = make_directory(folder, undo); !made) return core::fail(made.error());
-  if (auto empty = require_empty_directory(folder); !empty) return core::fail(empty.error());
-  if (auto made = make_file(file, undo); !made) return core::fail(made.error());
+  if (auto made = make_empty_journal(file, undo); !made) return core::fail(made.error());
   std::unique_ptr<Impl> impl;  // after `undo`: closes the file before it is removed
   try {
     impl = std::make_unique<Impl>(file, *connection);
