@@ -15,6 +15,7 @@ constexpr int kProgrammeLimit = 200;
 constexpr int kPassLimit = 100;
 constexpr int kNewtonLimit = 8;
 constexpr int kSaddleLimit = 20;
+constexpr int kLevelLimit = 4;
 /// A contact with a smaller multiplier may be one too many.
 constexpr double kFirm = 1e-9;
 
@@ -162,42 +163,55 @@ void ZoneDescent<Frame>::minimise(Result& state, const Frame& start, double limi
   }
 }
 
+/// Distances relative to the inner radius keep their digits in a programme.
+template <class Frame>
+Extremes ZoneDescent<Frame>::linearise(const Frame& frame, ZoneRows<K>& rows) const {
+  const Extremes zone = frame.linearise(working_, rows);
+  for (double& distance : rows.distances()) distance -= zone.low;
+  return zone;
+}
+
+/// Solves the programme at the state; its contacts are those of the state from now on.
+template <class Frame>
+auto ZoneDescent<Frame>::programme(Result& state, double box) -> ZoneStep<K> {
+  const ZoneStep<K> step = warm_ ? program_.solve_again(rows_, box, weights_)
+                                 : program_.solve(rows_, box, weights_);
+  warm_ = true;
+  ++state.programmes;
+  state.pivots += step.pivots;
+  state.outer = step.outer;
+  state.inner = step.inner;
+  return step;
+}
+
 /// Linear programmes inside a trust region, then Newton: to a stationary point.
 template <class Frame>
 void ZoneDescent<Frame>::settle(Result& state) {
+  state.zone = linearise(state.frame, rows_);
   double box = std::max(10.0 * state.zone.width(), 64.0 * round_off_);
   bool rejected = false;
+  int levels = 0;
   vertex_ = false;
-  state.zone = state.frame.linearise(working_, rows_);
   const int limit = state.programmes + kProgrammeLimit;
   while (state.programmes < limit && box > round_off_) {
-    // Distances relative to the inner radius keep their digits.
-    const double base = state.zone.low;
-    for (double& distance : rows_.distances()) distance -= base;
-    const ZoneStep<K> step =
-        warm_ ? program_.solve_again(rows_, box, weights_) : program_.solve(rows_, box, weights_);
-    warm_ = true;
-    ++state.programmes;
-    state.pivots += step.pivots;
-    state.outer = step.outer;
-    state.inner = step.inner;
-    const double promised =
-        value(state.zone) - (weights_.outer - weights_.inner) * base - step.value;
+    const ZoneStep<K> step = programme(state, box);
+    const double base = (weights_.outer - weights_.inner) * state.zone.low;
+    const double promised = value(state.zone) - base - step.value;
     if (promised <= 2.0 * round_off_) {
-      vertex_ = is_vertex(step);
-      level(state, step);
-      break;
+      const bool level_now = step.step.cwiseAbs().maxCoeff() <= round_off_;
+      vertex_ = is_vertex(step) && level_now;
+      if (vertex_ || !is_vertex(step) || levels++ == kLevelLimit || !level(state, step)) break;
+      continue;
     }
-    // Fewer contacts than hold a vertex, or a refused step: curvature holds the rest, which a
-    // linear programme cannot see; Newton can.
+    // Fewer contacts than hold a vertex, or a refused step: curvature holds the rest, which a linear
+    // programme cannot see; Newton can.
     if ((rejected || !step.inside_box) && polish(state)) return;
     const Frame next = state.frame.moved(step.step);
-    const Extremes zone = next.linearise(working_, trial_rows_);
+    const Extremes zone = linearise(next, trial_rows_);
     const double gained = value(state.zone) - value(zone);
     rejected = !(gained >= 0.1 * promised);
     if (rejected) {
       box *= 0.5;
-      for (double& distance : rows_.distances()) distance += base;
       continue;
     }
     if (gained > 0.75 * promised && !step.inside_box) box *= 2.0;
@@ -205,19 +219,30 @@ void ZoneDescent<Frame>::settle(Result& state) {
     state.zone = zone;
     std::swap(rows_, trial_rows_);
   }
-  if (!vertex_) polish(state);
+  if (!vertex_) settle_by_curvature(state, box);
 }
 
-/// A contact with a small multiplier may be off its radius by more than it costs: the last step of
-/// the programme levels it.
+/// Where curvature holds the place, a wide programme takes points for contacts that are only near:
+/// narrower ones name fewer, until Newton settles on those that count.
 template <class Frame>
-void ZoneDescent<Frame>::level(Result& state, const ZoneStep<K>& step) {
-  if (!vertex_ || step.step.cwiseAbs().maxCoeff() <= round_off_) return;
+void ZoneDescent<Frame>::settle_by_curvature(Result& state, double box) {
+  for (; !polish(state) && box > round_off_; box *= 0.125) {
+    state.zone = linearise(state.frame, rows_);
+    programme(state, box);
+  }
+}
+
+/// A contact with a small multiplier may be off its radius by more than it costs: the last steps of
+/// the programme level it. @return Whether the state moved.
+template <class Frame>
+bool ZoneDescent<Frame>::level(Result& state, const ZoneStep<K>& step) {
   const Frame next = state.frame.moved(step.step);
-  const Extremes zone = extremes(next);
-  if (value(zone) > value(state.zone) + 2.0 * round_off_) return;
+  const Extremes zone = linearise(next, trial_rows_);
+  if (value(zone) > value(state.zone) + 2.0 * round_off_) return false;
   state.frame = next;
   state.zone = zone;
+  std::swap(rows_, trial_rows_);
+  return true;
 }
 
 template <class Frame>
