@@ -179,7 +179,7 @@ TEST(OneSided, CylindersAreLocalOptimaOfTheDescent) {
   }
 }
 
-TEST(OneSided, ShaftsHaveTheOptimumBelowTheLeastSquaresAxis) {
+TEST(OneSided, ShaftsHaveNoWorseOptimumThanTheOneBelowTheLeastSquaresAxis) {
   for (const Reference reference : {Reference::kCircumscribed, Reference::kInscribed}) {
     for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(300)); ++seed) {
       SCOPED_TRACE(seed);
@@ -190,8 +190,9 @@ TEST(OneSided, ShaftsHaveTheOptimumBelowTheLeastSquaresAxis) {
       ASSERT_TRUE(cylinder.has_value()) << cylinder.error().what;
       const AxisOptimum truth = descend(shaft.points, start->axis.point_mm.cast<Real>(),
                                         start->axis.direction.cast<Real>(), reference, 0.01L);
-      EXPECT_NEAR(cylinder->radius_mm, static_cast<double>(std::abs(truth.at.value_mm(reference))),
-                  1e-9);
+      // Several optima may lie close together: the fit's is the best of them or as good.
+      const double sign = reference == Reference::kCircumscribed ? 1.0 : -1.0;
+      EXPECT_LE(sign * cylinder->radius_mm, static_cast<double>(truth.at.value_mm(reference)) + 1e-9);
     }
   }
 }
