@@ -160,11 +160,20 @@ TEST(FitJson, HoldsTheContractForACylinder) {
   expect_one_sided(found["mi"], points, false);
 }
 
-// An octahedron with one long axis: by symmetry all references but least squares are known.
+// The corners of an octahedron inside those of a cube: by symmetry all places are known.
 TEST(FitJson, HoldsTheContractForASphere) {
   const TemporaryFolder directory;
   const auto file = directory.path() / "ball.csv";
-  std::ofstream(file) << "x,y,z\n10.01,0,0\n-10.01,0,0\n0,10,0\n0,-10,0\n0,0,10\n0,0,-10\n";
+  {
+    std::ofstream out(file);
+    out << "x,y,z\n10,0,0\n-10,0,0\n0,10,0\n0,-10,0\n0,0,10\n0,0,-10\n";
+    const double c = 10.01 / std::sqrt(3.0);
+    for (const double x : {c, -c}) {
+      for (const double y : {c, -c}) {
+        for (const double z : {c, -c}) out << fmt::format("{},{},{}\n", x, y, z);
+      }
+    }
+  }
   const json found = fit("sphere", file);
   EXPECT_THAT(keys_of(found),
               UnorderedElementsAre("shape", "points", "ls", "mz", "mc", "mi", "warnings"));
