@@ -14,6 +14,7 @@
 #include "record/database.h"
 #include "record/files.h"
 #include "record/journal_rows.h"
+#include "record/run_lock.h"
 
 namespace rondure::record {
 namespace {
@@ -56,7 +57,7 @@ core::Result<void> make_directory(const fs::path& directory, Undo& undo) {
 
 core::Result<void> require_empty_directory(const fs::path& directory) {
   std::error_code problem;
-  const fs::directory_iterator entry(directory, problem);
+  fs::directory_iterator entry(directory, problem);
   if (problem) {
     return core::fail(
         core::Code::kFile,
@@ -66,11 +67,25 @@ core::Result<void> require_empty_directory(const fs::path& directory) {
                           system_reason(problem.value())),
         directory.string());
   }
-  if (entry == fs::directory_iterator()) return {};
+  const fs::directory_iterator end;
+  if (entry != end && entry->path().filename() == kLockName) entry.increment(problem);
+  if (entry == end) return {};
   return core::fail(core::Code::kFile,
                     fmt::format("{} is not empty (it holds {}); name a new directory for this run",
                                 directory.string(), entry->path().filename().string()),
                     directory.string());
+}
+
+/// A lock is only made in an empty directory; where one lies, it says who is at work there.
+core::Result<RunLock> lock_empty_directory(const fs::path& directory) {
+  std::error_code ignored;
+  if (!fs::exists(directory / kLockName, ignored)) {
+    if (auto empty = require_empty_directory(directory); !empty) return core::fail(empty.error());
+  }
+  auto lock = RunLock::take(directory);
+  if (!lock) return lock;
+  if (auto empty = require_empty_directory(directory); !empty) return core::fail(empty.error());
+  return lock;
 }
 
 /// Makes the empty file itself, so that two runs can never share one.
@@ -121,6 +136,7 @@ void fold_log(soci::session& sql) {
 struct Journal::Impl {
   enum class State { kOpen, kDigested, kClosed };
 
+  RunLock lock;  ///< Before the session: given back after the journal is closed.
   fs::path file;
   soci::session sql;
   std::optional<Statements> statements;
@@ -128,8 +144,8 @@ struct Journal::Impl {
   bool ended = false;
   State state = State::kOpen;
 
-  Impl(fs::path path, const std::string& connection)
-      : file(std::move(path)), sql(soci::sqlite3, connection) {}
+  Impl(RunLock taken, fs::path path, const std::string& connection)
+      : lock(std::move(taken)), file(std::move(path)), sql(soci::sqlite3, connection) {}
 
   /// Why `subject` is not in the journal, and what is safe.
   [[nodiscard]] tl::unexpected<core::Error> failure(std::string_view subject,
@@ -181,11 +197,12 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
 
   Undo undo;
   if (auto made = make_directory(folder, undo); !made) return core::fail(made.error());
-  if (auto empty = require_empty_directory(folder); !empty) return core::fail(empty.error());
+  auto lock = lock_empty_directory(folder);
+  if (!lock) return core::fail(lock.error());
   if (auto made = make_file(file, undo); !made) return core::fail(made.error());
   std::unique_ptr<Impl> impl;  // after `undo`: closes the file before it is removed
   try {
-    impl = std::make_unique<Impl>(file, *connection);
+    impl = std::make_unique<Impl>(std::move(*lock), file, *connection);
     set_pragmas(impl->sql);
     insert_head(impl->sql, header, artefact, features);
     fold_log(impl->sql);
@@ -197,6 +214,43 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
   }
   if (auto synced = sync_names(undo); !synced) return core::fail(synced.error());
   undo.made.clear();
+  return Journal(std::move(impl));
+}
+
+core::Result<Journal> Journal::reopen(const fs::path& directory) {
+  const fs::path file = fs::absolute(directory) / kJournalName;
+  const auto connection = connection_string(file);
+  if (!connection) return core::fail(connection.error());
+  auto lock = RunLock::take(directory);
+  if (!lock) return core::fail(lock.error());
+  const auto found = read_journal(directory);
+  if (!found) return core::fail(found.error());
+  if (found->record.sealed) {
+    return core::fail(core::Code::kJournal,
+                      fmt::format("the run in {} is finished and sealed; it takes nothing more",
+                                  directory.string()),
+                      file.string());
+  }
+  remove_temporaries(directory);
+  std::unique_ptr<Impl> impl;
+  try {
+    impl = std::make_unique<Impl>(std::move(*lock), file, *connection);
+    set_pragmas(impl->sql);
+    impl->statements.emplace(impl->sql);
+  } catch (const std::exception& exception) {
+    return core::fail(core::Code::kJournal,
+                      fmt::format("the journal {} cannot be opened again: {}", file.string(),
+                                  reason_of(exception, impl ? &impl->sql : nullptr)),
+                      file.string());
+  }
+  for (const Touch& touch : found->record.touches) impl->keep(touch);
+  if (!found->record.ending.empty()) {
+    auto cleared = impl->write("that the run goes on", [&] {
+      impl->sql << "update header set ending = '', failure_code = null, failure_what = null, "
+                   "failure_where = null";
+    });
+    if (!cleared) return core::fail(cleared.error());
+  }
   return Journal(std::move(impl));
 }
 

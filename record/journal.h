@@ -17,15 +17,23 @@ inline constexpr const char* kJournalName = "journal.db";
 
 /// The journal of one run: an SQLite file that receives every touch before the next command goes to
 /// the machine. Each call is one transaction, on disk (WAL, synchronous=full) when it returns.
+/// While it lives it holds the lock of the directory (run_lock.h): one process a run.
 /// Any call can fail with kJournal (full disk, read-only directory, ...); `what` names the file,
 /// the cause in words and what to do. Schema: docs/journal.md.
 class Journal {
  public:
   /// Makes `directory` and the journal in it. The directory may exist when it is empty; otherwise
-  /// kFile. Nothing is left behind when this fails.
+  /// kFile, also when another process is at work there. Nothing is left behind when this fails.
   [[nodiscard]] static core::Result<Journal> create(const std::filesystem::path& directory,
                                                     const Header& header, const Artefact& artefact,
                                                     std::span<const Feature> features);
+
+  /// Opens the journal of a run that was interrupted, stopped or failed, to go on behind its last
+  /// row. What ended the run before is taken out of the header (end() writes the new ending); what
+  /// a killed writer of reports left behind is removed. kFile when there is no journal or another
+  /// process is at work in the directory; kJournal when it cannot be read or is sealed. Read the
+  /// rows with read_journal().
+  [[nodiscard]] static core::Result<Journal> reopen(const std::filesystem::path& directory);
 
   Journal(Journal&&) noexcept;
   Journal& operator=(Journal&&) noexcept;
@@ -39,7 +47,7 @@ class Journal {
   [[nodiscard]] core::Result<void> add(const SimulationTruth& truth);
   /// Marks the pose whose cloud is evaluated.
   [[nodiscard]] core::Result<void> mark_final(int pose_id);
-  /// Writes how the run ended; call once.
+  /// Writes how the run ended; call once, or once again after reopen().
   [[nodiscard]] core::Result<void> end(const std::string& ending, const core::Error* failure);
   /// Stores the numbers of the evaluation and a digest of every table, then folds the write-ahead
   /// log into the one file. The journal takes nothing more afterwards.
