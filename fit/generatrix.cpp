@@ -57,13 +57,13 @@ core::Result<double> least_zone(std::span<const Eigen::Vector2d> points,
       low = std::min(low, p.y());
       high = std::max(high, p.y());
     }
-    std::vector<ZoneRow<1>> rows;
+    ZoneRows<1> rows;
     for (const Eigen::Vector2d& p : frame) {
-      rows.push_back({p.y(), Eigen::Matrix<double, 1, 1>(-p.x() / half)});
+      rows.push_back(p.y(), Eigen::Matrix<double, 1, 1>(-p.x() / half));
     }
     const double zone = high - low;
     const auto step = solve_zone_program<1>(rows, 2.0 * zone);
-    const double gain = zone - step.width;
+    const double gain = zone - step.value;
     if (step.solved && gain <= 1e-13 * zone + 1e-15) return zone;
     const double change = step.step(0) / half;
     slope = (slope + change) / (1.0 - slope * change);

@@ -36,7 +36,7 @@ struct Sums {
 Sums sums_at(Points points, const CylinderFrame& frame, double radius) {
   Sums out;
   for (const Eigen::Vector3d& p : points) {
-    const ZoneRow<4> row = frame.row(p);
+    const ContactRow<4> row = frame.contact_row(p, 0);
     Vector5 g;
     g << row.gradient, -1.0;
     const double residual = row.distance - radius;

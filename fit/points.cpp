@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -58,6 +59,13 @@ std::size_t distinct_points(std::span<const Eigen::Vector2d> points_mm, std::siz
 }
 std::size_t distinct_points(std::span<const Eigen::Vector3d> points_mm, std::size_t enough) {
   return distinct(points_mm, enough);
+}
+
+std::size_t spread_row(std::size_t k, std::size_t count) {
+  const double place = static_cast<double>(k) / std::numbers::phi;
+  const auto row =
+      static_cast<std::size_t>((place - std::floor(place)) * static_cast<double>(count));
+  return std::min(row, count - 1);
 }
 
 double largest_gap_rad(std::span<const Eigen::Vector2d> points_mm,

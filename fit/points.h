@@ -24,6 +24,10 @@ namespace rondure::fit {
 [[nodiscard]] std::size_t distinct_points(std::span<const Eigen::Vector3d> points_mm,
                                           std::size_t enough);
 
+/// The k-th of the rows that stand for `count` rows: multiples of the golden ratio, even over the
+/// whole for any number of them, and in step with no layer or turn of a scan.
+[[nodiscard]] std::size_t spread_row(std::size_t k, std::size_t count);
+
 /// Largest angle without a point, seen from a centre [rad]; 2 pi for a single direction.
 [[nodiscard]] double largest_gap_rad(std::span<const Eigen::Vector2d> points_mm,
                                      const Eigen::Vector2d& center_mm);

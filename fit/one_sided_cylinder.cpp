@@ -1,0 +1,50 @@
+#include "fit/one_sided_cylinder.h"
+
+#include <algorithm>
+
+#include "fit/points.h"
+#include "fit/zone_fit.h"
+#include "fit/zone_proof.h"
+
+namespace rondure::fit {
+namespace {
+
+core::Result<OneSidedCylinder> fit_one_sided(std::span<const Eigen::Vector3d> points_mm,
+                                             const std::optional<Eigen::Vector3d>& near_direction,
+                                             const ZoneWeights& weights) {
+  CylinderZoneFitter fitter;
+  const auto zone = fitter.fit(points_mm, near_direction, weights);
+  if (!zone) return core::fail(zone.error());
+  const bool outside = weights.outer > 0.0;
+  const Axis axis = conventional(zone->place, mean_point(points_mm));
+  const double half = half_extent(points_mm, axis.direction);
+  const double round_off =
+      distance_round_off(axis.point_mm.cwiseAbs().maxCoeff() + half + zone->outer_radius_mm);
+  const CylinderFrame frame({Eigen::Vector3d::Zero(), axis.direction}, std::max(half, round_off));
+  const auto proven = prove_zone(points_mm, axis.point_mm, frame, weights, round_off);
+  OneSidedCylinder out;
+  out.axis = axis;
+  out.radius_mm = outside ? proven.zone.high : proven.zone.low;
+  out.deviation_mm = proven.zone.width();
+  const Contacts& contacts = outside ? proven.proof.outer : proven.proof.inner;
+  out.contacts.assign(contacts.begin(), contacts.end());
+  out.certificate = certify_local<4>(proven.proof, proven.zone.width(), round_off,
+                                     "next to the least-squares axis");
+  return out;
+}
+
+}  // namespace
+
+core::Result<OneSidedCylinder> min_circumscribed_cylinder(
+    std::span<const Eigen::Vector3d> points_mm,
+    const std::optional<Eigen::Vector3d>& near_direction) {
+  return fit_one_sided(points_mm, near_direction, kMinimumCircumscribed);
+}
+
+core::Result<OneSidedCylinder> max_inscribed_cylinder(
+    std::span<const Eigen::Vector3d> points_mm,
+    const std::optional<Eigen::Vector3d>& near_direction) {
+  return fit_one_sided(points_mm, near_direction, kMaximumInscribed);
+}
+
+}  // namespace rondure::fit
