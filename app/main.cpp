@@ -139,9 +139,22 @@ void add_verify(CLI::App& app, VerifyArguments& arguments) {
   auto* verb =
       app.add_subcommand("verify", "Recomputes a run from its journal and compares every digit");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
+  verb->add_option("--key", arguments.key, "Public key file (PEM) of who signed the run");
   verb->footer(
-      "\nExample: rondure verify runs/01_spool_simulated-20261121T023302Z\n"
-      "Finds accidents; whoever can write into the directory can also forge its digests.");
+      "\nExample: rondure verify runs/01_spool_simulated-20261121T023302Z --key public.pem\n"
+      "Without --key this finds accidents: whoever can write into the directory can also forge "
+      "its\n"
+      "digests. With the key of who signed (rondure sign) it finds forgery, too.");
+}
+
+void add_sign(CLI::App& app, SignArguments& arguments) {
+  auto* verb = app.add_subcommand("sign", "Signs a finished run that verifies (Ed25519)");
+  verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
+  verb->add_option("--key", arguments.key, "Private key file (PEM)")->required();
+  verb->footer(
+      "\nExample: rondure sign runs/01_spool_simulated-20261121T023302Z --key key.pem\n"
+      "Keys: openssl genpkey -algorithm ed25519 -out key.pem\n"
+      "      openssl pkey -in key.pem -pubout -out public.pem");
 }
 
 /// Help and version go to standard output, everything else is a mistake in the arguments.
@@ -179,6 +192,7 @@ int main_of(int argc, char** argv) {
   RoundnessArguments roundness_arguments;
   SelfTestArguments selftest_arguments;
   ReportArguments report_arguments;
+  SignArguments sign_arguments;
   VerifyArguments verify_arguments;
   add_validate(app, validate_arguments);
   add_run(app, run_arguments);
@@ -187,6 +201,7 @@ int main_of(int argc, char** argv) {
   add_selftest(*fit_verb, selftest_arguments);
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
+  add_sign(app, sign_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -198,6 +213,7 @@ int main_of(int argc, char** argv) {
   if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
+  if (app.got_subcommand("sign")) return sign(sign_arguments);
   return verify(verify_arguments);
 }
 

@@ -148,6 +148,18 @@ int conclude(const RunArguments& arguments, const plans::Plan& plan, const fs::p
   return exit_status(run != nullptr && run->failure, evaluation.verdict);
 }
 
+/// What a run that died right behind its seal left to do on its journal. A damaged one stays as it
+/// is: it must not look like a sound one.
+core::Result<void> close_sealed(const fs::path& directory) {
+  const auto read = record::read_journal(directory);
+  if (!read) return core::fail(read.error());
+  if (read->broken.empty()) return record::Journal::finish_seal(directory);
+  return core::fail(core::Code::kJournal,
+                    fmt::format("table {} of the sealed journal was changed: {}",
+                                read->broken.front().table, read->broken.front().what),
+                    directory.string());
+}
+
 /// A sealed run has nothing to measure; it may have died before its reports were written.
 int finish_sealed(const RunArguments& arguments, const plans::Plan& plan,
                   const fs::path& directory) {
@@ -157,6 +169,10 @@ int finish_sealed(const RunArguments& arguments, const plans::Plan& plan,
     return kBadInput;
   }
   record::remove_temporaries(directory);
+  if (auto closed = close_sealed(directory); !closed) {
+    complain(closed.error());
+    return kRunFailed;
+  }
   const auto told = read_and_evaluate(directory);
   if (!told) {
     complain(told.error());

@@ -41,8 +41,15 @@ struct ReportArguments {
 
 struct VerifyArguments {
   std::string directory;
+  std::string key;  ///< Public key file; empty: the signature is not checked.
 };
 [[nodiscard]] int verify(const VerifyArguments& arguments);
+
+struct SignArguments {
+  std::string directory;
+  std::string key;  ///< Private key file.
+};
+[[nodiscard]] int sign(const SignArguments& arguments);
 
 struct FitArguments {
   std::string shape;  ///< "circle" or "cylinder".

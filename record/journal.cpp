@@ -1,116 +1,29 @@
 #include "record/journal.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <optional>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
-#include <unistd.h>
 
+#include "record/chain.h"
+#include "record/checksums.h"
 #include "record/database.h"
 #include "record/files.h"
+#include "record/journal_place.h"
 #include "record/journal_rows.h"
+#include "record/journal_schema.h"
+#include "record/journal_seal.h"
 #include "record/run_lock.h"
+#include "record/sha256.h"
 
 namespace rondure::record {
 namespace {
 
 namespace fs = std::filesystem;
 using soci::use;
-
-/// Removes what create() made, last first, unless it succeeded.
-struct Undo {
-  std::vector<fs::path> made;
-
-  Undo() = default;
-  Undo(const Undo&) = delete;
-  Undo& operator=(const Undo&) = delete;
-  ~Undo() {
-    std::error_code ignored;  // a folder that another program filled meanwhile stays
-    for (auto path = made.rbegin(); path != made.rend(); ++path) fs::remove(*path, ignored);
-  }
-};
-
-core::Result<void> make_directory(const fs::path& directory, Undo& undo) {
-  std::vector<fs::path> missing;
-  std::error_code problem;
-  for (fs::path path = directory;
-       !fs::exists(path, problem) && !problem && path.has_relative_path();
-       path = path.parent_path()) {
-    missing.push_back(path);
-  }
-  for (auto path = missing.rbegin(); path != missing.rend() && !problem; ++path) {
-    if (fs::create_directory(*path, problem)) undo.made.push_back(*path);
-  }
-  if (problem) {
-    return core::fail(core::Code::kFile,
-                      fmt::format("the run directory {} cannot be made: {}", directory.string(),
-                                  system_reason(problem.value())),
-                      directory.string());
-  }
-  return {};
-}
-
-core::Result<void> require_empty_directory(const fs::path& directory) {
-  std::error_code problem;
-  fs::directory_iterator entry(directory, problem);
-  if (problem) {
-    return core::fail(
-        core::Code::kFile,
-        problem.value() == ENOTDIR
-            ? fmt::format("{} is a file; name a new directory for this run", directory.string())
-            : fmt::format("the run directory {} cannot be looked at: {}", directory.string(),
-                          system_reason(problem.value())),
-        directory.string());
-  }
-  const fs::directory_iterator end;
-  if (entry != end && entry->path().filename() == kLockName) entry.increment(problem);
-  if (entry == end) return {};
-  return core::fail(core::Code::kFile,
-                    fmt::format("{} is not empty (it holds {}); name a new directory for this run",
-                                directory.string(), entry->path().filename().string()),
-                    directory.string());
-}
-
-/// A lock is only made in an empty directory; where one lies, it says who is at work there.
-core::Result<RunLock> lock_empty_directory(const fs::path& directory) {
-  std::error_code ignored;
-  if (!fs::exists(directory / kLockName, ignored)) {
-    if (auto empty = require_empty_directory(directory); !empty) return core::fail(empty.error());
-  }
-  auto lock = RunLock::take(directory);
-  if (!lock) return lock;
-  if (auto empty = require_empty_directory(directory); !empty) return core::fail(empty.error());
-  return lock;
-}
-
-/// Makes the empty file itself, so that two runs can never share one.
-core::Result<void> make_file(const fs::path& file, Undo& undo) {
-  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (fd < 0) {
-    return core::fail(
-        core::Code::kFile,
-        fmt::format("the journal {} cannot be made: {}", file.string(), system_reason(errno)),
-        file.string());
-  }
-  ::close(fd);
-  for (const char* suffix : {"-shm", "-wal", "-journal", ""}) {
-    undo.made.emplace_back(file.string() + suffix);
-  }
-  return {};
-}
-
-/// The new names reach the disk before the first touch does.
-core::Result<void> sync_names(const Undo& undo) {
-  for (const fs::path& path : undo.made) {
-    if (auto synced = sync_directory(path.parent_path()); !synced) return synced;
-  }
-  return {};
-}
 
 /// Exclusive: no other program can hold up a touch. WAL and synchronous=full: one flush a commit,
 /// on disk when the call returns.
@@ -131,15 +44,43 @@ void fold_log(soci::session& sql) {
   if (busy != 0) throw std::runtime_error("another program reads it; close that program");
 }
 
+/// From then on the journal is one file.
+void leave_log(soci::session& sql) {
+  std::string mode;
+  sql << "pragma journal_mode = delete", soci::into(mode);
+}
+
+/// Puts the digest of the closed journal into the list beside it.
+core::Result<void> list_digest(const fs::path& file) {
+  const auto bytes = read_file(file);
+  if (!bytes) return core::fail(bytes.error());
+  return update_checksums(file.parent_path(), {{kJournalName, sha256_hex(*bytes)}});
+}
+
+/// Why a journal takes nothing more, or empty.
+std::string why_not_to_go_on(const ReadJournal& journal) {
+  if (journal.record.sealed) return "the run is finished and its journal is sealed";
+  if (journal.version != kSchemaVersion) {
+    return fmt::format(
+        "its tables have version {}, a run goes on in version {} only; start a new "
+        "run",
+        journal.version, kSchemaVersion);
+  }
+  if (journal.broken.empty()) return {};
+  return fmt::format("table {} of its journal was changed: {}; start a new run",
+                     journal.broken.front().table, journal.broken.front().what);
+}
+
 }  // namespace
 
 struct Journal::Impl {
-  enum class State { kOpen, kDigested, kClosed };
+  enum class State { kOpen, kDigested, kFolded, kClosed };
 
   RunLock lock;  ///< Before the session: given back after the journal is closed.
   fs::path file;
   soci::session sql;
   std::optional<Statements> statements;
+  std::optional<Chain> chain;
   std::optional<std::int64_t> last_touch;
   bool ended = false;
   State state = State::kOpen;
@@ -164,17 +105,49 @@ struct Journal::Impl {
       return failure(subject, "the journal is sealed and takes nothing more; start a new run");
     }
     try {
+      soci::transaction transaction(sql);
       action();
+      transaction.commit();
+      chain->keep();
       return {};
     } catch (const std::exception& exception) {
+      chain->forget();
       return failure(subject, reason_of(exception, &sql));
     }
+  }
+
+  /// Prepares what runs during a measurement.
+  void prepare() {
+    statements.emplace(sql);
+    chain.emplace(sql);
   }
 
   void insert(const Touch& touch) {
     statements->touch = touch;
     statements->purpose = name_of(touch.purpose);
     statements->insert_touch.execute(true);
+    chain->append("touch", touch.id);
+  }
+
+  void clear_ending() {
+    sql << "update header set ending = '', failure_code = null, failure_what = null, "
+           "failure_where = null";
+    chain->append("header", 0);
+  }
+
+  /// Makes one closed file of the journal and its log.
+  core::Result<void> fold() {
+    try {
+      fold_log(sql);
+      statements.reset();
+      chain.reset();
+      leave_log(sql);
+      sql.close();
+      state = State::kFolded;
+      return {};
+    } catch (const std::exception& exception) {  // the digests are safe
+      return failure("the folded log", reason_of(exception, &sql));
+    }
   }
 
   void keep(const Touch& touch) {
@@ -196,17 +169,16 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
   if (!connection) return core::fail(connection.error());
 
   Undo undo;
-  if (auto made = make_directory(folder, undo); !made) return core::fail(made.error());
-  auto lock = lock_empty_directory(folder);
+  auto lock = lock_new_directory(folder, undo);
   if (!lock) return core::fail(lock.error());
-  if (auto made = make_file(file, undo); !made) return core::fail(made.error());
+  if (auto made = make_empty_journal(file, undo); !made) return core::fail(made.error());
   std::unique_ptr<Impl> impl;  // after `undo`: closes the file before it is removed
   try {
     impl = std::make_unique<Impl>(std::move(*lock), file, *connection);
     set_pragmas(impl->sql);
     insert_head(impl->sql, header, artefact, features);
     fold_log(impl->sql);
-    impl->statements.emplace(impl->sql);
+    impl->prepare();
   } catch (const std::exception& exception) {
     return core::fail(core::Code::kJournal,
                       fmt::format("the journal {} cannot be made: {}", file.string(),
@@ -218,25 +190,26 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
 }
 
 core::Result<Journal> Journal::reopen(const fs::path& directory) {
-  const fs::path file = fs::absolute(directory) / kJournalName;
-  const auto connection = connection_string(file);
-  if (!connection) return core::fail(connection.error());
   auto lock = RunLock::take(directory);
   if (!lock) return core::fail(lock.error());
   const auto found = read_journal(directory);
   if (!found) return core::fail(found.error());
-  if (found->record.sealed) {
+  const fs::path file = fs::absolute(directory) / kJournalName;
+  if (const std::string reason = why_not_to_go_on(*found); !reason.empty()) {
     return core::fail(core::Code::kJournal,
-                      fmt::format("the run in {} is finished and sealed; it takes nothing more",
-                                  directory.string()),
+                      fmt::format("the run cannot go on in {}: {}", file.string(), reason),
                       file.string());
   }
+  const auto connection = connection_string(file);
+  if (!connection) return core::fail(connection.error());
   remove_temporaries(directory);
   std::unique_ptr<Impl> impl;
   try {
     impl = std::make_unique<Impl>(std::move(*lock), file, *connection);
+    int timeout_ms = 0;
+    impl->sql << "pragma busy_timeout = 0", soci::into(timeout_ms);  // a run holds it for hours
     set_pragmas(impl->sql);
-    impl->statements.emplace(impl->sql);
+    impl->prepare();
   } catch (const std::exception& exception) {
     return core::fail(core::Code::kJournal,
                       fmt::format("the journal {} cannot be opened again: {}", file.string(),
@@ -245,11 +218,10 @@ core::Result<Journal> Journal::reopen(const fs::path& directory) {
   }
   for (const Touch& touch : found->record.touches) impl->keep(touch);
   if (!found->record.ending.empty()) {
-    auto cleared = impl->write("that the run goes on", [&] {
-      impl->sql << "update header set ending = '', failure_code = null, failure_what = null, "
-                   "failure_where = null";
-    });
-    if (!cleared) return core::fail(cleared.error());
+    if (auto cleared = impl->write("that the run goes on", [&] { impl->clear_ending(); });
+        !cleared) {
+      return core::fail(cleared.error());
+    }
   }
   return Journal(std::move(impl));
 }
@@ -265,9 +237,7 @@ core::Result<void> Journal::add(std::span<const Touch> touches) {
   const std::string subject =
       fmt::format("touches {} to {}", touches.front().id, touches.back().id);
   auto written = impl_->write(subject, [&] {
-    soci::transaction transaction(impl_->sql);
     for (const Touch& touch : touches) impl_->insert(touch);
-    transaction.commit();
   });
   if (written) {
     for (const Touch& touch : touches) impl_->keep(touch);
@@ -280,6 +250,7 @@ core::Result<void> Journal::add(const PoseVisit& pose) {
     impl_->statements->pose = pose;
     impl_->statements->final_cloud = pose.final_cloud ? 1 : 0;
     impl_->statements->insert_pose.execute(true);
+    impl_->chain->append("pose", pose.id);
   });
 }
 
@@ -287,6 +258,7 @@ core::Result<void> Journal::add(const Decision& decision) {
   return impl_->write("a decision", [&] {
     impl_->statements->decision = decision;
     impl_->statements->insert_decision.execute(true);
+    impl_->chain->append_inserted("decision");
   });
 }
 
@@ -294,6 +266,7 @@ core::Result<void> Journal::add(const SimulationTruth& truth) {
   return impl_->write("the truth of the simulation", [&] {
     impl_->statements->truth = truth;
     impl_->statements->insert_truth.execute(true);
+    impl_->chain->append_inserted("truth");
   });
 }
 
@@ -304,6 +277,7 @@ core::Result<void> Journal::mark_final(int pose_id) {
     if (impl_->statements->update_final.get_affected_rows() == 0) {
       throw std::runtime_error("there is no such pose");
     }
+    impl_->chain->append("pose", pose_id);
   });
 }
 
@@ -317,6 +291,7 @@ core::Result<void> Journal::end(const std::string& ending, const core::Error* fa
     impl_->sql << "update header set ending = :ending, failure_code = :code, failure_what = :what, "
                   "failure_where = :place",
         use(ending), use(code, given), use(what, given), use(where, given);
+    impl_->chain->append("header", 0);
   });
   impl_->ended = impl_->ended || written.has_value();
   return written;
@@ -326,10 +301,9 @@ core::Result<void> Journal::seal(std::span<const StoredResult> results) {
   Impl& impl = *impl_;
   if (impl.state == Impl::State::kOpen) {
     auto written = impl.write("the seal", [&] {
-      soci::transaction transaction(impl.sql);
       insert_results(impl.sql, results);
-      insert_digests(impl.sql);
-      transaction.commit();
+      impl.chain->append_all("result");
+      insert_seal(impl.sql);
     });
     if (!written) return written;
     impl.state = Impl::State::kDigested;
@@ -337,17 +311,38 @@ core::Result<void> Journal::seal(std::span<const StoredResult> results) {
   if (impl.state == Impl::State::kClosed) {
     return impl.failure("the seal", "it stands there already");
   }
-  try {
-    fold_log(impl.sql);
-    impl.statements.reset();
-    std::string mode;
-    impl.sql << "pragma journal_mode = delete", soci::into(mode);
-    impl.sql.close();
-    impl.state = Impl::State::kClosed;
-    return {};
-  } catch (const std::exception& exception) {  // the digests are safe; a second call folds again
-    return impl.failure("the folded log", reason_of(exception, &impl.sql));
+  if (impl.state == Impl::State::kDigested) {
+    if (auto folded = impl.fold(); !folded) return folded;
   }
+  auto listed = list_digest(impl.file);
+  if (listed) impl.state = Impl::State::kClosed;
+  return listed;
+}
+
+core::Result<void> Journal::finish_seal(const fs::path& directory) {
+  const fs::path file = fs::absolute(directory) / kJournalName;
+  std::error_code ignored;
+  if (fs::exists(directory / kChecksumsName, ignored)) {
+    const auto listed = read_checksums(directory);
+    if (!listed) return core::fail(listed.error());
+    const bool known = std::any_of(listed->begin(), listed->end(),
+                                   [](const Checksum& line) { return line.file == kJournalName; });
+    if (known) return {};
+  }
+  const auto connection = connection_string(file);
+  if (!connection) return core::fail(connection.error());
+  std::optional<soci::session> sql;
+  try {
+    sql.emplace(soci::sqlite3, *connection);
+    fold_log(*sql);
+    leave_log(*sql);
+  } catch (const std::exception& exception) {
+    return core::fail(core::Code::kJournal,
+                      fmt::format("the log of {} cannot be folded: {}", file.string(),
+                                  reason_of(exception, sql ? &*sql : nullptr)),
+                      file.string());
+  }
+  return list_digest(file);
 }
 
 }  // namespace rondure::record

@@ -16,7 +16,8 @@ namespace rondure::record {
 inline constexpr const char* kJournalName = "journal.db";
 
 /// The journal of one run: an SQLite file that receives every touch before the next command goes to
-/// the machine. Each call is one transaction, on disk (WAL, synchronous=full) when it returns.
+/// the machine. Each call is one transaction, on disk (WAL, synchronous=full) when it returns, and
+/// each row it writes or changes is linked in a hash chain in the same transaction.
 /// While it lives it holds the lock of the directory (run_lock.h): one process a run.
 /// Any call can fail with kJournal (full disk, read-only directory, ...); `what` names the file,
 /// the cause in words and what to do. Schema: docs/journal.md.
@@ -29,10 +30,11 @@ class Journal {
                                                     std::span<const Feature> features);
 
   /// Opens the journal of a run that was interrupted, stopped or failed, to go on behind its last
-  /// row. What ended the run before is taken out of the header (end() writes the new ending); what
-  /// a killed writer of reports left behind is removed. kFile when there is no journal or another
-  /// process is at work in the directory; kJournal when it cannot be read or is sealed. Read the
-  /// rows with read_journal().
+  /// row; the chain goes on behind its last link. What ended the run before is taken out of the
+  /// header (end() writes the new ending); what a killed writer of reports left behind is removed.
+  /// kFile when there is no journal or another process is at work in the directory; kJournal when
+  /// it cannot be read, does not follow its chain, is sealed or is of version 1. Read the rows with
+  /// read_journal().
   [[nodiscard]] static core::Result<Journal> reopen(const std::filesystem::path& directory);
 
   Journal(Journal&&) noexcept;
@@ -49,9 +51,15 @@ class Journal {
   [[nodiscard]] core::Result<void> mark_final(int pose_id);
   /// Writes how the run ended; call once, or once again after reopen().
   [[nodiscard]] core::Result<void> end(const std::string& ending, const core::Error* failure);
-  /// Stores the numbers of the evaluation and a digest of every table, then folds the write-ahead
-  /// log into the one file. The journal takes nothing more afterwards.
+  /// Stores the numbers of the evaluation and a digest of every table, folds the write-ahead log
+  /// into the one file, closes it and writes its SHA-256 into SHA256SUMS beside it. The journal
+  /// takes nothing more afterwards. When a step fails, a second call goes on with it.
   [[nodiscard]] core::Result<void> seal(std::span<const StoredResult> results);
+  /// Finishes what seal() does behind its commit, for a run that died there: folds the log and
+  /// lists the digest. A journal whose digest is listed is left alone. Hold the lock of the
+  /// directory, and read the journal before: a broken one must not get a new digest. Errors as of
+  /// seal(), and of read_checksums().
+  [[nodiscard]] static core::Result<void> finish_seal(const std::filesystem::path& directory);
 
  private:
   struct Impl;
@@ -59,16 +67,18 @@ class Journal {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A table of a sealed journal whose rows no longer give the digest stored when it was closed.
+/// A table whose rows are not those that were written: they no longer follow the chain, or no
+/// longer give the digest stored when the journal was closed.
 struct BrokenTable {
-  std::string table;  ///< e.g. "touch"
-  std::string what;   ///< e.g. "232 rows, expected 233" or "a value differs from the sealed one"
+  std::string table;  ///< e.g. "touch"; "chain" when the links themselves are damaged
+  std::string what;   ///< e.g. "199 rows, expected 200: touch 7 was removed after it was written"
 };
 
 /// A journal read back.
 struct ReadJournal {
   RunRecord record;
-  std::vector<BrokenTable> broken;  ///< Empty for an intact journal.
+  std::vector<BrokenTable> broken;  ///< Empty for an intact journal, sealed or not.
+  int version = 0;                  ///< Of its tables; 1 has no chain.
 };
 
 /// Reads `directory`/journal.db without changing it. kFile when there is none, kJournal when it is

@@ -78,6 +78,7 @@ struct Whole {
   record::RunRecord record;
   std::string bits;
   std::string csv;
+  std::vector<std::string> names;
   Seconds duration{};
 
   explicit Whole(const fs::path& plan) {
@@ -87,6 +88,7 @@ struct Whole {
     record = journal_of(folder / "run");
     bits = record::measured_bits(record);
     csv = read(folder / "run" / "touches.csv");
+    names = names_in(folder / "run");
   }
 };
 
@@ -99,6 +101,8 @@ void expect_equal(const fs::path& run, const Whole& whole) {
   }
   EXPECT_EQ(record::measured_bits(record), whole.bits);
   EXPECT_EQ(read(run / "touches.csv"), whole.csv);
+  EXPECT_EQ(names_in(run), whole.names);
+  EXPECT_EQ(rondure({"verify", run}).status, 0);
   EXPECT_TRUE(read(run / "report.html").ends_with("</html>\n"));
   EXPECT_TRUE(read(run / "report.json").ends_with("}\n"));
 }
