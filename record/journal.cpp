@@ -190,11 +190,13 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
 }
 
 core::Result<Journal> Journal::reopen(const fs::path& directory) {
+  const fs::path file = fs::absolute(directory) / kJournalName;
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return core::fail(read_journal(directory).error());
   auto lock = RunLock::take(directory);
   if (!lock) return core::fail(lock.error());
   const auto found = read_journal(directory);
   if (!found) return core::fail(found.error());
-  const fs::path file = fs::absolute(directory) / kJournalName;
   if (const std::string reason = why_not_to_go_on(*found); !reason.empty()) {
     return core::fail(core::Code::kJournal,
                       fmt::format("the run cannot go on in {}: {}", file.string(), reason),

@@ -68,7 +68,7 @@ TEST(JournalReopen, RefusesASealedRunAndADirectoryWithoutOne) {
   EXPECT_EQ(sealed.error().code, core::Code::kJournal);
   EXPECT_THAT(sealed.error().what, HasSubstr("sealed"));
   EXPECT_EQ(read_file(scratch / "run/journal.db").value(), bytes);
-  EXPECT_THAT(scratch.names(), ::testing::ElementsAre("run", "run/journal.db"));
+  EXPECT_THAT(scratch.names(), ::testing::ElementsAre("run", "run/SHA256SUMS", "run/journal.db"));
   EXPECT_FALSE(Journal::reopen(scratch / "absent"));
   fs::create_directory(scratch / "empty");
   EXPECT_FALSE(Journal::reopen(scratch / "empty"));
@@ -81,6 +81,31 @@ TEST(JournalReopen, RefusesAJournalThatIsOpen) {
   const auto second = Journal::reopen(scratch / "run");
   ASSERT_FALSE(second);
   EXPECT_THAT(second.error().what, HasSubstr("is in use by process "));
+}
+
+TEST(JournalReopen, FinishSealFoldsTheLogOfARunThatDiedBehindItsSeal) {
+  const Scratch scratch;
+  const RunRecord run = sample_run(3);
+  {
+    RunRecord open = run;
+    open.sealed = false;
+    ASSERT_TRUE(write_run(scratch / "run", open));
+    auto journal = Journal::reopen(scratch / "run");
+    ASSERT_TRUE(journal);
+    ASSERT_TRUE(journal->end(run.ending, run.failure ? &*run.failure : nullptr));
+    // The list cannot be written while a folder has its name: the seal is there, its rest is not.
+    fs::create_directory(scratch / "run/SHA256SUMS");
+    ASSERT_FALSE(journal->seal(run.results));
+  }
+  EXPECT_TRUE(read_journal(scratch / "run")->record.sealed);
+  EXPECT_FALSE(Journal::finish_seal(scratch / "run"));
+  fs::remove(scratch / "run/SHA256SUMS");
+  ASSERT_TRUE(Journal::finish_seal(scratch / "run"));
+  EXPECT_THAT(scratch.names(), ::testing::ElementsAre("run", "run/SHA256SUMS", "run/journal.db"));
+  const std::string sums = read_file(scratch / "run/SHA256SUMS").value();
+  EXPECT_EQ(every_bit(read_journal(scratch / "run")->record), every_bit(run));
+  ASSERT_TRUE(Journal::finish_seal(scratch / "run"));
+  EXPECT_EQ(read_file(scratch / "run/SHA256SUMS").value(), sums);
 }
 
 TEST(JournalReopen, RemovesWhatAKilledWriterOfReportsLeft) {
