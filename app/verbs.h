@@ -52,7 +52,7 @@ struct SignArguments {
 [[nodiscard]] int sign(const SignArguments& arguments);
 
 struct FitArguments {
-  std::string shape;  ///< "circle" or "cylinder".
+  std::string shape;  ///< "circle", "cylinder", "sphere" or "line".
   std::string file;
   std::string reference = "all";
   bool json = false;

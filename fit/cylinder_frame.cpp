@@ -38,6 +38,7 @@ CylinderFrame CylinderFrame::snapped(const Eigen::Vector3d& origin) const {
 }
 
 bool CylinderFrame::strayed(const CylinderFrame& from, double limit_mm) const {
+  if (std::isinf(limit_mm)) return false;
   const bool far =
       !((across_.transpose() * (axis_.point_mm - from.axis_.point_mm)).norm() <= limit_mm);
   return far || axis_.direction.dot(from.axis_.direction) < kLeast;

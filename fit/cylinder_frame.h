@@ -29,6 +29,8 @@ class CylinderFrame {
 
   [[nodiscard]] const Axis& axis() const { return axis_; }
   [[nodiscard]] double half_length_mm() const { return half_length_; }
+  /// Two unit vectors across the axis, along which a and b are measured.
+  [[nodiscard]] const Eigen::Matrix<double, 3, 2>& across_axis() const { return across_; }
   /// The axis after a move x.
   [[nodiscard]] CylinderFrame moved(const Eigen::Vector4d& x_mm) const;
 
@@ -36,7 +38,8 @@ class CylinderFrame {
   [[nodiscard]] Place place(const Eigen::Vector3d& origin) const;
   /// The axis that rounding of place() leaves, so that a scan and the iteration see the same.
   [[nodiscard]] CylinderFrame snapped(const Eigen::Vector3d& origin) const;
-  /// Whether it left another: went farther than a limit, or leans by more than 10 deg.
+  /// Whether it left another: went farther than a limit, or leans by more than 10 deg. Never
+  /// for an infinite limit.
   [[nodiscard]] bool strayed(const CylinderFrame& from, double limit_mm) const;
 
   [[nodiscard]] double distance(const Eigen::Vector3d& p) const;

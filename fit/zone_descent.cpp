@@ -15,6 +15,7 @@ constexpr int kProgrammeLimit = 200;
 constexpr int kPassLimit = 100;
 constexpr int kNewtonLimit = 8;
 constexpr int kSaddleLimit = 20;
+constexpr int kLevelLimit = 4;
 /// A contact with a smaller multiplier may be one too many.
 constexpr double kFirm = 1e-9;
 
@@ -167,6 +168,7 @@ template <class Frame>
 void ZoneDescent<Frame>::settle(Result& state) {
   double box = std::max(10.0 * state.zone.width(), 64.0 * round_off_);
   bool rejected = false;
+  int levels = 0;
   vertex_ = false;
   state.zone = state.frame.linearise(working_, rows_);
   const int limit = state.programmes + kProgrammeLimit;
@@ -185,8 +187,8 @@ void ZoneDescent<Frame>::settle(Result& state) {
         value(state.zone) - (weights_.outer - weights_.inner) * base - step.value;
     if (promised <= 2.0 * round_off_) {
       vertex_ = is_vertex(step);
-      level(state, step);
-      break;
+      if (!vertex_ || levels++ == kLevelLimit || !level(state, step)) break;
+      continue;
     }
     // Fewer contacts than hold a vertex, or a refused step: curvature holds the rest, which a
     // linear programme cannot see; Newton can.
@@ -208,16 +210,18 @@ void ZoneDescent<Frame>::settle(Result& state) {
   if (!vertex_) polish(state);
 }
 
-/// A contact with a small multiplier may be off its radius by more than it costs: the last step of
-/// the programme levels it.
+/// A contact with a small multiplier may be off its radius by more than it costs: the last steps of
+/// the programme level it. @return Whether there was something to level.
 template <class Frame>
-void ZoneDescent<Frame>::level(Result& state, const ZoneStep<K>& step) {
-  if (!vertex_ || step.step.cwiseAbs().maxCoeff() <= round_off_) return;
+bool ZoneDescent<Frame>::level(Result& state, const ZoneStep<K>& step) {
+  if (step.step.cwiseAbs().maxCoeff() <= round_off_) return false;
   const Frame next = state.frame.moved(step.step);
   const Extremes zone = extremes(next);
-  if (value(zone) > value(state.zone) + 2.0 * round_off_) return;
+  if (value(zone) > value(state.zone) + 2.0 * round_off_) return false;
   state.frame = next;
   state.zone = zone;
+  std::swap(rows_, trial_rows_);
+  return true;
 }
 
 template <class Frame>

@@ -85,7 +85,7 @@ class ZoneDescent {
   std::size_t add_worst(Points points, const Point& origin, const Result& state, bool high);
   void minimise(Result& state, const Frame& start, double limit_mm);
   void settle(Result& state);
-  void level(Result& state, const ZoneStep<K>& step);
+  bool level(Result& state, const ZoneStep<K>& step);
   [[nodiscard]] bool is_vertex(const ZoneStep<K>& step) const;
   bool polish(Result& state);
   [[nodiscard]] Newton newton_step(const Result& state) const;

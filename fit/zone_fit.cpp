@@ -10,12 +10,13 @@
 #include "core/units.h"
 #include "fit/ls_circle.h"
 #include "fit/ls_cylinder.h"
+#include "fit/ls_sphere.h"
 #include "fit/points.h"
 
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kCircleSample = 256;
+constexpr std::size_t kCenterSample = 256;
 constexpr std::size_t kCylinderSample = 480;
 /// From here on one start is enough, whatever the arc (performance: small sets).
 constexpr std::size_t kOneStart = 24;
@@ -81,6 +82,13 @@ core::Result<ZoneFit<Place>> judged(ZoneFit<Place> zone, std::span<const Point> 
   return zone;
 }
 
+core::Result<LsCircle> start_fit(std::span<const Eigen::Vector2d> points) {
+  return algebraic_circle(points);
+}
+core::Result<LsSphere> start_fit(std::span<const Eigen::Vector3d> points) {
+  return ls_sphere(points);
+}
+
 /// The axis as a frame, with the extent of the points along it as the scale of its tilts.
 CylinderFrame frame_of(std::span<const Eigen::Vector3d> sample, const Axis& axis,
                        double round_off) {
@@ -102,27 +110,31 @@ bool may_be_ambiguous(std::span<const Eigen::Vector3d> points, const Axis& axis)
 
 }  // namespace
 
-CircleZone CircleZoneFitter::fit_from(std::span<const Eigen::Vector2d> points_mm,
-                                      const Eigen::Vector2d& center_mm, const ZoneWeights& weights,
-                                      double limit_mm) {
-  spread(points_mm, kCircleSample, sample_);
-  const auto found = descent_.run(points_mm, center_mm, CenterFrame<2>(Eigen::Vector2d::Zero()),
-                                  weights, round_off_of(sample_), limit_mm);
+template <int D>
+auto CenterZoneFitter<D>::fit_from(std::span<const Point> points_mm, const Point& center_mm,
+                                   const ZoneWeights& weights, double limit_mm) -> ZoneFit<Point> {
+  spread(points_mm, kCenterSample, sample_);
+  const auto found = descent_.run(points_mm, center_mm, CenterFrame<D>(Point::Zero()), weights,
+                                  round_off_of(sample_), limit_mm);
   return zone_of(found, found.frame.place(center_mm));
 }
 
-core::Result<CircleZone> CircleZoneFitter::fit(std::span<const Eigen::Vector2d> points_mm,
-                                               const ZoneWeights& weights) {
+template <int D>
+auto CenterZoneFitter<D>::fit(std::span<const Point> points_mm, const ZoneWeights& weights)
+    -> core::Result<ZoneFit<Point>> {
   if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
-  spread(points_mm, kCircleSample, sample_);
-  auto start = algebraic_circle(sample_);
+  spread(points_mm, kCenterSample, sample_);
+  auto start = start_fit(std::span<const Point>(sample_));
   // A sample may miss what the data have.
-  if (!start) start = algebraic_circle(points_mm);
+  if (!start) start = start_fit(points_mm);
   if (!start) return core::fail(start.error());
   const double limit = limit_of(weights, start->radius_mm);
   return judged(fit_from(points_mm, start->center_mm, weights, limit), points_mm, weights,
-                "circle");
+                D == 2 ? "circle" : "sphere");
 }
+
+template class CenterZoneFitter<2>;
+template class CenterZoneFitter<3>;
 
 CylinderZone CylinderZoneFitter::fit_from(std::span<const Eigen::Vector3d> points_mm,
                                           const Axis& axis, const ZoneWeights& weights,

@@ -35,32 +35,38 @@ struct ZoneFit {
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
 };
 using CircleZone = ZoneFit<Eigen::Vector2d>;
+using SphereZone = ZoneFit<Eigen::Vector3d>;
 using CylinderZone = ZoneFit<Axis>;
 
 /// Fits zones of one shape. An object keeps its memory: once it has seen a set, sets of that size
 /// need no more. Same input, same bits, whatever was fitted before.
 ///
-/// Starts at the least-squares circle (algebraic) or cylinder of at most some hundred points
-/// spread over the data; see ZoneDescent for the rest and the cost. Few points, or points on part
-/// of the circumference, may have several minima: then neighbouring axes are starts too.
+/// Starts at the least-squares circle (algebraic), sphere or cylinder of at most some hundred
+/// points spread over the data; see ZoneDescent for the rest and the cost. Few points, or points on
+/// part of the circumference, may have several minima: then neighbouring axes are starts too.
 ///
 /// fit_from() starts at a place the caller knows; `ending` tells when it went farther than
 /// `limit_mm` from there. fit() returns the zone; or kNoPoints, kNotFinite (row), kTooFewPoints,
 /// kCollinear, kRank (as the least-squares fits); kReferenceAbsent for a circumscribed or inscribed
 /// reference that does not exist next to the least-squares one.
-class CircleZoneFitter {
+template <int D>
+class CenterZoneFitter {
  public:
-  core::Result<CircleZone> fit(std::span<const Eigen::Vector2d> points_mm,
-                               const ZoneWeights& weights = kMinimumZone);
+  using Point = Eigen::Matrix<double, D, 1>;
+
+  core::Result<ZoneFit<Point>> fit(std::span<const Point> points_mm,
+                                   const ZoneWeights& weights = kMinimumZone);
   /// From a given centre, whatever the points.
-  CircleZone fit_from(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
-                      const ZoneWeights& weights = kMinimumZone,
-                      double limit_mm = std::numeric_limits<double>::infinity());
+  ZoneFit<Point> fit_from(std::span<const Point> points_mm, const Point& center_mm,
+                          const ZoneWeights& weights = kMinimumZone,
+                          double limit_mm = std::numeric_limits<double>::infinity());
 
  private:
-  std::vector<Eigen::Vector2d> sample_;
-  ZoneDescent<CenterFrame<2>> descent_;
+  std::vector<Point> sample_;
+  ZoneDescent<CenterFrame<D>> descent_;
 };
+using CircleZoneFitter = CenterZoneFitter<2>;
+using SphereZoneFitter = CenterZoneFitter<3>;
 
 class CylinderZoneFitter {
  public:
@@ -80,5 +86,8 @@ class CylinderZoneFitter {
   std::vector<Eigen::Vector3d> sample_;
   ZoneDescent<CylinderFrame> descent_;
 };
+
+extern template class CenterZoneFitter<2>;
+extern template class CenterZoneFitter<3>;
 
 }  // namespace rondure::fit

@@ -151,7 +151,8 @@ ZoneStep<K> ZoneProgram<K>::run(int pivot_limit) {
       continue;
     }
     out.solved = true;
-    if (fresh || !worn() || !factorise()) break;
+    const bool again = worn() && !fresh;
+    if (!again || !factorise()) break;
     fresh = true;
   }
   if (!out.solved) settle_prices();

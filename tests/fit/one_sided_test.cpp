@@ -13,7 +13,7 @@
 #include "fit/ls_cylinder.h"
 #include "fit/min_zone_circle.h"
 #include "fit/min_zone_cylinder.h"
-#include "fit/one_sided_circle.h"
+#include "fit/one_sided_center.h"
 #include "fit/one_sided_cylinder.h"
 
 namespace rondure::fit {
