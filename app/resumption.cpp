@@ -60,7 +60,7 @@ core::Result<Resumption> find_resumption(const RunArguments& arguments) {
 }
 
 plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run) {
-  if (!names_directory(arguments)) return plans::read_plan(arguments.plan);
+  if (!arguments.resume || !names_directory(arguments)) return plans::read_plan(arguments.plan);
   auto plan = plans::parse_plan(run.plan_text, {}, run.plan_file);
   if (plan) return plan;
   // A plan that was good: what is missing are its points files, which stand beside it.
