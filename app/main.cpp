@@ -19,7 +19,8 @@ namespace {
 constexpr const char* kExits =
     "\nExit status: run, report: 0 all conform, 1 finished but something does not conform or is "
     "void,\n"
-    "2 bad input, 3 machine or run failed. verify: 0 equal, 1 not equal, 2 unreadable. Others: 0 "
+    "2 bad input, 3 machine, fixture or run failed (go on with run --resume). verify: 0 equal, 1 "
+    "not equal, 2 unreadable. Others: 0 "
     "or 2.";
 
 /// "--format html,json": one argument, so that the plan may follow it.
@@ -47,19 +48,36 @@ void add_validate(CLI::App& app, ValidateArguments& arguments) {
 
 void add_run(CLI::App& app, RunArguments& arguments) {
   auto* verb = app.add_subcommand("run", "Executes a plan and writes its reports");
-  verb->add_option("PLAN", arguments.plan, "Plan file (JSON)")->required();
+  verb->add_option("PLAN", arguments.plan, "Plan file (JSON); with --resume also a run directory")
+      ->required();
   verb->add_option("--out", arguments.out,
                    "Run directory, absent or empty (default: runs/<plan>-<UTC>)");
+  verb->add_flag("--resume", arguments.resume,
+                 "Goes on with the run in that directory behind its last touch");
   verb->add_option("--serial", arguments.serial, "Serial number of the part");
   verb->add_option("--operator", arguments.operator_name, "Who measures");
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
       ->check(check_seed);
   add_formats(*verb, arguments.formats, "html,json,csv (default: as the plan says)");
   verb->add_flag("--quiet", arguments.quiet, "No progress, no summary");
-  verb->footer(std::string("\nExample: rondure run plans/examples/01_spool_simulated.json --serial "
-                           "0042 --operator mk\n"
-                           "Ctrl-C stops after the present touch; what was measured is kept.\n") +
-               kExits);
+  verb->footer(
+      std::string("\nExample: rondure run plans/examples/01_spool_simulated.json --serial "
+                  "0042 --operator mk\n"
+                  "Ctrl-C stops after the present touch and retracts; a second one ends the "
+                  "program at once.\n"
+                  "What was measured is kept in every case, also when the power fails.\n"
+                  "\nTo go on with a run that was interrupted, stopped or failed:\n"
+                  "  rondure run runs/01_spool_simulated-20261121T023302Z --resume\n"
+                  "or with its plan, which must not have changed:\n"
+                  "  rondure run plan.json --out runs/7 --resume\n"
+                  "(where runs/7 does not exist yet the run begins there). Machine and "
+                  "fixture are homed again and the\n"
+                  "last touches repeated: when one differs by more than the plan's "
+                  "resume_limit_um, part or machine\n"
+                  "has moved and the run must start again. Before you resume, see that "
+                  "the way up is free for the tip.\n"
+                  "More: docs/reliability.md\n") +
+      kExits);
 }
 
 CLI::App* add_fit(CLI::App& app, FitArguments& arguments) {

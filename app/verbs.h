@@ -22,8 +22,9 @@ struct ValidateArguments {
 [[nodiscard]] int validate(const ValidateArguments& arguments);
 
 struct RunArguments {
-  std::string plan;
-  std::string out;  ///< Empty: runs/<plan>-<UTC>.
+  std::string plan;  ///< With `resume` also a run directory.
+  std::string out;   ///< Empty: runs/<plan>-<UTC>.
+  bool resume = false;
   std::string serial;
   std::string operator_name;
   std::optional<std::uint64_t> seed;

@@ -69,6 +69,12 @@ void describe(Visitor& v, MachinePlan& p) {
             {.at_least = -kMaxCoordinate_mm,
              .at_most = kMaxCoordinate_mm,
              .meaning = "Where the tip waits, above everything: x, y, z in the machine frame."});
+  v.number("resume_limit_um", p.resume_limit_um,
+           {.at_least = 0.0,
+            .at_most = 1000.0,
+            .above = true,
+            .meaning = "A resumed run repeats its last touches; when one of them differs by more, "
+                       "part or machine has moved and the run must start again."});
 }
 
 template <class Visitor>
