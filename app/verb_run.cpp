@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "app/archive_step.h"
 #include "app/processor.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
@@ -58,6 +59,11 @@ int run(const RunArguments& arguments) {
   options.directory = arguments.out.empty()
                           ? parent / run_name(arguments.plan, options.started_utc, parent)
                           : fs::path(arguments.out);
+  const auto archive = archive_of(arguments.archive, *plan, options.directory);
+  if (!archive) {
+    complain(archive.error());
+    return kBadInput;
+  }
   options.run_id = last_folder(options.directory);
   options.plan_file = fs::path(arguments.plan).filename().string();
   options.serial = arguments.serial;
@@ -110,6 +116,7 @@ int run(const RunArguments& arguments) {
     say(reports::write_summary(read->record, *evaluation));
     for (const fs::path& file : *written) say(file.string() + "\n");
   }
+  if (!run->failure) archive_run(*archive, options.directory, read->record, *evaluation);
   return exit_status(*run, evaluation->verdict);
 }
 

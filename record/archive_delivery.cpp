@@ -117,13 +117,14 @@ Delivery deliver(const ArchivePlace& place, const std::filesystem::path& queue_f
       count(delivery, *run, *pushed);
     } else {
       delivery.failure = pushed.error();
-      if (pushed.error().code == core::Code::kBadOption) return delivery;  // no archive will take it
+      if (pushed.error().code == core::Code::kBadOption)
+        return delivery;  // no archive will take it
       left = run;
     }
   }
   std::error_code unknown;
   if (left == nullptr && !std::filesystem::exists(queue_file, unknown)) return delivery;
-  auto queued = use_queue(queue_file, place.shown, left, receiver, patience, delivery);
+  auto queued = use_queue(queue_file, place.key, left, receiver, patience, delivery);
   if (!queued) delivery.queue_failure = queued.error();
   return delivery;
 }

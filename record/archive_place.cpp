@@ -1,6 +1,6 @@
 #include "record/archive_place.h"
 
-#include <vector>
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -44,16 +44,16 @@ core::Result<ArchivePlace> server_at(std::string_view url, std::size_t authority
                       "%40 in a user, a password or the name of a database");
   }
   const std::string_view authority = url.substr(authority_start, path - authority_start);
-  return ArchivePlace{
-      ArchivePlace::Kind::kServer, std::string(url),
+  const std::string shown =
       fmt::format("{}{}{}{}", url.substr(0, authority_start), without_secret(authority), database,
-                  without_secrets(url.substr(query)))};
+                  without_secrets(url.substr(query)));
+  return ArchivePlace{ArchivePlace::Kind::kServer, std::string(url), shown, shown};
 }
 
 }  // namespace
 
 core::Result<ArchivePlace> parse_archive_place(std::string_view text, const fs::path& folder) {
-  if (text == "none") return ArchivePlace{ArchivePlace::Kind::kNone, "none", "none"};
+  if (text == "none") return ArchivePlace{ArchivePlace::Kind::kNone, "none", "none", "none"};
   for (const std::string_view scheme : {"postgresql://", "postgres://"}) {
     if (text.starts_with(scheme)) return server_at(text, scheme.size());
   }
@@ -66,7 +66,8 @@ core::Result<ArchivePlace> parse_archive_place(std::string_view text, const fs::
                       fmt::format("{}; give a file, postgresql://... or none", found));
   }
   const std::string path = (folder / text).string();
-  return ArchivePlace{ArchivePlace::Kind::kFile, path, path};
+  return ArchivePlace{ArchivePlace::Kind::kFile, path, path,
+                      fs::absolute(path).lexically_normal().string()};
 }
 
 fs::path folder_beside(const fs::path& run_directory) {

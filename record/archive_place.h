@@ -22,7 +22,8 @@ struct ArchivePlace {
   };
   Kind kind = Kind::kNone;
   std::string address;  ///< Path, or URL as given, with its password.
-  std::string shown;    ///< The same without password: for messages, reports and the queue.
+  std::string shown;    ///< The same without password, for messages.
+  std::string key;      ///< What it is from any working directory: absolute path, or `shown`.
 
   /// The URL holds a password. It belongs into ~/.pgpass and not into a plan.
   [[nodiscard]] bool has_password() const { return address != shown; }

@@ -34,7 +34,8 @@ ArchiveQueue& ArchiveQueue::operator=(ArchiveQueue&&) noexcept = default;
 ArchiveQueue::~ArchiveQueue() = default;
 
 core::Result<ArchiveQueue> ArchiveQueue::open(const std::filesystem::path& file) {
-  const ArchivePlace place{ArchivePlace::Kind::kFile, file.string(), file.string()};
+  const std::string path = file.string();
+  const ArchivePlace place{ArchivePlace::Kind::kFile, path, path, path};
   auto session = open_archive_session(place, Archive::Access::kWrite);
   if (!session) return core::fail(session.error());
   auto impl = std::make_unique<Impl>(Impl{std::move(*session)});

@@ -25,7 +25,7 @@ class ArchiveQueue {
   ArchiveQueue& operator=(ArchiveQueue&&) noexcept;
   ~ArchiveQueue();
 
-  /// Lets `run` wait for `target`: ArchivePlace::shown of an archive. Twice is once.
+  /// Lets `run` wait for `target`: ArchivePlace::key of an archive. Twice is once.
   [[nodiscard]] core::Result<void> add(const std::string& target, const ArchiveRun& run);
   /// The archives for which runs wait.
   [[nodiscard]] core::Result<std::vector<std::string>> targets();

@@ -25,7 +25,7 @@ struct Dialect {
 [[nodiscard]] std::vector<std::string> archive_statements(const Dialect& dialect);
 
 /// A number that stands for a name in an index: PostgreSQL indexes no text beyond 2.7 kB. Two names
-/// may share one; the name itself is compared besides.
+/// may share one, so the names that come back are compared besides.
 [[nodiscard]] std::int64_t key_of(std::string_view name);
 
 }  // namespace rondure::record

@@ -99,6 +99,19 @@ std::string capitalised(std::string_view text) {
   return result;
 }
 
+std::string well_formed(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const Character c = next_character(text);
+    const bool surrogate = c.code >= 0xD800 && c.code <= 0xDFFF;
+    const bool overlong = (c.bytes == 3 && c.code < 0x800) || (c.bytes == 4 && c.code < 0x10000);
+    const bool sound = c.valid && c.code != 0 && !surrogate && !overlong && c.code <= 0x10FFFF;
+    result += sound ? text.substr(0, c.bytes) : kReplacement;
+    text.remove_prefix(c.bytes);
+  }
+  return result;
+}
+
 std::string escaped(std::string_view text) {
   std::string result;
   result.reserve(text.size() + text.size() / 8);

@@ -4,15 +4,12 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
-#include <thread>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "record/archive_queue.h"
 #include "record/archive_schema.h"
 #include "record/files.h"
 #include "tests/record/archive_samples.h"
@@ -22,11 +19,10 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using Kind = ArchivePlace::Kind;
 
-constexpr auto kBoth = [] { return ::testing::Values(Kind::kFile, Kind::kServer); };
-INSTANTIATE_TEST_SUITE_P(Of, EitherArchive, kBoth(), kind_name);
+INSTANTIATE_TEST_SUITE_P(Of, EitherArchive, ::testing::Values(Kind::kFile, Kind::kServer),
+                         kind_name);
 
 TEST_P(EitherArchive, GivesBackEveryValueWithItsBits) {
   Archive archive = open_archive(place_);
@@ -268,35 +264,6 @@ TEST_P(EitherArchive, FindsTheLastThousandOfOneCharacteristicIn50Ms) {
     EXPECT_LT(best_ms, 50.0);
 #endif
   }
-}
-
-TEST_P(EitherArchive, ThatIsGoneInTheMiddleOfAPushHoldsNothingOfIt) {
-  if (GetParam() == Kind::kFile) GTEST_SKIP() << "a file has no server that could go";
-  (void)open_archive(place_);
-  constexpr int kResults = 20'000;  // about a second of pushing
-  const ArchiveRun run = archive_run(1, kResults);
-  const pid_t child = ::fork();
-  ASSERT_GE(child, 0);
-  const auto queue_file = scratch_ / "queue.db";
-  if (child == 0) {
-    const Delivery delivery = deliver(place_, queue_file, &run, {.attempts = 1});
-    ::_exit(delivery.failure && !delivery.queue_failure && delivery.waiting == 1 ? 0 : 1);
-  }
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  server_->stop();
-  int status = -1;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  EXPECT_EQ(status, 0) << "the push was not interrupted, or is not in the queue";
-
-  server_->start();
-  Archive archive = open_archive(place_);
-  EXPECT_EQ(all_of(archive).size(), 0U);
-  const ArchiveRun next = archive_run(2);
-  const Delivery delivery = deliver(place_, queue_file, &next, {.give_up_after_s = 60.0});
-  EXPECT_FALSE(delivery.failure);
-  EXPECT_EQ(delivery.sent, 2U);
-  EXPECT_EQ(delivery.waiting, 0U);
-  EXPECT_EQ(all_of(archive).size(), kResults + 2U);
 }
 
 TEST(ArchiveSchema, TheDocumentShowsTheTablesAsTheyAre) {
