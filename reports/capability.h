@@ -55,6 +55,8 @@ struct Capability {
 /// Anderson-Darling test does not refuse it (p >= 0.05); otherwise the sample's own percentiles,
 /// from kEnoughForSample values on.
 ///
+/// The lower bound is a generalised confidence limit (S. Weerahandi, J. Am. Stat. Assoc. 88, 1993).
+///
 /// @return  kTooFewPoints below kLeastForIndex, kOutOfRange for a value that is not positive, kRank
 ///          when all values are alike, kNotConverged when the model does not fit and the values
 ///          are too few for percentiles of their own. O(n log n).

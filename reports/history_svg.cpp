@@ -13,12 +13,13 @@ namespace {
 
 constexpr double kWidth = 860.0;
 constexpr double kLeft = 66.0;
-constexpr double kRight = 756.0;
+constexpr double kRight = 738.0;
 constexpr double kTop = 64.0;
 constexpr double kBottom = 344.0;
 constexpr double kText = 412.0;  ///< Where the sentences begin.
 constexpr double kLine = 18.0;
-constexpr std::size_t kLetters = 120;  ///< Of a line of sentences.
+constexpr std::size_t kLetters = 112;      ///< Of a line of sentences.
+constexpr std::size_t kIndexLetters = 84;  ///< Of a line of the index, in bold letters.
 
 /// Colours of Okabe and Ito, darkened; every mark also differs in shape, every line in its dashes.
 constexpr std::string_view kStyle =
@@ -34,26 +35,11 @@ constexpr std::string_view kStyle =
 struct Axes {
   Scale x;
   Scale y;
-  bool limit_shown = false;
 };
 
-Axes axes_of(const RunChart& chart, const std::vector<double>& values_mm) {
-  auto [low, high] = std::minmax_element(values_mm.begin(), values_mm.end());
-  double least = *low;
-  double most = *high;
-  if (chart.limits) {
-    least = std::min(least, chart.limits->lower_mm);
-    most = std::max(most, chart.limits->upper_mm);
-  }
-  Axes axes;
-  // A limit far above would press the results into one line; then it is only named.
-  axes.limit_shown = chart.upper_limit_mm && *chart.upper_limit_mm < 3.0 * most;
-  if (axes.limit_shown) most = std::max(most, *chart.upper_limit_mm);
-  const double room = 0.06 * std::max(most - least, 1e-6);
-  axes.y = {std::max(least - room, 0.0) / core::kMicrometre, (most + room) / core::kMicrometre,
-            kBottom, kTop};
-  axes.x = {0.0, static_cast<double>(values_mm.size()) + 1.0, kLeft, kRight};
-  return axes;
+Axes axes_of(const ChartRange& range, std::size_t results) {
+  return {{0.0, static_cast<double>(results) + 1.0, kLeft, kRight},
+          {range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre, kBottom, kTop}};
 }
 
 void draw_frame(Svg& svg, const Axes& axes, const RunChart& chart) {
@@ -84,14 +70,14 @@ struct Level {
   std::string name;
 };
 
-void draw_levels(Svg& svg, const Axes& axes, const RunChart& chart) {
+void draw_levels(Svg& svg, const Axes& axes, const RunChart& chart, bool limit_shown) {
   std::vector<Level> levels;
   if (chart.limits) {
     levels.push_back({chart.limits->upper_mm, "control", "UCL"});
     levels.push_back({chart.limits->center_mm, "center", "centre"});
     levels.push_back({chart.limits->lower_mm, "control", "LCL"});
   }
-  if (axes.limit_shown) levels.push_back({*chart.upper_limit_mm, "limit", "tolerance"});
+  if (limit_shown) levels.push_back({*chart.upper_limit_mm, "limit", "tolerance"});
   std::sort(levels.begin(), levels.end(),
             [](const Level& a, const Level& b) { return a.value_mm > b.value_mm; });
   double free = 0.0;
@@ -127,11 +113,11 @@ void draw_results(Svg& svg, const Axes& axes, const RunChart& chart,
 }
 
 /// Lines of at most kLetters columns.
-std::vector<std::string> lines_of(std::string_view text) {
+std::vector<std::string> lines_of(std::string_view text, std::size_t letters = kLetters) {
   std::vector<std::string> out(1);
   for (std::string_view rest = text; !rest.empty();) {
     const std::size_t end = std::min(rest.find(' '), rest.size());
-    if (columns(out.back()) + 1 + end > kLetters) out.emplace_back();
+    if (columns(out.back()) + 1 + end > letters) out.emplace_back();
     out.back() += fmt::format("{}{}", out.back().empty() ? "" : " ", rest.substr(0, end));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
@@ -165,12 +151,13 @@ std::vector<std::string> sentences_of(const RunChart& chart, bool limit_shown) {
 
 std::string history_svg(const RunChart& chart) {
   const std::vector<double> values_mm = values_of(chart);
-  const Axes axes = axes_of(chart, values_mm);
+  const ChartRange range = range_of(chart);
+  const Axes axes = axes_of(range, values_mm.size());
   std::vector<std::string> lines;
-  for (const std::string& sentence : sentences_of(chart, axes.limit_shown)) {
+  for (const std::string& sentence : sentences_of(chart, range.limit_shown)) {
     for (const std::string& line : lines_of(with_signs(sentence))) lines.push_back(line);
   }
-  const auto index = lines_of(with_signs(capability_in_words(chart)));
+  const auto index = lines_of(with_signs(capability_in_words(chart)), kIndexLetters);
   const double height = kText + kLine * static_cast<double>(index.size() + lines.size());
   const record::ArchivedResult& newest = chart.results.back();
   const std::string head =
@@ -181,12 +168,12 @@ std::string history_svg(const RunChart& chart) {
   Svg svg(kWidth, height, "chart", head);
   svg.rect(0.0, 0.0, kWidth, height, "paper");
   svg.text(kLeft, 26.0, "start", "head", head);
-  svg.text(
-      kLeft, 48.0, "start", "label",
-      fmt::format("{}; {}; {}", printable(newest.result.filter), printable(newest.result.sampling),
-                  count(chart.results.size(), "result", "results")));
+  svg.text(kLeft, 48.0, "start", "label",
+           fmt::format("{}; {}; {}", shortened(printable(newest.result.filter), 40),
+                       shortened(printable(newest.result.sampling), 60),
+                       count(chart.results.size(), "result", "results")));
   draw_frame(svg, axes, chart);
-  draw_levels(svg, axes, chart);
+  draw_levels(svg, axes, chart, range.limit_shown);
   draw_results(svg, axes, chart, values_mm);
   double y = kText;
   for (const std::string& line : index) {

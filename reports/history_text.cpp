@@ -39,7 +39,7 @@ std::string wrapped(std::string_view text, std::string_view head) {
   std::string line(head);
   for (std::string_view rest = text; !rest.empty();) {
     const std::size_t end = std::min(rest.find(' '), rest.size());
-    const std::string_view word = rest.substr(0, end);
+    const std::string word = shortened(rest.substr(0, end), kColumns - columns(head) - 1);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (columns(line) + 1 + columns(word) > kColumns) {
       out += line + "\n";
@@ -104,23 +104,6 @@ std::string Canvas::text(bool coloured) const {
   return out + fmt::format("{:>{}} +{}\n", "um", kAxis - 2, std::string(kPlot, '-'));
 }
 
-/// Low and high end of the value axis [um].
-std::array<double, 2> range_of(const RunChart& chart, const std::vector<double>& values_mm) {
-  auto [low, high] = std::minmax_element(values_mm.begin(), values_mm.end());
-  double least = *low;
-  double most = *high;
-  if (chart.limits) {
-    least = std::min(least, chart.limits->lower_mm);
-    most = std::max(most, chart.limits->upper_mm);
-  }
-  // A limit far above would press the results into one line; then it is only named.
-  if (chart.upper_limit_mm && *chart.upper_limit_mm < 3.0 * most) {
-    most = std::max(most, *chart.upper_limit_mm);
-  }
-  const double room = 0.06 * std::max(most - least, 1e-6);
-  return {std::max(least - room, 0.0) / core::kMicrometre, (most + room) / core::kMicrometre};
-}
-
 /// X beyond a control limit, # beyond the tolerance.
 char mark_of(const RunChart& chart, std::size_t index, double value_mm) {
   if (chart.upper_limit_mm && value_mm > *chart.upper_limit_mm) return '#';
@@ -130,7 +113,7 @@ char mark_of(const RunChart& chart, std::size_t index, double value_mm) {
 void draw_results(Canvas& canvas, const RunChart& chart, const std::vector<double>& values_mm) {
   const std::size_t n = values_mm.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t column = n <= kPlot ? i * (kPlot / n) + kPlot / n / 2 : i * kPlot / n;
+    const std::size_t column = (2 * i + 1) * kPlot / (2 * n);
     canvas.put(column, values_mm[i] / core::kMicrometre, mark_of(chart, i, values_mm[i]));
   }
 }
@@ -142,7 +125,8 @@ std::string head_of(const RunChart& chart) {
                              shortened(printable(r.result.characteristic), 60),
                              shortened(printable(r.head.part_id), 60)),
                  "") +
-         wrapped(fmt::format("{}; {}; {}", printable(r.result.filter), printable(r.result.sampling),
+         wrapped(fmt::format("{}; {}; {}", printable(r.result.filter),
+                             shortened(printable(r.result.sampling), 60),
                              count(chart.results.size(), "result", "results")),
                  "") +
          "\n";
@@ -180,8 +164,8 @@ std::string history_table(std::span<const record::ArchivedResult> newest_first) 
 std::string history_chart(const RunChart& chart, bool coloured) {
   if (chart.results.empty()) return "no result with a value\n";
   const std::vector<double> values_mm = values_of(chart);
-  const auto [low, high] = range_of(chart, values_mm);
-  Canvas canvas(low, high);
+  const ChartRange range = range_of(chart);
+  Canvas canvas(range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre);
   if (chart.limits) {
     const auto label = [](double mm) { return um(mm); };
     canvas.line(chart.limits->lower_mm / core::kMicrometre, '-',
@@ -202,7 +186,7 @@ std::string history_chart(const RunChart& chart, bool coloured) {
         "UCL, CL, LCL: control limits and centre of individuals (I-MR chart of ln x); U: tolerance",
         "");
   }
-  if (chart.upper_limit_mm && *chart.upper_limit_mm / core::kMicrometre > high) {
+  if (chart.upper_limit_mm && !range.limit_shown) {
     out += fmt::format("the tolerance, {} um, is above the chart\n", um(*chart.upper_limit_mm));
   }
   if (const std::string words = capability_in_words(chart); !words.empty()) {

@@ -157,6 +157,24 @@ RunChart run_chart_of(std::span<const ArchivedResult> newest_first) {
   return chart;
 }
 
+ChartRange range_of(const RunChart& chart) {
+  const std::vector<double> values_mm = values_of(chart);
+  const auto [low, high] = std::minmax_element(values_mm.begin(), values_mm.end());
+  ChartRange out;
+  out.low_mm = std::min(*low, chart.limits ? chart.limits->lower_mm : *low);
+  out.high_mm = std::max(*high, chart.limits ? chart.limits->upper_mm : *high);
+  const double span_mm = std::max(out.high_mm - out.low_mm, 0.1 * out.high_mm);
+  if (chart.upper_limit_mm && *chart.upper_limit_mm < out.low_mm + 4.0 * span_mm) {
+    out.limit_shown = true;
+    out.low_mm = std::min(out.low_mm, *chart.upper_limit_mm);
+    out.high_mm = std::max(out.high_mm, *chart.upper_limit_mm);
+  }
+  const double room_mm = 0.06 * std::max(out.high_mm - out.low_mm, 0.02 * out.high_mm);
+  out.low_mm = std::max(out.low_mm - room_mm, 0.0);
+  out.high_mm += std::max(room_mm, 1e-9);
+  return out;
+}
+
 std::vector<double> values_of(const RunChart& chart) {
   std::vector<double> out;
   for (const ArchivedResult& r : chart.results) out.push_back(r.result.value.value_or(0.0));

@@ -30,6 +30,15 @@ struct RunChart {
 /// @param newest_first  As Archive::newest() gives them.
 [[nodiscard]] RunChart run_chart_of(std::span<const record::ArchivedResult> newest_first);
 
+/// What a drawing of the chart shows of the value axis.
+struct ChartRange {
+  double low_mm = 0.0;
+  double high_mm = 1.0;
+  /// A tolerance far above would press the results into one line; then it is only named.
+  bool limit_shown = false;
+};
+[[nodiscard]] ChartRange range_of(const RunChart& chart);
+
 /// The value of a result in mm; the archive's only unit so far.
 [[nodiscard]] std::vector<double> values_of(const RunChart& chart);
 

@@ -31,6 +31,9 @@ Character next_character(std::string_view text) {
     if ((byte(i) & 0xC0U) != 0x80U) return {0, 1, false};
     code = (code << 6U) | (byte(i) & 0x3FU);
   }
+  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+  if (surrogate || overlong || code > 0x10FFFF) return {0, 1, false};
   return {code, length, true};
 }
 
@@ -103,10 +106,7 @@ std::string well_formed(std::string_view text) {
   std::string result;
   while (!text.empty()) {
     const Character c = next_character(text);
-    const bool surrogate = c.code >= 0xD800 && c.code <= 0xDFFF;
-    const bool overlong = (c.bytes == 3 && c.code < 0x800) || (c.bytes == 4 && c.code < 0x10000);
-    const bool sound = c.valid && c.code != 0 && !surrogate && !overlong && c.code <= 0x10FFFF;
-    result += sound ? text.substr(0, c.bytes) : kReplacement;
+    result += c.valid && c.code != 0 ? text.substr(0, c.bytes) : kReplacement;
     text.remove_prefix(c.bytes);
   }
   return result;
