@@ -148,12 +148,12 @@ std::string legend_of(const RunChart& chart) {
 }  // namespace
 
 std::string history_table(std::span<const record::ArchivedResult> newest_first) {
-  std::string out = "started (UTC)    part       serial  characteristic value/um  limit verdict\n";
+  std::string out = "started (UTC)    part      serial  charact.    value/um   limit verdict\n";
   for (auto r = newest_first.rbegin(); r != newest_first.rend(); ++r) {
     std::string line =
-        fmt::format("{} {} {} {} {:>8} {:>6} {}", cell(minute_of(r->head.started_utc), 16),
-                    cell(r->head.part_id, 10), cell(r->head.serial, 7),
-                    cell(r->result.characteristic, 14), um_or_dash(r->result.value),
+        fmt::format("{} {} {} {} {:>8} {:>7} {}", cell(minute_of(r->head.started_utc), 16),
+                    cell(r->head.part_id, 9), cell(r->head.serial, 7),
+                    cell(r->result.characteristic, 11), um_or_dash(r->result.value),
                     um_or_dash(r->result.upper_limit), cell(r->result.verdict, 16));
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";

@@ -51,7 +51,7 @@ TEST(ArchiveOfRuns, StandsBesideTheRunDirectoriesAndHoldsWhatTheReportSays) {
   for (const auto& result : one["results"]) {
     EXPECT_EQ(result["run_id"], "one");
     EXPECT_EQ(result["operator"], "mk");
-    EXPECT_EQ(result["version"], report["run"]["version"]);
+    EXPECT_EQ(result["version"], report["header"]["version"]);
   }
 }
 

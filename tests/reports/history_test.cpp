@@ -159,6 +159,13 @@ TEST(History, TableAndChartFitATerminal) {
   for (const int n : {1, 2, 9, 30, 57, 400}) {
     SCOPED_TRACE(n);
     const auto all = results(n);
+    auto wide = all;
+    for (ArchivedResult& r : wide) {
+      r.result.value = 123.4567891;
+      r.result.upper_limit = 0.1;
+      r.result.verdict = "does not conform";
+    }
+    expect_plain_80_columns(history_table(wide));
     expect_plain_80_columns(history_table(all));
     expect_plain_80_columns(history_chart(run_chart_of(all), false));
     EXPECT_EQ(lines_of(history_table(all)).size(), static_cast<std::size_t>(n) + 1);
