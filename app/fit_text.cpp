@@ -10,12 +10,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json axis_json(const fit::Axis& axis) {
-  return {{"point_mm", {axis.point_mm.x(), axis.point_mm.y(), axis.point_mm.z()}},
-          {"direction", {axis.direction.x(), axis.direction.y(), axis.direction.z()}}};
+Json place_json(const FitPlace& place) {
+  const auto three = [](const Eigen::Vector3d& v) -> Json { return {v.x(), v.y(), v.z()}; };
+  if (place.axis) {
+    return {
+        {"axis",
+         {{"point_mm", three(place.axis->point_mm)}, {"direction", three(place.axis->direction)}}}};
+  }
+  Json center = three(place.center_mm);
+  if (place.coordinates == 2) center.erase(2);
+  return {{"center_mm", center}};
 }
-
-Json center_json(const Eigen::Vector2d& center) { return {center.x(), center.y()}; }
 
 Json rows_json(const std::vector<fit::Contact>& contacts) {
   Json out = Json::array();
@@ -23,82 +28,83 @@ Json rows_json(const std::vector<fit::Contact>& contacts) {
   return out;
 }
 
-Json certificate_json(const fit::Certificate& certificate) {
-  return {{"kind", fit::name_of(certificate.kind)},
-          {"scope", certificate.scope},
-          {"gap_mm", certificate.gap_mm},
-          {"reason", certificate.reason}};
-}
-
-template <class Zone>
-void put_zone(Json& out, const Zone& zone) {
-  out["inner_radius_mm"] = zone.inner_radius_mm;
-  out["outer_radius_mm"] = zone.outer_radius_mm;
-  out["deviation_mm"] = zone.width_mm();
-  out["contacts"] = {{"outer", rows_json(zone.outer)}, {"inner", rows_json(zone.inner)}};
-  out["certificate"] = certificate_json(zone.certificate);
-}
-
-template <class Fit>
-void put_ls(Json& out, const Fit& fit) {
-  out["radius_mm"] = fit.radius_mm;
-  out["deviation_mm"] = fit.deviation_mm;
-  out["rms_mm"] = fit.rms_mm;
+Json reference_json(const FitReference& found) {
+  Json out = place_json(found.place);
+  const auto put = [&](const char* key, const std::optional<double>& value) {
+    if (value) out[key] = *value;
+  };
+  put("radius_mm", found.radius_mm);
+  put("inner_radius_mm", found.inner_radius_mm);
+  put("outer_radius_mm", found.outer_radius_mm);
+  put("diameter_mm", found.diameter_mm);
+  out["deviation_mm"] = found.deviation_mm;
+  put("rms_mm", found.rms_mm);
+  if (!found.certificate) return out;
+  out["contacts"] = Json::object();
+  if (!found.outer.empty() || found.inner_radius_mm) {
+    out["contacts"]["outer"] = rows_json(found.outer);
+  }
+  if (!found.inner.empty() || found.inner_radius_mm) {
+    out["contacts"]["inner"] = rows_json(found.inner);
+  }
+  out["certificate"] = {{"kind", fit::name_of(found.certificate->kind)},
+                        {"scope", found.certificate->scope},
+                        {"gap_mm", found.certificate->gap_mm},
+                        {"reason", found.certificate->reason}};
+  return out;
 }
 
 double um(double mm) { return mm / core::kMicrometre; }
 
-template <class Zone>
-std::string zone_lines(const Zone& zone) {
-  std::string out = fmt::format("    inner radius {:.6f} mm, outer radius {:.6f} mm\n    contacts",
-                                zone.inner_radius_mm, zone.outer_radius_mm);
-  for (const auto& c : zone.outer) out += fmt::format(" +{}", c.index);
-  for (const auto& c : zone.inner) out += fmt::format(" -{}", c.index);
+std::string place_line(const FitPlace& place) {
+  if (place.axis) {
+    const Eigen::Vector3d& p = place.axis->point_mm;
+    const Eigen::Vector3d& d = place.axis->direction;
+    return fmt::format(
+        "    axis through ({:.6f}, {:.6f}, {:.6f}) mm along ({:.9f}, {:.9f}, {:.9f})\n", p.x(),
+        p.y(), p.z(), d.x(), d.y(), d.z());
+  }
+  const Eigen::Vector3d& c = place.center_mm;
+  if (place.coordinates == 2) return fmt::format("    centre ({:.6f}, {:.6f}) mm\n", c.x(), c.y());
+  return fmt::format("    centre ({:.6f}, {:.6f}, {:.6f}) mm\n", c.x(), c.y(), c.z());
+}
+
+std::string radii_line(const FitReference& found) {
+  if (found.inner_radius_mm) {
+    return fmt::format("    inner radius {:.6f} mm, outer radius {:.6f} mm\n",
+                       *found.inner_radius_mm, *found.outer_radius_mm);
+  }
+  if (found.radius_mm) return fmt::format("    radius {:.6f} mm\n", *found.radius_mm);
+  return {};
+}
+
+std::string proof_lines(const FitReference& found) {
+  if (!found.certificate) return {};
+  std::string out = "    contacts";
+  for (const auto& c : found.outer) out += fmt::format(" +{}", c.index);
+  for (const auto& c : found.inner) out += fmt::format(" -{}", c.index);
+  const fit::Certificate& certificate = *found.certificate;
   out += fmt::format(" (+ outer, - inner, rows from 0)\n    certificate {}, {}, gap {:.1e} mm",
-                     fit::name_of(zone.certificate.kind), zone.certificate.scope,
-                     zone.certificate.gap_mm);
-  if (!zone.certificate.reason.empty()) out += "; " + zone.certificate.reason;
+                     fit::name_of(certificate.kind), certificate.scope, certificate.gap_mm);
+  if (!certificate.reason.empty()) out += "; " + certificate.reason;
   return out + "\n";
 }
 
-std::string axis_line(const fit::Axis& axis) {
-  return fmt::format(
-      "    axis through ({:.6f}, {:.6f}, {:.6f}) mm along ({:.9f}, {:.9f}, {:.9f})\n",
-      axis.point_mm.x(), axis.point_mm.y(), axis.point_mm.z(), axis.direction.x(),
-      axis.direction.y(), axis.direction.z());
-}
-
-std::string center_line(const Eigen::Vector2d& center) {
-  return fmt::format("    centre ({:.6f}, {:.6f}) mm\n", center.x(), center.y());
-}
-
-template <class Fit>
-std::string ls_line(const char* name, const Fit& fit) {
-  return fmt::format("  {}  deviation {:.4f} um, rms {:.4f} um\n    radius {:.6f} mm\n", name,
-                     um(fit.deviation_mm), um(fit.rms_mm), fit.radius_mm);
+std::string reference_lines(const FitOutcome::Entry& entry) {
+  if (!entry.found) return fmt::format("  {}  does not exist for these points\n", entry.title);
+  const FitReference& found = *entry.found;
+  std::string out = fmt::format("  {}  deviation {:.4f} um", entry.title, um(found.deviation_mm));
+  if (found.rms_mm) out += fmt::format(", rms {:.4f} um", um(*found.rms_mm));
+  return out + "\n" + place_line(found.place) + radii_line(found) + proof_lines(found);
 }
 
 }  // namespace
 
 std::string fit_json(const FitOutcome& outcome) {
   Json out = {{"shape", outcome.shape}, {"points", outcome.points}};
-  if (outcome.ls_circle) {
-    out["ls"] = {{"center_mm", center_json(outcome.ls_circle->center_mm)}};
-    put_ls(out["ls"], *outcome.ls_circle);
+  for (const FitOutcome::Entry& entry : outcome.references) {
+    out[entry.name] = entry.found ? reference_json(*entry.found) : Json(nullptr);
   }
-  if (outcome.ls_cylinder) {
-    out["ls"] = {{"axis", axis_json(outcome.ls_cylinder->axis)}};
-    put_ls(out["ls"], *outcome.ls_cylinder);
-  }
-  if (outcome.mz_circle) {
-    out["mz"] = {{"center_mm", center_json(outcome.mz_circle->center_mm)}};
-    put_zone(out["mz"], *outcome.mz_circle);
-  }
-  if (outcome.mz_cylinder) {
-    out["mz"] = {{"axis", axis_json(outcome.mz_cylinder->axis)}};
-    put_zone(out["mz"], *outcome.mz_cylinder);
-  }
-  if (outcome.all_references) out["mc"] = out["mi"] = nullptr;
   out["warnings"] = Json::array();
   for (const core::Error& w : outcome.warnings) {
     out["warnings"].push_back({{"code", core::code_name(w.code)}, {"what", w.what}});
@@ -108,19 +114,7 @@ std::string fit_json(const FitOutcome& outcome) {
 
 std::string fit_table(const FitOutcome& outcome) {
   std::string out = fmt::format("{}, {} points\n", outcome.shape, outcome.points);
-  if (outcome.ls_circle)
-    out += ls_line("LSCI", *outcome.ls_circle) + center_line(outcome.ls_circle->center_mm);
-  if (outcome.ls_cylinder)
-    out += ls_line("LSCY", *outcome.ls_cylinder) + axis_line(outcome.ls_cylinder->axis);
-  if (outcome.mz_circle) {
-    out += fmt::format("  MZCI  deviation {:.4f} um (RONt)\n", um(outcome.mz_circle->width_mm())) +
-           center_line(outcome.mz_circle->center_mm) + zone_lines(*outcome.mz_circle);
-  }
-  if (outcome.mz_cylinder) {
-    out +=
-        fmt::format("  MZCY  deviation {:.4f} um (CYLt)\n", um(outcome.mz_cylinder->width_mm())) +
-        axis_line(outcome.mz_cylinder->axis) + zone_lines(*outcome.mz_cylinder);
-  }
+  for (const FitOutcome::Entry& entry : outcome.references) out += reference_lines(entry);
   for (const core::Error& w : outcome.warnings)
     out += fmt::format("  warning: {} [{}]\n", w.what, core::code_name(w.code));
   return out;

@@ -2,25 +2,49 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/error.h"
-#include "fit/ls_circle.h"
-#include "fit/ls_cylinder.h"
-#include "fit/min_zone_circle.h"
-#include "fit/min_zone_cylinder.h"
+#include "fit/axis.h"
+#include "fit/certificate.h"
+#include "fit/contacts.h"
 
 namespace rondure::app {
 
+/// Centre of a circle (two numbers used) or sphere, or the axis of a cylinder or line.
+struct FitPlace {
+  std::optional<fit::Axis> axis;
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
+  int coordinates = 3;  ///< Of the centre: 2 for a circle.
+};
+
+/// What one reference says, whatever the shape.
+struct FitReference {
+  FitPlace place;
+  std::optional<double> radius_mm;        ///< Least squares, circumscribed, inscribed.
+  std::optional<double> inner_radius_mm;  ///< Minimum zone.
+  std::optional<double> outer_radius_mm;
+  std::optional<double> diameter_mm;  ///< Minimum zone of a line.
+  double deviation_mm = 0.0;
+  std::optional<double> rms_mm;  ///< Least squares.
+  std::vector<fit::Contact> outer;
+  std::vector<fit::Contact> inner;
+  std::optional<fit::Certificate> certificate;  ///< All but least squares.
+};
+
 /// What `rondure fit` found of one set of points.
 struct FitOutcome {
+  struct Entry {
+    std::string name;                   ///< "ls", "mz", "mc", "mi".
+    std::string title;                  ///< "LSCI", "MZCY", ...
+    std::optional<FitReference> found;  ///< Nothing: it does not exist for these data.
+  };
   std::string shape;
   std::size_t points = 0;
-  bool all_references = true;  ///< --reference all: mc and mi are named, as null.
-  std::optional<fit::LsCircle> ls_circle;
-  std::optional<fit::MinZoneCircle> mz_circle;
-  std::optional<fit::LsCylinder> ls_cylinder;
-  std::optional<fit::MinZoneCylinder> mz_cylinder;
+  std::vector<Entry> references;  ///< Those asked for, in the order of the names above.
   std::vector<core::Error> warnings;
 };
 

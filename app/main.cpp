@@ -66,12 +66,17 @@ void add_run(CLI::App& app, RunArguments& arguments) {
 }
 
 CLI::App* add_fit(CLI::App& app, FitArguments& arguments) {
-  auto* verb = app.add_subcommand("fit", "Fits a circle or a cylinder to a points file");
-  verb->add_option("SHAPE", arguments.shape, "circle (columns x,y) or cylinder (columns x,y,z), mm")
-      ->check(CLI::IsMember({"circle", "cylinder"}));
+  auto* verb =
+      app.add_subcommand("fit", "Fits a circle, cylinder, sphere or line to a points file");
+  verb->add_option("SHAPE", arguments.shape,
+                   "circle (columns x,y); cylinder, sphere, line (columns x,y,z); mm")
+      ->check(CLI::IsMember({"circle", "cylinder", "sphere", "line"}));
   verb->add_option("FILE", arguments.file, "CSV with a header line; # comments");
-  verb->add_option("--reference", arguments.reference, "ls, mz or all")
-      ->check(CLI::IsMember({"ls", "mz", "all"}));
+  verb->add_option(
+          "--reference", arguments.reference,
+          "ls least squares, mz minimum zone, mc minimum circumscribed, mi maximum inscribed, "
+          "or all (default)")
+      ->check(CLI::IsMember({"ls", "mz", "mc", "mi", "all"}));
   verb->add_flag("--json", arguments.json, "The stable JSON contract instead of text");
   verb->footer("\nExample: rondure fit cylinder tests/data/nist_cyl_13/points.csv --json");
   verb->require_subcommand(0, 1);
@@ -79,6 +84,12 @@ CLI::App* add_fit(CLI::App& app, FitArguments& arguments) {
     if (!verb->get_subcommands().empty()) return;
     if (arguments.shape.empty()) throw CLI::RequiredError("SHAPE");
     if (arguments.file.empty()) throw CLI::RequiredError("FILE");
+    const bool one_sided = arguments.reference == "mc" || arguments.reference == "mi";
+    if (arguments.shape == "line" && one_sided) {
+      throw CLI::ValidationError("--reference",
+                                 "a line has ls and mz (the least cylinder that "
+                                 "encloses its points)");
+    }
   });
   return verb;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/fit_shapes.h"
 #include "app/fit_text.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
@@ -9,10 +10,6 @@
 
 namespace rondure::app {
 namespace {
-
-bool wants(const FitArguments& arguments, const char* reference) {
-  return arguments.reference == "all" || arguments.reference == reference;
-}
 
 core::Result<record::PointTable> load(const FitArguments& arguments) {
   const auto bytes = record::read_file(arguments.file);
@@ -30,47 +27,6 @@ core::Result<record::PointTable> load(const FitArguments& arguments) {
   return table;
 }
 
-core::Result<void> fit_circle(const FitArguments& arguments,
-                              const std::vector<Eigen::Vector3d>& points, FitOutcome& out) {
-  std::vector<Eigen::Vector2d> flat;
-  flat.reserve(points.size());
-  for (const Eigen::Vector3d& p : points) flat.emplace_back(p.head<2>());
-  if (wants(arguments, "ls")) {
-    const auto ls = fit::ls_circle(flat);
-    if (!ls) return core::fail(ls.error());
-    out.ls_circle = *ls;
-  }
-  if (wants(arguments, "mz")) {
-    const auto mz = fit::min_zone_circle(flat);
-    if (!mz) return core::fail(mz.error());
-    out.mz_circle = *mz;
-    if (mz->exact_fit) {
-      out.warnings.push_back({core::Code::kExactFit,
-                              "three different points lie on a circle exactly: the deviation "
-                              "says nothing about form",
-                              {}});
-    }
-  }
-  return {};
-}
-
-core::Result<void> fit_cylinder(const FitArguments& arguments,
-                                const std::vector<Eigen::Vector3d>& points, FitOutcome& out) {
-  const auto ls = fit::ls_cylinder(points);
-  if (!ls) return core::fail(ls.error());
-  if (wants(arguments, "ls")) out.ls_cylinder = *ls;
-  if (wants(arguments, "mz")) {
-    // All directions, or, where that takes too long, those about the least-squares axis.
-    const fit::AxisScope all{fit::AxisScope::Kind::kHalfSphere};
-    const fit::AxisScope cone{fit::AxisScope::Kind::kCone, ls->axis.direction};
-    const auto mz =
-        fit::min_zone_cylinder(points, std::nullopt, {.scopes = {all, cone}, .search = {}});
-    if (!mz) return core::fail(mz.error());
-    out.mz_cylinder = *mz;
-  }
-  return {};
-}
-
 }  // namespace
 
 int fit(const FitArguments& arguments) {
@@ -79,31 +35,13 @@ int fit(const FitArguments& arguments) {
     complain(table.error());
     return kBadInput;
   }
-  FitOutcome outcome;
-  outcome.shape = arguments.shape;
-  outcome.points = table->points_mm.size();
-  outcome.all_references = arguments.reference == "all";
-  const auto fitted = arguments.shape == "circle"
-                          ? fit_circle(arguments, table->points_mm, outcome)
-                          : fit_cylinder(arguments, table->points_mm, outcome);
-  if (!fitted) {
-    complain(
-        fitted.error().at(fitted.error().where.empty() ? arguments.file : fitted.error().where));
+  const auto outcome = fit_shape(arguments.shape, arguments.reference, table->points_mm);
+  if (!outcome) {
+    const core::Error& error = outcome.error();
+    complain(error.at(error.where.empty() ? arguments.file : error.where));
     return kBadInput;
   }
-  const auto& certificate = outcome.mz_circle     ? &outcome.mz_circle->certificate
-                            : outcome.mz_cylinder ? &outcome.mz_cylinder->certificate
-                                                  : nullptr;
-  if (certificate != nullptr && certificate->kind == fit::Certificate::Kind::kNone) {
-    outcome.warnings.push_back({core::Code::kNoCertificate, certificate->reason, {}});
-  }
-  if (outcome.all_references) {
-    outcome.warnings.push_back(
-        {core::Code::kReferenceAbsent,
-         "mc and mi (minimum circumscribed, maximum inscribed) are not computed by this version",
-         {}});
-  }
-  say(arguments.json ? fit_json(outcome) : fit_table(outcome));
+  say(arguments.json ? fit_json(*outcome) : fit_table(*outcome));
   return kAllWell;
 }
 

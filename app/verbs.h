@@ -66,7 +66,7 @@ struct HistoryArguments {
 [[nodiscard]] int history(const HistoryArguments& arguments);
 
 struct FitArguments {
-  std::string shape;  ///< "circle" or "cylinder".
+  std::string shape;  ///< "circle", "cylinder", "sphere" or "line".
   std::string file;
   std::string reference = "all";
   bool json = false;

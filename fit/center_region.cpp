@@ -24,13 +24,12 @@ CenterRegion center_region(std::span<const Eigen::Vector2d> points_mm, double wi
   for (const Eigen::Vector2d& p : points_mm) reach = std::max(reach, (p - mean).norm());
   CenterRegion out;
   if (reach == 0.0) return out;
-  std::vector<ZoneRow<2>> rows;
-  rows.reserve(points_mm.size());
+  ZoneRows<2> rows;
   for (const Eigen::Vector2d& p : points_mm) {
     const Eigen::Vector2d v = p - mean;
-    rows.push_back({v.squaredNorm(), -2.0 * reach * v});
+    rows.push_back(v.squaredNorm(), -2.0 * reach * v);
   }
-  const auto least = solve_zone_program<2>(rows, kReach, 1.0, kPivots);
+  const auto least = solve_zone_program<2>(rows, kReach, kMinimumZone, kPivots);
   out.center_mm = mean + reach * least.step;
 
   // From here on the programme is not trusted: only its centre is used. Points up to `depth` off

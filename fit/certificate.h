@@ -1,17 +1,11 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "fit/contacts.h"
 
 namespace rondure::fit {
-
-/// A point that the zone touches, with its multiplier in the stationarity condition.
-struct Contact {
-  std::size_t index = 0;    ///< Row of the point in the input.
-  double multiplier = 0.0;  ///< >= 0; the multipliers of each side sum to 1.
-};
 
 /// What is proven about a minimum zone.
 struct Certificate {

@@ -4,16 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "fit/points.h"
-#include "fit/zone_program.h"
 
 namespace rondure::fit {
 namespace {
-
-constexpr int kTurnLimit = 50;
 
 /// Least-squares line r = mean + slope (z - mean z); nothing where all z are alike.
 std::optional<double> ls_slope(std::span<const Eigen::Vector2d> points,
@@ -44,33 +42,46 @@ std::vector<Eigen::Vector2d> turned(std::span<const Eigen::Vector2d> points,
   return out;
 }
 
-/// Least zone across the first axis, over the slope: repeated until the slope no longer changes.
-core::Result<double> least_zone(std::span<const Eigen::Vector2d> points,
-                                const Eigen::Vector2d& mean, double slope) {
-  for (int turn = 0; turn < kTurnLimit; ++turn) {
-    const auto frame = turned(points, mean, slope);
-    double half = 0.0;
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (const Eigen::Vector2d& p : frame) {
-      half = std::max(half, std::abs(p.x()));
-      low = std::min(low, p.y());
-      high = std::max(high, p.y());
-    }
-    std::vector<ZoneRow<1>> rows;
-    for (const Eigen::Vector2d& p : frame) {
-      rows.push_back({p.y(), Eigen::Matrix<double, 1, 1>(-p.x() / half)});
-    }
-    const double zone = high - low;
-    const auto step = solve_zone_program<1>(rows, 2.0 * zone);
-    const double gain = zone - step.width;
-    if (step.solved && gain <= 1e-13 * zone + 1e-15) return zone;
-    const double change = step.step(0) / half;
-    slope = (slope + change) / (1.0 - slope * change);
+/// Twice the area of the triangle a, b, c; > 0 where c lies to the left of a -> b.
+double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+/// Corners of the convex hull, anticlockwise (monotone chain); 1 or 2 for points of one line.
+std::vector<Eigen::Vector2d> hull_of(std::vector<Eigen::Vector2d> points) {
+  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  std::vector<Eigen::Vector2d> hull;
+  const auto add = [&](const Eigen::Vector2d& p, std::size_t kept) {
+    while (hull.size() > kept && turn(hull[hull.size() - 2], hull.back(), p) <= 0.0)
+      hull.pop_back();
+    hull.push_back(p);
+  };
+  for (const Eigen::Vector2d& p : points) add(p, 1);
+  const std::size_t lower = hull.size();
+  for (auto p = points.rbegin() + 1; p < points.rend(); ++p) add(*p, lower);
+  if (hull.size() > 1) hull.pop_back();  // the first corner again
+  return hull;
+}
+
+/// Least distance of two parallels that hold the points between them: one of the two goes through
+/// an edge of the hull, the other through the corner farthest from it.
+double least_zone(std::vector<Eigen::Vector2d> points) {
+  const auto hull = hull_of(std::move(points));
+  const std::size_t n = hull.size();
+  if (n < 3) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t far = 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector2d& a = hull[i];
+    const Eigen::Vector2d& b = hull[(i + 1) % n];
+    // The farthest corner goes round with the edge.
+    while (turn(a, b, hull[(far + 1) % n]) > turn(a, b, hull[far])) far = (far + 1) % n;
+    least = std::min(least, turn(a, b, hull[far]) / (b - a).norm());
   }
-  return core::fail(
-      core::Code::kNotConverged,
-      fmt::format("the zone of the generatrix still shrinks after {} turns", kTurnLimit));
+  return least;
 }
 
 core::Error no_length() {
@@ -102,12 +113,11 @@ core::Result<GeneratrixStraightness> generatrix_straightness(std::span<const dou
   if (!slope) return core::fail(no_length());
   GeneratrixStraightness out;
   out.ls_slope = *slope;
+  auto frame = turned(points, mean, *slope);
   std::vector<double> deviations;
-  for (const Eigen::Vector2d& p : turned(points, mean, *slope)) deviations.push_back(p.y());
+  for (const Eigen::Vector2d& p : frame) deviations.push_back(p.y());
   out.ls = form_parameters(deviations);
-  const auto zone = least_zone(points, mean, *slope);
-  if (!zone) return core::fail(zone.error());
-  out.zone_mm = *zone;
+  out.zone_mm = least_zone(std::move(frame));
   return out;
 }
 

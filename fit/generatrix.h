@@ -20,9 +20,10 @@ struct GeneratrixStraightness {
 
 /// @param z_mm  Positions along the axis; n >= 3, at least two different [mm].
 /// @param r_mm  Distances from the axis there [mm].
-/// Deviations are square to the lines. The zone is the linear programme of one slope, repeated in
-/// the turned frame.
-/// @return kNoPoints, kNotFinite (row), kTooFewPoints, kRank (all at one position), kNotConverged.
+/// Deviations are square to the lines. The zone is exact, the narrowest strip over all directions:
+/// the least width of the convex hull, which an edge attains. O(n log n).
+/// @return kNoPoints, kNotFinite (row), kTooFewPoints, kRank (all at one position).
+/// Source of the zone: M. E. Houle, G. T. Toussaint, IEEE Trans. PAMI 10 (1988) 761-765.
 [[nodiscard]] core::Result<GeneratrixStraightness> generatrix_straightness(
     std::span<const double> z_mm, std::span<const double> r_mm);
 

@@ -14,23 +14,25 @@ namespace {
 /// Lifts the outer rows so far that only they can be the maximum, whatever the direction.
 constexpr double kLift = 64.0;
 constexpr double kGrowthNoise = 1e-9;
+/// A move that changes the contacts' distances by less than this part of itself is level.
+constexpr double kLevel = 1e-9;
 
 template <int K>
 using Rows = std::vector<ContactRow<K>>;
 
 /// Growth of the linearised zone on the face x_k = sign of the unit box.
 template <int K>
-double growth_on_face(const Rows<K>& outer, const Rows<K>& inner, int k, double sign) {
-  std::vector<ZoneRow<K - 1>> rows;
+double growth_on_face(const Rows<K>& outer, const Rows<K>& inner, const ZoneWeights& weights, int k,
+                      double sign) {
+  ZoneRows<K - 1> rows;
   const auto add = [&](const ContactRow<K>& contact, double lift) {
-    ZoneRow<K - 1> row;
-    row.distance = lift + sign * contact.gradient(k);
-    for (int j = 0; j < K - 1; ++j) row.gradient(j) = contact.gradient(j < k ? j : j + 1);
-    rows.push_back(row);
+    Eigen::Matrix<double, K - 1, 1> gradient;
+    for (int j = 0; j < K - 1; ++j) gradient(j) = contact.gradient(j < k ? j : j + 1);
+    rows.push_back(lift + sign * contact.gradient(k), gradient);
   };
   for (const auto& contact : outer) add(contact, kLift);
   for (const auto& contact : inner) add(contact, 0.0);
-  return solve_zone_program<K - 1>(rows, 1.0).width - kLift;
+  return solve_zone_program<K - 1>(rows, 1.0, weights).value - weights.outer * kLift;
 }
 
 template <int K>
@@ -39,83 +41,94 @@ const ContactRow<K>& row_of(const Rows<K>& rows, std::size_t index) {
                        [&](const ContactRow<K>& row) { return row.index == index; });
 }
 
-/// Tests the curvature of the Lagrangian on the moves that leave the binding contacts level: sets
-/// `strict` when it is positive on all of them, `descent` to the worst of them otherwise.
-template <int K>
-void test_curvature(const Rows<K>& outer, const Rows<K>& inner, LocalProof<K>& proof) {
-  Eigen::Matrix<double, K, K> w = Eigen::Matrix<double, K, K>::Zero();
-  std::vector<Eigen::Matrix<double, K, 1>> level;
-  const auto collect = [&](const std::vector<Contact>& side, const Rows<K>& rows, double sign) {
-    for (const Contact& c : side) {
-      const ContactRow<K>& row = row_of(rows, c.index);
-      w += sign * c.multiplier * row.hessian;
-      level.push_back(row.gradient - row_of(rows, side.front().index).gradient);
-    }
-  };
-  collect(proof.outer, outer, 1.0);
-  collect(proof.inner, inner, -1.0);
-  Eigen::Matrix<double, Eigen::Dynamic, K> differences(static_cast<Eigen::Index>(level.size()), K);
-  for (std::size_t i = 0; i < level.size(); ++i) {
-    differences.row(static_cast<Eigen::Index>(i)) = level[i].transpose();
-  }
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(differences, Eigen::ComputeFullV);
-  svd.setThreshold(1e-9);
-  const Eigen::Index rank = svd.rank();
-  proof.strict = rank == K;
-  if (proof.strict) return;
-  const Eigen::MatrixXd free = svd.matrixV().rightCols(K - rank);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> curvature(free.transpose() * w * free);
-  proof.strict = curvature.eigenvalues()(0) > 0.0;
-  if (!proof.strict) proof.descent = free * curvature.eigenvectors().col(0);
-}
-
 }  // namespace
 
 template <int K>
-double first_order_growth(const Rows<K>& outer, const Rows<K>& inner) {
+Eigen::Matrix<double, K, 1> curvature_descent(const LocalProof<K>& proof, const Rows<K>& outer,
+                                              const Rows<K>& inner, const ZoneWeights& weights) {
+  constexpr int kMost = static_cast<int>(Contacts::kCapacity);
+  Eigen::Matrix<double, K, K> w = Eigen::Matrix<double, K, K>::Zero();
+  Eigen::Matrix<double, Eigen::Dynamic, K, 0, 2 * kMost, K> level(
+      static_cast<Eigen::Index>(proof.outer.size() + proof.inner.size()), K);
+  Eigen::Index row = 0;
+  const auto collect = [&](const Contacts& side, const Rows<K>& rows, double weight) {
+    for (const Contact& c : side) {
+      const ContactRow<K>& contact = row_of(rows, c.index);
+      w += weight * c.multiplier * contact.hessian;
+      level.row(row++) = (contact.gradient - row_of(rows, side[0].index).gradient).transpose();
+    }
+  };
+  collect(proof.outer, outer, weights.outer);
+  collect(proof.inner, inner, -weights.inner);
+  Eigen::JacobiSVD<Eigen::Matrix<double, Eigen::Dynamic, K, 0, 2 * kMost, K>> svd(
+      level, Eigen::ComputeFullV);
+  svd.setThreshold(kLevel);
+  const Eigen::Index rank = svd.rank();
+  if (rank == K) return Eigen::Matrix<double, K, 1>::Zero();
+  using Free = Eigen::Matrix<double, K, Eigen::Dynamic, 0, K, K>;
+  const Free moves = svd.matrixV().rightCols(K - rank);
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, K, K>;
+  const Eigen::SelfAdjointEigenSolver<Square> curvature(Square(moves.transpose() * w * moves));
+  if (curvature.eigenvalues()(0) > 0.0) return Eigen::Matrix<double, K, 1>::Zero();
+  return moves * curvature.eigenvectors().col(0);
+}
+
+template <int K>
+double first_order_growth(const Rows<K>& outer, const Rows<K>& inner, const ZoneWeights& weights) {
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < K; ++k) {
-    least = std::min(
-        {least, growth_on_face<K>(outer, inner, k, 1.0), growth_on_face<K>(outer, inner, k, -1.0)});
+    least = std::min({least, growth_on_face<K>(outer, inner, weights, k, 1.0),
+                      growth_on_face<K>(outer, inner, weights, k, -1.0)});
   }
   return least;
 }
 
 template <int K>
-LocalProof<K> prove_local(const Rows<K>& outer, const Rows<K>& inner, double reach_mm) {
-  // Distances relative to the inner contacts keep their digits; the sum of the multipliers of each
-  // side is 1, so a common value cancels.
-  const double base = inner.front().distance;
-  std::vector<ZoneRow<K>> rows;
-  for (const auto& c : outer) rows.push_back({c.distance - base, c.gradient});
-  for (const auto& c : inner) rows.push_back({c.distance - base, c.gradient});
-  const auto step = solve_zone_program<K>(rows, std::max(reach_mm, 1e-9));
+LocalProof<K> prove_local(const Rows<K>& outer, const Rows<K>& inner, double reach_mm,
+                          const ZoneWeights& weights) {
+  // Distances relative to one contact keep their digits; the multipliers of each side sum to 1, so
+  // a common value only shifts the result.
+  const double base = inner.empty() ? outer.front().distance : inner.front().distance;
+  ZoneRows<K> rows;
+  for (const auto& c : outer) rows.push_back(c.distance - base, c.gradient);
+  for (const auto& c : inner) rows.push_back(c.distance - base, c.gradient);
+  const auto step = solve_zone_program<K>(rows, std::max(reach_mm, 1e-9), weights);
 
   LocalProof<K> proof;
   Eigen::Matrix<double, K, 1> imbalance = Eigen::Matrix<double, K, 1>::Zero();
   double supported = 0.0;
-  bool sides_kept = !step.outer.empty() && !step.inner.empty();
+  bool sides_kept =
+      step.outer.empty() == (weights.outer == 0.0) && step.inner.empty() == (weights.inner == 0.0);
   for (const Contact& c : step.outer) {
     sides_kept = sides_kept && c.index < outer.size();
-    imbalance += c.multiplier * rows[c.index].gradient;
-    supported += c.multiplier * rows[c.index].distance;
+    imbalance += weights.outer * c.multiplier * rows.gradient(c.index);
+    supported += weights.outer * c.multiplier * rows.distances()[c.index];
     if (sides_kept) proof.outer.push_back({outer[c.index].index, c.multiplier});
   }
   for (const Contact& c : step.inner) {
     sides_kept = sides_kept && c.index >= outer.size();
-    imbalance -= c.multiplier * rows[c.index].gradient;
-    supported -= c.multiplier * rows[c.index].distance;
+    imbalance -= weights.inner * c.multiplier * rows.gradient(c.index);
+    supported -= weights.inner * c.multiplier * rows.distances()[c.index];
     if (sides_kept) proof.inner.push_back({inner[c.index - outer.size()].index, c.multiplier});
   }
   if (!sides_kept) return proof;
-  double high = -std::numeric_limits<double>::infinity();
-  double low = std::numeric_limits<double>::infinity();
-  for (const auto& c : outer) high = std::max(high, c.distance - base);
-  for (const auto& c : inner) low = std::min(low, c.distance - base);
-  proof.gap_mm = high - low - supported + imbalance.template lpNorm<1>() * reach_mm;
-  proof.growth = first_order_growth<K>(outer, inner);
+  double claimed = 0.0;
+  if (!outer.empty()) {
+    double high = -std::numeric_limits<double>::infinity();
+    for (const auto& c : outer) high = std::max(high, c.distance - base);
+    claimed += weights.outer * high;
+  }
+  if (!inner.empty()) {
+    double low = std::numeric_limits<double>::infinity();
+    for (const auto& c : inner) low = std::min(low, c.distance - base);
+    claimed -= weights.inner * low;
+  }
+  proof.gap_mm = claimed - supported + imbalance.template lpNorm<1>() * reach_mm;
+  proof.growth = first_order_growth<K>(outer, inner, weights);
   proof.strict = proof.growth > kGrowthNoise;
-  if (!proof.strict) test_curvature<K>(outer, inner, proof);
+  if (proof.strict) return proof;
+  proof.descent = curvature_descent<K>(proof, outer, inner, weights);
+  proof.strict = proof.descent.isZero();
   return proof;
 }
 
@@ -142,12 +155,22 @@ Certificate certify_local(const LocalProof<K>& proof, double width_mm, double ro
 }
 
 template struct LocalProof<2>;
-template struct LocalProof<4>;
-template double first_order_growth<2>(const Rows<2>&, const Rows<2>&);
-template double first_order_growth<4>(const Rows<4>&, const Rows<4>&);
-template LocalProof<2> prove_local<2>(const Rows<2>&, const Rows<2>&, double);
-template LocalProof<4> prove_local<4>(const Rows<4>&, const Rows<4>&, double);
+template double first_order_growth<2>(const Rows<2>&, const Rows<2>&, const ZoneWeights&);
+template Eigen::Matrix<double, 2, 1> curvature_descent<2>(const LocalProof<2>&, const Rows<2>&,
+                                                          const Rows<2>&, const ZoneWeights&);
+template LocalProof<2> prove_local<2>(const Rows<2>&, const Rows<2>&, double, const ZoneWeights&);
 template Certificate certify_local<2>(const LocalProof<2>&, double, double, std::string);
+template struct LocalProof<3>;
+template double first_order_growth<3>(const Rows<3>&, const Rows<3>&, const ZoneWeights&);
+template Eigen::Matrix<double, 3, 1> curvature_descent<3>(const LocalProof<3>&, const Rows<3>&,
+                                                          const Rows<3>&, const ZoneWeights&);
+template LocalProof<3> prove_local<3>(const Rows<3>&, const Rows<3>&, double, const ZoneWeights&);
+template Certificate certify_local<3>(const LocalProof<3>&, double, double, std::string);
+template struct LocalProof<4>;
+template double first_order_growth<4>(const Rows<4>&, const Rows<4>&, const ZoneWeights&);
+template Eigen::Matrix<double, 4, 1> curvature_descent<4>(const LocalProof<4>&, const Rows<4>&,
+                                                          const Rows<4>&, const ZoneWeights&);
+template LocalProof<4> prove_local<4>(const Rows<4>&, const Rows<4>&, double, const ZoneWeights&);
 template Certificate certify_local<4>(const LocalProof<4>&, double, double, std::string);
 
 }  // namespace rondure::fit

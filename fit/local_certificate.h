@@ -1,11 +1,14 @@
 #pragma once
 
 #include <limits>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "fit/certificate.h"
+#include "fit/contacts.h"
+#include "fit/zone_program.h"
 
 namespace rondure::fit {
 
@@ -21,8 +24,8 @@ struct ContactRow {
 /// Evidence that a zone is a local minimum.
 template <int K>
 struct LocalProof {
-  std::vector<Contact> outer;  ///< Multipliers >= 0, sum 1.
-  std::vector<Contact> inner;
+  Contacts outer;  ///< Multipliers >= 0, sum 1.
+  Contacts inner;
   double gap_mm = std::numeric_limits<double>::infinity();  ///< Zone minus its lower bound nearby.
   double growth = 0.0;  ///< sigma: least first-order growth per mm (max norm of the move).
   bool strict = false;  ///< growth > 0, or positive curvature where it vanishes.
@@ -30,24 +33,39 @@ struct LocalProof {
   Eigen::Matrix<double, K, 1> descent = Eigen::Matrix<double, K, 1>::Zero();
 };
 
-/// sigma: least growth of max over `outer` minus min over `inner`, both linearised, per unit move
-/// in the max norm; <= 0 where some move does not widen the zone to first order.
+/// sigma: least growth of  outer weight * max over `outer` - inner weight * min over `inner`, both
+/// linearised, per unit move in the max norm; <= 0 where some move widens nothing to first order.
 ///
-/// @param outer, inner  Not empty; only the gradients are used, each of size 2 at most.
+/// @param outer, inner  Only the gradients are used, each of size 2 at most. A side with weight 0
+/// is
+///                      empty, the other is not.
 template <int K>
 [[nodiscard]] double first_order_growth(const std::vector<ContactRow<K>>& outer,
-                                        const std::vector<ContactRow<K>>& inner);
+                                        const std::vector<ContactRow<K>>& inner,
+                                        const ZoneWeights& weights = kMinimumZone);
+
+/// Curvature of the Lagrangian on the moves that leave the binding contacts level.
+/// @param outer, inner  The contacts that bind, all with a multiplier.
+/// @return Zero when it is positive on all of them: a strict minimum. Else the unit move of its
+/// most
+///         negative curvature, along which the zone shrinks.
+template <int K>
+[[nodiscard]] Eigen::Matrix<double, K, 1> curvature_descent(const LocalProof<K>& proof,
+                                                            const std::vector<ContactRow<K>>& outer,
+                                                            const std::vector<ContactRow<K>>& inner,
+                                                            const ZoneWeights& weights);
 
 /// Tests the contacts of a zone for a local minimum: finds multipliers with
-/// sum lam J_h = sum mu J_l, the least first-order growth sigma, and, where sigma vanishes, the
-/// sign of the curvature on the directions left free.
+/// outer weight * sum lam J_h = inner weight * sum mu J_l, the least first-order growth sigma, and,
+/// where sigma vanishes, the sign of the curvature on the directions left free.
 ///
-/// @param outer, inner  Contacts, not empty; unknowns scaled to mm.
+/// @param outer, inner  Contacts; unknowns scaled to mm. A side with weight 0 is empty.
 /// @param reach_mm      B: weight of a remaining imbalance of the multipliers in the gap.
 /// Source: methods, certificates section 1.
 template <int K>
 [[nodiscard]] LocalProof<K> prove_local(const std::vector<ContactRow<K>>& outer,
-                                        const std::vector<ContactRow<K>>& inner, double reach_mm);
+                                        const std::vector<ContactRow<K>>& inner, double reach_mm,
+                                        const ZoneWeights& weights = kMinimumZone);
 
 /// Turns a proof into the certificate of a result.
 /// @param width_mm  Reported zone; a gap above 1e-10 of it (or above round-off) proves nothing.

@@ -1,11 +1,15 @@
 #include "fit/ls_circle.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 
+#include "fit/gauss_newton.h"
+#include "fit/ls_sums.h"
 #include "fit/points.h"
 
 namespace rondure::fit {
@@ -13,7 +17,9 @@ namespace {
 
 // Below this share of (Suu + Svv)^2 the determinant is round-off and the points are on a line.
 constexpr double kCollinearShare = 1e-12;
-constexpr int kIterationLimit = 200;
+
+// Larger sets start from the circle of so many of their points.
+constexpr std::size_t kSample = 1000;
 
 /// Fills deviation and rms about the centre.
 void fill_residuals(std::span<const Eigen::Vector2d> points_mm, LsCircle& circle) {
@@ -30,28 +36,49 @@ void fill_residuals(std::span<const Eigen::Vector2d> points_mm, LsCircle& circle
   circle.rms_mm = std::sqrt(squares / static_cast<double>(points_mm.size()));
 }
 
-struct NormalEquations {
-  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  double squares = 0.0;
+/// Circle under iteration, relative to an origin amid the points.
+struct CircleModel {
+  static constexpr int kUnknowns = 3;
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  double radius = 0.0;
+
+  [[nodiscard]] CircleModel moved(const Eigen::Vector3d& step) const {
+    return {center + step.head<2>(), radius + step(2)};
+  }
+  [[nodiscard]] double scale_mm() const { return radius + center.norm(); }
 };
 
-/// Gauss-Newton sums of the residuals |p - c| - R with points relative to `origin`.
-NormalEquations normal_equations(std::span<const Eigen::Vector2d> points_mm,
-                                 const Eigen::Vector2d& origin, const Eigen::Vector2d& center,
-                                 double radius) {
-  NormalEquations out;
-  for (const Eigen::Vector2d& p : points_mm) {
-    const Eigen::Vector2d v = (p - origin) - center;
-    const double r = v.norm();
-    if (r == 0.0) continue;  // the centre itself has no direction; it still cannot attract the fit
-    const Eigen::Vector3d row(-v.x() / r, -v.y() / r, -1.0);
-    const double residual = r - radius;
-    out.matrix += row * row.transpose();
-    out.right -= row * residual;
-    out.squares += residual * residual;
-  }
+LsCircle finished(const CircleModel& model, const Eigen::Vector2d& origin, double squares,
+                  const DistanceRange& range, std::size_t n) {
+  LsCircle out;
+  out.center_mm = origin + model.center;
+  out.radius_mm = model.radius;
+  out.deviation_mm = range.high_mm - range.low_mm;
+  out.rms_mm = std::sqrt(squares / static_cast<double>(n));
   return out;
+}
+
+/// A large set from the circle of a sample; nothing when that does not lead to the minimum.
+std::optional<LsCircle> from_sample(std::span<const Eigen::Vector2d> points_mm) {
+  std::array<Eigen::Vector2d, kSample> sample;
+  sample_points(points_mm, sample);
+  const auto start = ls_circle(sample);
+  if (!start) return std::nullopt;
+  const Eigen::Vector2d origin = mean_point(sample);
+  CircleModel model{start->center_mm - origin, start->radius_mm};
+  StretchExtremes extremes(points_mm.size());
+  const auto sums_at = [&](const CircleModel& at, bool matrix) {
+    extremes = StretchExtremes(points_mm.size());
+    return circle_sums(points_mm, origin, at.center, at.radius, {matrix, &extremes});
+  };
+  double squares = 0.0;
+  Eigen::Vector3d step = Eigen::Vector3d::Zero();
+  if (!polish(model, squares, sums_at, step)) return std::nullopt;
+  const auto range = distance_range(
+      points_mm.size(),
+      [&](std::size_t i) { return ((points_mm[i] - origin) - model.center).norm(); }, &extremes,
+      step.cwiseAbs().sum() + 1e-13 * model.scale_mm());
+  return finished(model, origin, squares, range, points_mm.size());
 }
 
 }  // namespace
@@ -90,49 +117,24 @@ core::Result<LsCircle> algebraic_circle(std::span<const Eigen::Vector2d> points_
 }
 
 core::Result<LsCircle> ls_circle(std::span<const Eigen::Vector2d> points_mm) {
-  auto start = algebraic_circle(points_mm);
+  if (points_mm.size() > kSample) {
+    if (const auto circle = from_sample(points_mm)) return *circle;
+  }
+  const auto start = algebraic_circle(points_mm);
   if (!start) return start;
   const Eigen::Vector2d origin = mean_point(points_mm);
-  Eigen::Vector2d center = start->center_mm - origin;
-  double radius = start->radius_mm;
-  NormalEquations now = normal_equations(points_mm, origin, center, radius);
-  double damping = 0.0;
-  for (int i = 0; i < kIterationLimit; ++i) {
-    Eigen::Matrix3d damped = now.matrix;
-    damped.diagonal() *= 1.0 + damping;
-    const Eigen::Vector3d step = damped.ldlt().solve(now.right);
-    const auto next =
-        normal_equations(points_mm, origin, center + step.head<2>(), radius + step(2));
-    if (step.norm() <= 1e-15 * (radius + center.norm())) {
-      LsCircle circle = *start;
-      circle.center_mm = origin + center;
-      circle.radius_mm = radius;
-      fill_residuals(points_mm, circle);
-      return circle;
-    }
-    // The last digits are round-off of the sum of squares: a tiny undamped step is always taken.
-    if (next.squares <= now.squares || step.norm() <= 1e-9 * radius) {
-      center += step.head<2>();
-      radius += step(2);
-      now = next;
-      damping = damping > 1e-6 ? damping / 10.0 : 0.0;
-      continue;
-    }
-    damping = std::max(1e-3, damping * 10.0);
+  CircleModel model{start->center_mm - origin, start->radius_mm};
+  const auto sums_at = [&](const CircleModel& at, bool matrix) {
+    return circle_sums(points_mm, origin, at.center, at.radius, {matrix});
+  };
+  double squares = 0.0;
+  if (!settle(model, squares, sums_at)) {
+    return core::fail(core::Code::kNotConverged, "the least-squares circle did not settle");
   }
-  // Steps that no longer shrink below 1e-15 but stay at the round-off of the sums are the minimum.
-  const Eigen::Vector3d rest = now.matrix.ldlt().solve(now.right);
-  if (rest.norm() > 1e-11 * (radius + center.norm())) {
-    return core::fail(
-        core::Code::kNotConverged,
-        fmt::format("the least-squares circle still moves by {:.3g} mm after {} steps", rest.norm(),
-                    kIterationLimit));
-  }
-  LsCircle circle;
-  circle.center_mm = origin + center;
-  circle.radius_mm = radius;
-  fill_residuals(points_mm, circle);
-  return circle;
+  const auto range = distance_range(points_mm.size(), [&](std::size_t i) {
+    return ((points_mm[i] - origin) - model.center).norm();
+  });
+  return finished(model, origin, squares, range, points_mm.size());
 }
 
 }  // namespace rondure::fit

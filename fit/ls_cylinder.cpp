@@ -1,126 +1,117 @@
 #include "fit/ls_cylinder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 
-#include "core/units.h"
 #include "fit/cylinder_frame.h"
 #include "fit/cylinder_start.h"
-#include "fit/ls_circle.h"
+#include "fit/gauss_newton.h"
+#include "fit/ls_sums.h"
 #include "fit/points.h"
 
 namespace rondure::fit {
 namespace {
 
-constexpr int kIterationLimit = 300;
+// Larger sets start from the cylinder of so many of their points.
+constexpr std::size_t kSample = 1000;
 
 // Squared extents below this share are round-off of the sums: 3e-8 of the largest extent.
 constexpr double kFlat = 1e-15;
 
+// As in algebraic_circle(): below this share the determinant is round-off.
+constexpr double kCollinearShare = 1e-12;
+
 using Vector5 = Eigen::Matrix<double, 5, 1>;
-using Matrix5 = Eigen::Matrix<double, 5, 5>;
 using Points = std::span<const Eigen::Vector3d>;
 
-struct Sums {
-  Matrix5 matrix = Matrix5::Zero();
-  Vector5 right = Vector5::Zero();
+/// Cylinder under iteration, relative to an origin amid the points.
+struct CylinderModel {
+  static constexpr int kUnknowns = 5;
+  CylinderFrame frame;
+  double radius = 0.0;
+
+  [[nodiscard]] CylinderModel moved(const Vector5& step) const {
+    return {frame.moved(step.head<4>()), radius + step(4)};
+  }
+  [[nodiscard]] double scale_mm() const { return std::abs(radius) + frame.half_length_mm(); }
+};
+
+struct Settled {
+  CylinderModel model;
   double squares = 0.0;
 };
 
-Sums sums_at(Points points, const CylinderFrame& frame, double radius) {
-  Sums out;
-  for (const Eigen::Vector3d& p : points) {
-    const ZoneRow<4> row = frame.row(p);
-    Vector5 g;
-    g << row.gradient, -1.0;
-    const double residual = row.distance - radius;
-    out.matrix.selfadjointView<Eigen::Lower>().rankUpdate(g);
-    out.right -= g * residual;
-    out.squares += residual * residual;
-  }
-  out.matrix.triangularView<Eigen::StrictlyUpper>() = out.matrix.transpose();
-  return out;
-}
-
-struct State {
-  CylinderFrame frame;
-  double radius = 0.0;
-  Sums sums;
-};
-
-/// Levenberg-Marquardt until the step is round-off.
-/// @return Whether it settled.
-bool settle(Points points, State& state) {
-  double damping = 1e-6;
-  double last_step = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kIterationLimit; ++i) {
-    Matrix5 damped = state.sums.matrix;
-    damped.diagonal() *= 1.0 + damping;
-    const Vector5 step = damped.ldlt().solve(state.sums.right);
-    if (!step.allFinite()) return false;
-    const double size = step.cwiseAbs().maxCoeff();
-    const double scale = std::abs(state.radius) + state.frame.half_length_mm();
-    State next{state.frame.moved(step.head<4>()), state.radius + step(4), {}};
-    next.sums = sums_at(points, next.frame, next.radius);
-    // Near the end the sum of squares is constant to round-off; there a shrinking step is progress.
-    const bool rounding = size <= 1e-7 * scale;
-    if (next.sums.squares <= state.sums.squares || rounding) {
-      state = next;
-      damping = rounding ? 0.0 : damping * 0.1;
-      if (size <= 1e-15 * scale || (size <= 1e-12 * scale && size >= 0.5 * last_step)) return true;
-      last_step = size;
-      continue;
-    }
-    damping = std::max(10.0 * damping, 1e-6);
-    if (damping > 1e12) return false;
-  }
-  return false;
-}
-
-/// Start from the algebraic circle of the projection along a direction.
-core::Result<State> start(Points points, const Eigen::Vector3d& direction) {
+/// Algebraic circle of the projection along a direction; the points are relative to `origin`, their
+/// mean.
+core::Result<CylinderModel> start(Points points, const Eigen::Vector3d& origin,
+                                  const Eigen::Vector3d& direction) {
   const auto frame = across(direction);
-  std::vector<Eigen::Vector2d> flat;
-  flat.reserve(points.size());
-  for (const Eigen::Vector3d& p : points) flat.emplace_back(frame.transpose() * p);
-  const auto circle = algebraic_circle(flat);
-  if (!circle) return core::fail(circle.error());
-  const double half = half_extent(points, direction);
-  State state{
-      CylinderFrame({frame * circle->center_mm, direction}, half > 0.0 ? half : circle->radius_mm),
-      circle->radius_mm,
-      {}};
-  state.sums = sums_at(points, state.frame, state.radius);
-  return state;
+  // Plain numbers: sums in Eigen matrices would go through memory at every point.
+  double uu = 0.0, uv = 0.0, vv = 0.0, uc = 0.0, vc = 0.0;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Eigen::Vector3d& p : points) {
+    const Eigen::Vector3d at = p - origin;
+    const double u = frame.col(0).dot(at), v = frame.col(1).dot(at), s = direction.dot(at);
+    const double square = u * u + v * v;
+    uu += u * u;
+    uv += u * v;
+    vv += v * v;
+    uc += u * square;
+    vc += v * square;
+    low = std::min(low, s);
+    high = std::max(high, s);
+  }
+  const double determinant = uu * vv - uv * uv;
+  if (!(determinant > kCollinearShare * (uu + vv) * (uu + vv))) {
+    return core::fail(core::Code::kCollinear,
+                      "seen along the start direction the points lie on one straight line");
+  }
+  const Eigen::Vector2d center(0.5 * (uc * vv - vc * uv) / determinant,
+                               0.5 * (vc * uu - uc * uv) / determinant);
+  const double radius =
+      std::sqrt(center.squaredNorm() + (uu + vv) / static_cast<double>(points.size()));
+  const double half = 0.5 * (high - low);
+  return CylinderModel{CylinderFrame({frame * center, direction}, half > 0.0 ? half : radius),
+                       radius};
 }
 
-LsCylinder finish(Points points, const State& state, const Eigen::Vector3d& mean) {
+LsCylinder finished(const Settled& settled, const Eigen::Vector3d& origin,
+                    const Eigen::Vector3d& mean, const DistanceRange& range, std::size_t n) {
   LsCylinder out;
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
-  for (const Eigen::Vector3d& p : points) {
-    const double r = state.frame.distance(p);
-    low = std::min(low, r);
-    high = std::max(high, r);
-  }
-  Axis axis = state.frame.axis();
-  axis.point_mm += mean;
+  Axis axis = settled.model.frame.axis();
+  axis.point_mm += origin;
   out.axis = conventional(axis, mean);
-  out.radius_mm = state.radius;
-  out.deviation_mm = high - low;
-  out.rms_mm = std::sqrt(state.sums.squares / static_cast<double>(points.size()));
+  out.radius_mm = settled.model.radius;
+  out.deviation_mm = range.high_mm - range.low_mm;
+  out.rms_mm = std::sqrt(settled.squares / static_cast<double>(n));
   return out;
 }
 
-core::Result<void> check_rank(Points points) {
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : points) scatter += p * p.transpose();
+/// Refuses points of one line and of one plane; they are relative to `origin`, their mean.
+core::Result<void> check_rank(Points points, const Eigen::Vector3d& origin) {
+  double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+  for (const Eigen::Vector3d& p : points) {
+    const double x = p.x() - origin.x(), y = p.y() - origin.y(), z = p.z() - origin.z();
+    xx += x * x;
+    xy += x * y;
+    xz += x * z;
+    yy += y * y;
+    yz += y * z;
+    zz += z * z;
+  }
+  Eigen::Matrix3d scatter;
+  scatter << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  // The least share of extents is at least the determinant's; eigenvalues only where that is small.
+  if (scatter.determinant() > 1e-9 * std::pow(scatter.trace(), 3)) return {};
   const Eigen::Vector3d spread =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
   if (spread(1) <= kFlat * spread(2)) {
@@ -134,10 +125,80 @@ core::Result<void> check_rank(Points points) {
   return {};
 }
 
+/// Directions to start from, best first.
+std::vector<Eigen::Vector3d> directions(Points points, const Eigen::Vector3d& origin) {
+  std::vector<Eigen::Vector3d> seen(std::min(points.size(), kSample));
+  sample_points(points, seen);
+  for (Eigen::Vector3d& p : seen) p -= origin;
+  return start_directions(seen);
+}
+
+core::Result<Settled> settle_from(Points points, const Eigen::Vector3d& origin,
+                                  const Eigen::Vector3d& direction) {
+  auto model = start(points, origin, direction);
+  if (!model) return core::fail(model.error());
+  Settled out{*model, 0.0};
+  const auto sums_at = [&](const CylinderModel& at, bool matrix) {
+    return cylinder_sums(points, origin, at.frame, at.radius, {matrix});
+  };
+  if (settle(out.model, out.squares, sums_at)) return out;
+  return core::fail(core::Code::kNotConverged, "the least-squares cylinder did not settle");
+}
+
+/// The best cylinder over the starts, of points whose mean is `origin`.
+core::Result<Settled> settle_all(Points points, const Eigen::Vector3d& origin,
+                                 const std::optional<Eigen::Vector3d>& near_direction) {
+  if (auto ranked = check_rank(points, origin); !ranked) return core::fail(ranked.error());
+  if (near_direction) return settle_from(points, origin, near_direction->normalized());
+  core::Result<Settled> best =
+      core::fail(core::Code::kNotConverged, "the least-squares cylinder did not settle");
+  for (const Eigen::Vector3d& direction : directions(points, origin)) {
+    auto settled = settle_from(points, origin, direction);
+    if (!best || (settled && settled->squares < best->squares)) best = std::move(settled);
+  }
+  return best;
+}
+
+/// A large set from the cylinder of a sample; nothing when that does not lead to the minimum.
+std::optional<LsCylinder> from_sample(Points points_mm,
+                                      const std::optional<Eigen::Vector3d>& near_direction) {
+  std::array<Eigen::Vector3d, kSample> sample;
+  sample_points(points_mm, sample);
+  if (!check_points(sample) || distinct_points(sample, 5) < 5) return std::nullopt;
+  const Eigen::Vector3d origin = mean_point(sample);
+  auto settled = settle_all(sample, origin, near_direction);
+  if (!settled) return std::nullopt;
+  StretchExtremes extremes(points_mm.size());
+  double lever = 0.0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();  // from the origin
+  const auto sums_at = [&](const CylinderModel& at, bool matrix) {
+    extremes = StretchExtremes(points_mm.size());
+    const auto sums = cylinder_sums(points_mm, origin, at.frame, at.radius, {matrix, &extremes});
+    lever = std::max(lever, sums.lever);
+    const Axis& axis = at.frame.axis();
+    if (matrix) mean = axis.point_mm + at.frame.across_axis() * sums.across_mm;
+    mean += axis.direction * (sums.along_mm - axis.direction.dot(mean));
+    return sums;
+  };
+  Vector5 step = Vector5::Zero();
+  if (!polish(settled->model, settled->squares, sums_at, step)) return std::nullopt;
+  const CylinderFrame& frame = settled->model.frame;
+  const double change =
+      step.head<2>().cwiseAbs().sum() + lever * step.segment<2>(2).cwiseAbs().sum();
+  const auto range = distance_range(
+      points_mm.size(), [&](std::size_t i) { return frame.distance(points_mm[i] - origin); },
+      &extremes, change + 1e-13 * settled->model.scale_mm());
+  // conventional() asks of the mean only its place along the axis.
+  return finished(*settled, origin, origin + mean, range, points_mm.size());
+}
+
 }  // namespace
 
 core::Result<LsCylinder> ls_cylinder(Points points_mm,
                                      const std::optional<Eigen::Vector3d>& near_direction) {
+  if (points_mm.size() > kSample) {
+    if (const auto cylinder = from_sample(points_mm, near_direction)) return *cylinder;
+  }
   if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
   if (distinct_points(points_mm, 5) < 5) {
     return core::fail(core::Code::kTooFewPoints,
@@ -145,30 +206,12 @@ core::Result<LsCylinder> ls_cylinder(Points points_mm,
                                   distinct_points(points_mm, 5)));
   }
   const Eigen::Vector3d mean = mean_point(points_mm);
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(points_mm.size());
-  for (const Eigen::Vector3d& p : points_mm) points.emplace_back(p - mean);
-  if (auto ranked = check_rank(points); !ranked) return core::fail(ranked.error());
-
-  const auto directions = near_direction
-                              ? std::vector<Eigen::Vector3d>{near_direction->normalized()}
-                              : start_directions(points);
-  const State* best = nullptr;
-  std::vector<State> settled;
-  settled.reserve(directions.size());
-  core::Error last{core::Code::kNotConverged, "the least-squares cylinder did not settle", {}};
-  for (const Eigen::Vector3d& direction : directions) {
-    auto state = start(points, direction);
-    if (!state) {
-      last = state.error();
-      continue;
-    }
-    if (!settle(points, *state)) continue;
-    settled.push_back(*state);
-    if (best == nullptr || settled.back().sums.squares < best->sums.squares) best = &settled.back();
-  }
-  if (best == nullptr) return core::fail(last);
-  return finish(points, *best, mean);
+  const auto settled = settle_all(points_mm, mean, near_direction);
+  if (!settled) return core::fail(settled.error());
+  const CylinderFrame& frame = settled->model.frame;
+  const auto range = distance_range(
+      points_mm.size(), [&](std::size_t i) { return frame.distance(points_mm[i] - mean); });
+  return finished(*settled, mean, mean, range, points_mm.size());
 }
 
 }  // namespace rondure::fit

@@ -1,115 +1,51 @@
 #include "fit/min_zone_circle.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
-#include <fmt/format.h>
-
-#include "fit/bisectors.h"
-#include "fit/center_search.h"
-#include "fit/local_certificate.h"
 #include "fit/ls_circle.h"
 #include "fit/points.h"
-#include "fit/zone_program.h"
+#include "fit/zone_fit.h"
+#include "fit/zone_proof.h"
 
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kEnumerated = 40;  // points up to which all bisector crossings are tried
-constexpr int kProgrammeLimit = 100;
 constexpr int kRestartLimit = 20;
 
 using Points = std::span<const Eigen::Vector2d>;
 
-struct Zone {
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
-  [[nodiscard]] double width() const { return high - low; }
-};
-
-Zone zone_at(Points points, const Eigen::Vector2d& center) {
-  Zone out;
-  for (const Eigen::Vector2d& p : points) {
-    const double r = (p - center).norm();
-    out.low = std::min(out.low, r);
-    out.high = std::max(out.high, r);
-  }
-  return out;
-}
-
-/// Completion of section 9.3: linear programmes inside a trust region, re-linearised.
-Eigen::Vector2d complete(Points points, Eigen::Vector2d center, double round_off) {
-  Zone zone = zone_at(points, center);
-  double box = 10.0 * zone.width();
-  std::vector<ZoneRow<2>> rows(points.size());
-  for (int i = 0; i < kProgrammeLimit && box > round_off; ++i) {
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const Eigen::Vector2d v = points[k] - center;
-      const double r = v.norm();
-      rows[k] = {r - zone.low, r > 0.0 ? Eigen::Vector2d(-v / r) : Eigen::Vector2d::Zero()};
-    }
-    const auto step = solve_zone_program<2>(rows, box);
-    const double promised = zone.width() - step.width;
-    if (promised <= round_off) break;
-    const Zone next = zone_at(points, center + step.step);
-    if (zone.width() - next.width() < 0.1 * promised) {
-      box *= 0.5;
-      continue;
-    }
-    center += step.step;
-    zone = next;
-  }
-  return center;
-}
-
-double round_off_of(Points points_mm) {
-  double size = 1e-3;
-  for (const Eigen::Vector2d& p : points_mm) size = std::max(size, p.cwiseAbs().maxCoeff());
-  return 2.0 * std::numeric_limits<double>::epsilon() * size;
-}
-
-ContactRow<2> contact_row(Points points, const Eigen::Vector2d& center, std::size_t i) {
-  const Eigen::Vector2d v = points[i] - center;
-  const double r = v.norm();
-  const Eigen::Vector2d n = v / r;
-  const Eigen::Vector2d m(-n.y(), n.x());
-  return {i, r, -n, m * m.transpose() / r};
-}
-
-/// Contacts, multipliers and the local grade of the certificate at a centre.
+/// States the zone about a centre: radii, contacts, multipliers and the local certificate.
 /// @return The first-order growth of the zone there.
-double certify(Points points, double round_off, MinZoneCircle& out) {
-  const Zone zone = zone_at(points, out.center_mm);
-  out.inner_radius_mm = zone.low;
-  out.outer_radius_mm = zone.high;
-  const double tolerance = 16.0 * round_off;
-  std::vector<ContactRow<2>> outer;
-  std::vector<ContactRow<2>> inner;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double r = (points[i] - out.center_mm).norm();
-    if (r >= zone.high - tolerance) outer.push_back(contact_row(points, out.center_mm, i));
-    if (r <= zone.low + tolerance) inner.push_back(contact_row(points, out.center_mm, i));
-  }
-  const auto proof = prove_local<2>(outer, inner, zone.width());
-  out.outer = proof.outer;
-  out.inner = proof.inner;
+double certify(Points points, const Eigen::Vector2d& center, MinZoneCircle& out) {
+  double size = 0.0;
+  for (const Eigen::Vector2d& p : points) size = std::max(size, p.cwiseAbs().maxCoeff());
+  const double round_off = distance_round_off(size);
+  const CenterFrame<2> frame(Eigen::Vector2d::Zero());
+  const auto proven = prove_zone(points, center, frame, kMinimumZone, round_off);
+  out.center_mm = center;
+  out.inner_radius_mm = proven.zone.low;
+  out.outer_radius_mm = proven.zone.high;
+  out.outer.assign(proven.proof.outer.begin(), proven.proof.outer.end());
+  out.inner.assign(proven.proof.inner.begin(), proven.proof.inner.end());
   out.certificate =
-      certify_local<2>(proof, zone.width(), round_off, "next to the least-squares centre");
-  return proof.growth;
+      certify_local<2>(proven.proof, out.width_mm(), round_off, "next to the least-squares centre");
+  // All points on one circle to round-off: no zone is narrower than 0.
+  if (out.width_mm() <= 16.0 * round_off) {
+    out.certificate = {Certificate::Kind::kGlobal, "all centres", out.width_mm(), ""};
+  }
+  return proven.proof.growth;
 }
 
 /// Branch and bound over all centres; every better centre it meets becomes the new start.
-void search_all_centers(Points points, double round_off, const GlobalSearchOptions& options,
-                        MinZoneCircle& out) {
+void search_all_centers(Points points, const GlobalSearchOptions& options, CircleZoneFitter& fitter,
+                        double growth, MinZoneCircle& out) {
   for (int restart = 0; restart < kRestartLimit; ++restart) {
-    const double growth = certify(points, round_off, out);
-    if (out.certificate.kind == Certificate::Kind::kNone) return;
+    if (out.certificate.kind != Certificate::Kind::kLocal) return;
     const auto search = search_centers(points, out.center_mm,
                                        {out.width_mm(), growth, out.outer, out.inner}, options);
     out.squares += search.boxes;
     if (search.better) {
-      out.center_mm = complete(points, *search.better, round_off);
+      growth = certify(points, fitter.fit_from(points, *search.better).place, out);
       continue;
     }
     const double gap = std::max(out.certificate.gap_mm, out.width_mm() - search.lower_mm);
@@ -132,41 +68,17 @@ MinZoneCircle exact_fit(const LsCircle& circle) {
 }  // namespace
 
 core::Result<MinZoneCircle> min_zone_circle(Points points_mm, const MinZoneCircleOptions& options) {
-  const auto start = algebraic_circle(points_mm);
-  if (!start) return core::fail(start.error());
-  if (distinct_points(points_mm, 4) < 4) return exact_fit(*start);
-  const auto search = center_search(points_mm);
-  if (!search) return core::fail(search.error());
-
-  const double round_off = round_off_of(points_mm);
+  CircleZoneFitter fitter;
+  const auto zone = fitter.fit(points_mm);
+  if (!zone) return core::fail(zone.error());
+  if (distinct_points(points_mm, 4) < 4) {
+    const auto circle = algebraic_circle(points_mm);
+    if (!circle) return core::fail(circle.error());
+    return exact_fit(*circle);
+  }
   MinZoneCircle out;
-  out.center_mm = search->center_mm;
-  if (search->ending == CenterSearch::Ending::kCoCircular) {
-    certify(points_mm, round_off, out);
-    out.certificate = {Certificate::Kind::kGlobal, "all centres", out.width_mm(), ""};
-    return out;
-  }
-  if (search->ending != CenterSearch::Ending::kCross) {
-    out.center_mm = complete(points_mm, search->center_mm, round_off);
-  }
-  if (!options.global) {
-    certify(points_mm, round_off, out);
-    return out;
-  }
-  if (points_mm.size() > kEnumerated) {
-    search_all_centers(points_mm, round_off, options.search, out);
-    return out;
-  }
-  const BisectorSearch all = search_bisectors(points_mm, out.center_mm);
-  // A crossing that is better by more than round-off is another minimum; keep the polished one
-  // else.
-  if (all.width_mm < zone_at(points_mm, out.center_mm).width() - round_off) {
-    out.center_mm = all.center_mm;
-  }
-  certify(points_mm, round_off, out);
-  if (all.complete) {
-    out.certificate = {Certificate::Kind::kGlobal, "all centres", out.certificate.gap_mm, ""};
-  }
+  const double growth = certify(points_mm, zone->place, out);
+  if (options.global) search_all_centers(points_mm, options.search, fitter, growth, out);
   return out;
 }
 

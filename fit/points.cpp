@@ -1,7 +1,10 @@
 #include "fit/points.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,6 +13,8 @@
 
 namespace rondure::fit {
 namespace {
+
+constexpr std::size_t kMostDistinct = 8;
 
 template <class Vector>
 core::Result<void> check(std::span<const Vector> points_mm) {
@@ -34,13 +39,28 @@ Vector mean(std::span<const Vector> points_mm) {
 // Stops at `enough`, which is small: comparing with those found so far beats sorting all points.
 template <class Vector>
 std::size_t distinct(std::span<const Vector> points_mm, std::size_t enough) {
-  std::vector<Vector> found;
+  std::array<const Vector*, kMostDistinct> found;
+  assert(enough <= found.size());
+  std::size_t count = 0;
   for (const Vector& p : points_mm) {
-    if (std::find(found.begin(), found.end(), p) != found.end()) continue;
-    found.push_back(p);
-    if (found.size() == enough) break;
+    const auto end = found.begin() + static_cast<std::ptrdiff_t>(count);
+    if (std::any_of(found.begin(), end, [&](const Vector* q) { return *q == p; })) continue;
+    found[count++] = &p;
+    if (count == enough) break;
   }
-  return found.size();
+  return count;
+}
+
+template <class Vector>
+void sample(std::span<const Vector> points_mm, std::span<Vector> out_mm) {
+  assert(out_mm.size() <= points_mm.size());
+  if (out_mm.size() == points_mm.size()) {
+    std::copy(points_mm.begin(), points_mm.end(), out_mm.begin());
+    return;
+  }
+  for (std::size_t k = 0; k < out_mm.size(); ++k) {
+    out_mm[k] = points_mm[spread_row(k, points_mm.size())];
+  }
 }
 
 }  // namespace
@@ -58,6 +78,20 @@ std::size_t distinct_points(std::span<const Eigen::Vector2d> points_mm, std::siz
 }
 std::size_t distinct_points(std::span<const Eigen::Vector3d> points_mm, std::size_t enough) {
   return distinct(points_mm, enough);
+}
+
+std::size_t spread_row(std::size_t k, std::size_t count) {
+  const double place = static_cast<double>(k) / std::numbers::phi;
+  const auto row =
+      static_cast<std::size_t>((place - std::floor(place)) * static_cast<double>(count));
+  return std::min(row, count - 1);
+}
+
+void sample_points(std::span<const Eigen::Vector2d> points_mm, std::span<Eigen::Vector2d> out_mm) {
+  sample(points_mm, out_mm);
+}
+void sample_points(std::span<const Eigen::Vector3d> points_mm, std::span<Eigen::Vector3d> out_mm) {
+  sample(points_mm, out_mm);
 }
 
 double largest_gap_rad(std::span<const Eigen::Vector2d> points_mm,

@@ -16,11 +16,12 @@ struct ProbeTip {
   double form_mm = 0.0;          ///< Probing form: peak to valley of the residuals.
 };
 
-/// Fits a sphere to tip centres and subtracts the certified radius: closed form, then Gauss-Newton.
+/// Fits a least-squares sphere to tip centres and subtracts the certified radius.
 ///
 /// @param tip_centers_mm  n >= 5, not all on one circle [mm].
 /// @param sphere_radius_mm  Certified radius of the reference sphere [mm].
-/// @return kNoPoints, kNotFinite (row), kTooFewPoints, kRank (all on one circle).
+/// @return kNoPoints, kNotFinite (row), kTooFewPoints, kRank (all on one circle),
+///         kNotConverged.
 /// Source: methods, cylindricity section 2.1.
 [[nodiscard]] core::Result<ProbeTip> qualify_tip(std::span<const Eigen::Vector3d> tip_centers_mm,
                                                  double sphere_radius_mm);

@@ -30,7 +30,7 @@ FormParameters parameters_of(std::size_t count, const Radius& deviation,
   return form_parameters(deviations, side.cells);
 }
 
-std::vector<std::size_t> rows_of(const std::vector<Contact>& contacts) {
+std::vector<std::size_t> rows_of(std::span<const Contact> contacts) {
   std::vector<std::size_t> rows;
   for (const Contact& c : contacts) rows.push_back(c.index);
   return rows;
@@ -120,20 +120,17 @@ core::Result<Roundness> ls_profile(std::span<const double> theta, std::span<cons
   return out;
 }
 
-std::vector<ZoneRow<2>> zone_rows(std::span<const double> theta, std::span<const double> r,
-                                  double mean) {
-  std::vector<ZoneRow<2>> rows(r.size());
+ZoneRows<2> zone_rows(std::span<const double> theta, std::span<const double> r, double mean) {
+  ZoneRows<2> rows;
   for (std::size_t i = 0; i < r.size(); ++i) {
-    rows[i] = {r[i] - mean, {-std::cos(theta[i]), -std::sin(theta[i])}};
+    rows.push_back(r[i] - mean, {-std::cos(theta[i]), -std::sin(theta[i])});
   }
   return rows;
 }
 
-core::Result<ZoneStep<2>> solve_zone(const std::vector<ZoneRow<2>>& rows) {
-  const auto [low, high] =
-      std::minmax_element(rows.begin(), rows.end(),
-                          [](const auto& a, const auto& b) { return a.distance < b.distance; });
-  double box = std::max(kFirstBox * (high->distance - low->distance), 1e-12);
+core::Result<ZoneStep<2>> solve_zone(const ZoneRows<2>& rows) {
+  const auto [low, high] = std::minmax_element(rows.distances().begin(), rows.distances().end());
+  double box = std::max(kFirstBox * (*high - *low), 1e-12);
   for (int k = 0; k < kBoxes; ++k, box *= kBoxGrowth) {
     auto step = solve_zone_program<2>(rows, box);
     if (step.solved && step.inside_box) return step;
@@ -151,8 +148,8 @@ core::Result<Roundness> mz_profile(std::span<const double> theta, std::span<cons
   if (!step) return core::fail(step.error());
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  for (const auto& row : rows) {
-    const double moved = row.distance + row.gradient.dot(step->step);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double moved = rows.distances()[i] + rows.gradient(i).dot(step->step);
     low = std::min(low, moved);
     high = std::max(high, moved);
   }
@@ -165,7 +162,7 @@ core::Result<Roundness> mz_profile(std::span<const double> theta, std::span<cons
   out.inner = rows_of(step->inner);
   // The programme's dual value is a lower bound of every zone in the linear model.
   out.certificate = {Certificate::Kind::kGlobal, "all centres, limacon model",
-                     std::max(0.0, out.total_mm - step->width), ""};
+                     std::max(0.0, out.total_mm - step->value), ""};
   return out;
 }
 

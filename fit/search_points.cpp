@@ -1,7 +1,6 @@
 #include "fit/search_points.h"
 
-#include <cmath>
-#include <numbers>
+#include "fit/points.h"
 
 namespace rondure::fit {
 namespace {
@@ -19,11 +18,7 @@ SearchRows::SearchRows(std::size_t count, std::span<const Contact> outer,
     for (std::size_t i = 0; i < count; ++i) add(i);
     return;
   }
-  // Multiples of the golden ratio: even over the whole, and in step with no layer or turn.
-  for (std::size_t k = 0; k < kSpread; ++k) {
-    const double place = static_cast<double>(k) / std::numbers::phi;
-    add(static_cast<std::size_t>((place - std::floor(place)) * static_cast<double>(count)));
-  }
+  for (std::size_t k = 0; k < kSpread; ++k) add(spread_row(k, count));
 }
 
 bool SearchRows::add(std::size_t row) {

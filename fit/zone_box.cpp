@@ -19,13 +19,9 @@ using Points = std::span<const Eigen::Vector3d>;
 /// Weak duality for one box: the multipliers of its programme and what they prove for any width.
 class BoxProof {
  public:
-  BoxProof(Points points, const ZoneBox& box, double guess_radius, std::vector<Contact> outer,
-           std::vector<Contact> inner)
-      : points_(points),
-        box_(box),
-        radius_(guess_radius),
-        outer_(std::move(outer)),
-        inner_(std::move(inner)) {
+  BoxProof(Points points, const ZoneBox& box, double guess_radius, const Contacts& outer,
+           const Contacts& inner)
+      : points_(points), box_(box), radius_(guess_radius), outer_(outer), inner_(inner) {
     normalise(outer_);
     normalise(inner_);
   }
@@ -38,7 +34,7 @@ class BoxProof {
   }
 
  private:
-  static void normalise(std::vector<Contact>& side) {
+  static void normalise(Contacts& side) {
     double sum = 0.0;
     for (const Contact& c : side) sum += c.multiplier;
     for (Contact& c : side) c.multiplier /= sum;
@@ -69,7 +65,7 @@ class BoxProof {
     double rest = 0.0;                                    ///< Bound of third and higher orders.
   };
 
-  void add(const std::vector<Contact>& side, double sign, Sums& sums) const {
+  void add(const Contacts& side, double sign, Sums& sums) const {
     const double t = box_.lean;
     for (const Contact& contact : side) {
       const Eigen::Vector3d& point = points_[contact.index];
@@ -97,8 +93,8 @@ class BoxProof {
   Points points_;
   ZoneBox box_;
   double radius_;
-  std::vector<Contact> outer_;
-  std::vector<Contact> inner_;
+  Contacts outer_;
+  Contacts inner_;
 };
 
 }  // namespace
@@ -114,21 +110,19 @@ std::array<ZoneBox, 4> quarters(const ZoneBox& box) {
 template <int K>
 ZoneBoxBound bound_zone_box(Points points_mm, const ZoneBox& box, double width_mm,
                             double tolerance_mm, double slack_mm) {
-  std::vector<ZoneRow<K>> rows;
-  rows.reserve(points_mm.size());
+  ZoneRows<K> rows;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& point : points_mm) {
     const Eigen::Vector2d p = point.head<2>() - box.center_mm;
-    ZoneRow<K> row;
-    row.distance = p.squaredNorm();
-    row.gradient.template head<2>() = -2.0 * box.half_side_mm * p;
-    if constexpr (K == 4) row.gradient.template tail<2>() = -2.0 * point.z() * box.lean * p;
-    nearest = std::min(nearest, row.distance);
-    rows.push_back(row);
+    Eigen::Matrix<double, K, 1> gradient;
+    gradient.template head<2>() = -2.0 * box.half_side_mm * p;
+    if constexpr (K == 4) gradient.template tail<2>() = -2.0 * point.z() * box.lean * p;
+    nearest = std::min(nearest, p.squaredNorm());
+    rows.push_back(p.squaredNorm(), gradient);
   }
   // Any radius would do; the one of the data is the sharpest.
   const double radius = std::max(std::sqrt(nearest), width_mm);
-  const auto step = solve_zone_program<K>(rows, 1.0, 1.0 + width_mm / radius, kPivots);
+  const auto step = solve_zone_program<K>(rows, 1.0, {1.0, 1.0 + width_mm / radius}, kPivots);
 
   ZoneBoxBound out;
   out.center_mm = box.center_mm + box.half_side_mm * step.step.template head<2>();

@@ -1,209 +1,286 @@
 #include "fit/zone_program.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
-
-#include <Eigen/LU>
 
 namespace rondure::fit {
 namespace {
 
 constexpr int kDantzigPivots = 300;
+/// More pivots than this mean near ties: from here on every basis is factorised and refined.
+constexpr int kSwiftPivots = 40;
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+/// Multipliers off by more than this are computed from a fresh factorisation.
+constexpr double kWorn = 1e-13;
 
-/// A column of the dual programme. Order of the kinds is Bland's order.
-struct Column {
-  enum class Kind { kOuter, kInner, kBoxUp, kBoxDown };
-  Kind kind = Kind::kOuter;
-  std::size_t index = 0;  ///< Row of the point, or number of the unknown.
-
-  friend auto operator<=>(const Column&, const Column&) = default;
+struct Place {
+  std::size_t far = 0;
+  std::size_t near = 0;
 };
 
-template <int K>
-class DualSimplexTable {
-  static constexpr int kRows = K + 2;
-  using Vector = Eigen::Matrix<double, kRows, 1>;
-  using Unknowns = Eigen::Matrix<double, K, 1>;
-
- public:
-  DualSimplexTable(std::span<const ZoneRow<K>> rows, double box_mm, double inner_gain)
-      : rows_(rows), box_(box_mm), gain_(inner_gain) {
-    start_basis();
-  }
-
-  ZoneStep<K> solve(int pivot_limit) {
-    ZoneStep<K> out;
-    for (; out.pivots < pivot_limit; ++out.pivots) {
-      factorise();
-      const auto entering = price(out.pivots >= kDantzigPivots);
-      if (!entering || !pivot(*entering)) {
-        out.solved = true;
-        break;
-      }
+Place extreme_rows(const std::vector<double>& values) {
+  Place out;
+  double high = values[0];
+  double low = values[0];
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double value = values[i];
+    if (value > high) {
+      high = value;
+      out.far = i;
     }
-    report(out);
-    return out;
-  }
-
- private:
-  void start_basis() {
-    std::size_t far = 0;
-    std::size_t near = 0;
-    for (std::size_t i = 1; i < rows_.size(); ++i) {
-      if (rows_[i].distance > rows_[far].distance) far = i;
-      if (rows_[i].distance < rows_[near].distance) near = i;
-    }
-    const double spread = rows_[far].distance - rows_[near].distance;
-    // Violations below this are round-off of the distances; they are not worth a pivot.
-    tolerance_ = 1e-13 * spread +
-                 4.0 * std::numeric_limits<double>::epsilon() * std::abs(rows_[far].distance);
-    basis_[0] = {Column::Kind::kOuter, far};
-    basis_[1] = {Column::Kind::kInner, near};
-    // The box takes up whatever the two points do not balance.
-    const Unknowns rest = rows_[far].gradient - gain_ * rows_[near].gradient;
-    for (int k = 0; k < K; ++k) {
-      basis_[static_cast<std::size_t>(k) + 2] = {
-          rest(k) > 0.0 ? Column::Kind::kBoxDown : Column::Kind::kBoxUp,
-          static_cast<std::size_t>(k)};
+    if (value < low) {
+      low = value;
+      out.near = i;
     }
   }
-
-  [[nodiscard]] Vector column(const Column& c) const {
-    Vector a = Vector::Zero();
-    switch (c.kind) {
-      case Column::Kind::kOuter:
-        a(0) = 1.0;
-        a.template tail<K>() = rows_[c.index].gradient;
-        break;
-      case Column::Kind::kInner:
-        a(1) = 1.0;
-        a.template tail<K>() = -gain_ * rows_[c.index].gradient;
-        break;
-      case Column::Kind::kBoxUp:
-        a(static_cast<Eigen::Index>(c.index) + 2) = 1.0;
-        break;
-      case Column::Kind::kBoxDown:
-        a(static_cast<Eigen::Index>(c.index) + 2) = -1.0;
-        break;
-    }
-    return a;
-  }
-
-  [[nodiscard]] double cost(const Column& c) const {
-    switch (c.kind) {
-      case Column::Kind::kOuter:
-        return rows_[c.index].distance;
-      case Column::Kind::kInner:
-        return -gain_ * rows_[c.index].distance;
-      default:
-        return -box_;
-    }
-  }
-
-  void factorise() {
-    Eigen::Matrix<double, kRows, kRows> basis;
-    Vector costs;
-    for (int k = 0; k < kRows; ++k) {
-      basis.col(k) = column(basis_[static_cast<std::size_t>(k)]);
-      costs(k) = cost(basis_[static_cast<std::size_t>(k)]);
-    }
-    factor_.compute(basis);
-    Vector right = Vector::Zero();
-    right(0) = right(1) = 1.0;
-    values_ = factor_.solve(right);
-    prices_ = factor_.transpose().solve(costs);
-  }
-
-  /// The column that violates its constraint most (or, Bland, the first that does).
-  [[nodiscard]] std::optional<Column> price(bool bland) const {
-    const double outer = prices_(0);
-    const double inner = -prices_(1);
-    const Unknowns move = -prices_.template tail<K>();
-    double worst = tolerance_;
-    std::optional<Column> entering;
-    const auto offer = [&](double violation, Column::Kind kind, std::size_t index) {
-      if (violation <= worst) return;
-      const Column candidate{kind, index};
-      if (bland && entering && *entering < candidate) return;
-      if (!bland) worst = violation;
-      entering = candidate;
-    };
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const double moved = rows_[i].distance + rows_[i].gradient.dot(move);
-      offer(moved - outer, Column::Kind::kOuter, i);
-      offer(inner - gain_ * moved, Column::Kind::kInner, i);
-    }
-    for (std::size_t k = 0; k < K; ++k) {
-      offer(move(static_cast<Eigen::Index>(k)) - box_, Column::Kind::kBoxUp, k);
-      offer(-box_ - move(static_cast<Eigen::Index>(k)), Column::Kind::kBoxDown, k);
-    }
-    return entering;
-  }
-
-  /// Exchanges the entering column; false when no basic column limits it (never: the box bounds).
-  bool pivot(const Column& entering) {
-    const Vector direction = factor_.solve(column(entering));
-    int leaving = -1;
-    double least = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < kRows; ++k) {
-      if (direction(k) <= 1e-11) continue;
-      const double ratio = std::max(values_(k), 0.0) / direction(k);
-      // Among equal ratios the larger pivot is the safer one.
-      const bool tie = leaving >= 0 && std::abs(ratio - least) <= 1e-14;
-      if ((!tie && ratio < least) || (tie && direction(k) > direction(leaving))) {
-        leaving = k;
-        least = std::min(least, ratio);
-      }
-    }
-    if (leaving < 0) return false;
-    basis_[static_cast<std::size_t>(leaving)] = entering;
-    return true;
-  }
-
-  void report(ZoneStep<K>& out) const {
-    out.step = -prices_.template tail<K>();
-    out.width = prices_(0) + prices_(1);
-    out.inside_box = true;
-    for (int k = 0; k < kRows; ++k) {
-      const Column& c = basis_[static_cast<std::size_t>(k)];
-      const double value = values_(k);
-      const bool point = c.kind == Column::Kind::kOuter || c.kind == Column::Kind::kInner;
-      if (!point) {
-        if (value > 1e-9) out.inside_box = false;
-        continue;
-      }
-      if (value <= 0.0) continue;
-      (c.kind == Column::Kind::kOuter ? out.outer : out.inner).push_back({c.index, value});
-    }
-    const auto by_index = [](const Contact& a, const Contact& b) { return a.index < b.index; };
-    std::sort(out.outer.begin(), out.outer.end(), by_index);
-    std::sort(out.inner.begin(), out.inner.end(), by_index);
-  }
-
-  std::span<const ZoneRow<K>> rows_;
-  double box_;
-  double gain_;
-  double tolerance_ = 0.0;
-  std::array<Column, kRows> basis_;
-  Eigen::PartialPivLU<Eigen::Matrix<double, kRows, kRows>> factor_;
-  Vector values_ = Vector::Zero();
-  Vector prices_ = Vector::Zero();
-};
+  return out;
+}
 
 }  // namespace
 
 template <int K>
-ZoneStep<K> solve_zone_program(std::span<const ZoneRow<K>> rows, double box_mm, double inner_gain,
-                               int pivot_limit) {
-  return DualSimplexTable<K>(rows, box_mm, inner_gain).solve(pivot_limit);
+ZoneStep<K> ZoneProgram<K>::solve(const ZoneRows<K>& rows, double box_mm,
+                                  const ZoneWeights& weights, int pivot_limit) {
+  set(rows, box_mm, weights);
+  start_basis();
+  return run(pivot_limit);
 }
 
-template ZoneStep<1> solve_zone_program<1>(std::span<const ZoneRow<1>>, double, double, int);
-template ZoneStep<2> solve_zone_program<2>(std::span<const ZoneRow<2>>, double, double, int);
-template ZoneStep<3> solve_zone_program<3>(std::span<const ZoneRow<3>>, double, double, int);
-template ZoneStep<4> solve_zone_program<4>(std::span<const ZoneRow<4>>, double, double, int);
+template <int K>
+ZoneStep<K> ZoneProgram<K>::solve_again(const ZoneRows<K>& rows, double box_mm,
+                                        const ZoneWeights& weights, int pivot_limit) {
+  set(rows, box_mm, weights);
+  if (!factorise() || values_.minCoeff() < 0.0) start_basis();
+  return run(pivot_limit);
+}
+
+template <int K>
+void ZoneProgram<K>::set(const ZoneRows<K>& rows, double box_mm, const ZoneWeights& weights) {
+  rows_ = &rows;
+  box_ = box_mm;
+  weights_ = weights;
+  moved_.resize(rows.size());
+}
+
+template <int K>
+void ZoneProgram<K>::start_basis() {
+  const auto& distances = rows_->distances();
+  const Place at = extreme_rows(distances);
+  const double spread = distances[at.far] - distances[at.near];
+  // Violations below this are round-off of the distances; they are not worth a pivot.
+  tolerance_ = 1e-13 * spread + 4.0 * kEps * std::abs(distances[at.far]);
+  basis_[0] = {Column::Kind::kOuter, at.far};
+  basis_[1] = {Column::Kind::kInner, at.near};
+  // The box takes up whatever the two points do not balance; so the basis is triangular.
+  const Unknowns outer = weights_.outer * rows_->gradient(at.far);
+  const Unknowns inner = -weights_.inner * rows_->gradient(at.near);
+  inverse_.setIdentity();
+  values_.template head<2>().setOnes();
+  for (int k = 0; k < K; ++k) {
+    const double rest = outer(k) + inner(k);
+    const double sign = rest > 0.0 ? -1.0 : 1.0;
+    basis_[static_cast<std::size_t>(k) + 2] = {
+        rest > 0.0 ? Column::Kind::kBoxDown : Column::Kind::kBoxUp, static_cast<std::size_t>(k)};
+    inverse_(k + 2, 0) = -sign * outer(k);
+    inverse_(k + 2, 1) = -sign * inner(k);
+    inverse_(k + 2, k + 2) = sign;
+    values_(k + 2) = std::abs(rest);
+  }
+}
+
+template <int K>
+auto ZoneProgram<K>::column(const Column& c) const -> Vector {
+  Vector a = Vector::Zero();
+  switch (c.kind) {
+    case Column::Kind::kOuter:
+      a(0) = 1.0;
+      a.template tail<K>() = weights_.outer * rows_->gradient(c.index);
+      break;
+    case Column::Kind::kInner:
+      a(1) = 1.0;
+      a.template tail<K>() = -weights_.inner * rows_->gradient(c.index);
+      break;
+    case Column::Kind::kBoxUp:
+      a(static_cast<Eigen::Index>(c.index) + 2) = 1.0;
+      break;
+    case Column::Kind::kBoxDown:
+      a(static_cast<Eigen::Index>(c.index) + 2) = -1.0;
+      break;
+  }
+  return a;
+}
+
+template <int K>
+double ZoneProgram<K>::cost(const Column& c) const {
+  switch (c.kind) {
+    case Column::Kind::kOuter:
+      return weights_.outer * rows_->distances()[c.index];
+    case Column::Kind::kInner:
+      return -weights_.inner * rows_->distances()[c.index];
+    default:
+      return -box_;
+  }
+}
+
+/// Inverse of the basis from its columns. @return Whether it has one.
+template <int K>
+bool ZoneProgram<K>::factorise() {
+  Eigen::Matrix<double, kRows, kRows> basis;
+  for (int k = 0; k < kRows; ++k) basis.col(k) = column(basis_[static_cast<std::size_t>(k)]);
+  const Eigen::PartialPivLU<Eigen::Matrix<double, kRows, kRows>> factor(basis);
+  const Eigen::Matrix<double, kRows, kRows> inverse = factor.inverse();
+  if (!inverse.allFinite()) return false;
+  inverse_ = inverse;
+  values_ = inverse_.col(0) + inverse_.col(1);
+  return true;
+}
+
+template <int K>
+ZoneStep<K> ZoneProgram<K>::run(int pivot_limit) {
+  ZoneStep<K> out;
+  bool fresh = false;
+  for (; out.pivots < pivot_limit; ++out.pivots) {
+    const bool careful = out.pivots >= kSwiftPivots;
+    if (careful) factorise();
+    settle_prices();
+    if (careful) worn();
+    const Entering entering = price(out.pivots >= kDantzigPivots);
+    if (entering.found && pivot(entering.column)) {
+      fresh = false;
+      continue;
+    }
+    out.solved = true;
+    const bool again = worn() && !fresh;
+    if (!again || !factorise()) break;
+    fresh = true;
+  }
+  if (!out.solved) settle_prices();
+  report(out);
+  return out;
+}
+
+/// Prices of the rows, c_B times the inverse of the basis.
+template <int K>
+void ZoneProgram<K>::settle_prices() {
+  Vector costs;
+  for (int k = 0; k < kRows; ++k) costs(k) = cost(basis_[static_cast<std::size_t>(k)]);
+  prices_ = inverse_.transpose() * costs;
+}
+
+/// Refines multipliers and prices once with their residuals.
+/// @return Whether these were so large that the inverse should be computed anew.
+template <int K>
+bool ZoneProgram<K>::worn() {
+  Eigen::Matrix<double, kRows, kRows> basis;
+  Vector costs;
+  for (int k = 0; k < kRows; ++k) {
+    basis.col(k) = column(basis_[static_cast<std::size_t>(k)]);
+    costs(k) = cost(basis_[static_cast<std::size_t>(k)]);
+  }
+  Vector right = Vector::Zero();
+  right(0) = right(1) = 1.0;
+  const Vector value_error = inverse_ * (right - basis * values_);
+  const Vector price_error = inverse_.transpose() * (costs - basis.transpose() * prices_);
+  values_ += value_error;
+  prices_ += price_error;
+  return !(value_error.cwiseAbs().maxCoeff() <= kWorn &&
+           price_error.cwiseAbs().maxCoeff() <= std::max(tolerance_, kEps * box_));
+}
+
+/// The column that violates its constraint most (or, Bland, the first that does).
+template <int K>
+auto ZoneProgram<K>::price(bool bland) -> Entering {
+  const Unknowns move = -prices_.template tail<K>();
+  const std::size_t count = rows_->size();
+  const double* distance = rows_->distances().data();
+  double* moved = moved_.data();
+  for (std::size_t i = 0; i < count; ++i) moved[i] = distance[i];
+  for (int k = 0; k < K; ++k) {
+    const double* gradient = rows_->gradients(k).data();
+    const double by = move(k);
+    for (std::size_t i = 0; i < count; ++i) moved[i] += gradient[i] * by;
+  }
+  double worst = tolerance_;
+  Entering entering;
+  const auto offer = [&](double violation, typename Column::Kind kind, std::size_t index) {
+    if (violation <= worst || (bland && entering.found)) return;
+    worst = violation;
+    entering = {{kind, index}, true};
+  };
+  const double outer = prices_(0);
+  const double inner = prices_(1);
+  if (bland) {
+    for (std::size_t i = 0; i < count; ++i)
+      offer(weights_.outer * moved[i] - outer, Column::Kind::kOuter, i);
+    for (std::size_t i = 0; i < count; ++i)
+      offer(-weights_.inner * moved[i] - inner, Column::Kind::kInner, i);
+  } else {
+    const Place at = extreme_rows(moved_);
+    offer(weights_.outer * moved[at.far] - outer, Column::Kind::kOuter, at.far);
+    offer(-weights_.inner * moved[at.near] - inner, Column::Kind::kInner, at.near);
+  }
+  for (int k = 0; k < K; ++k) {
+    offer(move(k) - box_, Column::Kind::kBoxUp, static_cast<std::size_t>(k));
+  }
+  for (int k = 0; k < K; ++k) {
+    offer(-box_ - move(k), Column::Kind::kBoxDown, static_cast<std::size_t>(k));
+  }
+  return entering;
+}
+
+/// Exchanges the entering column; false when no basic column limits it (never: the box bounds).
+template <int K>
+bool ZoneProgram<K>::pivot(const Column& entering) {
+  const Vector direction = inverse_ * column(entering);
+  int leaving = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kRows; ++k) {
+    if (direction(k) <= 1e-11) continue;
+    const double ratio = std::max(values_(k), 0.0) / direction(k);
+    // Among equal ratios the larger pivot is the safer one.
+    const bool tie = leaving >= 0 && std::abs(ratio - least) <= 1e-14;
+    if ((!tie && ratio < least) || (tie && direction(k) > direction(leaving))) {
+      leaving = k;
+      least = std::min(least, ratio);
+    }
+  }
+  if (leaving < 0) return false;
+  const Eigen::Matrix<double, 1, kRows> row = inverse_.row(leaving) / direction(leaving);
+  for (int k = 0; k < kRows; ++k) {
+    if (k != leaving) inverse_.row(k) -= direction(k) * row;
+  }
+  inverse_.row(leaving) = row;
+  values_ = inverse_.col(0) + inverse_.col(1);
+  basis_[static_cast<std::size_t>(leaving)] = entering;
+  return true;
+}
+
+template <int K>
+void ZoneProgram<K>::report(ZoneStep<K>& out) const {
+  out.step = -prices_.template tail<K>();
+  out.value = prices_(0) + prices_(1);
+  out.inside_box = true;
+  for (int k = 0; k < kRows; ++k) {
+    const Column& c = basis_[static_cast<std::size_t>(k)];
+    const double value = values_(k);
+    if (c.kind != Column::Kind::kOuter && c.kind != Column::Kind::kInner) {
+      if (value > 1e-9) out.inside_box = false;
+      continue;
+    }
+    const bool outer = c.kind == Column::Kind::kOuter;
+    // A side without weight takes part in the programme in name only.
+    if (value <= 0.0 || (outer ? weights_.outer : weights_.inner) == 0.0) continue;
+    (outer ? out.outer : out.inner).push_back({c.index, value});
+  }
+  const auto by_index = [](const Contact& a, const Contact& b) { return a.index < b.index; };
+  std::sort(out.outer.begin(), out.outer.end(), by_index);
+  std::sort(out.inner.begin(), out.inner.end(), by_index);
+}
+
+template class ZoneProgram<1>;
+template class ZoneProgram<2>;
+template class ZoneProgram<3>;
+template class ZoneProgram<4>;
 
 }  // namespace rondure::fit

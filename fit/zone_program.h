@@ -1,29 +1,68 @@
 #pragma once
 
-#include <span>
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
-#include "fit/certificate.h"
+#include "fit/contacts.h"
 
 namespace rondure::fit {
 
-/// One point of a zone, linearised: its distance and the gradient of that distance with respect to
-/// the K unknowns of the axis (2 for a circle, 4 for a cylinder), all in mm.
+/// What is minimised:  outer * max_i r_i - inner * min_i r_i.
+struct ZoneWeights {
+  double outer = 1.0;
+  double inner = 1.0;
+};
+inline constexpr ZoneWeights kMinimumZone{1.0, 1.0};
+inline constexpr ZoneWeights kMinimumCircumscribed{1.0, 0.0};
+inline constexpr ZoneWeights kMaximumInscribed{0.0, 1.0};
+
+/// Points of a zone, linearised: the distance of each and the gradient of that distance with
+/// respect to the K unknowns of the place (2 circle, 3 sphere, 4 cylinder), all in mm. Stored
+/// column by column, so that pricing runs at the speed of the vector units; the memory is kept when
+/// cleared.
 template <int K>
-struct ZoneRow {
-  double distance = 0.0;
-  Eigen::Matrix<double, K, 1> gradient = Eigen::Matrix<double, K, 1>::Zero();
+class ZoneRows {
+ public:
+  using Gradient = Eigen::Matrix<double, K, 1>;
+
+  [[nodiscard]] std::size_t size() const { return columns_[0].size(); }
+  void resize(std::size_t count) {
+    for (auto& column : columns_) column.resize(count);
+  }
+  void clear() { resize(0); }
+  void push_back(double distance, const Gradient& gradient) {
+    columns_[0].push_back(distance);
+    for (int k = 0; k < K; ++k) gradients(k).push_back(gradient(k));
+  }
+  [[nodiscard]] const std::vector<double>& distances() const { return columns_[0]; }
+  [[nodiscard]] std::vector<double>& distances() { return columns_[0]; }
+  [[nodiscard]] const std::vector<double>& gradients(int k) const {
+    return columns_[static_cast<std::size_t>(k) + 1];
+  }
+  [[nodiscard]] std::vector<double>& gradients(int k) {
+    return columns_[static_cast<std::size_t>(k) + 1];
+  }
+  [[nodiscard]] Gradient gradient(std::size_t i) const {
+    Gradient out;
+    for (int k = 0; k < K; ++k) out(k) = gradients(k)[i];
+    return out;
+  }
+
+ private:
+  std::array<std::vector<double>, K + 1> columns_;
 };
 
 /// Solution of the linearised zone.
 template <int K>
 struct ZoneStep {
   Eigen::Matrix<double, K, 1> step = Eigen::Matrix<double, K, 1>::Zero();  ///< The move d [mm].
-  double width = 0.0;          ///< Zone the linearisation predicts after the move [mm].
-  std::vector<Contact> outer;  ///< Points that bind, with their multipliers (> 0).
-  std::vector<Contact> inner;
+  double value = 0.0;  ///< What the linearisation predicts after the move [mm].
+  Contacts outer;      ///< Points that bind, by row, with their multipliers (> 0).
+  Contacts inner;
   bool inside_box = false;  ///< No side of the box binds.
   bool solved = false;      ///< false: the pivot limit ended it.
   int pivots = 0;
@@ -31,25 +70,81 @@ struct ZoneStep {
 
 inline constexpr int kZonePivotLimit = 5000;
 
-/// Minimises  max_i (r_i + J_i d) - min_i (r_i + J_i d)  over moves d with |d_k| <= box_mm.
+/// Minimises  outer * max_i (r_i + J_i d) - inner * min_i (r_i + J_i d)  over |d_k| <= box.
 ///
-/// Primal simplex on the dual programme (K + 2 rows; a column for each point on each side and for
-/// each side of the box). The box makes a first basis feasible at once, so there is no first phase.
-/// Dantzig's rule, Bland's after 300 pivots. The basis is factorised anew at every pivot: it is at
-/// most 6 x 6, and no error accumulates.
+/// Revised primal simplex on the dual programme: K + 2 rows; a column for each point on each side
+/// and for each side of the box. The box makes a first basis feasible at once, so there is no first
+/// phase. Dantzig's rule, Bland's after 300 pivots. The inverse of the basis, at most 6 x 6, is
+/// updated at each pivot and computed anew when a check at the end finds it worn.
 ///
-/// @param rows  At least one point. Distances may be given minus a common value (if `inner_gain` is
-/// 1).
-/// @param inner_gain  The minimum counts this often: minimises max - inner_gain * min; > 0. The
-///                    inner multipliers still sum to 1.
-/// @param pivot_limit  Where only a bound is wanted, a degenerate programme is not worth many
-/// pivots:
-///                     the multipliers of any basis are valid.
-/// Cost: O(n K) a pivot, commonly 5 to 20 pivots.
-/// Source: methods, cylindricity sections 9.3 and 11.2 (the box is its trust region).
+/// An object keeps its memory, and its last basis as the start of a programme whose points moved a
+/// little. Cost: O(n K) a pivot, commonly 5 to 20 pivots.
+/// Source: methods, cylindricity sections 9.3, 11.2 (the box is its trust region) and 11.4.
 template <int K>
-[[nodiscard]] ZoneStep<K> solve_zone_program(std::span<const ZoneRow<K>> rows, double box_mm,
-                                             double inner_gain = 1.0,
-                                             int pivot_limit = kZonePivotLimit);
+class ZoneProgram {
+ public:
+  /// @param rows  At least one point. Where both weights are the same, distances may be given minus
+  ///              a common value; else `value` misses weight * that value.
+  /// @param pivot_limit  Where only a bound is wanted, a degenerate programme is not worth many
+  ///                     pivots: the multipliers of any basis are valid.
+  ZoneStep<K> solve(const ZoneRows<K>& rows, double box_mm, const ZoneWeights& weights,
+                    int pivot_limit = kZonePivotLimit);
+  /// The same, from the basis of the last call, which had the same points in the same order.
+  ZoneStep<K> solve_again(const ZoneRows<K>& rows, double box_mm, const ZoneWeights& weights,
+                          int pivot_limit = kZonePivotLimit);
+
+ private:
+  static constexpr int kRows = K + 2;
+  using Vector = Eigen::Matrix<double, kRows, 1>;
+  using Unknowns = Eigen::Matrix<double, K, 1>;
+
+  /// A column of the dual programme. Order of the kinds is Bland's order.
+  struct Column {
+    enum class Kind { kOuter, kInner, kBoxUp, kBoxDown };
+    Kind kind = Kind::kOuter;
+    std::size_t index = 0;  ///< Row of the point, or number of the unknown.
+
+    friend auto operator<=>(const Column&, const Column&) = default;
+  };
+  struct Entering {
+    Column column;
+    bool found = false;
+  };
+
+  void set(const ZoneRows<K>& rows, double box_mm, const ZoneWeights& weights);
+  void start_basis();
+  bool factorise();
+  ZoneStep<K> run(int pivot_limit);
+  void settle_prices();
+  bool worn();
+  [[nodiscard]] Vector column(const Column& c) const;
+  [[nodiscard]] double cost(const Column& c) const;
+  Entering price(bool bland);
+  bool pivot(const Column& entering);
+  void report(ZoneStep<K>& out) const;
+
+  const ZoneRows<K>* rows_ = nullptr;
+  double box_ = 0.0;
+  ZoneWeights weights_;
+  double tolerance_ = 0.0;
+  std::array<Column, kRows> basis_{};
+  Eigen::Matrix<double, kRows, kRows> inverse_ = Eigen::Matrix<double, kRows, kRows>::Identity();
+  Vector values_ = Vector::Zero();  ///< Multipliers of the basic columns.
+  Vector prices_ = Vector::Zero();
+  std::vector<double> moved_;  ///< Distances of all points at the current prices.
+};
+
+/// One programme, on its own.
+template <int K>
+[[nodiscard]] ZoneStep<K> solve_zone_program(const ZoneRows<K>& rows, double box_mm,
+                                             const ZoneWeights& weights = kMinimumZone,
+                                             int pivot_limit = kZonePivotLimit) {
+  return ZoneProgram<K>().solve(rows, box_mm, weights, pivot_limit);
+}
+
+extern template class ZoneProgram<1>;
+extern template class ZoneProgram<2>;
+extern template class ZoneProgram<3>;
+extern template class ZoneProgram<4>;
 
 }  // namespace rondure::fit

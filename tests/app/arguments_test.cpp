@@ -45,9 +45,10 @@ TEST(Arguments, WhatIsNotUnderstoodIsNamed) {
       {{"run", plan, "--seed", "-1"}, "0 to 9007199254740991"},
       {{"run", plan, "--seed", "1.5"}, "0 to 9007199254740991"},
       {{"run", plan, "--seed", "9007199254740992"}, "0 to 9007199254740991"},
-      {{"fit", "sphere", "points.csv"}, "sphere"},
+      {{"fit", "cone", "points.csv"}, "cone"},
       {{"fit", "circle"}, "FILE is required"},
-      {{"fit", "circle", "points.csv", "--reference", "mc"}, "mc"},
+      {{"fit", "circle", "points.csv", "--reference", "mx"}, "mx"},
+      {{"fit", "line", "points.csv", "--reference", "mc"}, "a line has ls and mz"},
       {{"verify"}, "RUN_DIR is required"},
       {{"report", "run", "--format", "html,doc"}, "doc"},
   };

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -94,13 +95,17 @@ void expect_axis(const json& axis, const std::vector<Eigen::Vector3d>& points) {
   EXPECT_NEAR((vector_of(axis["point_mm"]) - mean).dot(along), 0.0, kEqual_mm);
 }
 
-void expect_absent_references(const json& fit) {
-  EXPECT_TRUE(fit.at("mc").is_null());
-  EXPECT_TRUE(fit.at("mi").is_null());
-  EXPECT_TRUE(std::any_of(fit["warnings"].begin(), fit["warnings"].end(), [](const json& warning) {
-    return warning.at("code") == "reference-absent" &&
-           !warning.at("what").get<std::string>().empty();
-  }));
+/// A circumscribed reference holds all points and touches its contacts; an inscribed one is held
+/// off by all.
+void expect_one_sided(const json& found, const std::vector<Eigen::Vector3d>& points, bool outside) {
+  expect_deviation(found, points);
+  const json& contacts = found["contacts"][outside ? "outer" : "inner"];
+  EXPECT_GE(contacts.size(), 2U);
+  const double radius = found["radius_mm"];
+  const auto radii = radii_about(found, points);
+  for (const double r : radii) EXPECT_GE(outside ? radius - r : r - radius, -kEqual_mm);
+  for (const std::size_t row : contacts) EXPECT_NEAR(radii.at(row), radius, kEqual_mm);
+  EXPECT_NE(found["certificate"]["kind"], "none");
 }
 
 json fit(const std::string& shape, const std::filesystem::path& file,
@@ -125,7 +130,8 @@ TEST(FitJson, HoldsTheContractForACircle) {
                                    "deviation_mm", "contacts", "certificate"));
   expect_deviation(found["ls"], points);
   expect_zone(found["mz"], points);
-  expect_absent_references(found);
+  expect_one_sided(found["mc"], points, true);
+  expect_one_sided(found["mi"], points, false);
   // tests/data/axle_mzc_3/certified.json
   EXPECT_NEAR(found["ls"]["deviation_mm"], 0.039101674003819755214, kEqual_mm);
   EXPECT_NEAR(found["mz"]["deviation_mm"], 0.03823094398156937045, kEqual_mm);
@@ -150,7 +156,57 @@ TEST(FitJson, HoldsTheContractForACylinder) {
   expect_deviation(found["ls"], points);
   expect_zone(found["mz"], points);
   EXPECT_LE(found["mz"]["deviation_mm"], found["ls"]["deviation_mm"]);
-  expect_absent_references(found);
+  expect_one_sided(found["mc"], points, true);
+  expect_one_sided(found["mi"], points, false);
+}
+
+// An octahedron with one long axis: by symmetry all references but least squares are known.
+TEST(FitJson, HoldsTheContractForASphere) {
+  const TemporaryFolder directory;
+  const auto file = directory.path() / "ball.csv";
+  std::ofstream(file) << "x,y,z\n10.01,0,0\n-10.01,0,0\n0,10,0\n0,-10,0\n0,0,10\n0,0,-10\n";
+  const json found = fit("sphere", file);
+  EXPECT_THAT(keys_of(found),
+              UnorderedElementsAre("shape", "points", "ls", "mz", "mc", "mi", "warnings"));
+  EXPECT_NEAR(found["mz"]["deviation_mm"], 0.01, 1e-12);
+  EXPECT_NEAR(found["mz"]["inner_radius_mm"], 10.0, 1e-12);
+  EXPECT_NEAR(found["mc"]["radius_mm"], 10.01, 1e-12);
+  EXPECT_NEAR(found["mi"]["radius_mm"], 10.0, 1e-12);
+  EXPECT_EQ(found["mc"]["certificate"]["kind"], "global");
+  EXPECT_EQ(found["mz"]["center_mm"].size(), 3U);
+}
+
+// Three points of a plane: the least cylinder is as wide as their triangle is high.
+TEST(FitJson, HoldsTheContractForALine) {
+  const TemporaryFolder directory;
+  const auto file = directory.path() / "edge.csv";
+  std::ofstream(file) << "x,y,z\n5,0,0\n5,0.01,50\n5,0,100\n";
+  const json found = fit("line", file);
+  EXPECT_THAT(keys_of(found), UnorderedElementsAre("shape", "points", "ls", "mz", "warnings"));
+  EXPECT_THAT(keys_of(found["ls"]), UnorderedElementsAre("axis", "deviation_mm", "rms_mm"));
+  EXPECT_NEAR(found["mz"]["diameter_mm"], 0.01, 1e-12);
+  EXPECT_NEAR(found["ls"]["deviation_mm"], 2.0 * 0.01 * 2.0 / 3.0, 1e-12);
+  EXPECT_THAT(found["mz"]["contacts"]["outer"], UnorderedElementsAre(0, 1, 2));
+}
+
+TEST(FitJson, AReferenceThatDoesNotExistIsNullWithItsReason) {
+  const TemporaryFolder directory;
+  const auto file = directory.path() / "arc.csv";
+  {
+    std::ofstream out(file);
+    out << "x,y\n";
+    for (int k = 0; k <= 20; ++k) {
+      const double theta = 2.5 * k / 20.0 + 0.001 * (k % 3);
+      out << fmt::format("{},{}\n", 25.0 * std::cos(theta), 25.0 * std::sin(theta));
+    }
+  }
+  const json found = fit("circle", file);
+  EXPECT_TRUE(found.at("mi").is_null());
+  EXPECT_FALSE(found.at("mc").is_null());
+  ASSERT_EQ(found["warnings"].size(), 1U);
+  EXPECT_EQ(found["warnings"][0]["code"], "reference-absent");
+  EXPECT_THAT(found["warnings"][0]["what"].get<std::string>(),
+              ::testing::HasSubstr("no maximum inscribed circle"));
 }
 
 TEST(FitJson, OneReferenceLeavesTheOthersOut) {

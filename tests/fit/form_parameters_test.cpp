@@ -88,6 +88,7 @@ double strip_by_trial(const std::vector<double>& z, const std::vector<double>& r
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < z.size(); ++i) {
     for (std::size_t j = i + 1; j < z.size(); ++j) {
+      if (z[i] == z[j] && r[i] == r[j]) continue;
       const Eigen::Vector2d n = Eigen::Vector2d(r[i] - r[j], z[j] - z[i]).normalized();
       double low = std::numeric_limits<double>::infinity();
       double high = -low;
@@ -116,6 +117,22 @@ TEST(Generatrix, ZoneAgreesWithAllStripsThroughTwoPoints) {
     ASSERT_TRUE(s.has_value()) << s.error().what;
     EXPECT_NEAR(s->zone_mm, strip_by_trial(z, r), 1e-12);
     EXPECT_LE(s->zone_mm, s->ls.total_mm + 1e-13);
+  }
+}
+
+TEST(Generatrix, ZoneIsTheNarrowestStripInAnyDirection) {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    SCOPED_TRACE(seed);
+    core::KeyedNoise noise(seed, {20});
+    std::vector<double> z;
+    std::vector<double> r;
+    for (std::size_t i = 0; i < 3 + seed % 9; ++i) {  // as wide as long, with repeated points
+      z.push_back(i % 5 == 4 ? z.front() : 10.0 * noise.uniform());
+      r.push_back(i % 5 == 4 ? r.front() : 10.0 * noise.uniform());
+    }
+    const auto s = generatrix_straightness(z, r);
+    ASSERT_TRUE(s.has_value()) << s.error().what;
+    EXPECT_NEAR(s->zone_mm, strip_by_trial(z, r), 1e-12);
   }
 }
 

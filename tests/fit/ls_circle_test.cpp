@@ -1,6 +1,9 @@
 #include "fit/ls_circle.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -42,6 +45,74 @@ TEST(LsCircle, HasNoNeighbourWithLessSquares) {
       }
     }
   }
+}
+
+/// Newton on the two equations of the centre in 80-bit numbers, the radius being the mean distance.
+LsCircle converged(const Points& points, const Eigen::Vector2d& start) {
+  using Wide2 = Eigen::Matrix<long double, 2, 1>;
+  Wide2 center = start.cast<long double>();
+  const auto n = static_cast<long double>(points.size());
+  long double radius = 0.0L;
+  long double sum = 0.0L;
+  for (int i = 0; i < 200; ++i) {
+    Wide2 pull = Wide2::Zero();
+    Wide2 unit = Wide2::Zero();
+    radius = 0.0L;
+    for (const auto& p : points) radius += (p.cast<long double>() - center).norm() / n;
+    sum = 0.0L;
+    for (const auto& p : points) {
+      const Wide2 v = p.cast<long double>() - center;
+      pull += v / n;
+      unit += v.normalized() / n;
+      sum += (v.norm() - radius) * (v.norm() - radius);
+    }
+    const Wide2 move = pull - radius * unit;  // fixed point of the stationarity equations
+    center += move;
+    if (move.norm() < 1e-19L * radius) break;
+  }
+  return {center.cast<double>(), static_cast<double>(radius), 0.0,
+          static_cast<double>(std::sqrt(sum / n))};
+}
+
+TEST(LsCircle, IsTheFullyConvergedMinimumForSmallAndLargeSets) {
+  for (const std::size_t n : {36U, 1000U, 1001U, 30000U}) {
+    for (const double radius : {1e-3, 25.0, 1e5}) {
+      for (const double place : {0.0, 4.0}) {
+        SCOPED_TRACE(testing::Message() << n << " points, radius " << radius << ", at " << place);
+        core::KeyedNoise noise(n, {5});
+        const Eigen::Vector2d center(place * radius, -place * radius);
+        Points points;
+        for (std::size_t k = 0; k < n; ++k) {
+          const double theta = core::kTwoPi * noise.uniform();
+          const double r = radius * (1.0 + 1e-4 * std::cos(2.0 * theta) + 1e-5 * noise.normal());
+          points.emplace_back(center + r * Eigen::Vector2d(std::cos(theta), std::sin(theta)));
+        }
+        const auto circle = ls_circle(points);
+        ASSERT_TRUE(circle.has_value());
+        const LsCircle want = converged(points, center);
+        EXPECT_NEAR(circle->radius_mm, want.radius_mm, 1e-12 * radius);
+        EXPECT_LT((circle->center_mm - want.center_mm).norm(), 1e-12 * radius * (1.0 + place));
+        EXPECT_NEAR(circle->rms_mm, want.rms_mm, 1e-12 * radius);
+        double low = std::numeric_limits<double>::infinity();
+        double high = 0.0;
+        for (const auto& p : points) {
+          low = std::min(low, (p - want.center_mm).norm());
+          high = std::max(high, (p - want.center_mm).norm());
+        }
+        EXPECT_NEAR(circle->deviation_mm, high - low, 4e-12 * radius * (1.0 + place));
+      }
+    }
+  }
+}
+
+TEST(LsCircle, NamesTheBadRowOfALargeSet) {
+  Points points;
+  for (int k = 0; k < 4000; ++k) points.emplace_back(25.0 * std::cos(k), 25.0 * std::sin(k));
+  points[3456].x() = std::numeric_limits<double>::infinity();
+  const auto refused = ls_circle(points);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, core::Code::kNotFinite);
+  EXPECT_NE(refused.error().what.find("3456"), std::string::npos);
 }
 
 TEST(AlgebraicCircle, IsExactForThreePoints) {

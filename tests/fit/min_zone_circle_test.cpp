@@ -7,8 +7,8 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/bisectors.h"
 #include "fit/ls_circle.h"
+#include "tests/fit/bisectors.h"
 
 namespace rondure::fit {
 namespace {

@@ -1,10 +1,12 @@
 #include "record/points_csv.h"
 
 #include <bit>
+#include <charconv>
 #include <chrono>
 #include <clocale>
 #include <cmath>
 #include <cstdint>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -194,6 +196,36 @@ TEST(PointsCsv, GivesBackEveryBitOfADouble) {
     EXPECT_EQ(std::bit_cast<std::uint64_t>(i % 2 == 0 ? point.x() : point.y()),
               std::bit_cast<std::uint64_t>(expected[i]));
   }
+}
+
+TEST(PointsCsv, ReadsDecimalsToTheBitsOfFromChars) {
+  core::KeyedNoise noise(1, {77});
+  const auto below = [&](int n) { return static_cast<int>(noise.uniform() * n); };
+  for (int k = 0; k < 20000; ++k) {
+    std::string number = below(2) == 0 ? "-" : "";
+    const int before = below(12);
+    for (int i = 0; i < before; ++i) number += static_cast<char>('0' + below(10));
+    const int after = before == 0 ? 1 + below(20) : below(20);
+    if (after > 0 || below(2) == 0) number += '.';
+    for (int i = 0; i < after; ++i) number += static_cast<char>('0' + below(10));
+    if (below(8) == 0) number += below(2) == 0 ? "e-3" : "E5";
+    SCOPED_TRACE(number);
+    double want = 0.0;
+    ASSERT_EQ(std::from_chars(number.data(), number.data() + number.size(), want).ec, std::errc());
+    const PointTable table = points("x,y\n" + number + ", " + number + "\n");
+    ASSERT_EQ(table.points_mm.size(), 1U);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(table.points_mm[0].x()),
+              std::bit_cast<std::uint64_t>(want));
+    EXPECT_EQ(table.points_mm[0].x(), table.points_mm[0].y());
+  }
+}
+
+TEST(PointsCsv, NumbersTheLinesAmongRowsOfBothKinds) {
+  // Plain rows, rows that need a second look, and lines without a row, before the bad one.
+  const core::Error error =
+      refusal("x,y,z\n1,2,3\n\n 1 , 2,3\r\n# note\n4,5,6\r\n+1,2,3\n1,2,3,\n");
+  EXPECT_EQ(error.where, "pin.csv:8");
+  EXPECT_THAT(error.what, HasSubstr("4 fields"));
 }
 
 TEST(PointsCsv, NeverCrashesOnRandomText) {

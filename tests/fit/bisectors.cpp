@@ -1,4 +1,4 @@
-#include "fit/bisectors.h"
+#include "tests/fit/bisectors.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,231 @@
+#include "app/fit_shapes.h"
+
+#include <utility>
+#include <vector>
+
+#include "fit/ls_circle.h"
+#include "fit/ls_cylinder.h"
+#include "fit/ls_line.h"
+#include "fit/ls_sphere.h"
+#include "fit/min_zone_circle.h"
+#include "fit/min_zone_cylinder.h"
+#include "fit/min_zone_line.h"
+#include "fit/min_zone_sphere.h"
+#include "fit/one_sided_center.h"
+#include "fit/one_sided_cylinder.h"
+
+namespace rondure::app {
+namespace {
+
+using Space = std::span<const Eigen::Vector3d>;
+using Plane = std::span<const Eigen::Vector2d>;
+
+FitPlace place_of(const Eigen::Vector2d& center) {
+  return {std::nullopt, {center.x(), center.y(), 0.0}, 2};
+}
+FitPlace place_of(const Eigen::Vector3d& center) { return {std::nullopt, center, 3}; }
+FitPlace place_of(const fit::Axis& axis) { return {axis, Eigen::Vector3d::Zero(), 3}; }
+
+template <class Ls>
+FitReference least_squares(const Ls& ls, FitPlace place) {
+  FitReference out;
+  out.place = std::move(place);
+  out.radius_mm = ls.radius_mm;
+  out.deviation_mm = ls.deviation_mm;
+  out.rms_mm = ls.rms_mm;
+  return out;
+}
+
+template <class Zone>
+FitReference minimum_zone(const Zone& zone, FitPlace place) {
+  FitReference out;
+  out.place = std::move(place);
+  out.inner_radius_mm = zone.inner_radius_mm;
+  out.outer_radius_mm = zone.outer_radius_mm;
+  out.deviation_mm = zone.width_mm();
+  out.outer = zone.outer;
+  out.inner = zone.inner;
+  out.certificate = zone.certificate;
+  return out;
+}
+
+template <class Fit>
+FitReference one_sided(const Fit& fit, FitPlace place, bool outside) {
+  FitReference out;
+  out.place = std::move(place);
+  out.radius_mm = fit.radius_mm;
+  out.deviation_mm = fit.deviation_mm;
+  (outside ? out.outer : out.inner) = fit.contacts;
+  out.certificate = fit.certificate;
+  return out;
+}
+
+/// Collects the references of one set of points.
+class Collector {
+ public:
+  Collector(const std::string& shape, std::string reference, std::size_t points)
+      : wanted_(std::move(reference)) {
+    out_.shape = shape;
+    out_.points = points;
+  }
+
+  [[nodiscard]] bool wants(const char* name) const { return wanted_ == "all" || wanted_ == name; }
+
+  /// Adds a reference, or says in a warning that it does not exist; other errors end the fit.
+  void add(const char* name, const char* title, const core::Result<FitReference>& found) {
+    if (found) {
+      out_.references.push_back({name, title, *found});
+      const auto& certificate = found->certificate;
+      if (certificate && certificate->kind == fit::Certificate::Kind::kNone) {
+        out_.warnings.push_back({core::Code::kNoCertificate, certificate->reason, {}});
+      }
+    } else if (found.error().code == core::Code::kReferenceAbsent) {
+      out_.references.push_back({name, title, std::nullopt});
+      out_.warnings.push_back(found.error());
+    } else if (!failure_) {
+      failure_ = found.error();
+    }
+  }
+  void warn(core::Code code, std::string what) { out_.warnings.push_back({code, what, {}}); }
+
+  [[nodiscard]] core::Result<FitOutcome> take() {
+    if (failure_) return core::fail(*failure_);
+    return std::move(out_);
+  }
+
+ private:
+  std::string wanted_;
+  FitOutcome out_;
+  std::optional<core::Error> failure_;
+};
+
+/// The result of a fit as a reference.
+template <class Fit, class Convert>
+core::Result<FitReference> as_reference(const core::Result<Fit>& fit, const Convert& convert) {
+  if (!fit) return core::fail(fit.error());
+  return convert(*fit);
+}
+
+core::Result<FitOutcome> fit_circle(Plane points, Collector collector) {
+  if (collector.wants("ls")) {
+    collector.add("ls", "LSCI", as_reference(fit::ls_circle(points), [](const auto& f) {
+                    return least_squares(f, place_of(f.center_mm));
+                  }));
+  }
+  if (collector.wants("mz")) {
+    const auto mz = fit::min_zone_circle(points);
+    collector.add("mz", "MZCI", as_reference(mz, [](const auto& f) {
+                    return minimum_zone(f, place_of(f.center_mm));
+                  }));
+    if (mz && mz->exact_fit) {
+      collector.warn(core::Code::kExactFit,
+                     "three different points lie on a circle exactly: the deviation says nothing "
+                     "about form");
+    }
+  }
+  if (collector.wants("mc")) {
+    collector.add("mc", "MCCI",
+                  as_reference(fit::min_circumscribed_circle(points), [](const auto& f) {
+                    return one_sided(f, place_of(f.center_mm), true);
+                  }));
+  }
+  if (collector.wants("mi")) {
+    collector.add("mi", "MICI", as_reference(fit::max_inscribed_circle(points), [](const auto& f) {
+                    return one_sided(f, place_of(f.center_mm), false);
+                  }));
+  }
+  return collector.take();
+}
+
+core::Result<FitOutcome> fit_sphere(Space points, Collector collector) {
+  if (collector.wants("ls")) {
+    collector.add("ls", "LSSP", as_reference(fit::ls_sphere(points), [](const auto& f) {
+                    return least_squares(f, place_of(f.center_mm));
+                  }));
+  }
+  if (collector.wants("mz")) {
+    collector.add("mz", "MZSP", as_reference(fit::min_zone_sphere(points), [](const auto& f) {
+                    return minimum_zone(f, place_of(f.center_mm));
+                  }));
+  }
+  if (collector.wants("mc")) {
+    collector.add("mc", "MCSP",
+                  as_reference(fit::min_circumscribed_sphere(points), [](const auto& f) {
+                    return one_sided(f, place_of(f.center_mm), true);
+                  }));
+  }
+  if (collector.wants("mi")) {
+    collector.add("mi", "MISP", as_reference(fit::max_inscribed_sphere(points), [](const auto& f) {
+                    return one_sided(f, place_of(f.center_mm), false);
+                  }));
+  }
+  return collector.take();
+}
+
+core::Result<FitOutcome> fit_cylinder(Space points, Collector collector) {
+  const auto ls = fit::ls_cylinder(points);
+  if (!ls) return core::fail(ls.error());
+  if (collector.wants("ls")) collector.add("ls", "LSCY", least_squares(*ls, place_of(ls->axis)));
+  const Eigen::Vector3d near = ls->axis.direction;
+  if (collector.wants("mz")) {
+    // All directions, or, where that takes too long, those about the least-squares axis.
+    const fit::AxisScope all{fit::AxisScope::Kind::kHalfSphere};
+    const fit::AxisScope cone{fit::AxisScope::Kind::kCone, near};
+    const auto mz = fit::min_zone_cylinder(points, near, {.scopes = {all, cone}, .search = {}});
+    collector.add("mz", "MZCY", as_reference(mz, [](const auto& f) {
+                    return minimum_zone(f, place_of(f.axis));
+                  }));
+  }
+  if (collector.wants("mc")) {
+    collector.add("mc", "MCCY",
+                  as_reference(fit::min_circumscribed_cylinder(points, near),
+                               [](const auto& f) { return one_sided(f, place_of(f.axis), true); }));
+  }
+  if (collector.wants("mi")) {
+    collector.add("mi", "MICY",
+                  as_reference(fit::max_inscribed_cylinder(points, near), [](const auto& f) {
+                    return one_sided(f, place_of(f.axis), false);
+                  }));
+  }
+  return collector.take();
+}
+
+core::Result<FitOutcome> fit_line(Space points, Collector collector) {
+  if (collector.wants("ls")) {
+    collector.add("ls", "LSLI", as_reference(fit::ls_line(points), [](const auto& f) {
+                    FitReference out;
+                    out.place = place_of(f.axis);
+                    out.deviation_mm = f.deviation_mm;
+                    out.rms_mm = f.rms_mm;
+                    return out;
+                  }));
+  }
+  if (collector.wants("mz")) {
+    collector.add("mz", "MZLI", as_reference(fit::min_zone_line(points), [](const auto& f) {
+                    FitReference out;
+                    out.place = place_of(f.axis);
+                    out.diameter_mm = f.diameter_mm;
+                    out.deviation_mm = f.diameter_mm;
+                    out.outer = f.contacts;
+                    out.certificate = f.certificate;
+                    return out;
+                  }));
+  }
+  return collector.take();
+}
+
+}  // namespace
+
+core::Result<FitOutcome> fit_shape(const std::string& shape, const std::string& reference,
+                                   Space points_mm) {
+  Collector collector(shape, reference, points_mm.size());
+  if (shape == "cylinder") return fit_cylinder(points_mm, std::move(collector));
+  if (shape == "sphere") return fit_sphere(points_mm, std::move(collector));
+  if (shape == "line") return fit_line(points_mm, std::move(collector));
+  std::vector<Eigen::Vector2d> flat;
+  flat.reserve(points_mm.size());
+  for (const Eigen::Vector3d& p : points_mm) flat.emplace_back(p.head<2>());
+  return fit_circle(flat, std::move(collector));
+}
+
+}  // namespace rondure::app

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+#include "fit/certificate.h"
+#include "fit/contacts.h"
+
+namespace rondure::fit {
+
+/// A circle (D = 2) or sphere (D = 3) that touches the points from one side.
+template <int D>
+struct OneSidedCenter {
+  Eigen::Matrix<double, D, 1> center_mm = Eigen::Matrix<double, D, 1>::Zero();
+  double radius_mm = 0.0;
+  double deviation_mm = 0.0;      ///< Radial peak to valley about the centre [mm].
+  std::vector<Contact> contacts;  ///< Points on it that carry it; multipliers sum to 1.
+  Certificate certificate;
+};
+using OneSidedCircle = OneSidedCenter<2>;
+using OneSidedSphere = OneSidedCenter<3>;
+
+/// Minimum circumscribed circle (MCCI), sphere: the smallest that holds all points. The problem is
+/// convex, so its optimum is the only one: the certificate is global by the contacts alone.
+///
+/// @param points_mm  As ls_circle(), ls_sphere(): 3 (4) points, not on one line (plane) [mm].
+/// @return kNoPoints, kNotFinite (row), kTooFewPoints, kCollinear (kRank). Same input, same bits.
+/// Cost: as ZoneDescent. Sources: ISO 12181-1; methods, cylindricity section 11.4.
+[[nodiscard]] core::Result<OneSidedCircle> min_circumscribed_circle(
+    std::span<const Eigen::Vector2d> points_mm);
+[[nodiscard]] core::Result<OneSidedSphere> min_circumscribed_sphere(
+    std::span<const Eigen::Vector3d> points_mm);
+
+/// Maximum inscribed circle (MICI), sphere: the largest without a point inside, next to the
+/// least-squares one, as the standards mean it. Several may exist; the certificate is local.
+///
+/// @return also kReferenceAbsent where the points leave a gap through which it grows without bound.
+[[nodiscard]] core::Result<OneSidedCircle> max_inscribed_circle(
+    std::span<const Eigen::Vector2d> points_mm);
+[[nodiscard]] core::Result<OneSidedSphere> max_inscribed_sphere(
+    std::span<const Eigen::Vector3d> points_mm);
+
+}  // namespace rondure::fit

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace rondure::fit {
+
+/// Points a descent works on, relative to an origin, column by column, each with its row in the
+/// data. The memory is kept when cleared.
+template <int D>
+class WorkingPoints {
+ public:
+  using Point = Eigen::Matrix<double, D, 1>;
+
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  [[nodiscard]] std::size_t row(std::size_t i) const { return rows_[i]; }
+  [[nodiscard]] const double* column(int k) const {
+    return columns_[static_cast<std::size_t>(k)].data();
+  }
+  [[nodiscard]] Point operator[](std::size_t i) const {
+    Point out;
+    for (int k = 0; k < D; ++k) out(k) = column(k)[i];
+    return out;
+  }
+  void clear() {
+    rows_.clear();
+    for (auto& column : columns_) column.clear();
+  }
+  void add(std::size_t row, const Point& point) {
+    rows_.push_back(row);
+    for (int k = 0; k < D; ++k) columns_[static_cast<std::size_t>(k)].push_back(point(k));
+  }
+
+ private:
+  std::vector<std::size_t> rows_;
+  std::array<std::vector<double>, D> columns_;
+};
+
+/// Least and largest distance of points from a place [mm].
+struct Extremes {
+  double low = 0.0;
+  double high = 0.0;
+  [[nodiscard]] double width() const { return high - low; }
+};
+
+}  // namespace rondure::fit

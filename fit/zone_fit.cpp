@@ -1,0 +1,184 @@
+#include "fit/zone_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "fit/ls_circle.h"
+#include "fit/ls_cylinder.h"
+#include "fit/ls_sphere.h"
+#include "fit/points.h"
+
+namespace rondure::fit {
+namespace {
+
+constexpr std::size_t kCenterSample = 256;
+constexpr std::size_t kCylinderSample = 480;
+/// From here on one start is enough, whatever the arc (performance: small sets).
+constexpr std::size_t kOneStart = 24;
+constexpr double kFullGap = 120.0 * core::kDegree;
+
+template <class Point>
+void spread(std::span<const Point> points, std::size_t most, std::vector<Point>& sample) {
+  sample.clear();
+  if (points.size() <= most) {
+    sample.assign(points.begin(), points.end());
+    return;
+  }
+  for (std::size_t k = 0; k < most; ++k) sample.push_back(points[spread_row(k, points.size())]);
+}
+
+/// Round-off of distances: a place is never farther from the origin than the points are wide.
+template <class Point>
+double round_off_of(const std::vector<Point>& sample) {
+  double size = 0.0;
+  for (const Point& p : sample) size = std::max(size, p.cwiseAbs().maxCoeff());
+  return distance_round_off(size);
+}
+
+template <class Place, class Frame>
+ZoneFit<Place> zone_of(const Descent<Frame>& descent, const Place& place) {
+  ZoneFit<Place> out;
+  out.place = place;
+  out.inner_radius_mm = descent.zone.low;
+  out.outer_radius_mm = descent.zone.high;
+  out.outer = descent.outer;
+  out.inner = descent.inner;
+  out.passes = descent.passes;
+  out.programmes = descent.programmes;
+  out.pivots = descent.pivots;
+  out.ending = descent.ending;
+  return out;
+}
+
+/// How far a reference may be from the least-squares one: a maximum inscribed one goes on for ever
+/// where none exists, a minimum circumscribed one of an arc lies at its chord.
+double limit_of(const ZoneWeights& weights, double radius) {
+  if (weights.outer == 0.0) return radius;
+  return weights.inner == 0.0 ? 2.0 * radius : std::numeric_limits<double>::infinity();
+}
+
+/// A fit that ended badly as an error; else the fit.
+template <class Place, class Point>
+core::Result<ZoneFit<Place>> judged(ZoneFit<Place> zone, std::span<const Point> points,
+                                    const ZoneWeights& weights, std::string_view shape) {
+  if (zone.ending == ZoneEnding::kNotFinite) {
+    if (auto checked = check_points(points); !checked) return core::fail(checked.error());
+    return core::fail(core::Code::kUnits,
+                      "the coordinates are so large that squared distances are not finite; mm are "
+                      "expected");
+  }
+  if (zone.ending == ZoneEnding::kStrayed) {
+    return core::fail(
+        core::Code::kReferenceAbsent,
+        fmt::format("there is no {} {} next to the least-squares one: the points do "
+                    "not surround it",
+                    weights.inner == 0.0 ? "minimum circumscribed" : "maximum inscribed", shape));
+  }
+  return zone;
+}
+
+core::Result<LsCircle> start_fit(std::span<const Eigen::Vector2d> points) {
+  return algebraic_circle(points);
+}
+core::Result<LsSphere> start_fit(std::span<const Eigen::Vector3d> points) {
+  return ls_sphere(points);
+}
+
+/// The axis as a frame, with the extent of the points along it as the scale of its tilts.
+CylinderFrame frame_of(std::span<const Eigen::Vector3d> sample, const Axis& axis,
+                       double round_off) {
+  const double half = half_extent(sample, axis.direction);
+  return {Axis{Eigen::Vector3d::Zero(), axis.direction}, std::max(half, round_off)};
+}
+
+/// Whether few points, or a part of the circumference, may leave several minima.
+bool may_be_ambiguous(std::span<const Eigen::Vector3d> points, const Axis& axis) {
+  if (points.size() >= kOneStart) return false;
+  if (points.size() < 12) return true;
+  const auto frame = across(axis.direction);
+  std::array<Eigen::Vector2d, kOneStart> flat;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    flat[i] = frame.transpose() * (points[i] - axis.point_mm);
+  }
+  return largest_gap_rad(std::span(flat).first(points.size()), Eigen::Vector2d::Zero()) > kFullGap;
+}
+
+}  // namespace
+
+template <int D>
+auto CenterZoneFitter<D>::fit_from(std::span<const Point> points_mm, const Point& center_mm,
+                                   const ZoneWeights& weights, double limit_mm) -> ZoneFit<Point> {
+  spread(points_mm, kCenterSample, sample_);
+  const auto found = descent_.run(points_mm, center_mm, CenterFrame<D>(Point::Zero()), weights,
+                                  round_off_of(sample_), limit_mm);
+  return zone_of(found, found.frame.place(center_mm));
+}
+
+template <int D>
+auto CenterZoneFitter<D>::fit(std::span<const Point> points_mm, const ZoneWeights& weights)
+    -> core::Result<ZoneFit<Point>> {
+  if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
+  spread(points_mm, kCenterSample, sample_);
+  auto start = start_fit(std::span<const Point>(sample_));
+  // A sample may miss what the data have.
+  if (!start) start = start_fit(points_mm);
+  if (!start) return core::fail(start.error());
+  const double limit = limit_of(weights, start->radius_mm);
+  return judged(fit_from(points_mm, start->center_mm, weights, limit), points_mm, weights,
+                D == 2 ? "circle" : "sphere");
+}
+
+template class CenterZoneFitter<2>;
+template class CenterZoneFitter<3>;
+
+CylinderZone CylinderZoneFitter::fit_from(std::span<const Eigen::Vector3d> points_mm,
+                                          const Axis& axis, const ZoneWeights& weights,
+                                          double limit_mm) {
+  spread(points_mm, kCylinderSample, sample_);
+  const double round_off = round_off_of(sample_);
+  const auto found = descent_.run(points_mm, axis.point_mm, frame_of(sample_, axis, round_off),
+                                  weights, round_off, limit_mm);
+  return zone_of(found, found.frame.place(axis.point_mm));
+}
+
+/// The best of several starts about an axis, where several minima are to be feared.
+CylinderZone CylinderZoneFitter::fit_best(std::span<const Eigen::Vector3d> points_mm,
+                                          const Axis& axis, const ZoneWeights& weights,
+                                          double limit_mm) {
+  CylinderZone best = fit_from(points_mm, axis, weights, limit_mm);
+  const bool both = weights.outer > 0.0 && weights.inner > 0.0;
+  if (!both || !may_be_ambiguous(points_mm, axis)) return best;
+  const auto side = across(axis.direction);
+  for (const double tilt_deg : {0.5, 2.0, 6.0}) {
+    for (int k = 0; k < 8; ++k) {
+      const double angle = core::kTwoPi * k / 8.0;
+      const Eigen::Vector2d lean(std::cos(angle), std::sin(angle));
+      const Axis start{
+          axis.point_mm,
+          (axis.direction + std::tan(tilt_deg * core::kDegree) * (side * lean)).normalized()};
+      const CylinderZone zone = fit_from(points_mm, start, weights, limit_mm);
+      if (zone.width_mm() < best.width_mm()) best = zone;
+    }
+  }
+  return best;
+}
+
+core::Result<CylinderZone> CylinderZoneFitter::fit(
+    std::span<const Eigen::Vector3d> points_mm,
+    const std::optional<Eigen::Vector3d>& near_direction, const ZoneWeights& weights) {
+  if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
+  spread(points_mm, kCylinderSample, sample_);
+  auto start = ls_cylinder(sample_, near_direction);
+  // A sample may miss what the data have: a second layer, or the row that is not a number.
+  if (!start) start = ls_cylinder(points_mm, near_direction);
+  if (!start) return core::fail(start.error());
+  const double limit = limit_of(weights, start->radius_mm);
+  return judged(fit_best(points_mm, start->axis, weights, limit), points_mm, weights, "cylinder");
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,182 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "core/noise.h"
+#include "core/units.h"
+#include "fit/certificate_check.h"
+#include "fit/ls_circle.h"
+#include "fit/ls_cylinder.h"
+#include "fit/min_zone_circle.h"
+#include "fit/min_zone_cylinder.h"
+#include "fit/one_sided_center.h"
+#include "fit/one_sided_cylinder.h"
+
+namespace rondure::fit {
+namespace {
+
+using Plane = std::vector<Eigen::Vector2d>;
+using Space = std::vector<Eigen::Vector3d>;
+
+Plane circle_points(std::uint64_t seed, int count) {
+  core::KeyedNoise noise(seed, {31});
+  Plane out;
+  for (int k = 0; k < count; ++k) {
+    const double theta = core::kTwoPi * (k + 0.4 * noise.uniform()) / count;
+    const double r = 25.0 + 0.01 * std::cos(3.0 * theta) + 0.003 * noise.normal();
+    out.emplace_back(7.0 + r * std::cos(theta), -3.0 + r * std::sin(theta));
+  }
+  return out;
+}
+
+Space cylinder_points(std::uint64_t seed, int count) {
+  core::KeyedNoise noise(seed, {32});
+  const Eigen::Quaterniond turn(
+      Eigen::AngleAxisd(noise.normal(), Eigen::Vector3d(1, 2, -1).normalized()));
+  Space out;
+  for (int k = 0; k < count; ++k) {
+    const double theta = core::kTwoPi * 0.618034 * k;
+    const double z = 60.0 * (k + noise.uniform()) / count - 30.0;
+    const double r = 20.0 + 0.006 * std::cos(2.0 * theta + 0.05 * z) + 0.002 * noise.normal();
+    out.push_back(turn * Eigen::Vector3d(r * std::cos(theta), r * std::sin(theta), z) +
+                  Eigen::Vector3d(100.0, -40.0, 12.0));
+  }
+  return out;
+}
+
+Eigen::Vector3d lying(const Space& points) { return ls_cylinder(points)->axis.direction; }
+
+TEST(MinCircumscribedCircle, IsTheSmallestOfAllPairsAndTriplesThatHoldThePoints) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE(seed);
+    const Plane points = circle_points(seed, 3 + static_cast<int>(seed % 12));
+    const auto fit = min_circumscribed_circle(points);
+    ASSERT_TRUE(fit.has_value()) << fit.error().what;
+    double best = std::numeric_limits<double>::infinity();
+    const auto offer = [&](const Eigen::Vector2d& c, double r) {
+      const bool holds = std::all_of(points.begin(), points.end(), [&](const Eigen::Vector2d& p) {
+        return (p - c).norm() <= r + 1e-11;
+      });
+      if (holds) best = std::min(best, r);
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::size_t j = i + 1; j < points.size(); ++j) {
+        offer(0.5 * (points[i] + points[j]), 0.5 * (points[i] - points[j]).norm());
+        for (std::size_t k = j + 1; k < points.size(); ++k) {
+          Eigen::Matrix2d m;
+          m << 2.0 * (points[j] - points[i]).transpose(), 2.0 * (points[k] - points[i]).transpose();
+          const Eigen::Vector2d d =
+              m.inverse() * Eigen::Vector2d((points[j] - points[i]).squaredNorm(),
+                                            (points[k] - points[i]).squaredNorm());
+          offer(points[i] + d, d.norm());
+        }
+      }
+    }
+    EXPECT_NEAR(fit->radius_mm, best, 1e-10);
+    EXPECT_EQ(fit->certificate.kind, Certificate::Kind::kGlobal) << fit->certificate.reason;
+  }
+}
+
+TEST(OneSidedCircle, KeepsTheOrderOfTheFourReferences) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const Plane points = circle_points(seed, 12 + static_cast<int>(7 * seed));
+    const auto mc = min_circumscribed_circle(points);
+    const auto mi = max_inscribed_circle(points);
+    const auto mz = min_zone_circle(points);
+    const auto ls = ls_circle(points);
+    ASSERT_TRUE(mc && mi && mz && ls);
+    for (const double other : {mc->deviation_mm, mi->deviation_mm, ls->deviation_mm}) {
+      EXPECT_LE(mz->width_mm(), other + 1e-12);
+    }
+    EXPECT_GE(mc->radius_mm, ls->radius_mm);
+    EXPECT_LE(mi->radius_mm, ls->radius_mm);
+    EXPECT_LE(mc->radius_mm, mz->outer_radius_mm + 1e-12);
+    EXPECT_GE(mi->radius_mm, mz->inner_radius_mm - 1e-12);
+    EXPECT_GE(mc->contacts.size(), 2U);
+    EXPECT_GE(mi->contacts.size(), 2U);
+    EXPECT_NE(mi->certificate.kind, Certificate::Kind::kNone) << mi->certificate.reason;
+  }
+}
+
+TEST(OneSidedCylinder, KeepsTheOrderOfTheFourReferences) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const Space points = cylinder_points(seed, 20 + static_cast<int>(9 * seed));
+    const auto direction = lying(points);
+    const auto mc = min_circumscribed_cylinder(points, direction);
+    const auto mi = max_inscribed_cylinder(points, direction);
+    const auto mz = min_zone_cylinder(points, direction);
+    const auto ls = ls_cylinder(points, direction);
+    ASSERT_TRUE(mc && mi && mz && ls);
+    for (const double other : {mc->deviation_mm, mi->deviation_mm, ls->deviation_mm}) {
+      EXPECT_LE(mz->width_mm(), other + 1e-12);
+    }
+    EXPECT_LE(mc->radius_mm, mz->outer_radius_mm + 1e-12);
+    EXPECT_GE(mi->radius_mm, mz->inner_radius_mm - 1e-12);
+    EXPECT_EQ(mc->certificate.kind, Certificate::Kind::kLocal) << mc->certificate.reason;
+    EXPECT_EQ(mi->certificate.kind, Certificate::Kind::kLocal) << mi->certificate.reason;
+  }
+}
+
+TEST(OneSidedCylinder, TurnsAndShiftsWithThePart) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const Space points = cylinder_points(seed, 300);
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Eigen::Vector3d(3, -1, 2).normalized()));
+    const Eigen::Vector3d shift(1e3, -2e3, 500.0);
+    Space moved;
+    for (const auto& p : points) moved.push_back(turn * p + shift);
+    std::reverse(moved.begin(), moved.end());
+    const auto direction = lying(points);
+    for (const auto fit : {min_circumscribed_cylinder, max_inscribed_cylinder}) {
+      const auto before = fit(points, direction);
+      const auto after = fit(moved, turn * direction);
+      ASSERT_TRUE(before && after);
+      EXPECT_NEAR(before->radius_mm, after->radius_mm, 1e-10);
+      EXPECT_LE((turn * before->axis.direction).cross(after->axis.direction).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(OneSided, HasNoInscribedReferenceWhereThePointsDoNotSurroundIt) {
+  Plane half;
+  Space gutter;
+  for (int k = 0; k <= 24; ++k) {
+    const double theta = 170.0 * core::kDegree * k / 24.0;
+    half.emplace_back(25.0 * std::cos(theta), 25.0 * std::sin(theta));
+    for (const double z : {0.0, 20.0, 40.0}) {
+      gutter.emplace_back(25.0 * std::cos(theta), 25.0 * std::sin(theta), z);
+    }
+  }
+  const auto circle = max_inscribed_circle(half);
+  ASSERT_FALSE(circle.has_value());
+  EXPECT_EQ(circle.error().code, core::Code::kReferenceAbsent);
+  const auto cylinder = max_inscribed_cylinder(gutter, Eigen::Vector3d::UnitZ());
+  ASSERT_FALSE(cylinder.has_value());
+  EXPECT_EQ(cylinder.error().code, core::Code::kReferenceAbsent);
+}
+
+TEST(OneSided, NamesTheRowThatIsNotANumber) {
+  for (const int count : {9, 500}) {
+    Plane points = circle_points(1, count);
+    points[7].y() = std::numeric_limits<double>::quiet_NaN();
+    Space space = cylinder_points(1, count);
+    space[8].z() = std::numeric_limits<double>::infinity();
+    const auto circle = min_circumscribed_circle(points);
+    ASSERT_FALSE(circle.has_value());
+    EXPECT_EQ(circle.error().code, core::Code::kNotFinite);
+    EXPECT_NE(circle.error().what.find(" 7 "), std::string::npos) << circle.error().what;
+    const auto cylinder = min_circumscribed_cylinder(space, Eigen::Vector3d::UnitZ());
+    ASSERT_FALSE(cylinder.has_value());
+    EXPECT_EQ(cylinder.error().code, core::Code::kNotFinite);
+    EXPECT_NE(cylinder.error().what.find(" 8 "), std::string::npos) << cylinder.error().what;
+  }
+}
+
+}  // namespace
+}  // namespace rondure::fit
