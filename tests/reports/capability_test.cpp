@@ -85,7 +85,10 @@ TEST(UpperCapability, LowerBoundHoldsInNinetyFiveOfHundred) {
       }
       EXPECT_GT(modelled, rounds * 9 / 10);
       std::printf("n %d, index %.2f: held in %.1f %%\n", n, index, 100.0 * held / modelled);
-      EXPECT_NEAR(static_cast<double>(held) / modelled, 0.95, rounds > 1'000 ? 0.01 : 0.02);
+      // Four standard deviations of a share of so many rounds, and what fixed draws may shift. The
+      // delta method, 4 % short at n = 30, fails this also with the small count.
+      const double tolerance = 4.0 * std::sqrt(0.05 * 0.95 / modelled) + 0.005;
+      EXPECT_NEAR(static_cast<double>(held) / modelled, 0.95, tolerance);
     }
   }
 }
