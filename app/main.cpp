@@ -135,9 +135,22 @@ void add_verify(CLI::App& app, VerifyArguments& arguments) {
   auto* verb =
       app.add_subcommand("verify", "Recomputes a run from its journal and compares every digit");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
+  verb->add_option("--key", arguments.key, "Public key file (PEM) of who signed the run");
   verb->footer(
-      "\nExample: rondure verify runs/01_spool_simulated-20261121T023302Z\n"
-      "Finds accidents; whoever can write into the directory can also forge its digests.");
+      "\nExample: rondure verify runs/01_spool_simulated-20261121T023302Z --key public.pem\n"
+      "Without --key this finds accidents: whoever can write into the directory can also forge "
+      "its\n"
+      "digests. With the key of who signed (rondure sign) it finds forgery, too.");
+}
+
+void add_sign(CLI::App& app, SignArguments& arguments) {
+  auto* verb = app.add_subcommand("sign", "Signs a finished run that verifies (Ed25519)");
+  verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
+  verb->add_option("--key", arguments.key, "Private key file (PEM)")->required();
+  verb->footer(
+      "\nExample: rondure sign runs/01_spool_simulated-20261121T023302Z --key key.pem\n"
+      "Keys: openssl genpkey -algorithm ed25519 -out key.pem\n"
+      "      openssl pkey -in key.pem -pubout -out public.pem");
 }
 
 void add_history_filters(CLI::App& verb, HistoryArguments& arguments) {
@@ -218,6 +231,7 @@ int main_of(int argc, char** argv) {
   RoundnessArguments roundness_arguments;
   SelfTestArguments selftest_arguments;
   ReportArguments report_arguments;
+  SignArguments sign_arguments;
   VerifyArguments verify_arguments;
   HistoryArguments history_arguments;
   add_validate(app, validate_arguments);
@@ -228,6 +242,7 @@ int main_of(int argc, char** argv) {
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
   add_history(app, history_arguments);
+  add_sign(app, sign_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -240,6 +255,7 @@ int main_of(int argc, char** argv) {
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
   if (app.got_subcommand("history")) return history(history_arguments);
+  if (app.got_subcommand("sign")) return sign(sign_arguments);
   return verify(verify_arguments);
 }
 

@@ -1,13 +1,28 @@
+#include <filesystem>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "record/checksums.h"
+#include "record/files.h"
 #include "record/journal.h"
+#include "record/signature.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
 #include "reports/writers.h"
 
 namespace rondure::app {
+namespace {
+
+/// The list of digests, when there is a signature of it.
+std::string signed_checksums(const std::filesystem::path& directory) {
+  if (!record::read_file(directory / record::kSignatureName)) return {};
+  return record::read_file(directory / record::kChecksumsName).value_or("");
+}
+
+}  // namespace
 
 int report(const ReportArguments& arguments) {
   const auto read = record::read_journal(arguments.directory);
@@ -25,12 +40,16 @@ int report(const ReportArguments& arguments) {
     complain(evaluation.error());
     return kBadInput;
   }
+  const std::string signed_sums = signed_checksums(arguments.directory);
   const auto formats = arguments.formats.empty() ? reports::all_formats() : arguments.formats;
   const auto written =
       reports::write_exports(arguments.directory, formats, read->record, *evaluation);
   if (!written) {
     complain(written.error());
     return kBadInput;
+  }
+  if (signed_sums != signed_checksums(arguments.directory)) {
+    tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }
   say(reports::write_summary(read->record, *evaluation));
   for (const auto& file : *written) say(file.string() + "\n");

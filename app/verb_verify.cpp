@@ -3,14 +3,26 @@
 #include "app/processor.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "record/files.h"
 #include "reports/verify.h"
 
 namespace rondure::app {
 
 int verify(const VerifyArguments& arguments) {
-  const auto outcome = reports::verify_run(arguments.directory, processor());
+  reports::VerifyOptions options;
+  options.processor = processor();
+  if (!arguments.key.empty()) {
+    const auto key = record::read_file(arguments.key);
+    if (!key) {
+      complain(key.error());
+      return kBadInput;
+    }
+    options.public_key_pem = *key;
+  }
+  const auto outcome = reports::verify_run(arguments.directory, options);
   if (!outcome) {
-    complain(outcome.error());
+    const bool of_key = outcome.error().code == core::Code::kBadOption;
+    complain(of_key ? outcome.error().at(arguments.key) : outcome.error());
     return kBadInput;
   }
   for (const std::string& difference : outcome->differences)

@@ -44,6 +44,7 @@ struct ReportArguments {
 
 struct VerifyArguments {
   std::string directory;
+  std::string key;  ///< Public key file; empty: the signature is not checked.
 };
 [[nodiscard]] int verify(const VerifyArguments& arguments);
 
@@ -64,6 +65,12 @@ struct HistoryArguments {
   std::vector<std::string> add;  ///< Run directories.
 };
 [[nodiscard]] int history(const HistoryArguments& arguments);
+
+struct SignArguments {
+  std::string directory;
+  std::string key;  ///< Private key file.
+};
+[[nodiscard]] int sign(const SignArguments& arguments);
 
 struct FitArguments {
   std::string shape;  ///< "circle", "cylinder", "sphere" or "line".

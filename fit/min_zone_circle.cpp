@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "fit/bisectors.h"
 #include "fit/ls_circle.h"
 #include "fit/points.h"
 #include "fit/zone_fit.h"
@@ -11,6 +14,7 @@ namespace rondure::fit {
 namespace {
 
 constexpr int kRestartLimit = 20;
+constexpr std::size_t kEnumerated = 40;  // points up to which all bisector crossings can be tried
 
 using Points = std::span<const Eigen::Vector2d>;
 
@@ -55,6 +59,28 @@ void search_all_centers(Points points, const GlobalSearchOptions& options, Circl
   }
 }
 
+/// Tries every candidate of a small set whose zone is too wide for bounds to bite.
+void try_all_centers(Points points, CircleZoneFitter& fitter, MinZoneCircle& out) {
+  const BisectorSearch all = search_bisectors(points, out.center_mm);
+  if (all.width_mm < out.width_mm()) {
+    MinZoneCircle other;
+    certify(points, fitter.fit_from(points, all.center_mm).place, other);
+    if (other.width_mm() < out.width_mm()) {
+      other.squares = out.squares;
+      out = other;
+    }
+  }
+  if (out.certificate.kind == Certificate::Kind::kNone) return;
+  if (all.complete) {
+    const double gap = std::max(out.certificate.gap_mm, out.width_mm() - all.width_mm);
+    out.certificate = {Certificate::Kind::kGlobal, "all centres", gap, ""};
+  } else {
+    out.certificate.reason = fmt::format(
+        "a strip of {:.9g} mm holds the points: the narrowest zone may have its centre at infinity",
+        all.strip_mm);
+  }
+}
+
 /// Three different points lie on one circle: nothing is left to minimise.
 MinZoneCircle exact_fit(const LsCircle& circle) {
   MinZoneCircle out;
@@ -78,7 +104,10 @@ core::Result<MinZoneCircle> min_zone_circle(Points points_mm, const MinZoneCircl
   }
   MinZoneCircle out;
   const double growth = certify(points_mm, zone->place, out);
-  if (options.global) search_all_centers(points_mm, options.search, fitter, growth, out);
+  if (!options.global) return out;
+  search_all_centers(points_mm, options.search, fitter, growth, out);
+  const bool proven = out.certificate.kind == Certificate::Kind::kGlobal;
+  if (!proven && points_mm.size() <= kEnumerated) try_all_centers(points_mm, fitter, out);
   return out;
 }
 

@@ -35,17 +35,17 @@ struct MinZoneCircleOptions {
 
 /// Finds the minimum-zone circle of one plane section.
 ///
-/// Minimises  f(c) = max |p_i - c| - min |p_i - c|.  Corrected centre search (center_search.h) from
-/// the algebraic circle; a linear programme, re-linearised, where that search does not end at a
-/// stationary point. Then all centres are searched for a narrower zone: for up to 40 points by the
-/// enumeration of all bisector crossings, else by branch and bound (global_search.h). A better
-/// centre found there becomes the start, so the proof is the global search too.
+/// Minimises  f(c) = max |p_i - c| - min |p_i - c|  by the descent of zone_descent.h from the
+/// algebraic circle. Then all centres are searched for a narrower zone by branch and bound
+/// (global_search.h), or, for up to 40 points whose zone is too wide for it, by the enumeration of
+/// all bisector crossings. A better centre found there becomes the start, so the proof is the
+/// global search too.
 ///
 /// @param points_mm  n >= 3 distinct points, any order [mm].
-/// @return kNoPoints, kNotFinite (row), kTooFewPoints (fewer than 3 distinct), kCollinear,
-///         kNotConverged. Same input, same bits. O(n) a step; the enumeration costs n^5/8. A search
-///         that reaches its limit leaves a local certificate that says how far it came.
-/// Sources: ISO 12181-1 (definition); methods, cylindricity sections 7 and 9.
+/// @return kNoPoints, kNotFinite (row), kTooFewPoints (fewer than 3 distinct), kCollinear. Same
+///         input, same bits. A search that reaches its limit, or points that a strip holds as well,
+///         leave a local certificate that says so. Cost: zone_descent.h, and some 100 us of proof.
+/// Sources: ISO 12181-1 (definition); methods, cylindricity section 9, certificates section 2.
 [[nodiscard]] core::Result<MinZoneCircle> min_zone_circle(
     std::span<const Eigen::Vector2d> points_mm, const MinZoneCircleOptions& options = {});
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kAllWorked = 64;  // up to here all points are worked on
 constexpr int kProgrammeLimit = 200;
 constexpr int kPassLimit = 100;
-constexpr int kNewtonLimit = 8;
+constexpr int kNewtonLimit = 20;
 constexpr int kSaddleLimit = 20;
 constexpr int kLevelLimit = 4;
 /// A contact with a smaller multiplier may be one too many.
@@ -93,7 +93,7 @@ void ZoneDescent<Frame>::minimise_large(Points points, const Point& origin, cons
   while (state.passes < kPassLimit) {
     state.zone = extremes(state.frame);
     minimise(state, start, limit_mm);
-    if (state.ending != ZoneEnding::kConverged) break;
+    if (state.ending == ZoneEnding::kStrayed) return;
     state.frame = state.frame.snapped(origin);
     state.zone = extremes(state.frame);
     scan_blocks(points, state.frame.place(origin), blocks_);
@@ -105,7 +105,6 @@ void ZoneDescent<Frame>::minimise_large(Points points, const Point& origin, cons
     if (!add_violators(points, origin, state)) break;
     state.ending = ZoneEnding::kLimit;
   }
-  if (state.ending == ZoneEnding::kStrayed) return;
   state.zone = {std::sqrt(blocks_.all.low), std::sqrt(blocks_.all.high)};
 }
 
@@ -155,6 +154,7 @@ void ZoneDescent<Frame>::minimise(Result& state, const Frame& start, double limi
       state.ending = ZoneEnding::kStrayed;
       return;
     }
+    state.ending = ZoneEnding::kLimit;
     if (state.programmes >= kProgrammeLimit * (state.passes + 1)) return;
     state.ending = ZoneEnding::kConverged;
     if (vertex_) return;
@@ -163,43 +163,57 @@ void ZoneDescent<Frame>::minimise(Result& state, const Frame& start, double limi
   }
 }
 
+/// Distances relative to the inner radius keep their digits in a programme.
+template <class Frame>
+Extremes ZoneDescent<Frame>::linearise(const Frame& frame, ZoneRows<K>& rows) const {
+  const Extremes zone = frame.linearise(working_, rows);
+  for (double& distance : rows.distances()) distance -= zone.low;
+  return zone;
+}
+
+/// Solves the programme at the state; its contacts are those of the state from now on.
+template <class Frame>
+auto ZoneDescent<Frame>::programme(Result& state, double box) -> ZoneStep<K> {
+  const ZoneStep<K> step =
+      warm_ ? program_.solve_again(rows_, box, weights_) : program_.solve(rows_, box, weights_);
+  warm_ = true;
+  ++state.programmes;
+  state.pivots += step.pivots;
+  state.outer = step.outer;
+  state.inner = step.inner;
+  return step;
+}
+
 /// Linear programmes inside a trust region, then Newton: to a stationary point.
 template <class Frame>
 void ZoneDescent<Frame>::settle(Result& state) {
+  state.zone = linearise(state.frame, rows_);
   double box = std::max(10.0 * state.zone.width(), 64.0 * round_off_);
   bool rejected = false;
   int levels = 0;
   vertex_ = false;
-  state.zone = state.frame.linearise(working_, rows_);
   const int limit = state.programmes + kProgrammeLimit;
   while (state.programmes < limit && box > round_off_) {
-    // Distances relative to the inner radius keep their digits.
-    const double base = state.zone.low;
-    for (double& distance : rows_.distances()) distance -= base;
-    const ZoneStep<K> step =
-        warm_ ? program_.solve_again(rows_, box, weights_) : program_.solve(rows_, box, weights_);
-    warm_ = true;
-    ++state.programmes;
-    state.pivots += step.pivots;
-    state.outer = step.outer;
-    state.inner = step.inner;
-    const double promised =
-        value(state.zone) - (weights_.outer - weights_.inner) * base - step.value;
+    const ZoneStep<K> step = programme(state, box);
+    const double base = (weights_.outer - weights_.inner) * state.zone.low;
+    const double promised = value(state.zone) - base - step.value;
     if (promised <= 2.0 * round_off_) {
-      vertex_ = is_vertex(step);
-      if (!vertex_ || levels++ == kLevelLimit || !level(state, step)) break;
+      const bool level_now = step.step.cwiseAbs().maxCoeff() <= round_off_;
+      vertex_ = is_vertex(step) && level_now;
+      if (vertex_ || !is_vertex(step) || levels++ == kLevelLimit || !level(state, step)) break;
       continue;
     }
     // Fewer contacts than hold a vertex, or a refused step: curvature holds the rest, which a
     // linear programme cannot see; Newton can.
     if ((rejected || !step.inside_box) && polish(state)) return;
     const Frame next = state.frame.moved(step.step);
-    const Extremes zone = next.linearise(working_, trial_rows_);
+    const Extremes zone = linearise(next, trial_rows_);
     const double gained = value(state.zone) - value(zone);
+    // Along a curved valley straight steps creep; Newton's go with it until another point is met.
+    if (gained < 0.5 * promised && stride(state, std::max(gained, 2.0 * round_off_))) continue;
     rejected = !(gained >= 0.1 * promised);
     if (rejected) {
       box *= 0.5;
-      for (double& distance : rows_.distances()) distance += base;
       continue;
     }
     if (gained > 0.75 * promised && !step.inside_box) box *= 2.0;
@@ -207,16 +221,45 @@ void ZoneDescent<Frame>::settle(Result& state) {
     state.zone = zone;
     std::swap(rows_, trial_rows_);
   }
-  if (!vertex_) polish(state);
+  if (!vertex_) settle_by_curvature(state, box);
+}
+
+/// Takes a step of Newton's method, or the part of it that helps most.
+/// @return Whether it gained more than `least`.
+template <class Frame>
+bool ZoneDescent<Frame>::stride(Result& state, double least) {
+  const Newton next = newton_step(state);
+  if (!next.valid || next.move.cwiseAbs().maxCoeff() > 100.0 * state.zone.width()) return false;
+  double best = value(state.zone) - least;
+  double part = 0.0;
+  for (const double t : {1.0, 0.5, 0.25, 0.125, -0.125, -0.5}) {
+    const double reached = value(extremes(state.frame.moved(t * next.move)));
+    if (reached >= best) continue;
+    best = reached;
+    part = t;
+  }
+  if (part == 0.0) return false;
+  state.frame = state.frame.moved(part * next.move);
+  state.zone = linearise(state.frame, rows_);
+  return true;
+}
+
+/// Where curvature holds the place, a wide programme takes points for contacts that are only near:
+/// narrower ones name fewer, until Newton settles on those that count.
+template <class Frame>
+void ZoneDescent<Frame>::settle_by_curvature(Result& state, double box) {
+  for (; !polish(state) && box > round_off_; box *= 0.125) {
+    state.zone = linearise(state.frame, rows_);
+    programme(state, box);
+  }
 }
 
 /// A contact with a small multiplier may be off its radius by more than it costs: the last steps of
-/// the programme level it. @return Whether there was something to level.
+/// the programme level it. @return Whether the state moved.
 template <class Frame>
 bool ZoneDescent<Frame>::level(Result& state, const ZoneStep<K>& step) {
-  if (step.step.cwiseAbs().maxCoeff() <= round_off_) return false;
   const Frame next = state.frame.moved(step.step);
-  const Extremes zone = extremes(next);
+  const Extremes zone = linearise(next, trial_rows_);
   if (value(zone) > value(state.zone) + 2.0 * round_off_) return false;
   state.frame = next;
   state.zone = zone;
@@ -291,7 +334,8 @@ bool ZoneDescent<Frame>::polish(Result& state) {
   }
   Result trial = state;
   double last = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kNewtonLimit; ++i) {
+  bool settled = false;
+  for (int i = 0; i < kNewtonLimit && !settled; ++i) {
     const Newton next = newton_step(trial);
     const double size = next.move.cwiseAbs().maxCoeff();
     if (!next.valid || size > 100.0 * state.zone.width() || size > 2.0 * last) return false;
@@ -299,9 +343,10 @@ bool ZoneDescent<Frame>::polish(Result& state) {
     trial.outer = next.outer;
     trial.inner = next.inner;
     trial.zone = extremes(trial.frame);
-    if (size <= 4.0 * round_off_ || (size <= 1e3 * round_off_ && size >= 0.5 * last)) break;
+    settled = size <= 4.0 * round_off_ || (size <= 1e3 * round_off_ && size >= 0.5 * last);
     last = size;
   }
+  if (!settled) return false;
   if (!all_nonnegative(trial.outer) || !all_nonnegative(trial.inner)) return false;
   if (!(value(trial.zone) <= value(state.zone) + 4.0 * round_off_)) return false;
   if (!contacts_hold(trial)) return false;

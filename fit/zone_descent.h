@@ -84,7 +84,11 @@ class ZoneDescent {
   bool add_violators(Points points, const Point& origin, const Result& state);
   std::size_t add_worst(Points points, const Point& origin, const Result& state, bool high);
   void minimise(Result& state, const Frame& start, double limit_mm);
+  [[nodiscard]] Extremes linearise(const Frame& frame, ZoneRows<K>& rows) const;
+  ZoneStep<K> programme(Result& state, double box);
   void settle(Result& state);
+  bool stride(Result& state, double least);
+  void settle_by_curvature(Result& state, double box);
   bool level(Result& state, const ZoneStep<K>& step);
   [[nodiscard]] bool is_vertex(const ZoneStep<K>& step) const;
   bool polish(Result& state);

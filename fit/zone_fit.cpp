@@ -20,6 +20,8 @@ constexpr std::size_t kCenterSample = 256;
 constexpr std::size_t kCylinderSample = 480;
 /// From here on one start is enough, whatever the arc (performance: small sets).
 constexpr std::size_t kOneStart = 24;
+constexpr std::size_t kSmall = 64;  // up to here more starts cost little
+constexpr int kStarts = 8;          // around the axis, for each tilt
 constexpr double kFullGap = 120.0 * core::kDegree;
 
 template <class Point>
@@ -96,16 +98,31 @@ CylinderFrame frame_of(std::span<const Eigen::Vector3d> sample, const Axis& axis
   return {Axis{Eigen::Vector3d::Zero(), axis.direction}, std::max(half, round_off)};
 }
 
-/// Whether few points, or a part of the circumference, may leave several minima.
-bool may_be_ambiguous(std::span<const Eigen::Vector3d> points, const Axis& axis) {
-  if (points.size() >= kOneStart) return false;
-  if (points.size() < 12) return true;
-  const auto frame = across(axis.direction);
-  std::array<Eigen::Vector2d, kOneStart> flat;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    flat[i] = frame.transpose() * (points[i] - axis.point_mm);
+/// Tilts at which a search starts too, where several minima are to be feared: minimum zones of few
+/// points, or of part of the circumference, may have others far off; circumscribed and inscribed
+/// cylinders of few points have others close by.
+std::vector<double> other_tilts(std::span<const Eigen::Vector3d> points, const LsCylinder& start,
+                                const ZoneWeights& weights) {
+  if (weights.outer == 0.0 || weights.inner == 0.0) {
+    if (points.size() > kSmall) return {};
+    const double form = std::atan(start.deviation_mm / half_extent(points, start.axis.direction));
+    return {form, 4.0 * form};
   }
-  return largest_gap_rad(std::span(flat).first(points.size()), Eigen::Vector2d::Zero()) > kFullGap;
+  if (points.size() >= kOneStart) return {};
+  if (points.size() >= 12) {
+    const auto frame = across(start.axis.direction);
+    std::array<Eigen::Vector2d, kOneStart> flat;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      flat[i] = frame.transpose() * (points[i] - start.axis.point_mm);
+    }
+    const auto section = std::span(flat).first(points.size());
+    if (largest_gap_rad(section, Eigen::Vector2d::Zero()) <= kFullGap) return {};
+  }
+  return {0.5 * core::kDegree, 2.0 * core::kDegree, 6.0 * core::kDegree};
+}
+
+double value_of(const CylinderZone& zone, const ZoneWeights& weights) {
+  return weights.outer * zone.outer_radius_mm - weights.inner * zone.inner_radius_mm;
 }
 
 }  // namespace
@@ -146,23 +163,22 @@ CylinderZone CylinderZoneFitter::fit_from(std::span<const Eigen::Vector3d> point
   return zone_of(found, found.frame.place(axis.point_mm));
 }
 
-/// The best of several starts about an axis, where several minima are to be feared.
+/// The best of several starts about the least-squares axis.
 CylinderZone CylinderZoneFitter::fit_best(std::span<const Eigen::Vector3d> points_mm,
-                                          const Axis& axis, const ZoneWeights& weights,
-                                          double limit_mm) {
-  CylinderZone best = fit_from(points_mm, axis, weights, limit_mm);
-  const bool both = weights.outer > 0.0 && weights.inner > 0.0;
-  if (!both || !may_be_ambiguous(points_mm, axis)) return best;
+                                          const LsCylinder& start, const ZoneWeights& weights) {
+  const Axis& axis = start.axis;
+  const double limit = limit_of(weights, start.radius_mm);
+  CylinderZone best = fit_from(points_mm, axis, weights, limit);
   const auto side = across(axis.direction);
-  for (const double tilt_deg : {0.5, 2.0, 6.0}) {
-    for (int k = 0; k < 8; ++k) {
-      const double angle = core::kTwoPi * k / 8.0;
+  for (const double tilt : other_tilts(points_mm, start, weights)) {
+    for (int k = 0; k < kStarts; ++k) {
+      const double angle = core::kTwoPi * k / kStarts;
       const Eigen::Vector2d lean(std::cos(angle), std::sin(angle));
-      const Axis start{
-          axis.point_mm,
-          (axis.direction + std::tan(tilt_deg * core::kDegree) * (side * lean)).normalized()};
-      const CylinderZone zone = fit_from(points_mm, start, weights, limit_mm);
-      if (zone.width_mm() < best.width_mm()) best = zone;
+      const Eigen::Vector3d direction = axis.direction + std::tan(tilt) * (side * lean);
+      const CylinderZone zone =
+          fit_from(points_mm, {axis.point_mm, direction.normalized()}, weights, limit);
+      const bool found = zone.ending == ZoneEnding::kConverged;
+      if (found && value_of(zone, weights) < value_of(best, weights)) best = zone;
     }
   }
   return best;
@@ -177,8 +193,7 @@ core::Result<CylinderZone> CylinderZoneFitter::fit(
   // A sample may miss what the data have: a second layer, or the row that is not a number.
   if (!start) start = ls_cylinder(points_mm, near_direction);
   if (!start) return core::fail(start.error());
-  const double limit = limit_of(weights, start->radius_mm);
-  return judged(fit_best(points_mm, start->axis, weights, limit), points_mm, weights, "cylinder");
+  return judged(fit_best(points_mm, *start, weights), points_mm, weights, "cylinder");
 }
 
 }  // namespace rondure::fit

@@ -10,6 +10,7 @@
 #include "core/result.h"
 #include "fit/axis.h"
 #include "fit/contacts.h"
+#include "fit/ls_cylinder.h"
 #include "fit/zone_descent.h"
 
 namespace rondure::fit {
@@ -80,8 +81,8 @@ class CylinderZoneFitter {
                         double limit_mm = std::numeric_limits<double>::infinity());
 
  private:
-  CylinderZone fit_best(std::span<const Eigen::Vector3d> points_mm, const Axis& axis,
-                        const ZoneWeights& weights, double limit_mm);
+  CylinderZone fit_best(std::span<const Eigen::Vector3d> points_mm, const LsCylinder& start,
+                        const ZoneWeights& weights);
 
   std::vector<Eigen::Vector3d> sample_;
   ZoneDescent<CylinderFrame> descent_;

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 #include <soci/soci.h>
 
@@ -20,16 +18,5 @@ namespace rondure::record {
 /// What a failed call of SOCI or SQLite means, in words, and what can be done about it:
 /// "the disk is full; free space on the disk".
 [[nodiscard]] std::string reason_of(const std::exception& exception, soci::session* session);
-
-/// Number of rows of a table and the SHA-256 of all their values; docs/journal.md has the bytes.
-struct Digest {
-  std::int64_t rows = 0;
-  std::string sha256;
-
-  friend bool operator==(const Digest&, const Digest&) = default;
-};
-
-/// Reads all rows of a table in the order of their first column. Throws soci::soci_error.
-[[nodiscard]] Digest digest_of(soci::session& session, std::string_view table);
 
 }  // namespace rondure::record

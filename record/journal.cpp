@@ -1,101 +1,28 @@
 #include "record/journal.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <optional>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
-#include <unistd.h>
 
+#include "record/chain.h"
+#include "record/checksums.h"
 #include "record/database.h"
 #include "record/files.h"
+#include "record/journal_place.h"
 #include "record/journal_rows.h"
+#include "record/journal_schema.h"
+#include "record/journal_seal.h"
+#include "record/sha256.h"
 
 namespace rondure::record {
 namespace {
 
 namespace fs = std::filesystem;
 using soci::use;
-
-/// Removes what create() made, last first, unless it succeeded.
-struct Undo {
-  std::vector<fs::path> made;
-
-  Undo() = default;
-  Undo(const Undo&) = delete;
-  Undo& operator=(const Undo&) = delete;
-  ~Undo() {
-    std::error_code ignored;  // a folder that another program filled meanwhile stays
-    for (auto path = made.rbegin(); path != made.rend(); ++path) fs::remove(*path, ignored);
-  }
-};
-
-core::Result<void> make_directory(const fs::path& directory, Undo& undo) {
-  std::vector<fs::path> missing;
-  std::error_code problem;
-  for (fs::path path = directory;
-       !fs::exists(path, problem) && !problem && path.has_relative_path();
-       path = path.parent_path()) {
-    missing.push_back(path);
-  }
-  for (auto path = missing.rbegin(); path != missing.rend() && !problem; ++path) {
-    if (fs::create_directory(*path, problem)) undo.made.push_back(*path);
-  }
-  if (problem) {
-    return core::fail(core::Code::kFile,
-                      fmt::format("the run directory {} cannot be made: {}", directory.string(),
-                                  system_reason(problem.value())),
-                      directory.string());
-  }
-  return {};
-}
-
-core::Result<void> require_empty_directory(const fs::path& directory) {
-  std::error_code problem;
-  const fs::directory_iterator entry(directory, problem);
-  if (problem) {
-    return core::fail(
-        core::Code::kFile,
-        problem.value() == ENOTDIR
-            ? fmt::format("{} is a file; name a new directory for this run", directory.string())
-            : fmt::format("the run directory {} cannot be looked at: {}", directory.string(),
-                          system_reason(problem.value())),
-        directory.string());
-  }
-  if (entry == fs::directory_iterator()) return {};
-  return core::fail(core::Code::kFile,
-                    fmt::format("{} is not empty (it holds {}); name a new directory for this run",
-                                directory.string(), entry->path().filename().string()),
-                    directory.string());
-}
-
-/// Makes the empty file itself, so that two runs can never share one.
-core::Result<void> make_file(const fs::path& file, Undo& undo) {
-  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (fd < 0) {
-    return core::fail(
-        core::Code::kFile,
-        fmt::format("the journal {} cannot be made: {}", file.string(), system_reason(errno)),
-        file.string());
-  }
-  ::close(fd);
-  for (const char* suffix : {"-shm", "-wal", "-journal", ""}) {
-    undo.made.emplace_back(file.string() + suffix);
-  }
-  return {};
-}
-
-/// The new names reach the disk before the first touch does.
-core::Result<void> sync_names(const Undo& undo) {
-  for (const fs::path& path : undo.made) {
-    if (auto synced = sync_directory(path.parent_path()); !synced) return synced;
-  }
-  return {};
-}
 
 /// Exclusive: no other program can hold up a touch. WAL and synchronous=full: one flush a commit,
 /// on disk when the call returns.
@@ -116,14 +43,29 @@ void fold_log(soci::session& sql) {
   if (busy != 0) throw std::runtime_error("another program reads it; close that program");
 }
 
+/// Why a journal takes nothing more, or empty.
+std::string why_not_to_go_on(const ReadJournal& journal) {
+  if (journal.record.sealed) return "the run is finished and its journal is sealed";
+  if (journal.version != kSchemaVersion) {
+    return fmt::format(
+        "its tables have version {}, a run goes on in version {} only; start a new "
+        "run",
+        journal.version, kSchemaVersion);
+  }
+  if (journal.broken.empty()) return {};
+  return fmt::format("table {} of its journal was changed: {}; start a new run",
+                     journal.broken.front().table, journal.broken.front().what);
+}
+
 }  // namespace
 
 struct Journal::Impl {
-  enum class State { kOpen, kDigested, kClosed };
+  enum class State { kOpen, kDigested, kFolded, kClosed };
 
   fs::path file;
   soci::session sql;
   std::optional<Statements> statements;
+  std::optional<Chain> chain;
   std::optional<std::int64_t> last_touch;
   bool ended = false;
   State state = State::kOpen;
@@ -148,17 +90,50 @@ struct Journal::Impl {
       return failure(subject, "the journal is sealed and takes nothing more; start a new run");
     }
     try {
+      soci::transaction transaction(sql);
       action();
+      transaction.commit();
+      chain->keep();
       return {};
     } catch (const std::exception& exception) {
+      chain->forget();
       return failure(subject, reason_of(exception, &sql));
     }
+  }
+
+  /// Prepares what runs during a measurement.
+  void prepare() {
+    statements.emplace(sql);
+    chain.emplace(sql);
   }
 
   void insert(const Touch& touch) {
     statements->touch = touch;
     statements->purpose = name_of(touch.purpose);
     statements->insert_touch.execute(true);
+    chain->append("touch", touch.id);
+  }
+
+  void clear_ending() {
+    sql << "update header set ending = '', failure_code = null, failure_what = null, "
+           "failure_where = null";
+    chain->append("header", 0);
+  }
+
+  /// Makes one closed file of the journal and its log.
+  core::Result<void> fold() {
+    try {
+      fold_log(sql);
+      statements.reset();
+      chain.reset();
+      std::string mode;
+      sql << "pragma journal_mode = delete", soci::into(mode);
+      sql.close();
+      state = State::kFolded;
+      return {};
+    } catch (const std::exception& exception) {  // the digests are safe
+      return failure("the folded log", reason_of(exception, &sql));
+    }
   }
 
   void keep(const Touch& touch) {
@@ -180,16 +155,14 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
   if (!connection) return core::fail(connection.error());
 
   Undo undo;
-  if (auto made = make_directory(folder, undo); !made) return core::fail(made.error());
-  if (auto empty = require_empty_directory(folder); !empty) return core::fail(empty.error());
-  if (auto made = make_file(file, undo); !made) return core::fail(made.error());
+  if (auto made = make_empty_journal(file, undo); !made) return core::fail(made.error());
   std::unique_ptr<Impl> impl;  // after `undo`: closes the file before it is removed
   try {
     impl = std::make_unique<Impl>(file, *connection);
     set_pragmas(impl->sql);
     insert_head(impl->sql, header, artefact, features);
     fold_log(impl->sql);
-    impl->statements.emplace(impl->sql);
+    impl->prepare();
   } catch (const std::exception& exception) {
     return core::fail(core::Code::kJournal,
                       fmt::format("the journal {} cannot be made: {}", file.string(),
@@ -197,6 +170,40 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
   }
   if (auto synced = sync_names(undo); !synced) return core::fail(synced.error());
   undo.made.clear();
+  return Journal(std::move(impl));
+}
+
+core::Result<Journal> Journal::reopen(const fs::path& directory) {
+  const auto found = read_journal(directory);
+  if (!found) return core::fail(found.error());
+  const fs::path file = fs::absolute(directory) / kJournalName;
+  if (const std::string reason = why_not_to_go_on(*found); !reason.empty()) {
+    return core::fail(core::Code::kJournal,
+                      fmt::format("the run cannot go on in {}: {}", file.string(), reason),
+                      file.string());
+  }
+  const auto connection = connection_string(file);
+  if (!connection) return core::fail(connection.error());
+  std::unique_ptr<Impl> impl;
+  try {
+    impl = std::make_unique<Impl>(file, *connection);
+    int timeout_ms = 0;
+    impl->sql << "pragma busy_timeout = 0", soci::into(timeout_ms);  // a run holds it for hours
+    set_pragmas(impl->sql);
+    impl->prepare();
+  } catch (const std::exception& exception) {
+    return core::fail(core::Code::kJournal,
+                      fmt::format("the journal {} cannot be opened again: {}", file.string(),
+                                  reason_of(exception, impl ? &impl->sql : nullptr)),
+                      file.string());
+  }
+  for (const Touch& touch : found->record.touches) impl->keep(touch);
+  if (!found->record.ending.empty()) {
+    if (auto cleared = impl->write("that the run goes on", [&] { impl->clear_ending(); });
+        !cleared) {
+      return core::fail(cleared.error());
+    }
+  }
   return Journal(std::move(impl));
 }
 
@@ -211,9 +218,7 @@ core::Result<void> Journal::add(std::span<const Touch> touches) {
   const std::string subject =
       fmt::format("touches {} to {}", touches.front().id, touches.back().id);
   auto written = impl_->write(subject, [&] {
-    soci::transaction transaction(impl_->sql);
     for (const Touch& touch : touches) impl_->insert(touch);
-    transaction.commit();
   });
   if (written) {
     for (const Touch& touch : touches) impl_->keep(touch);
@@ -226,6 +231,7 @@ core::Result<void> Journal::add(const PoseVisit& pose) {
     impl_->statements->pose = pose;
     impl_->statements->final_cloud = pose.final_cloud ? 1 : 0;
     impl_->statements->insert_pose.execute(true);
+    impl_->chain->append("pose", pose.id);
   });
 }
 
@@ -233,6 +239,7 @@ core::Result<void> Journal::add(const Decision& decision) {
   return impl_->write("a decision", [&] {
     impl_->statements->decision = decision;
     impl_->statements->insert_decision.execute(true);
+    impl_->chain->append_inserted("decision");
   });
 }
 
@@ -240,6 +247,7 @@ core::Result<void> Journal::add(const SimulationTruth& truth) {
   return impl_->write("the truth of the simulation", [&] {
     impl_->statements->truth = truth;
     impl_->statements->insert_truth.execute(true);
+    impl_->chain->append_inserted("truth");
   });
 }
 
@@ -250,6 +258,7 @@ core::Result<void> Journal::mark_final(int pose_id) {
     if (impl_->statements->update_final.get_affected_rows() == 0) {
       throw std::runtime_error("there is no such pose");
     }
+    impl_->chain->append("pose", pose_id);
   });
 }
 
@@ -263,6 +272,7 @@ core::Result<void> Journal::end(const std::string& ending, const core::Error* fa
     impl_->sql << "update header set ending = :ending, failure_code = :code, failure_what = :what, "
                   "failure_where = :place",
         use(ending), use(code, given), use(what, given), use(where, given);
+    impl_->chain->append("header", 0);
   });
   impl_->ended = impl_->ended || written.has_value();
   return written;
@@ -272,10 +282,9 @@ core::Result<void> Journal::seal(std::span<const StoredResult> results) {
   Impl& impl = *impl_;
   if (impl.state == Impl::State::kOpen) {
     auto written = impl.write("the seal", [&] {
-      soci::transaction transaction(impl.sql);
       insert_results(impl.sql, results);
-      insert_digests(impl.sql);
-      transaction.commit();
+      impl.chain->append_all("result");
+      insert_seal(impl.sql);
     });
     if (!written) return written;
     impl.state = Impl::State::kDigested;
@@ -283,17 +292,14 @@ core::Result<void> Journal::seal(std::span<const StoredResult> results) {
   if (impl.state == Impl::State::kClosed) {
     return impl.failure("the seal", "it stands there already");
   }
-  try {
-    fold_log(impl.sql);
-    impl.statements.reset();
-    std::string mode;
-    impl.sql << "pragma journal_mode = delete", soci::into(mode);
-    impl.sql.close();
-    impl.state = Impl::State::kClosed;
-    return {};
-  } catch (const std::exception& exception) {  // the digests are safe; a second call folds again
-    return impl.failure("the folded log", reason_of(exception, &impl.sql));
+  if (impl.state == Impl::State::kDigested) {
+    if (auto folded = impl.fold(); !folded) return folded;
   }
+  const auto bytes = read_file(impl.file);
+  if (!bytes) return core::fail(bytes.error());
+  auto listed = update_checksums(impl.file.parent_path(), {{kJournalName, sha256_hex(*bytes)}});
+  if (listed) impl.state = Impl::State::kClosed;
+  return listed;
 }
 
 }  // namespace rondure::record

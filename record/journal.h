@@ -16,7 +16,8 @@ namespace rondure::record {
 inline constexpr const char* kJournalName = "journal.db";
 
 /// The journal of one run: an SQLite file that receives every touch before the next command goes to
-/// the machine. Each call is one transaction, on disk (WAL, synchronous=full) when it returns.
+/// the machine. Each call is one transaction, on disk (WAL, synchronous=full) when it returns, and
+/// each row it writes or changes is linked in a hash chain in the same transaction.
 /// Any call can fail with kJournal (full disk, read-only directory, ...); `what` names the file,
 /// the cause in words and what to do. Schema: docs/journal.md.
 class Journal {
@@ -26,6 +27,13 @@ class Journal {
   [[nodiscard]] static core::Result<Journal> create(const std::filesystem::path& directory,
                                                     const Header& header, const Artefact& artefact,
                                                     std::span<const Feature> features);
+
+  /// Opens the journal of a run that was interrupted, stopped or failed, to go on behind its last
+  /// row; the chain goes on behind its last link. What ended the run before is taken out of the
+  /// header (end() writes the new ending). kFile when there is no journal; kJournal when it cannot
+  /// be read, does not follow its chain, is sealed, is of version 1 or is held open by another
+  /// program. Read the rows with read_journal().
+  [[nodiscard]] static core::Result<Journal> reopen(const std::filesystem::path& directory);
 
   Journal(Journal&&) noexcept;
   Journal& operator=(Journal&&) noexcept;
@@ -39,10 +47,11 @@ class Journal {
   [[nodiscard]] core::Result<void> add(const SimulationTruth& truth);
   /// Marks the pose whose cloud is evaluated.
   [[nodiscard]] core::Result<void> mark_final(int pose_id);
-  /// Writes how the run ended; call once.
+  /// Writes how the run ended; call once, or once again after reopen().
   [[nodiscard]] core::Result<void> end(const std::string& ending, const core::Error* failure);
-  /// Stores the numbers of the evaluation and a digest of every table, then folds the write-ahead
-  /// log into the one file. The journal takes nothing more afterwards.
+  /// Stores the numbers of the evaluation and a digest of every table, folds the write-ahead log
+  /// into the one file, closes it and writes its SHA-256 into SHA256SUMS beside it. The journal
+  /// takes nothing more afterwards. When a step fails, a second call goes on with it.
   [[nodiscard]] core::Result<void> seal(std::span<const StoredResult> results);
 
  private:
@@ -51,16 +60,18 @@ class Journal {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A table of a sealed journal whose rows no longer give the digest stored when it was closed.
+/// A table whose rows are not those that were written: they no longer follow the chain, or no
+/// longer give the digest stored when the journal was closed.
 struct BrokenTable {
-  std::string table;  ///< e.g. "touch"
-  std::string what;   ///< e.g. "232 rows, expected 233" or "a value differs from the sealed one"
+  std::string table;  ///< e.g. "touch"; "chain" when the links themselves are damaged
+  std::string what;   ///< e.g. "199 rows, expected 200: touch 7 was removed after it was written"
 };
 
 /// A journal read back.
 struct ReadJournal {
   RunRecord record;
-  std::vector<BrokenTable> broken;  ///< Empty for an intact journal.
+  std::vector<BrokenTable> broken;  ///< Empty for an intact journal, sealed or not.
+  int version = 0;                  ///< Of its tables; 1 has no chain.
 };
 
 /// Reads `directory`/journal.db without changing it. kFile when there is none, kJournal when it is

@@ -14,7 +14,9 @@
 
 #include "record/database.h"
 #include "record/files.h"
+#include "record/journal_damage.h"
 #include "record/journal_schema.h"
+#include "record/journal_seal.h"
 #include "record/private_copy.h"
 
 namespace rondure::record {
@@ -28,6 +30,11 @@ struct Contradiction : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The database itself is not whole.
+struct Damage : Contradiction {
+  using Contradiction::Contradiction;
+};
+
 template <class Number>
 Number single(soci::session& sql, const std::string& query) {
   Number number{};
@@ -35,7 +42,8 @@ Number single(soci::session& sql, const std::string& query) {
   return number;
 }
 
-void require_journal(soci::session& sql) {
+/// The version of its tables.
+std::int64_t require_journal(soci::session& sql) {
   const auto application = single<long long>(sql, "pragma application_id");
   if (application != kApplicationId) {
     throw Contradiction(
@@ -44,18 +52,23 @@ void require_journal(soci::session& sql) {
                     application, kApplicationId));
   }
   const auto version = single<long long>(sql, "pragma user_version");
-  if (version != kSchemaVersion) {
+  if (version < kOldestSchemaVersion || version > kSchemaVersion) {
     throw Contradiction(
-        fmt::format("its tables have version {}, this program reads version {}; read "
+        fmt::format("its tables have version {}, this program reads versions {} to {}; read "
                     "it with the program that wrote it",
-                    version, kSchemaVersion));
+                    version, kOldestSchemaVersion, kSchemaVersion));
+  }
+  if (version == 1 && single<int>(sql, "select count(*) from sqlite_schema where name = 'chain'")) {
+    throw Contradiction(
+        "its tables have version 1, which has no chain, and there is a table chain");
   }
   const auto verdict = single<std::string>(sql, "pragma integrity_check(1)");
-  if (verdict != "ok") throw Contradiction("it is damaged: " + verdict);
+  if (verdict != "ok") throw Damage("it is damaged: " + verdict);
+  return version;
 }
 
 /// Every table is the one of docs/journal.md, and not a view or a look-alike.
-void require_table(soci::session& sql, const Table& table) {
+void require_table(soci::session& sql, const Table& table, std::int64_t version) {
   const std::string name(table.name);
   std::string found;
   soci::indicator present = soci::i_null;
@@ -66,7 +79,7 @@ void require_table(soci::session& sql, const Table& table) {
   constexpr std::size_t kVerb = std::string_view("create table ").size();
   if (found.size() < kVerb || std::string_view(found).substr(kVerb) != table.sql.substr(kVerb)) {
     throw Contradiction(fmt::format("the columns of its table {} are not those of version {}",
-                                    table.name, kSchemaVersion));
+                                    table.name, version));
   }
 }
 
@@ -279,34 +292,12 @@ void read_results(soci::session& sql, RunRecord& record) {
   while (rows.fetch()) record.results.push_back(row);
 }
 
-/// Compares one table with its row in the seal.
-std::optional<BrokenTable> check_seal(soci::session& sql, std::string_view table) {
-  const std::string name(table);
-  Digest stored;
-  sql << "select row_count, sha256 from seal where table_name = :name", into(stored.rows),
-      into(stored.sha256), soci::use(name);
-  if (!sql.got_data()) return BrokenTable{name, "its digest is missing in the seal"};
-  const Digest found = digest_of(sql, table);
-  if (found.rows != stored.rows) {
-    return BrokenTable{name, fmt::format("{} rows, expected {}", found.rows, stored.rows)};
-  }
-  if (found != stored) return BrokenTable{name, "a value differs from the sealed one"};
-  return std::nullopt;
-}
-
-void check_seals(soci::session& sql, ReadJournal& journal) {
-  journal.record.sealed = single<long long>(sql, "select count(*) from seal") > 0;
-  if (!journal.record.sealed) return;
-  for (const Table& table : sealed_tables()) {
-    if (auto broken = check_seal(sql, table.name)) journal.broken.push_back(*std::move(broken));
-  }
-}
-
 ReadJournal read_tables(soci::session& sql) {
-  require_journal(sql);
-  for (const Table& table : sealed_tables()) require_table(sql, table);
-  require_table(sql, seal_table());
   ReadJournal journal;
+  journal.version = static_cast<int>(require_journal(sql));
+  for (const Table& table : chained_tables()) require_table(sql, table, journal.version);
+  if (journal.version >= kFirstChainedVersion) require_table(sql, chain_table(), journal.version);
+  require_table(sql, seal_table(), journal.version);
   read_header(sql, journal.record);
   read_artefact(sql, journal.record);
   read_features(sql, journal.record);
@@ -317,8 +308,21 @@ ReadJournal read_tables(soci::session& sql) {
   read_decisions(sql, journal.record);
   read_truths(sql, journal.record);
   read_results(sql, journal.record);
-  check_seals(sql, journal);
+  journal.record.sealed = is_sealed(sql);
+  journal.broken = check_seal(sql, journal.version);
   return journal;
+}
+
+bool is_damage(const std::exception& exception) {
+  const auto* error = dynamic_cast<const soci::sqlite3_soci_error*>(&exception);
+  return (error != nullptr && (error->result() & 0xff) == SQLITE_CORRUPT) ||
+         dynamic_cast<const Damage*>(&exception) != nullptr;
+}
+
+std::string advice_after(const std::string& loss) {
+  return fmt::format(
+      "{}{}; copy the run directory again from where it was measured, or from a backup",
+      loss.empty() ? "" : "; ", loss);
 }
 
 core::Result<void> require_file(const fs::path& directory, const fs::path& file) {
@@ -346,16 +350,20 @@ core::Result<ReadJournal> read_journal(const fs::path& directory) {
   const auto connection = connection_string(copy->file());
   if (!connection) return core::fail(connection.error());
   std::optional<soci::session> sql;
+  std::string reason;
   try {
     sql.emplace(soci::sqlite3, *connection);
     *sql << "pragma synchronous = off";  // the copy need not survive a power cut
     return read_tables(*sql);
   } catch (const std::exception& exception) {
-    return core::fail(
-        core::Code::kJournal,
-        fmt::format("the journal cannot be read: {}", reason_of(exception, sql ? &*sql : nullptr)),
-        file.string());
+    reason = reason_of(exception, sql ? &*sql : nullptr);
+    if (is_damage(exception)) {
+      sql.reset();
+      reason += advice_after(loss_in_words(copy->file()));
+    }
   }
+  return core::fail(core::Code::kJournal, fmt::format("the journal cannot be read: {}", reason),
+                    file.string());
 }
 
 }  // namespace rondure::record

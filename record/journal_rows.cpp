@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "record/database.h"
+#include "record/chain.h"
 #include "record/journal_schema.h"
 
 namespace rondure::record {
@@ -18,7 +18,8 @@ using soci::use;
 void make_tables(soci::session& sql) {
   sql << fmt::format("pragma application_id = {}", kApplicationId);
   sql << fmt::format("pragma user_version = {}", kSchemaVersion);
-  for (const Table& table : sealed_tables()) sql << std::string(table.sql);
+  for (const Table& table : chained_tables()) sql << std::string(table.sql);
+  sql << std::string(chain_table().sql);
   sql << std::string(seal_table().sql);
 }
 
@@ -111,6 +112,8 @@ void insert_head(soci::session& sql, const Header& header, const Artefact& artef
   for (std::size_t i = 0; i < features.size(); ++i) {
     insert_feature(sql, static_cast<int>(i), features[i]);
   }
+  Chain chain(sql);
+  for (const Table& table : chained_tables()) chain.append_all(table.name);
   transaction.commit();
 }
 
@@ -123,15 +126,6 @@ void insert_results(soci::session& sql, std::span<const StoredResult> results) {
     row = result;
     insert.execute(true);
     ++id;
-  }
-}
-
-void insert_digests(soci::session& sql) {
-  for (const Table& table : sealed_tables()) {
-    const Digest digest = digest_of(sql, table.name);
-    const std::string name(table.name);
-    sql << "insert into seal (table_name, row_count, sha256) values (:name, :rows, :sha256)",
-        use(name), use(digest.rows), use(digest.sha256);
   }
 }
 

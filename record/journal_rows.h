@@ -31,13 +31,11 @@ struct Statements {
   Statements& operator=(const Statements&) = delete;
 };
 
-/// Makes the tables and fills those that are known before the first touch, in one transaction.
+/// Makes the tables, fills those that are known before the first touch and links their rows, in one
+/// transaction.
 void insert_head(soci::session& sql, const Header& header, const Artefact& artefact,
                  std::span<const Feature> features);
 
 void insert_results(soci::session& sql, std::span<const StoredResult> results);
-
-/// Fills the seal with the digest of every other table.
-void insert_digests(soci::session& sql);
 
 }  // namespace rondure::record

@@ -7,7 +7,7 @@ namespace {
 
 // Numbers that were measured have the type `any`: a column of type `real` would lose the sign of
 // -0.0, because SQLite packs whole numbers there as integers.
-constexpr std::array<Table, 11> kTables = {{
+constexpr std::array<Table, 12> kTables = {{
     {"header",
      R"(create table header (
   id integer primary key check (id = 0),
@@ -122,6 +122,14 @@ constexpr std::array<Table, 11> kTables = {{
   name text not null,
   value any not null
 ) strict)"},
+    {"chain",
+     R"(create table chain (
+  id integer primary key,
+  table_name text not null,
+  row_id integer not null,
+  row_sha256 text not null,
+  sha256 text not null
+) strict)"},
     {"seal",
      R"(create table seal (
   id integer primary key,
@@ -133,7 +141,9 @@ constexpr std::array<Table, 11> kTables = {{
 
 }  // namespace
 
-std::span<const Table> sealed_tables() { return std::span(kTables).first(kTables.size() - 1); }
+std::span<const Table> chained_tables() { return std::span(kTables).first(kTables.size() - 2); }
+
+const Table& chain_table() { return kTables[kTables.size() - 2]; }
 
 const Table& seal_table() { return kTables.back(); }
 

@@ -12,7 +12,11 @@ namespace rondure::record {
 /// "Rond" in SQLite's header: this database is a journal of ours.
 inline constexpr std::int64_t kApplicationId = 0x526f6e64;
 /// Counts changes of the tables below.
-inline constexpr std::int64_t kSchemaVersion = 1;
+inline constexpr std::int64_t kSchemaVersion = 2;
+/// The first version with a chain.
+inline constexpr std::int64_t kFirstChainedVersion = 2;
+/// The oldest version that is still read.
+inline constexpr std::int64_t kOldestSchemaVersion = 1;
 
 /// One table of the journal.
 struct Table {
@@ -20,8 +24,10 @@ struct Table {
   std::string_view sql;  ///< The statement that makes it, as SQLite keeps it.
 };
 
-/// The tables that a seal covers, in their order in the seal.
-[[nodiscard]] std::span<const Table> sealed_tables();
+/// The tables whose rows are linked in the chain, in their order in the seal.
+[[nodiscard]] std::span<const Table> chained_tables();
+/// The links themselves; absent in version 1.
+[[nodiscard]] const Table& chain_table();
 /// The table of the digests themselves.
 [[nodiscard]] const Table& seal_table();
 

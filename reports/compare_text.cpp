@@ -180,28 +180,12 @@ std::optional<std::string> value_difference(const Json& expected, const Json& fo
                      shown(expected));
 }
 
-/// Fields of a CSV line; a field in quotes may hold commas.
-std::vector<std::string_view> fields_of(std::string_view line) {
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  std::vector<std::string_view> fields;
-  bool quoted = false;
-  std::size_t from = 0;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') quoted = !quoted;
-    if (line[i] != ',' || quoted) continue;
-    fields.push_back(line.substr(from, i - from));
-    from = i + 1;
-  }
-  fields.push_back(line.substr(from));
-  return fields;
-}
-
 /// Compares one line of a table; `names` are its columns.
 std::optional<std::string> row_difference(std::string_view expected, std::string_view found,
                                           const std::vector<std::string_view>& names,
                                           double tolerance) {
-  const auto left = fields_of(expected);
-  const auto right = fields_of(found);
+  const auto left = csv_fields(expected);
+  const auto right = csv_fields(found);
   for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
     const auto differs = first_difference(left[i], right[i], tolerance);
     if (!differs) continue;
@@ -229,6 +213,21 @@ std::optional<std::string> first_text_difference(std::string_view expected, std:
   }
   if (left.size() == right.size()) return std::nullopt;
   return fmt::format("the file has {} lines, the journal gives {}", right.size(), left.size());
+}
+
+std::vector<std::string_view> csv_fields(std::string_view line) {
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  std::vector<std::string_view> fields;
+  bool quoted = false;
+  std::size_t from = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') quoted = !quoted;
+    if (line[i] != ',' || quoted) continue;
+    fields.push_back(line.substr(from, i - from));
+    from = i + 1;
+  }
+  fields.push_back(line.substr(from));
+  return fields;
 }
 
 std::optional<std::string> first_json_difference(std::string_view expected, std::string_view found,
@@ -259,7 +258,7 @@ std::optional<std::string> first_csv_difference(std::string_view expected, std::
   const auto right = lines_of(found);
   std::vector<std::string_view> names;  // of the columns: none before the header line
   for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
-    if (names.empty() && !left[i].starts_with('#')) names = fields_of(left[i]);
+    if (names.empty() && !left[i].starts_with('#')) names = csv_fields(left[i]);
     if (auto difference = row_difference(left[i], right[i], names, tolerance)) {
       return fmt::format("line {}, {}", i + 1, *difference);
     }

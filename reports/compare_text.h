@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rondure::reports {
 
@@ -30,5 +31,8 @@ namespace rondure::reports {
 [[nodiscard]] std::optional<std::string> first_text_difference(std::string_view expected,
                                                                std::string_view found,
                                                                double tolerance);
+
+/// Fields of a CSV line as they stand there; a field in quotes may hold commas.
+[[nodiscard]] std::vector<std::string_view> csv_fields(std::string_view line);
 
 }  // namespace rondure::reports

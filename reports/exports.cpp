@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "record/points_csv.h"
+#include "record/checksums.h"
+#include "record/files.h"
+#include "record/sha256.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {
@@ -40,13 +42,21 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
     }
   }
   std::vector<std::filesystem::path> written;
+  std::vector<record::Checksum> sums;
+  core::Result<void> done;
   for (const Export& e : exports()) {
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) continue;
     const auto path = directory / e.file;
-    if (auto done = record::write_file(path, render(e, record, evaluation)); !done)
-      return core::fail(done.error());
+    const std::string bytes = render(e, record, evaluation);
+    done = record::write_file(path, bytes);
+    if (!done) break;
     written.push_back(path);
+    sums.push_back({e.file, record::sha256_hex(bytes)});
   }
+  // Also of those written before one failed: a list with an old digest would call them changed.
+  const auto listed = record::update_checksums(directory, sums);
+  if (!done) return core::fail(done.error());
+  if (!listed) return core::fail(listed.error());
   return written;
 }
 

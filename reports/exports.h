@@ -24,8 +24,10 @@ struct Export {
 [[nodiscard]] std::string render(const Export& what, const record::RunRecord& record,
                                  const Evaluation& evaluation);
 
-/// Writes exports into a run directory, each whole or not at all.
-/// @return The files written; kBadOption for an unknown format, kFile with the system's reason.
+/// Writes exports into a run directory, each whole or not at all, and their digests into
+/// SHA256SUMS.
+/// @return The files written; kBadOption for an unknown format, kFile with the system's reason,
+/// kSyntax for a SHA256SUMS that is none.
 [[nodiscard]] core::Result<std::vector<std::filesystem::path>> write_exports(
     const std::filesystem::path& directory, const std::vector<std::string>& formats,
     const record::RunRecord& record, const Evaluation& evaluation);

@@ -1,101 +1,105 @@
 #include "reports/verify.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 
-#include "core/numbers.h"
+#include "core/version.h"
+#include "record/checksums.h"
+#include "record/files.h"
 #include "record/journal.h"
-#include "record/points_csv.h"
+#include "record/signature.h"
 #include "reports/compare_text.h"
+#include "reports/compare_values.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
+#include "reports/verify_files.h"
+#include "reports/verify_results.h"
 
 namespace rondure::reports {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Numbers of another kind of processor may differ by this: mm, um or deg alike.
-constexpr double kAcrossProcessors = 1e-9;
-
-/// The first stored result that no longer follows, and how many others.
-void compare_results(const record::RunRecord& record, const Evaluation& evaluation,
-                     double tolerance, Verification& out) {
-  std::map<std::string, double> stored;
-  for (const auto& result : record.results) stored[result.name] = result.value;
-  const auto now = stored_results(evaluation);
-  std::size_t others = 0;
-  std::string first;
-  for (const auto& result : now) {
-    const auto found = stored.find(result.name);
-    const bool equal =
-        found != stored.end() &&
-        (found->second == result.value || std::abs(found->second - result.value) <= tolerance);
-    if (found != stored.end()) stored.erase(found->first);
-    if (equal) continue;
-    if (!first.empty()) {
-      ++others;
-      continue;
-    }
-    const auto stored_value = std::find_if(record.results.begin(), record.results.end(),
-                                           [&](const auto& r) { return r.name == result.name; });
-    first = stored_value == record.results.end()
-                ? fmt::format("result {} is not stored; the touches give {}", result.name,
-                              core::shortest(result.value))
-                : fmt::format("result {} no longer follows: stored {}, the touches give {}",
-                              result.name, core::shortest(stored_value->value),
-                              core::shortest(result.value));
-  }
-  if (first.empty() && !stored.empty()) {
-    first = fmt::format("stored result {} = {} has no counterpart", stored.begin()->first,
-                        core::shortest(stored.begin()->second));
-  }
-  if (first.empty()) return;
-  out.differences.push_back(others == 0 ? first : fmt::format("{} (and {} more)", first, others));
-}
+using State = ListedFiles::State;
 
 std::optional<std::string> compare_export(const Export& what, const std::string& expected,
-                                          const std::string& found, double tolerance) {
+                                          const std::string& found, const Exactness& exactness) {
+  const double tolerance = exactness.tolerance();
+  if (!exactness.same_version) {
+    if (what.format == "json") return compare_json_values(expected, found, tolerance).difference;
+    if (what.format == "csv") return compare_csv_values(expected, found, tolerance).difference;
+    return std::nullopt;  // its words are those of the other version; SHA256SUMS holds them
+  }
   if (what.format == "json") return first_json_difference(expected, found, tolerance);
   if (what.format == "csv") return first_csv_difference(expected, found, tolerance);
   return first_text_difference(expected, found, tolerance);
 }
 
+/// A line about one export: what differs, and whether the file or what it follows from was changed.
+std::string in_words(const Export& what, const std::optional<std::string>& difference,
+                     const std::optional<State>& state) {
+  const bool changed = state == State::kChanged;
+  if (!difference) {
+    return fmt::format("{}: its bytes were changed after it was written ({})", what.file,
+                       record::kChecksumsName);
+  }
+  std::string note;
+  if (changed) {
+    note = fmt::format("; the file was changed after it was written ({})", record::kChecksumsName);
+  } else if (state == State::kAsWritten) {
+    note = fmt::format("; the file itself is as it was written ({})", record::kChecksumsName);
+  }
+  return fmt::format("{}: {}{}", what.file, *difference, note);
+}
+
 /// Compares each export that exists; gives their names.
 core::Result<std::string> compare_exports(const fs::path& directory,
                                           const record::RunRecord& record,
-                                          const Evaluation& evaluation, double tolerance,
-                                          Verification& out) {
+                                          const Evaluation& evaluation, const Exactness& exactness,
+                                          const ListedFiles& listed, Verification& out) {
   std::string names;
   std::string absent;
   for (const Export& e : exports()) {
-    if (!fs::exists(directory / e.file)) {
+    if (!stands_there(directory / e.file)) {
       absent += (absent.empty() ? "; not there: " : ", ") + e.file;
       continue;
     }
     const auto bytes = record::read_file(directory / e.file);
     if (!bytes) return core::fail(bytes.error());
     names += (names.empty() ? "" : ", ") + e.file;
-    if (const auto difference =
-            compare_export(e, render(e, record, evaluation), *bytes, tolerance)) {
-      out.differences.push_back(fmt::format("{}: {}", e.file, *difference));
+    const auto difference = compare_export(e, render(e, record, evaluation), *bytes, exactness);
+    const auto state = listed.state_of(e.file);
+    if (difference || state == State::kChanged) {
+      out.differences.push_back(in_words(e, difference, state));
     }
+  }
+  if (!listed.list_found) {
+    absent += fmt::format("{}{}", absent.empty() ? "; not there: " : ", ", record::kChecksumsName);
   }
   return (names.empty() ? "none" : names) + absent;
 }
 
-}  // namespace
-
-core::Result<Verification> verify_run(const fs::path& directory, const std::string& processor) {
-  const auto read = record::read_journal(directory);
-  if (!read) return core::fail(read.error());
-  const record::RunRecord& record = read->record;
-  Verification out;
-  for (const record::BrokenTable& broken : read->broken) {
+/// What the journal and the list of digests say before anything is computed.
+void tell_damage(const record::ReadJournal& read, const ListedFiles& listed, Verification& out) {
+  const record::RunRecord& record = read.record;
+  for (const record::BrokenTable& broken : read.broken) {
     out.differences.push_back(fmt::format("journal, table {}: {}", broken.table, broken.what));
+  }
+  for (const auto& [file, state] : listed.files) {
+    const auto all = exports();
+    if (std::any_of(all.begin(), all.end(), [&](const Export& e) { return e.file == file; })) {
+      continue;
+    }
+    if (state == State::kAbsent) {
+      out.differences.push_back(
+          fmt::format("{}: it is not there, and {} names it", file, record::kChecksumsName));
+    }
+    if (state != State::kChanged) continue;
+    const bool hidden = file == record::kJournalName && read.broken.empty();
+    out.differences.push_back(fmt::format(
+        "{}: its bytes were changed after it was written ({}){}", file, record::kChecksumsName,
+        hidden ? "; no value in it differs, the change is in what SQLite keeps beside the values"
+               : ""));
   }
   if (record.ending != "finished") {
     out.differences.push_back(
@@ -104,21 +108,83 @@ core::Result<Verification> verify_run(const fs::path& directory, const std::stri
   } else if (!record.sealed) {
     out.differences.push_back(
         "the journal was not closed: the run was interrupted after its last touch");
+  } else if (listed.list_found && !listed.state_of(record::kJournalName)) {
+    out.differences.push_back(fmt::format("{}: its line for {} is missing", record::kChecksumsName,
+                                          record::kJournalName));
   }
+}
+
+std::string how_exactly(const record::Header& header, const VerifyOptions& options,
+                        const Exactness& exactness) {
+  std::string words;
+  if (!exactness.same_version) {
+    words = fmt::format(
+        "written by version {}, this is version {}: numbers that both give within 1e-9, wording "
+        "and layout of reports not compared",
+        header.version, core::kVersion);
+  }
+  if (!exactness.same_processor) {
+    words += fmt::format("{}numbers within 1e-9 (measured on {}, verified on {})",
+                         words.empty() ? "" : "; ", header.processor, options.processor);
+  }
+  return words.empty() ? "bit for bit (same kind of processor)" : words;
+}
+
+std::vector<std::string> signed_files() {
+  std::vector<std::string> files = {record::kJournalName};
+  for (const Export& e : exports()) files.push_back(e.file);
+  return files;
+}
+
+/// Checks the signature when there is a key; says what of it was checked.
+core::Result<std::string> about_signature(const fs::path& directory, const VerifyOptions& options,
+                                          const ListedFiles& listed, Verification& out) {
+  if (!options.public_key_pem) {
+    const bool present = stands_there(directory / record::kSignatureName);
+    return present ? "; signed, the signature was not checked (--key PUBLIC.pem checks it)" : "";
+  }
+  if (auto checked = check_signature(directory, *options.public_key_pem, listed, signed_files(),
+                                     out.differences);
+      !checked) {
+    return core::fail(checked.error());
+  }
+  return "; the signature holds for this key";
+}
+
+}  // namespace
+
+core::Result<Verification> verify_run(const fs::path& directory, const VerifyOptions& options) {
+  const auto read = record::read_journal(directory);
+  if (!read) return core::fail(read.error());
+  const record::RunRecord& record = read->record;
+  Verification out;
+  const auto listed = check_listed_files(directory, out.differences);
+  if (!listed) return core::fail(listed.error());
+  tell_damage(*read, *listed, out);
+  const auto signature = about_signature(directory, options, *listed, out);
+  if (!signature) return core::fail(signature.error());
+
   const auto evaluation = evaluate(record);
-  if (!evaluation) return core::fail(evaluation.error());
-  const bool same = record.header.processor == processor;
-  const double tolerance = same ? 0.0 : kAcrossProcessors;
-  if (record.sealed) compare_results(record, *evaluation, tolerance, out);
-  const auto names = compare_exports(directory, record, *evaluation, tolerance, out);
+  if (!evaluation) {
+    if (out.differences.empty()) return core::fail(evaluation.error());
+    out.differences.push_back(
+        fmt::format("the touches cannot be evaluated: {}", core::to_line(evaluation.error())));
+    return out;
+  }
+  const Exactness exactness{record.header.processor == options.processor,
+                            record.header.version == core::kVersion};
+  std::size_t results = 0;
+  if (record.sealed) {
+    const auto compared = compare_results(record.results, stored_results(*evaluation), exactness);
+    results = compared.results;
+    if (compared.difference) out.differences.push_back(*compared.difference);
+  }
+  const auto names = compare_exports(directory, record, *evaluation, exactness, *listed, out);
   if (!names) return core::fail(names.error());
   out.what_was_compared =
-      fmt::format("{} touches, {} results follow from the journal, {}; exports compared: {}",
-                  record.touches.size(), record.results.size(),
-                  same ? "bit for bit (same kind of processor)"
-                       : fmt::format("numbers within 1e-9 (measured on {}, verified on {})",
-                                     record.header.processor, processor),
-                  *names);
+      fmt::format("{} touches, {} results follow from the journal, {}; exports compared: {}{}",
+                  record.touches.size(), results, how_exactly(record.header, options, exactness),
+                  *names, *signature);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,23 +9,33 @@
 
 namespace rondure::reports {
 
+/// Who verifies.
+struct VerifyOptions {
+  std::string processor;                      ///< Of this machine, as app spells it in the journal.
+  std::optional<std::string> public_key_pem;  ///< Checks the signature too, when given.
+};
+
 /// What verifying a run directory found.
 struct Verification {
   std::vector<std::string> differences;  ///< In words, place first; empty: everything follows.
   std::string what_was_compared;         ///< One sentence, also says how exactly.
 };
 
-/// Recomputes a run from its journal and compares: the digests of the journal's tables, every
-/// stored result, and every export that stands in the directory. Changes nothing.
+/// Recomputes a run from its journal and compares: the chain over the journal's rows, the digests
+/// of its tables, the SHA-256 of the files (SHA256SUMS), every stored result, and every export that
+/// stands in the directory. Changes nothing.
 ///
-/// Bits must be equal on the kind of processor that measured; on another, where the last bit of sin
-/// and atan2 differs, numbers may differ by 1e-9 and the sentence says so.
+/// Bits must be equal for the version and the kind of processor that measured. On another
+/// processor, where the last bit of sin and atan2 differs, numbers may differ by 1e-9. When another
+/// version measured, numbers that both versions give are compared within 1e-9, and the wording of
+/// reports is left to SHA256SUMS. The sentence says which.
 ///
-/// This finds accidents. Somebody who can write into the directory can also write new digests.
+/// Without a key this finds accidents: somebody who can write into the directory can also write new
+/// digests. With a key it finds forgery, too.
 ///
-/// @param processor  Of this machine, as app spells it in the journal.
-/// @return kFile or kJournal when the journal cannot be read.
+/// @return kFile or kJournal when the journal or an export cannot be read, kBadOption for a key of
+/// another kind.
 [[nodiscard]] core::Result<Verification> verify_run(const std::filesystem::path& directory,
-                                                    const std::string& processor);
+                                                    const VerifyOptions& options);
 
 }  // namespace rondure::reports

@@ -68,7 +68,7 @@ TEST(Arguments, ThePlanMayFollowTheFormats) {
                                    example("03_axle_points_file.json")});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(names_in(folder / "run"),
-              ::testing::ElementsAre("journal.db", "report.html", "touches.csv"));
+              ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.html", "touches.csv"));
 }
 
 TEST(Arguments, WhatIsNoPlanIsRefusedInOneSentence) {

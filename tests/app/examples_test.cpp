@@ -46,7 +46,8 @@ TEST(Examples, RunConformVerifyAndWriteTheirReports) {
     EXPECT_EQ(ran.status, verdict == "conforms" || verdict == "not toleranced" ? 0 : 1) << ran.err;
     EXPECT_THAT(ran.err, IsEmpty());
     EXPECT_THAT(names_in(folder / "run"),
-                ::testing::ElementsAre("journal.db", "report.html", "report.json", "touches.csv"));
+                ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.html", "report.json",
+                                       "touches.csv"));
     const Outcome verified = rondure({"verify", folder / "run"});
     EXPECT_EQ(verified.status, 0);
     EXPECT_THAT(verified.out, HasSubstr("equal: "));

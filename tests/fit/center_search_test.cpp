@@ -8,7 +8,7 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "fit/ls_circle.h"
-#include "tests/fit/bisectors.h"
+#include "fit/bisectors.h"
 
 // Worked examples: method specification, cylindricity section 13. Point numbers there start at 1.
 

@@ -12,7 +12,7 @@
 #include "fit/global_search.h"
 #include "fit/min_zone_circle.h"
 #include "fit/zone_box.h"
-#include "tests/fit/bisectors.h"
+#include "fit/bisectors.h"
 
 namespace rondure::fit {
 namespace {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "record/files.h"
+#include "record/sha256.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::record {
@@ -52,11 +53,13 @@ TEST(Journal, GivesBackARunThatWasNotSealed) {
   EXPECT_EQ(every_bit(read->record), every_bit(run));
 }
 
-TEST(Journal, TheSealedJournalIsOneFile) {
+TEST(Journal, TheSealedJournalIsOneFileWithItsDigestBeside) {
   const Scratch scratch;
   auto journal = open_journal(scratch / "run");
   ASSERT_TRUE(journal.seal({}));
-  EXPECT_THAT(scratch.names(), ElementsAre("run", "run/journal.db"));
+  EXPECT_THAT(scratch.names(), ElementsAre("run", "run/SHA256SUMS", "run/journal.db"));
+  EXPECT_EQ(*read_file(scratch / "run/SHA256SUMS"),
+            sha256_hex(*read_file(scratch / "run/journal.db")) + "  journal.db\n");
 }
 
 TEST(Journal, ReadingChangesNothingOnDisk) {
@@ -252,7 +255,7 @@ TEST(Journal, TheDocumentShowsTheTablesAsTheyAre) {
     EXPECT_THAT(*document, HasSubstr(sql));
     ++tables;
   }
-  EXPECT_EQ(tables, 11);
+  EXPECT_EQ(tables, 12);
 }
 
 }  // namespace

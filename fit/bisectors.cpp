@@ -1,9 +1,8 @@
-#include "tests/fit/bisectors.h"
+#include "fit/bisectors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "core/units.h"
@@ -68,9 +67,9 @@ double strip_width(const std::vector<Eigen::Vector2d>& points) {
   return least;
 }
 
-/// Radius about the start that holds every centre with a zone of at most `width`; nothing if none
-/// can be given.
-std::optional<double> disc_radius(const std::vector<Eigen::Vector2d>& points, double width) {
+/// Radius about the start that holds every centre with a zone of at most `width`; infinite where a
+/// strip is as narrow.
+double disc_radius(const std::vector<Eigen::Vector2d>& points, double width, double strip) {
   const Eigen::Vector2d origin = Eigen::Vector2d::Zero();
   double nearest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector2d& p : points) nearest = std::min(nearest, p.norm());
@@ -79,8 +78,7 @@ std::optional<double> disc_radius(const std::vector<Eigen::Vector2d>& points, do
     const double c = std::cos(0.5 * gap);
     return 2.0 * nearest * (c - std::sqrt(c * c - width / nearest));
   }
-  const double strip = strip_width(points);
-  if (!(strip > width)) return std::nullopt;
+  if (!(strip > width)) return std::numeric_limits<double>::infinity();
   const Eigen::Vector2d mean = mean_point(std::span<const Eigen::Vector2d>(points));
   double reach = 0.0;
   for (const Eigen::Vector2d& p : points) reach = std::max(reach, (p - mean).norm());
@@ -99,12 +97,9 @@ BisectorSearch search_bisectors(std::span<const Eigen::Vector2d> points_mm,
   BisectorSearch out;
   out.center_mm = start_mm;
   out.width_mm = width_at(points, origin, std::numeric_limits<double>::infinity());
-  const auto disc = disc_radius(points, out.width_mm);
-  out.complete = disc.has_value();
-  if (!disc) return out;
-
+  out.strip_mm = strip_width(points);
   // Slightly enlarged, so that round-off cannot cut off a candidate on the rim.
-  const double radius = 1.000001 * *disc + 1e-12;
+  const double radius = 1.000001 * disc_radius(points, out.width_mm, out.strip_mm) + 1e-12;
   out.radius_searched_mm = radius;
   const auto lines = bisectors(points, radius);
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -116,13 +111,14 @@ BisectorSearch search_bisectors(std::span<const Eigen::Vector2d> points_mm,
       const Eigen::Vector2d crossing(
           (lines[i].offset * b.y() - lines[j].offset * a.y()) / determinant,
           (a.x() * lines[j].offset - b.x() * lines[i].offset) / determinant);
-      if (crossing.squaredNorm() > radius * radius) continue;
+      if (!(crossing.squaredNorm() <= radius * radius)) continue;
       const double width = width_at(points, crossing, out.width_mm);
       if (width >= out.width_mm) continue;
       out.width_mm = width;
       out.center_mm = start_mm + crossing;
     }
   }
+  out.complete = out.strip_mm > out.width_mm;
   return out;
 }
 

@@ -1,0 +1,74 @@
+#include "record/checksums.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "record/files.h"
+
+namespace rondure::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kDigits = 64;
+
+/// "<64 digits>  <name>", or with an asterisk before the name (sha256sum --binary).
+bool read_line(std::string_view line, Checksum& out) {
+  if (line.size() <= kDigits + 2 || line[kDigits] != ' ') return false;
+  if (line[kDigits + 1] != ' ' && line[kDigits + 1] != '*') return false;
+  out.sha256 = line.substr(0, kDigits);
+  out.file = line.substr(kDigits + 2);
+  const bool hexadecimal = out.sha256.find_first_not_of("0123456789abcdef") == std::string::npos;
+  const bool plain_name = out.file.find('/') == std::string::npos && out.file != "." &&
+                          out.file != ".." && out.file.find('\0') == std::string::npos;
+  return hexadecimal && plain_name;
+}
+
+}  // namespace
+
+core::Result<std::vector<Checksum>> read_checksums(const fs::path& directory) {
+  const auto bytes = read_file(directory / kChecksumsName);
+  if (!bytes) return core::fail(bytes.error());
+  std::vector<Checksum> list;
+  std::string_view rest = *bytes;
+  for (std::size_t number = 1; !rest.empty(); ++number) {
+    const std::size_t end = rest.find('\n');
+    Checksum line;
+    if (!read_line(rest.substr(0, end), line)) {
+      return core::fail(core::Code::kSyntax,
+                        "this is no line of sha256sum (64 digits 0-9a-f, two blanks, the name of "
+                        "a file in this directory)",
+                        fmt::format("{}:{}", kChecksumsName, number));
+    }
+    list.push_back(std::move(line));
+    if (end == std::string_view::npos) break;
+    rest.remove_prefix(end + 1);
+  }
+  return list;
+}
+
+core::Result<void> update_checksums(const fs::path& directory, const std::vector<Checksum>& files) {
+  std::vector<Checksum> list;
+  std::error_code unknown;  // what cannot be looked at cannot be written either
+  if (fs::exists(directory / kChecksumsName, unknown)) {
+    auto present = read_checksums(directory);
+    if (!present) return core::fail(present.error());
+    list = *std::move(present);
+  }
+  for (const Checksum& file : files) {
+    const auto line = std::find_if(list.begin(), list.end(),
+                                   [&](const Checksum& c) { return c.file == file.file; });
+    if (line == list.end()) {
+      list.push_back(file);
+    } else {
+      line->sha256 = file.sha256;
+    }
+  }
+  std::string text;
+  for (const Checksum& line : list) text += fmt::format("{}  {}\n", line.sha256, line.file);
+  return write_file(directory / kChecksumsName, text);
+}
+
+}  // namespace rondure::record

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+
+namespace rondure::record {
+
+/// The list of digests in a run directory, as sha256sum writes and checks it:
+/// `cd RUN_DIR && sha256sum -c SHA256SUMS`.
+inline constexpr const char* kChecksumsName = "SHA256SUMS";
+
+/// One line of the list.
+struct Checksum {
+  std::string file;    ///< A name in the same directory, without folders.
+  std::string sha256;  ///< Of its bytes: 64 lower-case hexadecimal digits.
+};
+
+/// Reads `directory`/SHA256SUMS. kFile when it cannot be read, kSyntax for a line that sha256sum
+/// would not understand or that names a place outside the directory; `where` is "SHA256SUMS:3".
+[[nodiscard]] core::Result<std::vector<Checksum>> read_checksums(
+    const std::filesystem::path& directory);
+
+/// Puts lines into `directory`/SHA256SUMS in place of those of the same files, or behind them; the
+/// other lines stay. Makes the list when there is none. Errors as read_checksums(), kFile when it
+/// cannot be written.
+[[nodiscard]] core::Result<void> update_checksums(const std::filesystem::path& directory,
+                                                  const std::vector<Checksum>& files);
+
+}  // namespace rondure::record

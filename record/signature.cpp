@@ -1,0 +1,88 @@
+#include "record/signature.h"
+
+#include <array>
+#include <memory>
+
+#include <fmt/format.h>
+#include <openssl/bio.h>
+#include <openssl/err.h>
+#include <openssl/evp.h>
+#include <openssl/pem.h>
+
+namespace rondure::record {
+namespace {
+
+using Bio = std::unique_ptr<BIO, decltype(&BIO_free)>;
+using Key = std::unique_ptr<EVP_PKEY, decltype(&EVP_PKEY_free)>;
+using Context = std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)>;
+
+constexpr std::size_t kSignatureBytes = 64;
+
+using Reader = EVP_PKEY* (*)(BIO*, EVP_PKEY**, pem_password_cb*, void*);
+
+Key read_key(const std::string& pem, Reader reader) {
+  const Bio text(BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())), &BIO_free);
+  return {reader(text.get(), nullptr, nullptr, nullptr), &EVP_PKEY_free};
+}
+
+/// Why a text is not the key that is needed.
+core::Error wrong_key(const std::string& pem, const Key& key, std::string_view kind,
+                      std::string_view command) {
+  ERR_clear_error();
+  std::string found = "the file holds no such key";
+  if (key) {
+    found = fmt::format("the file holds a key of the kind {}", EVP_PKEY_get0_type_name(key.get()));
+  } else if (pem.find("PRIVATE KEY") != std::string::npos && kind == "public") {
+    found = "the file holds a private key, which stays with who signs";
+  } else if (pem.find("PUBLIC KEY") != std::string::npos && kind == "private") {
+    found = "the file holds a public key, which only checks";
+  } else if (pem.find("ENCRYPTED") != std::string::npos) {
+    found = "the pass phrase of the key is not the right one";
+  }
+  return {
+      core::Code::kBadOption,
+      fmt::format("a {} key of Ed25519 is needed, and {}; make one with: {}", kind, found, command),
+      {}};
+}
+
+const unsigned char* octets(std::string_view bytes) {
+  return reinterpret_cast<const unsigned char*>(bytes.data());
+}
+
+}  // namespace
+
+core::Result<std::string> sign(std::string_view bytes, const std::string& private_key_pem) {
+  const Key key = read_key(private_key_pem, &PEM_read_bio_PrivateKey);
+  if (!key || EVP_PKEY_is_a(key.get(), "ED25519") != 1) {
+    return core::fail(wrong_key(private_key_pem, key, "private",
+                                "openssl genpkey -algorithm ed25519 -out KEY.pem"));
+  }
+  const Context context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
+  std::array<unsigned char, kSignatureBytes> signature{};
+  std::size_t length = signature.size();
+  // Ed25519 hashes by itself: no digest is named.
+  if (EVP_DigestSignInit(context.get(), nullptr, nullptr, nullptr, key.get()) != 1 ||
+      EVP_DigestSign(context.get(), signature.data(), &length, octets(bytes), bytes.size()) != 1) {
+    ERR_clear_error();
+    return core::fail(core::Code::kInternal, "OpenSSL refuses to sign with this key");
+  }
+  return std::string(signature.begin(), signature.begin() + length);
+}
+
+core::Result<bool> signature_holds(std::string_view bytes, std::string_view signature,
+                                   const std::string& public_key_pem) {
+  const Key key = read_key(public_key_pem, &PEM_read_bio_PUBKEY);
+  if (!key || EVP_PKEY_is_a(key.get(), "ED25519") != 1) {
+    return core::fail(wrong_key(public_key_pem, key, "public",
+                                "openssl pkey -in KEY.pem -pubout -out PUBLIC.pem"));
+  }
+  const Context context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
+  const bool holds =
+      EVP_DigestVerifyInit(context.get(), nullptr, nullptr, nullptr, key.get()) == 1 &&
+      EVP_DigestVerify(context.get(), octets(signature), signature.size(), octets(bytes),
+                       bytes.size()) == 1;
+  ERR_clear_error();
+  return holds;
+}
+
+}  // namespace rondure::record

@@ -1,0 +1,40 @@
+#pragma once
+
+// Least squares by Ceres with automatic differentiation; the file that includes Ceres is
+// ceres_fits.cpp. Radial distances in the plane and in space, nothing shared with the fits.
+
+#include <span>
+
+#include <Eigen/Core>
+
+namespace rondure::test {
+
+struct CeresCircle {
+  Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();
+  double radius_mm = 0.0;
+};
+
+struct CeresSphere {
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
+  double radius_mm = 0.0;
+};
+
+/// An axis and, for a cylinder, its radius.
+struct CeresAxis {
+  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  double radius_mm = 0.0;
+};
+
+/// @param start  Where the search begins; the points are taken relative to it.
+[[nodiscard]] CeresCircle ceres_circle(std::span<const Eigen::Vector2d> points_mm,
+                                       const CeresCircle& start);
+[[nodiscard]] CeresSphere ceres_sphere(std::span<const Eigen::Vector3d> points_mm,
+                                       const CeresSphere& start);
+[[nodiscard]] CeresAxis ceres_cylinder(std::span<const Eigen::Vector3d> points_mm,
+                                       const CeresAxis& start);
+/// The line with the least sum of squared distances.
+[[nodiscard]] CeresAxis ceres_line(std::span<const Eigen::Vector3d> points_mm,
+                                   const CeresAxis& start);
+
+}  // namespace rondure::test

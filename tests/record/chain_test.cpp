@@ -1,0 +1,319 @@
+// The hash chain over the rows: what was changed behind the program's back is found and named, also
+// in a journal that was never sealed; a run that goes on goes on with the chain.
+
+#include <cstdlib>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/noise.h"
+#include "record/files.h"
+#include "record/journal.h"
+#include "tests/record/meddle.h"
+#include "tests/record/sample_run.h"
+
+namespace rondure::record {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// A run that was interrupted: file and log as a killed program leaves them.
+class InterruptedRun : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    run = sample_run(5, 40);
+    run.sealed = false;
+    run.ending.clear();
+    run.failure.reset();
+    run.results.clear();
+    auto journal = Journal::create(scratch / "first", run.header, run.artefact, run.features);
+    ASSERT_TRUE(journal);
+    for (PoseVisit& pose : run.poses) {
+      pose.final_cloud = pose.id == 2;
+      PoseVisit unmarked = pose;
+      unmarked.final_cloud = false;
+      ASSERT_TRUE(journal->add(unmarked));
+    }
+    ASSERT_TRUE(journal->mark_final(2));
+    for (const Touch& touch : run.touches) ASSERT_TRUE(journal->add(touch));
+    for (const Decision& decision : run.decisions) ASSERT_TRUE(journal->add(decision));
+    for (const SimulationTruth& truth : run.truths) ASSERT_TRUE(journal->add(truth));
+    fs::create_directory(scratch / "run");
+    for (const char* name : {"journal.db", "journal.db-wal"}) {
+      fs::copy_file(scratch / "first" / name, scratch / "run" / name);
+    }
+  }
+
+  /// What is found after `sql`, as "table: what" by line.
+  [[nodiscard]] std::string found_after(const std::string& sql) const {
+    fs::remove_all(scratch / "meddled");
+    fs::copy(scratch / "run", scratch / "meddled");
+    meddle(scratch / "meddled/journal.db", sql);
+    const auto read = read_journal(scratch / "meddled");
+    if (!read) return read.error().what;
+    std::string found;
+    for (const BrokenTable& broken : read->broken) {
+      found += fmt::format("{}{}: {}", found.empty() ? "" : "\n", broken.table, broken.what);
+    }
+    return found;
+  }
+
+  /// The journal is refused or called broken, with words, or gives the first rows of the run, each
+  /// with every bit: then true.
+  [[nodiscard]] bool expect_a_beginning_or_told(const fs::path& directory) const {
+    const auto read = read_journal(directory);
+    if (!read || !read->broken.empty()) {
+      EXPECT_FALSE((read ? read->broken.front().what : read.error().what).empty());
+      return false;
+    }
+    const RunRecord& found = read->record;
+    RunRecord expected = run;
+    EXPECT_LE(found.touches.size(), run.touches.size());
+    expected.poses.resize(found.poses.size());
+    expected.touches.resize(found.touches.size());
+    expected.decisions.resize(found.decisions.size());
+    expected.truths.resize(found.truths.size());
+    const bool before_the_mark = found.touches.empty() && found.poses.size() > 2;
+    if (before_the_mark) expected.poses[2].final_cloud = found.poses[2].final_cloud;
+    EXPECT_EQ(every_bit(found), every_bit(expected));
+    return true;
+  }
+
+  Scratch scratch;
+  RunRecord run;
+};
+
+TEST_F(InterruptedRun, IsWhole) {
+  const auto read = read_journal(scratch / "run");
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_THAT(read->broken, IsEmpty());
+  EXPECT_EQ(read->version, 2);
+  EXPECT_EQ(every_bit(read->record), every_bit(run));
+}
+
+TEST_F(InterruptedRun, EveryChangeOfARowIsNamed) {
+  const std::vector<std::pair<std::string, std::string>> changes = {
+      {"update header set serial = 'another'", "header: the header was changed after"},
+      {"update header set ending = 'finished'", "header: the header was changed after"},
+      {"update artefact set radius_mm = 12.5", "artefact: the artefact was changed after"},
+      {"update feature set layers = layers + 1 where id = 0", "feature: feature 0 was changed"},
+      {"update search_step set step_deg = 7.0 where id = 1", "search_step: search_step 1 was"},
+      {"update pose set final_cloud = 0 where id = 2", "pose: pose 2 was changed after it was"},
+      {"update pose set final_cloud = 1 where id = 1", "pose: pose 1 was changed after it was"},
+      {"update touch set time_s = -1.0 where id = 7", "touch: touch 7 was changed after it was"},
+      {"update touch set layer = 99 where id > 36",
+       "touch: touch 37 was changed after it was written (and 2 more)"},
+      {"update decision set text = '' where id = 1", "decision: decision 1 was changed after"},
+      {"update truth set cylt_mm = 1e-300", "truth: truth 1 was changed after it was written"},
+      {"delete from truth", "truth: truth 1 was removed after it was written"},
+      {"insert into truth values (9, 0, 0.001)", "truth: truth 9 has no link: it was not written"},
+  };
+  for (const auto& [sql, words] : changes) {
+    SCOPED_TRACE(sql);
+    EXPECT_THAT(found_after(sql), HasSubstr(words));
+  }
+}
+
+TEST_F(InterruptedRun, EveryRemovedOrEditedTouchIsNamed) {
+  for (std::size_t id = 0; id < run.touches.size(); ++id) {
+    EXPECT_EQ(found_after(fmt::format("delete from touch where id = {}", id)),
+              fmt::format("touch: touch {} was removed after it was written", id));
+    EXPECT_EQ(found_after(fmt::format("update touch set repeat = repeat + 1 where id = {}", id)),
+              fmt::format("touch: touch {} was changed after it was written", id));
+  }
+}
+
+TEST_F(InterruptedRun, ATouchThatIsRemovedWithItsLinkLeavesAHole) {
+  EXPECT_THAT(found_after("delete from touch where id = 20; delete from chain where table_name = "
+                          "'touch' and row_id = 20"),
+              ::testing::MatchesRegex("chain: link [0-9]+ was removed"));
+  // The ids moved together, as somebody would who knows of the links.
+  EXPECT_THAT(found_after("delete from touch where id = 20; "
+                          "create table t as select * from chain where row_id != 20 or "
+                          "table_name != 'touch' order by id; delete from chain; "
+                          "insert into chain select rowid - 1, table_name, row_id, row_sha256, "
+                          "sha256 from t; drop table t"),
+              HasSubstr("chain: link "));
+}
+
+TEST_F(InterruptedRun, AnEditedLinkDoesNotFollow) {
+  for (const char* sql : {"update chain set row_sha256 = upper(row_sha256) where id = 5",
+                          "update chain set sha256 = replace(sha256, substr(sha256, 1, 1), '#') "
+                          "where id = 5",
+                          "update chain set row_id = row_id + 100 where id = 5",
+                          "update chain set table_name = 'truth' where id = 5"}) {
+    SCOPED_TRACE(sql);
+    EXPECT_THAT(found_after(sql), HasSubstr("does not follow from the links before it"));
+  }
+  EXPECT_THAT(found_after("update chain set table_name = 'coat' where id = 5"),
+              HasSubstr("a link names the unknown table \"coat\""));
+  EXPECT_THAT(found_after("delete from chain"), HasSubstr("the header has no link"));
+}
+
+TEST_F(InterruptedRun, CutAnywhereKeepsABeginningOrIsTold) {
+  std::uint64_t state = 31;
+  int kept = 0;
+  int told = 0;
+  for (int i = 0; i < 100; ++i) {
+    fs::remove_all(scratch / "cut");
+    fs::copy(scratch / "run", scratch / "cut");
+    for (const char* name : {"journal.db", "journal.db-wal"}) {
+      const fs::path file = scratch / "cut" / name;
+      const bool cut = core::splitmix64(state) % 2 == 0;
+      if (cut) fs::resize_file(file, core::splitmix64(state) % fs::file_size(file));
+    }
+    SCOPED_TRACE(i);
+    (expect_a_beginning_or_told(scratch / "cut") ? kept : told) += 1;
+  }
+  EXPECT_GT(kept, 10);
+  EXPECT_GT(told, 10);
+}
+
+TEST_F(InterruptedRun, WithFlippedBytesKeepsABeginningOrIsTold) {
+  std::uint64_t state = 32;
+  for (const std::string name : {"journal.db", "journal.db-wal"}) {
+    const std::string bytes = *read_file(scratch / "run" / name);
+    for (int i = 0; i < 200; ++i) {
+      std::string damaged = bytes;
+      const std::size_t at = core::splitmix64(state) % damaged.size();
+      damaged[at] = static_cast<char>(damaged[at] ^ (1 + core::splitmix64(state) % 255));
+      std::ofstream(scratch / "run" / name, std::ios::binary) << damaged;
+      SCOPED_TRACE(name + " byte " + std::to_string(at));
+      (void)expect_a_beginning_or_told(scratch / "run");
+    }
+    std::ofstream(scratch / "run" / name, std::ios::binary) << bytes;
+  }
+}
+
+TEST_F(InterruptedRun, GoesOnAsIfItHadNotBeenInterrupted) {
+  auto journal = Journal::reopen(scratch / "run");
+  ASSERT_TRUE(journal) << journal.error().what;
+  const auto twice = journal->add(run.touches.back());
+  ASSERT_FALSE(twice);
+  EXPECT_THAT(twice.error().what, HasSubstr("the touches up to number 39 are kept"));
+  for (std::int64_t id = 40; id < 60; ++id) {
+    run.touches.push_back(touch_number(id));
+    ASSERT_TRUE(journal->add(run.touches.back()));
+  }
+  run.decisions.push_back({-1, 3.5, "the run went on"});
+  ASSERT_TRUE(journal->add(run.decisions.back()));
+  ASSERT_TRUE(journal->end("finished", nullptr));
+  ASSERT_TRUE(journal->seal({}));
+  run.ending = "finished";
+  run.sealed = true;
+  const auto read = read_journal(scratch / "run");
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_THAT(read->broken, IsEmpty());
+  EXPECT_EQ(every_bit(read->record), every_bit(run));
+}
+
+TEST_F(InterruptedRun, GoesOnAfterEachOfManyInterruptions) {
+  for (std::int64_t id = 40; id < 60; ++id) {
+    SCOPED_TRACE(id);
+    auto journal = Journal::reopen(scratch / "run");
+    ASSERT_TRUE(journal) << journal.error().what;
+    ASSERT_TRUE(journal->add(touch_number(id)));
+    const core::Error reason{core::Code::kStopped, "stopped", ""};
+    ASSERT_TRUE(journal->end("stopped", &reason));
+  }
+  auto journal = Journal::reopen(scratch / "run");
+  ASSERT_TRUE(journal);
+  auto read = read_journal(scratch / "run");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->record.ending, "");
+  EXPECT_FALSE(read->record.failure);
+  EXPECT_EQ(read->record.touches.size(), 60U);
+  EXPECT_THAT(read->broken, IsEmpty());
+}
+
+TEST_F(InterruptedRun, DoesNotGoOnWhenItWasChangedOrSealedOrIsHeldOpen) {
+  const auto refusal = [&](const fs::path& directory) {
+    const auto journal = Journal::reopen(directory);
+    return journal ? std::string("it was opened") : journal.error().what;
+  };
+  const Scratch other;
+  ASSERT_TRUE(write_run(other / "sealed", sample_run(6)));
+  EXPECT_THAT(refusal(other / "sealed"), HasSubstr("finished and its journal is sealed"));
+  fs::copy(scratch / "run", other / "changed");
+  meddle(other / "changed/journal.db", "delete from touch where id = 3");
+  EXPECT_THAT(refusal(other / "changed"), HasSubstr("touch 3 was removed after it was written"));
+  EXPECT_THAT(refusal(other / "absent"), HasSubstr("there is no journal.db"));
+  fs::create_directory(other / "old");
+  fs::copy_file(fs::path(RONDURE_SOURCE_DIR) / "tests/data/journal_v1/journal.db",
+                other / "old/journal.db");
+  meddle(other / "old/journal.db", "delete from seal");
+  EXPECT_THAT(refusal(other / "old"), HasSubstr("version 1, a run goes on in version 2 only"));
+
+  const auto first = Journal::reopen(scratch / "run");
+  ASSERT_TRUE(first) << first.error().what;
+  EXPECT_THAT(refusal(scratch / "run"), HasSubstr("another program holds it open"));
+}
+
+TEST(Chain, OfASealedRunCannotBeCutAtItsEnd) {
+  const Scratch scratch;
+  ASSERT_TRUE(write_run(scratch / "run", sample_run(8)));
+  meddle(scratch / "run/journal.db", "delete from chain where id = (select max(id) from chain)");
+  const auto read = read_journal(scratch / "run");
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->broken.size(), 2U);
+  EXPECT_EQ(read->broken[0].table, "result");
+  EXPECT_EQ(read->broken[1].table, "chain");
+  EXPECT_THAT(read->broken[1].what, HasSubstr(" rows, expected "));
+}
+
+TEST(Chain, IsAbsentInVersion1WhichIsStillReadAndChecked) {
+  const fs::path stored = fs::path(RONDURE_SOURCE_DIR) / "tests/data/journal_v1";
+  auto read = read_journal(stored);
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(read->version, 1);
+  EXPECT_TRUE(read->record.sealed);
+  EXPECT_THAT(read->broken, IsEmpty());
+  EXPECT_EQ(read->record.touches.size(), 24U);
+  EXPECT_EQ(read->record.ending, "finished");
+  const Scratch scratch;
+  fs::copy_file(stored / "journal.db", scratch / "journal.db");
+  meddle(scratch / "journal.db", "update touch set tip_x_mm = 1.0 where id = 3");
+  read = read_journal(scratch.path());
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->broken.size(), 1U);
+  EXPECT_EQ(read->broken[0].what, "a value differs from the sealed one");
+}
+
+/// Runs the checker of docs/journal.md; its exit status.
+int checked_by_the_document(const fs::path& journal) {
+  const auto document = read_file(fs::path(RONDURE_SOURCE_DIR) / "docs/journal.md");
+  const std::size_t begin = document->find("```python\n") + 10;
+  const Scratch scratch;
+  std::ofstream(scratch / "check.py")
+      << document->substr(begin, document->find("```", begin) - begin);
+  const std::string command =
+      fmt::format("/usr/bin/python3 '{}' '{}' > '{}' 2>&1", (scratch / "check.py").string(),
+                  journal.string(), (scratch / "out").string());
+  return std::system(command.c_str());
+}
+
+TEST(Chain, IsTheOneThatTheDocumentDescribes) {
+  const Scratch scratch;
+  ASSERT_TRUE(write_run(scratch / "run", sample_run(9)));
+  const fs::path file = scratch / "run/journal.db";
+  EXPECT_EQ(checked_by_the_document(file), 0);
+  EXPECT_EQ(
+      checked_by_the_document(fs::path(RONDURE_SOURCE_DIR) / "tests/data/journal_v1/journal.db"),
+      0);
+  const std::string bytes = *read_file(file);
+  for (const char* sql : {"update touch set repeat = repeat + 1 where id = 3",
+                          "update chain set sha256 = '' where id = 3", "delete from chain",
+                          "update seal set sha256 = ''"}) {
+    SCOPED_TRACE(sql);
+    std::ofstream(file, std::ios::binary) << bytes;
+    meddle(file, sql);
+    EXPECT_NE(checked_by_the_document(file), 0);
+  }
+}
+
+}  // namespace
+}  // namespace rondure::record
