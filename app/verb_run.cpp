@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "app/archive_step.h"
 #include "app/processor.h"
 #include "app/resumption.h"
 #include "app/terminal.h"
@@ -55,6 +56,11 @@ plans::RunOptions options_of(const RunArguments& arguments) {
   options.directory = arguments.out.empty()
                           ? parent / run_name(arguments.plan, options.started_utc, parent)
                           : fs::path(arguments.out);
+  const auto archive = archive_of(arguments.archive, *plan, options.directory);
+  if (!archive) {
+    complain(archive.error());
+    return kBadInput;
+  }
   options.run_id = last_folder(options.directory);
   options.plan_file = fs::path(arguments.plan).filename().string();
   options.serial = arguments.serial;
@@ -115,8 +121,8 @@ void refuse(const std::vector<core::Error>& reasons, bool resume, const fs::path
 
 /// Evaluates what is on disk, not what is in memory; seals a finished run; writes the reports.
 /// @param run  None for a run that was sealed before.
-int conclude(const RunArguments& arguments, const plans::Plan& plan, const fs::path& directory,
-             plans::Run* run) {
+int conclude(const RunArguments& arguments, const plans::Plan& plan,
+             const record::ArchivePlace& archive, const fs::path& directory, plans::Run* run) {
   const auto told = read_and_evaluate(directory);
   if (!told) {
     complain(told.error());
@@ -145,7 +151,9 @@ int conclude(const RunArguments& arguments, const plans::Plan& plan, const fs::p
     say(reports::write_summary(told->record, evaluation));
     for (const fs::path& file : *written) say(file.string() + "\n");
   }
-  return exit_status(run != nullptr && run->failure, evaluation.verdict);
+  const bool failed = run != nullptr && run->failure;
+  if (!failed) archive_run(archive, directory, told->record, evaluation);
+  return exit_status(failed, evaluation.verdict);
 }
 
 /// What a run that died right behind its seal left to do on its journal. A damaged one stays as it
@@ -162,7 +170,7 @@ core::Result<void> close_sealed(const fs::path& directory) {
 
 /// A sealed run has nothing to measure; it may have died before its reports were written.
 int finish_sealed(const RunArguments& arguments, const plans::Plan& plan,
-                  const fs::path& directory) {
+                  const record::ArchivePlace& archive, const fs::path& directory) {
   const auto lock = record::RunLock::take(directory);
   if (!lock) {
     complain(lock.error());
@@ -188,7 +196,7 @@ int finish_sealed(const RunArguments& arguments, const plans::Plan& plan,
   }
   tell(fmt::format("rondure: the run in {} is finished and sealed; only its reports are written\n",
                    directory.string()));
-  return conclude(arguments, plan, directory, nullptr);
+  return conclude(arguments, plan, archive, directory, nullptr);
 }
 
 /// The state of the run that is resumed; a run that is not resumed begins.
@@ -214,8 +222,13 @@ int run(const RunArguments& arguments) {
     options.directory = resumption->directory;
     options.run_id = last_folder(options.directory);
   }
+  const auto archive = archive_of(arguments.archive, *plan, options.directory);
+  if (!archive) {
+    complain(archive.error());
+    return kBadInput;
+  }
   if (resumption->state == Resumption::State::kFinished)
-    return finish_sealed(arguments, *plan, options.directory);
+    return finish_sealed(arguments, *plan, *archive, options.directory);
   const bool resume = resumption->state == Resumption::State::kGoesOn;
   if (arguments.resume && !resume && !arguments.quiet) {
     tell(fmt::format("rondure: {} holds no run yet; it begins\n", options.directory.string()));
@@ -228,7 +241,7 @@ int run(const RunArguments& arguments) {
     return kBadInput;
   }
   if (run->failure) complain(*run->failure);
-  const int status = conclude(arguments, *plan, options.directory, &*run);
+  const int status = conclude(arguments, *plan, *archive, options.directory, &*run);
   tell_how_to_go_on(*run, options.directory);
   return status;
 }

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "record/archive.h"
 
 namespace rondure::app {
 
@@ -29,6 +32,7 @@ struct RunArguments {
   std::string operator_name;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> formats;  ///< Empty: as the plan says.
+  std::string archive;               ///< Empty: as the plan says.
   bool quiet = false;
 };
 [[nodiscard]] int run(const RunArguments& arguments);
@@ -44,6 +48,24 @@ struct VerifyArguments {
   std::string key;  ///< Public key file; empty: the signature is not checked.
 };
 [[nodiscard]] int verify(const VerifyArguments& arguments);
+
+struct HistoryArguments {
+  std::string archive = "runs/archive.db";
+  bool archive_given = false;
+  record::ArchiveFilter filter;
+  std::string since;  ///< Day or time, UTC; as until.
+  std::string until;
+  std::string verdict;              ///< With blanks or hyphens.
+  std::optional<std::size_t> last;  ///< How many; by default 50, of charts 1000, of CSV all.
+  bool chart = false;
+  bool json = false;
+  std::string csv;  ///< File, or "-".
+  std::string svg;
+  bool push = false;
+  std::string queue = "runs/archive-queue.db";
+  std::vector<std::string> add;  ///< Run directories.
+};
+[[nodiscard]] int history(const HistoryArguments& arguments);
 
 struct SignArguments {
   std::string directory;

@@ -179,6 +179,7 @@ struct SimulationPlan {
 
 struct ReportsPlan {
   std::vector<std::string> formats = {"html", "json", "csv"};
+  std::string archive;  ///< Empty: archive.db beside the run directory.
 };
 
 struct Plan {

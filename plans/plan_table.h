@@ -323,6 +323,10 @@ void describe(Visitor& v, ReportsPlan& p) {
           {.one_of = {"html", "json", "csv"},
            .empty_allowed = false,
            .meaning = "Reports that a run writes."});
+  v.text("archive", p.archive,
+         {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "
+                     "relative to the plan; postgresql://user@host/database without a password; "
+                     "none. Left out or empty: archive.db beside the run directory."});
 }
 
 template <class Visitor>
