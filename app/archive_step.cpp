@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/shell_word.h"
 #include "app/terminal.h"
 #include "record/archive_queue.h"
 #include "record/files.h"
@@ -64,15 +65,6 @@ void archive_run(const record::ArchivePlace& place, const fs::path& directory,
   record::DeliveryOptions options;
   options.stop_requested = stop_requested;
   tell_failure(place, directory, queue, record::deliver(place, queue, &*entry, options));
-}
-
-std::string quoted(const std::string& word) {
-  constexpr const char* kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:@%=+,";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 }  // namespace rondure::app

@@ -27,7 +27,4 @@ namespace rondure::app {
 void archive_run(const record::ArchivePlace& place, const std::filesystem::path& directory,
                  const record::RunRecord& record, const reports::Evaluation& evaluation);
 
-/// A word of a command line, quoted for a shell where it must be.
-[[nodiscard]] std::string quoted(const std::string& word);
-
 }  // namespace rondure::app

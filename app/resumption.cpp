@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/shell_word.h"
 #include "record/journal.h"
 #include "record/unborn_run.h"
 
@@ -16,17 +17,6 @@ namespace fs = std::filesystem;
 bool names_directory(const RunArguments& arguments) {
   std::error_code ignored;
   return fs::is_directory(arguments.plan, ignored);
-}
-
-/// A word as a shell reads it.
-std::string quoted(const std::string& word) {
-  if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                             "/._-+,:@%=") == std::string::npos) {
-    return word;
-  }
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 }  // namespace
