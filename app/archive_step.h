@@ -24,7 +24,8 @@ namespace rondure::app {
 
 /// Pushes a sealed run whose reports are written. What cannot be pushed waits in the queue beside
 /// the run directory; a message says so. Never changes how the run ends.
-void archive_run(const record::ArchivePlace& place, const std::filesystem::path& directory,
+/// @return  Whether there was anything to do: false when the archive held it, or none is wanted.
+bool archive_run(const record::ArchivePlace& place, const std::filesystem::path& directory,
                  const record::RunRecord& record, const reports::Evaluation& evaluation);
 
 }  // namespace rondure::app

@@ -52,6 +52,22 @@ core::Result<void> close_sealed(const fs::path& directory) {
                     directory.string());
 }
 
+/// A sealed run with its reports may have died before it was archived.
+int finish_archived(const record::ArchivePlace& archive, const fs::path& directory,
+                    const Told& told) {
+  if (archive_run(archive, directory, told.record, told.evaluation)) {
+    tell(fmt::format(
+        "rondure: the run in {} is finished and sealed; only its results had still to go to {}\n",
+        directory.string(), archive.shown));
+    return exit_status(false, told.evaluation.verdict);
+  }
+  tell(
+      fmt::format("rondure: the run in {} is finished and sealed, there is nothing to resume; its "
+                  "reports are there (again: rondure report {})\n",
+                  directory.string(), directory.string()));
+  return kBadInput;
+}
+
 }  // namespace
 
 int conclude(const RunToFinish& ending, plans::Run* run) {
@@ -62,12 +78,13 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
     return kRunFailed;
   }
   const reports::Evaluation& evaluation = told->evaluation;
+  const bool failed = run != nullptr && run->failure;
   // An unfinished run stays open: it has no results to seal.
-  if (run != nullptr && !run->failure) {
+  if (run != nullptr && !failed) {
     if (auto sealed = run->journal.seal(reports::stored_results(evaluation)); !sealed) {
       complain(sealed.error());
       tell(fmt::format("rondure: every touch is kept; to finish the run: {}\n",
-                       resume_command(directory)));
+                       resume_command(ending)));
       return kRunFailed;
     }
   }
@@ -75,17 +92,18 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
   const auto written = reports::write_exports(directory, formats, told->record, evaluation);
   if (!written) {
     complain(written.error());
-    tell(
-        fmt::format("rondure: the measurement is kept; then write the reports: rondure report {}\n",
-                    directory.string()));
+    if (!failed) {
+      tell(
+          fmt::format("rondure: the measurement is kept; to write its reports and archive it: {}\n",
+                      resume_command(ending)));
+    }
     return kRunFailed;
   }
   if (!arguments.quiet) {
     say(reports::write_summary(told->record, evaluation));
     for (const fs::path& file : *written) say(file.string() + "\n");
   }
-  const bool failed = run != nullptr && run->failure;
-  if (!failed) archive_run(archive, directory, told->record, evaluation);
+  if (!failed) (void)archive_run(archive, directory, told->record, evaluation);
   return exit_status(failed, evaluation.verdict);
 }
 
@@ -108,11 +126,7 @@ int finish_sealed(const RunToFinish& ending) {
   }
   const auto formats = arguments.formats.empty() ? plan.reports.formats : arguments.formats;
   if (reports::exports_are_current(directory, formats, told->record, told->evaluation)) {
-    tell(
-        fmt::format("rondure: the run in {} is finished and sealed, there is nothing to resume; "
-                    "its reports are there (again: rondure report {})\n",
-                    directory.string(), directory.string()));
-    return kBadInput;
+    return finish_archived(archive, directory, *told);
   }
   tell(fmt::format("rondure: the run in {} is finished and sealed; only its reports are written\n",
                    directory.string()));

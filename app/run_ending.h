@@ -9,7 +9,7 @@
 
 namespace rondure::app {
 
-/// A run whose touches are made, and what its end needs.
+/// A run in its directory, and what its end needs.
 struct RunToFinish {
   const RunArguments& arguments;
   const plans::Plan& plan;
@@ -23,7 +23,8 @@ struct RunToFinish {
 /// @return  Exit status of the program.
 [[nodiscard]] int conclude(const RunToFinish& ending, plans::Run* run);
 
-/// A sealed run has nothing to measure; it may have died before its reports were written.
+/// A sealed run has nothing to measure; it may have died before its reports were written or its
+/// results archived.
 /// @return  Exit status of the program.
 [[nodiscard]] int finish_sealed(const RunToFinish& ending);
 

@@ -66,17 +66,16 @@ plans::RunOrRefusals measure(const plans::Plan& plan, plans::RunOptions options,
   return std::move(*run);
 }
 
-void tell_how_to_go_on(const plans::Run& run, const fs::path& directory) {
+void tell_how_to_go_on(const plans::Run& run, const RunToFinish& ending) {
   if (!run.failure || !plans::is_resumable(*run.failure)) return;
-  tell(fmt::format("rondure: to go on behind the last touch: {}\n", resume_command(directory)));
+  tell(fmt::format("rondure: to go on behind the last touch: {}\n", resume_command(ending)));
 }
 
 /// A run directory that is not empty may hold a run to go on with.
-void tell_about_resume(const fs::path& directory) {
+void tell_about_resume(const RunToFinish& ending) {
   std::error_code ignored;
-  if (!fs::exists(directory / record::kJournalName, ignored)) return;
-  tell(fmt::format("rondure: to go on with the run that lies there: {}\n",
-                   resume_command(directory)));
+  if (!fs::exists(ending.directory / record::kJournalName, ignored)) return;
+  tell(fmt::format("rondure: to go on with the run that lies there: {}\n", resume_command(ending)));
 }
 
 /// Says why nothing is measured: a fault, or all that changed since the run began.
@@ -127,12 +126,12 @@ int run(const RunArguments& arguments) {
   auto run = measure(*plan, options, resume, arguments.quiet);
   if (!run) {
     refuse(run.error(), resume, options.directory);
-    if (!arguments.resume) tell_about_resume(options.directory);
+    if (!arguments.resume) tell_about_resume(ending);
     return kBadInput;
   }
   if (run->failure) complain(*run->failure);
   const int status = conclude(ending, &*run);
-  tell_how_to_go_on(*run, options.directory);
+  tell_how_to_go_on(*run, ending);
   return status;
 }
 

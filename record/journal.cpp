@@ -15,7 +15,10 @@ Journal& Journal::operator=(Journal&&) noexcept = default;
 Journal::~Journal() = default;
 
 core::Result<void> Journal::add(const Touch& touch) {
-  auto written = impl_->write(fmt::format("touch {}", touch.id), [&] { impl_->insert(touch); });
+  const bool check = touch.purpose == Touch::Purpose::kCheck;
+  const std::string subject =
+      check ? std::string("a repeated touch") : fmt::format("touch {}", touch.id);
+  auto written = impl_->write(subject, [&] { impl_->insert(touch); });
   if (written) impl_->keep(touch);
   return written;
 }
