@@ -46,8 +46,10 @@ core::Result<Resumption> find_resumption(const RunArguments& arguments) {
   out.directory = by_directory ? arguments.plan : arguments.out;
   if (out.directory.empty()) {
     return core::fail(core::Code::kBadOption,
-                      "--resume does not say which run goes on; name its directory: --out DIR, or "
-                      "rondure run RUN_DIR --resume");
+                      fmt::format("--resume does not say which run goes on, {} is not a directory; "
+                                  "name the run: rondure run RUN_DIR --resume, or --out DIR beside "
+                                  "the plan",
+                                  arguments.plan));
   }
   if (by_directory && !arguments.out.empty() &&
       fs::absolute(arguments.out) != fs::absolute(arguments.plan)) {
