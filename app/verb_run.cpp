@@ -56,11 +56,6 @@ plans::RunOptions options_of(const RunArguments& arguments) {
   options.directory = arguments.out.empty()
                           ? parent / run_name(arguments.plan, options.started_utc, parent)
                           : fs::path(arguments.out);
-  const auto archive = archive_of(arguments.archive, *plan, options.directory);
-  if (!archive) {
-    complain(archive.error());
-    return kBadInput;
-  }
   options.run_id = last_folder(options.directory);
   options.plan_file = fs::path(arguments.plan).filename().string();
   options.serial = arguments.serial;
