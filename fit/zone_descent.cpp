@@ -108,7 +108,7 @@ void ZoneDescent<Frame>::minimise_large(Points points, const Point& origin, cons
       state.ending = ZoneEnding::kNotFinite;
       return;
     }
-    if (!add_violators(points, origin, state)) break;
+    if (!add_violators(points, origin, state) && !coarse_) break;
     state.ending = ZoneEnding::kLimit;
   }
   state.zone = {std::sqrt(blocks_.all.low), std::sqrt(blocks_.all.high)};
