@@ -108,6 +108,10 @@ void listen_for_stop() {
     sigaction(signal, nullptr, &present);
     if (present.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup stays nohup
   }
+  // A write that fails is told and the run ends in order: to a pipe whose reader went away, by the
+  // same Ctrl-C perhaps, and beyond the file-size limit of the shell.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool stop_requested() { return g_stop != 0; }

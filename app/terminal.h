@@ -45,7 +45,8 @@ class ProgressLine {
 };
 
 /// Ctrl-C, SIGTERM and the end of the terminal ask the run to stop after the present touch; a
-/// second signal ends the program at once. Every touch is on disk by then.
+/// second signal ends the program at once. Every touch is on disk by then. From then on a pipe
+/// whose reader went away and a file at its size limit give errors instead of signals.
 void listen_for_stop();
 [[nodiscard]] bool stop_requested();
 

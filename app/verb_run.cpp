@@ -117,12 +117,12 @@ int run(const RunArguments& arguments) {
     return kBadInput;
   }
   const RunToFinish ending{arguments, *plan, *archive, options.directory};
+  listen_for_stop();
   if (resumption->state == Resumption::State::kFinished) return finish_sealed(ending);
   const bool resume = resumption->state == Resumption::State::kGoesOn;
   if (arguments.resume && !resume && !arguments.quiet) {
     tell(fmt::format("rondure: {} holds no run yet; it begins\n", options.directory.string()));
   }
-  listen_for_stop();
   auto run = measure(*plan, options, resume, arguments.quiet);
   if (!run) {
     refuse(run.error(), resume, options.directory);

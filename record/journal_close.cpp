@@ -57,6 +57,8 @@ core::Result<void> Journal::finish_seal(const fs::path& directory) {
   std::optional<soci::session> sql;
   try {
     sql.emplace(soci::sqlite3, *connection);
+    int tables = 0;  // reading takes back a change of the mode that was not finished
+    *sql << "select count(*) from sqlite_schema", soci::into(tables);
     fold_log(*sql);
     leave_log(*sql);
   } catch (const std::exception& exception) {
@@ -65,6 +67,9 @@ core::Result<void> Journal::finish_seal(const fs::path& directory) {
                                   reason_of(exception, sql ? &*sql : nullptr)),
                       file.string());
   }
+  sql.reset();
+  // Of a death in leave_log(): SQLite took back or has finished what it held, and leaves the file.
+  fs::remove(file.string() + "-journal", ignored);
   return list_digest(file);
 }
 

@@ -22,10 +22,17 @@ void redirect(const std::filesystem::path& file, int fd) {
 }
 
 void limit_files(std::size_t bytes) {
-  // SIGXFSZ ignored, a write beyond the limit gives an error, as a full disk does.
-  std::signal(SIGXFSZ, SIG_IGN);
   const rlimit limit{bytes, bytes};
   if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(126);
+}
+
+/// Both outputs into a pipe that nobody reads.
+void leave_unread() {
+  int ends[2] = {};
+  if (::pipe(ends) != 0) ::_exit(126);
+  ::close(ends[0]);
+  if (::dup2(ends[1], STDOUT_FILENO) < 0 || ::dup2(ends[1], STDERR_FILENO) < 0) ::_exit(126);
+  ::close(ends[1]);
 }
 
 /// In the child, between fork and exec.
@@ -33,6 +40,8 @@ void enter(const Surroundings& surroundings, const std::filesystem::path& folder
   redirect(folder / "err", STDERR_FILENO);
   if (surroundings.standard_output == "closed") {
     ::close(STDOUT_FILENO);
+  } else if (surroundings.standard_output == "unread") {
+    leave_unread();
   } else {
     const std::string& named = surroundings.standard_output;
     redirect(named.empty() ? folder / "out" : std::filesystem::path(named), STDOUT_FILENO);

@@ -30,7 +30,9 @@ class TemporaryFolder {
 /// How the program is started.
 struct Surroundings {
   std::optional<std::size_t> largest_file_bytes;  ///< As a full disk: writes beyond it fail.
-  std::string standard_output;  ///< Empty: captured; "closed"; else a file to write to.
+  /// Empty: captured; "closed"; "unread": with standard error a pipe without a reader; else a file
+  /// to write to.
+  std::string standard_output;
   bool empty_environment = false;
   bool unprivileged = false;  ///< As user `nobody` when the tests run as root.
 };

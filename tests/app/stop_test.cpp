@@ -18,7 +18,9 @@ using ::testing::HasSubstr;
 /// A run of 4000 points in some eighty poses: most of a minute.
 class LongRun {
  public:
-  LongRun() : program_(start(folder_)) { wait_for_touches(); }
+  explicit LongRun(const Surroundings& surroundings = {}) : program_(start(folder_), surroundings) {
+    wait_for_touches();
+  }
 
   [[nodiscard]] Program& program() { return program_; }
   [[nodiscard]] fs::path directory() const { return folder_ / "run"; }
@@ -86,6 +88,28 @@ TEST(StopSignals, TheSecondEndsTheProgramAtOnce) {
   const Outcome outcome = run.program().wait();
   EXPECT_TRUE(outcome.signal == SIGINT || outcome.signal == SIGTERM) << outcome.status;
   EXPECT_GT(journal_of(run.directory()).touches.size(), 0U);
+}
+
+TEST(StopSignals, InAPipeWhoseReaderEndedFirstStillEndTheRunInOrder) {
+  Surroundings pipe;
+  pipe.standard_output = "unread";  // rondure run ... 2>&1 | tee log: Ctrl-C ends tee as well
+  LongRun run(pipe);
+  run.program().send(SIGINT);
+  EXPECT_EQ(run.program().wait().status, 3);
+  EXPECT_EQ(journal_of(run.directory()).ending, "stopped");
+  EXPECT_THAT(read(run.directory() / "report.html"), HasSubstr("</html>"));
+  EXPECT_FALSE(fs::exists(run.directory() / "run.lock"));
+}
+
+TEST(StopSignals, ARunThatNobodyReadsIsArchivedLikeAnyOther) {
+  const TemporaryFolder folder;
+  Surroundings pipe;
+  pipe.standard_output = "unread";
+  const Outcome outcome =
+      rondure({"run", example("01_spool_simulated.json"), "--out", folder / "run"}, pipe);
+  EXPECT_EQ(outcome.status, 2) << "what was printed is lost, and nothing else";
+  EXPECT_EQ(rondure({"verify", folder / "run"}).status, 0);
+  EXPECT_THAT(rondure({"history", folder / "archive.db"}).out, HasSubstr("conforms"));
 }
 
 TEST(KilledRun, KeepsItsTouchesAndSaysThatItWasInterrupted) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/noise.h"
+#include "core/version.h"
 #include "plans/runner.h"
 #include "record/journal.h"
 #include "tests/plans/files.h"
@@ -309,6 +310,26 @@ TEST(ResumeRefuses, AnotherSeedSerialNumberOrOperator) {
   EXPECT_THAT(run.error()[0].what, AllOf(HasSubstr("seed"), HasSubstr("20261121")));
   EXPECT_THAT(run.error()[1].what, AllOf(HasSubstr("0042"), HasSubstr("0043")));
   EXPECT_THAT(run.error()[2].what, HasSubstr("operator"));
+}
+
+TEST(ResumeRefuses, AnotherVersionOfTheProgram) {
+  const Plan plan = plan_of("01_spool_simulated.json");
+  const record::Scratch scratch;
+  RunOptions options = options_for(scratch / "run");
+  stop_after(options, 40);
+  (void)run_plan(plan, options);
+  record::RunRecord old = journal_of(scratch / "run");
+  old.header.version = "0.0.9";
+  {
+    auto journal = record::Journal::create(scratch / "old", old.header, old.artefact, old.features);
+    ASSERT_TRUE(journal);
+    ASSERT_TRUE(journal->add(old.touches));
+  }
+  const auto run = resume_plan(plan, options_for(scratch / "old"));
+  ASSERT_FALSE(run);
+  ASSERT_EQ(run.error().size(), 1U);
+  EXPECT_THAT(run.error().front().what, AllOf(HasSubstr("program version"), HasSubstr("\"0.0.9\""),
+                                              HasSubstr(core::kVersion)));
 }
 
 TEST(ResumeRefuses, AnotherPointsFile) {
