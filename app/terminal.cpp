@@ -50,6 +50,7 @@ std::string line_of(const plans::Progress& progress, double elapsed_s) {
 }  // namespace
 
 void hold_standard_streams() {
+  std::signal(SIGXFSZ, SIG_IGN);
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(fd, F_GETFD) >= 0) continue;
     // Read-only for standard output: what is written there is reported as lost. The lowest free
@@ -108,10 +109,8 @@ void listen_for_stop() {
     sigaction(signal, nullptr, &present);
     if (present.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup stays nohup
   }
-  // A write that fails is told and the run ends in order: to a pipe whose reader went away, by the
-  // same Ctrl-C perhaps, and beyond the file-size limit of the shell.
+  // Who reads what is printed may go away, by the same Ctrl-C in a pipe: the run ends in order.
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool stop_requested() { return g_stop != 0; }

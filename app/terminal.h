@@ -11,7 +11,8 @@
 namespace rondure::app {
 
 /// Opens what the caller closed: else the first file of a run would take its place, and the summary
-/// would be written into that file.
+/// would be written into that file. From then on a file at its size limit gives an error, as a
+/// full disk does, instead of a signal.
 void hold_standard_streams();
 
 /// Writes to standard output; whether that worked is asked once, by output_reached().
@@ -46,7 +47,7 @@ class ProgressLine {
 
 /// Ctrl-C, SIGTERM and the end of the terminal ask the run to stop after the present touch; a
 /// second signal ends the program at once. Every touch is on disk by then. From then on a pipe
-/// whose reader went away and a file at its size limit give errors instead of signals.
+/// whose reader went away does not end the program.
 void listen_for_stop();
 [[nodiscard]] bool stop_requested();
 
