@@ -9,6 +9,7 @@
 #include "plans/plan.h"
 #include "plans/runner.h"
 #include "record/journal.h"
+#include "reports/defect.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
 #include "reports/writers.h"
@@ -84,7 +85,7 @@ int run(const RunArguments& arguments) {
     complain(read.error());
     return kRunFailed;
   }
-  const auto evaluation = reports::evaluate(read->record);
+  const auto evaluation = reports::evaluate_run(read->record, options.directory, options.processor);
   if (!evaluation) {
     complain(evaluation.error());
     return kRunFailed;
