@@ -19,7 +19,8 @@ namespace {
 constexpr const char* kExits =
     "\nExit status: run, report: 0 all conform, 1 finished but something does not conform or is "
     "void,\n"
-    "2 bad input, 3 machine or run failed. verify: 0 equal, 1 not equal, 2 unreadable. Others: 0 "
+    "2 bad input, 3 machine, fixture or run failed (go on with run --resume). verify: 0 equal, 1 "
+    "not equal, 2 unreadable. Others: 0 "
     "or 2.";
 
 /// "--format html,json": one argument, so that the plan may follow it.
@@ -47,19 +48,39 @@ void add_validate(CLI::App& app, ValidateArguments& arguments) {
 
 void add_run(CLI::App& app, RunArguments& arguments) {
   auto* verb = app.add_subcommand("run", "Executes a plan and writes its reports");
-  verb->add_option("PLAN", arguments.plan, "Plan file (JSON)")->required();
+  verb->add_option("PLAN", arguments.plan, "Plan file (JSON); with --resume also a run directory")
+      ->required();
   verb->add_option("--out", arguments.out,
                    "Run directory, absent or empty (default: runs/<plan>-<UTC>)");
+  verb->add_flag("--resume", arguments.resume,
+                 "Goes on with the run in that directory behind its last touch");
   verb->add_option("--serial", arguments.serial, "Serial number of the part");
   verb->add_option("--operator", arguments.operator_name, "Who measures");
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
       ->check(check_seed);
   add_formats(*verb, arguments.formats, "html,json,csv (default: as the plan says)");
+  verb->add_option("--archive", arguments.archive,
+                   "Where the results are kept besides: a file, postgresql://... or none\n"
+                   "(default: as the plan says, else archive.db beside the run directory)");
   verb->add_flag("--quiet", arguments.quiet, "No progress, no summary");
-  verb->footer(std::string("\nExample: rondure run plans/examples/01_spool_simulated.json --serial "
-                           "0042 --operator mk\n"
-                           "Ctrl-C stops after the present touch; what was measured is kept.\n") +
-               kExits);
+  verb->footer(
+      std::string("\nExample: rondure run plans/examples/01_spool_simulated.json --serial "
+                  "0042 --operator mk\n"
+                  "Ctrl-C stops after the present touch and retracts; a second one ends the "
+                  "program at once.\n"
+                  "What was measured is kept in every case, also when the power fails.\n"
+                  "\nTo go on with a run that was interrupted, stopped or failed:\n"
+                  "  rondure run runs/01_spool_simulated-20261121T023302Z --resume\n"
+                  "or with its plan, which must not have changed:\n"
+                  "  rondure run plan.json --out runs/7 --resume\n"
+                  "(where runs/7 does not exist yet the run begins there). Machine and "
+                  "fixture are homed again and the\n"
+                  "last touches repeated: when one differs by more than the plan's "
+                  "resume_limit_um, part or machine\n"
+                  "has moved and the run must start again. Before you resume, see that "
+                  "the way up is free for the tip.\n"
+                  "More: docs/reliability.md\n") +
+      kExits);
 }
 
 CLI::App* add_fit(CLI::App& app, FitArguments& arguments) {
@@ -154,6 +175,49 @@ void add_sign(CLI::App& app, SignArguments& arguments) {
       "      openssl pkey -in key.pem -pubout -out public.pem");
 }
 
+void add_history_filters(CLI::App& verb, HistoryArguments& arguments) {
+  record::ArchiveFilter& filter = arguments.filter;
+  verb.add_option("--part", filter.part, "Part number");
+  verb.add_option("--feature", filter.feature, "Feature of the plan");
+  verb.add_option("--characteristic", filter.characteristic, "Characteristic of the plan");
+  verb.add_option("--serial", filter.serial, "Serial number of the part");
+  verb.add_option("--machine", filter.machine, "Machine");
+  verb.add_option("--operator", filter.operator_name, "Who measured");
+  verb.add_option("--verdict", arguments.verdict,
+                  "conforms, does-not-conform, undecided, void or not-toleranced");
+  verb.add_option("--since", arguments.since,
+                  "Started then or later: 2026-11-21 or with THH:MM:SSZ");
+  verb.add_option("--until", arguments.until, "Started then or earlier");
+}
+
+void add_history(CLI::App& app, HistoryArguments& arguments) {
+  auto* verb = app.add_subcommand("history", "Past results: list, filter, run chart, capability");
+  verb->add_option_function<std::string>(
+      "ARCHIVE",
+      [&arguments](const std::string& place) {
+        arguments.archive = place;
+        arguments.archive_given = true;
+      },
+      "File or postgresql://user@host/database (default: runs/archive.db)");
+  add_history_filters(*verb, arguments);
+  verb->add_option("--last", arguments.last,
+                   "The newest N results (default: 50; of charts and JSON 1000; of CSV all)")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}));
+  verb->add_flag("--chart", arguments.chart, "Run chart of the newest result's characteristic");
+  verb->add_option("--svg", arguments.svg, "The same chart as a file")->type_name("FILE");
+  verb->add_option("--csv", arguments.csv, "All columns as CSV; - for standard output")
+      ->type_name("FILE");
+  verb->add_flag("--json", arguments.json, "Results and chart as JSON");
+  verb->add_flag("--push", arguments.push, "Sends the runs that wait for an archive");
+  verb->add_option("--queue", arguments.queue, "Where they wait (default: runs/archive-queue.db)")
+      ->type_name("FILE");
+  verb->add_option("--add", arguments.add, "Adds finished runs, each a run directory")
+      ->type_name("RUN_DIR");
+  verb->footer(
+      "\nExample: rondure history --part SP-100 --characteristic cylindricity --chart\n"
+      "Columns, statistics and PostgreSQL: docs/archive.md");
+}
+
 /// Help and version go to standard output, everything else is a mistake in the arguments.
 int explain(const CLI::App& app, const CLI::ParseError& error,
             const std::vector<std::string>& words) {
@@ -191,6 +255,7 @@ int main_of(int argc, char** argv) {
   ReportArguments report_arguments;
   SignArguments sign_arguments;
   VerifyArguments verify_arguments;
+  HistoryArguments history_arguments;
   add_validate(app, validate_arguments);
   add_run(app, run_arguments);
   CLI::App* const fit_verb = add_fit(app, fit_arguments);
@@ -198,6 +263,7 @@ int main_of(int argc, char** argv) {
   add_selftest(*fit_verb, selftest_arguments);
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
+  add_history(app, history_arguments);
   add_sign(app, sign_arguments);
   try {
     app.parse(argc, argv);
@@ -210,6 +276,7 @@ int main_of(int argc, char** argv) {
   if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
+  if (app.got_subcommand("history")) return history(history_arguments);
   if (app.got_subcommand("sign")) return sign(sign_arguments);
   return verify(verify_arguments);
 }

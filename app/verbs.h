@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "record/archive.h"
 
 namespace rondure::app {
 
@@ -22,12 +25,14 @@ struct ValidateArguments {
 [[nodiscard]] int validate(const ValidateArguments& arguments);
 
 struct RunArguments {
-  std::string plan;
-  std::string out;  ///< Empty: runs/<plan>-<UTC>.
+  std::string plan;  ///< With `resume` also a run directory.
+  std::string out;   ///< Empty: runs/<plan>-<UTC>.
+  bool resume = false;
   std::string serial;
   std::string operator_name;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> formats;  ///< Empty: as the plan says.
+  std::string archive;               ///< Empty: as the plan says.
   bool quiet = false;
 };
 [[nodiscard]] int run(const RunArguments& arguments);
@@ -43,6 +48,24 @@ struct VerifyArguments {
   std::string key;  ///< Public key file; empty: the signature is not checked.
 };
 [[nodiscard]] int verify(const VerifyArguments& arguments);
+
+struct HistoryArguments {
+  std::string archive = "runs/archive.db";
+  bool archive_given = false;
+  record::ArchiveFilter filter;
+  std::string since;  ///< Day or time, UTC; as until.
+  std::string until;
+  std::string verdict;              ///< With blanks or hyphens.
+  std::optional<std::size_t> last;  ///< How many; by default 50, of charts 1000, of CSV all.
+  bool chart = false;
+  bool json = false;
+  std::string csv;  ///< File, or "-".
+  std::string svg;
+  bool push = false;
+  std::string queue = "runs/archive-queue.db";
+  std::vector<std::string> add;  ///< Run directories.
+};
+[[nodiscard]] int history(const HistoryArguments& arguments);
 
 struct SignArguments {
   std::string directory;

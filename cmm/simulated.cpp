@@ -21,6 +21,10 @@ std::string in_words(const Vector3d& p) {
   return fmt::format("({:.3f}, {:.3f}, {:.3f}) mm", p.x(), p.y(), p.z());
 }
 
+Vector3d start_of(const TouchCommand& command) {
+  return command.expected_tip_W_mm - command.approach_mm * command.direction_W;
+}
+
 tl::unexpected<core::Error> fault(std::string what) {
   return core::fail(core::Code::kMachine, std::move(what));
 }
@@ -49,6 +53,7 @@ double SimulatedMachine::tip_radius_mm() const {
 }
 
 core::Result<void> SimulatedMachine::home() {
+  if (auto line = check_line(); !line) return line;
   const double height_mm = std::max(position_W_mm_.z(), options_.park_W_mm.z());
   const Vector3d above(position_W_mm_.x(), position_W_mm_.y(), height_mm);
   if (auto up = move_to(above); !up) return up;
@@ -84,6 +89,7 @@ core::Result<SimulatedMachine::Obstacle> SimulatedMachine::first_obstacle(
 }
 
 core::Result<void> SimulatedMachine::move_to(const Vector3d& tip_W_mm) {
+  if (auto line = check_line(); !line) return line;
   if (!tip_W_mm.allFinite()) return fault("the target of a move is not a finite point; no motion");
   const Vector3d way = tip_W_mm - position_W_mm_;
   const double length_mm = way.norm();
@@ -117,6 +123,11 @@ core::Error SimulatedMachine::stop_before(const Obstacle& obstacle, const Vector
       {}};
 }
 
+core::Result<void> SimulatedMachine::check_line() const {
+  if (!lost_) return {};
+  return fault("the machine does not answer: the connection is lost; check cable and controller");
+}
+
 core::Result<void> SimulatedMachine::check_command(const TouchCommand& command) const {
   const bool finite = command.expected_tip_W_mm.allFinite() && command.direction_W.allFinite() &&
                       std::isfinite(command.approach_mm) && std::isfinite(command.search_mm);
@@ -129,7 +140,7 @@ core::Result<void> SimulatedMachine::check_command(const TouchCommand& command) 
     return fault(
         fmt::format("the search of touch {} ends before it starts; no motion", command.id));
   }
-  const Vector3d start = command.expected_tip_W_mm - command.approach_mm * command.direction_W;
+  const Vector3d start = start_of(command);
   if ((start - position_W_mm_).norm() > kGraze_mm) {
     return fault(fmt::format("touch {} starts at {}, but the tip stands at {}; move there first",
                              command.id, in_words(start), in_words(position_W_mm_)));
@@ -138,19 +149,42 @@ core::Result<void> SimulatedMachine::check_command(const TouchCommand& command) 
 }
 
 core::Result<TouchReading> SimulatedMachine::touch(const TouchCommand& command) {
+  lost_ = lost_ || (options_.lost_at_touch > 0 && command.id + 1 == options_.lost_at_touch);
+  if (auto line = check_line(); !line) return core::fail(line.error());
   if (auto checked = check_command(command); !checked) return core::fail(checked.error());
-  const Vector3d start = command.expected_tip_W_mm - command.approach_mm * command.direction_W;
-  const auto contact = first_obstacle(start, command.direction_W, tip_radius_mm(),
-                                      command.approach_mm + command.search_mm);
+  const auto contact = true_contact(command);
   if (!contact) return core::fail(touch_failed(contact.error(), command));
-  true_tip_W_mm_ = start + contact->travel_mm * command.direction_W;
+  true_tip_W_mm_ = *contact;
   core::KeyedNoise noise(options_.seed, {kTouchStream, static_cast<std::uint64_t>(command.id)});
   const double deviation_mm = options_.errors.repeatability_mm * noise.normal();
-  time_s_ += contact->travel_mm / options_.touch_speed_mm_s;
+  time_s_ += (true_tip_W_mm_ - start_of(command)).norm() / options_.touch_speed_mm_s;
   const TouchReading reading = {true_tip_W_mm_ + deviation_mm * command.direction_W,
                                 options_.temperature_degC, time_s_};
-  time_s_ += contact->travel_mm / options_.travel_speed_mm_s + kSettle_s;
+  settle(command, reading);
   return reading;
+}
+
+core::Result<Vector3d> SimulatedMachine::true_contact(const TouchCommand& command) const {
+  const Vector3d start = start_of(command);
+  const auto contact = first_obstacle(start, command.direction_W, tip_radius_mm(),
+                                      command.approach_mm + command.search_mm);
+  if (!contact) return core::fail(contact.error());
+  return start + contact->travel_mm * command.direction_W;
+}
+
+// From the reading, not from the hidden truth: a journal can give it again.
+void SimulatedMachine::settle(const TouchCommand& command, const TouchReading& reading) {
+  const double back_mm = (reading.tip_W_mm - start_of(command)).norm();
+  time_s_ = reading.time_s + back_mm / options_.travel_speed_mm_s + kSettle_s;
+}
+
+core::Result<void> SimulatedMachine::continue_after(const TouchCommand& command,
+                                                    const TouchReading& reading) {
+  const auto contact = true_contact(command);
+  if (!contact) return core::fail(contact.error());
+  true_tip_W_mm_ = *contact;
+  settle(command, reading);
+  return {};
 }
 
 core::Error SimulatedMachine::touch_failed(const core::Error& cause, const TouchCommand& command) {

@@ -25,8 +25,9 @@ struct SimulatedMachineOptions {
   double travel_speed_mm_s = 100.0;
   double touch_speed_mm_s = 5.0;
   double temperature_degC = 20.0;
-  MachineErrors errors;    ///< Hidden truth.
-  std::uint64_t seed = 1;  ///< Of the probe noise.
+  MachineErrors errors;            ///< Hidden truth.
+  std::uint64_t seed = 1;          ///< Of the probe noise.
+  std::int64_t lost_at_touch = 0;  ///< The line breaks at this touch, counted from 1; 0: never.
 };
 
 /// A machine that exists in software. It knows the real part and where it really stands, finds the
@@ -37,7 +38,8 @@ struct SimulatedMachineOptions {
 /// moves nothing.
 ///
 /// The clock advances by distance / speed: travel speed, touch speed along the search, and 0.2 s of
-/// settling after each touch. home() goes straight up to the park height, then across.
+/// settling after each touch. Once the line is lost every command is kMachine. home() goes straight
+/// up to the park height, then across.
 class SimulatedMachine final : public Machine {
  public:
   /// The tip stands in the park position.
@@ -54,6 +56,12 @@ class SimulatedMachine final : public Machine {
   [[nodiscard]] core::Result<TouchReading> touch(const TouchCommand& command) override;
   [[nodiscard]] Eigen::Vector3d position_W_mm() const override { return position_W_mm_; }
   [[nodiscard]] double time_s() const override { return time_s_; }
+
+  /// Takes the state that touch() left when it gave this reading, in a run that was interrupted
+  /// afterwards: the clock and the hidden truth. Moves nothing. The error of touch() when the part
+  /// cannot have given such a reading.
+  [[nodiscard]] core::Result<void> continue_after(const TouchCommand& command,
+                                                  const TouchReading& reading);
 
   /// Noise-free tip centre of the last touch: hidden truth for the simulated cell and for tests.
   [[nodiscard]] const Eigen::Vector3d& true_tip_W_mm() const { return true_tip_W_mm_; }
@@ -73,6 +81,10 @@ class SimulatedMachine final : public Machine {
                                                       double max_travel_mm) const;
   [[nodiscard]] core::Error stop_before(const Obstacle& obstacle, const Eigen::Vector3d& direction,
                                         const Eigen::Vector3d& target_W_mm);
+  [[nodiscard]] core::Result<Eigen::Vector3d> true_contact(const TouchCommand& command) const;
+  /// Sets the clock to the end of a touch: the way back and the settling.
+  void settle(const TouchCommand& command, const TouchReading& reading);
+  [[nodiscard]] core::Result<void> check_line() const;
   [[nodiscard]] core::Result<void> check_command(const TouchCommand& command) const;
   [[nodiscard]] core::Error touch_failed(const core::Error& cause, const TouchCommand& command);
 
@@ -83,6 +95,7 @@ class SimulatedMachine final : public Machine {
   Eigen::Vector3d position_W_mm_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d true_tip_W_mm_ = Eigen::Vector3d::Zero();
   double time_s_ = 0.0;
+  bool lost_ = false;
 };
 
 }  // namespace rondure::cmm

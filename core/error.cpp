@@ -64,6 +64,8 @@ std::string_view code_name(Code code) {
       return "stopped";
     case Code::kJournal:
       return "journal";
+    case Code::kArchive:
+      return "archive";
     case Code::kInternal:
       return "internal";
     case Code::kSparse:

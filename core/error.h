@@ -40,6 +40,7 @@ enum class Code {
   kMachine,      ///< machine: fault reported by the machine or by the fixture
   kStopped,      ///< stopped: by the operator
   kJournal,      ///< journal: the record cannot be written, read, or contradicts itself
+  kArchive,      ///< archive: the results archive cannot be reached, read or written
   kInternal,     ///< internal: a broken invariant; a defect of the program
   // Warnings.
   kSparse,         ///< sparse: fewer than 3 layers or 7 points a layer

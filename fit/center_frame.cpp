@@ -1,6 +1,7 @@
 #include "fit/center_frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace rondure::fit {
@@ -22,22 +23,22 @@ Extremes CenterFrame<D>::linearise(const WorkingPoints<D>& points, ZoneRows<D>& 
   const std::size_t count = points.size();
   rows.resize(count);
   double* distance = rows.distances().data();
+  std::array<double*, D> gradients;
   for (std::size_t i = 0; i < count; ++i) distance[i] = 0.0;
-  for (int k = 0; k < D; ++k) {
-    const double* p = points.column(k);
-    double* gradient = rows.gradients(k).data();
-    const double c = center_(k);
+  for (std::size_t k = 0; k < D; ++k) {
+    const double* p = points.column(static_cast<int>(k));
+    double* gradient = gradients[k] = rows.gradients(static_cast<int>(k)).data();
+    const double c = center_(static_cast<Eigen::Index>(k));
     for (std::size_t i = 0; i < count; ++i) {
       gradient[i] = c - p[i];
       distance[i] += gradient[i] * gradient[i];
     }
   }
-  for (std::size_t i = 0; i < count; ++i) distance[i] = std::sqrt(distance[i]);
-  for (int k = 0; k < D; ++k) {
-    double* gradient = rows.gradients(k).data();
-    for (std::size_t i = 0; i < count; ++i) {
-      gradient[i] = distance[i] > 0.0 ? gradient[i] / distance[i] : 0.0;
-    }
+  for (std::size_t i = 0; i < count; ++i) {
+    distance[i] = std::sqrt(distance[i]);
+    // At the centre every direction is alike.
+    const double unit = distance[i] > 0.0 ? 1.0 / distance[i] : 0.0;
+    for (std::size_t k = 0; k < D; ++k) gradients[k][i] *= unit;
   }
   const auto [low, high] = std::minmax_element(distance, distance + count);
   return {*low, *high};

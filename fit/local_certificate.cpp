@@ -18,11 +18,11 @@ constexpr double kGrowthNoise = 1e-9;
 constexpr double kLevel = 1e-9;
 
 template <int K>
-using Rows = std::vector<ContactRow<K>>;
+using Rows = std::span<const ContactRow<K>>;
 
 /// Growth of the linearised zone on the face x_k = sign of the unit box.
 template <int K>
-double growth_on_face(const Rows<K>& outer, const Rows<K>& inner, const ZoneWeights& weights, int k,
+double growth_on_face(Rows<K> outer, Rows<K> inner, const ZoneWeights& weights, int k,
                       double sign) {
   ZoneRows<K - 1> rows;
   const auto add = [&](const ContactRow<K>& contact, double lift) {
@@ -36,7 +36,7 @@ double growth_on_face(const Rows<K>& outer, const Rows<K>& inner, const ZoneWeig
 }
 
 template <int K>
-const ContactRow<K>& row_of(const Rows<K>& rows, std::size_t index) {
+const ContactRow<K>& row_of(Rows<K> rows, std::size_t index) {
   return *std::find_if(rows.begin(), rows.end(),
                        [&](const ContactRow<K>& row) { return row.index == index; });
 }
@@ -44,22 +44,23 @@ const ContactRow<K>& row_of(const Rows<K>& rows, std::size_t index) {
 }  // namespace
 
 template <int K>
-Eigen::Matrix<double, K, 1> curvature_descent(const LocalProof<K>& proof, const Rows<K>& outer,
-                                              const Rows<K>& inner, const ZoneWeights& weights) {
+Eigen::Matrix<double, K, 1> curvature_descent(std::span<const Contact> outer,
+                                              std::span<const Contact> inner, Rows<K> outer_rows,
+                                              Rows<K> inner_rows, const ZoneWeights& weights) {
   constexpr int kMost = static_cast<int>(Contacts::kCapacity);
   Eigen::Matrix<double, K, K> w = Eigen::Matrix<double, K, K>::Zero();
   Eigen::Matrix<double, Eigen::Dynamic, K, 0, 2 * kMost, K> level(
-      static_cast<Eigen::Index>(proof.outer.size() + proof.inner.size()), K);
+      static_cast<Eigen::Index>(outer.size() + inner.size()), K);
   Eigen::Index row = 0;
-  const auto collect = [&](const Contacts& side, const Rows<K>& rows, double weight) {
+  const auto collect = [&](std::span<const Contact> side, Rows<K> rows, double weight) {
     for (const Contact& c : side) {
       const ContactRow<K>& contact = row_of(rows, c.index);
       w += weight * c.multiplier * contact.hessian;
       level.row(row++) = (contact.gradient - row_of(rows, side[0].index).gradient).transpose();
     }
   };
-  collect(proof.outer, outer, weights.outer);
-  collect(proof.inner, inner, -weights.inner);
+  collect(outer, outer_rows, weights.outer);
+  collect(inner, inner_rows, -weights.inner);
   Eigen::JacobiSVD<Eigen::Matrix<double, Eigen::Dynamic, K, 0, 2 * kMost, K>> svd(
       level, Eigen::ComputeFullV);
   svd.setThreshold(kLevel);
@@ -74,7 +75,7 @@ Eigen::Matrix<double, K, 1> curvature_descent(const LocalProof<K>& proof, const 
 }
 
 template <int K>
-double first_order_growth(const Rows<K>& outer, const Rows<K>& inner, const ZoneWeights& weights) {
+double first_order_growth(Rows<K> outer, Rows<K> inner, const ZoneWeights& weights) {
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < K; ++k) {
     least = std::min({least, growth_on_face<K>(outer, inner, weights, k, 1.0),
@@ -84,7 +85,7 @@ double first_order_growth(const Rows<K>& outer, const Rows<K>& inner, const Zone
 }
 
 template <int K>
-LocalProof<K> prove_local(const Rows<K>& outer, const Rows<K>& inner, double reach_mm,
+LocalProof<K> prove_local(Rows<K> outer, Rows<K> inner, double reach_mm,
                           const ZoneWeights& weights) {
   // Distances relative to one contact keep their digits; the multipliers of each side sum to 1, so
   // a common value only shifts the result.
@@ -127,7 +128,7 @@ LocalProof<K> prove_local(const Rows<K>& outer, const Rows<K>& inner, double rea
   proof.growth = first_order_growth<K>(outer, inner, weights);
   proof.strict = proof.growth > kGrowthNoise;
   if (proof.strict) return proof;
-  proof.descent = curvature_descent<K>(proof, outer, inner, weights);
+  proof.descent = curvature_descent<K>(proof.outer, proof.inner, outer, inner, weights);
   proof.strict = proof.descent.isZero();
   return proof;
 }
@@ -155,22 +156,25 @@ Certificate certify_local(const LocalProof<K>& proof, double width_mm, double ro
 }
 
 template struct LocalProof<2>;
-template double first_order_growth<2>(const Rows<2>&, const Rows<2>&, const ZoneWeights&);
-template Eigen::Matrix<double, 2, 1> curvature_descent<2>(const LocalProof<2>&, const Rows<2>&,
-                                                          const Rows<2>&, const ZoneWeights&);
-template LocalProof<2> prove_local<2>(const Rows<2>&, const Rows<2>&, double, const ZoneWeights&);
+template double first_order_growth<2>(Rows<2>, Rows<2>, const ZoneWeights&);
+template Eigen::Matrix<double, 2, 1> curvature_descent<2>(std::span<const Contact>,
+                                                          std::span<const Contact>, Rows<2>,
+                                                          Rows<2>, const ZoneWeights&);
+template LocalProof<2> prove_local<2>(Rows<2>, Rows<2>, double, const ZoneWeights&);
 template Certificate certify_local<2>(const LocalProof<2>&, double, double, std::string);
 template struct LocalProof<3>;
-template double first_order_growth<3>(const Rows<3>&, const Rows<3>&, const ZoneWeights&);
-template Eigen::Matrix<double, 3, 1> curvature_descent<3>(const LocalProof<3>&, const Rows<3>&,
-                                                          const Rows<3>&, const ZoneWeights&);
-template LocalProof<3> prove_local<3>(const Rows<3>&, const Rows<3>&, double, const ZoneWeights&);
+template double first_order_growth<3>(Rows<3>, Rows<3>, const ZoneWeights&);
+template Eigen::Matrix<double, 3, 1> curvature_descent<3>(std::span<const Contact>,
+                                                          std::span<const Contact>, Rows<3>,
+                                                          Rows<3>, const ZoneWeights&);
+template LocalProof<3> prove_local<3>(Rows<3>, Rows<3>, double, const ZoneWeights&);
 template Certificate certify_local<3>(const LocalProof<3>&, double, double, std::string);
 template struct LocalProof<4>;
-template double first_order_growth<4>(const Rows<4>&, const Rows<4>&, const ZoneWeights&);
-template Eigen::Matrix<double, 4, 1> curvature_descent<4>(const LocalProof<4>&, const Rows<4>&,
-                                                          const Rows<4>&, const ZoneWeights&);
-template LocalProof<4> prove_local<4>(const Rows<4>&, const Rows<4>&, double, const ZoneWeights&);
+template double first_order_growth<4>(Rows<4>, Rows<4>, const ZoneWeights&);
+template Eigen::Matrix<double, 4, 1> curvature_descent<4>(std::span<const Contact>,
+                                                          std::span<const Contact>, Rows<4>,
+                                                          Rows<4>, const ZoneWeights&);
+template LocalProof<4> prove_local<4>(Rows<4>, Rows<4>, double, const ZoneWeights&);
 template Certificate certify_local<4>(const LocalProof<4>&, double, double, std::string);
 
 }  // namespace rondure::fit

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -40,20 +40,21 @@ struct LocalProof {
 /// is
 ///                      empty, the other is not.
 template <int K>
-[[nodiscard]] double first_order_growth(const std::vector<ContactRow<K>>& outer,
-                                        const std::vector<ContactRow<K>>& inner,
+[[nodiscard]] double first_order_growth(std::span<const ContactRow<K>> outer,
+                                        std::span<const ContactRow<K>> inner,
                                         const ZoneWeights& weights = kMinimumZone);
 
 /// Curvature of the Lagrangian on the moves that leave the binding contacts level.
-/// @param outer, inner  The contacts that bind, all with a multiplier.
+/// @param outer, inner  The contacts that bind, with their multipliers.
+/// @param outer_rows, inner_rows  Hold the rows of these contacts.
 /// @return Zero when it is positive on all of them: a strict minimum. Else the unit move of its
 /// most
 ///         negative curvature, along which the zone shrinks.
 template <int K>
-[[nodiscard]] Eigen::Matrix<double, K, 1> curvature_descent(const LocalProof<K>& proof,
-                                                            const std::vector<ContactRow<K>>& outer,
-                                                            const std::vector<ContactRow<K>>& inner,
-                                                            const ZoneWeights& weights);
+[[nodiscard]] Eigen::Matrix<double, K, 1> curvature_descent(
+    std::span<const Contact> outer, std::span<const Contact> inner,
+    std::span<const ContactRow<K>> outer_rows, std::span<const ContactRow<K>> inner_rows,
+    const ZoneWeights& weights);
 
 /// Tests the contacts of a zone for a local minimum: finds multipliers with
 /// outer weight * sum lam J_h = inner weight * sum mu J_l, the least first-order growth sigma, and,
@@ -63,8 +64,8 @@ template <int K>
 /// @param reach_mm      B: weight of a remaining imbalance of the multipliers in the gap.
 /// Source: methods, certificates section 1.
 template <int K>
-[[nodiscard]] LocalProof<K> prove_local(const std::vector<ContactRow<K>>& outer,
-                                        const std::vector<ContactRow<K>>& inner, double reach_mm,
+[[nodiscard]] LocalProof<K> prove_local(std::span<const ContactRow<K>> outer,
+                                        std::span<const ContactRow<K>> inner, double reach_mm,
                                         const ZoneWeights& weights = kMinimumZone);
 
 /// Turns a proof into the certificate of a result.

@@ -1,6 +1,7 @@
 #include "fit/zone_descent.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Dense>
@@ -10,17 +11,21 @@
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kAllWorked = 64;  // up to here all points are worked on
+constexpr std::size_t kAllWorked = 128;  // up to here all points are worked on
 constexpr int kProgrammeLimit = 200;
 constexpr int kPassLimit = 100;
 constexpr int kNewtonLimit = 20;
 constexpr int kSaddleLimit = 20;
 constexpr int kLevelLimit = 4;
+/// The minimum of a sample is good enough when it promises less than this part of its zone.
+constexpr double kCoarse = 0.005;
 /// A contact with a smaller multiplier may be one too many.
 constexpr double kFirm = 1e-9;
 
 /// Points of the first sample: enough to come near, few against a pass.
-std::size_t sample_size(std::size_t count) { return std::clamp<std::size_t>(count / 500, 48, 480); }
+std::size_t sample_size(std::size_t count) {
+  return std::clamp<std::size_t>(count / 500, 48, 1000);
+}
 /// Points a block of a pass: each block gives one candidate a side at most.
 std::size_t block_size(std::size_t count) { return count < 20000 ? 32 : 128; }
 /// Candidates a side and pass: the first pass meets a place that is not yet good.
@@ -52,7 +57,7 @@ auto ZoneDescent<Frame>::run(Points points, const Point& origin, const Frame& st
     -> Result {
   weights_ = weights;
   round_off_ = round_off;
-  warm_ = false;
+  warm_ = coarse_ = false;
   working_.clear();
   Result state(start);
   if (points.size() > kAllWorked) {
@@ -91,6 +96,7 @@ void ZoneDescent<Frame>::minimise_large(Points points, const Point& origin, cons
                                         double limit_mm, Result& state) {
   blocks_.block = block_size(points.size());
   while (state.passes < kPassLimit) {
+    coarse_ = state.passes == 0;
     state.zone = extremes(state.frame);
     minimise(state, start, limit_mm);
     if (state.ending == ZoneEnding::kStrayed) return;
@@ -157,7 +163,7 @@ void ZoneDescent<Frame>::minimise(Result& state, const Frame& start, double limi
     state.ending = ZoneEnding::kLimit;
     if (state.programmes >= kProgrammeLimit * (state.passes + 1)) return;
     state.ending = ZoneEnding::kConverged;
-    if (vertex_) return;
+    if (vertex_ || coarse_) return;
     const auto descent = escape(state);
     if (descent.isZero() || !leave_saddle(state, descent)) return;
   }
@@ -191,12 +197,13 @@ void ZoneDescent<Frame>::settle(Result& state) {
   double box = std::max(10.0 * state.zone.width(), 64.0 * round_off_);
   bool rejected = false;
   int levels = 0;
-  vertex_ = false;
+  vertex_ = polished_ = false;
   const int limit = state.programmes + kProgrammeLimit;
   while (state.programmes < limit && box > round_off_) {
     const ZoneStep<K> step = programme(state, box);
     const double base = (weights_.outer - weights_.inner) * state.zone.low;
     const double promised = value(state.zone) - base - step.value;
+    if (coarse_ && promised <= kCoarse * state.zone.width()) return;
     if (promised <= 2.0 * round_off_) {
       const bool level_now = step.step.cwiseAbs().maxCoeff() <= round_off_;
       vertex_ = is_vertex(step) && level_now;
@@ -205,7 +212,10 @@ void ZoneDescent<Frame>::settle(Result& state) {
     }
     // Fewer contacts than hold a vertex, or a refused step: curvature holds the rest, which a
     // linear programme cannot see; Newton can.
-    if ((rejected || !step.inside_box) && polish(state)) return;
+    if (rejected || !step.inside_box) {
+      polished_ = polish(state);
+      if (polished_) return;
+    }
     const Frame next = state.frame.moved(step.step);
     const Extremes zone = linearise(next, trial_rows_);
     const double gained = value(state.zone) - value(zone);
@@ -221,7 +231,7 @@ void ZoneDescent<Frame>::settle(Result& state) {
     state.zone = zone;
     std::swap(rows_, trial_rows_);
   }
-  if (!vertex_) settle_by_curvature(state, box);
+  if (!vertex_ && !coarse_) settle_by_curvature(state, box);
 }
 
 /// Takes a step of Newton's method, or the part of it that helps most.
@@ -248,9 +258,10 @@ bool ZoneDescent<Frame>::stride(Result& state, double least) {
 /// narrower ones name fewer, until Newton settles on those that count.
 template <class Frame>
 void ZoneDescent<Frame>::settle_by_curvature(Result& state, double box) {
-  for (; !polish(state) && box > round_off_; box *= 0.125) {
+  for (polished_ = polish(state); !polished_ && box > round_off_; box *= 0.125) {
     state.zone = linearise(state.frame, rows_);
     programme(state, box);
+    polished_ = polish(state);
   }
 }
 
@@ -368,9 +379,27 @@ bool ZoneDescent<Frame>::contacts_hold(const Result& state) const {
          std::all_of(state.inner.begin(), state.inner.end(), at_most);
 }
 
+/// Whether the contacts on which Newton settled hold a strict minimum by themselves.
+template <class Frame>
+bool ZoneDescent<Frame>::held_by_contacts(const Result& state) const {
+  if (!polished_) return false;
+  std::array<ContactRow<K>, Contacts::kCapacity> outer;
+  std::array<ContactRow<K>, Contacts::kCapacity> inner;
+  const auto rows = [&](const Contacts& side, auto& out) {
+    for (std::size_t i = 0; i < side.size(); ++i) {
+      out[i] = state.frame.contact_row(working_[side[i].index], side[i].index);
+    }
+    return std::span<const ContactRow<K>>(out).first(side.size());
+  };
+  const auto outer_rows = rows(state.outer, outer);
+  const auto inner_rows = rows(state.inner, inner);
+  return curvature_descent<K>(state.outer, state.inner, outer_rows, inner_rows, weights_).isZero();
+}
+
 /// The way out of a saddle, or zero when the contacts hold a strict minimum.
 template <class Frame>
 auto ZoneDescent<Frame>::escape(const Result& state) const -> Eigen::Matrix<double, K, 1> {
+  if (held_by_contacts(state)) return Eigen::Matrix<double, K, 1>::Zero();
   const double slack = 16.0 * round_off_;
   std::vector<ContactRow<K>> outer;
   std::vector<ContactRow<K>> inner;

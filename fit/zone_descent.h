@@ -49,11 +49,11 @@ struct Descent {
 /// on the stationarity equations of the contacts where curvature holds the place, and a way out of
 /// saddles.
 ///
-/// Up to 64 points all are worked on. Of more, a sample is; then passes over all points add those
+/// Up to 128 points all are worked on. Of more, a sample is; then passes over all points add those
 /// that stick out farthest, at most one a block, until none does: the optimum of a subset that
 /// holds all points is the optimum of the whole. An object keeps its memory between calls.
 ///
-/// Cost: some 10 us up to 64 points; commonly two to four passes over more.
+/// Cost: some 2 to 20 us up to 128 points; commonly two to four passes over more.
 /// Sources: methods, cylindricity sections 9.3, 11.2 and 11.4; performance, the method in words.
 template <class Frame>
 class ZoneDescent {
@@ -94,6 +94,7 @@ class ZoneDescent {
   bool polish(Result& state);
   [[nodiscard]] Newton newton_step(const Result& state) const;
   [[nodiscard]] bool contacts_hold(const Result& state) const;
+  [[nodiscard]] bool held_by_contacts(const Result& state) const;
   [[nodiscard]] Eigen::Matrix<double, K, 1> escape(const Result& state) const;
   bool leave_saddle(Result& state, const Eigen::Matrix<double, K, 1>& descent);
   [[nodiscard]] Extremes extremes(const Frame& frame);
@@ -101,8 +102,10 @@ class ZoneDescent {
 
   ZoneWeights weights_;
   double round_off_ = 0.0;
-  bool vertex_ = false;  ///< As many contacts as unknowns hold the last place.
-  bool warm_ = false;    ///< The programme has a basis to start from.
+  bool vertex_ = false;    ///< As many contacts as unknowns hold the last place.
+  bool polished_ = false;  ///< Newton settled on the contacts of the last place.
+  bool coarse_ = false;    ///< Near the minimum is near enough: of a sample.
+  bool warm_ = false;      ///< The programme has a basis to start from.
   WorkingPoints<D> working_;
   ZoneRows<K> rows_;
   ZoneRows<K> trial_rows_;

@@ -16,27 +16,27 @@
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kCenterSample = 256;
-constexpr std::size_t kCylinderSample = 480;
+constexpr std::size_t kCenterSample = 128;
+constexpr std::size_t kCylinderSample = 240;
 /// From here on one start is enough, whatever the arc (performance: small sets).
 constexpr std::size_t kOneStart = 24;
 constexpr std::size_t kSmall = 64;  // up to here more starts cost little
 constexpr int kStarts = 8;          // around the axis, for each tilt
 constexpr double kFullGap = 120.0 * core::kDegree;
 
+/// At most `most` points that stand for all; `memory` holds them where they are fewer.
 template <class Point>
-void spread(std::span<const Point> points, std::size_t most, std::vector<Point>& sample) {
-  sample.clear();
-  if (points.size() <= most) {
-    sample.assign(points.begin(), points.end());
-    return;
-  }
-  for (std::size_t k = 0; k < most; ++k) sample.push_back(points[spread_row(k, points.size())]);
+std::span<const Point> spread(std::span<const Point> points, std::size_t most,
+                              std::vector<Point>& memory) {
+  if (points.size() <= most) return points;
+  memory.clear();
+  for (std::size_t k = 0; k < most; ++k) memory.push_back(points[spread_row(k, points.size())]);
+  return memory;
 }
 
 /// Round-off of distances: a place is never farther from the origin than the points are wide.
 template <class Point>
-double round_off_of(const std::vector<Point>& sample) {
+double round_off_of(std::span<const Point> sample) {
   double size = 0.0;
   for (const Point& p : sample) size = std::max(size, p.cwiseAbs().maxCoeff());
   return distance_round_off(size);
@@ -84,11 +84,21 @@ core::Result<ZoneFit<Place>> judged(ZoneFit<Place> zone, std::span<const Point> 
   return zone;
 }
 
-core::Result<LsCircle> start_fit(std::span<const Eigen::Vector2d> points) {
-  return algebraic_circle(points);
+/// Where a centre starts.
+template <int D>
+struct Start {
+  Eigen::Matrix<double, D, 1> center_mm;
+  double radius_mm = 0.0;
+};
+core::Result<Start<2>> start_fit(std::span<const Eigen::Vector2d> points) {
+  const auto circle = algebraic_circle(points);
+  if (!circle) return core::fail(circle.error());
+  return Start<2>{circle->center_mm, circle->radius_mm};
 }
-core::Result<LsSphere> start_fit(std::span<const Eigen::Vector3d> points) {
-  return ls_sphere(points);
+core::Result<Start<3>> start_fit(std::span<const Eigen::Vector3d> points) {
+  const auto sphere = ls_sphere(points);
+  if (!sphere) return core::fail(sphere.error());
+  return Start<3>{sphere->center_mm, sphere->radius_mm};
 }
 
 /// The axis as a frame, with the extent of the points along it as the scale of its tilts.
@@ -128,25 +138,32 @@ double value_of(const CylinderZone& zone, const ZoneWeights& weights) {
 }  // namespace
 
 template <int D>
+auto CenterZoneFitter<D>::descend(std::span<const Point> points_mm, std::span<const Point> sample,
+                                  const Point& center_mm, const ZoneWeights& weights,
+                                  double limit_mm) -> ZoneFit<Point> {
+  const auto found = descent_.run(points_mm, center_mm, CenterFrame<D>(Point::Zero()), weights,
+                                  round_off_of(sample), limit_mm);
+  return zone_of(found, found.frame.place(center_mm));
+}
+
+template <int D>
 auto CenterZoneFitter<D>::fit_from(std::span<const Point> points_mm, const Point& center_mm,
                                    const ZoneWeights& weights, double limit_mm) -> ZoneFit<Point> {
-  spread(points_mm, kCenterSample, sample_);
-  const auto found = descent_.run(points_mm, center_mm, CenterFrame<D>(Point::Zero()), weights,
-                                  round_off_of(sample_), limit_mm);
-  return zone_of(found, found.frame.place(center_mm));
+  return descend(points_mm, spread(points_mm, kCenterSample, sample_), center_mm, weights,
+                 limit_mm);
 }
 
 template <int D>
 auto CenterZoneFitter<D>::fit(std::span<const Point> points_mm, const ZoneWeights& weights)
     -> core::Result<ZoneFit<Point>> {
   if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
-  spread(points_mm, kCenterSample, sample_);
-  auto start = start_fit(std::span<const Point>(sample_));
+  const auto sample = spread(points_mm, kCenterSample, sample_);
+  auto start = start_fit(sample);
   // A sample may miss what the data have.
   if (!start) start = start_fit(points_mm);
   if (!start) return core::fail(start.error());
   const double limit = limit_of(weights, start->radius_mm);
-  return judged(fit_from(points_mm, start->center_mm, weights, limit), points_mm, weights,
+  return judged(descend(points_mm, sample, start->center_mm, weights, limit), points_mm, weights,
                 D == 2 ? "circle" : "sphere");
 }
 
@@ -156,9 +173,9 @@ template class CenterZoneFitter<3>;
 CylinderZone CylinderZoneFitter::fit_from(std::span<const Eigen::Vector3d> points_mm,
                                           const Axis& axis, const ZoneWeights& weights,
                                           double limit_mm) {
-  spread(points_mm, kCylinderSample, sample_);
-  const double round_off = round_off_of(sample_);
-  const auto found = descent_.run(points_mm, axis.point_mm, frame_of(sample_, axis, round_off),
+  const auto sample = spread(points_mm, kCylinderSample, sample_);
+  const double round_off = round_off_of(sample);
+  const auto found = descent_.run(points_mm, axis.point_mm, frame_of(sample, axis, round_off),
                                   weights, round_off, limit_mm);
   return zone_of(found, found.frame.place(axis.point_mm));
 }
@@ -188,8 +205,7 @@ core::Result<CylinderZone> CylinderZoneFitter::fit(
     std::span<const Eigen::Vector3d> points_mm,
     const std::optional<Eigen::Vector3d>& near_direction, const ZoneWeights& weights) {
   if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
-  spread(points_mm, kCylinderSample, sample_);
-  auto start = ls_cylinder(sample_, near_direction);
+  auto start = ls_cylinder(spread(points_mm, kCylinderSample, sample_), near_direction);
   // A sample may miss what the data have: a second layer, or the row that is not a number.
   if (!start) start = ls_cylinder(points_mm, near_direction);
   if (!start) return core::fail(start.error());

@@ -63,6 +63,9 @@ class CenterZoneFitter {
                           double limit_mm = std::numeric_limits<double>::infinity());
 
  private:
+  ZoneFit<Point> descend(std::span<const Point> points_mm, std::span<const Point> sample,
+                         const Point& center_mm, const ZoneWeights& weights, double limit_mm);
+
   std::vector<Point> sample_;
   ZoneDescent<CenterFrame<D>> descent_;
 };

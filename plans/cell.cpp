@@ -12,7 +12,8 @@ fixture::Kinematics kinematics_of(const FixturePlan& plan) {
   return {vector3(plan.axis_point_mm), vector3(plan.axis_offset_mm)};
 }
 
-fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t seed) {
+fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t seed,
+                                                 bool resumed) {
   const FixturePlan& fixture = *plan.fixture;
   const SimulatedFixturePlan& hidden = plan.simulation->fixture;
   fixture::SimulatedFixtureOptions out;
@@ -27,10 +28,12 @@ fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t
   out.errors.squareness_rad = hidden.squareness_deg * core::kDegree;
   out.errors.repeatability_rad = hidden.repeatability_deg * core::kDegree;
   out.seed = seed;
+  const int stall = plan.simulation->faults.fixture_stalls_at_move;
+  if (!resumed) out.stalls_at_move = static_cast<std::uint64_t>(stall);
   return out;
 }
 
-cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t seed) {
+cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t seed, bool resumed) {
   cmm::SimulatedMachineOptions out;
   out.nominal_tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
   out.park_W_mm = vector3(plan.machine->park_mm);
@@ -40,6 +43,7 @@ cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t see
   out.errors.repeatability_mm = plan.simulation->probe.repeatability_um * core::kMicrometre;
   out.errors.tip_radius_error_mm = plan.simulation->probe.tip_radius_error_um * core::kMicrometre;
   out.seed = seed;
+  if (!resumed) out.lost_at_touch = plan.simulation->faults.connection_lost_at_touch;
   return out;
 }
 
@@ -76,11 +80,11 @@ cmm::PartSurface simulated_surface(const SimulationPlan& simulation, const Featu
   return out;
 }
 
-Cell::Cell(const Plan& plan, std::uint64_t seed)
+Cell::Cell(const Plan& plan, std::uint64_t seed, bool resumed)
     : simulation_(*plan.simulation),
       kinematics_(kinematics_of(*plan.fixture)),
-      fixture_(fixture_options(plan, seed)),
-      machine_(machine_options(plan, seed)) {
+      fixture_(fixture_options(plan, seed, resumed)),
+      machine_(machine_options(plan, seed, resumed)) {
   X_BP_.translation() = vector3(plan.fixture->part_position_mm);
   machine_.place_sphere({vector3(plan.probe->qualification.sphere_center_mm),
                          0.5 * plan.probe->qualification.sphere_diameter_mm});
@@ -94,18 +98,48 @@ void Cell::mount(const FeaturePlan& feature) {
 
 core::Result<core::Pose> Cell::home_fixture() {
   auto reached = fixture_.home();
+  turns_ = 0;
   place_part();
   return reached;
 }
 
-core::Result<core::Pose> Cell::turn_to(const core::Pose& commanded) {
+core::Result<core::Pose> Cell::turn_to(const core::Pose& commanded) { return turn(commanded); }
+
+core::Result<core::Pose> Cell::recall_home() { return home_fixture(); }
+
+core::Result<core::Pose> Cell::recall_turn(const core::Pose& commanded) { return turn(commanded); }
+
+core::Result<core::Pose> Cell::turn(const core::Pose& commanded) {
   auto reached = fixture_.move_to(commanded);
+  if (reached) {
+    ++turns_;
+    last_turn_ = commanded;
+  }
   place_part();
   return reached;
+}
+
+core::Result<void> Cell::recall_touch(const cmm::TouchCommand& command,
+                                      const cmm::TouchReading& reading) {
+  return machine_.continue_after(command, reading);
+}
+
+core::Result<void> Cell::home_again() {
+  shift_mm_.x() = simulation_.faults.part_moved_um * core::kMicrometre;
+  if (auto homed = machine_.home(); !homed) return homed;
+  if (auto homed = fixture_.home(); !homed) return core::fail(homed.error());
+  if (turns_ > 0) {
+    fixture_.continue_after(turns_ - 1);
+    if (auto turned = fixture_.move_to(last_turn_); !turned) return core::fail(turned.error());
+  }
+  place_part();
+  return {};
 }
 
 void Cell::place_part() {
-  if (surface_) machine_.place_part(*surface_, fixture_.true_body_to_machine() * true_X_BP_);
+  if (!surface_) return;
+  machine_.place_part(
+      *surface_, fixture_.true_body_to_machine() * Eigen::Translation3d(shift_mm_) * true_X_BP_);
 }
 
 }  // namespace rondure::plans

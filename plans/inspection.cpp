@@ -12,48 +12,6 @@
 
 namespace rondure::plans {
 
-core::Result<void> RunContext::check_stop() const {
-  if (!options.stop_requested || !options.stop_requested()) return {};
-  return core::fail(
-      core::Code::kStopped,
-      fmt::format("stopped by the operator after {} touches; all of them are kept", next_touch));
-}
-
-void RunContext::show() const {
-  if (options.progress) options.progress(progress);
-}
-
-core::Result<record::Touch> RunContext::touch(cmm::TouchCommand command, record::Touch row) {
-  if (auto stop = check_stop(); !stop) return core::fail(stop.error());
-  command.id = next_touch;
-  const auto reading = cell->machine().touch(command);
-  if (!reading) return core::fail(reading.error());
-  row.id = next_touch;
-  row.tip_mm = reading->tip_W_mm;
-  row.approach = command.direction_W;
-  row.temperature_degC = reading->temperature_degC;
-  row.time_s = reading->time_s;
-  if (auto kept = journal.add(row); !kept) return core::fail(kept.error());
-  ++next_touch;
-  progress.touches = static_cast<std::size_t>(next_touch);
-  show();
-  return row;
-}
-
-core::Result<void> follow(cmm::Machine& machine, const Polyline& path,
-                          const Eigen::Isometry3d& X_WX) {
-  for (const Eigen::Vector3d& corner : path) {
-    if (auto moved = machine.move_to(X_WX * corner); !moved) return moved;
-  }
-  return {};
-}
-
-core::Result<void> rise(const Plan& plan, cmm::Machine& machine) {
-  Eigen::Vector3d up = machine.position_W_mm();
-  up.z() = std::max(up.z(), plan.machine->park_mm[2]);
-  return machine.move_to(up);
-}
-
 FeatureSession::FeatureSession(RunContext& context, int feature_index, std::vector<Target> targets)
     : context_(context),
       index_(feature_index),
@@ -103,15 +61,14 @@ core::Result<void> FeatureSession::turn(const core::Pose& commanded,
                                   fixture.clamp_to_mm};
   if (auto reach = check_reachable(targets, geometry_, part_at(commanded), surroundings); !reach)
     return reach;
-  const auto reached = context_.cell->turn_to(commanded);
-  if (!reached) return core::fail(reached.error());
-  reached_ = *reached;
+  const auto visit = context_.turn(index_, commanded);
+  if (!visit) return core::fail(visit.error());
+  reached_ = visit->reached;
   repeat_ = 0;
-  pose_id_ = context_.next_pose++;
+  pose_id_ = visit->id;
   context_.progress.pose_number = ++visits_;
   context_.progress.pose = reached_;
-  const double now = context_.cell->machine().time_s();
-  return context_.journal.add(record::PoseVisit{pose_id_, index_, commanded, reached_, false, now});
+  return {};
 }
 
 Eigen::Vector3d FeatureSession::expected_axis() const {
@@ -172,7 +129,11 @@ core::Result<void> FeatureSession::repeat(int times) {
 }
 
 core::Result<void> FeatureSession::keep_as_final() {
-  if (auto marked = context_.journal.mark_final(pose_id_); !marked) return marked;
+  const record::PoseVisit* known = context_.past.pose(pose_id_);
+  if (known == nullptr || !known->final_cloud) {
+    if (auto marked = context_.journal.mark_final(pose_id_); !marked) return marked;
+  }
+  if (context_.past.knows_truth(index_)) return {};
   // Only a comparison for simulations: a truth that cannot be evaluated must not end the run.
   std::optional<double> zone_mm;
   if (feature_.type == "circle") {
@@ -210,7 +171,7 @@ core::Pose FeatureSession::levelling(const Eigen::Vector3d& direction_W) const {
 }
 
 core::Result<void> FeatureSession::note(const std::string& text) {
-  return context_.journal.add(record::Decision{index_, context_.cell->machine().time_s(), text});
+  return context_.note(index_, text);
 }
 
 void FeatureSession::show(double f_mm) {
@@ -218,60 +179,68 @@ void FeatureSession::show(double f_mm) {
   context_.show();
 }
 
+TouchStep FeatureSession::step_to(const std::vector<Target>& targets, std::size_t i,
+                                  record::Touch::Purpose purpose) const {
+  const Target& target = targets[i];
+  const Eigen::Isometry3d X_WP = part_at(reached_);
+  TouchStep step;
+  step.command.expected_tip_W_mm = X_WP * contact_tip(geometry_, target);
+  step.command.direction_W = X_WP.linear() * approach_direction(geometry_, target);
+  step.command.approach_mm = geometry_.approach_mm;
+  step.command.search_mm =
+      context_.plan.machine->search_mm + geometry_.approach_mm - context_.plan.machine->approach_mm;
+  step.row.purpose = purpose;
+  step.row.pose = pose_id_;
+  step.row.layer = target.layer;
+  step.row.point = target.point;
+  step.row.repeat = repeat_;
+  step.entry_W = in_machine_frame(entry_path(geometry_, target), X_WP);
+  // Sideways only at park height; then straight down to above the part.
+  Eigen::Vector3d above = step.entry_W.front();
+  above.z() = std::max(above.z(), context_.plan.machine->park_mm[2]);
+  step.entry_W.insert(step.entry_W.begin(), above);
+  step.way_W = i == 0 ? step.entry_W
+                      : in_machine_frame(path_between(geometry_, targets[i - 1], target), X_WP);
+  return step;
+}
+
 core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud(
     const std::vector<Target>& targets, record::Touch::Purpose purpose) {
-  cmm::Machine& machine = context_.cell->machine();
   const Eigen::Isometry3d X_WP = part_at(reached_);
-  Polyline way = entry_path(geometry_, targets.front());
-  // Sideways only at park height; then straight down to above the part.
-  Eigen::Vector3d above = X_WP * way.front();
-  above.z() = std::max(above.z(), context_.plan.machine->park_mm[2]);
-  if (auto moved = machine.move_to(above); !moved) return fault_at(targets.front(), moved.error());
-
+  const auto way_out = [&](const Target& target) {
+    return in_machine_frame(exit_path(geometry_, target), X_WP);
+  };
+  context_.last_steps.clear();
   std::vector<Eigen::Vector3d> tips;
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    if (i > 0) way = path_between(geometry_, targets[i - 1], targets[i]);
-    if (auto moved = follow(machine, way, X_WP); !moved) return fault_at(targets[i], moved.error());
-    auto tip = touch(targets[i], X_WP, purpose);
+    const TouchStep step = step_to(targets, i, purpose);
+    if (auto moved = context_.follow(step.way_W); !moved)
+      return fault_at(targets[i], moved.error());
+    auto tip = touch(step, targets[i]);
     if (!tip) {
       // The tip stands at the pre-touch point, except after a collision: then the machine has
       // stopped and only a person may move it.
-      if (tip.error().code != core::Code::kCollision) {
-        if (auto out = follow(machine, exit_path(geometry_, targets[i]), X_WP); out)
-          (void)rise(context_.plan, machine);
+      if (tip.error().code != core::Code::kCollision && !context_.lost_place) {
+        if (auto out = context_.follow(way_out(targets[i])); out) (void)context_.rise();
       }
       return core::fail(tip.error());
     }
     tips.push_back(*tip);
   }
-  if (auto moved = follow(machine, exit_path(geometry_, targets.back()), X_WP); !moved) {
+  if (auto moved = context_.follow(way_out(targets.back())); !moved) {
     return fault_at(targets.back(), moved.error());
   }
-  if (auto moved = rise(context_.plan, machine); !moved)
-    return fault_at(targets.back(), moved.error());
+  if (auto moved = context_.rise(); !moved) return fault_at(targets.back(), moved.error());
   return tips;
 }
 
-core::Result<Eigen::Vector3d> FeatureSession::touch(const Target& target,
-                                                    const Eigen::Isometry3d& X_WP,
-                                                    record::Touch::Purpose purpose) {
-  cmm::TouchCommand command;
-  command.expected_tip_W_mm = X_WP * contact_tip(geometry_, target);
-  command.direction_W = X_WP.linear() * approach_direction(geometry_, target);
-  command.approach_mm = geometry_.approach_mm;
-  command.search_mm =
-      context_.plan.machine->search_mm + geometry_.approach_mm - context_.plan.machine->approach_mm;
-  record::Touch row;
-  row.purpose = purpose;
-  row.pose = pose_id_;
-  row.layer = target.layer;
-  row.point = target.point;
-  row.repeat = repeat_;
-  const auto touched = context_.touch(command, row);
-  if (!touched) return fault_at(target, touched.error());
-  if (purpose == record::Touch::Purpose::kMeasure && repeat_ == 0) {
-    truth_.push_back(context_.cell->true_tip_W_mm());
+core::Result<Eigen::Vector3d> FeatureSession::touch(TouchStep step, const Target& target) {
+  const bool shows_truth = step.row.purpose == record::Touch::Purpose::kMeasure && repeat_ == 0;
+  const auto touched = context_.touch(std::move(step));
+  if (!touched) {
+    return context_.lost_place ? core::fail(touched.error()) : fault_at(target, touched.error());
   }
+  if (shows_truth) truth_.push_back(context_.cell->true_tip_W_mm());
   return touched->tip_mm;
 }
 

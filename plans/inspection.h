@@ -7,6 +7,7 @@
 #include "core/result.h"
 #include "fit/ls_cylinder.h"
 #include "plans/cell.h"
+#include "plans/past.h"
 #include "plans/plan_reach.h"
 #include "plans/pose_search.h"
 #include "plans/runner.h"
@@ -16,7 +17,16 @@
 
 namespace rondure::plans {
 
-/// What all features of a run share: cell, journal, the numbers of touches and poses, who watches.
+/// One touch to make and the ways to it, in the machine frame.
+struct TouchStep {
+  cmm::TouchCommand command;  ///< Its number is filled in.
+  record::Touch row;          ///< What it is for; number, reading and direction are filled in.
+  Polyline entry_W;           ///< From park height to its pre-touch point.
+  Polyline way_W;             ///< From where the tip stands to its pre-touch point.
+};
+
+/// What all features of a run share: cell, journal, the numbers of touches and poses, who watches,
+/// and what is known from before an interruption.
 struct RunContext {
   const Plan& plan;
   const RunOptions& options;
@@ -24,22 +34,39 @@ struct RunContext {
   record::Journal& journal;
   std::int64_t next_touch = 0;
   int next_pose = 0;
-  Progress progress;
+  Progress progress = {};
+  Past past = {};
+  std::vector<TouchStep> last_steps = {};  ///< The last recalled touches of the present cloud.
+  bool lost_place = false;  ///< An interruption was not overcome: only a person may move the tip.
 
+  /// While touches come from the journal nothing moves.
+  [[nodiscard]] bool recalling() const { return past.recalling(next_touch); }
   /// kStopped when the operator asked for it.
   [[nodiscard]] core::Result<void> check_stop() const;
   void show() const;
-  /// Makes a touch and journals it: `row` says what it is for; number, reading and direction are
-  /// filled in. The command's number is set here. Nothing is journalled when it fails.
-  [[nodiscard]] core::Result<record::Touch> touch(cmm::TouchCommand command, record::Touch row);
+  /// Makes a touch where the tip stands and journals it, or takes it from the journal; behind the
+  /// last known touch the machine is brought to where it stood (come_back()). Nothing is journalled
+  /// when it fails.
+  [[nodiscard]] core::Result<record::Touch> touch(TouchStep step);
+  /// Homes machine and fixture, goes to the last known touches and repeats them: kLocation, with
+  /// difference and limit, when one is not where it was. Then the tip stands at the last of them.
+  [[nodiscard]] core::Result<void> come_back();
+  /// Moves the tip through the corners of a path.
+  [[nodiscard]] core::Result<void> follow(const Polyline& path_W);
+  /// Straight up to the park height, from above the part or from the reference sphere.
+  [[nodiscard]] core::Result<void> rise();
+  /// Turns the fixture and journals the pose it reached, or takes both from the journal.
+  [[nodiscard]] core::Result<record::PoseVisit> turn(int feature, const core::Pose& commanded);
+  [[nodiscard]] core::Result<void> note(int feature, const std::string& text);
+
+ private:
+  [[nodiscard]] core::Result<record::Touch> recall(TouchStep step, const record::Touch& known);
+  /// Repeats a touch; the difference to the recorded one [mm].
+  [[nodiscard]] core::Result<double> repeat_touch(const TouchStep& step, std::int64_t check_id);
 };
 
-/// Moves the tip through the corners of a path given in a frame X (X_WX maps it to the machine).
-[[nodiscard]] core::Result<void> follow(cmm::Machine& machine, const Polyline& path,
-                                        const Eigen::Isometry3d& X_WX);
-
-/// Straight up to the park height, from above the part or from the reference sphere.
-[[nodiscard]] core::Result<void> rise(const Plan& plan, cmm::Machine& machine);
+/// A path in another frame (X_WX maps it to the machine).
+[[nodiscard]] Polyline in_machine_frame(const Polyline& path, const Eigen::Isometry3d& X_WX);
 
 /// One feature in the machine: turns, touches, journals. See PoseSession.
 class FeatureSession final : public PoseSession {
@@ -64,9 +91,10 @@ class FeatureSession final : public PoseSession {
   /// Touches targets once in the present pose, rises, and gives the tip centres.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> touch_cloud(
       const std::vector<Target>& targets, record::Touch::Purpose purpose);
-  [[nodiscard]] core::Result<Eigen::Vector3d> touch(const Target& target,
-                                                    const Eigen::Isometry3d& X_WP,
-                                                    record::Touch::Purpose purpose);
+  [[nodiscard]] core::Result<Eigen::Vector3d> touch(TouchStep step, const Target& target);
+  /// How targets[i] is touched, from the one before it or from above.
+  [[nodiscard]] TouchStep step_to(const std::vector<Target>& targets, std::size_t i,
+                                  record::Touch::Purpose purpose) const;
   /// The same fault with the point it happened at, and what a person can do about it.
   [[nodiscard]] tl::unexpected<core::Error> fault_at(const Target& target,
                                                      const core::Error& error) const;

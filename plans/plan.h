@@ -38,6 +38,7 @@ struct MachinePlan {
   double travel_speed_mm_s = 100.0;
   double touch_speed_mm_s = 5.0;
   std::array<double, 3> park_mm = {0.0, 0.0, 500.0};  ///< Tip position above everything.
+  double resume_limit_um = 5.0;  ///< Largest change of a repeated touch before a run goes on.
 };
 
 struct FixturePlan {
@@ -160,16 +161,25 @@ struct SimulatedFixturePlan {
   double repeatability_deg = 0.0;
 };
 
+/// What interrupts a simulated run, once: a resumed run meets none of it.
+struct SimulatedFaultsPlan {
+  int connection_lost_at_touch = 0;  ///< From 1, 0: never.
+  int fixture_stalls_at_move = 0;    ///< From 1, 0: never.
+  double part_moved_um = 0.0;        ///< Shift of the part while the run is interrupted, ring x.
+};
+
 struct SimulationPlan {
   std::uint64_t seed = 1;
   double temperature_degC = 20.0;
   SimulatedPartPlan part;
   SimulatedProbePlan probe;
   SimulatedFixturePlan fixture;
+  SimulatedFaultsPlan faults;
 };
 
 struct ReportsPlan {
   std::vector<std::string> formats = {"html", "json", "csv"};
+  std::string archive;  ///< Empty: archive.db beside the run directory.
 };
 
 struct Plan {

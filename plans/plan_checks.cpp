@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "plans/json_text.h"
+#include "record/archive_place.h"
 
 namespace rondure::plans {
 namespace {
@@ -48,6 +49,20 @@ void check_environment(const Plan& plan, Findings& findings) {
                    fmt::format("min_degC {} is not below max_degC {}; every temperature would make "
                                "the result void",
                                plain(environment.min_degC), plain(environment.max_degC)));
+}
+
+void check_archive(const Plan& plan, Findings& findings) {
+  constexpr std::string_view kWhere = "/reports/archive";
+  const std::string& archive = plan.reports.archive;
+  if (archive.empty() || !findings.sound(kWhere)) return;
+  const auto place = record::parse_archive_place(archive, plan.folder);
+  if (!place) {
+    findings.meaning(place.error().code, std::string(kWhere), place.error().what);
+  } else if (place->has_password()) {
+    findings.meaning(Code::kMeaning, std::string(kWhere),
+                     "the URL holds a password, which every report of the plan would show; take it "
+                     "out and put it into ~/.pgpass");
+  }
 }
 
 void check_needs(const Plan& plan, std::size_t touched, Findings& findings) {
@@ -164,6 +179,7 @@ void check_feature(const Plan& plan, std::size_t index, Findings& findings) {
 
 void check_plan(const Plan& plan, Findings& findings) {
   check_equipment(plan, findings);
+  check_archive(plan, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     check_feature(plan, i, findings);
     if (is_touched(i, findings)) {

@@ -69,6 +69,12 @@ void describe(Visitor& v, MachinePlan& p) {
             {.at_least = -kMaxCoordinate_mm,
              .at_most = kMaxCoordinate_mm,
              .meaning = "Where the tip waits, above everything: x, y, z in the machine frame."});
+  v.number("resume_limit_um", p.resume_limit_um,
+           {.at_least = 0.0,
+            .at_most = 1000.0,
+            .above = true,
+            .meaning = "A resumed run repeats its last touches; when one of them differs by more, "
+                       "part or machine has moved and the run must start again."});
 }
 
 template <class Visitor>
@@ -318,6 +324,10 @@ void describe(Visitor& v, ReportsPlan& p) {
           {.one_of = {"html", "json", "csv"},
            .empty_allowed = false,
            .meaning = "Reports that a run writes."});
+  v.text("archive", p.archive,
+         {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "
+                     "relative to the plan; postgresql://user@host/database without a password; "
+                     "none. Left out or empty: archive.db beside the run directory."});
 }
 
 template <class Visitor>

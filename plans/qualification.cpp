@@ -32,20 +32,20 @@ core::Result<void> check_limits(const fit::ProbeTip& tip, const ProbePlan& plan)
 }
 
 core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, const Eigen::Vector3d& outward,
-                                           int point, const PathGeometry& geometry) {
+                                           TouchStep step, const PathGeometry& geometry) {
   const QualificationPlan& plan = context.plan.probe->qualification;
-  cmm::TouchCommand command;
+  cmm::TouchCommand& command = step.command;
   command.expected_tip_W_mm = vector3(plan.sphere_center_mm) +
                               (0.5 * plan.sphere_diameter_mm + geometry.tip_radius_mm) * outward;
   command.direction_W = -outward;
   command.approach_mm = geometry.approach_mm;
   command.search_mm = context.plan.machine->search_mm;
-  record::Touch row;
-  row.purpose = record::Touch::Purpose::kQualification;
-  row.point = point;
-  const auto touched = context.touch(command, row);
+  const int point = step.row.point;
+  const auto touched = context.touch(std::move(step));
   if (touched) return touched->tip_mm;
-  if (touched.error().code == core::Code::kStopped) return core::fail(touched.error());
+  if (touched.error().code == core::Code::kStopped || context.lost_place) {
+    return core::fail(touched.error());
+  }
   return core::fail(touched.error().code,
                     fmt::format("reference sphere, point {}: {}", point + 1, touched.error().what));
 }
@@ -54,7 +54,6 @@ core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, const Eigen::Vec
 
 core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
   const QualificationPlan& plan = context.plan.probe->qualification;
-  cmm::Machine& machine = context.cell->machine();
   const auto directions = qualification_directions(plan.points);
   if (!directions) return core::fail(directions.error());
   const Eigen::Vector3d center = vector3(plan.sphere_center_mm);
@@ -63,31 +62,38 @@ core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
   geometry.approach_mm = context.plan.machine->approach_mm;
   geometry.clearance_mm = context.plan.machine->clearance_mm;
   const double radius = 0.5 * plan.sphere_diameter_mm;
-  const Eigen::Isometry3d here = Eigen::Isometry3d::Identity();
 
   // From park height straight down to the pole; from there around the sphere.
   const Eigen::Vector3d pole =
       center + (radius + geometry.tip_radius_mm + geometry.approach_mm) * directions->front();
-  if (auto moved = machine.move_to(
-          {pole.x(), pole.y(), std::max(pole.z(), context.plan.machine->park_mm[2])});
-      !moved) {
-    return core::fail(moved.error());
-  }
+  const Polyline down = {{pole.x(), pole.y(), std::max(pole.z(), context.plan.machine->park_mm[2])},
+                         pole};
+  context.last_steps.clear();
   std::vector<Eigen::Vector3d> tips;
-  Polyline way = {pole};
   for (std::size_t i = 0; i < directions->size(); ++i) {
-    if (i > 0)
-      way = path_around_sphere(center, radius, geometry, (*directions)[i - 1], (*directions)[i]);
-    if (auto moved = follow(machine, way, here); !moved) return core::fail(moved.error());
-    auto tip = touch_sphere(context, (*directions)[i], static_cast<int>(i), geometry);
+    const Eigen::Vector3d& outward = (*directions)[i];
+    TouchStep step;
+    step.row.purpose = record::Touch::Purpose::kQualification;
+    step.row.point = static_cast<int>(i);
+    step.entry_W = down;
+    step.way_W = down;
+    if (i > 0) {
+      const Polyline around =
+          path_around_sphere(center, radius, geometry, directions->front(), outward);
+      step.entry_W.insert(step.entry_W.end(), around.begin(), around.end());
+      step.way_W = path_around_sphere(center, radius, geometry, (*directions)[i - 1], outward);
+    }
+    if (auto moved = context.follow(step.way_W); !moved) return core::fail(moved.error());
+    auto tip = touch_sphere(context, outward, std::move(step), geometry);
     if (!tip) {
-      if (tip.error().code != core::Code::kCollision) (void)rise(context.plan, machine);
+      const bool movable = tip.error().code != core::Code::kCollision && !context.lost_place;
+      if (movable) (void)context.rise();
       return core::fail(tip.error());
     }
     tips.push_back(*tip);
   }
   // The last touch is at or above the equator, outside the sphere: upward is free.
-  if (auto moved = rise(context.plan, machine); !moved) return core::fail(moved.error());
+  if (auto moved = context.rise(); !moved) return core::fail(moved.error());
   const auto tip = fit::qualify_tip(tips, radius);
   if (!tip) return core::fail(tip.error());
   if (auto checked = check_limits(*tip, *context.plan.probe); !checked)

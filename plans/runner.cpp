@@ -8,6 +8,7 @@
 #include "core/version.h"
 #include "fit/pose_walk.h"
 #include "plans/inspection.h"
+#include "plans/plan_changes.h"
 #include "plans/plan_reach.h"
 #include "plans/qualification.h"
 #include "record/points_csv.h"
@@ -154,8 +155,11 @@ core::Result<std::vector<PointsFile>> read_points_files(const Plan& plan) {
 /// Puts the rows of a points file into the journal, as one cloud without a pose search.
 core::Result<void> take_points(RunContext& context, int index, const record::PointTable& table) {
   const int pose = context.next_pose++;
-  if (auto kept = context.journal.add(record::PoseVisit{pose, index, {}, {}, true, 0.0}); !kept)
-    return kept;
+  if (context.past.pose(pose) == nullptr) {
+    if (auto kept = context.journal.add(record::PoseVisit{pose, index, {}, {}, true, 0.0}); !kept)
+      return kept;
+  }
+  const bool known = context.past.touch(context.next_touch) != nullptr;
   std::vector<record::Touch> rows;
   rows.reserve(table.points_mm.size());
   for (const Eigen::Vector3d& p : table.points_mm) {
@@ -166,6 +170,7 @@ core::Result<void> take_points(RunContext& context, int index, const record::Poi
     row.tip_mm = p;
     rows.push_back(row);
   }
+  if (known) return {};  // one transaction: all of them or none
   return context.journal.add(rows);
 }
 
@@ -193,46 +198,47 @@ core::Result<void> prepare(RunContext& context) {
   const auto first =
       std::find_if_not(context.plan.features.begin(), context.plan.features.end(), from_file);
   context.cell->mount(*first);
-  if (auto homed = context.cell->machine().home(); !homed) return homed;
-  if (auto turned = context.cell->home_fixture(); !turned) return core::fail(turned.error());
+  if (context.recalling()) {
+    if (auto homed = context.cell->recall_home(); !homed) return core::fail(homed.error());
+  } else {
+    if (auto homed = context.cell->machine().home(); !homed) return homed;
+    if (auto turned = context.cell->home_fixture(); !turned) return core::fail(turned.error());
+  }
   if (auto tip = qualify_probe(context); !tip)
     return core::fail(tip.error().at("/probe/qualification"));
   return {};
 }
 
-}  // namespace
+/// What is known before the first touch.
+struct Preparation {
+  std::vector<std::vector<Target>> targets;
+  std::vector<PointsFile> files;
+  std::uint64_t seed = 0;
+};
 
-core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
-  const auto targets = plan_targets(plan);
+core::Result<Preparation> prepare_plan(const Plan& plan, const RunOptions& options) {
+  auto targets = plan_targets(plan);
   if (!targets) return core::fail(targets.error());
-  const auto files = read_points_files(plan);
+  auto files = read_points_files(plan);
   if (!files) return core::fail(files.error());
-  const bool touching = touches_anything(plan);
-  const std::uint64_t seed = options.seed.value_or(plan.simulation ? plan.simulation->seed : 0);
-  std::optional<Cell> cell;
-  record::Header header = header_of(plan, options, seed);
-  if (touching) {
-    cell.emplace(plan, seed);
-    header.machine = cell->machine().description();
-    header.fixture = cell->fixture().description();
-  }
-  std::vector<record::Feature> features;
-  for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    features.push_back(feature_of(plan.features[i]));
-    features.back().points_sha256 = (*files)[i].sha256;
-  }
-  auto journal = record::Journal::create(options.directory, header, artefact_of(plan), features);
-  if (!journal) return core::fail(journal.error());
+  return Preparation{std::move(*targets), std::move(*files),
+                     options.seed.value_or(plan.simulation ? plan.simulation->seed : 0)};
+}
 
-  Run run{std::move(*journal), std::nullopt};
-  RunContext context{plan, options, cell ? &*cell : nullptr, run.journal, 0, 0, {}};
+/// Goes through the plan and writes how the run ended.
+void execute(const Plan& plan, const RunOptions& options, const Preparation& known, Cell* cell,
+             record::RunRecord past, Run& run) {
+  RunContext context{plan, options, cell, run.journal};
+  context.past = Past(std::move(past));
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    context.progress.touches_expected += expected_touches(plan.features[i], (*targets)[i].size());
+    context.progress.touches_expected +=
+        expected_touches(plan.features[i], known.targets[i].size());
   }
+  const bool touching = cell != nullptr;
   if (touching)
     context.progress.touches_expected += static_cast<std::size_t>(plan.probe->qualification.points);
   auto done = touching ? prepare(context) : core::Result<void>{};
-  if (done) done = inspect(context, *targets, *files);
+  if (done) done = inspect(context, known.targets, known.files);
   if (!done) run.failure = done.error();
   const std::string ending = done                                        ? "finished"
                              : run.failure->code == core::Code::kStopped ? "stopped"
@@ -241,6 +247,72 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
       !ended && !run.failure) {
     run.failure = ended.error();
   }
+}
+
+}  // namespace
+
+bool is_resumable(const core::Error& failure) {
+  switch (failure.code) {
+    case core::Code::kStopped:
+    case core::Code::kMachine:
+    case core::Code::kNoTouch:
+    case core::Code::kCollision:
+    case core::Code::kJournal:
+    case core::Code::kFile:
+      return true;
+    default:
+      return false;
+  }
+}
+
+core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
+  const auto known = prepare_plan(plan, options);
+  if (!known) return core::fail(known.error());
+  std::optional<Cell> cell;
+  record::Header header = header_of(plan, options, known->seed);
+  if (touches_anything(plan)) {
+    cell.emplace(plan, known->seed, false);
+    header.machine = cell->machine().description();
+    header.fixture = cell->fixture().description();
+  }
+  std::vector<record::Feature> features;
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    features.push_back(feature_of(plan.features[i]));
+    features.back().points_sha256 = known->files[i].sha256;
+  }
+  auto journal = record::Journal::create(options.directory, header, artefact_of(plan), features);
+  if (!journal) return core::fail(journal.error());
+  Run run{std::move(*journal), std::nullopt};
+  execute(plan, options, *known, cell ? &*cell : nullptr, {}, run);
+  return run;
+}
+
+RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
+  const auto refuse = [](const core::Error& error) {
+    return tl::unexpected(std::vector<core::Error>{error});
+  };
+  const auto found = record::read_journal(options.directory);
+  if (!found) return refuse(found.error());
+  RunOptions same = options;
+  if (!same.seed) same.seed = found->record.header.seed;
+  const auto known = prepare_plan(plan, same);
+  if (!known) return refuse(known.error());
+  auto changes = changes_since(found->record, plan, same);
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (changes.empty() && known->files[i].sha256 != found->record.features[i].points_sha256) {
+      changes.push_back(points_changed(i, found->record.features[i], known->files[i].sha256));
+    }
+  }
+  if (!changes.empty()) return tl::unexpected(std::move(changes));
+  auto journal = record::Journal::reopen(options.directory);
+  if (!journal) return refuse(journal.error());
+  auto past = record::read_journal(options.directory);  // again, now that no one else can write
+  if (!past) return refuse(past.error());
+  std::optional<Cell> cell;
+  if (touches_anything(plan)) cell.emplace(plan, known->seed, true);
+  Run run{std::move(*journal), std::nullopt};
+  past->record.ending = found->record.ending;  // reopening took it out
+  execute(plan, options, *known, cell ? &*cell : nullptr, std::move(past->record), run);
   return run;
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/pose.h"
 #include "core/result.h"
@@ -25,12 +26,12 @@ struct Progress {
 
 /// Everything about a run that does not stand in the plan.
 struct RunOptions {
-  std::filesystem::path directory;  ///< Is made; must be absent or empty.
+  std::filesystem::path directory;  ///< Is made; must be absent or empty. Of a run to resume: its.
   std::string run_id;
   std::string plan_file;  ///< Name for the record.
   std::string serial;
   std::string operator_name;
-  std::string started_utc;
+  std::string started_utc;  ///< Of this start, also of a resumed run. For the record only.
   std::string processor;
   std::optional<std::uint64_t> seed;     ///< Takes the place of the plan's.
   std::function<bool()> stop_requested;  ///< Asked before every touch.
@@ -43,6 +44,10 @@ struct Run {
   std::optional<core::Error> failure;
 };
 
+/// Whether a run that ended so can go on with resume_plan(): a fault that can be put right. What
+/// the touches themselves say (a probe that scatters, a part in another place) stays.
+[[nodiscard]] bool is_resumable(const core::Error& failure);
+
 /// Executes a plan: opens the cell, qualifies the probe, searches the pose of every feature, and
 /// writes each touch into the journal before the next command goes to the machine.
 ///
@@ -50,5 +55,22 @@ struct Run {
 ///         pose, directory in use); otherwise the run, whose journal says how it ended. After a
 ///         fault the tip was retracted, unless the machine itself had stopped on a collision.
 [[nodiscard]] core::Result<Run> run_plan(const Plan& plan, const RunOptions& options);
+
+/// A run that goes on, or why it does not: one error for each thing that changed.
+using RunOrRefusals = tl::expected<Run, std::vector<core::Error>>;
+
+/// Goes on with the interrupted run in `options.directory`. The program goes through the journal
+/// with the machine at rest (see past.h); behind the last touch it homes machine and fixture, goes
+/// to that touch, repeats it and up to two before it, and continues when none differs by more than
+/// the plan's resume_limit_um. The repeated touches enter no result. On a simulated cell the record
+/// becomes that of a run without interruption, bit for bit, but for checks and the decision that
+/// tells of the interruption.
+///
+/// @param options  `seed`, `serial` and `operator_name` may be left out; the run's are kept.
+/// @return  kMeaning for each difference of the plan (`where` its JSON pointer, `what` the old and
+///          the new value), of the points files, version, seed, serial number or operator; kJournal
+///          for a run that is sealed; the errors of Journal::reopen(). Nothing has moved then, and
+///          the journal is as it was.
+[[nodiscard]] RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options);
 
 }  // namespace rondure::plans

@@ -80,6 +80,23 @@ void describe(Visitor& v, SimulatedFixturePlan& p) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, SimulatedFaultsPlan& p) {
+  v.whole("connection_lost_at_touch", p.connection_lost_at_touch,
+          {.at_least = 0,
+           .at_most = 1'000'000'000,
+           .meaning = "The machine stops answering at this touch, counted from 1; 0: never."});
+  v.whole("fixture_stalls_at_move", p.fixture_stalls_at_move,
+          {.at_least = 0,
+           .at_most = 1'000'000,
+           .meaning = "The fixture stalls on this move after its homing, counted from 1; 0: "
+                      "never."});
+  v.number("part_moved_um", p.part_moved_um,
+           {.at_least = -1000.0,
+            .at_most = 1000.0,
+            .meaning = "Shift of the part in the ring, x, while the run is interrupted."});
+}
+
+template <class Visitor>
 void describe(Visitor& v, SimulationPlan& p) {
   v.whole("seed", p.seed,
           {.at_least = 0,
@@ -90,6 +107,8 @@ void describe(Visitor& v, SimulationPlan& p) {
   v.object("part", p.part, {.meaning = "Form of the simulated part and how it sits in the ring."});
   v.object("probe", p.probe, {.meaning = "Errors of the simulated probe."});
   v.object("fixture", p.fixture, {.meaning = "Errors of the simulated fixture."});
+  v.object("faults", p.faults,
+           {.meaning = "What interrupts the simulated run. A resumed run meets none of it."});
 }
 
 }  // namespace rondure::plans

@@ -54,10 +54,14 @@ bool write_through(OpenFile& file, std::string_view bytes) {
   return ::fsync(file.fd()) == 0 && file.close();
 }
 
+constexpr std::string_view kTemporaryPrefix = ".rondure-";
+constexpr std::string_view kTemporarySuffix = ".tmp";
+
 /// A name in the folder of `path` that no other process or thread uses.
 fs::path temporary_name(const fs::path& path) {
   static std::atomic<unsigned> counter = 0;
-  return path.parent_path() / fmt::format(".rondure-{}-{}.tmp", ::getpid(), ++counter);
+  return path.parent_path() /
+         fmt::format("{}{}-{}{}", kTemporaryPrefix, ::getpid(), ++counter, kTemporarySuffix);
 }
 
 }  // namespace
@@ -118,6 +122,16 @@ core::Result<void> sync_directory(const fs::path& directory) {
   // EINVAL: file systems that have nothing to flush for a folder.
   if (::fsync(folder.fd()) != 0 && errno != EINVAL) return cannot("flush the folder", name, errno);
   return {};
+}
+
+void remove_temporaries(const fs::path& directory) {
+  std::error_code ignored;  // what cannot be removed does no harm
+  for (const auto& entry : fs::directory_iterator(directory, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(kTemporaryPrefix) && name.ends_with(kTemporarySuffix)) {
+      fs::remove(entry.path(), ignored);
+    }
+  }
 }
 
 core::Result<void> write_file(const fs::path& path, std::string_view bytes) {

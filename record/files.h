@@ -16,6 +16,9 @@ namespace rondure::record {
 [[nodiscard]] core::Result<void> write_file(const std::filesystem::path& path,
                                             std::string_view bytes);
 
+/// Removes what a killed write_file() left in a folder.
+void remove_temporaries(const std::filesystem::path& directory);
+
 /// Flushes a folder's list of names to disk, so that a new file survives a power cut; kFile.
 [[nodiscard]] core::Result<void> sync_directory(const std::filesystem::path& directory);
 

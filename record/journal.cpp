@@ -16,6 +16,7 @@
 #include "record/journal_rows.h"
 #include "record/journal_schema.h"
 #include "record/journal_seal.h"
+#include "record/run_lock.h"
 #include "record/sha256.h"
 
 namespace rondure::record {
@@ -43,6 +44,19 @@ void fold_log(soci::session& sql) {
   if (busy != 0) throw std::runtime_error("another program reads it; close that program");
 }
 
+/// From then on the journal is one file.
+void leave_log(soci::session& sql) {
+  std::string mode;
+  sql << "pragma journal_mode = delete", soci::into(mode);
+}
+
+/// Puts the digest of the closed journal into the list beside it.
+core::Result<void> list_digest(const fs::path& file) {
+  const auto bytes = read_file(file);
+  if (!bytes) return core::fail(bytes.error());
+  return update_checksums(file.parent_path(), {{kJournalName, sha256_hex(*bytes)}});
+}
+
 /// Why a journal takes nothing more, or empty.
 std::string why_not_to_go_on(const ReadJournal& journal) {
   if (journal.record.sealed) return "the run is finished and its journal is sealed";
@@ -62,6 +76,7 @@ std::string why_not_to_go_on(const ReadJournal& journal) {
 struct Journal::Impl {
   enum class State { kOpen, kDigested, kFolded, kClosed };
 
+  RunLock lock;  ///< Before the session: given back after the journal is closed.
   fs::path file;
   soci::session sql;
   std::optional<Statements> statements;
@@ -70,8 +85,8 @@ struct Journal::Impl {
   bool ended = false;
   State state = State::kOpen;
 
-  Impl(fs::path path, const std::string& connection)
-      : file(std::move(path)), sql(soci::sqlite3, connection) {}
+  Impl(RunLock taken, fs::path path, const std::string& connection)
+      : lock(std::move(taken)), file(std::move(path)), sql(soci::sqlite3, connection) {}
 
   /// Why `subject` is not in the journal, and what is safe.
   [[nodiscard]] tl::unexpected<core::Error> failure(std::string_view subject,
@@ -126,8 +141,7 @@ struct Journal::Impl {
       fold_log(sql);
       statements.reset();
       chain.reset();
-      std::string mode;
-      sql << "pragma journal_mode = delete", soci::into(mode);
+      leave_log(sql);
       sql.close();
       state = State::kFolded;
       return {};
@@ -155,10 +169,12 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
   if (!connection) return core::fail(connection.error());
 
   Undo undo;
+  auto lock = lock_new_directory(folder, undo);
+  if (!lock) return core::fail(lock.error());
   if (auto made = make_empty_journal(file, undo); !made) return core::fail(made.error());
   std::unique_ptr<Impl> impl;  // after `undo`: closes the file before it is removed
   try {
-    impl = std::make_unique<Impl>(file, *connection);
+    impl = std::make_unique<Impl>(std::move(*lock), file, *connection);
     set_pragmas(impl->sql);
     insert_head(impl->sql, header, artefact, features);
     fold_log(impl->sql);
@@ -174,9 +190,13 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
 }
 
 core::Result<Journal> Journal::reopen(const fs::path& directory) {
+  const fs::path file = fs::absolute(directory) / kJournalName;
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return core::fail(read_journal(directory).error());
+  auto lock = RunLock::take(directory);
+  if (!lock) return core::fail(lock.error());
   const auto found = read_journal(directory);
   if (!found) return core::fail(found.error());
-  const fs::path file = fs::absolute(directory) / kJournalName;
   if (const std::string reason = why_not_to_go_on(*found); !reason.empty()) {
     return core::fail(core::Code::kJournal,
                       fmt::format("the run cannot go on in {}: {}", file.string(), reason),
@@ -184,9 +204,10 @@ core::Result<Journal> Journal::reopen(const fs::path& directory) {
   }
   const auto connection = connection_string(file);
   if (!connection) return core::fail(connection.error());
+  remove_temporaries(directory);
   std::unique_ptr<Impl> impl;
   try {
-    impl = std::make_unique<Impl>(file, *connection);
+    impl = std::make_unique<Impl>(std::move(*lock), file, *connection);
     int timeout_ms = 0;
     impl->sql << "pragma busy_timeout = 0", soci::into(timeout_ms);  // a run holds it for hours
     set_pragmas(impl->sql);
@@ -295,11 +316,35 @@ core::Result<void> Journal::seal(std::span<const StoredResult> results) {
   if (impl.state == Impl::State::kDigested) {
     if (auto folded = impl.fold(); !folded) return folded;
   }
-  const auto bytes = read_file(impl.file);
-  if (!bytes) return core::fail(bytes.error());
-  auto listed = update_checksums(impl.file.parent_path(), {{kJournalName, sha256_hex(*bytes)}});
+  auto listed = list_digest(impl.file);
   if (listed) impl.state = Impl::State::kClosed;
   return listed;
+}
+
+core::Result<void> Journal::finish_seal(const fs::path& directory) {
+  const fs::path file = fs::absolute(directory) / kJournalName;
+  std::error_code ignored;
+  if (fs::exists(directory / kChecksumsName, ignored)) {
+    const auto listed = read_checksums(directory);
+    if (!listed) return core::fail(listed.error());
+    const bool known = std::any_of(listed->begin(), listed->end(),
+                                   [](const Checksum& line) { return line.file == kJournalName; });
+    if (known) return {};
+  }
+  const auto connection = connection_string(file);
+  if (!connection) return core::fail(connection.error());
+  std::optional<soci::session> sql;
+  try {
+    sql.emplace(soci::sqlite3, *connection);
+    fold_log(*sql);
+    leave_log(*sql);
+  } catch (const std::exception& exception) {
+    return core::fail(core::Code::kJournal,
+                      fmt::format("the log of {} cannot be folded: {}", file.string(),
+                                  reason_of(exception, sql ? &*sql : nullptr)),
+                      file.string());
+  }
+  return list_digest(file);
 }
 
 }  // namespace rondure::record

@@ -18,21 +18,23 @@ inline constexpr const char* kJournalName = "journal.db";
 /// The journal of one run: an SQLite file that receives every touch before the next command goes to
 /// the machine. Each call is one transaction, on disk (WAL, synchronous=full) when it returns, and
 /// each row it writes or changes is linked in a hash chain in the same transaction.
+/// While it lives it holds the lock of the directory (run_lock.h): one process a run.
 /// Any call can fail with kJournal (full disk, read-only directory, ...); `what` names the file,
 /// the cause in words and what to do. Schema: docs/journal.md.
 class Journal {
  public:
   /// Makes `directory` and the journal in it. The directory may exist when it is empty; otherwise
-  /// kFile. Nothing is left behind when this fails.
+  /// kFile, also when another process is at work there. Nothing is left behind when this fails.
   [[nodiscard]] static core::Result<Journal> create(const std::filesystem::path& directory,
                                                     const Header& header, const Artefact& artefact,
                                                     std::span<const Feature> features);
 
   /// Opens the journal of a run that was interrupted, stopped or failed, to go on behind its last
   /// row; the chain goes on behind its last link. What ended the run before is taken out of the
-  /// header (end() writes the new ending). kFile when there is no journal; kJournal when it cannot
-  /// be read, does not follow its chain, is sealed, is of version 1 or is held open by another
-  /// program. Read the rows with read_journal().
+  /// header (end() writes the new ending); what a killed writer of reports left behind is removed.
+  /// kFile when there is no journal or another process is at work in the directory; kJournal when
+  /// it cannot be read, does not follow its chain, is sealed or is of version 1. Read the rows with
+  /// read_journal().
   [[nodiscard]] static core::Result<Journal> reopen(const std::filesystem::path& directory);
 
   Journal(Journal&&) noexcept;
@@ -53,6 +55,11 @@ class Journal {
   /// into the one file, closes it and writes its SHA-256 into SHA256SUMS beside it. The journal
   /// takes nothing more afterwards. When a step fails, a second call goes on with it.
   [[nodiscard]] core::Result<void> seal(std::span<const StoredResult> results);
+  /// Finishes what seal() does behind its commit, for a run that died there: folds the log and
+  /// lists the digest. A journal whose digest is listed is left alone. Hold the lock of the
+  /// directory, and read the journal before: a broken one must not get a new digest. Errors as of
+  /// seal(), and of read_checksums().
+  [[nodiscard]] static core::Result<void> finish_seal(const std::filesystem::path& directory);
 
  private:
   struct Impl;

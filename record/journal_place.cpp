@@ -36,7 +36,7 @@ core::Result<void> make_directory(const fs::path& directory, Undo& undo) {
 
 core::Result<void> require_empty_directory(const fs::path& directory) {
   std::error_code problem;
-  const fs::directory_iterator entry(directory, problem);
+  fs::directory_iterator entry(directory, problem);
   if (problem) {
     return core::fail(
         core::Code::kFile,
@@ -46,14 +46,36 @@ core::Result<void> require_empty_directory(const fs::path& directory) {
                           system_reason(problem.value())),
         directory.string());
   }
-  if (entry == fs::directory_iterator()) return {};
+  const fs::directory_iterator end;
+  if (entry != end && entry->path().filename() == kLockName) entry.increment(problem);
+  if (entry == end) return {};
   return core::fail(core::Code::kFile,
                     fmt::format("{} is not empty (it holds {}); name a new directory for this run",
                                 directory.string(), entry->path().filename().string()),
                     directory.string());
 }
 
-core::Result<void> make_file(const fs::path& file, Undo& undo) {
+}  // namespace
+
+Undo::~Undo() {
+  std::error_code ignored;  // a folder that another program filled meanwhile stays
+  for (auto path = made.rbegin(); path != made.rend(); ++path) fs::remove(*path, ignored);
+}
+
+core::Result<RunLock> lock_new_directory(const fs::path& directory, Undo& undo) {
+  if (auto made = make_directory(directory, undo); !made) return core::fail(made.error());
+  // A lock is only made in an empty directory; where one lies, it says who is at work there.
+  std::error_code ignored;
+  if (!fs::exists(directory / kLockName, ignored)) {
+    if (auto empty = require_empty_directory(directory); !empty) return core::fail(empty.error());
+  }
+  auto lock = RunLock::take(directory);
+  if (!lock) return lock;
+  if (auto empty = require_empty_directory(directory); !empty) return core::fail(empty.error());
+  return lock;
+}
+
+core::Result<void> make_empty_journal(const fs::path& file, Undo& undo) {
   const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (fd < 0) {
     return core::fail(
@@ -66,20 +88,6 @@ core::Result<void> make_file(const fs::path& file, Undo& undo) {
     undo.made.emplace_back(file.string() + suffix);
   }
   return {};
-}
-
-}  // namespace
-
-Undo::~Undo() {
-  std::error_code ignored;  // a folder that another program filled meanwhile stays
-  for (auto path = made.rbegin(); path != made.rend(); ++path) fs::remove(*path, ignored);
-}
-
-core::Result<void> make_empty_journal(const fs::path& file, Undo& undo) {
-  const fs::path folder = file.parent_path();
-  if (auto made = make_directory(folder, undo); !made) return made;
-  if (auto empty = require_empty_directory(folder); !empty) return empty;
-  return make_file(file, undo);
 }
 
 core::Result<void> sync_names(const Undo& undo) {

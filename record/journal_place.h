@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "record/run_lock.h"
 
 // Private to the room: the directory and the empty file of a new journal.
 
@@ -19,8 +20,12 @@ struct Undo {
   ~Undo();
 };
 
-/// Makes the directory of `file` where it is missing, and the empty file in it, so that two runs
-/// can never share one. kFile when that fails or the directory holds anything.
+/// Makes a directory where it is missing and takes its lock. kFile when that fails, when another
+/// process holds the lock, or when the directory holds anything else: nothing is put into it then.
+[[nodiscard]] core::Result<RunLock> lock_new_directory(const std::filesystem::path& directory,
+                                                       Undo& undo);
+
+/// Makes the empty file of a journal, so that two runs can never share one; kFile.
 [[nodiscard]] core::Result<void> make_empty_journal(const std::filesystem::path& file, Undo& undo);
 
 /// The new names reach the disk before the first touch does; kFile.

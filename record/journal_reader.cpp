@@ -1,5 +1,6 @@
 #include "record/journal.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
@@ -236,8 +237,8 @@ void read_poses(soci::session& sql, RunRecord& record) {
 }
 
 Touch::Purpose purpose_of(const std::string& word) {
-  for (const auto purpose :
-       {Touch::Purpose::kQualification, Touch::Purpose::kLocate, Touch::Purpose::kMeasure}) {
+  for (const auto purpose : {Touch::Purpose::kQualification, Touch::Purpose::kLocate,
+                             Touch::Purpose::kMeasure, Touch::Purpose::kCheck}) {
     if (word == name_of(purpose)) return purpose;
   }
   throw Contradiction(
@@ -259,8 +260,13 @@ void read_touches(soci::session& sql, RunRecord& record) {
   rows.execute();
   while (rows.fetch()) {
     row.purpose = purpose_of(purpose);
-    record.touches.push_back(row);
+    const bool check = row.purpose == Touch::Purpose::kCheck;
+    if (check != (row.id < 0)) {
+      throw Contradiction(fmt::format("touch {} has the purpose {}", row.id, purpose));
+    }
+    (check ? record.checks : record.touches).push_back(row);
   }
+  std::reverse(record.checks.begin(), record.checks.end());  // their numbers count downward
 }
 
 void read_decisions(soci::session& sql, RunRecord& record) {

@@ -70,6 +70,8 @@ std::string_view name_of(Touch::Purpose purpose) {
       return "locate";
     case Touch::Purpose::kMeasure:
       return "measure";
+    case Touch::Purpose::kCheck:
+      return "check";
   }
   return "measure";
 }

@@ -99,8 +99,9 @@ struct PoseVisit {
 /// One touch of the probe (or one row of a points file).
 struct Touch {
   /// kLocate: finds where the part sits before the first measuring touch; enters no result.
-  enum class Purpose { kQualification, kLocate, kMeasure };
-  std::int64_t id = 0;  ///< 0-based, counts through the whole run.
+  /// kCheck: repeats an earlier touch before an interrupted run goes on; enters no result.
+  enum class Purpose { kQualification, kLocate, kMeasure, kCheck };
+  std::int64_t id = 0;  ///< 0-based, counts through the whole run; checks count from -1 downward.
   Purpose purpose = Purpose::kMeasure;
   int pose = -1;   ///< PoseVisit::id; -1 for a qualification touch.
   int layer = 0;   ///< 0-based from the lower end.
@@ -112,7 +113,7 @@ struct Touch {
   double time_s = 0.0;  ///< Machine clock.
 };
 
-/// "qualification", "locate", "measure".
+/// "qualification", "locate", "measure", "check".
 [[nodiscard]] std::string_view name_of(Touch::Purpose purpose);
 
 /// What the program decided during the run, in words, e.g. why the pose search stopped.
@@ -143,7 +144,8 @@ struct RunRecord {
   Artefact artefact;                   ///< Only meaningful when there are qualification touches.
   std::vector<Feature> features;
   std::vector<PoseVisit> poses;
-  std::vector<Touch> touches;
+  std::vector<Touch> touches;  ///< By id, without checks.
+  std::vector<Touch> checks;   ///< Repeated touches of a resumed run, in order.
   std::vector<Decision> decisions;
   std::vector<SimulationTruth> truths;
   std::vector<StoredResult> results;

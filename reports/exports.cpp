@@ -30,6 +30,16 @@ std::string render(const Export& what, const record::RunRecord& record,
   return write_touches_csv(record);
 }
 
+bool exports_are_current(const std::filesystem::path& directory,
+                         const std::vector<std::string>& formats, const record::RunRecord& record,
+                         const Evaluation& evaluation) {
+  return std::all_of(exports().begin(), exports().end(), [&](const Export& e) {
+    if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) return true;
+    const auto bytes = record::read_file(directory / e.file);
+    return bytes && *bytes == render(e, record, evaluation);
+  });
+}
+
 core::Result<std::vector<std::filesystem::path>> write_exports(
     const std::filesystem::path& directory, const std::vector<std::string>& formats,
     const record::RunRecord& record, const Evaluation& evaluation) {

@@ -24,6 +24,12 @@ struct Export {
 [[nodiscard]] std::string render(const Export& what, const record::RunRecord& record,
                                  const Evaluation& evaluation);
 
+/// Whether a run directory holds these exports with the bytes that they would have now.
+[[nodiscard]] bool exports_are_current(const std::filesystem::path& directory,
+                                       const std::vector<std::string>& formats,
+                                       const record::RunRecord& record,
+                                       const Evaluation& evaluation);
+
 /// Writes exports into a run directory, each whole or not at all, and their digests into
 /// SHA256SUMS.
 /// @return The files written; kBadOption for an unknown format, kFile with the system's reason,

@@ -38,6 +38,15 @@ Svg::Svg(double width, double height, std::string_view css_class, std::string_vi
                         R"(height="{:.0f}" role="img" aria-label="{}">)",
                         css_class, width, height, width, height, escaped(label))) {}
 
+std::string Svg::document(std::string_view style) const {
+  constexpr std::string_view kTag = "<svg";
+  const std::size_t inside = body_.find('>') + 1;
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\"{}<style>{}</style>{}</svg>\n",
+      body_.substr(kTag.size(), inside - kTag.size()), style, body_.substr(inside));
+}
+
 void Svg::line(double x1, double y1, double x2, double y2, std::string_view css_class) {
   body_ += fmt::format(R"(<line class="{}" x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)",
                        css_class, x1, y1, x2, y2);

@@ -29,6 +29,8 @@ class Svg {
   void cross(double x, double y, double r, std::string_view css_class);
 
   [[nodiscard]] std::string str() const { return body_ + "</svg>"; }
+  /// The drawing as a file of its own, with its style.
+  [[nodiscard]] std::string document(std::string_view style) const;
 
  private:
   std::string body_;

@@ -31,6 +31,9 @@ Character next_character(std::string_view text) {
     if ((byte(i) & 0xC0U) != 0x80U) return {0, 1, false};
     code = (code << 6U) | (byte(i) & 0x3FU);
   }
+  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+  if (surrogate || overlong || code > 0x10FFFF) return {0, 1, false};
   return {code, length, true};
 }
 
@@ -95,6 +98,16 @@ std::string capitalised(std::string_view text) {
   std::string result(text);
   if (!result.empty() && result.front() >= 'a' && result.front() <= 'z') {
     result.front() = static_cast<char>(result.front() - 'a' + 'A');
+  }
+  return result;
+}
+
+std::string well_formed(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const Character c = next_character(text);
+    result += c.valid && c.code != 0 ? text.substr(0, c.bytes) : kReplacement;
+    text.remove_prefix(c.bytes);
   }
   return result;
 }

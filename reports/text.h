@@ -26,6 +26,9 @@ namespace rondure::reports {
 /// The text with the first letter in upper case (ASCII).
 [[nodiscard]] std::string capitalised(std::string_view text);
 
+/// The text as well-formed UTF-8 without NUL; what is neither becomes U+FFFD.
+[[nodiscard]] std::string well_formed(std::string_view text);
+
 /// Text that stays text in HTML, in elements and in quoted attributes: & < > " ' become entities,
 /// control characters the replacement character.
 [[nodiscard]] std::string escaped(std::string_view text);

@@ -39,6 +39,8 @@ void enter(const Surroundings& surroundings, const std::filesystem::path& folder
   }
   if (surroundings.largest_file_bytes) limit_files(*surroundings.largest_file_bytes);
   if (surroundings.empty_environment) ::clearenv();
+  constexpr uid_t kNobody = 65534;
+  if (surroundings.unprivileged && ::geteuid() == 0 && ::setuid(kNobody) != 0) ::_exit(126);
 }
 
 }  // namespace

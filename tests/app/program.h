@@ -32,6 +32,7 @@ struct Surroundings {
   std::optional<std::size_t> largest_file_bytes;  ///< As a full disk: writes beyond it fail.
   std::string standard_output;  ///< Empty: captured; "closed"; else a file to write to.
   bool empty_environment = false;
+  bool unprivileged = false;  ///< As user `nobody` when the tests run as root.
 };
 
 /// How the program ended.

@@ -241,6 +241,47 @@ TEST(SimulatedMachine, HomeLeavesUpwardsAndParks) {
   EXPECT_NEAR(machine.time_s(), 0.3 + 5.0 + 5.0 + 0.3, 1e-12);
 }
 
+TEST(SimulatedMachine, ContinuesAfterAReadingAsIfItHadMadeTheTouch) {
+  SimulatedMachineOptions options;
+  options.errors.repeatability_mm = 0.001;
+  for (std::int64_t id = 0; id < 50; ++id) {
+    SimulatedMachine touched(options);
+    place_shaft(touched);
+    go_to_x30(touched);
+    const auto reading = touched.touch(touch_from_x(id));
+    ASSERT_TRUE(reading);
+    SimulatedMachine resumed(options);
+    place_shaft(resumed);
+    go_to_x30(resumed);
+    ASSERT_TRUE(resumed.home());  // its clock has gone another way
+    ASSERT_TRUE(resumed.continue_after(touch_from_x(id), *reading));
+    EXPECT_EQ(resumed.time_s(), touched.time_s());
+    EXPECT_EQ(resumed.true_tip_W_mm(), touched.true_tip_W_mm());
+    EXPECT_EQ(resumed.position_W_mm(), options.park_W_mm) << "nothing has moved";
+  }
+}
+
+TEST(SimulatedMachine, DoesNotContinueAfterATouchOfNothing) {
+  SimulatedMachine machine({});
+  const auto on = machine.continue_after(touch_from_x(1), {});
+  ASSERT_FALSE(on);
+  EXPECT_EQ(on.error().code, core::Code::kNoTouch);
+}
+
+TEST(SimulatedMachine, AnswersNothingOnceTheLineIsLost) {
+  SimulatedMachineOptions options;
+  options.lost_at_touch = 3;
+  SimulatedMachine machine(options);
+  place_shaft(machine);
+  go_to_x30(machine);
+  EXPECT_TRUE(machine.touch(touch_from_x(0)));
+  EXPECT_TRUE(machine.touch(touch_from_x(1)));
+  EXPECT_EQ(machine.touch(touch_from_x(2)).error().code, core::Code::kMachine);
+  EXPECT_EQ(machine.move_to({40.0, 0.0, 0.0}).error().code, core::Code::kMachine);
+  EXPECT_THAT(machine.home().error().what, HasSubstr("connection is lost"));
+  EXPECT_EQ(machine.position_W_mm(), Vector3d(30.0, 0.0, 0.0));
+}
+
 TEST(SimulatedMachine, DescribesItself) {
   EXPECT_EQ(SimulatedMachine({}).description(),
             "simulated machine, tip diameter 4 mm, touch speed 5 mm/s");

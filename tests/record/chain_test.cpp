@@ -250,7 +250,7 @@ TEST_F(InterruptedRun, DoesNotGoOnWhenItWasChangedOrSealedOrIsHeldOpen) {
 
   const auto first = Journal::reopen(scratch / "run");
   ASSERT_TRUE(first) << first.error().what;
-  EXPECT_THAT(refusal(scratch / "run"), HasSubstr("another program holds it open"));
+  EXPECT_THAT(refusal(scratch / "run"), HasSubstr("is in use by process "));
 }
 
 TEST(Chain, OfASealedRunCannotBeCutAtItsEnd) {

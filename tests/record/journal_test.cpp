@@ -55,8 +55,10 @@ TEST(Journal, GivesBackARunThatWasNotSealed) {
 
 TEST(Journal, TheSealedJournalIsOneFileWithItsDigestBeside) {
   const Scratch scratch;
-  auto journal = open_journal(scratch / "run");
-  ASSERT_TRUE(journal.seal({}));
+  {
+    auto journal = open_journal(scratch / "run");
+    ASSERT_TRUE(journal.seal({}));
+  }
   EXPECT_THAT(scratch.names(), ElementsAre("run", "run/SHA256SUMS", "run/journal.db"));
   EXPECT_EQ(*read_file(scratch / "run/SHA256SUMS"),
             sha256_hex(*read_file(scratch / "run/journal.db")) + "  journal.db\n");
@@ -109,7 +111,7 @@ TEST(Journal, TwoRunsCannotShareADirectory) {
   const auto second = Journal::create(scratch / "run", {}, {}, {});
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().code, core::Code::kFile);
-  EXPECT_THAT(second.error().what, HasSubstr("is not empty"));
+  EXPECT_THAT(second.error().what, HasSubstr("is in use by process "));
   EXPECT_TRUE(first.add(touch_number(0)));
   EXPECT_TRUE(read_journal(scratch / "run"));
 }

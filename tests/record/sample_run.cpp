@@ -263,4 +263,11 @@ std::string every_bit(const RunRecord& record) {
   return bits.str();
 }
 
+std::string measured_bits(RunRecord record) {
+  record.header.run_id.clear();
+  record.header.started_utc.clear();
+  std::erase_if(record.decisions, [](const Decision& d) { return d.feature < 0; });
+  return every_bit(record);
+}
+
 }  // namespace rondure::record

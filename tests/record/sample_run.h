@@ -44,4 +44,8 @@ class Scratch {
 /// Every value of a run as text, doubles by their bits: equal exactly when the runs are.
 [[nodiscard]] std::string every_bit(const RunRecord& record);
 
+/// every_bit() without what tells one run from another that measured the same: name, time of start,
+/// decisions about the whole run, checks.
+[[nodiscard]] std::string measured_bits(RunRecord record);
+
 }  // namespace rondure::record

@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "fit/one_sided_center.h"
 #include "fit/one_sided_cylinder.h"
+#include "reports/archive_entry.h"
 #include "reports/evaluation.h"
 #include "reports/facts.h"
 #include "reports/warnings.h"
@@ -101,6 +102,17 @@ TEST(References, ACircleHasItsOwn) {
   EXPECT_EQ(feature["mi"]["contacts"]["inner"].size(), section.mi->contacts.size());
   EXPECT_THAT(write_summary(run, evaluation), HasSubstr("MCCI radius"));
   EXPECT_THAT(write_html(run, evaluation), HasSubstr("Maximum inscribed circle (MICI)"));
+}
+
+TEST(References, TheArchiveHoldsTheCertificateOfEach) {
+  const auto run = points_run(rough_part(8, 4, 15, core::kTwoPi), 4);
+  const auto entry = archive_entry(run, evaluated(run), "digest");
+  std::map<std::string, std::string> certificates;
+  for (const auto& result : entry.results) certificates[result.reference] = result.certificate;
+  const std::map<std::string, std::string> expected = {
+      {"LSCY", "none"}, {"MZCY", "global"}, {"MCCY", "local"},  {"MICY", "local"},
+      {"LSCI", "none"}, {"MZCI", "global"}, {"MCCI", "global"}, {"MICI", "local"}};
+  EXPECT_EQ(certificates, expected);
 }
 
 TEST(References, OneThatDoesNotExistIsNullWithAWarningAndVoid) {

@@ -1,0 +1,78 @@
+#include "app/archive_step.h"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "app/terminal.h"
+#include "record/archive_queue.h"
+#include "record/files.h"
+#include "record/journal.h"
+#include "record/sha256.h"
+#include "reports/archive_entry.h"
+#include "reports/text.h"
+
+namespace rondure::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+void tell_failure(const record::ArchivePlace& place, const fs::path& directory,
+                  const fs::path& queue, const record::Delivery& delivery) {
+  if (delivery.failure) complain(*delivery.failure);
+  if (delivery.queue_failure) {
+    complain(*delivery.queue_failure);
+    tell(fmt::format("rondure: the run is kept; archive it later: rondure history {} --add {}\n",
+                     quoted(place.shown), quoted(directory.string())));
+  } else if (delivery.waiting > 0) {
+    tell(fmt::format(
+        "rondure: the run is kept; {} in {} for the archive, and {} with the next run "
+        "or now: rondure history {} --push --queue {}\n",
+        reports::count(delivery.waiting, "run waits", "runs wait"), queue.string(),
+        delivery.waiting == 1 ? "goes" : "go", quoted(place.shown), quoted(queue.string())));
+  }
+}
+
+}  // namespace
+
+core::Result<record::ArchivePlace> archive_of(const std::string& argument, const plans::Plan& plan,
+                                              const fs::path& directory) {
+  if (!argument.empty()) return record::parse_archive_place(argument);
+  const std::string& planned = plan.reports.archive;
+  if (!planned.empty()) return record::parse_archive_place(planned, plan.folder);
+  return record::parse_archive_place(record::kArchiveName, record::folder_beside(directory));
+}
+
+core::Result<record::ArchiveRun> entry_of(const fs::path& directory,
+                                          const record::RunRecord& record,
+                                          const reports::Evaluation& evaluation) {
+  const auto journal = record::read_file(directory / record::kJournalName);
+  if (!journal) return core::fail(journal.error());
+  return reports::archive_entry(record, evaluation, record::sha256_hex(*journal));
+}
+
+void archive_run(const record::ArchivePlace& place, const fs::path& directory,
+                 const record::RunRecord& record, const reports::Evaluation& evaluation) {
+  if (place.kind == record::ArchivePlace::Kind::kNone) return;
+  std::fflush(stdout);  // the result is read while a server is waited for
+  const auto entry = entry_of(directory, record, evaluation);
+  if (!entry) {
+    complain(entry.error());
+    return;
+  }
+  const fs::path queue = record::folder_beside(directory) / record::kArchiveQueueName;
+  record::DeliveryOptions options;
+  options.stop_requested = stop_requested;
+  tell_failure(place, directory, queue, record::deliver(place, queue, &*entry, options));
+}
+
+std::string quoted(const std::string& word) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:@%=+,";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace rondure::app

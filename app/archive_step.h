@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/result.h"
+#include "plans/plan.h"
+#include "record/archive.h"
+#include "record/run_record.h"
+#include "reports/evaluation.h"
+
+namespace rondure::app {
+
+/// Where the results of a run go: `argument` (--archive), else what the plan says, else archive.db
+/// beside the run directory. kBadOption as parse_archive_place().
+[[nodiscard]] core::Result<record::ArchivePlace> archive_of(const std::string& argument,
+                                                            const plans::Plan& plan,
+                                                            const std::filesystem::path& directory);
+
+/// A sealed run as the archive keeps it; kFile when its journal cannot be read.
+[[nodiscard]] core::Result<record::ArchiveRun> entry_of(const std::filesystem::path& directory,
+                                                        const record::RunRecord& record,
+                                                        const reports::Evaluation& evaluation);
+
+/// Pushes a sealed run whose reports are written. What cannot be pushed waits in the queue beside
+/// the run directory; a message says so. Never changes how the run ends.
+void archive_run(const record::ArchivePlace& place, const std::filesystem::path& directory,
+                 const record::RunRecord& record, const reports::Evaluation& evaluation);
+
+/// A word of a command line, quoted for a shell where it must be.
+[[nodiscard]] std::string quoted(const std::string& word);
+
+}  // namespace rondure::app

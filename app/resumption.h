@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/verbs.h"
+#include "plans/runner.h"
+
+namespace rondure::app {
+
+/// What `rondure run ... --resume` has before it.
+struct Resumption {
+  enum class State {
+    kNothingThere,  ///< No touch and no journal yet: begin.
+    kGoesOn,        ///< Interrupted, stopped or failed.
+    kFinished,      ///< Sealed: there is nothing to measure.
+  };
+  State state = State::kNothingThere;
+  std::filesystem::path directory;
+  std::string plan_text;  ///< Of the journal; empty when there is none.
+  std::string plan_file;  ///< Its name then.
+};
+
+/// Looks at the run that `--resume` means: `--out`, or a run directory in place of the plan.
+/// kBadOption when neither is given.
+[[nodiscard]] core::Result<Resumption> find_resumption(const RunArguments& arguments);
+
+/// The plan to go on with: the file named in the arguments, or else the one in the journal.
+[[nodiscard]] plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run);
+
+/// The command that goes on with a run, as a shell reads it.
+[[nodiscard]] std::string resume_command(const std::filesystem::path& directory);
+
+}  // namespace rondure::app

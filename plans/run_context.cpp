@@ -1,0 +1,172 @@
+#include "plans/inspection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace rondure::plans {
+namespace {
+
+/// Touches that are repeated before an interrupted run goes on, where the cloud has so many: one
+/// shows a shift along its own direction only.
+constexpr std::size_t kChecks = 3;
+
+cmm::TouchReading reading_of(const record::Touch& touch) {
+  return {touch.tip_mm, touch.temperature_degC, touch.time_s};
+}
+
+}  // namespace
+
+core::Result<void> RunContext::check_stop() const {
+  if (!options.stop_requested || !options.stop_requested()) return {};
+  return core::fail(
+      core::Code::kStopped,
+      fmt::format("stopped by the operator after {} touches; all of them are kept", next_touch));
+}
+
+void RunContext::show() const {
+  if (options.progress && !recalling()) options.progress(progress);
+}
+
+core::Result<record::Touch> RunContext::touch(TouchStep step) {
+  step.command.id = next_touch;
+  step.row.id = next_touch;
+  step.row.approach = step.command.direction_W;
+  if (const record::Touch* known = past.touch(next_touch)) return recall(std::move(step), *known);
+  if (auto stop = check_stop(); !stop) return core::fail(stop.error());
+  const auto reading = cell->machine().touch(step.command);
+  if (!reading) return core::fail(reading.error());
+  record::Touch row = step.row;
+  row.tip_mm = reading->tip_W_mm;
+  row.temperature_degC = reading->temperature_degC;
+  row.time_s = reading->time_s;
+  if (auto kept = journal.add(row); !kept) return core::fail(kept.error());
+  ++next_touch;
+  progress.touches = static_cast<std::size_t>(next_touch);
+  show();
+  return row;
+}
+
+core::Result<record::Touch> RunContext::recall(TouchStep step, const record::Touch& known) {
+  if (auto same = check_same_step(known, step.row); !same) return core::fail(same.error());
+  if (auto kept = cell->recall_touch(step.command, reading_of(known)); !kept) {
+    return core::fail(kept.error());
+  }
+  ++next_touch;
+  progress.touches = static_cast<std::size_t>(next_touch);
+  step.row = known;
+  if (last_steps.size() == kChecks) last_steps.erase(last_steps.begin());
+  last_steps.push_back(std::move(step));
+  if (!recalling()) {
+    if (auto back = come_back(); !back) return core::fail(back.error());
+  }
+  return known;
+}
+
+core::Result<void> RunContext::come_back() {
+  lost_place = true;
+  if (auto homed = cell->home_again(); !homed) return homed;
+  double largest_mm = 0.0;
+  for (std::size_t i = 0; i < last_steps.size(); ++i) {
+    const TouchStep& step = last_steps[i];
+    if (auto moved = follow(i == 0 ? step.entry_W : step.way_W); !moved) return moved;
+    const auto difference_mm = repeat_touch(step, past.next_check() - static_cast<int>(i));
+    if (!difference_mm) {
+      if (difference_mm.error().code != core::Code::kCollision) {
+        (void)follow({step.entry_W.rbegin(), step.entry_W.rend()});
+      }
+      return core::fail(difference_mm.error());
+    }
+    largest_mm = std::max(largest_mm, *difference_mm);
+  }
+  const std::string text = fmt::format(
+      "resumed on {} after {} touches; the last {} repeated, largest difference {:.3f} um, limit "
+      "{:g} um",
+      options.started_utc, next_touch, last_steps.size(), largest_mm / core::kMicrometre,
+      plan.machine->resume_limit_um);
+  const TouchStep& last = last_steps.back();
+  if (auto on = cell->recall_touch(last.command, reading_of(last.row)); !on) return on;
+  lost_place = false;
+  return journal.add(record::Decision{-1, cell->machine().time_s(), text});
+}
+
+core::Result<double> RunContext::repeat_touch(const TouchStep& step, std::int64_t check_id) {
+  cmm::TouchCommand command = step.command;
+  command.id = check_id;
+  const auto reading = cell->machine().touch(command);
+  const std::string moved =
+      "; part or machine has moved while the run was interrupted, start a new run";
+  if (!reading) {
+    const bool nothing = reading.error().code == core::Code::kNoTouch;
+    return core::fail(reading.error().code,
+                      fmt::format("touch {} could not be repeated: {}{}", step.row.id,
+                                  reading.error().what, nothing ? moved : std::string()));
+  }
+  record::Touch check = step.row;
+  check.id = check_id;
+  check.purpose = record::Touch::Purpose::kCheck;
+  check.tip_mm = reading->tip_W_mm;
+  check.temperature_degC = reading->temperature_degC;
+  check.time_s = reading->time_s;
+  if (auto kept = journal.add(check); !kept) return core::fail(kept.error());
+  const double difference_mm = (check.tip_mm - step.row.tip_mm).norm();
+  if (difference_mm <= plan.machine->resume_limit_um * core::kMicrometre) return difference_mm;
+  return core::fail(
+      core::Code::kLocation,
+      fmt::format("touch {} was repeated and differs by {:.3f} um, the plan allows {:g} um "
+                  "(resume_limit_um){}",
+                  step.row.id, difference_mm / core::kMicrometre, plan.machine->resume_limit_um,
+                  moved),
+      "/machine/resume_limit_um");
+}
+
+core::Result<void> RunContext::follow(const Polyline& path_W) {
+  if (recalling()) return {};
+  for (const Eigen::Vector3d& corner : path_W) {
+    if (auto moved = cell->machine().move_to(corner); !moved) return moved;
+  }
+  return {};
+}
+
+core::Result<void> RunContext::rise() {
+  if (recalling()) return {};
+  Eigen::Vector3d up = cell->machine().position_W_mm();
+  up.z() = std::max(up.z(), plan.machine->park_mm[2]);
+  return cell->machine().move_to(up);
+}
+
+core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& commanded) {
+  const auto reached = recalling() ? cell->recall_turn(commanded) : cell->turn_to(commanded);
+  if (!reached) return core::fail(reached.error());
+  if (const record::PoseVisit* known = past.pose(next_pose)) {
+    if (auto same = check_same_step(*known, feature, commanded); !same)
+      return core::fail(same.error());
+    ++next_pose;
+    return *known;
+  }
+  const record::PoseVisit visit{next_pose, feature, commanded,
+                                *reached,  false,   cell->machine().time_s()};
+  if (auto kept = journal.add(visit); !kept) return core::fail(kept.error());
+  ++next_pose;
+  return visit;
+}
+
+core::Result<void> RunContext::note(int feature, const std::string& text) {
+  const record::Decision decision{feature, cell->machine().time_s(), text};
+  if (const record::Decision* known = past.next_decision()) {
+    return check_same_step(*known, decision);
+  }
+  return journal.add(decision);
+}
+
+Polyline in_machine_frame(const Polyline& path, const Eigen::Isometry3d& X_WX) {
+  Polyline out;
+  out.reserve(path.size());
+  for (const Eigen::Vector3d& corner : path) out.emplace_back(X_WX * corner);
+  return out;
+}
+
+}  // namespace rondure::plans

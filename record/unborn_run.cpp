@@ -1,0 +1,76 @@
+#include "record/unborn_run.h"
+
+#include <system_error>
+
+#include <fmt/format.h>
+#include <soci/soci.h>
+#include <soci/sqlite3/soci-sqlite3.h>
+
+#include "record/database.h"
+#include "record/files.h"
+#include "record/journal.h"
+#include "record/private_copy.h"
+#include "record/run_lock.h"
+
+namespace rondure::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether SQLite finds a database without tables behind the name, once it has finished its log.
+core::Result<bool> holds_no_table(const fs::path& journal) {
+  const auto copy = PrivateCopy::of(journal);
+  if (!copy) return core::fail(copy.error());
+  const auto connection = connection_string(copy->file());
+  if (!connection) return core::fail(connection.error());
+  try {
+    soci::session sql(soci::sqlite3, *connection);
+    int tables = 0;
+    long long application = 0;
+    sql << "select count(*) from sqlite_schema", soci::into(tables);
+    sql << "pragma application_id", soci::into(application);
+    return tables == 0 && application == 0;
+  } catch (const std::exception&) {
+    return false;  // no database at all, or a damaged one: for the reader of journals to judge
+  }
+}
+
+bool holds_only_a_lock(const fs::path& directory) {
+  std::error_code problem;
+  for (const auto& entry : fs::directory_iterator(directory, problem)) {
+    if (entry.path().filename() != kLockName) return false;
+  }
+  return !problem;
+}
+
+}  // namespace
+
+core::Result<bool> clear_unborn_run(const fs::path& directory) {
+  const fs::path journal = directory / kJournalName;
+  std::error_code problem;
+  if (!fs::exists(directory, problem) && !problem) return true;
+  if (!fs::is_directory(directory, problem)) return false;
+  if (fs::is_empty(directory, problem) && !problem) return true;
+  if (problem) {
+    return core::fail(core::Code::kFile,
+                      fmt::format("the run directory {} cannot be looked at: {}",
+                                  directory.string(), system_reason(problem.value())),
+                      directory.string());
+  }
+  if (!fs::exists(journal, problem)) return holds_only_a_lock(directory);
+  const auto lock = RunLock::take(directory);
+  if (!lock) return core::fail(lock.error());
+  auto unborn = holds_no_table(journal);
+  if (!unborn || !*unborn) return unborn;
+  for (const char* suffix : {"-shm", "-wal", "-journal", ""}) {
+    if (fs::remove(journal.string() + suffix, problem); problem) {
+      return core::fail(core::Code::kFile,
+                        fmt::format("the unfinished journal {} cannot be removed: {}",
+                                    journal.string(), system_reason(problem.value())),
+                        journal.string());
+    }
+  }
+  return true;
+}
+
+}  // namespace rondure::record

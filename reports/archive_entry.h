@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "record/archive.h"
+#include "reports/evaluation.h"
+
+namespace rondure::reports {
+
+/// A finished run as the archive keeps it: one result a characteristic. Texts are made well-formed
+/// UTF-8 without NUL, which no database would refuse.
+///
+/// @param journal_sha256  Of the bytes of its sealed journal.
+[[nodiscard]] record::ArchiveRun archive_entry(const record::RunRecord& record,
+                                               const Evaluation& evaluation,
+                                               std::string journal_sha256);
+
+}  // namespace rondure::reports

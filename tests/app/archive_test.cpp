@@ -1,0 +1,217 @@
+// Finished runs in the archive, as a shell sees it.
+
+#include <set>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "reports/text.h"
+#include "tests/app/files.h"
+#include "tests/app/program.h"
+#include "tests/record/postgres_server.h"
+
+namespace rondure::app::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Outcome run_into(const fs::path& place, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words = {"run", example("03_axle_points_file.json"), "--out", place};
+  words.insert(words.end(), more.begin(), more.end());
+  return rondure(words);
+}
+
+nlohmann::json history_of(const fs::path& archive, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words = {"history", archive, "--json"};
+  words.insert(words.end(), more.begin(), more.end());
+  const Outcome outcome = rondure(words);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return nlohmann::json::parse(outcome.out, nullptr, false);
+}
+
+TEST(ArchiveOfRuns, StandsBesideTheRunDirectoriesAndHoldsWhatTheReportSays) {
+  const TemporaryFolder folder;
+  const int status = run_into(folder / "one", {"--serial", "0042", "--operator", "mk"}).status;
+  ASSERT_LE(status, 1);
+  ASSERT_EQ(run_into(folder / "two", {"--serial", "0043"}).status, status);
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("archive.db", "one", "two"));
+  const auto all = history_of(folder / "archive.db");
+  const auto report = nlohmann::json::parse(read(folder / "one" / "report.json"));
+  const auto& asked = report["features"][0]["characteristics"];
+  ASSERT_EQ(all["results"].size(), 2 * asked.size());
+  EXPECT_FALSE(all["more"]);
+  const auto one = history_of(folder / "archive.db", {"--serial", "0042"});
+  ASSERT_EQ(one["results"].size(), asked.size());
+  for (const auto& result : one["results"]) {
+    EXPECT_EQ(result["run_id"], "one");
+    EXPECT_EQ(result["operator"], "mk");
+    EXPECT_EQ(result["version"], report["header"]["version"]);
+  }
+}
+
+TEST(ArchiveOfRuns, CanBeSwitchedOffAndNamed) {
+  const TemporaryFolder folder;
+  ASSERT_LE(run_into(folder / "one", {"--archive", "none"}).status, 1);
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("one"));
+  ASSERT_LE(run_into(folder / "two", {"--archive", folder / "mine.db"}).status, 1);
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("mine.db", "one", "two"));
+  // As a plan says it: relative to the plan.
+  fs::create_directory(folder / "plans");
+  write_plan(folder / "plans" / "plan.json", {{"/reports/archive", "results.db"}});
+  ASSERT_EQ(rondure({"run", folder / "plans" / "plan.json", "--out", folder / "three"}).status, 0);
+  EXPECT_THAT(names_in(folder / "plans"), ElementsAre("plan.json", "results.db"));
+}
+
+TEST(ArchiveOfRuns, IsMadeAgainFromTheRunDirectories) {
+  const TemporaryFolder folder;
+  ASSERT_LE(run_into(folder / "one").status, 1);
+  const auto before = history_of(folder / "archive.db");
+  const std::vector<std::string> add = {"history", folder / "again.db", "--add", folder / "one"};
+  EXPECT_THAT(rondure(add).out, HasSubstr("added"));
+  const auto after = history_of(folder / "again.db");
+  EXPECT_EQ(after["results"], before["results"]);
+  EXPECT_THAT(rondure(add).out, HasSubstr("was in the archive already"));
+  EXPECT_EQ(history_of(folder / "again.db")["results"].size(), before["results"].size());
+  const Outcome absent = rondure({"history", folder / "again.db", "--add", folder / "none"});
+  EXPECT_EQ(absent.status, 2);
+}
+
+TEST(ArchiveOfRuns, ThatFailsChangesNothingOfTheRunAndIsCaughtUp) {
+  const TemporaryFolder folder;
+  const int status = run_into(folder / "zero", {"--archive", "none"}).status;
+  const fs::path archive = folder / "absent" / "archive.db";
+  for (const char* name : {"one", "two"}) {
+    const Outcome outcome = run_into(folder / name, {"--archive", archive});
+    EXPECT_EQ(outcome.status, status);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("no such file or folder"), HasSubstr("wait"),
+                                   HasSubstr("--push --queue")));
+  }
+  EXPECT_EQ(rondure({"history", "--push", "--queue", folder / "archive-queue.db"}).status, 2);
+  fs::create_directory(folder / "absent");
+  const Outcome pushed = rondure({"history", "--push", "--queue", folder / "archive-queue.db"});
+  EXPECT_EQ(pushed.status, 0) << pushed.err;
+  EXPECT_THAT(pushed.out, AllOf(HasSubstr("2 runs sent"), HasSubstr("0 wait")));
+  EXPECT_EQ(history_of(archive)["results"].size() % 2, 0U);
+  EXPECT_THAT(rondure({"history", archive}).out, AllOf(HasSubstr("started (UTC)")));
+  // What stands in the way may be anything.
+  write(folder / "text", "not a database at all");
+  const Outcome outcome = run_into(folder / "three", {"--archive", folder / "text"});
+  EXPECT_EQ(outcome.status, status);
+  EXPECT_THAT(outcome.err, HasSubstr("is not a database"));
+  EXPECT_EQ(read(folder / "text"), "not a database at all");
+}
+
+TEST(ArchiveOfRuns, OnAServerThatIsAwayWaits) {
+  record::PostgresServer server;
+  if (!server.absent().empty()) GTEST_SKIP() << server.absent();
+  const TemporaryFolder folder;
+  ASSERT_LE(run_into(folder / "one", {"--archive", server.url()}).status, 1);
+  server.stop();
+  const Outcome away = run_into(folder / "two", {"--archive", server.url_of("rondure:secret")});
+  EXPECT_LE(away.status, 1);
+  EXPECT_THAT(away.err, AllOf(HasSubstr("1 run waits"), Not(HasSubstr("secret"))));
+  EXPECT_THAT(read(folder / "archive-queue.db"), Not(HasSubstr("secret")));
+  server.start();
+  ASSERT_LE(run_into(folder / "three", {"--archive", server.url()}).status, 1);
+  const auto all = history_of(server.url());
+  std::set<std::string> runs;
+  for (const auto& result : all["results"]) runs.insert(result["run_id"]);
+  EXPECT_THAT(runs, ElementsAre("one", "three", "two"));
+}
+
+TEST(ArchiveOfRuns, ThatCannotBeIsRefusedBeforeAnythingMoves) {
+  const TemporaryFolder folder;
+  for (const char* wrong : {"mysql://h/d", "postgresql://u:p/w@h/d"}) {
+    const Outcome outcome = run_into(folder / "run", {"--archive", wrong});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_FALSE(fs::exists(folder / "run"));
+  }
+  write_plan(folder / "plan.json", {{"/reports/archive", "postgresql://u:secret@h/d"}});
+  const Outcome outcome = rondure({"validate", folder / "plan.json"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("/reports/archive"), HasSubstr("~/.pgpass"),
+                                 Not(HasSubstr("secret"))));
+}
+
+TEST(History, OfHostileNamesIsPlainText) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> names = {
+      "<script>alert(1)</script>", "a\nb\x1b[31mred",
+      "\xe5\x9c\x86\xe6\x9f\xb1",  "\xff\xfe",
+      std::string(10'000, 'x'),    "o'; drop table rondure_run"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Outcome outcome =
+        run_into(folder / std::to_string(i), {"--serial", names[i], "--operator", names[i]});
+    EXPECT_LE(outcome.status, 1);
+    EXPECT_EQ(outcome.err, "");
+  }
+  const fs::path archive = folder / "archive.db";
+  const std::size_t each = history_of(archive, {"--serial", names[0]})["results"].size();
+  EXPECT_GT(each, 0U);
+  EXPECT_EQ(history_of(archive)["results"].size(), each * names.size());
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"history", archive}, {"history", archive, "--chart"}}) {
+    const Outcome outcome = rondure(words);
+    EXPECT_EQ(outcome.status, 0);
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_LE(reports::columns(line), 80U);
+      EXPECT_EQ(reports::printable(line), line);
+    }
+  }
+  const Outcome svg = rondure({"history", archive, "--svg", folder / "chart.svg"});
+  EXPECT_EQ(svg.status, 0);
+  EXPECT_THAT(read(folder / "chart.svg"), Not(HasSubstr("<script")));
+}
+
+TEST(History, SaysWhatItCannotRead) {
+  const TemporaryFolder folder;
+  write(folder / "text", "not a database at all");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{folder / "absent.db"}, "does not exist"},
+      {{folder / "text"}, "is not a database"},
+      {{folder.path()}, "is no file"},
+      {{"none"}, "none is no archive"},
+      {{"postgresql://u@127.0.0.1:1/d"}, "start the server"}};
+  for (const auto& [words, why] : cases) {
+    std::vector<std::string> command = {"history"};
+    command.insert(command.end(), words.begin(), words.end());
+    const Outcome outcome = rondure(command);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(why));
+    EXPECT_EQ(outcome.out, "");
+  }
+  ASSERT_LE(run_into(folder / "run").status, 1);
+  const std::string archive = folder / "archive.db";
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--since", "yesterday"},
+                                                {"--until", "2026-02-30"},
+                                                {"--verdict", "good"},
+                                                {"--last", "0"},
+                                                {"--last", "-1"}}) {
+    std::vector<std::string> command = {"history", archive};
+    command.insert(command.end(), words.begin(), words.end());
+    const Outcome outcome = rondure(command);
+    EXPECT_EQ(outcome.status, 2) << words[0];
+    EXPECT_THAT(outcome.err, HasSubstr(words[0]));
+  }
+  EXPECT_EQ(rondure({"history", archive, "--since", "2999-01-01"}).out, "no results\n");
+  EXPECT_EQ(rondure({"history", archive, "--part", "nobody", "--svg", folder / "x.svg"}).status, 2);
+}
+
+TEST(History, GivesCsvToAFileAndToStandardOutput) {
+  const TemporaryFolder folder;
+  ASSERT_LE(run_into(folder / "run").status, 1);
+  const std::string archive = folder / "archive.db";
+  ASSERT_EQ(rondure({"history", archive, "--csv", folder / "all.csv"}).status, 0);
+  EXPECT_EQ(rondure({"history", archive, "--csv", "-"}).out, read(folder / "all.csv"));
+  EXPECT_THAT(read(folder / "all.csv"), HasSubstr("\nrun,"));
+}
+
+}  // namespace
+}  // namespace rondure::app::testing
