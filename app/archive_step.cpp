@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/shell_word.h"
 #include "app/terminal.h"
 #include "record/archive_queue.h"
 #include "record/files.h"
@@ -51,28 +52,21 @@ core::Result<record::ArchiveRun> entry_of(const fs::path& directory,
   return reports::archive_entry(record, evaluation, record::sha256_hex(*journal));
 }
 
-void archive_run(const record::ArchivePlace& place, const fs::path& directory,
+bool archive_run(const record::ArchivePlace& place, const fs::path& directory,
                  const record::RunRecord& record, const reports::Evaluation& evaluation) {
-  if (place.kind == record::ArchivePlace::Kind::kNone) return;
+  if (place.kind == record::ArchivePlace::Kind::kNone) return false;
   std::fflush(stdout);  // the result is read while a server is waited for
   const auto entry = entry_of(directory, record, evaluation);
   if (!entry) {
     complain(entry.error());
-    return;
+    return true;
   }
   const fs::path queue = record::folder_beside(directory) / record::kArchiveQueueName;
   record::DeliveryOptions options;
   options.stop_requested = stop_requested;
-  tell_failure(place, directory, queue, record::deliver(place, queue, &*entry, options));
-}
-
-std::string quoted(const std::string& word) {
-  constexpr const char* kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:@%=+,";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
+  const auto delivery = record::deliver(place, queue, &*entry, options);
+  tell_failure(place, directory, queue, delivery);
+  return !delivery.known;
 }
 
 }  // namespace rondure::app

@@ -24,10 +24,8 @@ namespace rondure::app {
 
 /// Pushes a sealed run whose reports are written. What cannot be pushed waits in the queue beside
 /// the run directory; a message says so. Never changes how the run ends.
-void archive_run(const record::ArchivePlace& place, const std::filesystem::path& directory,
+/// @return  Whether there was anything to do: false when the archive held it, or none is wanted.
+bool archive_run(const record::ArchivePlace& place, const std::filesystem::path& directory,
                  const record::RunRecord& record, const reports::Evaluation& evaluation);
-
-/// A word of a command line, quoted for a shell where it must be.
-[[nodiscard]] std::string quoted(const std::string& word);
 
 }  // namespace rondure::app

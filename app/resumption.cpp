@@ -1,9 +1,14 @@
 #include "app/resumption.h"
 
+#include <algorithm>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "app/shell_word.h"
+#include "record/archive_place.h"
 #include "record/journal.h"
 #include "record/unborn_run.h"
 
@@ -18,15 +23,19 @@ bool names_directory(const RunArguments& arguments) {
   return fs::is_directory(arguments.plan, ignored);
 }
 
-/// A word as a shell reads it.
-std::string quoted(const std::string& word) {
-  if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                             "/._-+,:@%=") == std::string::npos) {
-    return word;
-  }
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
+/// Whether the archive of a plan is a file that is found from the plan's folder.
+bool archives_beside(const plans::Plan& plan) {
+  if (plan.reports.archive.empty()) return false;
+  const auto place = record::parse_archive_place(plan.reports.archive);
+  return place && place->kind == record::ArchivePlace::Kind::kFile &&
+         fs::path(place->address).is_relative();
+}
+
+/// Whether a plan goes on only from its folder, where its files stand.
+bool needs_folder(const plans::Plan& plan, const RunArguments& arguments) {
+  if (arguments.archive.empty() && archives_beside(plan)) return true;
+  return std::any_of(plan.features.begin(), plan.features.end(),
+                     [](const auto& feature) { return feature.source.has_value(); });
 }
 
 }  // namespace
@@ -37,8 +46,10 @@ core::Result<Resumption> find_resumption(const RunArguments& arguments) {
   out.directory = by_directory ? arguments.plan : arguments.out;
   if (out.directory.empty()) {
     return core::fail(core::Code::kBadOption,
-                      "--resume does not say which run goes on; name its directory: --out DIR, or "
-                      "rondure run RUN_DIR --resume");
+                      fmt::format("--resume does not say which run goes on, {} is not a directory; "
+                                  "name the run: rondure run RUN_DIR --resume, or --out DIR beside "
+                                  "the plan",
+                                  arguments.plan));
   }
   if (by_directory && !arguments.out.empty() &&
       fs::absolute(arguments.out) != fs::absolute(arguments.plan)) {
@@ -62,20 +73,39 @@ core::Result<Resumption> find_resumption(const RunArguments& arguments) {
 plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run) {
   if (!arguments.resume || !names_directory(arguments)) return plans::read_plan(arguments.plan);
   auto plan = plans::parse_plan(run.plan_text, {}, run.plan_file);
-  if (plan) return plan;
-  // A plan that was good: what is missing are its points files, which stand beside it.
-  auto problems = plan.error();
+  std::vector<core::Error> problems;
+  if (!plan) {  // it was good: what is missing are its points files, which stand beside it
+    problems = plan.error();
+  } else if (arguments.archive.empty() && archives_beside(*plan)) {
+    problems.push_back({core::Code::kFile,
+                        fmt::format("the archive {} stands beside the plan, which is not named; "
+                                    "name it with --archive, or",
+                                    plan->reports.archive),
+                        "/reports/archive"});
+  } else {
+    return plan;
+  }
   problems.push_back(
       {core::Code::kFile,
        fmt::format("name the plan, so that its files are found: rondure run {} --out "
                    "{} --resume",
-                   run.plan_file, quoted(run.directory.string())),
+                   quoted(run.plan_file), quoted(run.directory.string())),
        {}});
   return tl::unexpected(std::move(problems));
 }
 
-std::string resume_command(const fs::path& directory) {
-  return fmt::format("rondure run {} --resume", quoted(directory.string()));
+std::string resume_command(const RunToFinish& run) {
+  const RunArguments& arguments = run.arguments;
+  const std::string directory = quoted(run.directory.string());
+  std::string out = "rondure run ";
+  if (needs_folder(run.plan, arguments) && !names_directory(arguments)) {
+    out += fmt::format("{} --out {}", quoted(arguments.plan), directory);
+  } else {
+    out += directory;
+  }
+  out += " --resume";
+  if (!arguments.archive.empty()) out += " --archive " + quoted(run.archive.shown);
+  return out;
 }
 
 }  // namespace rondure::app

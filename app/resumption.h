@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/run_ending.h"
 #include "app/verbs.h"
 #include "plans/runner.h"
 
@@ -25,10 +26,12 @@ struct Resumption {
 /// kBadOption when neither is given.
 [[nodiscard]] core::Result<Resumption> find_resumption(const RunArguments& arguments);
 
-/// The plan to go on with: the file named in the arguments, or else the one in the journal.
+/// The plan to go on with: the file named in the arguments, or else the one in the journal; kFile
+/// when that one needs files beside it.
 [[nodiscard]] plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run);
 
-/// The command that goes on with a run, as a shell reads it.
-[[nodiscard]] std::string resume_command(const std::filesystem::path& directory);
+/// The command that goes on with a run, as a shell reads it: with the plan where files stand beside
+/// it, and with the archive that was named (without its password).
+[[nodiscard]] std::string resume_command(const RunToFinish& run);
 
 }  // namespace rondure::app

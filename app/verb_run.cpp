@@ -6,17 +6,12 @@
 #include "app/archive_step.h"
 #include "app/processor.h"
 #include "app/resumption.h"
+#include "app/run_ending.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "plans/plan.h"
 #include "plans/runner.h"
-#include "record/files.h"
 #include "record/journal.h"
-#include "record/run_lock.h"
-#include "reports/defect.h"
-#include "reports/evaluation.h"
-#include "reports/exports.h"
-#include "reports/writers.h"
 
 namespace rondure::app {
 namespace {
@@ -40,13 +35,6 @@ std::string run_name(const fs::path& plan, const std::string& utc, const fs::pat
 std::string last_folder(const fs::path& directory) {
   const fs::path whole = fs::absolute(directory).lexically_normal();
   return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
-}
-
-int exit_status(bool failed, reports::Verdict verdict) {
-  if (failed) return kRunFailed;
-  const bool well =
-      verdict == reports::Verdict::kConforms || verdict == reports::Verdict::kNotToleranced;
-  return well ? kAllWell : kNotConforming;
 }
 
 /// Where the run stands on disk, and what has to be said about it.
@@ -78,31 +66,16 @@ plans::RunOrRefusals measure(const plans::Plan& plan, plans::RunOptions options,
   return std::move(*run);
 }
 
-void tell_how_to_go_on(const plans::Run& run, const fs::path& directory) {
+void tell_how_to_go_on(const plans::Run& run, const RunToFinish& ending) {
   if (!run.failure || !plans::is_resumable(*run.failure)) return;
-  tell(fmt::format("rondure: to go on behind the last touch: {}\n", resume_command(directory)));
+  tell(fmt::format("rondure: to go on behind the last touch: {}\n", resume_command(ending)));
 }
 
 /// A run directory that is not empty may hold a run to go on with.
-void tell_about_resume(const fs::path& directory) {
+void tell_about_resume(const RunToFinish& ending) {
   std::error_code ignored;
-  if (!fs::exists(directory / record::kJournalName, ignored)) return;
-  tell(fmt::format("rondure: to go on with the run that lies there: {}\n",
-                   resume_command(directory)));
-}
-
-/// A run as its directory tells it.
-struct Told {
-  record::RunRecord record;
-  reports::Evaluation evaluation;
-};
-
-core::Result<Told> read_and_evaluate(const fs::path& directory) {
-  auto read = record::read_journal(directory);
-  if (!read) return core::fail(read.error());
-  auto evaluation = reports::evaluate_run(read->record, directory, processor());
-  if (!evaluation) return core::fail(evaluation.error());
-  return Told{std::move(read->record), std::move(*evaluation)};
+  if (!fs::exists(ending.directory / record::kJournalName, ignored)) return;
+  tell(fmt::format("rondure: to go on with the run that lies there: {}\n", resume_command(ending)));
 }
 
 /// Says why nothing is measured: a fault, or all that changed since the run began.
@@ -113,86 +86,6 @@ void refuse(const std::vector<core::Error>& reasons, bool resume, const fs::path
                   "or start a new run:\n",
                   directory.string()));
   complain(reasons);
-}
-
-/// Evaluates what is on disk, not what is in memory; seals a finished run; writes the reports.
-/// @param run  None for a run that was sealed before.
-int conclude(const RunArguments& arguments, const plans::Plan& plan,
-             const record::ArchivePlace& archive, const fs::path& directory, plans::Run* run) {
-  const auto told = read_and_evaluate(directory);
-  if (!told) {
-    complain(told.error());
-    return kRunFailed;
-  }
-  const reports::Evaluation& evaluation = told->evaluation;
-  // An unfinished run stays open: it has no results to seal.
-  if (run != nullptr && !run->failure) {
-    if (auto sealed = run->journal.seal(reports::stored_results(evaluation)); !sealed) {
-      complain(sealed.error());
-      tell(fmt::format("rondure: every touch is kept; to finish the run: {}\n",
-                       resume_command(directory)));
-      return kRunFailed;
-    }
-  }
-  const auto formats = arguments.formats.empty() ? plan.reports.formats : arguments.formats;
-  const auto written = reports::write_exports(directory, formats, told->record, evaluation);
-  if (!written) {
-    complain(written.error());
-    tell(
-        fmt::format("rondure: the measurement is kept; then write the reports: rondure report {}\n",
-                    directory.string()));
-    return kRunFailed;
-  }
-  if (!arguments.quiet) {
-    say(reports::write_summary(told->record, evaluation));
-    for (const fs::path& file : *written) say(file.string() + "\n");
-  }
-  const bool failed = run != nullptr && run->failure;
-  if (!failed) archive_run(archive, directory, told->record, evaluation);
-  return exit_status(failed, evaluation.verdict);
-}
-
-/// What a run that died right behind its seal left to do on its journal. A damaged one stays as it
-/// is: it must not look like a sound one.
-core::Result<void> close_sealed(const fs::path& directory) {
-  const auto read = record::read_journal(directory);
-  if (!read) return core::fail(read.error());
-  if (read->broken.empty()) return record::Journal::finish_seal(directory);
-  return core::fail(core::Code::kJournal,
-                    fmt::format("table {} of the sealed journal was changed: {}",
-                                read->broken.front().table, read->broken.front().what),
-                    directory.string());
-}
-
-/// A sealed run has nothing to measure; it may have died before its reports were written.
-int finish_sealed(const RunArguments& arguments, const plans::Plan& plan,
-                  const record::ArchivePlace& archive, const fs::path& directory) {
-  const auto lock = record::RunLock::take(directory);
-  if (!lock) {
-    complain(lock.error());
-    return kBadInput;
-  }
-  record::remove_temporaries(directory);
-  if (auto closed = close_sealed(directory); !closed) {
-    complain(closed.error());
-    return kRunFailed;
-  }
-  const auto told = read_and_evaluate(directory);
-  if (!told) {
-    complain(told.error());
-    return kRunFailed;
-  }
-  const auto formats = arguments.formats.empty() ? plan.reports.formats : arguments.formats;
-  if (reports::exports_are_current(directory, formats, told->record, told->evaluation)) {
-    tell(
-        fmt::format("rondure: the run in {} is finished and sealed, there is nothing to resume; "
-                    "its reports are there (again: rondure report {})\n",
-                    directory.string(), directory.string()));
-    return kBadInput;
-  }
-  tell(fmt::format("rondure: the run in {} is finished and sealed; only its reports are written\n",
-                   directory.string()));
-  return conclude(arguments, plan, archive, directory, nullptr);
 }
 
 /// The state of the run that is resumed; a run that is not resumed begins.
@@ -223,8 +116,8 @@ int run(const RunArguments& arguments) {
     complain(archive.error());
     return kBadInput;
   }
-  if (resumption->state == Resumption::State::kFinished)
-    return finish_sealed(arguments, *plan, *archive, options.directory);
+  const RunToFinish ending{arguments, *plan, *archive, options.directory};
+  if (resumption->state == Resumption::State::kFinished) return finish_sealed(ending);
   const bool resume = resumption->state == Resumption::State::kGoesOn;
   if (arguments.resume && !resume && !arguments.quiet) {
     tell(fmt::format("rondure: {} holds no run yet; it begins\n", options.directory.string()));
@@ -233,12 +126,12 @@ int run(const RunArguments& arguments) {
   auto run = measure(*plan, options, resume, arguments.quiet);
   if (!run) {
     refuse(run.error(), resume, options.directory);
-    if (!arguments.resume) tell_about_resume(options.directory);
+    if (!arguments.resume) tell_about_resume(ending);
     return kBadInput;
   }
   if (run->failure) complain(*run->failure);
-  const int status = conclude(arguments, *plan, *archive, options.directory, &*run);
-  tell_how_to_go_on(*run, options.directory);
+  const int status = conclude(ending, &*run);
+  tell_how_to_go_on(*run, ending);
   return status;
 }
 

@@ -124,16 +124,17 @@ core::Result<void> Cell::recall_touch(const cmm::TouchCommand& command,
   return machine_.continue_after(command, reading);
 }
 
-core::Result<void> Cell::home_again() {
+core::Result<core::Pose> Cell::home_again() {
   shift_mm_.x() = simulation_.faults.part_moved_um * core::kMicrometre;
-  if (auto homed = machine_.home(); !homed) return homed;
-  if (auto homed = fixture_.home(); !homed) return core::fail(homed.error());
-  if (turns_ > 0) {
+  fixture_.stop_beside(simulation_.faults.fixture_off_deg * core::kDegree);
+  if (auto homed = machine_.home(); !homed) return core::fail(homed.error());
+  auto reached = fixture_.home();
+  if (reached && turns_ > 0) {
     fixture_.continue_after(turns_ - 1);
-    if (auto turned = fixture_.move_to(last_turn_); !turned) return core::fail(turned.error());
+    reached = fixture_.move_to(last_turn_);
   }
   place_part();
-  return {};
+  return reached;
 }
 
 void Cell::place_part() {

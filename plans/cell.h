@@ -51,8 +51,9 @@ class Cell {
   /// once after the checks: the clock goes on as if there had been no interruption.
   [[nodiscard]] core::Result<void> recall_touch(const cmm::TouchCommand& command,
                                                 const cmm::TouchReading& reading);
-  /// Homes machine and fixture and turns the part to where the last recalled turn left it.
-  [[nodiscard]] core::Result<void> home_again();
+  /// Homes machine and fixture and turns the part to where the last recalled turn left it; gives
+  /// the pose that the fixture reads there.
+  [[nodiscard]] core::Result<core::Pose> home_again();
 
   /// Noise-free tip centre of the last touch. For the truth that a simulation shows beside its
   /// result.

@@ -49,18 +49,22 @@ struct RunContext {
   /// when it fails.
   [[nodiscard]] core::Result<record::Touch> touch(TouchStep step);
   /// Homes machine and fixture, goes to the last known touches and repeats them: kLocation, with
-  /// difference and limit, when one is not where it was. Then the tip stands at the last of them.
+  /// difference and limit, when one is not where it was; kMachine when the fixture does not read
+  /// what it read in that pose. Then the tip stands at the last of them.
   [[nodiscard]] core::Result<void> come_back();
   /// Moves the tip through the corners of a path.
   [[nodiscard]] core::Result<void> follow(const Polyline& path_W);
   /// Straight up to the park height, from above the part or from the reference sphere.
   [[nodiscard]] core::Result<void> rise();
-  /// Turns the fixture and journals the pose it reached, or takes both from the journal.
+  /// Turns the fixture and journals the pose it reached, or takes both from the journal. kMachine
+  /// when it is turned to a recorded pose and does not read what it read then.
   [[nodiscard]] core::Result<record::PoseVisit> turn(int feature, const core::Pose& commanded);
   [[nodiscard]] core::Result<void> note(int feature, const std::string& text);
 
  private:
   [[nodiscard]] core::Result<record::Touch> recall(TouchStep step, const record::Touch& known);
+  /// Of the fixture: how far two readings of one pose may differ.
+  [[nodiscard]] double resolution_rad() const;
   /// Repeats a touch; the difference to the recorded one [mm].
   [[nodiscard]] core::Result<double> repeat_touch(const TouchStep& step, std::int64_t check_id);
 };

@@ -166,6 +166,7 @@ struct SimulatedFaultsPlan {
   int connection_lost_at_touch = 0;  ///< From 1, 0: never.
   int fixture_stalls_at_move = 0;    ///< From 1, 0: never.
   double part_moved_um = 0.0;        ///< Shift of the part while the run is interrupted, ring x.
+  double fixture_off_deg = 0.0;      ///< Alpha beside the commanded one after the interruption.
 };
 
 struct SimulationPlan {

@@ -14,6 +14,28 @@ namespace {
 /// shows a shift along its own direction only.
 constexpr std::size_t kChecks = 3;
 
+/// A pose of the journal that is taken again must read as before: part and targets follow the
+/// recorded reading.
+core::Result<void> check_reading(const record::PoseVisit& known, const core::Pose& reads,
+                                 double resolution_rad) {
+  constexpr double kRoundOff_rad = 1e-9;
+  const double apart_rad = std::max(std::abs(reads.alpha_rad - known.reached.alpha_rad),
+                                    std::abs(reads.beta_rad - known.reached.beta_rad));
+  if (apart_rad <= resolution_rad + kRoundOff_rad) return {};
+  const auto degrees = [](const core::Pose& pose) {
+    return fmt::format("({:.7g}, {:.7g}) deg", pose.alpha_rad / core::kDegree,
+                       pose.beta_rad / core::kDegree);
+  };
+  return core::fail(
+      core::Code::kMachine,
+      fmt::format("in pose {} the fixture reads {}, before the interruption it read {}: {:.3g} deg "
+                  "apart, its resolution allows {:g} deg (resolution_deg); it has lost its "
+                  "position, see to its homing, couplings and load, then resume",
+                  known.id, degrees(reads), degrees(known.reached), apart_rad / core::kDegree,
+                  resolution_rad / core::kDegree),
+      "/fixture/resolution_deg");
+}
+
 cmm::TouchReading reading_of(const record::Touch& touch) {
   return {touch.tip_mm, touch.temperature_degC, touch.time_s};
 }
@@ -68,7 +90,11 @@ core::Result<record::Touch> RunContext::recall(TouchStep step, const record::Tou
 
 core::Result<void> RunContext::come_back() {
   lost_place = true;
-  if (auto homed = cell->home_again(); !homed) return homed;
+  const auto reads = cell->home_again();
+  if (!reads) return core::fail(reads.error());
+  if (const record::PoseVisit* known = past.pose(last_steps.back().row.pose)) {
+    if (auto same = check_reading(*known, *reads, resolution_rad()); !same) return same;
+  }
   double largest_mm = 0.0;
   for (std::size_t i = 0; i < last_steps.size(); ++i) {
     const TouchStep& step = last_steps[i];
@@ -123,6 +149,8 @@ core::Result<double> RunContext::repeat_touch(const TouchStep& step, std::int64_
       "/machine/resume_limit_um");
 }
 
+double RunContext::resolution_rad() const { return cell->fixture().limits().resolution_rad; }
+
 core::Result<void> RunContext::follow(const Polyline& path_W) {
   if (recalling()) return {};
   for (const Eigen::Vector3d& corner : path_W) {
@@ -144,6 +172,10 @@ core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& 
   if (const record::PoseVisit* known = past.pose(next_pose)) {
     if (auto same = check_same_step(*known, feature, commanded); !same)
       return core::fail(same.error());
+    if (!recalling()) {
+      if (auto same = check_reading(*known, *reached, resolution_rad()); !same)
+        return core::fail(same.error());
+    }
     ++next_pose;
     return *known;
   }

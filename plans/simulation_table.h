@@ -94,6 +94,11 @@ void describe(Visitor& v, SimulatedFaultsPlan& p) {
            {.at_least = -1000.0,
             .at_most = 1000.0,
             .meaning = "Shift of the part in the ring, x, while the run is interrupted."});
+  v.number("fixture_off_deg", p.fixture_off_deg,
+           {.at_least = -5.0,
+            .at_most = 5.0,
+            .meaning = "After the interruption the fixture stops so far beside the commanded "
+                       "alpha, and reads so."});
 }
 
 template <class Visitor>

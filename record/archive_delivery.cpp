@@ -115,6 +115,7 @@ Delivery deliver(const ArchivePlace& place, const std::filesystem::path& queue_f
   if (run != nullptr) {
     if (const auto pushed = receiver.push(*run)) {
       count(delivery, *run, *pushed);
+      delivery.known = !*pushed;
     } else {
       delivery.failure = pushed.error();
       if (pushed.error().code == core::Code::kBadOption)

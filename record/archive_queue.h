@@ -55,6 +55,7 @@ struct Delivery {
   std::size_t sent = 0;     ///< Runs that are in the archive now, and that were not before.
   std::size_t results = 0;  ///< Results of those.
   std::size_t waiting = 0;  ///< Runs that wait in the queue for this archive.
+  bool known = false;       ///< The archive held the run before.
   std::optional<core::Error> failure;        ///< Why the archive did not take everything.
   std::optional<core::Error> queue_failure;  ///< Why the queue did not take it either.
 };

@@ -1,4 +1,4 @@
-#include "record/journal.h"
+#include "record/journal_reader.h"
 
 #include <algorithm>
 #include <array>
@@ -13,28 +13,13 @@
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
-#include "record/database.h"
-#include "record/files.h"
-#include "record/journal_damage.h"
 #include "record/journal_schema.h"
 #include "record/journal_seal.h"
-#include "record/private_copy.h"
 
 namespace rondure::record {
 namespace {
 
-namespace fs = std::filesystem;
 using soci::into;
-
-/// The file is readable but says something that no journal of ours says.
-struct Contradiction : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// The database itself is not whole.
-struct Damage : Contradiction {
-  using Contradiction::Contradiction;
-};
 
 template <class Number>
 Number single(soci::session& sql, const std::string& query) {
@@ -299,6 +284,8 @@ void read_results(soci::session& sql, RunRecord& record) {
   while (rows.fetch()) record.results.push_back(row);
 }
 
+}  // namespace
+
 ReadJournal read_tables(soci::session& sql) {
   ReadJournal journal;
   journal.version = static_cast<int>(require_journal(sql));
@@ -318,59 +305,6 @@ ReadJournal read_tables(soci::session& sql) {
   journal.record.sealed = is_sealed(sql);
   journal.broken = check_seal(sql, journal.version);
   return journal;
-}
-
-bool is_damage(const std::exception& exception) {
-  const auto* error = dynamic_cast<const soci::sqlite3_soci_error*>(&exception);
-  return (error != nullptr && (error->result() & 0xff) == SQLITE_CORRUPT) ||
-         dynamic_cast<const Damage*>(&exception) != nullptr;
-}
-
-std::string advice_after(const std::string& loss) {
-  return fmt::format(
-      "{}{}; copy the run directory again from where it was measured, or from a backup",
-      loss.empty() ? "" : "; ", loss);
-}
-
-core::Result<void> require_file(const fs::path& directory, const fs::path& file) {
-  std::error_code problem;
-  const fs::file_status status = fs::status(file, problem);
-  const auto refuse = [&](std::string what) {
-    return core::fail(core::Code::kFile, std::move(what), file.string());
-  };
-  if (fs::is_regular_file(status)) return {};
-  if (status.type() == fs::file_type::not_found) {
-    return refuse(fmt::format("there is no {} in {}; name the directory of a run", kJournalName,
-                              directory.string()));
-  }
-  if (fs::exists(status)) return refuse("the journal is not a file; name the directory of a run");
-  return refuse(fmt::format("the journal cannot be looked at: {}", system_reason(problem.value())));
-}
-
-}  // namespace
-
-core::Result<ReadJournal> read_journal(const fs::path& directory) {
-  const fs::path file = directory / kJournalName;
-  if (auto found = require_file(directory, file); !found) return core::fail(found.error());
-  const auto copy = PrivateCopy::of(file);
-  if (!copy) return core::fail(copy.error());
-  const auto connection = connection_string(copy->file());
-  if (!connection) return core::fail(connection.error());
-  std::optional<soci::session> sql;
-  std::string reason;
-  try {
-    sql.emplace(soci::sqlite3, *connection);
-    *sql << "pragma synchronous = off";  // the copy need not survive a power cut
-    return read_tables(*sql);
-  } catch (const std::exception& exception) {
-    reason = reason_of(exception, sql ? &*sql : nullptr);
-    if (is_damage(exception)) {
-      sql.reset();
-      reason += advice_after(loss_in_words(copy->file()));
-    }
-  }
-  return core::fail(core::Code::kJournal, fmt::format("the journal cannot be read: {}", reason),
-                    file.string());
 }
 
 }  // namespace rondure::record

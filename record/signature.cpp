@@ -37,7 +37,9 @@ core::Error wrong_key(const std::string& pem, const Key& key, std::string_view k
   } else if (pem.find("PUBLIC KEY") != std::string::npos && kind == "private") {
     found = "the file holds a public key, which only checks";
   } else if (pem.find("ENCRYPTED") != std::string::npos) {
-    found = "the pass phrase of the key is not the right one";
+    return {core::Code::kBadOption,
+            "the pass phrase of the key is not the right one; give it again",
+            {}};
   }
   return {
       core::Code::kBadOption,

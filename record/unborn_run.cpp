@@ -1,5 +1,8 @@
 #include "record/unborn_run.h"
 
+#include <algorithm>
+#include <array>
+#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -35,10 +38,19 @@ core::Result<bool> holds_no_table(const fs::path& journal) {
   }
 }
 
-bool holds_only_a_lock(const fs::path& directory) {
+constexpr std::array kSuffixes = {"-shm", "-wal", "-journal", ""};  ///< Files of one journal.
+
+/// Whether a directory holds only what a run begins with. Beside reports or a list of digests an
+/// empty journal is one that lost its contents.
+bool holds_only_a_beginning(const fs::path& directory) {
   std::error_code problem;
   for (const auto& entry : fs::directory_iterator(directory, problem)) {
-    if (entry.path().filename() != kLockName) return false;
+    const std::string name = entry.path().filename().string();
+    const bool known = name == kLockName ||
+                       std::any_of(kSuffixes.begin(), kSuffixes.end(), [&](const char* suffix) {
+                         return name == std::string(kJournalName) + suffix;
+                       });
+    if (!known) return false;
   }
   return !problem;
 }
@@ -57,12 +69,13 @@ core::Result<bool> clear_unborn_run(const fs::path& directory) {
                                   directory.string(), system_reason(problem.value())),
                       directory.string());
   }
-  if (!fs::exists(journal, problem)) return holds_only_a_lock(directory);
+  if (!holds_only_a_beginning(directory)) return false;
+  if (!fs::exists(journal, problem)) return true;
   const auto lock = RunLock::take(directory);
   if (!lock) return core::fail(lock.error());
   auto unborn = holds_no_table(journal);
   if (!unborn || !*unborn) return unborn;
-  for (const char* suffix : {"-shm", "-wal", "-journal", ""}) {
+  for (const char* suffix : kSuffixes) {
     if (fs::remove(journal.string() + suffix, problem); problem) {
       return core::fail(core::Code::kFile,
                         fmt::format("the unfinished journal {} cannot be removed: {}",

@@ -63,13 +63,27 @@ void count(const fs::path& run, std::size_t all, Tally& tally) {
   }
 }
 
-void print(const Tally& tally, std::size_t killed_runs) {
+void print(const Tally& tally, std::size_t equal) {
   std::printf(
-      "%zu runs, %zu kills: before the journal stood %zu, qualification %zu, location %zu, clouds "
+      "%zu of %zu runs resumed to the same bits and archived once, %zu kills: before the journal "
+      "stood %zu, qualification %zu, location %zu, clouds "
       "%zu, measured and not sealed %zu, sealed without all reports %zu; ended before its kill "
       "%zu\n",
-      killed_runs, tally.kills, tally.before_journal, tally.qualifying, tally.locating,
+      equal, runs(), tally.kills, tally.before_journal, tally.qualifying, tally.locating,
       tally.measuring, tally.measured, tally.sealed, tally.ended);
+}
+
+/// What an archive of one run holds: name, value and verdict of each result.
+std::vector<std::string> results_in(const fs::path& archive) {
+  const Outcome outcome = rondure({"history", archive, "--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const auto document = nlohmann::json::parse(outcome.out, nullptr, false);
+  std::vector<std::string> out;
+  for (const auto& result : document["results"]) {
+    out.push_back(result["characteristic"].dump() + result["symbol"].dump() +
+                  result["value"].dump() + result["verdict"].dump());
+  }
+  return out;
 }
 
 /// The run that nothing interrupts, and how long it takes.
@@ -79,6 +93,7 @@ struct Whole {
   std::string bits;
   std::string csv;
   std::vector<std::string> names;
+  std::vector<std::string> archived;
   Seconds duration{};
 
   explicit Whole(const fs::path& plan) {
@@ -89,6 +104,8 @@ struct Whole {
     bits = record::measured_bits(record);
     csv = read(folder / "run" / "touches.csv");
     names = names_in(folder / "run");
+    archived = results_in(folder / "archive.db");
+    EXPECT_FALSE(archived.empty());
   }
 };
 
@@ -103,6 +120,7 @@ void expect_equal(const fs::path& run, const Whole& whole) {
   EXPECT_EQ(read(run / "touches.csv"), whole.csv);
   EXPECT_EQ(names_in(run), whole.names);
   EXPECT_EQ(rondure({"verify", run}).status, 0);
+  EXPECT_EQ(results_in(run.parent_path() / "archive.db"), whole.archived);
   EXPECT_TRUE(read(run / "report.html").ends_with("</html>\n"));
   EXPECT_TRUE(read(run / "report.json").ends_with("}\n"));
 }
@@ -112,6 +130,7 @@ TEST(KilledByChance, EveryRunIsResumedToTheSameResult) {
   const Whole whole(plan);
   std::uint64_t state = 20261121;
   Tally tally;
+  std::size_t equal = 0;  // until the first that is not
   for (std::size_t i = 0; i < runs(); ++i) {
     SCOPED_TRACE(i);
     const TemporaryFolder folder;
@@ -137,8 +156,9 @@ TEST(KilledByChance, EveryRunIsResumedToTheSameResult) {
       EXPECT_NE(outcome.err.find("nothing to resume"), std::string::npos) << outcome.err;
     }
     expect_equal(run, whole);
+    equal += HasFailure() ? 0 : 1;
   }
-  print(tally, runs());
+  print(tally, equal);
   EXPECT_GT(tally.kills, runs() / 2);
 }
 
@@ -168,7 +188,7 @@ void expect_survives_kill_when(const Whole& whole, const fs::path& plan, const s
   for (const std::string& left : names_in(run)) EXPECT_FALSE(left.ends_with(".tmp")) << left;
 }
 
-TEST(KilledWhile, ItBeginsSealsOrWritesReports) {
+TEST(KilledWhile, ItBeginsSealsWritesReportsOrArchives) {
   const fs::path plan = example("01_spool_simulated.json");
   const Whole whole(plan);
   const int rounds = std::getenv("RONDURE_FULL") != nullptr ? 20 : 1;
@@ -178,6 +198,7 @@ TEST(KilledWhile, ItBeginsSealsOrWritesReports) {
     expect_survives_kill_when(whole, plan, "journal.db-wal", false, later);  // sealed
     expect_survives_kill_when(whole, plan, "report.html", true, later);      // the first report
     expect_survives_kill_when(whole, plan, "touches.csv", true, later);      // the last
+    expect_survives_kill_when(whole, plan, "../archive.db", true, later);    // the archive
   }
 }
 

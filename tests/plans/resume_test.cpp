@@ -194,6 +194,44 @@ TEST(ResumeChecks, EndTheRunWhenThePartHasMoved) {
   }
 }
 
+TEST(ResumeChecks, EndTheRunWhenTheFixtureReadsAnotherPoseThanItDid) {
+  const Plan still = plan_of("01_spool_simulated.json");
+  // In a pose that was reached without a touch in it, and in poses with touches.
+  for (const int touches : {13, 30, 120}) {
+    for (const double off_deg : {0.11, -0.11}) {
+      if (!full() && (touches == 30) == (off_deg > 0.0)) continue;
+      SCOPED_TRACE(::testing::Message() << touches << " touches, " << off_deg << " deg");
+      const Plan plan = with(
+          still, "\"seed\": 20261121",
+          "\"faults\": {\"fixture_off_deg\": " + std::to_string(off_deg) + "}, \"seed\": 20261121");
+      const record::Scratch scratch;
+      RunOptions options = options_for(scratch / "run");
+      stop_after(options, touches);
+      (void)run_plan(plan, options);
+      const auto run = resume_plan(plan, options_for(scratch / "run"));
+      ASSERT_TRUE(run && run->failure);
+      EXPECT_EQ(run->failure->code, core::Code::kMachine);
+      EXPECT_THAT(run->failure->what,
+                  AllOf(HasSubstr("the fixture reads ("), HasSubstr("0.11 deg apart"),
+                        HasSubstr("allows 0.05 deg (resolution_deg)")));
+      EXPECT_TRUE(is_resumable(*run->failure)) << "a fixture can be put right";
+      EXPECT_EQ(journal_of(scratch / "run").touches.size(), static_cast<std::size_t>(touches));
+    }
+  }
+}
+
+TEST(ResumeChecks, LetTheFixtureReadOneStepOfItsResolutionBeside) {
+  const Plan plan = with(plan_of("01_spool_simulated.json"), "\"seed\": 20261121",
+                         "\"faults\": {\"fixture_off_deg\": 0.05}, \"seed\": 20261121");
+  const record::Scratch scratch;
+  RunOptions options = options_for(scratch / "run");
+  stop_after(options, 13);
+  (void)run_plan(plan, options);
+  const auto run = resume_plan(plan, options_for(scratch / "run"));
+  ASSERT_TRUE(run);
+  EXPECT_FALSE(run->failure) << run->failure->what;
+}
+
 TEST(ResumeChecks, TakeTheirLimitFromThePlan) {
   const Plan plan = with(with(plan_of("01_spool_simulated.json"), "\"seed\": 20261121",
                               "\"faults\": {\"part_moved_um\": 30}, \"seed\": 20261121"),

@@ -204,7 +204,7 @@ TEST_F(JournalDamage, ForeignFilesAreNamed) {
     EXPECT_EQ(read.error().where, (scratch / "run/journal.db").string());
   };
   put("");
-  expect(core::Code::kJournal, "it is no journal of Rondure");
+  expect(core::Code::kJournal, "it is empty");
   put(std::string(5000, 'x') + "\n");
   expect(core::Code::kJournal, "file is not a database");
   fs::remove(scratch / "run/journal.db");
@@ -214,6 +214,15 @@ TEST_F(JournalDamage, ForeignFilesAreNamed) {
   fs::remove(scratch / "run/journal.db");
   fs::create_directory(scratch / "run/journal.db");
   expect(core::Code::kFile, "the journal is not a file");
+}
+
+TEST_F(JournalDamage, AJournalThatWasLostBesideItsDigestIsMissed) {
+  ASSERT_TRUE(write_file(scratch / "run/SHA256SUMS", ""));
+  fs::remove(scratch / "run/journal.db");
+  const auto read = read_journal(scratch / "run");
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().what, AllOf(HasSubstr("but a SHA256SUMS: the journal of a run was lost"),
+                                       HasSubstr("from a backup")));
 }
 
 TEST_F(JournalDamage, ADirectoryThatIsNoRunIsNamed) {

@@ -128,6 +128,12 @@ TEST(UnbornRun, IsNothingThatHoldsAnything) {
   ASSERT_TRUE(write_file(scratch / "mine/mine.txt", "keep"));
   EXPECT_FALSE(clear_unborn_run(scratch / "mine").value());
   EXPECT_FALSE(fs::exists(scratch / "mine/run.lock"));
+  // A journal that lost its contents beside its reports is no beginning.
+  fs::create_directory(scratch / "lost");
+  ASSERT_TRUE(write_file(scratch / "lost/journal.db", ""));
+  ASSERT_TRUE(write_file(scratch / "lost/SHA256SUMS", ""));
+  EXPECT_FALSE(clear_unborn_run(scratch / "lost").value());
+  EXPECT_TRUE(fs::exists(scratch / "lost/journal.db"));
 }
 
 }  // namespace

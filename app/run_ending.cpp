@@ -1,0 +1,138 @@
+#include "app/run_ending.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/archive_step.h"
+#include "app/processor.h"
+#include "app/resumption.h"
+#include "app/terminal.h"
+#include "record/files.h"
+#include "record/journal.h"
+#include "record/run_lock.h"
+#include "reports/defect.h"
+#include "reports/evaluation.h"
+#include "reports/exports.h"
+#include "reports/writers.h"
+
+namespace rondure::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+int exit_status(bool failed, reports::Verdict verdict) {
+  if (failed) return kRunFailed;
+  const bool well =
+      verdict == reports::Verdict::kConforms || verdict == reports::Verdict::kNotToleranced;
+  return well ? kAllWell : kNotConforming;
+}
+
+/// A run as its directory tells it.
+struct Told {
+  record::RunRecord record;
+  reports::Evaluation evaluation;
+};
+
+core::Result<Told> read_and_evaluate(const fs::path& directory) {
+  auto read = record::read_journal(directory);
+  if (!read) return core::fail(read.error());
+  auto evaluation = reports::evaluate_run(read->record, directory, processor());
+  if (!evaluation) return core::fail(evaluation.error());
+  return Told{std::move(read->record), std::move(*evaluation)};
+}
+
+/// What a run that died right behind its seal left to do on its journal. A damaged one stays as it
+/// is: it must not look like a sound one.
+core::Result<void> close_sealed(const fs::path& directory) {
+  const auto read = record::read_journal(directory);
+  if (!read) return core::fail(read.error());
+  if (read->broken.empty()) return record::Journal::finish_seal(directory);
+  return core::fail(core::Code::kJournal,
+                    fmt::format("table {} of the sealed journal was changed: {}",
+                                read->broken.front().table, read->broken.front().what),
+                    directory.string());
+}
+
+/// A sealed run with its reports may have died before it was archived.
+int finish_archived(const record::ArchivePlace& archive, const fs::path& directory,
+                    const Told& told) {
+  if (archive_run(archive, directory, told.record, told.evaluation)) {
+    tell(fmt::format(
+        "rondure: the run in {} is finished and sealed; only its results had still to go to {}\n",
+        directory.string(), archive.shown));
+    return exit_status(false, told.evaluation.verdict);
+  }
+  tell(
+      fmt::format("rondure: the run in {} is finished and sealed, there is nothing to resume; its "
+                  "reports are there (again: rondure report {})\n",
+                  directory.string(), directory.string()));
+  return kBadInput;
+}
+
+}  // namespace
+
+int conclude(const RunToFinish& ending, plans::Run* run) {
+  const auto& [arguments, plan, archive, directory] = ending;
+  const auto told = read_and_evaluate(directory);
+  if (!told) {
+    complain(told.error());
+    return kRunFailed;
+  }
+  const reports::Evaluation& evaluation = told->evaluation;
+  const bool failed = run != nullptr && run->failure;
+  // An unfinished run stays open: it has no results to seal.
+  if (run != nullptr && !failed) {
+    if (auto sealed = run->journal.seal(reports::stored_results(evaluation)); !sealed) {
+      complain(sealed.error());
+      tell(fmt::format("rondure: every touch is kept; to finish the run: {}\n",
+                       resume_command(ending)));
+      return kRunFailed;
+    }
+  }
+  const auto formats = arguments.formats.empty() ? plan.reports.formats : arguments.formats;
+  const auto written = reports::write_exports(directory, formats, told->record, evaluation);
+  if (!written) {
+    complain(written.error());
+    if (!failed) {
+      tell(
+          fmt::format("rondure: the measurement is kept; to write its reports and archive it: {}\n",
+                      resume_command(ending)));
+    }
+    return kRunFailed;
+  }
+  if (!arguments.quiet) {
+    say(reports::write_summary(told->record, evaluation));
+    for (const fs::path& file : *written) say(file.string() + "\n");
+  }
+  if (!failed) (void)archive_run(archive, directory, told->record, evaluation);
+  return exit_status(failed, evaluation.verdict);
+}
+
+int finish_sealed(const RunToFinish& ending) {
+  const auto& [arguments, plan, archive, directory] = ending;
+  const auto lock = record::RunLock::take(directory);
+  if (!lock) {
+    complain(lock.error());
+    return kBadInput;
+  }
+  record::remove_temporaries(directory);
+  if (auto closed = close_sealed(directory); !closed) {
+    complain(closed.error());
+    return kRunFailed;
+  }
+  const auto told = read_and_evaluate(directory);
+  if (!told) {
+    complain(told.error());
+    return kRunFailed;
+  }
+  const auto formats = arguments.formats.empty() ? plan.reports.formats : arguments.formats;
+  if (reports::exports_are_current(directory, formats, told->record, told->evaluation)) {
+    return finish_archived(archive, directory, *told);
+  }
+  tell(fmt::format("rondure: the run in {} is finished and sealed; only its reports are written\n",
+                   directory.string()));
+  return conclude(ending, nullptr);
+}
+
+}  // namespace rondure::app

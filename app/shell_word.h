@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace rondure::app {
+
+/// A word of a command line, quoted for a shell where it must be.
+[[nodiscard]] std::string quoted(const std::string& word);
+
+}  // namespace rondure::app

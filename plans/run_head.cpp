@@ -1,0 +1,103 @@
+#include "plans/run_head.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/units.h"
+#include "core/version.h"
+#include "fit/pose_walk.h"
+#include "record/sha256.h"
+
+namespace rondure::plans {
+namespace {
+
+record::Reference reference_of(const CharacteristicPlan& plan) {
+  const std::string name = plan.reference.value_or("mz");
+  if (name == "ls") return record::Reference::kLeastSquares;
+  if (name == "mc") return record::Reference::kMinimumCircumscribed;
+  if (name == "mi") return record::Reference::kMaximumInscribed;
+  return record::Reference::kMinimumZone;
+}
+
+record::Characteristic characteristic_of(const CharacteristicPlan& plan) {
+  record::Characteristic out;
+  out.id = plan.id;
+  out.form = plan.form == "roundness" ? record::Form::kRoundness : record::Form::kCylindricity;
+  out.reference = reference_of(plan);
+  if (plan.tolerance_um) out.tolerance_mm = *plan.tolerance_um * core::kMicrometre;
+  out.drawing_zone = plan.drawing_zone;
+  return out;
+}
+
+}  // namespace
+
+bool from_file(const FeaturePlan& feature) { return feature.source.has_value(); }
+
+bool touches_anything(const Plan& plan) {
+  return !std::all_of(plan.features.begin(), plan.features.end(), from_file);
+}
+
+record::Strategy strategy_of(const FeaturePlan& feature) {
+  if (from_file(feature)) return record::Strategy::kPointsFile;
+  const std::string& name = feature.pose_search.strategy;
+  if (name == "refined") return record::Strategy::kRefined;
+  if (name == "as-published") return record::Strategy::kAsPublished;
+  if (name == "virtual") return record::Strategy::kVirtual;
+  return record::Strategy::kGuided;
+}
+
+record::Feature feature_of(const FeaturePlan& plan) {
+  record::Feature out;
+  out.id = plan.id;
+  out.shape = plan.type == "circle" ? record::Shape::kCircle : record::Shape::kCylinder;
+  out.side = plan.side == "inside" ? record::Side::kInside : record::Side::kOutside;
+  out.nominal_diameter_mm = plan.nominal.diameter_mm;
+  out.strategy = strategy_of(plan);
+  if (!from_file(plan)) {
+    out.layers = plan.sampling.layers;
+    out.points_per_layer = plan.sampling.points_per_layer;
+  } else {
+    out.points_file = plan.source->file;
+    if (plan.source->tip_diameter_mm) out.tip_radius_mm = 0.5 * *plan.source->tip_diameter_mm;
+  }
+  if (out.strategy == record::Strategy::kVirtual) {
+    out.search_steps_deg =
+        fit::halved_steps(plan.pose_search.steps_deg, plan.pose_search.min_step_deg);
+  }
+  for (const CharacteristicPlan& c : plan.characteristics)
+    out.characteristics.push_back(characteristic_of(c));
+  return out;
+}
+
+record::Header header_of(const Plan& plan, const RunOptions& options, std::uint64_t seed) {
+  record::Header out;
+  out.run_id = options.run_id;
+  out.version = core::kVersion;
+  out.processor = options.processor;
+  out.started_utc = options.started_utc;
+  out.plan_file = options.plan_file;
+  out.plan_name = plan.plan.name;
+  out.plan_revision = plan.plan.revision;
+  out.plan_text = plan.text;
+  out.plan_sha256 = record::sha256_hex(plan.text);
+  out.part_id = plan.part.id;
+  out.part_name = plan.part.name;
+  out.drawing = plan.part.drawing;
+  out.serial = options.serial;
+  out.operator_name = options.operator_name;
+  out.decision_rule = plan.decision_rule.rule;
+  out.simulated = touches_anything(plan);
+  out.seed = out.simulated ? seed : 0;
+  out.temperature_min_degC = plan.environment.min_degC;
+  out.temperature_max_degC = plan.environment.max_degC;
+  return out;
+}
+
+record::Artefact artefact_of(const Plan& plan) {
+  if (!plan.probe) return {};
+  const QualificationPlan& q = plan.probe->qualification;
+  return {0.5 * q.sphere_diameter_mm, 0.5 * plan.probe->tip_diameter_mm,
+          q.radius_tolerance_um * core::kMicrometre, q.form_limit_um * core::kMicrometre};
+}
+
+}  // namespace rondure::plans

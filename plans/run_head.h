@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+#include "plans/plan.h"
+#include "plans/runner.h"
+#include "record/run_record.h"
+
+// What a plan says to the journal before the first touch: the rows of its head.
+
+namespace rondure::plans {
+
+/// Whether the points of a feature are read from a file instead of being touched.
+[[nodiscard]] bool from_file(const FeaturePlan& feature);
+/// Whether a plan needs a machine.
+[[nodiscard]] bool touches_anything(const Plan& plan);
+
+[[nodiscard]] record::Strategy strategy_of(const FeaturePlan& feature);
+/// A feature without the digest of its points file, which is not read here.
+[[nodiscard]] record::Feature feature_of(const FeaturePlan& plan);
+/// The head without the descriptions of machine and fixture.
+/// @param seed  Of the simulation; kept when anything is touched.
+[[nodiscard]] record::Header header_of(const Plan& plan, const RunOptions& options,
+                                       std::uint64_t seed);
+/// The reference sphere; empty for a plan without a probe.
+[[nodiscard]] record::Artefact artefact_of(const Plan& plan);
+
+}  // namespace rondure::plans

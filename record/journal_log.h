@@ -1,0 +1,19 @@
+#pragma once
+
+#include <soci/soci.h>
+
+// Private to the room: the write-ahead log of a journal. Everything here throws.
+
+namespace rondure::record {
+
+/// Exclusive: no other program can hold up a touch. WAL and synchronous=full: one flush a commit,
+/// on disk when the call returns.
+void keep_log(soci::session& sql);
+
+/// Moves the write-ahead log into the file.
+void fold_log(soci::session& sql);
+
+/// From then on the journal is one file.
+void leave_log(soci::session& sql);
+
+}  // namespace rondure::record

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <stdexcept>
+
+#include <soci/soci.h>
+
+#include "record/journal.h"
+
+// Private to the room: the rows of a journal as records.
+
+namespace rondure::record {
+
+/// The file is readable but says something that no journal of ours says.
+struct Contradiction : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The database itself is not whole.
+struct Damage : Contradiction {
+  using Contradiction::Contradiction;
+};
+
+/// Reads and checks every table of an open journal. Throws soci::soci_error and the two above.
+[[nodiscard]] ReadJournal read_tables(soci::session& sql);
+
+}  // namespace rondure::record
