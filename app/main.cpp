@@ -126,6 +126,10 @@ void add_roundness(CLI::App& fit_verb, RoundnessArguments& arguments) {
       ->check(CLI::IsMember({"gaussian", "2rc", "robust", "spline", "none"}));
   verb->add_option("--pass", arguments.pass, "low (default), high or band")
       ->check(CLI::IsMember({"low", "high", "band"}));
+  verb->add_option("--reference", arguments.reference,
+                   "Reference circle: ls least squares, mz minimum zone, mc minimum circumscribed, "
+                   "mi maximum inscribed, or all (default)")
+      ->check(CLI::IsMember({"ls", "mz", "mc", "mi", "all"}));
   verb->add_flag("--override-sampling", arguments.override_sampling,
                  "Filter also with fewer than 7 points per undulation");
   verb->add_flag("--inside", arguments.inside, "A bore: peaks point to the centre");

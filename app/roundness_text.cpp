@@ -48,8 +48,10 @@ Json value_json(const fit::RoundnessEvaluation& evaluation, const fit::Roundness
   out["center_mm"] = {value.center_mm.x(), value.center_mm.y()};
   out["radius_mm"] = value.radius_mm;
   if (value.reference == fit::CircleReference::kLs) return out;
-  out["contacts_deg"] = {{"outer", contact_angles(evaluation, value.outer)},
-                         {"inner", contact_angles(evaluation, value.inner)}};
+  if (value.reference != fit::CircleReference::kMi)
+    out["contacts_deg"]["outer"] = contact_angles(evaluation, value.outer);
+  if (value.reference != fit::CircleReference::kMc)
+    out["contacts_deg"]["inner"] = contact_angles(evaluation, value.inner);
   out["certificate"] = {{"kind", fit::name_of(value.certificate.kind)},
                         {"scope", value.certificate.scope},
                         {"gap_mm", value.certificate.gap_mm},
@@ -111,9 +113,12 @@ std::string value_lines(const fit::RoundnessEvaluation& evaluation, const fit::R
                : fmt::format("\n    centre ({:.6f}, {:.6f}) mm, radius {:.6f} mm\n",
                              value.center_mm.x(), value.center_mm.y(), value.radius_mm);
   if (value.reference == fit::CircleReference::kLs) return out;
-  out += fmt::format("    contacts at deg, outer{}, inner{}\n",
-                     degrees_list(contact_angles(evaluation, value.outer)),
-                     degrees_list(contact_angles(evaluation, value.inner)));
+  out += "    contacts at deg";
+  if (!value.outer.empty())
+    out += ", outer" + degrees_list(contact_angles(evaluation, value.outer));
+  if (!value.inner.empty())
+    out += ", inner" + degrees_list(contact_angles(evaluation, value.inner));
+  out += "\n";
   out += fmt::format("    certificate {}, {}, gap {:.1e} mm", fit::name_of(value.certificate.kind),
                      value.certificate.scope, value.certificate.gap_mm);
   if (!value.certificate.reason.empty()) out += "; " + value.certificate.reason;
@@ -157,6 +162,9 @@ std::string roundness_json(const fit::RoundnessEvaluation& evaluation, bool pola
                        {"error_um", um(evaluation.resampling_error_mm)}};
   for (const fit::Roundness& value : evaluation.values) {
     out[std::string(fit::name_of(value.reference))] = value_json(evaluation, value);
+  }
+  for (const fit::CircleReference reference : evaluation.absent) {
+    out[std::string(fit::name_of(reference))] = nullptr;
   }
   out["harmonics"] = harmonics_json(evaluation.harmonics);
   out["warnings"] = Json::array();

@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include "app/archive_step.h"
+#include "app/processor.h"
 #include "app/resumption.h"
 #include "app/terminal.h"
 #include "record/files.h"
 #include "record/journal.h"
 #include "record/run_lock.h"
+#include "reports/defect.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
 #include "reports/writers.h"
@@ -35,7 +37,7 @@ struct Told {
 core::Result<Told> read_and_evaluate(const fs::path& directory) {
   auto read = record::read_journal(directory);
   if (!read) return core::fail(read.error());
-  auto evaluation = reports::evaluate(read->record);
+  auto evaluation = reports::evaluate_run(read->record, directory, processor());
   if (!evaluation) return core::fail(evaluation.error());
   return Told{std::move(read->record), std::move(*evaluation)};
 }

@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include "app/processor.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal.h"
 #include "record/signature.h"
+#include "reports/defect.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
 #include "reports/writers.h"
@@ -35,7 +37,7 @@ int report(const ReportArguments& arguments) {
                      arguments.directory, broken.table, broken.what));
   }
   if (!read->broken.empty()) return kBadInput;
-  const auto evaluation = reports::evaluate(read->record);
+  const auto evaluation = reports::evaluate_run(read->record, arguments.directory, processor());
   if (!evaluation) {
     complain(evaluation.error());
     return kBadInput;

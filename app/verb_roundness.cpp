@@ -29,6 +29,13 @@ core::Result<fit::RoundnessOptions> options_of(const RoundnessArguments& argumen
   fit::RoundnessOptions out;
   out.inside = arguments.inside;
   out.filter.override_sampling = arguments.override_sampling;
+  using fit::CircleReference;
+  out.references.clear();
+  for (const auto reference :
+       {CircleReference::kLs, CircleReference::kMz, CircleReference::kMc, CircleReference::kMi}) {
+    const bool wanted = arguments.reference == fit::name_of(reference);
+    if (wanted || arguments.reference == "all") out.references.push_back(reference);
+  }
   for (const auto filter : {ProfileFilter::kNone, ProfileFilter::kGaussian, ProfileFilter::kTwoRc,
                             ProfileFilter::kRobustGaussian, ProfileFilter::kSpline}) {
     if (fit::name_of(filter) == arguments.filter) out.filter.filter = filter;
@@ -96,6 +103,7 @@ core::Result<fit::RoundnessEvaluation> evaluate_points(const record::ProfileTabl
                                                        const fit::RoundnessOptions& options) {
   auto out = fit::evaluate_section(table.rows, options);
   if (!out) return out;
+  if (out->values.empty()) return out;
   const double radius = out->values.front().radius_mm;
   if (radius < kLeastRadius || radius > kGreatestRadius) {
     out->warnings.push_back(

@@ -85,6 +85,7 @@ struct RoundnessArguments {
   std::string file;
   std::string filter = "gaussian";
   std::string pass = "low";
+  std::string reference = "all";
   std::vector<double> cutoff_upr = {50.0};  ///< Two for a band.
   bool override_sampling = false;
   bool inside = false;

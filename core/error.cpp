@@ -82,6 +82,8 @@ std::string_view code_name(Code code) {
       return "angle-order";
     case Code::kReferenceAbsent:
       return "reference-absent";
+    case Code::kSeveralOptima:
+      return "several-optima";
   }
   return "internal";
 }

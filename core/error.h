@@ -50,6 +50,7 @@ enum class Code {
   kUndersampled,   ///< undersampled: filtered by option with fewer than 7 points per undulation
   kAngleOrder,     ///< angle-order: angles that were unsorted, repeated or ran over one turn
   kReferenceAbsent,  ///< reference-absent: a reference that does not exist for these data
+  kSeveralOptima,    ///< several-optima: a reference is one of several that are nearly alike
 };
 
 /// The name of a code as JSON and messages spell it, e.g. "too-few-points".

@@ -18,23 +18,34 @@ constexpr double kImbalanceTolerance = 1e-6;
 /// Distance of a point from the place moved by `by` along unknown `k`.
 using MovedDistance = std::function<double(std::size_t row, int k, double by)>;
 
+/// The greater of both; what is not a number stays, so that no limit lets it pass.
+void raise(double& worst, double by) {
+  if (!std::isnan(worst) && !(by <= worst)) worst = by;
+}
+
+/// Points against the sides that the zone claims: those with contacts, or both.
 void check_points(std::size_t count, const MovedDistance& distance, const StatedZone& zone,
                   ZoneCheck& out) {
+  const bool outer = !zone.outer.empty() || zone.inner.empty();
+  const bool inner = !zone.inner.empty() || zone.outer.empty();
   for (std::size_t i = 0; i < count; ++i) {
     const double r = distance(i, 0, 0.0);
-    out.outside_mm = std::max({out.outside_mm, r - zone.outer_radius_mm, zone.inner_radius_mm - r});
+    if (outer) raise(out.outside_mm, r - zone.outer_radius_mm);
+    if (inner) raise(out.outside_mm, zone.inner_radius_mm - r);
   }
 }
 
-/// Weighted mean radius of one side; adds its gradients to `balance`.
+/// How far the weighted mean distance of one side lies above its radius; adds its gradients to
+/// `balance`. A side without contacts claims nothing.
 double weigh(std::span<const Contact> side, double radius, double sign, int unknowns, double step,
              const MovedDistance& distance, Eigen::Vector4d& balance, ZoneCheck& out) {
+  if (side.empty()) return 0.0;
   double sum = 0.0;
   double mean_excess = 0.0;
   for (const Contact& c : side) {
     const double excess = distance(c.index, 0, 0.0) - radius;
-    out.off_contact_mm = std::max(out.off_contact_mm, std::abs(excess));
-    out.weight_error = std::max(out.weight_error, -c.multiplier);
+    raise(out.off_contact_mm, std::abs(excess));
+    raise(out.weight_error, -c.multiplier);
     sum += c.multiplier;
     mean_excess += c.multiplier * excess;
     for (int k = 0; k < unknowns; ++k) {
@@ -43,23 +54,29 @@ double weigh(std::span<const Contact> side, double radius, double sign, int unkn
       balance(k) += sign * c.multiplier * slope;
     }
   }
-  out.weight_error = std::max(out.weight_error, std::abs(sum - 1.0));
+  raise(out.weight_error, std::abs(sum - 1.0));
   return mean_excess;
 }
 
 ZoneCheck check(std::size_t count, int unknowns, const MovedDistance& distance,
                 const StatedZone& zone, double tolerance) {
   ZoneCheck out;
+  for (const auto& side : {zone.outer, zone.inner}) {
+    for (const Contact& c : side) {
+      if (c.index < count) continue;
+      out.fault = fmt::format("a contact names row {} of {} points", c.index, count);
+      return out;
+    }
+  }
   check_points(count, distance, zone, out);
-  const bool held = !zone.outer.empty() && !zone.inner.empty();
-  if (held) {
+  if (!zone.outer.empty() || !zone.inner.empty()) {
     Eigen::Vector4d balance = Eigen::Vector4d::Zero();
     const double step = kStep * zone.outer_radius_mm;
     const double high =
         weigh(zone.outer, zone.outer_radius_mm, 1.0, unknowns, step, distance, balance, out);
     const double low =
         weigh(zone.inner, zone.inner_radius_mm, -1.0, unknowns, step, distance, balance, out);
-    out.imbalance = balance.cwiseAbs().maxCoeff();
+    for (const double unknown : balance) raise(out.imbalance, std::abs(unknown));
     const double width = zone.outer_radius_mm - zone.inner_radius_mm;
     out.gap_mm = low - high + balance.lpNorm<1>() * width;
   }

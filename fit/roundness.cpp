@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 #include <Eigen/QR>
 
 #include "fit/ls_circle.h"
 #include "fit/min_zone_circle.h"
+#include "fit/one_sided_center.h"
 #include "fit/zone_program.h"
 
 namespace rondure::fit {
@@ -62,6 +64,21 @@ core::Result<Roundness> mz_points(std::span<const Eigen::Vector2d> points) {
   out.outer = rows_of(zone->outer);
   out.inner = rows_of(zone->inner);
   out.certificate = zone->certificate;
+  return out;
+}
+
+core::Result<Roundness> one_sided_points(std::span<const Eigen::Vector2d> points,
+                                         CircleReference reference) {
+  const bool outside = reference == CircleReference::kMc;
+  const auto circle = outside ? min_circumscribed_circle(points) : max_inscribed_circle(points);
+  if (!circle) return core::fail(circle.error());
+  Roundness out;
+  out.reference = reference;
+  out.center_mm = circle->center_mm;
+  out.radius_mm = circle->radius_mm;
+  out.total_mm = circle->deviation_mm;
+  (outside ? out.outer : out.inner) = rows_of(circle->contacts);
+  out.certificate = circle->certificate;
   return out;
 }
 
@@ -128,24 +145,47 @@ ZoneRows<2> zone_rows(std::span<const double> theta, std::span<const double> r, 
   return rows;
 }
 
-core::Result<ZoneStep<2>> solve_zone(const ZoneRows<2>& rows) {
+/// The programme in a box that its optimum does not touch, if there is one.
+std::optional<ZoneStep<2>> solved(const ZoneRows<2>& rows, const ZoneWeights& weights) {
   const auto [low, high] = std::minmax_element(rows.distances().begin(), rows.distances().end());
   double box = std::max(kFirstBox * (*high - *low), 1e-12);
   for (int k = 0; k < kBoxes; ++k, box *= kBoxGrowth) {
-    auto step = solve_zone_program<2>(rows, box);
+    auto step = solve_zone_program<2>(rows, box, weights);
     if (step.solved && step.inside_box) return step;
   }
-  return core::fail(core::Code::kNotConverged,
-                    "the minimum zone of the profile has no centre within reach; the arc is too "
-                    "short for it");
+  return std::nullopt;
 }
 
-core::Result<Roundness> mz_profile(std::span<const double> theta, std::span<const double> r) {
-  if (auto checked = check_profile(theta, r, 4); !checked) return core::fail(checked.error());
+ZoneWeights weights_of(CircleReference reference) {
+  if (reference == CircleReference::kMc) return kMinimumCircumscribed;
+  return reference == CircleReference::kMi ? kMaximumInscribed : kMinimumZone;
+}
+
+core::Error no_center(CircleReference reference) {
+  if (reference == CircleReference::kMz) {
+    return {core::Code::kNotConverged,
+            "the minimum zone of the profile has no centre within reach; the arc is too short for "
+            "it",
+            {}};
+  }
+  return {core::Code::kReferenceAbsent,
+          fmt::format(
+              "the {} circle of the profile does not exist: its values leave a gap of 180 "
+              "deg or more, into which the centre runs away",
+              reference == CircleReference::kMc ? "minimum circumscribed" : "maximum inscribed"),
+          {}};
+}
+
+core::Result<Roundness> program_profile(std::span<const double> theta, std::span<const double> r,
+                                        CircleReference reference) {
+  const bool zone = reference == CircleReference::kMz;
+  if (auto checked = check_profile(theta, r, zone ? 4 : 3); !checked)
+    return core::fail(checked.error());
   const double mean = mean_of(r);
   const auto rows = zone_rows(theta, r, mean);
-  const auto step = solve_zone(rows);
-  if (!step) return core::fail(step.error());
+  const ZoneWeights weights = weights_of(reference);
+  const auto step = solved(rows, weights);
+  if (!step) return core::fail(no_center(reference));
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -154,15 +194,16 @@ core::Result<Roundness> mz_profile(std::span<const double> theta, std::span<cons
     high = std::max(high, moved);
   }
   Roundness out;
-  out.reference = CircleReference::kMz;
+  out.reference = reference;
   out.center_mm = step->step;
-  out.radius_mm = mean + 0.5 * (low + high);
+  out.radius_mm = mean + (zone ? 0.5 * (low + high) : weights.outer * high + weights.inner * low);
   out.total_mm = high - low;
   out.outer = rows_of(step->outer);
   out.inner = rows_of(step->inner);
-  // The programme's dual value is a lower bound of every zone in the linear model.
+  // The programme's dual value is a lower bound of every place in the linear model.
+  const double reached = weights.outer * high - weights.inner * low;
   out.certificate = {Certificate::Kind::kGlobal, "all centres, limacon model",
-                     std::max(0.0, out.total_mm - step->value), ""};
+                     std::max(0.0, reached - step->value), ""};
   return out;
 }
 
@@ -174,6 +215,10 @@ std::string_view name_of(CircleReference reference) {
       return "ls";
     case CircleReference::kMz:
       return "mz";
+    case CircleReference::kMc:
+      return "mc";
+    case CircleReference::kMi:
+      return "mi";
   }
   return "ls";
 }
@@ -185,6 +230,9 @@ core::Result<Roundness> roundness_of_points(std::span<const Eigen::Vector2d> poi
       return ls_points(points_mm, side);
     case CircleReference::kMz:
       return mz_points(points_mm);
+    case CircleReference::kMc:
+    case CircleReference::kMi:
+      return one_sided_points(points_mm, reference);
   }
   return core::fail(core::Code::kInternal, "there is no such reference circle");
 }
@@ -196,7 +244,9 @@ core::Result<Roundness> roundness_of_profile(std::span<const double> theta_rad,
     case CircleReference::kLs:
       return ls_profile(theta_rad, r_mm, side);
     case CircleReference::kMz:
-      return mz_profile(theta_rad, r_mm);
+    case CircleReference::kMc:
+    case CircleReference::kMi:
+      return program_profile(theta_rad, r_mm, reference);
   }
   return core::fail(core::Code::kInternal, "there is no such reference circle");
 }

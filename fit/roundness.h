@@ -19,22 +19,24 @@ namespace rondure::fit {
 enum class CircleReference {
   kLs,  ///< LSCI, least squares.
   kMz,  ///< MZCI, minimum zone.
+  kMc,  ///< MCCI, minimum circumscribed.
+  kMi,  ///< MICI, maximum inscribed.
 };
 
-/// "ls", "mz".
+/// "ls", "mz", "mc", "mi".
 [[nodiscard]] std::string_view name_of(CircleReference reference);
 
 /// Roundness about one reference circle.
 struct Roundness {
   CircleReference reference = CircleReference::kLs;
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();
-  double radius_mm = 0.0;  ///< Of the zone: its middle. Of a profile of deviations: their level.
+  double radius_mm = 0.0;  ///< Of a zone: its middle. Of a profile of deviations: their level.
   double total_mm = 0.0;   ///< RONt: peak to valley.
   /// RONp, RONv, RONq: defined about the least-squares circle only.
   std::optional<FormParameters> parameters;
-  std::vector<std::size_t> outer;  ///< Rows on the outer circle of the zone; empty for kLs.
-  std::vector<std::size_t> inner;
-  Certificate certificate;  ///< Of the zone; kNone for kLs.
+  std::vector<std::size_t> outer;  ///< Rows that carry the outer circle of kMz, the circle of kMc.
+  std::vector<std::size_t> inner;  ///< Those of the inner circle of kMz, the circle of kMi.
+  Certificate certificate;         ///< kNone for kLs.
 
   /// Distance of the centre from the origin of the profile [mm].
   [[nodiscard]] double eccentricity_mm() const { return center_mm.norm(); }
@@ -46,7 +48,8 @@ struct RoundnessSide {
   bool inside = false;                 ///< A bore: peaks point to the centre.
 };
 
-/// Roundness of points of a plane section: the circle fits of ls_circle.h and min_zone_circle.h.
+/// Roundness of points of a plane section: the circle fits of ls_circle.h, min_zone_circle.h and
+/// one_sided_center.h.
 /// @return their errors.
 [[nodiscard]] core::Result<Roundness> roundness_of_points(
     std::span<const Eigen::Vector2d> points_mm, CircleReference reference,
@@ -54,13 +57,14 @@ struct RoundnessSide {
 
 /// Roundness of a profile whose nominal radius is not known or of no interest: small deviations
 /// from a circle, r = r0 + a cos(theta) + b sin(theta) + form (limacon). The references are then
-/// linear problems: least squares by QR; the minimum zone by one linear programme, global by
-/// duality.
+/// linear problems: least squares by QR; the others by one linear programme each, global by
+/// duality. They differ from the circles of points by some form^2 / r0.
 ///
-/// @param theta_rad, r_mm  n >= 3 (LS) or 4 (MZ) values [rad, mm].
+/// @param theta_rad, r_mm  n >= 3 (MZ: 4) values [rad, mm].
 /// @return kNoPoints, kNotFinite, kTooFewPoints, kRank (fewer than 3 different angles),
-///         kNotConverged.
-/// Source: methods, roundness B.3 to B.5.
+///         kNotConverged; kReferenceAbsent for MC and MI of a profile with a gap of 180 deg or
+///         more, into which their centre runs away.
+/// Source: methods, roundness B.3 to B.5; cylindricity 11.4.
 [[nodiscard]] core::Result<Roundness> roundness_of_profile(std::span<const double> theta_rad,
                                                            std::span<const double> r_mm,
                                                            CircleReference reference,

@@ -171,6 +171,19 @@ std::vector<double> cells_of_rows(std::span<const double> theta) {
   return out;
 }
 
+/// Adds the value of one reference; one that does not exist becomes a warning.
+core::Result<void> add_value(RoundnessEvaluation& out, CircleReference reference,
+                             core::Result<Roundness> value) {
+  if (value) {
+    out.values.push_back(*std::move(value));
+    return {};
+  }
+  if (value.error().code != core::Code::kReferenceAbsent) return core::fail(value.error());
+  out.absent.push_back(reference);
+  out.warnings.push_back(value.error());
+  return {};
+}
+
 }  // namespace
 
 core::Result<RoundnessEvaluation> evaluate_profile(std::span<const double> theta_rad,
@@ -184,8 +197,8 @@ core::Result<RoundnessEvaluation> evaluate_profile(std::span<const double> theta
   for (const CircleReference reference : options.references) {
     auto value =
         roundness_of_profile(out->theta_rad, out->r_mm, reference, {cells, options.inside});
-    if (!value) return core::fail(value.error());
-    out->values.push_back(*std::move(value));
+    if (auto added = add_value(*out, reference, std::move(value)); !added)
+      return core::fail(added.error());
   }
   return out;
 }
@@ -214,8 +227,8 @@ core::Result<RoundnessEvaluation> evaluate_section(std::span<const Eigen::Vector
   const auto cells = cells_of_rows(out->theta_rad);
   for (const CircleReference reference : options.references) {
     auto value = roundness_of_points(points, reference, {cells, options.inside});
-    if (!value) return core::fail(value.error());
-    out->values.push_back(*std::move(value));
+    if (auto added = add_value(*out, reference, std::move(value)); !added)
+      return core::fail(added.error());
   }
   return out;
 }

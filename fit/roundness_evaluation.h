@@ -35,8 +35,9 @@ struct RoundnessEvaluation {
   AngularProfile measured;        ///< In order of angle, before the filter.
   std::vector<double> theta_rad;  ///< Angles evaluated; contacts count in these.
   std::vector<double> r_mm;  ///< The filtered profile there (points: relative to the LS circle).
-  std::vector<Roundness> values;  ///< One for each reference, in order.
-  HarmonicTable harmonics;        ///< Before the filter.
+  std::vector<Roundness> values;        ///< One for each reference that exists, in order.
+  std::vector<CircleReference> absent;  ///< Asked for, but not there; `warnings` say why.
+  HarmonicTable harmonics;              ///< Before the filter.
   std::vector<core::Error> warnings;
 };
 

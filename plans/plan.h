@@ -101,7 +101,7 @@ struct PoseSearchPlan {
 struct CharacteristicPlan {
   std::string id;
   std::string form = "cylindricity";
-  std::optional<std::string> reference;  ///< "mz" or "ls".
+  std::optional<std::string> reference;  ///< "mz", "ls", "mc" or "mi".
   std::optional<double> tolerance_um;
   std::string drawing_zone;
 };

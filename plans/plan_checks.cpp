@@ -118,8 +118,8 @@ void check_characteristic(const FeaturePlan& feature, std::size_t index,
     findings.meaning(
         Code::kMeaning, where + "/reference",
         fmt::format("the tolerance of {} um has no reference; add \"reference\": \"mz\" "
-                    "(minimum zone, the ISO default) or \"ls\" (least squares), as the "
-                    "drawing says",
+                    "(minimum zone, the ISO default), \"ls\" (least squares), \"mc\" (minimum "
+                    "circumscribed) or \"mi\" (maximum inscribed), as the drawing says",
                     plain(*c.tolerance_um)));
   }
 }

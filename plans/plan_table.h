@@ -261,9 +261,10 @@ void describe(Visitor& v, CharacteristicPlan& p) {
           .meaning = "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle or of the "
                      "worst layer of a cylinder."});
   v.text("reference", p.reference,
-         {.one_of = {"mz", "ls"},
-          .meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares. "
-                     "Needed with a tolerance."});
+         {.one_of = {"mz", "ls", "mc", "mi"},
+          .meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
+                     "mc, minimum circumscribed (a ring gauge on a shaft); mi, maximum inscribed "
+                     "(a plug gauge in a bore). Needed with a tolerance."});
   v.number(
       "tolerance_um", p.tolerance_um,
       {.at_least = 0.0,

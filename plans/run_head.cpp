@@ -11,12 +11,19 @@
 namespace rondure::plans {
 namespace {
 
+record::Reference reference_of(const CharacteristicPlan& plan) {
+  const std::string name = plan.reference.value_or("mz");
+  if (name == "ls") return record::Reference::kLeastSquares;
+  if (name == "mc") return record::Reference::kMinimumCircumscribed;
+  if (name == "mi") return record::Reference::kMaximumInscribed;
+  return record::Reference::kMinimumZone;
+}
+
 record::Characteristic characteristic_of(const CharacteristicPlan& plan) {
   record::Characteristic out;
   out.id = plan.id;
   out.form = plan.form == "roundness" ? record::Form::kRoundness : record::Form::kCylindricity;
-  out.reference = plan.reference.value_or("mz") == "ls" ? record::Reference::kLeastSquares
-                                                        : record::Reference::kMinimumZone;
+  out.reference = reference_of(plan);
   if (plan.tolerance_um) out.tolerance_mm = *plan.tolerance_um * core::kMicrometre;
   out.drawing_zone = plan.drawing_zone;
   return out;

@@ -46,7 +46,7 @@ struct ArchiveResult {
   std::optional<double> upper_limit;  ///< In `unit`; nothing when it is not toleranced.
   std::string unit = "mm";
   std::string verdict;  ///< "conforms", "does not conform", "undecided", "void", "not toleranced".
-  std::string certificate;  ///< "global", "local", "none" of the minimum zone.
+  std::string certificate;  ///< "global", "local", "none" of the reference.
 };
 
 /// A finished run on its way to the archive.

@@ -196,7 +196,8 @@ void read_characteristics(soci::session& sql, RunRecord& record) {
     require_feature(record, feature, 0, "characteristic");
     row.form = named("characteristic.form", form, {Form::kCylindricity, Form::kRoundness});
     row.reference = named("characteristic.reference", reference,
-                          {Reference::kLeastSquares, Reference::kMinimumZone});
+                          {Reference::kLeastSquares, Reference::kMinimumZone,
+                           Reference::kMinimumCircumscribed, Reference::kMaximumInscribed});
     row.tolerance_mm = given == soci::i_ok ? std::optional(tolerance_mm) : std::nullopt;
     record.features[static_cast<std::size_t>(feature)].characteristics.push_back(row);
   }

@@ -38,6 +38,10 @@ std::string_view name_of(Reference reference) {
       return "ls";
     case Reference::kMinimumZone:
       return "mz";
+    case Reference::kMinimumCircumscribed:
+      return "mc";
+    case Reference::kMaximumInscribed:
+      return "mi";
   }
   return "";
 }

@@ -18,7 +18,7 @@ namespace rondure::record {
 enum class Shape { kCylinder, kCircle };
 enum class Side { kOutside, kInside };
 enum class Form { kCylindricity, kRoundness };
-enum class Reference { kLeastSquares, kMinimumZone };
+enum class Reference { kLeastSquares, kMinimumZone, kMinimumCircumscribed, kMaximumInscribed };
 enum class Strategy { kGuided, kRefined, kAsPublished, kVirtual, kPointsFile };
 
 /// Spelling in plans, journals and JSON: "cylinder", "outside", "cylindricity", "ls", "mz", ...

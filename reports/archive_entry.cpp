@@ -19,18 +19,47 @@ std::string sampling_of(const FeatureResult& feature, const record::Characterist
   return text;
 }
 
-/// Of the minimum zone behind a result; "none" for least squares, which proves nothing.
-fit::Certificate::Kind certificate_of(const FeatureResult& feature,
-                                      const record::Characteristic& asked) {
-  using Kind = fit::Certificate::Kind;
-  if (asked.reference != record::Reference::kMinimumZone) return Kind::kNone;
-  if (asked.form == record::Form::kCylindricity) {
-    return feature.mz_cylinder ? feature.mz_cylinder->certificate.kind : Kind::kNone;
+using Kind = fit::Certificate::Kind;
+
+template <class Fit>
+Kind kind_of(const core::Result<Fit>& fit) {
+  return fit ? fit->certificate.kind : Kind::kNone;
+}
+
+/// Of the reference behind a result; "none" for least squares, which proves nothing.
+Kind certificate_of(const FeatureResult& feature, record::Reference reference) {
+  switch (reference) {
+    case record::Reference::kLeastSquares:
+      return Kind::kNone;
+    case record::Reference::kMinimumZone:
+      return feature.mz_cylinder ? feature.mz_cylinder->certificate.kind : Kind::kNone;
+    case record::Reference::kMinimumCircumscribed:
+      return kind_of(feature.mc_cylinder);
+    case record::Reference::kMaximumInscribed:
+      return kind_of(feature.mi_cylinder);
   }
+  return Kind::kNone;
+}
+Kind certificate_of(const LayerResult& layer, record::Reference reference) {
+  switch (reference) {
+    case record::Reference::kLeastSquares:
+      return Kind::kNone;
+    case record::Reference::kMinimumZone:
+      return kind_of(layer.mz);
+    case record::Reference::kMinimumCircumscribed:
+      return kind_of(layer.mc);
+    case record::Reference::kMaximumInscribed:
+      return kind_of(layer.mi);
+  }
+  return Kind::kNone;
+}
+
+/// The same; of sections the weakest.
+Kind certificate_of(const FeatureResult& feature, const record::Characteristic& asked) {
+  if (asked.form == record::Form::kCylindricity) return certificate_of(feature, asked.reference);
   Kind weakest = feature.layers.empty() ? Kind::kNone : Kind::kGlobal;
-  for (const LayerResult& layer : feature.layers) {
-    weakest = std::min(weakest, layer.mz ? layer.mz->certificate.kind : Kind::kNone);
-  }
+  for (const LayerResult& layer : feature.layers)
+    weakest = std::min(weakest, certificate_of(layer, asked.reference));
   return weakest;
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "reports/facts.h"
 
 namespace rondure::reports {
 namespace {
@@ -16,36 +17,81 @@ using record::Reference;
 
 double um(double mm) { return mm / core::kMicrometre; }
 
-/// The section with the largest deviation.
-struct WorstSection {
-  std::optional<double> value_mm;
-  bool certified = true;
+/// A deviation, and what stands against it.
+struct Deviation {
+  double value_mm = 0.0;
+  bool certified = true;   ///< A certificate stands behind the reference; least squares needs none.
   bool exact_fit = false;  ///< 0 by construction.
 };
 
-WorstSection worst_section(const FeatureResult& result, Reference reference) {
-  WorstSection out;
+template <class Fit>
+Deviation certified_deviation(double value_mm, const Fit& fit) {
+  return {value_mm, fit.certificate.kind != fit::Certificate::Kind::kNone, false};
+}
+
+template <class Fit>
+core::Result<Deviation> one_sided_deviation(const core::Result<Fit>& fit) {
+  if (!fit) return core::fail(fit.error());
+  return certified_deviation(fit->deviation_mm, *fit);
+}
+
+/// The deviation about one reference; without that reference, why there is none.
+core::Result<Deviation> section_deviation(const LayerResult& layer, Reference reference) {
+  if (!layer.mz) return core::fail(layer.mz.error());
+  if (!layer.ls) return core::fail(layer.ls.error());
+  switch (reference) {
+    case Reference::kLeastSquares:
+      return Deviation{layer.ls->deviation_mm};
+    case Reference::kMinimumZone:
+      return certified_deviation(layer.mz->width_mm(), *layer.mz);
+    case Reference::kMinimumCircumscribed:
+      return one_sided_deviation(layer.mc);
+    case Reference::kMaximumInscribed:
+      return one_sided_deviation(layer.mi);
+  }
+  return not_fitted();
+}
+
+core::Result<Deviation> cylinder_deviation(const FeatureResult& result, Reference reference) {
+  if (!result.mz_cylinder || !result.ls_cylinder) return not_fitted();
+  switch (reference) {
+    case Reference::kLeastSquares:
+      return Deviation{result.ls_cylinder->deviation_mm};
+    case Reference::kMinimumZone:
+      return certified_deviation(result.mz_cylinder->width_mm(), *result.mz_cylinder);
+    case Reference::kMinimumCircumscribed:
+      return one_sided_deviation(result.mc_cylinder);
+    case Reference::kMaximumInscribed:
+      return one_sided_deviation(result.mi_cylinder);
+  }
+  return not_fitted();
+}
+
+/// The largest deviation of a section; one that lacks the reference leaves none.
+core::Result<Deviation> worst_section(const FeatureResult& result, Reference reference) {
+  if (result.layers.empty())
+    return core::fail(core::Code::kNoPoints, "this feature has no sections");
+  Deviation out;
   for (const LayerResult& layer : result.layers) {
-    if (!layer.mz || !layer.ls) return {};
-    const bool mz = reference == Reference::kMinimumZone;
-    const double value = mz ? layer.mz->width_mm() : layer.ls->deviation_mm;
-    out.value_mm = std::max(value, out.value_mm.value_or(0.0));
+    const auto section = section_deviation(layer, reference);
+    if (!section) {
+      return core::fail(section.error().code,
+                        fmt::format("layer {}: {}", layer.layer + 1, section.error().what));
+    }
+    out.value_mm = std::max(out.value_mm, section->value_mm);
     if (layer.mz->exact_fit) out.exact_fit = true;
-    if (mz && layer.mz->certificate.kind == fit::Certificate::Kind::kNone) out.certified = false;
+    if (!section->certified) out.certified = false;
   }
   return out;
 }
 
 /// The value of a characteristic and whether what proves it is there.
-WorstSection value_of(const FeatureResult& result, const record::Characteristic& characteristic) {
-  if (result.failure) return {};
-  if (characteristic.form == Form::kRoundness)
-    return worst_section(result, characteristic.reference);
-  if (!result.mz_cylinder) return {};
-  if (characteristic.reference == Reference::kLeastSquares)
-    return {result.ls_cylinder->deviation_mm, true, false};
-  return {result.mz_cylinder->width_mm(),
-          result.mz_cylinder->certificate.kind != fit::Certificate::Kind::kNone, false};
+core::Result<Deviation> value_of(const FeatureResult& result,
+                                 const record::Characteristic& characteristic) {
+  if (result.failure) return core::fail(*result.failure);
+  return characteristic.form == Form::kRoundness
+             ? worst_section(result, characteristic.reference)
+             : cylinder_deviation(result, characteristic.reference);
 }
 
 /// "MZCY; unfiltered; 4 x 7 points; 5 touches a point; r_tip 1.9984 mm; 20.0 degC; at the sampled
@@ -53,9 +99,7 @@ WorstSection value_of(const FeatureResult& result, const record::Characteristic&
 std::string operator_text(const FeatureResult& result,
                           const record::Characteristic& characteristic) {
   const bool cylinder = characteristic.form == Form::kCylindricity;
-  const bool mz = characteristic.reference == Reference::kMinimumZone;
-  std::string text = cylinder ? (mz ? "MZCY" : "LSCY") : (mz ? "MZCI" : "LSCI");
-  text += "; unfiltered";
+  std::string text = reference_of(characteristic) + "; unfiltered";
   const record::Feature& feature = result.feature;
   text += feature.layers > 0
               ? fmt::format("; {} x {} points", feature.layers, feature.points_per_layer)
@@ -100,13 +144,18 @@ std::optional<std::string> temperature_fault(const record::Header& header,
   return std::nullopt;
 }
 
+/// Why a characteristic with a value is void all the same.
 std::optional<std::string> reason_for_void(const record::RunRecord& record,
                                            const std::optional<fit::ProbeTip>& probe,
-                                           const FeatureResult& result, const WorstSection& value) {
-  if (result.failure) return result.failure->what;
-  if (!value.value_mm) return "the sections of this feature could not be evaluated";
+                                           const FeatureResult& result, const Deviation& value,
+                                           const record::Characteristic& characteristic) {
   if (value.exact_fit) return "a section of three different points has no roundness";
-  if (!value.certified) return "no certificate stands behind the minimum zone";
+  if (!value.certified) {
+    return fmt::format("no certificate stands behind the {}",
+                       words_of(characteristic.reference, characteristic.form == Form::kRoundness
+                                                              ? record::Shape::kCircle
+                                                              : record::Shape::kCylinder));
+  }
   if (record.ending != "finished") return "the run did not finish";
   if (result.feature.strategy == record::Strategy::kPointsFile) return std::nullopt;
   if (auto fault = probe_fault(record, probe)) return fault;
@@ -115,10 +164,14 @@ std::optional<std::string> reason_for_void(const record::RunRecord& record,
 
 void judge(const record::RunRecord& record, const std::optional<fit::ProbeTip>& probe,
            const FeatureResult& result, CharacteristicResult& out) {
-  const WorstSection value = value_of(result, out.characteristic);
-  out.value_mm = value.value_mm;
-  if (const auto missing = reason_for_void(record, probe, result, value)) {
-    out.verdict = Verdict::kVoid;
+  const auto value = value_of(result, out.characteristic);
+  out.verdict = Verdict::kVoid;
+  if (!value) {
+    out.reason = value.error().what;
+    return;
+  }
+  out.value_mm = value->value_mm;
+  if (const auto missing = reason_for_void(record, probe, result, *value, out.characteristic)) {
     out.reason = *missing;
     return;
   }

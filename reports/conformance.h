@@ -10,8 +10,9 @@ namespace rondure::reports {
 
 /// Fills the characteristics of an evaluated feature: value, operator, verdict and its reason,
 /// under the rule `simple acceptance`: conforms when the value is at most the tolerance; no
-/// uncertainty is taken into account. Void when a condition is missing: no result, no certificate
-/// behind a minimum zone, temperature outside the limits of the plan, or a run that did not finish.
+/// uncertainty is taken into account. Void when a condition is missing: no result, a
+/// reference that does not exist for the points, no certificate behind it, temperature outside the
+/// limits of the plan, or a run that did not finish.
 ///
 /// @param probe  The qualification of the run; a touched feature without a sound one is void.
 void decide(const record::RunRecord& record, const std::optional<fit::ProbeTip>& probe,

@@ -13,6 +13,7 @@
 #include "fit/center_search.h"
 #include "fit/pose_walk.h"
 #include "reports/conformance.h"
+#include "reports/defect.h"
 #include "reports/invariants.h"
 #include "reports/warnings.h"
 
@@ -176,7 +177,11 @@ std::vector<LayerResult> sections(const fit::Axis& axis, const std::vector<Cloud
       section.emplace_back(frame.transpose() * (cloud[i].tip_mm - axis.point_mm));
       height += cloud[i].height_mm / static_cast<double>(rows.size());
     }
-    out.push_back({layer, height, rows, fit::min_zone_circle(section), fit::ls_circle(section)});
+    LayerResult result{layer, height, rows, fit::min_zone_circle(section), fit::ls_circle(section)};
+    result.mc = fit::min_circumscribed_circle(section);
+    result.mi = fit::max_inscribed_circle(section);
+    result.points_mm = std::move(section);
+    out.push_back(std::move(result));
   }
   return out;
 }
@@ -240,6 +245,8 @@ void evaluate_cylinder(const std::optional<Eigen::Vector3d>& direction, FeatureR
   }
   result.ls_cylinder = *ls;
   result.mz_cylinder = *mz;
+  result.mc_cylinder = fit::min_circumscribed_cylinder(tips, ls->axis.direction);
+  result.mi_cylinder = fit::max_inscribed_cylinder(tips, ls->axis.direction);
   place_points(mz->axis, 0.5 * (mz->inner_radius_mm + mz->outer_radius_mm), mean_of(result.cloud),
                result.cloud);
   std::vector<std::size_t> rows(result.cloud.size());
@@ -314,8 +321,8 @@ void take_temperatures(const std::vector<const Touch*>& touches, FeatureResult& 
   result.temperatures = out;
 }
 
-core::Result<FeatureResult> evaluate_feature(const RunRecord& record, int index,
-                                             const std::optional<fit::ProbeTip>& probe) {
+FeatureResult evaluate_feature(const RunRecord& record, int index,
+                               const std::optional<fit::ProbeTip>& probe) {
   FeatureResult result;
   result.feature = record.features[static_cast<std::size_t>(index)];
   if (result.feature.strategy == record::Strategy::kPointsFile) {
@@ -355,23 +362,29 @@ core::Result<FeatureResult> evaluate_feature(const RunRecord& record, int index,
   }
   if (result.feature.strategy == record::Strategy::kVirtual) search_virtual_poses(*last, result);
   warn(result);
-  if (auto checked = check_invariants(result); !checked) return core::fail(checked.error());
   return result;
 }
 
 }  // namespace
 
-core::Result<Evaluation> evaluate(const RunRecord& record) {
+tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& record) {
   Evaluation out;
   out.probe = evaluate_probe(record);
   for (std::size_t i = 0; i < record.features.size(); ++i) {
     auto feature = evaluate_feature(record, static_cast<int>(i), out.probe);
-    if (!feature) return core::fail(feature.error());
-    decide(record, out.probe, *feature);
-    out.features.push_back(std::move(*feature));
+    if (auto broken = broken_invariant(feature))
+      return tl::unexpected(Defect{*std::move(broken), std::move(feature)});
+    decide(record, out.probe, feature);
+    out.features.push_back(std::move(feature));
   }
   out.verdict = overall(out.features);
   return out;
+}
+
+core::Result<Evaluation> evaluate(const RunRecord& record) {
+  auto evaluation = evaluate_or_defect(record);
+  if (evaluation) return *std::move(evaluation);
+  return core::fail(error_of(evaluation.error(), "the run's journal.db"));
 }
 
 }  // namespace rondure::reports

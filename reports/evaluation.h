@@ -13,6 +13,8 @@
 #include "fit/ls_cylinder.h"
 #include "fit/min_zone_circle.h"
 #include "fit/min_zone_cylinder.h"
+#include "fit/one_sided_center.h"
+#include "fit/one_sided_cylinder.h"
 #include "fit/probe_tip.h"
 #include "record/run_record.h"
 
@@ -45,6 +47,11 @@ struct PoseValue {
   bool final_pose = false;
 };
 
+/// What stands in place of a reference that nobody asked the fits for.
+[[nodiscard]] inline tl::unexpected<core::Error> not_fitted() {
+  return core::fail(core::Code::kReferenceAbsent, "it was not fitted");
+}
+
 /// One section of a cylinder, normal to the minimum-zone axis; or the circle itself.
 struct LayerResult {
   int layer = 0;
@@ -52,6 +59,9 @@ struct LayerResult {
   std::vector<std::size_t> rows;        ///< Of the cloud.
   core::Result<fit::MinZoneCircle> mz;  ///< About its own minimum-zone centre (RONt).
   core::Result<fit::LsCircle> ls;
+  core::Result<fit::OneSidedCircle> mc = not_fitted();  ///< Where there is none: why.
+  core::Result<fit::OneSidedCircle> mi = not_fitted();
+  std::vector<Eigen::Vector2d> points_mm = {};  ///< What was fitted: `rows`, in the centres' frame.
 };
 
 /// Verdict on one characteristic.
@@ -75,7 +85,9 @@ struct FeatureResult {
   record::Feature feature;
   std::vector<CloudPoint> cloud;
   std::optional<fit::LsCylinder> ls_cylinder;
-  std::optional<fit::MinZoneCylinder> mz_cylinder;  ///< Cylinder features.
+  std::optional<fit::MinZoneCylinder> mz_cylinder;                 ///< Cylinder features.
+  core::Result<fit::OneSidedCylinder> mc_cylinder = not_fitted();  ///< Where there is none: why.
+  core::Result<fit::OneSidedCylinder> mi_cylinder = not_fitted();
   std::vector<LayerResult> layers;
   std::vector<PoseValue> poses;              ///< In the order visited.
   std::optional<double> tip_radius_mm;       ///< rho that was used; none for points of unknown tip.
@@ -99,8 +111,9 @@ struct Evaluation {
 /// Evaluates a record: averages repeated touches of the final pose, fits, checks the invariants,
 /// decides. No machine, no clock, no files; same record, same bits.
 ///
-/// @return kInternal with a dump of the offending numbers when an invariant of the results is
-///         broken (a defect of the program); every fault of the data stands in the feature.
+/// @return kInternal when an invariant of the results is broken (a defect of the program;
+///         evaluate_run() of defect.h keeps its numbers); every fault of the data stands in the
+///         feature.
 [[nodiscard]] core::Result<Evaluation> evaluate(const record::RunRecord& record);
 
 /// The numbers of an evaluation by their JSON pointer in report.json, for the journal's seal.

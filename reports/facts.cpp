@@ -34,6 +34,12 @@ Zone zone_from(const Fit& fit, const FeatureResult& feature) {
   return zone;
 }
 
+template <class Fit>
+OneSided one_sided_from(const Fit& fit, const FeatureResult& feature) {
+  return {fit.deviation_mm, fit.radius_mm + surface_offset_mm(feature), fit.contacts,
+          fit.certificate};
+}
+
 }  // namespace
 
 std::optional<Zone> zone_of(const FeatureResult& feature) {
@@ -65,6 +71,38 @@ std::optional<LeastSquares> least_squares_of(const FeatureResult& feature) {
   return LeastSquares{ls->deviation_mm, ls->radius_mm + offset_mm, ls->rms_mm};
 }
 
+core::Result<OneSided> one_sided_of(const FeatureResult& feature, record::Reference reference) {
+  const bool outside = reference == record::Reference::kMinimumCircumscribed;
+  if (!outside && reference != record::Reference::kMaximumInscribed) return not_fitted();
+  if (feature.feature.shape != record::Shape::kCircle) {
+    const auto& cylinder = outside ? feature.mc_cylinder : feature.mi_cylinder;
+    if (!cylinder) return core::fail(cylinder.error());
+    return one_sided_from(*cylinder, feature);
+  }
+  if (feature.layers.empty()) return not_fitted();
+  const LayerResult& section = feature.layers.front();
+  const auto& circle = outside ? section.mc : section.mi;
+  if (!circle) return core::fail(circle.error());
+  OneSided out = one_sided_from(*circle, feature);
+  out.contacts = in_rows(out.contacts, section.rows);
+  return out;
+}
+
+std::string words_of(record::Reference reference, record::Shape shape) {
+  const char* name = shape == record::Shape::kCircle ? "circle" : "cylinder";
+  switch (reference) {
+    case record::Reference::kLeastSquares:
+      return fmt::format("least-squares {}", name);
+    case record::Reference::kMinimumZone:
+      return "minimum zone";
+    case record::Reference::kMinimumCircumscribed:
+      return fmt::format("minimum circumscribed {}", name);
+    case record::Reference::kMaximumInscribed:
+      return fmt::format("maximum inscribed {}", name);
+  }
+  return {};
+}
+
 std::string_view symbol_of(record::Shape shape) {
   return shape == record::Shape::kCircle ? "RONt" : "CYLt";
 }
@@ -74,9 +112,15 @@ std::string symbol_of(const record::Characteristic& characteristic) {
 }
 
 std::string reference_of(const record::Characteristic& characteristic) {
-  const bool cylinder = characteristic.form == record::Form::kCylindricity;
-  const bool minimum = characteristic.reference == record::Reference::kMinimumZone;
-  return std::string(minimum ? "MZ" : "LS") + (cylinder ? "CY" : "CI");
+  return reference_of(characteristic.reference, characteristic.form == record::Form::kCylindricity
+                                                    ? record::Shape::kCylinder
+                                                    : record::Shape::kCircle);
+}
+
+std::string reference_of(record::Reference reference, record::Shape shape) {
+  std::string symbol;
+  for (const char c : record::name_of(reference)) symbol += static_cast<char>(c - 'a' + 'A');
+  return symbol + (shape == record::Shape::kCylinder ? "CY" : "CI");
 }
 
 const PoseValue* final_pose_of(const FeatureResult& feature) {

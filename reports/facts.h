@@ -39,11 +39,27 @@ struct LeastSquares {
 };
 [[nodiscard]] std::optional<LeastSquares> least_squares_of(const FeatureResult& feature);
 
-/// "CYLt" or "RONt"; "MZCY", "LSCY", "MZCI" or "LSCI".
+/// The minimum circumscribed or maximum inscribed reference of a feature: of the cylinder, or of
+/// the one section of a circle.
+struct OneSided {
+  double deviation_mm = 0.0;
+  double radius_mm = 0.0;              ///< Of the same kind as the radii of the zone.
+  std::vector<fit::Contact> contacts;  ///< `index` is the row of FeatureResult::cloud.
+  fit::Certificate certificate;
+};
+/// @return Why the reference does not exist. Other references than these two are never there.
+[[nodiscard]] core::Result<OneSided> one_sided_of(const FeatureResult& feature,
+                                                  record::Reference reference);
+
+/// "minimum circumscribed cylinder", "maximum inscribed circle", ...
+[[nodiscard]] std::string words_of(record::Reference reference, record::Shape shape);
+
+/// "CYLt" or "RONt"; "MZCY", "LSCY", "MCCY", "MICY", "MZCI", "LSCI", "MCCI" or "MICI".
 [[nodiscard]] std::string symbol_of(const record::Characteristic& characteristic);
 /// Symbol of the zone of a feature: "CYLt", or "RONt" of a circle.
 [[nodiscard]] std::string_view symbol_of(record::Shape shape);
 [[nodiscard]] std::string reference_of(const record::Characteristic& characteristic);
+[[nodiscard]] std::string reference_of(record::Reference reference, record::Shape shape);
 
 /// The final pose, or nothing when no pose is marked.
 [[nodiscard]] const PoseValue* final_pose_of(const FeatureResult& feature);

@@ -15,6 +15,19 @@ std::string with_note(const std::string& value, const std::string& note) {
   return note.empty() ? value : value + "<small>" + note + "</small>";
 }
 
+/// Nothing for a reference that does not exist: a warning says why.
+std::string one_sided_entry(const FeatureResult& feature, record::Reference reference) {
+  const auto found = one_sided_of(feature, reference);
+  if (!found) return {};
+  const record::Shape shape = feature.feature.shape;
+  return entry(fmt::format("{} ({})", capitalised(words_of(reference, shape)),
+                           reference_of(reference, shape)),
+               with_note(um(found->deviation_mm) + " µm",
+                         fmt::format("radius {} mm, {}, certificate {}", fixed(found->radius_mm, 6),
+                                     count(found->contacts.size(), "contact", "contacts"),
+                                     fit::name_of(found->certificate.kind))));
+}
+
 std::string zone_entries(const FeatureResult& feature, const Zone& zone) {
   const bool cylinder = feature.feature.shape == record::Shape::kCylinder;
   const std::string kind =
@@ -34,6 +47,8 @@ std::string zone_entries(const FeatureResult& feature, const Zone& zone) {
                   fmt::format("radius {} mm, rms {} µm", fixed(ls->radius_mm, 6), um(ls->rms_mm))),
         "lead");
   }
+  html += one_sided_entry(feature, record::Reference::kMinimumCircumscribed) +
+          one_sided_entry(feature, record::Reference::kMaximumInscribed);
   html +=
       entry("Inner radius of the zone", with_note(fixed(zone.inner_radius_mm, 6) + " mm", kind));
   html +=

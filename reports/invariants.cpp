@@ -1,5 +1,8 @@
 #include "reports/invariants.h"
 
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "fit/certificate_check.h"
@@ -7,58 +10,124 @@
 namespace rondure::reports {
 namespace {
 
-/// Round-off allowed where one reported value must not exceed another [mm].
-constexpr double kInvariantSlack = 1e-9;
+/// Collects relations of one feature; keeps the first that does not hold.
+class Relations {
+ public:
+  /// @param kind   "CY" or "CI".
+  /// @param place  ", layer 2", or empty.
+  Relations(std::string kind, std::string place)
+      : kind_(std::move(kind)), place_(std::move(place)) {}
 
-/// The certificate of the cylinder, checked by hand. Without a certificate there is nothing to
-/// check.
-core::Result<void> check_witnesses(const FeatureResult& result) {
-  if (!result.mz_cylinder) return {};
-  const fit::MinZoneCylinder& zone = *result.mz_cylinder;
-  if (zone.certificate.kind == fit::Certificate::Kind::kNone) return {};
-  std::vector<Eigen::Vector3d> points;
-  for (const CloudPoint& point : result.cloud) points.push_back(point.tip_mm);
-  const auto checked = fit::check_zone(
-      points, zone.axis, {zone.inner_radius_mm, zone.outer_radius_mm, zone.outer, zone.inner},
-      kInvariantSlack);
-  if (checked.fault.empty()) return {};
-  return core::fail(
-      core::Code::kInternal,
-      fmt::format("the certificate of the minimum zone of {} points does not hold: {}; "
-                  "please report this with the run's journal.db",
-                  result.cloud.size(), checked.fault),
-      result.feature.id);
+  /// Less or equal, up to round-off. Values that are not numbers break every relation.
+  void no_more(const std::string& left, double left_mm, const std::string& right, double right_mm) {
+    if (broken_ || left_mm <= right_mm + kInvariantSlack) return;
+    broken_ = BrokenInvariant{fmt::format("{} <= {}{}", left, right, place_),
+                              fmt::format("{:.17g} mm > {:.17g} mm", left_mm, right_mm)};
+  }
+  void holds(const std::string& reference, const fit::ZoneCheck& checked) {
+    if (broken_ || checked.fault.empty()) return;
+    broken_ = BrokenInvariant{fmt::format("certificate of {}{}{}", reference, kind_, place_),
+                              checked.fault};
+  }
+  [[nodiscard]] std::string named(const char* reference) const { return reference + kind_; }
+  [[nodiscard]] std::optional<BrokenInvariant> first() const { return broken_; }
+
+ private:
+  std::string kind_;
+  std::string place_;
+  std::optional<BrokenInvariant> broken_;
+};
+
+/// A zone no wider than round-off needs no contacts: none can be narrower by more. Those of a
+/// perfect part may stand on one side only.
+template <class Zone>
+fit::StatedZone stated(const Zone& zone) {
+  if (zone.width_mm() <= kInvariantSlack)
+    return {zone.inner_radius_mm, zone.outer_radius_mm, {}, {}};
+  return {zone.inner_radius_mm, zone.outer_radius_mm, zone.outer, zone.inner};
+}
+
+template <class OneSided>
+fit::StatedZone circumscribed(const OneSided& fit) {
+  return {fit.radius_mm - fit.deviation_mm, fit.radius_mm, fit.contacts, {}};
+}
+template <class OneSided>
+fit::StatedZone inscribed(const OneSided& fit) {
+  return {fit.radius_mm, fit.radius_mm + fit.deviation_mm, {}, fit.contacts};
+}
+
+const fit::Axis& place_of(const fit::MinZoneCylinder& fit) { return fit.axis; }
+const fit::Axis& place_of(const fit::OneSidedCylinder& fit) { return fit.axis; }
+const Eigen::Vector2d& place_of(const fit::MinZoneCircle& fit) { return fit.center_mm; }
+const Eigen::Vector2d& place_of(const fit::OneSidedCircle& fit) { return fit.center_mm; }
+
+/// The witness of one reference. Without a certificate there is nothing to check.
+template <class Points, class Fit>
+void check_witness(const Points& points, const char* name, const Fit& fit,
+                   const fit::StatedZone& zone, Relations& relations) {
+  if (fit.certificate.kind == fit::Certificate::Kind::kNone) return;
+  relations.holds(name, fit::check_zone(points, place_of(fit), zone, kInvariantSlack));
+}
+
+/// The place of MZ is one that MC and MI could have taken. They must be as good where they are the
+/// best of all; the one next to the least-squares place is allowed to be worse, and is warned of.
+template <class OneSided>
+bool best_of_all(const OneSided& fit) {
+  return fit.certificate.kind == fit::Certificate::Kind::kGlobal;
+}
+
+/// The four references of the same points. What does not exist has no relations.
+template <class Points, class Zone, class Ls, class OneSided>
+void relate(const Points& points, const Zone& mz, const Ls& ls, const core::Result<OneSided>& mc,
+            const core::Result<OneSided>& mi, Relations& relations) {
+  const auto named = [&](const char* reference) { return relations.named(reference); };
+  check_witness(points, "MZ", mz, stated(mz), relations);
+  relations.no_more(named("MZ"), mz.width_mm(), named("LS"), ls.deviation_mm);
+  if (mc) {
+    check_witness(points, "MC", *mc, circumscribed(*mc), relations);
+    relations.no_more(named("MZ"), mz.width_mm(), named("MC"), mc->deviation_mm);
+    if (best_of_all(*mc)) {
+      relations.no_more("radius of " + named("MC"), mc->radius_mm, "outer radius of " + named("MZ"),
+                        mz.outer_radius_mm);
+    }
+  }
+  if (mi) {
+    check_witness(points, "MI", *mi, inscribed(*mi), relations);
+    relations.no_more(named("MZ"), mz.width_mm(), named("MI"), mi->deviation_mm);
+    if (best_of_all(*mi)) {
+      relations.no_more("inner radius of " + named("MZ"), mz.inner_radius_mm,
+                        "radius of " + named("MI"), mi->radius_mm);
+    }
+  }
+}
+
+std::optional<BrokenInvariant> broken_in_section(const LayerResult& layer,
+                                                 const FeatureResult& result) {
+  if (!layer.mz || !layer.ls) return std::nullopt;
+  Relations relations("CI", fmt::format(", layer {}", layer.layer + 1));
+  relate(layer.points_mm, *layer.mz, *layer.ls, layer.mc, layer.mi, relations);
+  if (result.mz_cylinder)
+    relations.no_more("RONt", layer.mz->width_mm(), "CYLt", result.mz_cylinder->width_mm());
+  return relations.first();
 }
 
 }  // namespace
 
-core::Result<void> check_invariants(const FeatureResult& result) {
-  const auto broken = [&](const char* rule, double left, double right) {
-    return core::fail(
-        core::Code::kInternal,
-        fmt::format("invariant {} does not hold for {} points: {:.17g} mm > {:.17g} mm; "
-                    "please report this with the run's journal.db",
-                    rule, result.cloud.size(), left, right),
-        result.feature.id);
-  };
-  if (auto checked = check_witnesses(result); !checked) return checked;
-  if (result.mz_cylinder) {
-    const double mz = result.mz_cylinder->width_mm();
-    if (!(mz <= result.ls_cylinder->deviation_mm + kInvariantSlack)) {
-      return broken("MZ <= LS", mz, result.ls_cylinder->deviation_mm);
-    }
+std::optional<BrokenInvariant> broken_invariant(const FeatureResult& result) {
+  if (result.failure) return std::nullopt;
+  if (result.mz_cylinder && result.ls_cylinder) {
+    std::vector<Eigen::Vector3d> points;
+    points.reserve(result.cloud.size());
+    for (const CloudPoint& point : result.cloud) points.push_back(point.tip_mm);
+    Relations relations("CY", "");
+    relate(points, *result.mz_cylinder, *result.ls_cylinder, result.mc_cylinder, result.mi_cylinder,
+           relations);
+    if (auto broken = relations.first()) return broken;
   }
   for (const LayerResult& layer : result.layers) {
-    if (!layer.mz || !layer.ls) continue;
-    if (!(layer.mz->width_mm() <= layer.ls->deviation_mm + kInvariantSlack)) {
-      return broken("MZ <= LS of a section", layer.mz->width_mm(), layer.ls->deviation_mm);
-    }
-    if (result.mz_cylinder &&
-        !(layer.mz->width_mm() <= result.mz_cylinder->width_mm() + kInvariantSlack)) {
-      return broken("RONt <= CYLt", layer.mz->width_mm(), result.mz_cylinder->width_mm());
-    }
+    if (auto broken = broken_in_section(layer, result)) return broken;
   }
-  return {};
+  return std::nullopt;
 }
 
 }  // namespace rondure::reports

@@ -131,6 +131,33 @@ Json least_squares_json(const FeatureResult& feature) {
   return json;
 }
 
+/// "mc" or "mi" of a feature.
+Json one_sided_json(const FeatureResult& feature, record::Reference reference) {
+  const auto found = one_sided_of(feature, reference);
+  if (!found) return nullptr;
+  const bool outside = reference == record::Reference::kMinimumCircumscribed;
+  Json json;
+  if (feature.mz_cylinder) {
+    json["axis"] = axis_json((outside ? feature.mc_cylinder : feature.mi_cylinder)->axis);
+  } else {
+    const LayerResult& section = feature.layers.front();
+    json["center_mm"] = vector_json((outside ? section.mc : section.mi)->center_mm);
+  }
+  json["radius_mm"] = found->radius_mm;
+  json["deviation_um"] = in_um(found->deviation_mm);
+  json["contacts"] = {{outside ? "outer" : "inner", contacts_json(found->contacts, feature)}};
+  json["certificate"] = certificate_json(found->certificate);
+  return json;
+}
+
+Json one_sided_json(const core::Result<fit::OneSidedCircle>& circle, double offset_mm) {
+  if (!circle) return nullptr;
+  return {{"center_mm", vector_json(circle->center_mm)},
+          {"radius_mm", circle->radius_mm + offset_mm},
+          {"deviation_um", in_um(circle->deviation_mm)},
+          {"certificate", certificate_json(circle->certificate)}};
+}
+
 Json layer_json(const LayerResult& layer, const FeatureResult& feature) {
   const double offset_mm = surface_offset_mm(feature);
   Json json = {{"layer", layer.layer},
@@ -138,6 +165,8 @@ Json layer_json(const LayerResult& layer, const FeatureResult& feature) {
                {"points", layer.rows.size()},
                {"mz", nullptr},
                {"ls", nullptr},
+               {"mc", one_sided_json(layer.mc, offset_mm)},
+               {"mi", one_sided_json(layer.mi, offset_mm)},
                {"failure", nullptr}};
   if (layer.mz) {
     json["mz"] = {{"center_mm", vector_json(layer.mz->center_mm)},
@@ -207,6 +236,8 @@ Json feature_json(const FeatureResult& feature) {
   json["characteristics"] = list_json(feature.characteristics, characteristic_json);
   json["mz"] = zone_json(feature);
   json["ls"] = least_squares_json(feature);
+  json["mc"] = one_sided_json(feature, record::Reference::kMinimumCircumscribed);
+  json["mi"] = one_sided_json(feature, record::Reference::kMaximumInscribed);
   json["tip_radius_mm"] = feature.tip_radius_mm ? Json(*feature.tip_radius_mm) : Json(nullptr);
   json["levelling_pose"] = levelling_json(feature.levelling_pose);
   json["repeat_sigma_um"] = optional_um(feature.repeat_sigma_mm);

@@ -96,6 +96,22 @@ void add_zone(std::string& out, const FeatureResult& feature) {
   add_wrapped(out, "  certificate", text);
 }
 
+/// "MCCY radius 25.0052 mm, CYLt 8.812 um; MICY ..."; what does not exist is a warning.
+void add_one_sided(std::string& out, const FeatureResult& feature) {
+  using record::Reference;
+  const record::Shape shape = feature.feature.shape;
+  std::string text;
+  for (const Reference reference :
+       {Reference::kMinimumCircumscribed, Reference::kMaximumInscribed}) {
+    const auto found = one_sided_of(feature, reference);
+    if (!found) continue;
+    text += fmt::format("{}{} radius {} mm, {} {} um", text.empty() ? "" : "; ",
+                        reference_of(reference, shape), fixed(found->radius_mm, 4),
+                        symbol_of(shape), um(found->deviation_mm));
+  }
+  if (!text.empty()) add_wrapped(out, "  one-sided", text);
+}
+
 void add_truth(std::string& out, const record::SimulationTruth* truth,
                const FeatureResult& feature) {
   if (truth == nullptr) return;
@@ -123,6 +139,7 @@ std::string write_summary(const record::RunRecord& record, const Evaluation& eva
     }
     if (feature.failure) add_wrapped(out, "  no result", core::to_line(*feature.failure));
     add_zone(out, feature);
+    add_one_sided(out, feature);
     add_truth(out, truth_of(record, i), feature);
     for (const core::Error& warning : feature.warnings) {
       add_wrapped(out, "  warning", core::to_line(warning));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "reports/facts.h"
 
 namespace rondure::reports {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 constexpr double kGapLimit =
     120.0 * core::kDegree;              // beyond it the certificate of a section needs care
 constexpr std::size_t kFewPoints = 21;  // 3 layers of 7
+constexpr double kTold = 1e-6;          // radii nearer than this look alike in every report [mm]
 
 void add(FeatureResult& result, core::Code code, std::string what) {
   result.warnings.push_back({code, std::move(what), {}});
@@ -62,6 +64,60 @@ void warn_exact_fit(FeatureResult& result) {
   }
 }
 
+/// References that the points do not have: of the feature, or of sections of a cylinder that has
+/// it.
+void warn_absent(FeatureResult& result) {
+  using record::Reference;
+  for (const Reference reference :
+       {Reference::kMinimumCircumscribed, Reference::kMaximumInscribed}) {
+    const auto found = one_sided_of(result, reference);
+    if (!found) {
+      add(result, found.error().code,
+          fmt::format("no {}: {}", words_of(reference, result.feature.shape), found.error().what));
+      continue;
+    }
+    for (const LayerResult& layer : result.layers) {
+      const auto& circle = reference == Reference::kMinimumCircumscribed ? layer.mc : layer.mi;
+      if (circle) continue;
+      add(result, circle.error().code,
+          fmt::format("layer {} has no {}: {}", layer.layer + 1,
+                      words_of(reference, record::Shape::kCircle), circle.error().what));
+      break;
+    }
+  }
+}
+
+/// A one-sided reference is the optimum next to the least-squares one. Where the place of the
+/// minimum zone serves better, there are several, and a gauge may settle in another.
+template <class Zone, class OneSided>
+void warn_better(const Zone& mz, const core::Result<OneSided>& mc, const core::Result<OneSided>& mi,
+                 record::Shape shape, const std::string& place, FeatureResult& result) {
+  using record::Reference;
+  const auto say = [&](Reference reference, double radius_mm, double better_mm) {
+    add(result, core::Code::kSeveralOptima,
+        fmt::format("{}the {} next to the least-squares one has a radius of {:.7f} mm, about the "
+                    "place of the minimum zone {:.3g} um better: a gauge may settle in either",
+                    place, words_of(reference, shape), radius_mm + surface_offset_mm(result),
+                    better_mm / core::kMicrometre));
+  };
+  if (mc && mc->radius_mm > mz.outer_radius_mm + kTold)
+    say(Reference::kMinimumCircumscribed, mc->radius_mm, mc->radius_mm - mz.outer_radius_mm);
+  if (mi && mi->radius_mm < mz.inner_radius_mm - kTold)
+    say(Reference::kMaximumInscribed, mi->radius_mm, mz.inner_radius_mm - mi->radius_mm);
+}
+
+void warn_several(FeatureResult& result) {
+  if (result.mz_cylinder) {
+    warn_better(*result.mz_cylinder, result.mc_cylinder, result.mi_cylinder,
+                record::Shape::kCylinder, "", result);
+  }
+  for (const LayerResult& layer : result.layers) {
+    if (!layer.mz) continue;
+    warn_better(*layer.mz, layer.mc, layer.mi, record::Shape::kCircle,
+                fmt::format("layer {}: ", layer.layer + 1), result);
+  }
+}
+
 void warn_level(FeatureResult& result) {
   if (!result.mz_cylinder) return;
   const double zone = result.mz_cylinder->width_mm();
@@ -81,6 +137,8 @@ void warn_level(FeatureResult& result) {
 void warn(FeatureResult& result) {
   warn_sampling(result);
   warn_exact_fit(result);
+  warn_absent(result);
+  warn_several(result);
   if (result.mz_cylinder && result.mz_cylinder->certificate.kind == fit::Certificate::Kind::kNone) {
     add(result, core::Code::kNoCertificate, result.mz_cylinder->certificate.reason);
   }

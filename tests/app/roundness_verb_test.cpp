@@ -169,6 +169,37 @@ TEST_F(RoundnessVerb, SuspectsMillimetresAndRadians) {
   EXPECT_THAT(radians.text, HasSubstr("one turn in radians"));
 }
 
+TEST_F(RoundnessVerb, GivesTheReferencesThatAreAskedFor) {
+  const auto all = nlohmann::json::parse(rondure("fit roundness " + kProfile + " --json").text);
+  for (const char* name : {"ls", "mz", "mc", "mi"}) {
+    SCOPED_TRACE(name);
+    const auto out = rondure("fit roundness " + kProfile + " --json --reference " + name);
+    ASSERT_EQ(out.status, 0) << out.text;
+    const auto json = nlohmann::json::parse(out.text);
+    EXPECT_EQ(json[name], all[name]);
+    for (const char* other : {"ls", "mz", "mc", "mi"}) {
+      EXPECT_EQ(json.contains(other), std::string(name) == other);
+    }
+    EXPECT_GE(json[name]["RONt_um"], all["mz"]["RONt_um"]);
+  }
+  EXPECT_TRUE(all["mc"]["contacts_deg"].contains("outer"));
+  EXPECT_FALSE(all["mc"]["contacts_deg"].contains("inner"));
+  EXPECT_LT(all["mi"]["radius_mm"], all["ls"]["radius_mm"]);
+  EXPECT_LT(all["ls"]["radius_mm"], all["mc"]["radius_mm"]);
+  EXPECT_EQ(rondure("fit roundness " + kProfile + " --reference mq").status, 2);
+}
+
+TEST_F(RoundnessVerb, AReferenceThatDoesNotExistIsNullWithAWarning) {
+  const auto out = rondure("fit roundness --filter none --json " + profile([](int i, double um) {
+                             return i <= 150 ? plain(i, um) : std::string();
+                           }));
+  ASSERT_EQ(out.status, 0) << out.text;
+  const auto json = nlohmann::json::parse(out.text);
+  EXPECT_TRUE(json["mc"].is_null() && json["mi"].is_null());
+  EXPECT_TRUE(json["mz"].is_object());
+  EXPECT_EQ(json["warnings"].back()["code"], "reference-absent");
+}
+
 TEST_F(RoundnessVerb, RefusesTooFewPointsAndMissingFiles) {
   EXPECT_THAT(
       rondure("fit roundness --filter none " + file("theta_deg,r_um\n0,1\n90,2\n180,1\n")).text,

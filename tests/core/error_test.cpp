@@ -12,7 +12,7 @@ namespace {
 
 TEST(Error, HasANameOfItsOwnForEveryCode) {
   std::set<std::string_view> names;
-  const int count = static_cast<int>(Code::kReferenceAbsent) + 1;
+  const int count = static_cast<int>(Code::kSeveralOptima) + 1;
   for (int i = 0; i < count; ++i) names.insert(code_name(static_cast<Code>(i)));
   EXPECT_EQ(names.size(), static_cast<std::size_t>(count));
 }

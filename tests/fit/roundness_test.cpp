@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
+#include "fit/one_sided_center.h"
 #include "fit/roundness_evaluation.h"
 #include "tests/fit/profile_cases.h"
 
@@ -171,6 +172,120 @@ TEST(Roundness, ZoneOfAProfileAgreesWithAllContactSets) {
   }
 }
 
+/// The circle of the limacon model through each three values that holds all on one side: the least
+/// (sign 1) or, of the negated values, the greatest.
+double one_sided_by_trial(const Values& theta, const Values& r, double sign) {
+  const std::size_t n = r.size();
+  double best = std::numeric_limits<double>::infinity();
+  const auto try_three = [&](const std::array<std::size_t, 3>& rows) {
+    Eigen::Matrix3d matrix;
+    Eigen::Vector3d right;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const std::size_t i = rows[static_cast<std::size_t>(k)];
+      matrix.row(k) << 1.0, std::cos(theta[i]), std::sin(theta[i]);
+      right(k) = sign * r[i];
+    }
+    const Eigen::FullPivLU<Eigen::Matrix3d> lu(matrix);
+    if (!lu.isInvertible()) return;
+    const Eigen::Vector3d x = lu.solve(right);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double level = x(0) + x(1) * std::cos(theta[i]) + x(2) * std::sin(theta[i]);
+      if (sign * r[i] > level + 1e-11) return;
+    }
+    best = std::min(best, x(0));
+  };
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = a + 1; b < n; ++b) {
+      for (std::size_t c = b + 1; c < n; ++c) try_three({a, b, c});
+    }
+  }
+  return sign * best;
+}
+
+TEST(Roundness, OneSidedCirclesOfAProfileAgreeWithAllContactSets) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    core::KeyedNoise noise(seed, {19});
+    const std::size_t n = 7 + seed % 8;
+    Values theta;
+    Values r;
+    for (std::size_t i = 0; i < n; ++i) {
+      theta.push_back(core::kTwoPi * (static_cast<double>(i) + 0.8 * noise.uniform()) /
+                      static_cast<double>(n));
+      r.push_back(25.0 + 5e-3 * noise.normal());
+    }
+    const auto mz = roundness_of_profile(theta, r, CircleReference::kMz);
+    const auto mc = roundness_of_profile(theta, r, CircleReference::kMc);
+    const auto mi = roundness_of_profile(theta, r, CircleReference::kMi);
+    ASSERT_TRUE(mz && mc && mi);
+    EXPECT_NEAR(mc->radius_mm, one_sided_by_trial(theta, r, 1.0), 1e-12);
+    EXPECT_NEAR(mi->radius_mm, one_sided_by_trial(theta, r, -1.0), 1e-12);
+    EXPECT_LE(mc->radius_mm, mz->radius_mm + 0.5 * mz->total_mm + 1e-12);
+    EXPECT_GE(mi->radius_mm, mz->radius_mm - 0.5 * mz->total_mm - 1e-12);
+    EXPECT_LE(mz->total_mm, std::min(mc->total_mm, mi->total_mm) + 1e-12);
+    for (const auto* side : {&*mc, &*mi}) {
+      EXPECT_EQ(side->certificate.kind, Certificate::Kind::kGlobal);
+      EXPECT_LT(side->certificate.gap_mm, 1e-14);
+    }
+    EXPECT_TRUE(mc->inner.empty() && mi->outer.empty());
+    EXPECT_FALSE(mc->outer.empty() || mi->inner.empty());
+  }
+}
+
+TEST(Roundness, OneSidedCirclesOfAProfileAreThoseOfItsPointsForSmallForm) {
+  for (const double form_mm : {1e-2, 1e-3, 1e-4}) {
+    SCOPED_TRACE(form_mm);
+    core::KeyedNoise noise(7, {20});
+    const Values theta = test::uniform_angles(90);
+    Values r;
+    std::vector<Eigen::Vector2d> points;
+    for (const double t : theta) {
+      r.push_back(25.0 + form_mm * (std::cos(3.0 * t) + 0.3 * std::cos(2.0 * t) +
+                                    0.2 * std::cos(t) + 0.1 * noise.normal()));
+      points.emplace_back(r.back() * std::cos(t), r.back() * std::sin(t));
+    }
+    const double second_order = form_mm * form_mm / 25.0;  // what the limacon leaves out, e^2 / 2R
+    const std::pair<CircleReference, core::Result<OneSidedCircle>> pairs[] = {
+        {CircleReference::kMc, min_circumscribed_circle(points)},
+        {CircleReference::kMi, max_inscribed_circle(points)}};
+    for (const auto& [reference, circle] : pairs) {
+      SCOPED_TRACE(name_of(reference));
+      const auto by_profile = roundness_of_profile(theta, r, reference);
+      const auto by_points = roundness_of_points(points, reference);
+      ASSERT_TRUE(circle && by_profile && by_points);
+      EXPECT_EQ(by_points->radius_mm, circle->radius_mm);
+      EXPECT_EQ(by_points->total_mm, circle->deviation_mm);
+      EXPECT_NEAR(by_profile->radius_mm, circle->radius_mm, second_order);
+      EXPECT_NEAR(by_profile->total_mm, circle->deviation_mm, 2.0 * second_order);
+      EXPECT_LT((by_profile->center_mm - circle->center_mm).norm(), 4.0 * second_order);
+    }
+  }
+}
+
+TEST(Roundness, APerfectProfileHasAllFourCircles) {
+  const Values theta = test::uniform_angles(36);
+  for (const auto reference :
+       {CircleReference::kLs, CircleReference::kMz, CircleReference::kMc, CircleReference::kMi}) {
+    SCOPED_TRACE(name_of(reference));
+    const auto out = roundness_of_profile(theta, Values(36, 25.0), reference);
+    ASSERT_TRUE(out.has_value());
+    EXPECT_NEAR(out->radius_mm, 25.0, 1e-12);
+    EXPECT_NEAR(out->total_mm, 0.0, 1e-12);
+  }
+}
+
+TEST(Roundness, OneSidedCirclesOfHalfAProfileDoNotExist) {
+  Values theta;
+  for (int i = 0; i <= 170; ++i) theta.push_back(i * core::kDegree);
+  const Values r = test::spec_profile(theta);
+  for (const auto reference : {CircleReference::kMc, CircleReference::kMi}) {
+    const auto out = roundness_of_profile(theta, r, reference);
+    ASSERT_FALSE(out.has_value());
+    EXPECT_EQ(out.error().code, core::Code::kReferenceAbsent);
+    EXPECT_NE(out.error().what.find("180 deg"), std::string::npos);
+  }
+}
+
 TEST(Roundness, DoesNotDependOnStartAngleConstantOrScale) {
   const Values theta = test::uniform_angles(720);
   const Values r = test::rough_profile(3, 720);
@@ -271,6 +386,20 @@ TEST(RoundnessEvaluation, RefusesMissingAnglesUnlessOverridden) {
   options.filter.override_sampling = false;
   options.filter.cutoff_upr = 15.0;
   EXPECT_TRUE(evaluate_profile(theta, r, options).has_value());
+}
+
+TEST(RoundnessEvaluation, SaysInAWarningThatAReferenceDoesNotExist) {
+  Values theta;
+  for (int i = 0; i <= 150; ++i) theta.push_back(i * core::kDegree);
+  RoundnessOptions options;
+  options.filter.filter = ProfileFilter::kNone;
+  options.references = {CircleReference::kLs, CircleReference::kMi, CircleReference::kMz};
+  const auto out = evaluate_profile(theta, test::spec_profile(theta), options);
+  ASSERT_TRUE(out.has_value());
+  ASSERT_EQ(out->values.size(), 2U);
+  EXPECT_EQ(out->values[1].reference, CircleReference::kMz);
+  EXPECT_EQ(out->absent, std::vector{CircleReference::kMi});
+  EXPECT_EQ(out->warnings.back().code, core::Code::kReferenceAbsent);
 }
 
 TEST(RoundnessEvaluation, RefusesArcsAFilterOrACircleCannotHold) {

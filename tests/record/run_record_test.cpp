@@ -14,6 +14,8 @@ TEST(RunRecord, SpellsWordsAsPlansDo) {
   EXPECT_EQ(name_of(Form::kRoundness), "roundness");
   EXPECT_EQ(name_of(Reference::kLeastSquares), "ls");
   EXPECT_EQ(name_of(Reference::kMinimumZone), "mz");
+  EXPECT_EQ(name_of(Reference::kMinimumCircumscribed), "mc");
+  EXPECT_EQ(name_of(Reference::kMaximumInscribed), "mi");
   EXPECT_EQ(name_of(Strategy::kGuided), "guided");
   EXPECT_EQ(name_of(Strategy::kRefined), "refined");
   EXPECT_EQ(name_of(Strategy::kAsPublished), "as-published");

@@ -85,7 +85,10 @@ Feature sample_feature(Numbers& n) {
     Characteristic c;
     c.id = n.text();
     c.form = n.whole(2) == 0 ? Form::kCylindricity : Form::kRoundness;
-    c.reference = n.whole(2) == 0 ? Reference::kLeastSquares : Reference::kMinimumZone;
+    constexpr std::array kReferences = {Reference::kLeastSquares, Reference::kMinimumZone,
+                                        Reference::kMinimumCircumscribed,
+                                        Reference::kMaximumInscribed};
+    c.reference = kReferences[static_cast<std::size_t>(n.whole(4))];
     if (n.whole(3) > 0) c.tolerance_mm = n.real();
     c.drawing_zone = n.text();
     f.characteristics.push_back(c);

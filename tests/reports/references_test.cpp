@@ -1,0 +1,182 @@
+// Characteristics about all four references, from the record to the reports.
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/units.h"
+#include "fit/one_sided_center.h"
+#include "fit/one_sided_cylinder.h"
+#include "reports/archive_entry.h"
+#include "reports/evaluation.h"
+#include "reports/facts.h"
+#include "reports/warnings.h"
+#include "reports/writers.h"
+#include "tests/reports/points_run.h"
+
+namespace rondure::reports {
+namespace {
+
+using nlohmann::json;
+using record::Reference;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+Evaluation evaluated(const record::RunRecord& run) {
+  auto out = evaluate(run);
+  EXPECT_TRUE(out) << (out ? "" : out.error().what);
+  return out.value_or(Evaluation{});
+}
+
+/// The characteristics of a feature by their ids.
+std::map<std::string, CharacteristicResult> by_id(const FeatureResult& feature) {
+  std::map<std::string, CharacteristicResult> out;
+  for (const auto& c : feature.characteristics) out[c.characteristic.id] = c;
+  return out;
+}
+
+TEST(References, ACylinderIsJudgedAboutAllFour) {
+  const auto points = rough_part(1, 4, 15, core::kTwoPi);
+  const auto evaluation = evaluated(points_run(points, 4));
+  const FeatureResult& feature = evaluation.features.at(0);
+  auto found = by_id(feature);
+  ASSERT_EQ(found.size(), 8U);
+  const auto axis = feature.ls_cylinder->axis.direction;
+  const auto mc = fit::min_circumscribed_cylinder(points, axis);
+  const auto mi = fit::max_inscribed_cylinder(points, axis);
+  ASSERT_TRUE(mc && mi);
+  EXPECT_EQ(found["cylindricity mc"].value_mm, mc->deviation_mm);
+  EXPECT_EQ(found["cylindricity mi"].value_mm, mi->deviation_mm);
+  EXPECT_THAT(found["cylindricity mc"].operator_text, StartsWith("MCCY; unfiltered; 4 x 15"));
+  EXPECT_THAT(found["cylindricity mi"].operator_text, StartsWith("MICY; unfiltered; 4 x 15"));
+  EXPECT_THAT(found["roundness mc"].operator_text, StartsWith("MCCI; "));
+  EXPECT_THAT(found["roundness mi"].operator_text, StartsWith("MICI; "));
+  for (const auto& [id, c] : found) {
+    EXPECT_EQ(c.verdict, Verdict::kConforms) << id << ": " << c.reason;
+    EXPECT_LE(*found["cylindricity mz"].value_mm, id[0] == 'c' ? *c.value_mm + 1e-12 : 1.0) << id;
+  }
+  double worst_mi = 0.0;
+  for (const LayerResult& layer : feature.layers) {
+    const auto circle = fit::max_inscribed_circle(layer.points_mm);
+    ASSERT_TRUE(circle.has_value());
+    worst_mi = std::max(worst_mi, circle->deviation_mm);
+  }
+  EXPECT_EQ(found["roundness mi"].value_mm, worst_mi);
+}
+
+TEST(References, ReportedRadiiAreThoseOfTheSurface) {
+  const auto points = rough_part(2, 3, 12, core::kTwoPi);
+  for (const record::Side side : {record::Side::kOutside, record::Side::kInside}) {
+    auto run = points_run(points, 3);
+    run.features[0].side = side;
+    const double offset = side == record::Side::kOutside ? -1.5 : 1.5;
+    const auto evaluation = evaluated(run);
+    const FeatureResult& feature = evaluation.features.at(0);
+    const json report = json::parse(write_json(run, evaluation));
+    const json& stated = report["features"][0];
+    EXPECT_NEAR(stated["mc"]["radius_mm"], feature.mc_cylinder->radius_mm + offset, 1e-12);
+    EXPECT_NEAR(stated["mi"]["radius_mm"], feature.mi_cylinder->radius_mm + offset, 1e-12);
+    EXPECT_NEAR(stated["layers"][1]["mc"]["radius_mm"], feature.layers[1].mc->radius_mm + offset,
+                1e-12);
+    EXPECT_LE(stated["mc"]["radius_mm"], stated["mz"]["outer_radius_mm"]);
+    EXPECT_GE(stated["mi"]["radius_mm"], stated["mz"]["inner_radius_mm"]);
+    EXPECT_EQ(stated["mc"]["contacts"]["outer"].size(), feature.mc_cylinder->contacts.size());
+    EXPECT_FALSE(stated["mc"]["contacts"].contains("inner"));
+    EXPECT_EQ(stated["mi"]["axis"]["direction"].size(), 3U);
+    EXPECT_EQ(stated["mi"]["certificate"]["kind"], "local");
+  }
+}
+
+TEST(References, ACircleHasItsOwn) {
+  const auto run = points_run(rough_part(3, 1, 30, core::kTwoPi), 1);
+  const auto evaluation = evaluated(run);
+  const json feature = json::parse(write_json(run, evaluation))["features"][0];
+  const LayerResult& section = evaluation.features.at(0).layers.at(0);
+  EXPECT_NEAR(feature["mc"]["deviation_um"], 1e3 * section.mc->deviation_mm, 1e-12);
+  EXPECT_EQ(feature["mc"]["certificate"]["kind"], "global");
+  EXPECT_EQ(feature["mi"]["center_mm"].size(), 2U);
+  EXPECT_EQ(feature["mi"]["contacts"]["inner"].size(), section.mi->contacts.size());
+  EXPECT_THAT(write_summary(run, evaluation), HasSubstr("MCCI radius"));
+  EXPECT_THAT(write_html(run, evaluation), HasSubstr("Maximum inscribed circle (MICI)"));
+}
+
+TEST(References, TheArchiveHoldsTheCertificateOfEach) {
+  const auto run = points_run(rough_part(8, 4, 15, core::kTwoPi), 4);
+  const auto entry = archive_entry(run, evaluated(run), "digest");
+  std::map<std::string, std::string> certificates;
+  for (const auto& result : entry.results) certificates[result.reference] = result.certificate;
+  const std::map<std::string, std::string> expected = {
+      {"LSCY", "none"}, {"MZCY", "global"}, {"MCCY", "local"},  {"MICY", "local"},
+      {"LSCI", "none"}, {"MZCI", "global"}, {"MCCI", "global"}, {"MICI", "local"}};
+  EXPECT_EQ(certificates, expected);
+}
+
+TEST(References, OneThatDoesNotExistIsNullWithAWarningAndVoid) {
+  for (const int layers : {1, 4}) {
+    SCOPED_TRACE(layers);
+    const auto run = points_run(rough_part(4, layers, 20, 0.4 * core::kTwoPi), layers);
+    const auto evaluation = evaluated(run);
+    const FeatureResult& feature = evaluation.features.at(0);
+    const json stated = json::parse(write_json(run, evaluation))["features"][0];
+    EXPECT_TRUE(stated["mi"].is_null());
+    EXPECT_TRUE(stated["layers"][0]["mi"].is_null());
+    EXPECT_TRUE(stated["mz"].is_object());
+    int warned = 0;
+    for (const core::Error& w : feature.warnings) {
+      if (w.code == core::Code::kReferenceAbsent &&
+          w.what.find("no maximum inscribed") != std::string::npos)
+        ++warned;
+    }
+    EXPECT_EQ(warned, 1);
+    auto found = by_id(feature);
+    const CharacteristicResult& round = found["roundness mi"];
+    EXPECT_EQ(round.verdict, Verdict::kVoid);
+    EXPECT_FALSE(round.value_mm.has_value());
+    EXPECT_THAT(round.reason, HasSubstr("layer 1: "));
+    EXPECT_EQ(found["roundness mz"].verdict, Verdict::kConforms);
+    EXPECT_EQ(evaluation.verdict, Verdict::kVoid);
+    EXPECT_THAT(write_html(run, evaluation), HasSubstr("reference-absent"));
+  }
+}
+
+TEST(References, AWorseOptimumNextToTheLeastSquaresOneIsToldNotHidden) {
+  auto evaluation = evaluated(points_run(rough_part(7, 4, 15, core::kTwoPi), 4));
+  FeatureResult& feature = evaluation.features.at(0);
+  const auto told = [&] {
+    feature.warnings.clear();
+    warn(feature);
+    std::vector<std::string> out;
+    for (const core::Error& w : feature.warnings) {
+      if (w.code == core::Code::kSeveralOptima) out.push_back(w.what);
+    }
+    return out;
+  };
+  EXPECT_THAT(told(), ::testing::IsEmpty());
+  feature.mc_cylinder->radius_mm = feature.mz_cylinder->outer_radius_mm + 2e-3;
+  feature.layers[1].mi->radius_mm = feature.layers[1].mz->inner_radius_mm - 3e-3;
+  EXPECT_THAT(told(), ::testing::ElementsAre(
+                          ::testing::AllOf(StartsWith("the minimum circumscribed cylinder"),
+                                           HasSubstr(" 2 um better")),
+                          ::testing::AllOf(StartsWith("layer 2: the maximum inscribed circle"),
+                                           HasSubstr(" 3 um better"))));
+}
+
+TEST(References, ThreePointsHaveNoRoundnessAboutAny) {
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 3; ++i) {
+    const double t = core::kTwoPi * i / 3.0;
+    points.emplace_back(25.0 * std::cos(t), 25.0 * std::sin(t), 0.0);
+  }
+  const auto evaluation = evaluated(points_run(points, 1));
+  for (const auto& c : evaluation.features.at(0).characteristics) {
+    EXPECT_EQ(c.verdict, Verdict::kVoid) << c.characteristic.id;
+    EXPECT_THAT(c.reason, HasSubstr("three different points")) << c.characteristic.id;
+  }
+}
+
+}  // namespace
+}  // namespace rondure::reports
