@@ -129,7 +129,7 @@ TEST_F(FinishedRun, WithoutItsJournalIsUnreadable) {
     const Outcome outcome = rondure({verb, run_});
     EXPECT_EQ(outcome.status, 2);
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("there is no journal.db"),
-                                   HasSubstr("name the directory of a run")));
+                                   HasSubstr("copy the run directory again")));
   }
 }
 
