@@ -87,7 +87,7 @@ void ZoneDescent<Frame>::name_rows(Contacts& contacts) const {
 
 template <class Frame>
 Extremes ZoneDescent<Frame>::extremes(const Frame& frame) {
-  return frame.linearise(working_, trial_rows_);
+  return frame.linearise(working_, looked_rows_);
 }
 
 /// Minimises over the working points, looks at all, adds those outside, until there are none.

@@ -108,7 +108,8 @@ class ZoneDescent {
   bool warm_ = false;      ///< The programme has a basis to start from.
   WorkingPoints<D> working_;
   ZoneRows<K> rows_;
-  ZoneRows<K> trial_rows_;
+  ZoneRows<K> trial_rows_;   ///< At the place a step leads to.
+  ZoneRows<K> looked_rows_;  ///< Of extremes(), which wants no more than these.
   ZoneProgram<K> program_;
   BlockScan blocks_;
   std::vector<std::size_t> order_;

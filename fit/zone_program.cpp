@@ -17,6 +17,10 @@ constexpr int kSwiftPivots = 40;
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 /// Multipliers off by more than this are computed from a fresh factorisation.
 constexpr double kWorn = 1e-13;
+/// Smaller pivots would leave a basis next to singular.
+constexpr double kPivot = 1e-11;
+/// Residuals above this mean that a basis was next to singular.
+constexpr double kSound = 1e-9;
 
 struct Place {
   std::size_t far = 0;
@@ -177,13 +181,29 @@ bool ZoneProgram<K>::factorise() {
   return true;
 }
 
+/// Swiftly, and where the end does not stand up to its residuals once more from the beginning, with
+/// every basis factorised.
 template <int K>
 ZoneStep<K> ZoneProgram<K>::run(int pivot_limit) {
+  ZoneStep<K> out = attempt(pivot_limit, kSwiftPivots);
+  if (!sound()) {
+    const int spent = out.pivots;
+    start_basis();
+    out = attempt(pivot_limit, 0);
+    out.pivots += spent;
+  }
+  report(out);
+  return out;
+}
+
+/// @param swift  Pivots that update the inverse; later ones factorise and refine.
+template <int K>
+ZoneStep<K> ZoneProgram<K>::attempt(int pivot_limit, int swift) {
   ZoneStep<K> out;
   bool fresh = false;
   for (; out.pivots < pivot_limit; ++out.pivots) {
-    const bool careful = out.pivots >= kSwiftPivots;
-    if (careful) factorise();
+    const bool careful = out.pivots >= swift;
+    if (careful && !factorise()) return out;
     settle_prices();
     if (careful) worn();
     const Entering entering = price(out.pivots >= kDantzigPivots);
@@ -197,8 +217,23 @@ ZoneStep<K> ZoneProgram<K>::run(int pivot_limit) {
     fresh = true;
   }
   if (!out.solved) settle_prices();
-  report(out);
   return out;
+}
+
+/// Whether multipliers and prices solve the equations of the basis, and no multiplier is negative.
+template <int K>
+bool ZoneProgram<K>::sound() const {
+  Vector right = Vector::Zero();
+  right(0) = right(1) = 1.0;
+  double price_error = 0.0;
+  for (int k = 0; k < kRows; ++k) {
+    const Vector a = column(basis_[static_cast<std::size_t>(k)]);
+    right -= values_(k) * a;
+    price_error =
+        std::max(price_error, std::abs(a.dot(prices_) - cost(basis_[static_cast<std::size_t>(k)])));
+  }
+  return right.cwiseAbs().maxCoeff() <= kSound && price_error <= kSound * (1.0 + box_) &&
+         values_.minCoeff() >= -kSound;
 }
 
 /// Prices of the rows, c_B times the inverse of the basis.
@@ -277,7 +312,7 @@ bool ZoneProgram<K>::pivot(const Column& entering) {
   int leaving = -1;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kRows; ++k) {
-    if (direction(k) <= 1e-11) continue;
+    if (direction(k) <= kPivot) continue;
     const double ratio = std::max(values_(k), 0.0) / direction(k);
     // Among equal ratios the larger pivot is the safer one.
     const bool tie = leaving >= 0 && std::abs(ratio - least) <= 1e-14;

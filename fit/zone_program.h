@@ -114,6 +114,8 @@ class ZoneProgram {
   void start_basis();
   bool factorise();
   ZoneStep<K> run(int pivot_limit);
+  ZoneStep<K> attempt(int pivot_limit, int swift);
+  [[nodiscard]] bool sound() const;
   void settle_prices();
   bool worn();
   [[nodiscard]] Vector column(const Column& c) const;
