@@ -84,6 +84,10 @@ std::string_view code_name(Code code) {
       return "reference-absent";
     case Code::kSeveralOptima:
       return "several-optima";
+    case Code::kHarmonicLoss:
+      return "harmonic-loss";
+    case Code::kInconsistent:
+      return "inconsistent";
   }
   return "internal";
 }

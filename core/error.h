@@ -51,7 +51,11 @@ enum class Code {
   kAngleOrder,     ///< angle-order: angles that were unsorted, repeated or ran over one turn
   kReferenceAbsent,  ///< reference-absent: a reference that does not exist for these data
   kSeveralOptima,    ///< several-optima: a reference is one of several that are nearly alike
+  kHarmonicLoss,     ///< harmonic-loss: harmonics that a separation loses or amplifies much
+  kInconsistent,     ///< inconsistent: data that contradict the geometry they were taken with
 };
+/// The last of them.
+inline constexpr Code kLastCode = Code::kInconsistent;
 
 /// The name of a code as JSON and messages spell it, e.g. "too-few-points".
 [[nodiscard]] std::string_view code_name(Code code);
