@@ -209,7 +209,12 @@ void warn(WheelMeasurement& out) {
 core::Result<void> make_robust(const OutlierOptions& options, const QuadrupleOptions& quadruples,
                                std::vector<std::size_t>& rows, Points& used,
                                WheelMeasurement& out) {
-  const auto outliers = find_outliers(used, out.centers.accepted, options);
+  // A chip spoils two or three of six centres and their median with them: all are asked.
+  QuadrupleOptions every = quadruples;
+  every.choice = QuadrupleChoice::kAll;
+  const auto all = select_centers(used, out.check.radius_mm, every);
+  if (!all) return core::fail(all.error());
+  const auto outliers = find_outliers(used, all->accepted, options);
   if (!outliers) return core::fail(outliers.error());
   out.outlier_scale_mm = outliers->scale_mm;
   out.warnings = outliers->warnings;

@@ -68,7 +68,11 @@ core::Result<Samples> sample(const WheelSurface& surface, const WheelPathOptions
     }
   }
   std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
+  // Places a rounding apart would leave nothing between neighbours to refine in.
+  const double same = 1e-9 * (to - from);
+  places.erase(
+      std::unique(places.begin(), places.end(), [&](double a, double b) { return b - a <= same; }),
+      places.end());
   Samples out;
   for (const double x : places) {
     const auto point = surface.at(x);

@@ -8,20 +8,20 @@
 #include <limits>
 #include <string>
 
-#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "tests/fit/wheel_cases.h"
 
 namespace rondure::fit {
 namespace {
 
-using ::testing::HasSubstr;
 using testing::arc_points;
 using testing::example_1;
 using testing::example_2;
 using testing::full;
+using ::testing::HasSubstr;
 using testing::Points;
 
 // Points are printed to 1e-6 mm: half a digit of each reaches a centre kappa times.
@@ -160,8 +160,8 @@ TEST(Wheel, GivesEveryNumberOfWorkedExample2) {
   EXPECT_NEAR(outliers->center_mm.x(), 0.499681, 2.0 * kDigit);
   EXPECT_NEAR(outliers->center_mm.y(), 0.250245, 2.0 * kDigit);
   EXPECT_NEAR(outliers->scale_mm / core::kMicrometre, 3.887, 3e-3);
-  const std::array deviations = {4.53, -0.24, -3.85, 0.24, 53.40, -2.05,
-                                 -3.73, 2.63, 3.83, -1.01, -2.62, 2.16};
+  const std::array deviations = {4.53,  -0.24, -3.85, 0.24,  53.40, -2.05,
+                                 -3.73, 2.63,  3.83,  -1.01, -2.62, 2.16};
   for (std::size_t i = 0; i < deviations.size(); ++i) {
     EXPECT_NEAR(outliers->deviations_mm[i] / core::kMicrometre, deviations[i], 7e-3) << i;
   }
@@ -208,10 +208,10 @@ TEST(Wheel, AmplifiesByTheFactorsOfTheArc) {
   struct Arc {
     double deg, center, radius, digit_center, digit_radius;
   };
-  for (const Arc& arc : {Arc{20, 54.6, 54.2, .1, .1}, Arc{30, 24.4, 24.0, .1, .1},
-                         Arc{60, 6.3, 5.9, .1, .1}, Arc{90, 2.9, 2.5, .1, .1},
-                         Arc{120, 1.7, 1.35, .1, .01}, Arc{180, 0.91, 0.56, .01, .01},
-                         Arc{360, 0.58, 0.29, .01, .01}}) {
+  for (const Arc& arc :
+       {Arc{20, 54.6, 54.2, .1, .1}, Arc{30, 24.4, 24.0, .1, .1}, Arc{60, 6.245, 5.9, .001, .1},
+        Arc{90, 2.9, 2.5, .1, .1}, Arc{120, 1.7, 1.35, .1, .01}, Arc{180, 0.91, 0.56, .01, .01},
+        Arc{360, 0.58, 0.29, .01, .01}}) {
     SCOPED_TRACE(arc.deg);
     const auto points = arc_points(12, arc.deg, 50.0, 0.0, 1);
     const auto factors = circle_factors(angular_order(points, {0.0, 0.0}).angles_rad);
@@ -253,37 +253,40 @@ TEST(Wheel, ScattersAsTheTableOfTheMethodSays) {
   };
   using Choice = QuadrupleChoice;
   using Mean = WheelMean;
-  for (const Row& row :
-       {Row{360, Choice::kBest, Mean::kAsPublished, 1.27, 0.61},
-        Row{360, Choice::kAll, Mean::kAsPublished, 1.11, 0.61},
-        Row{360, Choice::kAll, Mean::kWeighted, 1.11, 0.61},
-        Row{120, Choice::kBest, Mean::kAsPublished, 4.0, 3.0},
-        Row{120, Choice::kAll, Mean::kAsPublished, 3.6, 2.6},
-        Row{120, Choice::kAll, Mean::kWeighted, 3.4, 2.6},
-        Row{60, Choice::kBest, Mean::kAsPublished, 12.6, 11.7},
-        Row{60, Choice::kAll, Mean::kAsPublished, 12.1, 11.1},
-        Row{60, Choice::kAll, Mean::kWeighted, 11.9, 11.0}}) {
-    SCOPED_TRACE(::testing::Message() << row.arc_deg << " deg, " << name_of(row.choice) << ", "
-                                      << name_of(row.mean));
+  for (const Row& row : {Row{360, Choice::kBest, Mean::kAsPublished, 1.27, 0.61},
+                         Row{360, Choice::kAll, Mean::kAsPublished, 1.11, 0.61},
+                         Row{360, Choice::kAll, Mean::kWeighted, 1.11, 0.61},
+                         Row{120, Choice::kBest, Mean::kAsPublished, 4.0, 3.0},
+                         Row{120, Choice::kAll, Mean::kAsPublished, 3.6, 2.6},
+                         Row{120, Choice::kAll, Mean::kWeighted, 3.4, 2.6},
+                         Row{60, Choice::kBest, Mean::kAsPublished, 12.6, 11.7},
+                         Row{60, Choice::kAll, Mean::kAsPublished, 12.1, 11.1},
+                         Row{60, Choice::kAll, Mean::kWeighted, 11.9, 11.0}}) {
+    SCOPED_TRACE(::testing::Message()
+                 << row.arc_deg << " deg, " << name_of(row.choice) << ", " << name_of(row.mean));
     WheelOptions options = plain(row.mean);
     options.quadruples.choice = row.choice;
-    const Scatter found = scatter_of(row.arc_deg, options, full() ? 4000 : 600);
+    const Scatter found = scatter_of(row.arc_deg, options, full() ? 4000 : 1000);
     EXPECT_NEAR(found.center_um, row.center_um, 0.1 * row.center_um);
     EXPECT_NEAR(found.radius_um, row.radius_um, 0.1 * row.radius_um);
   }
 }
 
 TEST(Wheel, ScattersSeveralTimesMoreWithSixRandomQuadruples) {
+  // The table was made of 200 runs. Single bad quadruples rule these sums, so that 200 runs scatter
+  // themselves: standard deviation of 100 blocks of 200 runs each, as a share.
   struct Row {
-    double arc_deg, center_um, radius_um;
+    double arc_deg, center_um, radius_um, own_scatter;
   };
-  for (const Row& row : {Row{360, 3.54, 0.61}, Row{120, 17.3, 13.0}, Row{60, 46.8, 43.7}}) {
+  for (const Row& row :
+       {Row{360, 3.54, 0.61, 0.06}, Row{120, 17.3, 13.0, 0.09}, Row{60, 46.8, 43.7, 0.065}}) {
     SCOPED_TRACE(row.arc_deg);
     WheelOptions options = plain();
     options.quadruples.choice = QuadrupleChoice::kRandom;
-    const Scatter found = scatter_of(row.arc_deg, options, full() ? 20000 : 2000);
-    EXPECT_NEAR(found.center_um, row.center_um, 0.1 * row.center_um);
-    EXPECT_NEAR(found.radius_um, row.radius_um, 0.1 * row.radius_um);
+    const Scatter found = scatter_of(row.arc_deg, options, full() ? 20000 : 4000);
+    const double share = 0.1 + row.own_scatter;
+    EXPECT_NEAR(found.center_um, row.center_um, share * row.center_um);
+    EXPECT_NEAR(found.radius_um, row.radius_um, share * row.radius_um);
   }
 }
 
@@ -403,8 +406,10 @@ TEST(Wheel, EvaluatesAShortArcWhenToldToAndWarns) {
 }
 
 TEST(Wheel, RefusesTooManyOutliers) {
-  Points points = arc_points(12, 360.0, 50.0, 5e-4, 2);
-  for (const std::size_t row : {0U, 3U, 6U, 9U}) points[row] *= 1.01;
+  // Without the two chips seven points would stay.
+  Points points = arc_points(9, 360.0, 50.0, 5e-4, 2);
+  points[0] *= 1.002;
+  points[4] *= 1.002;
   WheelOptions options;
   options.robust = true;
   EXPECT_EQ(refused(points, options).code, core::Code::kOutliers);
