@@ -31,8 +31,8 @@ cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t see
   cmm::SimulatedMachineOptions out;
   out.nominal_tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
   out.park_W_mm = vector3(plan.machine->park_mm);
-  out.travel_speed_mm_s = plan.machine->travel_speed_mm_s;
-  out.touch_speed_mm_s = plan.machine->touch_speed_mm_s;
+  out.speeds.travel_mm_s = plan.machine->travel_speed_mm_s;
+  out.speeds.touch_mm_s = plan.machine->touch_speed_mm_s;
   out.temperature_degC = plan.simulation->temperature_degC;
   out.errors.repeatability_mm = plan.simulation->probe.repeatability_um * core::kMicrometre;
   out.errors.tip_radius_error_mm = plan.simulation->probe.tip_radius_error_um * core::kMicrometre;
