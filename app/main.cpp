@@ -46,6 +46,22 @@ void add_validate(CLI::App& app, ValidateArguments& arguments) {
   verb->footer("\nExample: rondure validate plans/examples/01_spool_simulated.json");
 }
 
+void add_plan(CLI::App& app, PlanArguments& arguments) {
+  auto* verb = app.add_subcommand(
+      "plan", "What a run would do: poses, touches, path, time, reach; nothing moves");
+  verb->add_option("PLAN", arguments.plan, "Plan file (JSON)")->required();
+  verb->add_flag("--json", arguments.json, "JSON instead of text");
+  verb->add_option("--svg", arguments.svg, "Draws the way of the tip: side and top view")
+      ->type_name("FILE");
+  verb->add_option("--feature", arguments.feature,
+                   "Feature to draw (default: the first that is touched)")
+      ->type_name("ID");
+  verb->footer(
+      "\nExample: rondure plan plans/examples/01_spool_simulated.json --svg path.svg\n"
+      "The run follows the same path. Targets out of reach are named with the reason and what "
+      "would\nhelp; then the exit status is 2. More: docs/planning.md");
+}
+
 void add_run(CLI::App& app, RunArguments& arguments) {
   auto* verb = app.add_subcommand("run", "Executes a plan and writes its reports");
   verb->add_option("PLAN", arguments.plan, "Plan file (JSON); with --resume also a run directory")
@@ -63,6 +79,9 @@ void add_run(CLI::App& app, RunArguments& arguments) {
                    "Where the results are kept besides: a file, postgresql://... or none\n"
                    "(default: as the plan says, else archive.db beside the run directory)");
   verb->add_flag("--quiet", arguments.quiet, "No progress, no summary");
+  verb->add_flag("--step", arguments.step,
+                 "First run: slow, each move confirmed on the terminal (Enter go, c continue\n"
+                 "without asking, q stop in order)");
   verb->footer(
       std::string("\nExample: rondure run plans/examples/01_spool_simulated.json --serial "
                   "0042 --operator mk\n"
@@ -248,6 +267,7 @@ int main_of(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(kExits);
   ValidateArguments validate_arguments;
+  PlanArguments plan_arguments;
   RunArguments run_arguments;
   FitArguments fit_arguments;
   RoundnessArguments roundness_arguments;
@@ -257,6 +277,7 @@ int main_of(int argc, char** argv) {
   VerifyArguments verify_arguments;
   HistoryArguments history_arguments;
   add_validate(app, validate_arguments);
+  add_plan(app, plan_arguments);
   add_run(app, run_arguments);
   CLI::App* const fit_verb = add_fit(app, fit_arguments);
   add_roundness(*fit_verb, roundness_arguments);
@@ -272,6 +293,7 @@ int main_of(int argc, char** argv) {
   }
   if (app.got_subcommand("validate")) return validate(validate_arguments);
   if (app.got_subcommand("run")) return run(run_arguments);
+  if (app.got_subcommand("plan")) return plan(plan_arguments);
   if (fit_verb->got_subcommand("roundness")) return roundness(roundness_arguments);
   if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);

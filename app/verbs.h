@@ -24,6 +24,14 @@ struct ValidateArguments {
 };
 [[nodiscard]] int validate(const ValidateArguments& arguments);
 
+struct PlanArguments {
+  std::string plan;
+  bool json = false;
+  std::string svg;      ///< File for a picture; empty: none.
+  std::string feature;  ///< To draw; empty: the first.
+};
+[[nodiscard]] int plan(const PlanArguments& arguments);
+
 struct RunArguments {
   std::string plan;  ///< With `resume` also a run directory.
   std::string out;   ///< Empty: runs/<plan>-<UTC>.
@@ -34,6 +42,7 @@ struct RunArguments {
   std::vector<std::string> formats;  ///< Empty: as the plan says.
   std::string archive;               ///< Empty: as the plan says.
   bool quiet = false;
+  bool step = false;  ///< Each move confirmed on the terminal, at reduced speed.
 };
 [[nodiscard]] int run(const RunArguments& arguments);
 
