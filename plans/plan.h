@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "plans/machine_errors_plan.h"
 
 namespace rondure::plans {
 
@@ -164,6 +165,11 @@ struct SimulatedPartPlan {
   double tilt_toward_deg = 0.0;
   double offset_x_mm = 0.0;
   double offset_y_mm = 0.0;
+  double expansion_per_K = 0.0;  ///< Real.
+  std::vector<KeywayPlan> keyways;
+  std::vector<BurrPlan> burrs;
+  double dust_share = 0.0;  ///< Of the touches.
+  double dust_um = 0.0;     ///< Largest particle.
 };
 
 struct SimulatedProbePlan {
@@ -192,6 +198,7 @@ struct SimulationPlan {
   std::uint64_t seed = 1;
   double temperature_degC = 20.0;
   SimulatedPartPlan part;
+  SimulatedMachinePlan machine;
   SimulatedProbePlan probe;
   SimulatedFixturePlan fixture;
   SimulatedFaultsPlan faults;
