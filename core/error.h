@@ -64,7 +64,11 @@ enum class Code {
   kCorrelated,       ///< correlated: neighbouring residuals are alike; they are not noise alone
   kLowMargin,        ///< low-margin: a wheel radius close to the concave radius it must grind
   kSeveralOptima,    ///< several-optima: a reference is one of several that are nearly alike
+  kHarmonicLoss,     ///< harmonic-loss: harmonics that a separation loses or amplifies much
+  kInconsistent,     ///< inconsistent: data that contradict the geometry they were taken with
 };
+/// The last of them.
+inline constexpr Code kLastCode = Code::kInconsistent;
 
 /// The name of a code as JSON and messages spell it, e.g. "too-few-points".
 [[nodiscard]] std::string_view code_name(Code code);
