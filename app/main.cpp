@@ -9,6 +9,7 @@
 
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "app/wheel_command.h"
 #include "core/version.h"
 #include "plans/simulation_table.h"
 #include "reports/exports.h"
@@ -272,6 +273,7 @@ int main_of(int argc, char** argv) {
   FitArguments fit_arguments;
   RoundnessArguments roundness_arguments;
   SelfTestArguments selftest_arguments;
+  WheelArguments wheel_arguments;
   ReportArguments report_arguments;
   SignArguments sign_arguments;
   VerifyArguments verify_arguments;
@@ -282,6 +284,7 @@ int main_of(int argc, char** argv) {
   CLI::App* const fit_verb = add_fit(app, fit_arguments);
   add_roundness(*fit_verb, roundness_arguments);
   add_selftest(*fit_verb, selftest_arguments);
+  add_wheel(*fit_verb, wheel_arguments);
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
   add_history(app, history_arguments);
@@ -296,6 +299,7 @@ int main_of(int argc, char** argv) {
   if (app.got_subcommand("plan")) return plan(plan_arguments);
   if (fit_verb->got_subcommand("roundness")) return roundness(roundness_arguments);
   if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
+  if (fit_verb->got_subcommand("wheel")) return wheel(wheel_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
   if (app.got_subcommand("history")) return history(history_arguments);
