@@ -67,7 +67,6 @@ auto ZoneDescent<Frame>::run(Points points, const Point& origin, const Frame& st
     minimise_large(points, origin, start, limit_mm, state);
   } else {
     for (std::size_t i = 0; i < points.size(); ++i) take(points, origin, i);
-    state.zone = extremes(state.frame);
     minimise(state, start, limit_mm);
   }
   name_rows(state.outer);

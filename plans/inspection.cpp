@@ -133,7 +133,7 @@ core::Result<void> FeatureSession::keep_as_final() {
   if (known == nullptr || !known->final_cloud) {
     if (auto marked = context_.journal.mark_final(pose_id_); !marked) return marked;
   }
-  if (context_.past.knows_truth(index_)) return {};
+  if (truth_.empty() || context_.past.knows_truth(index_)) return {};
   // Only a comparison for simulations: a truth that cannot be evaluated must not end the run.
   std::optional<double> zone_mm;
   if (feature_.type == "circle") {
@@ -240,7 +240,9 @@ core::Result<Eigen::Vector3d> FeatureSession::touch(TouchStep step, const Target
   if (!touched) {
     return context_.lost_place ? core::fail(touched.error()) : fault_at(target, touched.error());
   }
-  if (shows_truth) truth_.push_back(context_.cell->true_tip_W_mm());
+  if (const auto truth = context_.cell->true_tip_W_mm(); truth && shows_truth) {
+    truth_.push_back(*truth);
+  }
   return touched->tip_mm;
 }
 

@@ -1,6 +1,7 @@
 #include "plans/runner.h"
 
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -179,10 +180,12 @@ bool is_resumable(const core::Error& failure) {
 core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   const auto known = prepare_plan(plan, options);
   if (!known) return core::fail(known.error());
-  std::optional<Cell> cell;
+  std::unique_ptr<Cell> cell;
   record::Header header = header_of(plan, options, known->seed);
   if (touches_anything(plan)) {
-    cell.emplace(plan, known->seed, false);
+    auto opened = open_cell(plan, {known->seed, false});
+    if (!opened) return core::fail(opened.error());
+    cell = std::move(*opened);
     header.machine = cell->machine().description();
     header.fixture = cell->fixture().description();
   }
@@ -194,7 +197,7 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   auto journal = record::Journal::create(options.directory, header, artefact_of(plan), features);
   if (!journal) return core::fail(journal.error());
   Run run{std::move(*journal), std::nullopt};
-  execute(plan, options, *known, cell ? &*cell : nullptr, {}, run);
+  execute(plan, options, *known, cell.get(), {}, run);
   return run;
 }
 
@@ -215,15 +218,19 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
     }
   }
   if (!changes.empty()) return tl::unexpected(std::move(changes));
+  std::unique_ptr<Cell> cell;
+  if (touches_anything(plan)) {
+    auto opened = open_cell(plan, {known->seed, true});
+    if (!opened) return refuse(opened.error());
+    cell = std::move(*opened);
+  }
   auto journal = record::Journal::reopen(options.directory);
   if (!journal) return refuse(journal.error());
   auto past = record::read_journal(options.directory);  // again, now that no one else can write
   if (!past) return refuse(past.error());
-  std::optional<Cell> cell;
-  if (touches_anything(plan)) cell.emplace(plan, known->seed, true);
   Run run{std::move(*journal), std::nullopt};
   past->record.ending = found->record.ending;  // reopening took it out
-  execute(plan, options, *known, cell ? &*cell : nullptr, std::move(past->record), run);
+  execute(plan, options, *known, cell.get(), std::move(past->record), run);
   return run;
 }
 

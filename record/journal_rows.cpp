@@ -9,6 +9,7 @@
 
 #include "record/chain.h"
 #include "record/journal_schema.h"
+#include "record/journal_series.h"
 
 namespace rondure::record {
 namespace {
@@ -58,6 +59,7 @@ void insert_characteristic(soci::session& sql, int feature, const Characteristic
          "values (:feature, :name, :form, :reference, :tolerance, :zone)",
       use(feature), use(c.id), use(form), use(reference), use(tolerance_mm, given),
       use(c.drawing_zone);
+  insert_harmonic_limits(sql, c.harmonic_limits);
 }
 
 void insert_feature(soci::session& sql, int id, const Feature& f) {
@@ -78,6 +80,7 @@ void insert_feature(soci::session& sql, int id, const Feature& f) {
   for (const Characteristic& characteristic : f.characteristics) {
     insert_characteristic(sql, id, characteristic);
   }
+  insert_settings(sql, id, f.settings);
 }
 
 }  // namespace

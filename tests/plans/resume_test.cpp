@@ -117,7 +117,7 @@ TEST_P(Resume, EndsWithTheSameBitsWhereverTheRunWasStopped) {
 
 INSTANTIATE_TEST_SUITE_P(Strategies, Resume,
                          ::testing::Values("01_spool_simulated.json", "02_bore_simulated.json",
-                                           "07_pose_search_virtual.json"));
+                                           "13_pose_search_virtual.json"));
 
 TEST(ResumeOften, GoesOnAfterEveryFewTouches) {
   const Plan plan = plan_of("01_spool_simulated.json");
