@@ -120,10 +120,6 @@ std::string_view code_name(Code code) {
       return "correlated";
     case Code::kLowMargin:
       return "low-margin";
-    case Code::kHarmonicLoss:
-      return "harmonic-loss";
-    case Code::kInconsistent:
-      return "inconsistent";
   }
   return "internal";
 }
