@@ -53,6 +53,7 @@ plans::RunOptions options_of(const RunArguments& arguments) {
   options.processor = processor();
   options.seed = arguments.seed;
   options.stop_requested = stop_requested;
+  options.relocate = arguments.relocate;
   return options;
 }
 

@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "fixture/simulated.h"
 #include "plans/feature_planner.h"
+#include "plans/fixture_datum.h"
 #include "plans/plan_reach.h"
 #include "plans/pose_search.h"
 #include "plans/qualification.h"
@@ -187,12 +188,14 @@ class NominalSession final : public PoseSession {
   core::Pose reached_;
 };
 
-core::Result<void> add_qualification(const Plan& plan, Tally& tally) {
-  const auto steps = qualification_steps(plan);
-  if (!steps) return core::fail(steps.error().at("/probe/qualification"));
+core::Result<void> add_spheres(const core::Result<std::vector<TouchStep>>& steps,
+                               ForecastStage::Kind kind, Tally& tally) {
+  if (!steps) return core::fail(steps.error());
+  if (steps->empty()) return {};
   ForecastStage stage;
-  stage.kind = ForecastStage::Kind::kQualification;
+  stage.kind = kind;
   for (const TouchStep& step : *steps) {
+    if (step.row.point == 0) tally.rise(stage);  // from the sphere before
     tally.move(stage, step.way_W);
     tally.touch(stage, step.command.expected_tip_W_mm, step.command.approach_mm);
   }
@@ -207,7 +210,13 @@ core::Result<Forecast> forecast(const Plan& plan) {
   Forecast out;
   if (!touches_anything(plan)) return out;
   Tally tally(*plan.machine, out);
-  if (auto added = add_qualification(plan, tally); !added) return core::fail(added.error());
+  using Kind = ForecastStage::Kind;
+  if (auto added = add_spheres(qualification_steps(plan), Kind::kQualification, tally); !added) {
+    return core::fail(added.error().at("/probe/qualification"));
+  }
+  if (auto added = add_spheres(datum_steps(plan), Kind::kBase, tally); !added) {
+    return core::fail(added.error());
+  }
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     if (from_file(plan.features[i])) continue;
     NominalSession session(plan, static_cast<int>(i), tally);
