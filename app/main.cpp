@@ -9,6 +9,7 @@
 
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "core/numbers.h"
 #include "core/version.h"
 #include "plans/simulation_table.h"
 #include "reports/exports.h"
@@ -38,6 +39,14 @@ std::string check_seed(const std::string& text) {
                       text.find_first_not_of("0123456789") == std::string::npos;
   if (digits && std::stod(text) <= plans::kMaxSeed) return {};
   return fmt::format("{} is not a whole number from 0 to {:.0f}", text, plans::kMaxSeed);
+}
+
+/// How many times faster than a real machine.
+std::string check_speed(const std::string& text) {
+  if (text == "inf") return {};
+  const auto factor = core::parse_number(text);
+  if (factor && *factor >= 1e-3 && *factor <= 1e6) return {};
+  return fmt::format("{} is neither inf nor a number from 0.001 to 1000000", text);
 }
 
 void add_validate(CLI::App& app, ValidateArguments& arguments) {
@@ -146,6 +155,30 @@ void add_selftest(CLI::App& fit_verb, SelfTestArguments& arguments) {
   verb->footer("\nExample: rondure fit filter-selftest --cutoff-upr 15");
 }
 
+void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
+  auto* verb = app.add_subcommand(
+      "simulate-cmm",
+      "Serves the virtual machine of a plan over I++ DME, for one client at a time");
+  verb->add_option("PLAN", arguments.plan, "Plan file (JSON) with a simulation")->required();
+  verb->add_option("--port", arguments.port, "TCP port (default: 1294); 0: any free one");
+  verb->add_option("--listen", arguments.address,
+                   "Address to listen at (default: 127.0.0.1, this computer only)")
+      ->type_name("ADDRESS");
+  verb->add_option("--speed", arguments.speed,
+                   "How much faster than a real machine (default: 1); inf: motions take no time")
+      ->check(check_speed)
+      ->type_name("FACTOR");
+  verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
+      ->check(check_seed);
+  verb->add_flag("--as-seen", arguments.as_seen,
+                 "Answers as another server was seen to where that differs from the specification");
+  verb->add_option("--wire-log", arguments.wire_log, "Every line both ways, added to this file")
+      ->type_name("FILE");
+  verb->footer(
+      "\nExample: rondure simulate-cmm plans/examples/01_spool_simulated.json --speed inf\n"
+      "Any I++ DME client can be tried against it. What it speaks: docs/ipp-dme-server.md");
+}
+
 void add_report(CLI::App& app, ReportArguments& arguments) {
   auto* verb = app.add_subcommand("report", "Writes the reports of a run again, from its journal");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
@@ -249,6 +282,7 @@ int main_of(int argc, char** argv) {
   app.footer(kExits);
   ValidateArguments validate_arguments;
   RunArguments run_arguments;
+  SimulateCmmArguments simulate_arguments;
   FitArguments fit_arguments;
   RoundnessArguments roundness_arguments;
   SelfTestArguments selftest_arguments;
@@ -258,6 +292,7 @@ int main_of(int argc, char** argv) {
   HistoryArguments history_arguments;
   add_validate(app, validate_arguments);
   add_run(app, run_arguments);
+  add_simulate_cmm(app, simulate_arguments);
   CLI::App* const fit_verb = add_fit(app, fit_arguments);
   add_roundness(*fit_verb, roundness_arguments);
   add_selftest(*fit_verb, selftest_arguments);
@@ -272,6 +307,7 @@ int main_of(int argc, char** argv) {
   }
   if (app.got_subcommand("validate")) return validate(validate_arguments);
   if (app.got_subcommand("run")) return run(run_arguments);
+  if (app.got_subcommand("simulate-cmm")) return simulate_cmm(simulate_arguments);
   if (fit_verb->got_subcommand("roundness")) return roundness(roundness_arguments);
   if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);

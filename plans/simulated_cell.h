@@ -34,6 +34,9 @@ class SimulatedCell final : public Cell {
                                                 const cmm::TouchReading& reading) override;
   [[nodiscard]] core::Result<core::Pose> home_again() override;
 
+  /// The next turn of the fixture has the noise of this one since its homing, which is number 0.
+  void continue_at_turn(std::uint64_t number) { fixture_.continue_after(number - 1); }
+
   [[nodiscard]] std::optional<Eigen::Vector3d> true_tip_W_mm() const override {
     return machine_.true_tip_W_mm();
   }
