@@ -8,6 +8,7 @@
 
 #include "cmm/contact.h"
 #include "cmm/grid.h"
+#include "cmm/machine_map.h"
 #include "cmm/scan_path.h"
 #include "core/noise.h"
 
@@ -17,7 +18,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::uint64_t kTouchStream = 0x746f756368;  // keeps the noise apart from other devices
-constexpr double kGraze_mm = 1e-6;                    // a move may overlap a surface by this much
+constexpr std::uint64_t kDustStream = 0x64757374;
+constexpr double kGraze_mm = 1e-6;  // a move may overlap a surface by this much
 constexpr double kSettle_s = 0.2;
 constexpr double kHalfVolume_mm = 10'000.0;  // the grid of 1e-10 mm holds it with 15 digits
 constexpr Speeds kSlowest = {0.001, 0.001, 0.001};
@@ -42,10 +44,15 @@ SimulatedMachine::SimulatedMachine(const SimulatedMachineOptions& options)
 
 void SimulatedMachine::place_part(const PartSurface& surface, const Eigen::Isometry3d& X_WP) {
   part_ = surface;
+  warm_part_ =
+      surface.scaled(1.0 + options_.part_errors.expansion_1_K * (options_.temperature_degC - 20.0));
   X_WP_ = X_WP;
 }
 
-void SimulatedMachine::remove_part() { part_.reset(); }
+void SimulatedMachine::remove_part() {
+  part_.reset();
+  warm_part_.reset();
+}
 
 void SimulatedMachine::place_sphere(const ReferenceSphere& sphere) { sphere_ = sphere; }
 
@@ -116,13 +123,13 @@ core::Result<void> SimulatedMachine::home() {
 }
 
 core::Result<SimulatedMachine::Obstacle> SimulatedMachine::first_obstacle(
-    const Vector3d& start_W_mm, const Vector3d& direction_W, double tip_radius_mm,
-    double max_travel_mm) const {
+    const PartSurface* part, const Vector3d& start_W_mm, const Vector3d& direction_W,
+    double tip_radius_mm, double max_travel_mm) const {
   auto first = core::Result<Obstacle>(
       core::fail(core::Code::kNoTouch, fmt::format("nothing within {:.3f} mm", max_travel_mm)));
-  if (part_) {
+  if (part != nullptr) {
     const Eigen::Isometry3d X_PW = X_WP_.inverse();
-    const auto contact = first_contact(*part_, X_PW * start_W_mm, X_PW.linear() * direction_W,
+    const auto contact = first_contact(*part, X_PW * start_W_mm, X_PW.linear() * direction_W,
                                        tip_radius_mm, max_travel_mm);
     if (contact) {
       first = Obstacle{contact->travel_mm, false, X_WP_ * contact->point_P_mm};
@@ -151,8 +158,8 @@ core::Result<void> SimulatedMachine::move_to(const Vector3d& target_W_mm) {
   const Vector3d way = tip_W_mm - position_W_mm_;
   const double length_mm = way.norm();
   const Vector3d direction = length_mm > 0.0 ? Vector3d(way / length_mm) : Vector3d::UnitZ();
-  const auto obstacle =
-      first_obstacle(position_W_mm_, direction, tip_radius_mm() - kGraze_mm, length_mm);
+  const auto obstacle = first_obstacle(warm_part(), position_W_mm_, direction,
+                                       tip_radius_mm() - kGraze_mm, length_mm);
   if (obstacle) return core::fail(stop_before(*obstacle, direction, tip_W_mm));
   if (obstacle.error().code == core::Code::kCollision) {
     return core::fail(core::Code::kCollision,
@@ -226,49 +233,88 @@ core::Result<TouchReading> SimulatedMachine::touch(const TouchCommand& given) {
   if (auto ready = check_ready(); !ready) return core::fail(ready.error());
   if (auto checked = check_command(given); !checked) return core::fail(checked.error());
   const TouchCommand command = on_grid(given);
-  const auto contact = true_contact(command);
-  if (!contact) return core::fail(touch_failed(contact.error(), command));
-  true_tips_W_mm_ = {*contact};
-  const double search_mm = (*contact - start_of(command)).norm();
+  const auto found = find_contact(command, time_s_);
+  if (!found) return core::fail(touch_failed(found.error(), command));
+  true_tips_W_mm_ = {truth_of(command, *found)};
+  const double search_mm = (found->reading_W_mm - start_of(command)).norm();
   const auto reading =
-      reading_at(*contact, command, time_s_ + search_mm / options_.speeds.touch_mm_s);
+      reading_at(*found, command, time_s_ + search_mm / options_.speeds.touch_mm_s);
   settle(command, reading);
   return reading;
 }
 
-TouchReading SimulatedMachine::reading_at(const Vector3d& true_tip_W_mm, const TouchCommand& touch,
+TouchReading SimulatedMachine::reading_at(const Found& found, const TouchCommand& touch,
                                           double time_s) const {
-  core::KeyedNoise noise(options_.seed, {kTouchStream, static_cast<std::uint64_t>(touch.id)});
-  const double deviation_mm = options_.errors.repeatability_mm * noise.normal();
+  const auto id = static_cast<std::uint64_t>(touch.id);
+  core::KeyedNoise noise(options_.seed, {kTouchStream, id});
+  double along_mm = options_.errors.repeatability_mm * noise.normal() +
+                    trigger_delay_mm(options_.errors, touch.direction_W);
+  core::KeyedNoise dust(options_.seed, {kDustStream, id});
+  if (found.on_part && dust.uniform() < options_.part_errors.dust_share) {
+    along_mm -= options_.part_errors.dust_mm * dust.uniform();
+  }
   TouchReading out;
-  out.tip_W_mm = true_tip_W_mm + deviation_mm * touch.direction_W;
+  out.tip_W_mm = found.reading_W_mm + along_mm * touch.direction_W +
+                 backlash_shift_mm(options_.errors, touch.direction_W);
   out.temperature_degC = options_.temperature_degC;
   out.time_s = time_s;
   out.tip_radius_mm = options_.nominal_tip_radius_mm;
-  out.scale_temperature_degC = options_.temperature_degC;
+  out.scale_temperature_degC = options_.errors.scale_temperature_degC;
   return on_grid(out);
+}
+
+const PartSurface* SimulatedMachine::warm_part() const {
+  return warm_part_ ? &*warm_part_ : nullptr;
 }
 
 core::Result<Vector3d> SimulatedMachine::true_contact(const TouchCommand& command) const {
   const Vector3d start = start_of(command);
-  const auto contact = first_obstacle(start, command.direction_W, tip_radius_mm(),
-                                      command.approach_mm + command.search_mm);
+  const auto contact = first_obstacle(part_ ? &*part_ : nullptr, start, command.direction_W,
+                                      tip_radius_mm(), command.approach_mm + command.search_mm);
   if (!contact) return core::fail(contact.error());
   return start + contact->travel_mm * command.direction_W;
 }
 
-core::Result<std::vector<Vector3d>> SimulatedMachine::true_circle(
+core::Result<SimulatedMachine::Found> SimulatedMachine::find_contact(const TouchCommand& command,
+                                                                     double time_s) const {
+  const Vector3d start = start_of(command);
+  const double reach_mm = command.approach_mm + command.search_mm;
+  if (!has_map(options_.errors) || reach_mm == 0.0) {
+    const auto contact =
+        first_obstacle(warm_part(), start, command.direction_W, tip_radius_mm(), reach_mm);
+    if (!contact) return core::fail(contact.error());
+    return Found{start + contact->travel_mm * command.direction_W, !contact->is_sphere};
+  }
+  // The errors bend the way of a few mm by less than 1e-9 mm: it stays a straight line.
+  const Vector3d from = true_position(options_.errors, start, time_s);
+  const Vector3d way =
+      true_position(options_.errors, start + reach_mm * command.direction_W, time_s) - from;
+  const Vector3d direction = way.normalized();
+  const auto contact = first_obstacle(warm_part(), from, direction, tip_radius_mm(), way.norm());
+  if (!contact) return core::fail(contact.error());
+  return Found{reading_of(options_.errors, from + contact->travel_mm * direction, time_s),
+               !contact->is_sphere};
+}
+
+Vector3d SimulatedMachine::truth_of(const TouchCommand& command, const Found& found) const {
+  const bool same_part =
+      options_.part_errors.expansion_1_K == 0.0 || options_.temperature_degC == 20.0;
+  if (same_part && !has_map(options_.errors)) return found.reading_W_mm;
+  return true_contact(command).value_or(found.reading_W_mm);
+}
+
+core::Result<std::vector<SimulatedMachine::Found>> SimulatedMachine::find_circle(
     const ScanCircleCommand& command) const {
-  std::vector<Vector3d> out;
+  std::vector<Found> out;
   out.reserve(static_cast<std::size_t>(command.points));
   for (int i = 0; i < command.points; ++i) {
     if (stopped_) {
       return core::fail(core::Code::kStopped,
                         fmt::format("the machine was stopped at point {} of a scan", i + 1));
     }
-    const auto contact = true_contact(scan_point(command, i));
-    if (!contact) return core::fail(scan_failed(contact.error(), command, i));
-    out.push_back(*contact);
+    const auto found = find_contact(scan_point(command, i), scan_time_s(command, i));
+    if (!found) return core::fail(scan_failed(found.error(), command, i));
+    out.push_back(*found);
   }
   return out;
 }
@@ -280,23 +326,28 @@ core::Result<std::vector<TouchReading>> SimulatedMachine::scan_circle(
   if (auto ready = check_ready(); !ready) return core::fail(ready.error());
   if (auto sound = check_scan(given); !sound) return core::fail(sound.error());
   const ScanCircleCommand command = on_grid(given);
-  const TouchCommand first = scan_point(command, 0);
-  if (auto checked = check_command(first); !checked) return core::fail(checked.error());
-  auto contacts = true_circle(command);
-  if (!contacts) return core::fail(contacts.error());
-  true_tips_W_mm_ = std::move(*contacts);
-  const double search_mm = (true_tips_W_mm_.front() - start_of(first)).norm();
-  const double begin_s = time_s_ + search_mm / options_.speeds.touch_mm_s;
+  if (auto checked = check_command(scan_point(command, 0)); !checked) {
+    return core::fail(checked.error());
+  }
+  const auto circle = find_circle(command);
+  if (!circle) return core::fail(circle.error());
   std::vector<TouchReading> readings;
-  readings.reserve(true_tips_W_mm_.size());
-  for (std::size_t i = 0; i < true_tips_W_mm_.size(); ++i) {
-    const double time_s = begin_s + static_cast<double>(i) * scan_step_s(command);
-    readings.push_back(
-        reading_at(true_tips_W_mm_[i], scan_point(command, static_cast<int>(i)), time_s));
+  readings.reserve(circle->size());
+  true_tips_W_mm_.clear();
+  for (int i = 0; i < command.points; ++i) {
+    const Found& found = (*circle)[static_cast<std::size_t>(i)];
+    const TouchCommand touch = scan_point(command, i);
+    true_tips_W_mm_.push_back(truth_of(touch, found));
+    readings.push_back(reading_at(found, touch, scan_time_s(command, i)));
   }
   settle(command, readings.back());
   position_W_mm_ = on_grid_mm(start_of(scan_point(command, command.points)));
   return readings;
+}
+
+// Counted with the nominal way to the surface: what is found there does not change the clock.
+double SimulatedMachine::scan_time_s(const ScanCircleCommand& command, int index) const {
+  return time_s_ + command.approach_mm / options_.speeds.touch_mm_s + index * scan_step_s(command);
 }
 
 double SimulatedMachine::scan_step_s(const ScanCircleCommand& command) const {
@@ -328,9 +379,14 @@ core::Result<void> SimulatedMachine::continue_after(const ScanCircleCommand& giv
                                                     const TouchReading& last) {
   if (auto sound = check_scan(given); !sound) return sound;
   const ScanCircleCommand command = on_grid(given);
-  auto contacts = true_circle(command);
-  if (!contacts) return core::fail(contacts.error());
-  true_tips_W_mm_ = std::move(*contacts);
+  std::vector<Vector3d> tips;
+  tips.reserve(static_cast<std::size_t>(command.points));
+  for (int i = 0; i < command.points; ++i) {
+    const auto contact = true_contact(scan_point(command, i));
+    if (!contact) return core::fail(scan_failed(contact.error(), command, i));
+    tips.push_back(*contact);
+  }
+  true_tips_W_mm_ = std::move(tips);
   settle(command, last);
   return {};
 }

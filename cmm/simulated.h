@@ -28,16 +28,20 @@ struct SimulatedMachineOptions {
   double temperature_degC = 20.0;
   std::string tool = "T1";         ///< The one tool it has.
   MachineErrors errors;            ///< Hidden truth.
+  PartErrors part_errors;          ///< Hidden truth.
   std::uint64_t seed = 1;          ///< Of the probe noise.
   std::int64_t lost_at_touch = 0;  ///< The line breaks at this touch, counted from 1; 0: never.
 };
 
-/// A machine that exists in software. It knows the real part and where it really stands, finds the
-/// true contact of the tip sphere along the approach line, adds noise keyed with (seed, touch id),
-/// and stops just before the tip would meet part or reference sphere in a move (kCollision; moves
-/// may graze them by 1e-6 mm). A touch that begins in contact is a kCollision too; a command that
-/// is not finite, or a touch that does not begin where the tip stands (1e-6 mm), is kMachine and
-/// moves nothing. Its volume is a cube of 20 m about the origin.
+/// A machine that exists in software. It knows the real part and where it really stands, and finds
+/// the true contact of the tip sphere along the way that its errors make of the approach line
+/// (machine_map.h). To the reading there it adds pre-travel, bending of the stylus, backlash, noise
+/// and dust, the last two keyed with (seed, touch id). The errors of the axes count in searches; in
+/// moves, which keep clear by millimetres, they do not. It stops just before the tip would meet
+/// part or reference sphere in a move (kCollision; moves may graze them by 1e-6 mm). A touch that
+/// begins in contact is a kCollision too; a command that is not finite, or a touch that does not
+/// begin where the tip stands (1e-6 mm), is kMachine and moves nothing. Its volume is a cube of 20
+/// m about the origin.
 ///
 /// A scan touches the surface at every point of its circle, along the radius there.
 ///
@@ -94,20 +98,36 @@ class SimulatedMachine final : public Machine {
     Eigen::Vector3d point_W_mm = Eigen::Vector3d::Zero();
   };
 
+  /// What the scales read at the first contact of a search, before the probe triggers.
+  struct Found {
+    Eigen::Vector3d reading_W_mm = Eigen::Vector3d::Zero();
+    bool on_part = false;
+  };
+
   [[nodiscard]] double tip_radius_mm() const;
-  [[nodiscard]] core::Result<Obstacle> first_obstacle(const Eigen::Vector3d& start_W_mm,
+  /// The part as it is, or nullptr.
+  [[nodiscard]] const PartSurface* warm_part() const;
+  /// @param part  None: only the reference sphere is there.
+  [[nodiscard]] core::Result<Obstacle> first_obstacle(const PartSurface* part,
+                                                      const Eigen::Vector3d& start_W_mm,
                                                       const Eigen::Vector3d& direction_W,
                                                       double tip_radius_mm,
                                                       double max_travel_mm) const;
   [[nodiscard]] core::Error stop_before(const Obstacle& obstacle, const Eigen::Vector3d& direction,
                                         const Eigen::Vector3d& target_W_mm);
+  /// Where a machine without errors meets the part at 20 degC.
   [[nodiscard]] core::Result<Eigen::Vector3d> true_contact(const TouchCommand& command) const;
-  /// The true contacts of all points of a scan.
-  [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> true_circle(
+  /// Where this one meets the part as it is, at a time of its clock.
+  [[nodiscard]] core::Result<Found> find_contact(const TouchCommand& command, double time_s) const;
+  [[nodiscard]] core::Result<std::vector<Found>> find_circle(
       const ScanCircleCommand& command) const;
-  /// What is read at a true contact. `time_s` not yet on the grid.
-  [[nodiscard]] TouchReading reading_at(const Eigen::Vector3d& true_tip_W_mm,
-                                        const TouchCommand& touch, double time_s) const;
+  /// The hidden truth of a search; the reading where a machine without errors would meet nothing.
+  [[nodiscard]] Eigen::Vector3d truth_of(const TouchCommand& command, const Found& found) const;
+  /// The reading of a touch. `time_s` not yet on the grid.
+  [[nodiscard]] TouchReading reading_at(const Found& found, const TouchCommand& touch,
+                                        double time_s) const;
+  /// Clock when a scan that begins now comes to a point.
+  [[nodiscard]] double scan_time_s(const ScanCircleCommand& command, int index) const;
   /// From one point of a scan to the next.
   [[nodiscard]] double scan_step_s(const ScanCircleCommand& command) const;
   /// Sets the clock to the end of a touch or scan: the way back and the settling.
@@ -123,7 +143,8 @@ class SimulatedMachine final : public Machine {
                                                const ScanCircleCommand& command, int index);
 
   SimulatedMachineOptions options_;
-  std::optional<PartSurface> part_;
+  std::optional<PartSurface> part_;       ///< At 20 degC.
+  std::optional<PartSurface> warm_part_;  ///< At its temperature.
   Eigen::Isometry3d X_WP_ = Eigen::Isometry3d::Identity();
   std::optional<ReferenceSphere> sphere_;
   Eigen::Vector3d position_W_mm_ = Eigen::Vector3d::Zero();

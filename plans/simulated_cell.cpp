@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "plans/hidden_errors.h"
 #include "plans/plan_reach.h"
 
 namespace rondure::plans {
@@ -13,10 +14,8 @@ fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t
   const FixturePlan& fixture = *plan.fixture;
   const SimulatedFixturePlan& hidden = plan.simulation->fixture;
   fixture::SimulatedFixtureOptions out;
-  out.kinematics = {vector3(fixture.axis_point_mm), vector3(fixture.axis_offset_mm)};
-  out.limits = {fixture.min_alpha_deg * core::kDegree, fixture.max_alpha_deg * core::kDegree,
-                fixture.min_beta_deg * core::kDegree, fixture.max_beta_deg * core::kDegree,
-                fixture.resolution_deg * core::kDegree};
+  out.kinematics = nominal_kinematics(fixture);
+  out.limits = limits_of(fixture);
   out.errors.axis_point_mm = vector3(hidden.axis_point_error_um) * core::kMicrometre;
   out.errors.axis_offset_mm = vector3(hidden.axis_offset_error_um) * core::kMicrometre;
   out.errors.zero_alpha_rad = hidden.zero_alpha_deg * core::kDegree;
@@ -36,8 +35,8 @@ cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t see
   out.speeds.travel_mm_s = plan.machine->travel_speed_mm_s;
   out.speeds.touch_mm_s = plan.machine->touch_speed_mm_s;
   out.temperature_degC = plan.simulation->temperature_degC;
-  out.errors.repeatability_mm = plan.simulation->probe.repeatability_um * core::kMicrometre;
-  out.errors.tip_radius_error_mm = plan.simulation->probe.tip_radius_error_um * core::kMicrometre;
+  out.errors = machine_errors(*plan.simulation);
+  out.part_errors = part_errors(plan.simulation->part);
   out.seed = seed;
   if (!resumed) out.lost_at_touch = plan.simulation->faults.connection_lost_at_touch;
   return out;
@@ -58,23 +57,6 @@ Eigen::Isometry3d true_seat(const Eigen::Isometry3d& nominal, const SimulatedPar
 }
 
 }  // namespace
-
-cmm::PartSurface simulated_surface(const SimulationPlan& simulation, const FeaturePlan& feature) {
-  const SimulatedPartPlan& part = simulation.part;
-  cmm::PartSurface out;
-  out.radius_mm = 0.5 * (feature.nominal.diameter_mm + part.diameter_error_um * core::kMicrometre);
-  out.half_length_mm = 0.5 * (feature.nominal.to_mm - feature.nominal.from_mm);
-  out.inside = feature.side == "inside";
-  for (const LobePlan& lobe : part.lobes) {
-    out.form.lobes.push_back({lobe.order, lobe.amplitude_um * core::kMicrometre,
-                              lobe.phase_deg * core::kDegree, lobe.twist_deg * core::kDegree});
-  }
-  out.form.taper_mm = part.taper_um * core::kMicrometre;
-  out.form.barrel_mm = part.barrel_um * core::kMicrometre;
-  out.form.bend_mm = part.bend_um * core::kMicrometre;
-  out.form.bend_phase_rad = part.bend_phase_deg * core::kDegree;
-  return out;
-}
 
 SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed)
     : Cell(plan),

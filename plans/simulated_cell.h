@@ -55,8 +55,4 @@ class SimulatedCell final : public Cell {
   core::Pose last_turn_;                                ///< As commanded.
 };
 
-/// The hidden form of the simulated part for one feature.
-[[nodiscard]] cmm::PartSurface simulated_surface(const SimulationPlan& simulation,
-                                                 const FeaturePlan& feature);
-
 }  // namespace rondure::plans
