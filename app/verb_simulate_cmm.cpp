@@ -1,4 +1,5 @@
 #include <cmath>
+#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -80,6 +81,12 @@ int simulate_cmm(const SimulateCmmArguments& arguments) {
   }
   if (auto servable = plans::check_servable(*plan); !servable) {
     complain(servable.error().at(arguments.plan));
+    return kBadInput;
+  }
+  // Said now, not when the first client comes.
+  if (!arguments.wire_log.empty() && !std::ofstream(arguments.wire_log, std::ios::app)) {
+    complain(
+        {core::Code::kFile, "cannot be written; choose another --wire-log", arguments.wire_log});
     return kBadInput;
   }
   listen_for_stop();

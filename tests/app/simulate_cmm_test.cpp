@@ -97,6 +97,10 @@ TEST(SimulateCmm, RefusesAPortInUseAPlanWithoutASimulationAndAStandstill) {
                "--port", "0"});
   EXPECT_EQ(no_simulation.status, 2);
   EXPECT_THAT(no_simulation.err, HasSubstr("no virtual machine to serve"));
+  const Outcome no_log =
+      rondure({"simulate-cmm", spool(), "--port", "0", "--wire-log", "/nowhere/x"});
+  EXPECT_EQ(no_log.status, 2);
+  EXPECT_THAT(no_log.err, HasSubstr("/nowhere/x: cannot be written"));
   for (const char* speed : {"0", "-1", "nan", "fast"}) {
     const Outcome standstill = rondure({"simulate-cmm", spool(), "--speed", speed});
     EXPECT_EQ(standstill.status, 2) << speed;
