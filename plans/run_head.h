@@ -20,6 +20,9 @@ namespace rondure::plans {
 [[nodiscard]] record::Feature feature_of(const FeaturePlan& plan);
 /// The head without the descriptions of machine and fixture.
 /// @param seed  Of the simulation; kept when anything is touched.
+/// How a touched feature is sampled and brought to 20 degC, where the evaluation needs it.
+[[nodiscard]] std::vector<record::Setting> settings_of(const Plan& plan,
+                                                       const FeaturePlan& feature);
 [[nodiscard]] record::Header header_of(const Plan& plan, const RunOptions& options,
                                        std::uint64_t seed);
 /// The reference sphere; empty for a plan without a probe.

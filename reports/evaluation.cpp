@@ -349,6 +349,11 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     return result;
   }
   if (result.feature.strategy != record::Strategy::kPointsFile) take_temperatures(touches, result);
+  result.thermal = thermal_correction(record, index, last->id);
+  if (result.thermal && result.tip_radius_mm) {
+    const ThermalCorrection& c = *result.thermal;
+    *result.tip_radius_mm /= 1.0 + c.part_expansion_1_K * (c.part_degC - 20.0);
+  }
   const auto direction = expected_axis(record, result.feature, *last);
   if (result.feature.shape == record::Shape::kCylinder) {
     evaluate_cylinder(direction, result);
@@ -367,7 +372,9 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
 
 }  // namespace
 
-tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& record) {
+tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& measured) {
+  const std::optional<RunRecord> at_20 = compensated(measured);
+  const RunRecord& record = at_20 ? *at_20 : measured;
   Evaluation out;
   out.probe = evaluate_probe(record);
   for (std::size_t i = 0; i < record.features.size(); ++i) {

@@ -17,6 +17,7 @@
 #include "fit/one_sided_cylinder.h"
 #include "fit/probe_tip.h"
 #include "record/run_record.h"
+#include "reports/thermal.h"
 
 namespace rondure::reports {
 
@@ -96,6 +97,7 @@ struct FeatureResult {
   std::optional<double> repeat_zone_mean_mm;  ///< Mean of the zones of the single repeats.
   std::optional<double> repeat_zone_sd_mm;
   std::optional<Temperatures> temperatures;  ///< Of the final cloud; none for points of a file.
+  std::optional<ThermalCorrection> thermal;  ///< All above is at 20 degC; none: as measured.
   std::vector<CharacteristicResult> characteristics;
   std::vector<core::Error> warnings;
   std::optional<core::Error> failure;  ///< Why there is no result.

@@ -123,6 +123,14 @@ std::string data_entries(const FeatureResult& feature) {
   if (!from_file)
     html += entry("Mean temperature",
                   feature.temperatures ? fixed(feature.temperatures->mean_degC, 2) + " °C" : "–");
+  if (feature.thermal) {
+    html += entry("Brought to 20 °C",
+                  with_note(fixed(1e6 * (feature.thermal->factor - 1.0), 2) + " µm a metre",
+                            fmt::format("U = {} µm a metre (k = 2); part {} °C, scales {} °C",
+                                        fixed(2e6 * feature.thermal->factor_uncertainty, 2),
+                                        fixed(feature.thermal->part_degC, 2),
+                                        fixed(feature.thermal->scale_degC, 2))));
+  }
   return html;
 }
 

@@ -220,6 +220,16 @@ Json list_json(const Range& range, const Convert& convert) {
   return list;
 }
 
+Json thermal_json(const std::optional<ThermalCorrection>& c) {
+  if (!c) return nullptr;
+  return {{"part_expansion_per_K", c->part_expansion_1_K},
+          {"scale_expansion_per_K", c->scale_expansion_1_K},
+          {"part_degC", c->part_degC},
+          {"scale_degC", c->scale_degC},
+          {"factor", c->factor},
+          {"factor_standard_uncertainty", c->factor_uncertainty}};
+}
+
 Json feature_json(const FeatureResult& feature) {
   const record::Feature& asked = feature.feature;
   Json json;
@@ -245,6 +255,7 @@ Json feature_json(const FeatureResult& feature) {
   json["repeat_zone_sd_um"] = optional_um(feature.repeat_zone_sd_mm);
   json["mean_temperature_degC"] =
       feature.temperatures ? Json(feature.temperatures->mean_degC) : Json(nullptr);
+  json["temperature_correction"] = thermal_json(feature.thermal);
   json["layers"] = list_json(feature.layers,
                              [&](const LayerResult& layer) { return layer_json(layer, feature); });
   json["poses"] = list_json(feature.poses, pose_json);
