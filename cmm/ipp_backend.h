@@ -26,7 +26,6 @@ class Backend {
   Backend& operator=(const Backend&) = delete;
 
   [[nodiscard]] virtual Machine& machine() = 0;
-  [[nodiscard]] virtual const Machine& machine() const = 0;
 
   /// Angles of the table as it reads them, outer axis first [deg]; empty: there is no table.
   [[nodiscard]] virtual std::vector<double> table_angles_deg() const = 0;
@@ -38,7 +37,8 @@ class Backend {
   [[nodiscard]] virtual core::Result<std::vector<Eigen::Vector3d>> align_part(
       std::span<const Alignment> alignments) = 0;
 
-  // A simulated world can be told where a program stands that went on elsewhere. Not part of I++ DME.
+  // A simulated world can be told where a program stands that went on elsewhere. Not part of I++
+  // DME.
 
   /// Which feature of the part is measured, from 0; kOutOfRange when there are fewer.
   [[nodiscard]] virtual core::Result<void> choose_feature(int index) = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,11 @@ using Arguments = std::vector<Item>;
 
 constexpr std::array<std::string_view, 5> kMotions = {"Home", "GoTo", "PtMeas", "ScanOnCircle",
                                                       "AlignPart"};
+constexpr std::array<std::string_view, 9> kOfServer = {
+    "StartSession",    "EndSession",    "AbortE",     "ClearAllErrors", "GetErrStatusE",
+    "GetXtdErrStatus", "OnMoveReportE", "StopDaemon", "StopAllDaemons"};
+constexpr std::size_t kMaxNames = 64;  // in one command, so that an answer fits into a line
+constexpr double kMaxOrigin_mm = 1e6;  // of a coordinate system
 
 tl::unexpected<Failure> fail(int number, std::string what) {
   return tl::unexpected(Failure{number, std::move(what)});
@@ -34,7 +40,7 @@ std::optional<std::vector<std::string>> empty_calls(const Arguments& arguments) 
     if (item.kind != Item::Kind::kCall || !item.arguments.empty()) return std::nullopt;
     out.push_back(item.text);
   }
-  if (out.empty()) return std::nullopt;
+  if (out.empty() || out.size() > kMaxNames) return std::nullopt;
   return out;
 }
 
@@ -43,8 +49,7 @@ bool is_one_of(std::string_view name, std::span<const std::string_view> names) {
 }
 
 constexpr std::array<std::string_view, 9> kTouchValues = {
-    "X", "Y", "Z", "IJK", "ER", "Q", "Part.Temperature", "Simulation.ScaleTemperature",
-    "Simulation.Time"};
+    "X", "Y", "Z", "IJK", "ER", "Q", "Part.Temperature", "Scale.Temperature", "Time"};
 constexpr std::array<std::string_view, 5> kScanValues = {"X", "Y", "Z", "ER", "Q"};
 
 }  // namespace
@@ -66,17 +71,6 @@ void Controller::begin_session() {
 core::Result<void> Controller::recover() { return machine().recover(); }
 
 bool Controller::is_motion(std::string_view method) { return is_one_of(method, kMotions); }
-
-bool Controller::is_supported(std::string_view method) {
-  // These are the server's own.
-  constexpr std::array<std::string_view, 9> kOfServer = {
-      "StartSession", "EndSession", "AbortE", "ClearAllErrors", "GetErrStatusE",
-      "GetXtdErrStatus", "OnMoveReportE", "StopDaemon", "StopAllDaemons"};
-  const auto& all = entries();
-  return is_motion(method) || is_one_of(method, kOfServer) ||
-         std::any_of(all.begin(), all.end(),
-                     [method](const Entry& entry) { return entry.method == method; });
-}
 
 const std::vector<Controller::Entry>& Controller::entries() {
   static const std::vector<Entry> kEntries = {
@@ -182,6 +176,7 @@ Outcome Controller::get_supported_commands(const Arguments& arguments) {
   Reply out;
   for (const Entry& entry : entries()) out.lines.push_back({string_item(entry.method)});
   for (const std::string_view method : kMotions) out.lines.push_back({string_item(method)});
+  for (const std::string_view method : kOfServer) out.lines.push_back({string_item(method)});
   return out;
 }
 
@@ -190,6 +185,7 @@ tl::expected<std::vector<Item>, Failure> Controller::position_report(
   const Eigen::Vector3d p_mm = X_CW_ * tip_W_mm;
   const std::vector<double> angles_deg = backend_.table_angles_deg();
   std::vector<Item> out;
+  if (names.size() > kMaxNames) return fail(kIncorrectArguments, "too many names");
   for (const std::string& name : in_order(names)) {
     if (name == "X" || name == "Y" || name == "Z") {
       out.push_back(call_item(name, {p_mm[name[0] - 'X']}));
@@ -250,7 +246,8 @@ Outcome Controller::temperature_sensors(const Arguments& arguments) {
 Outcome Controller::read_temperature(const Arguments& arguments) {
   const auto sensor = arguments.size() == 1 ? string_of(arguments[0]) : std::nullopt;
   if (!sensor) return wrong_arguments("(\"sensor\")");
-  const double part_degC = last_reading_ ? last_reading_->temperature_degC : options_.temperature_degC;
+  const double part_degC =
+      last_reading_ ? last_reading_->temperature_degC : options_.temperature_degC;
   const double scale_degC =
       last_reading_ ? last_reading_->scale_temperature_degC : options_.temperature_degC;
   if (*sensor == "Part") return one_line(call_item("ReadTemperatureSensor", {part_degC}));
@@ -305,6 +302,9 @@ Outcome Controller::set_transformation(const Arguments& arguments) {
   }
   if (n[3] < 0.0 || n[3] > 180.0) {
     return fail(kThetaOutOfRange, fmt::format("theta of {} deg is outside 0..180 deg", n[3]));
+  }
+  if (std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])}) > kMaxOrigin_mm) {
+    return fail(kBadArgument, fmt::format("an origin beyond {} mm", kMaxOrigin_mm));
   }
   part_csy_ = {{n[0], n[1], n[2]}, n[3], n[4], n[5]};
   return csy_ == "PartCsy" ? set_coord_system({name_item(csy_)}) : Reply{};

@@ -30,9 +30,9 @@ enum class Manner {
 struct ControllerOptions {
   Manner manner = Manner::kSpecified;
   ParameterDefaults defaults;
-  double tip_radius_mm = 2.0;       ///< Tool.AvrRadius().
-  double temperature_degC = 20.0;   ///< Of the part, until the first touch has told it.
-  std::string version = "1.4";      ///< GetDMEVersion().
+  double tip_radius_mm = 2.0;      ///< Tool.AvrRadius().
+  double temperature_degC = 20.0;  ///< Of the part, until the first touch has told it.
+  std::string version = "1.4";     ///< GetDMEVersion().
 };
 
 /// Why a command failed: a number of the error list, and words for GetXtdErrStatus().
@@ -41,10 +41,10 @@ struct Failure {
   std::string what;
 };
 
-/// What a command gives: data lines, and the number of a warning or 0.
+/// What a command gives.
 struct Reply {
-  std::vector<std::vector<Item>> lines;
-  int warning = 0;
+  std::vector<std::vector<Item>> lines;  ///< Data.
+  int report = 0;                        ///< Number of an error to tell behind them; 0: none.
 };
 
 using Outcome = tl::expected<Reply, Failure>;
@@ -79,7 +79,6 @@ class Controller {
   [[nodiscard]] core::Result<void> recover();
 
   [[nodiscard]] static bool is_motion(std::string_view method);
-  [[nodiscard]] static bool is_supported(std::string_view method);
   /// Carries out a command that moves nothing.
   [[nodiscard]] Outcome execute(const Command& command);
   /// What a command that moves will do; nothing moves yet.
@@ -92,6 +91,7 @@ class Controller {
       const std::vector<std::string>& names, const Eigen::Vector3d& tip_W_mm) const;
 
   [[nodiscard]] Machine& machine() { return backend_.machine(); }
+  [[nodiscard]] Eigen::Vector3d position_W_mm() const { return backend_.machine().position_W_mm(); }
   [[nodiscard]] const ControllerOptions& options() const { return options_; }
   [[nodiscard]] bool is_homed();
   [[nodiscard]] bool is_user_enabled() const { return user_enabled_; }
@@ -151,6 +151,9 @@ class Controller {
                                                   const Eigen::Vector3d& direction_W) const;
   [[nodiscard]] Reply touch_reply(const TouchReading& reading,
                                   const Eigen::Vector3d& direction_W) const;
+  [[nodiscard]] Reply align_reply(const std::vector<Alignment>& wanted,
+                                  const std::vector<double>& limits_deg,
+                                  const std::vector<Eigen::Vector3d>& reached) const;
   [[nodiscard]] Reply scan_reply(const std::vector<TouchReading>& readings) const;
   /// (X(..), Y(..), Z(..)) in the active system over the position now.
   tl::expected<Eigen::Vector3d, Failure> position_argument(const Arguments& arguments,
@@ -171,8 +174,8 @@ class Controller {
   std::vector<std::string> scan_report_;
   std::optional<TouchReading> last_reading_;
   bool user_enabled_ = false;
-  double expansion_ = 0.0;         ///< Part.XpanCoefficient, kept for who asks.
-  std::int64_t next_touch_ = 0;    ///< Number of the next touch: key of the simulated noise.
+  double expansion_ = 0.0;       ///< Part.XpanCoefficient, kept for who asks.
+  std::int64_t next_touch_ = 0;  ///< Number of the next touch: key of the simulated noise.
   int feature_ = 0;
 };
 

@@ -17,6 +17,7 @@ constexpr std::string_view kNoTool = "NoTool";
 constexpr std::string_view kTool = "Tool.";
 constexpr std::string_view kFoundTool = "FoundTool.";
 constexpr std::string_view kSimulation = "Simulation.";
+constexpr std::size_t kMaxNames = 64;   // in one command, so that an answer fits into a line
 constexpr double kLargestCount = 9e15;  // a double holds every whole number up to here
 
 tl::unexpected<Failure> fail(int number, std::string what) {
@@ -136,6 +137,7 @@ std::optional<Item> Controller::property(const std::string& name) const {
 Outcome Controller::get_properties(const Arguments& arguments) {
   Reply out;
   out.lines.emplace_back();
+  if (arguments.size() > kMaxNames) return fail(kIncorrectArguments, "too many properties");
   for (const Item& item : arguments) {
     if (item.kind != Item::Kind::kCall || !item.arguments.empty()) {
       return fail(kIncorrectArguments, "the arguments are not properties, as Tool.Name()");
@@ -144,7 +146,7 @@ Outcome Controller::get_properties(const Arguments& arguments) {
     if (!value) return fail(kBadProperty, fmt::format("there is no property {}", item.text));
     out.lines[0].push_back(std::move(*value));
   }
-  if (arguments.empty()) return fail(kIncorrectArguments, "no property is named");
+  if (out.lines[0].empty()) return fail(kIncorrectArguments, "no property is named");
   return out;
 }
 
@@ -194,7 +196,7 @@ Outcome Controller::set_properties(const Arguments& arguments) {
     }
     const int number = set_property(item.text, *value);
     if (number == kOutOfRange) {
-      out.warning = number;
+      out.report = number;
     } else if (number != 0) {
       return fail(number, fmt::format("{} cannot be set to {}", item.text, *value));
     }
@@ -225,8 +227,8 @@ Outcome Controller::enum_properties(const Arguments& arguments) {
   for (const std::vector<Item>& line : all->lines) {
     const std::string& name = line[0].text;
     const std::size_t point = name.find('.');
-    auto own = point == std::string::npos ? line
-                                          : pair_of_strings(name.substr(0, point), "Property");
+    auto own =
+        point == std::string::npos ? line : pair_of_strings(name.substr(0, point), "Property");
     if (out.lines.empty() || out.lines.back() != own) out.lines.push_back(std::move(own));
   }
   return out;

@@ -1,6 +1,7 @@
 #include "fit/column_extremes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -56,6 +57,35 @@ ColumnExtremes column_extremes(std::span<const double> values) {
   return out;
 }
 
+double largest_magnitude(std::span<const double> values) {
+  const std::size_t count = values.size();
+  const double* v = values.data();
+  double largest = 0.0;
+  double sum = 0.0;  // a maximum may lose what is not a number
+  std::size_t i = 0;
+#if defined(__SSE2__)
+  const __m128d sign = _mm_set1_pd(-0.0);
+  __m128d high[2] = {_mm_setzero_pd(), _mm_setzero_pd()};
+  __m128d sums[2] = {_mm_setzero_pd(), _mm_setzero_pd()};
+  for (; i + 4 <= count; i += 4) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const __m128d pair = _mm_andnot_pd(sign, _mm_loadu_pd(v + i + 2 * k));
+      high[k] = _mm_max_pd(high[k], pair);
+      sums[k] = _mm_add_pd(sums[k], pair);
+    }
+  }
+  const __m128d highest = _mm_max_pd(high[0], high[1]);
+  const __m128d total = _mm_add_pd(sums[0], sums[1]);
+  largest = std::max(_mm_cvtsd_f64(highest), _mm_cvtsd_f64(_mm_unpackhi_pd(highest, highest)));
+  sum = _mm_cvtsd_f64(total) + _mm_cvtsd_f64(_mm_unpackhi_pd(total, total));
+#endif
+  for (; i < count; ++i) {
+    largest = std::max(largest, std::abs(v[i]));
+    sum += std::abs(v[i]);
+  }
+  return std::isfinite(sum) ? largest : sum;
+}
+
 template <int K>
 ColumnExtremes move_column(std::span<const double> values, const double* const* gradients,
                            const double* move, double* moved) {
@@ -90,6 +120,39 @@ ColumnExtremes move_column(std::span<const double> values, const double* const* 
   return out;
 }
 
+template <int D>
+ColumnExtremes square_column(std::size_t count, const double* const* columns, const double* center,
+                             double* squares) {
+  std::size_t i = 0;
+  ColumnExtremes out;
+#if defined(__SSE2__)
+  PairExtremes pairs;
+  __m128d at[D];
+  for (int k = 0; k < D; ++k) at[k] = _mm_set1_pd(center[k]);
+  for (; i + 4 <= count; i += 4) {
+    __m128d a, b;
+    for (int k = 0; k < D; ++k) {
+      const __m128d p = _mm_sub_pd(_mm_loadu_pd(columns[k] + i), at[k]);
+      const __m128d q = _mm_sub_pd(_mm_loadu_pd(columns[k] + i + 2), at[k]);
+      a = k == 0 ? _mm_mul_pd(p, p) : _mm_add_pd(a, _mm_mul_pd(p, p));
+      b = k == 0 ? _mm_mul_pd(q, q) : _mm_add_pd(b, _mm_mul_pd(q, q));
+    }
+    _mm_storeu_pd(squares + i, a);
+    _mm_storeu_pd(squares + i + 2, b);
+    pairs.take(0, a);
+    pairs.take(1, b);
+  }
+  out = pairs.both();
+#endif
+  for (; i < count; ++i) {
+    double sum = 0.0;
+    for (int k = 0; k < D; ++k) sum += (columns[k][i] - center[k]) * (columns[k][i] - center[k]);
+    squares[i] = sum;
+    take(out, sum);
+  }
+  return out;
+}
+
 std::size_t first_row_of(std::span<const double> values, double value) {
   const std::size_t count = values.size();
   std::size_t i = 0;
@@ -114,5 +177,7 @@ template ColumnExtremes move_column<3>(std::span<const double>, const double* co
                                        double*);
 template ColumnExtremes move_column<4>(std::span<const double>, const double* const*, const double*,
                                        double*);
+template ColumnExtremes square_column<2>(std::size_t, const double* const*, const double*, double*);
+template ColumnExtremes square_column<3>(std::size_t, const double* const*, const double*, double*);
 
 }  // namespace rondure::fit

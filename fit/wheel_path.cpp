@@ -7,13 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "fit/surface_samples.h"
+
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kGrid = 2000;
-constexpr int kPiecesPerRow = 4;
 constexpr double kMostSteps = 1e6;
-constexpr std::size_t kBlock = 64;
 
 core::Result<void> check(double radius_mm, const WheelPathOptions& o) {
   if (!(radius_mm > 0.0) || !std::isfinite(radius_mm)) {
@@ -46,94 +45,18 @@ core::Result<void> check(double radius_mm, const WheelPathOptions& o) {
                                 o.load_limit, o.clearance_mm));
 }
 
-struct Sample {
-  double x = 0.0;
-  SurfacePoint surface;
-};
-using Samples = std::vector<Sample>;
-
-/// Places over the whole surface: even ones, and those between the rows of a table.
-core::Result<Samples> sample(const WheelSurface& surface, const WheelPathOptions& options) {
-  const double from = options.surface_from_mm.value_or(options.from_mm);
-  const double to = options.surface_to_mm.value_or(options.to_mm);
-  std::vector<double> places;
-  for (std::size_t i = 0; i <= kGrid; ++i) {
-    places.push_back(from + (to - from) * static_cast<double>(i) / kGrid);
-  }
-  const std::vector<double> rows = surface.rows_mm();
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    for (int k = 0; k <= kPiecesPerRow; ++k) {
-      const double x = rows[i - 1] + (rows[i] - rows[i - 1]) * k / kPiecesPerRow;
-      if (x >= from && x <= to) places.push_back(x);
-    }
-  }
-  std::sort(places.begin(), places.end());
-  // Places a rounding apart would leave nothing between neighbours to refine in.
-  const double same = 1e-9 * (to - from);
-  places.erase(
-      std::unique(places.begin(), places.end(), [&](double a, double b) { return b - a <= same; }),
-      places.end());
-  Samples out;
-  for (const double x : places) {
-    const auto point = surface.at(x);
-    if (!point) return core::fail(point.error());
-    out.push_back({x, *point});
-  }
-  return out;
+core::Result<SurfaceSamples> sample_of(const WheelSurface& surface,
+                                       const WheelPathOptions& options) {
+  return SurfaceSamples::over(surface, options.surface_from_mm.value_or(options.from_mm),
+                              options.surface_to_mm.value_or(options.to_mm));
 }
 
-/// Place of the least `cost` between two x, by golden section. `cost` has one minimum there.
-template <class Cost>
-double least_between(double low, double high, const Cost& cost) {
-  constexpr double kGolden = 0.6180339887498949;
-  double x1 = high - kGolden * (high - low);
-  double x2 = low + kGolden * (high - low);
-  double c1 = cost(x1);
-  double c2 = cost(x2);
-  for (int i = 0; i < 60 && high - low > 1e-10; ++i) {
-    if (c1 <= c2) {
-      high = x2;
-      x2 = x1;
-      c2 = c1;
-      x1 = high - kGolden * (high - low);
-      c1 = cost(x1);
-    } else {
-      low = x1;
-      x1 = x2;
-      c1 = c2;
-      x2 = low + kGolden * (high - low);
-      c2 = cost(x2);
-    }
-  }
-  return c1 <= c2 ? x1 : x2;
-}
-
-/// Least of sample and refinement around place i of n samples.
-template <class Cost>
-std::pair<double, double> refined(const Samples& samples, std::size_t i, const Cost& cost) {
-  const double low = samples[i > 0 ? i - 1 : 0].x;
-  const double high = samples[std::min(i + 1, samples.size() - 1)].x;
-  const double x = least_between(low, high, cost);
-  const double found = cost(x);
-  const double there = cost(samples[i].x);
-  return found < there ? std::pair(x, found) : std::pair(samples[i].x, there);
-}
-
-WheelLoad load_of(const WheelSurface& surface, const Samples& samples, double radius_mm) {
+WheelLoad load_of(const SurfaceSamples& samples, double radius_mm) {
   WheelLoad out;
-  std::size_t worst = 0;
-  out.least_curvature_per_mm = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double k = samples[i].surface.curvature_per_mm();
-    out.least_curvature_per_mm = std::min(out.least_curvature_per_mm, k);
-    if (k > samples[worst].surface.curvature_per_mm()) worst = i;
-  }
-  const auto [x, cost] = refined(samples, worst, [&](double at) {
-    const auto point = surface.at(at);
-    return point ? -point->curvature_per_mm() : 0.0;
-  });
-  out.x_mm = x;
-  out.load = -cost * radius_mm;
+  const SurfaceSamples::Place worst = samples.greatest_curvature();
+  out.x_mm = worst.x_mm;
+  out.load = worst.value * radius_mm;
+  out.least_curvature_per_mm = samples.least_curvature_per_mm();
   return out;
 }
 
@@ -158,58 +81,6 @@ core::Result<void> check_load(const WheelLoad& load, double radius_mm,
                   radius_mm, load.load, concave, shown(load.x_mm), options.load_limit,
                   options.load_limit * concave));
 }
-
-/// Samples of the surface in blocks with their boxes, so that those far from the wheel are passed
-/// over.
-class SurfaceBlocks {
- public:
-  SurfaceBlocks(const WheelSurface& surface, const Samples& samples)
-      : surface_(surface), samples_(samples) {
-    for (std::size_t first = 0; first < samples.size(); first += kBlock) {
-      Eigen::Array2d low(samples[first].x, samples[first].surface.height_mm);
-      Eigen::Array2d high = low;
-      for (std::size_t i = first; i < std::min(first + kBlock, samples.size()); ++i) {
-        const Eigen::Array2d p(samples[i].x, samples[i].surface.height_mm);
-        low = low.min(p);
-        high = high.max(p);
-      }
-      boxes_.push_back({low, high});
-    }
-  }
-
-  /// Least distance from a centre, `beyond` or less.
-  [[nodiscard]] WheelClearance nearest(const Eigen::Vector2d& center, double beyond) const {
-    double best = beyond * beyond;
-    std::optional<std::size_t> place;
-    for (std::size_t b = 0; b < boxes_.size(); ++b) {
-      const Eigen::Array2d c = center.array();
-      const Eigen::Array2d off = (boxes_[b].low - c).max(c - boxes_[b].high).max(0.0);
-      if (off.square().sum() >= best) continue;
-      for (std::size_t i = b * kBlock; i < std::min((b + 1) * kBlock, samples_.size()); ++i) {
-        const double dx = samples_[i].x - center.x();
-        const double dz = samples_[i].surface.height_mm - center.y();
-        if (dx * dx + dz * dz >= best) continue;
-        best = dx * dx + dz * dz;
-        place = i;
-      }
-    }
-    if (!place) return {beyond, center.x()};
-    const auto [x, distance] = refined(samples_, *place, [&](double at) {
-      const auto point = surface_.at(at);
-      return point ? std::hypot(at - center.x(), point->height_mm - center.y()) : beyond;
-    });
-    return {distance, x};
-  }
-
- private:
-  struct Box {
-    Eigen::Array2d low;
-    Eigen::Array2d high;
-  };
-  const WheelSurface& surface_;
-  const Samples& samples_;
-  std::vector<Box> boxes_;
-};
 
 core::Result<void> check_contact(const WheelPathRow& row, const WheelPathOptions& options) {
   if (row.contact_rad >= options.least_contact_rad &&
@@ -237,12 +108,11 @@ core::Result<WheelPathRow> row_at(const WheelSurface& surface, double x_mm, doub
   return row;
 }
 
-core::Result<void> check_clearance(const WheelSurface& surface, const Samples& samples,
-                                   const WheelPathOptions& options, WheelPath& path) {
-  const SurfaceBlocks blocks(surface, samples);
+core::Result<void> check_clearance(const SurfaceSamples& samples, const WheelPathOptions& options,
+                                   WheelPath& path) {
   for (WheelPathRow& row : path.rows) {
-    const WheelClearance least = blocks.nearest(row.center_mm, path.radius_mm);
-    row.clearance_mm = least.distance_mm - path.radius_mm;
+    const SurfaceSamples::Place least = samples.nearest(row.center_mm, path.radius_mm);
+    row.clearance_mm = least.value - path.radius_mm;
     if (row.clearance_mm >= -options.clearance_mm) continue;
     return core::fail(
         core::Code::kGouge,
@@ -290,9 +160,9 @@ double cusp_height_mm(double step_mm, double radius_mm, double curvature_per_mm)
 core::Result<WheelLoad> wheel_load(const WheelSurface& surface, double radius_mm,
                                    const WheelPathOptions& options) {
   if (auto checked = check(radius_mm, options); !checked) return core::fail(checked.error());
-  const auto samples = sample(surface, options);
+  const auto samples = sample_of(surface, options);
   if (!samples) return core::fail(samples.error());
-  const WheelLoad load = load_of(surface, *samples, radius_mm);
+  const WheelLoad load = load_of(*samples, radius_mm);
   if (auto checked = check_load(load, radius_mm, options); !checked) {
     return core::fail(checked.error());
   }
@@ -303,23 +173,25 @@ core::Result<std::vector<WheelClearance>> wheel_clearances(
     const WheelSurface& surface, std::span<const Eigen::Vector2d> centers_mm, double radius_mm,
     const WheelPathOptions& options) {
   if (auto checked = check(radius_mm, options); !checked) return core::fail(checked.error());
-  const auto samples = sample(surface, options);
+  const auto samples = sample_of(surface, options);
   if (!samples) return core::fail(samples.error());
-  const SurfaceBlocks blocks(surface, *samples);
   std::vector<WheelClearance> out;
-  for (const auto& center : centers_mm) out.push_back(blocks.nearest(center, 2.0 * radius_mm));
+  for (const auto& center : centers_mm) {
+    const SurfaceSamples::Place least = samples->nearest(center, 2.0 * radius_mm);
+    out.push_back({least.value, least.x_mm});
+  }
   return out;
 }
 
 core::Result<WheelPath> wheel_path(const WheelSurface& surface, double radius_mm,
                                    const WheelPathOptions& options) {
   if (auto checked = check(radius_mm, options); !checked) return core::fail(checked.error());
-  const auto samples = sample(surface, options);
+  const auto samples = sample_of(surface, options);
   if (!samples) return core::fail(samples.error());
   WheelPath path;
   path.radius_mm = radius_mm;
   path.lowest_point = options.lowest_point;
-  path.load = load_of(surface, *samples, radius_mm);
+  path.load = load_of(*samples, radius_mm);
   if (auto checked = check_load(path.load, radius_mm, options); !checked) {
     return core::fail(checked.error());
   }
@@ -327,7 +199,7 @@ core::Result<WheelPath> wheel_path(const WheelSurface& surface, double radius_mm
   path.step_mm = options.cusp_mm ? std::sqrt(8.0 * *options.cusp_mm / relief) : options.step_mm;
   if (auto filled = fill_rows(surface, options, path); !filled) return core::fail(filled.error());
   path.cusp_mm = cusp_height_mm(path.step_mm, radius_mm, path.load.least_curvature_per_mm);
-  if (auto clear = check_clearance(surface, *samples, options, path); !clear) {
+  if (auto clear = check_clearance(*samples, options, path); !clear) {
     return core::fail(clear.error());
   }
   if (path.load.load > options.load_warning) {

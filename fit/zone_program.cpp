@@ -77,6 +77,7 @@ void ZoneProgram<K>::set(const ZoneRows<K>& rows, double box_mm, const ZoneWeigh
   box_ = box_mm;
   weights_ = weights;
   moved_.resize(rows.size());
+  for (int k = 0; k < K; ++k) gradients_[static_cast<std::size_t>(k)] = rows.gradients(k).data();
 }
 
 template <int K>
@@ -106,44 +107,23 @@ void ZoneProgram<K>::start_basis() {
 
 /// Makes a column basic.
 template <int K>
-void ZoneProgram<K>::put(int k, const Column& c) {
-  basis_[static_cast<std::size_t>(k)] = c;
-  columns_.col(k) = column(c);
-  costs_(k) = cost(c);
-}
-
-template <int K>
-auto ZoneProgram<K>::column(const Column& c) const -> Vector {
-  Vector a = Vector::Zero();
-  switch (c.kind) {
-    case Column::Kind::kOuter:
-      a(0) = 1.0;
-      a.template tail<K>() = weights_.outer * rows_->gradient(c.index);
-      break;
-    case Column::Kind::kInner:
-      a(1) = 1.0;
-      a.template tail<K>() = -weights_.inner * rows_->gradient(c.index);
-      break;
-    case Column::Kind::kBoxUp:
-      a(static_cast<Eigen::Index>(c.index) + 2) = 1.0;
-      break;
-    case Column::Kind::kBoxDown:
-      a(static_cast<Eigen::Index>(c.index) + 2) = -1.0;
-      break;
+void ZoneProgram<K>::put(int place, const Column& c) {
+  basis_[static_cast<std::size_t>(place)] = c;
+  auto column = columns_.col(place);
+  if (c.kind == Column::Kind::kOuter || c.kind == Column::Kind::kInner) {
+    const bool outer = c.kind == Column::Kind::kOuter;
+    const double weight = outer ? weights_.outer : -weights_.inner;
+    column(0) = outer ? 1.0 : 0.0;
+    column(1) = outer ? 0.0 : 1.0;
+    for (int k = 0; k < K; ++k) {
+      column(k + 2) = weight * gradients_[static_cast<std::size_t>(k)][c.index];
+    }
+    costs_(place) = weight * rows_->distances()[c.index];
+    return;
   }
-  return a;
-}
-
-template <int K>
-double ZoneProgram<K>::cost(const Column& c) const {
-  switch (c.kind) {
-    case Column::Kind::kOuter:
-      return weights_.outer * rows_->distances()[c.index];
-    case Column::Kind::kInner:
-      return -weights_.inner * rows_->distances()[c.index];
-    default:
-      return -box_;
-  }
+  column.setZero();
+  column(static_cast<Eigen::Index>(c.index) + 2) = c.kind == Column::Kind::kBoxUp ? 1.0 : -1.0;
+  costs_(place) = -box_;
 }
 
 /// Inverse of the basis from its columns. @return Whether it has one.
@@ -189,42 +169,56 @@ ZoneStep<K> ZoneProgram<K>::attempt(int pivot_limit, int swift) {
     if (!again || !factorise()) break;
     fresh = true;
   }
-  if (!out.solved) settle_prices();
+  if (!out.solved) {
+    settle_prices();
+    worn();
+  }
   return out;
 }
 
-/// Whether multipliers and prices solve the equations of the basis, and no multiplier is negative.
+/// Whether multipliers and prices solved the equations of the basis when worn() refined them, and
+/// no multiplier is negative.
 template <int K>
 bool ZoneProgram<K>::sound() const {
-  return value_residual().cwiseAbs().maxCoeff() <= kSound &&
-         price_residual().cwiseAbs().maxCoeff() <= kSound * (1.0 + box_) &&
+  return value_flaw_ <= kSound && price_flaw_ <= kSound * (1.0 + box_) &&
          values_.minCoeff() >= -kSound;
 }
 
 template <int K>
 auto ZoneProgram<K>::value_residual() const -> Vector {
-  Vector out = -columns_ * values_;
-  out.template head<2>().array() += 1.0;
+  Vector out = Vector::Zero();
+  out(0) = out(1) = 1.0;
+  for (int k = 0; k < kRows; ++k) out -= values_(k) * columns_.col(k);
   return out;
 }
 
 template <int K>
 auto ZoneProgram<K>::price_residual() const -> Vector {
-  return costs_ - columns_.transpose() * prices_;
+  Vector out;
+  for (int k = 0; k < kRows; ++k) out(k) = costs_(k) - columns_.col(k).dot(prices_);
+  return out;
 }
 
 /// Prices of the rows, c_B times the inverse of the basis.
 template <int K>
 void ZoneProgram<K>::settle_prices() {
-  prices_ = inverse_.transpose() * costs_;
+  for (int k = 0; k < kRows; ++k) prices_(k) = inverse_.col(k).dot(costs_);
 }
 
 /// Refines multipliers and prices once with their residuals.
 /// @return Whether these were so large that the inverse should be computed anew.
 template <int K>
 bool ZoneProgram<K>::worn() {
-  const Vector value_error = inverse_ * value_residual();
-  const Vector price_error = inverse_.transpose() * price_residual();
+  const Vector value_rest = value_residual();
+  const Vector price_rest = price_residual();
+  value_flaw_ = value_rest.cwiseAbs().maxCoeff();
+  price_flaw_ = price_rest.cwiseAbs().maxCoeff();
+  Vector value_error = Vector::Zero();
+  Vector price_error;
+  for (int k = 0; k < kRows; ++k) {
+    value_error += value_rest(k) * inverse_.col(k);
+    price_error(k) = inverse_.col(k).dot(price_rest);
+  }
   values_ += value_error;
   prices_ += price_error;
   return !(value_error.cwiseAbs().maxCoeff() <= kWorn &&
@@ -236,10 +230,8 @@ template <int K>
 auto ZoneProgram<K>::price(bool bland) -> Entering {
   const Unknowns move = -prices_.template tail<K>();
   const std::size_t count = rows_->size();
-  const double* gradients[K];
-  for (int k = 0; k < K; ++k) gradients[k] = rows_->gradients(k).data();
   const ColumnExtremes extremes =
-      move_column<K>(rows_->distances(), gradients, move.data(), moved_.data());
+      move_column<K>(rows_->distances(), gradients_.data(), move.data(), moved_.data());
   double worst = tolerance_;
   Entering entering;
   const auto offer = [&](double violation, typename Column::Kind kind, std::size_t index) {
@@ -273,10 +265,25 @@ auto ZoneProgram<K>::price(bool bland) -> Entering {
   return entering;
 }
 
+/// The column as a mixture of the basic ones.
+template <int K>
+auto ZoneProgram<K>::in_basis(const Column& c) const -> Vector {
+  if (c.kind == Column::Kind::kBoxUp) return inverse_.col(static_cast<Eigen::Index>(c.index) + 2);
+  if (c.kind == Column::Kind::kBoxDown)
+    return -inverse_.col(static_cast<Eigen::Index>(c.index) + 2);
+  const bool outer = c.kind == Column::Kind::kOuter;
+  const double weight = outer ? weights_.outer : -weights_.inner;
+  Vector out = inverse_.col(outer ? 0 : 1);
+  for (int k = 0; k < K; ++k) {
+    out += weight * gradients_[static_cast<std::size_t>(k)][c.index] * inverse_.col(k + 2);
+  }
+  return out;
+}
+
 /// Exchanges the entering column; false when no basic column limits it (never: the box bounds).
 template <int K>
 bool ZoneProgram<K>::pivot(const Column& entering) {
-  const Vector direction = inverse_ * column(entering);
+  const Vector direction = in_basis(entering);
   int leaving = -1;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kRows; ++k) {

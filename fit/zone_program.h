@@ -113,7 +113,8 @@ class ZoneProgram {
 
   void set(const ZoneRows<K>& rows, double box_mm, const ZoneWeights& weights);
   void start_basis();
-  void put(int k, const Column& c);
+  void put(int place, const Column& c);
+  [[nodiscard]] Vector in_basis(const Column& c) const;
   bool factorise();
   ZoneStep<K> run(int pivot_limit);
   ZoneStep<K> attempt(int pivot_limit, int swift);
@@ -122,13 +123,12 @@ class ZoneProgram {
   [[nodiscard]] Vector price_residual() const;
   void settle_prices();
   bool worn();
-  [[nodiscard]] Vector column(const Column& c) const;
-  [[nodiscard]] double cost(const Column& c) const;
   Entering price(bool bland);
   bool pivot(const Column& entering);
   void report(ZoneStep<K>& out) const;
 
   const ZoneRows<K>* rows_ = nullptr;
+  std::array<const double*, K> gradients_{};  ///< Of the rows.
   double box_ = 0.0;
   ZoneWeights weights_;
   double tolerance_ = 0.0;
@@ -138,6 +138,8 @@ class ZoneProgram {
   Square inverse_ = Square::Identity();  ///< Of columns_.
   Vector values_ = Vector::Zero();       ///< Multipliers of the basic columns.
   Vector prices_ = Vector::Zero();
+  double value_flaw_ = 0.0;  ///< Largest residual of the multipliers before the last refinement.
+  double price_flaw_ = 0.0;
   std::vector<double> moved_;  ///< Distances of all points at the current prices.
 };
 

@@ -6,9 +6,7 @@
 namespace rondure::plans {
 
 Cell::Cell(const Plan& plan)
-    : kinematics_{vector3(plan.fixture->axis_point_mm), vector3(plan.fixture->axis_offset_mm)} {
-  X_BP_.translation() = vector3(plan.fixture->part_position_mm);
-}
+    : kinematics_(nominal_kinematics(*plan.fixture)), X_BP_(nominal_seat(*plan.fixture)) {}
 
 core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan, const CellOptions& options) {
   return std::make_unique<SimulatedCell>(plan, options.seed, options.resumed);

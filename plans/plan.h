@@ -23,6 +23,14 @@ struct PlanHead {
   std::string note;
 };
 
+/// A piece of the part beside the inspected surfaces, for the planner.
+struct SectionPlan {
+  double from_mm = 0.0;  ///< Lower end, part z.
+  double to_mm = 0.0;
+  double diameter_mm = 0.0;
+  double bore_diameter_mm = 0.0;  ///< 0: solid.
+};
+
 struct PartPlan {
   std::string id;
   std::string name;
@@ -31,6 +39,7 @@ struct PartPlan {
       1.0;  ///< How far the surface may be from nominal at first touch.
   std::optional<double> expansion_per_K;  ///< None: nothing is brought to 20 degC.
   double expansion_uncertainty_per_K = 1e-6;
+  std::vector<SectionPlan> sections;
 };
 
 struct MachinePlan {
@@ -44,7 +53,10 @@ struct MachinePlan {
   std::optional<double> scale_expansion_per_K;  ///< Of the scales; none: the machine compensates.
   double scale_expansion_uncertainty_per_K = 1e-6;
   std::array<double, 3> park_mm = {0.0, 0.0, 500.0};  ///< Tip position above everything.
-  double resume_limit_um = 5.0;  ///< Largest change of a repeated touch before a run goes on.
+  std::array<double, 3> volume_min_mm = {-10'000.0, -10'000.0, -10'000.0};  ///< Reach of the tip.
+  std::array<double, 3> volume_max_mm = {10'000.0, 10'000.0, 10'000.0};
+  double step_speed_mm_s = 10.0;  ///< Of a first run in single steps.
+  double resume_limit_um = 5.0;   ///< Largest change of a repeated touch before a run goes on.
 };
 
 struct FixturePlan {
@@ -60,6 +72,9 @@ struct FixturePlan {
   double rim_height_mm = -1000.0;  ///< Machine z below which the tip must not go.
   double clamp_from_mm = 0.0;      ///< Clamped band on the part, part z; empty when from >= to.
   double clamp_to_mm = 0.0;
+  double ring_diameter_mm = 0.0;     ///< Outside of the clamping ring; 0: nothing passes it.
+  double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
+  double table_height_mm = -1000.0;  ///< Machine z.
 };
 
 struct QualificationPlan {
@@ -68,10 +83,14 @@ struct QualificationPlan {
   int points = 13;
   double form_limit_um = 5.0;
   double radius_tolerance_um = 100.0;
+  double stem_diameter_mm = 0.0;  ///< Below the sphere; 0: a third of it.
 };
 
 struct ProbePlan {
   double tip_diameter_mm = 4.0;
+  double stylus_length_mm = 0.0;    ///< From the centre of the ball up; 0: only the ball counts.
+  double stylus_diameter_mm = 0.0;  ///< Of the shaft.
+  double holder_diameter_mm = 0.0;  ///< Of what carries the stylus; 0: nothing.
   QualificationPlan qualification;
 };
 

@@ -1,6 +1,9 @@
 // Scans: the part of inspection.h that measures whole circles.
 
 #include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
 
 #include "cmm/grid.h"
 #include "cmm/scan_path.h"
@@ -42,6 +45,9 @@ core::Result<std::vector<record::Touch>> RunContext::scan(ScanStep step) {
   step.command.first_id = next_touch;
   if (past.touch(next_touch) != nullptr) return recall_scan(std::move(step));
   if (auto stop = check_stop(); !stop) return core::fail(stop.error());
+  const NextMove next = {NextMove::Kind::kTouch, doing + ": scan", cell->machine().position_W_mm(),
+                         step.command.start_tip_W_mm};
+  if (auto go = ask(next); !go) return core::fail(go.error());
   const auto readings = cell->machine().scan_circle(step.command);
   if (!readings) return core::fail(readings.error());
   std::vector<record::Touch> rows = planned_rows(step, readings->size());
@@ -60,6 +66,7 @@ core::Result<std::vector<record::Touch>> RunContext::recall_scan(ScanStep step) 
     if (row == nullptr || (!known.empty() && !of_one_scan(*row, known.front()))) break;
     known.push_back(*row);
   }
+  step.command.points = static_cast<int>(known.size());
   const auto planned = planned_rows(step, known.size());
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (auto same = check_same_step(known[i], planned[i]); !same) return core::fail(same.error());
@@ -82,12 +89,21 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::measure_cloud() {
   return touch_cloud(targets_, record::Touch::Purpose::kMeasure);
 }
 
-ScanStep FeatureSession::scan_of(const std::vector<Target>& starts, std::size_t i,
-                                 int points) const {
-  TouchStep first = step_to(starts, i, record::Touch::Purpose::kMeasure);
+std::vector<Target> FeatureSession::reach_targets() const {
+  constexpr int kAround = 24;  // every 15 deg: beside the shaft of the stylus nothing is finer
+  if (feature_.sampling.method != "scan") return targets_;
+  const int step = std::max(1, feature_.sampling.points_per_layer / kAround);
+  std::vector<Target> out;
+  std::copy_if(targets_.begin(), targets_.end(), std::back_inserter(out),
+               [&](const Target& target) { return target.point % step == 0; });
+  return out;
+}
+
+ScanStep FeatureSession::scan_of(const CloudPath& path, std::size_t k, int points) const {
+  TouchStep first = step_to(path, k, record::Touch::Purpose::kMeasure);
   const Eigen::Isometry3d X_WP = part_at(reached_);
   ScanStep out;
-  out.command.center_W_mm = X_WP * Eigen::Vector3d(0.0, 0.0, starts[i].z_mm);
+  out.command.center_W_mm = X_WP * Eigen::Vector3d(0.0, 0.0, path.target(k).z_mm);
   out.command.axis_W = X_WP.linear() * Eigen::Vector3d::UnitZ();
   out.command.start_tip_W_mm = first.command.expected_tip_W_mm;
   out.command.inside = geometry_.inside;
@@ -108,32 +124,38 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::scan_cloud(
     if (starts.empty() || target.layer != starts.back().layer) starts.push_back(target);
   }
   const auto points = static_cast<int>(targets.size() / starts.size());
-  const Eigen::Isometry3d X_WP = part_at(reached_);
-  const auto way_out = [&](const Target& target) {
-    return in_machine_frame(exit_path(geometry_, target), X_WP);
-  };
+  const auto path = lay(starts, reached_);
+  if (!path) return core::fail(path.error());
   context_.last_steps.clear();
-  std::vector<Eigen::Vector3d> tips;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    ScanStep step = scan_of(starts, i, points);
-    if (auto moved = context_.follow(step.way_W); !moved) return fault_at(starts[i], moved.error());
+  std::vector<std::vector<Eigen::Vector3d>> layers(starts.size());
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const Target& start = path->target(k);
+    ScanStep step = scan_of(*path, k, points);
+    context_.doing = fmt::format("{}, layer {}", feature_.id, start.layer + 1);
+    if (auto moved = context_.follow(step.way_W); !moved) {
+      if (context_.retreating && k > 0) leave(*path, k - 1);
+      return fault_at(start, moved.error());
+    }
     const auto rows = context_.scan(std::move(step));
     if (!rows) {
       if (context_.lost_place) return core::fail(rows.error());
-      if (rows.error().code != core::Code::kCollision) {
-        if (auto out = context_.follow(way_out(starts[i])); out) (void)context_.rise();
-      }
-      return fault_at(starts[i], rows.error());
+      if (rows.error().code != core::Code::kCollision) leave(*path, k);
+      return fault_at(start, rows.error());
     }
-    for (const record::Touch& row : *rows) tips.push_back(row.tip_mm);
+    for (const record::Touch& row : *rows) layers[path->order()[k]].push_back(row.tip_mm);
     if (repeat_ > 0) continue;
     const auto truth = context_.cell->true_scan_W_mm();
     truth_.insert(truth_.end(), truth.begin(), truth.end());
   }
-  if (auto moved = context_.follow(way_out(starts.back())); !moved) {
-    return fault_at(starts.back(), moved.error());
+  context_.doing = fmt::format("{}, back to park height", feature_.id);
+  const std::size_t last = starts.size() - 1;
+  if (auto moved = context_.follow(path->exit_W(last)); !moved) {
+    if (context_.retreating) leave(*path, last);
+    return fault_at(path->target(last), moved.error());
   }
-  if (auto moved = context_.rise(); !moved) return fault_at(starts.back(), moved.error());
+  if (auto moved = context_.rise(); !moved) return fault_at(path->target(last), moved.error());
+  std::vector<Eigen::Vector3d> tips;
+  for (const auto& layer : layers) tips.insert(tips.end(), layer.begin(), layer.end());
   return tips;
 }
 

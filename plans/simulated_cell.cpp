@@ -14,10 +14,8 @@ fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t
   const FixturePlan& fixture = *plan.fixture;
   const SimulatedFixturePlan& hidden = plan.simulation->fixture;
   fixture::SimulatedFixtureOptions out;
-  out.kinematics = {vector3(fixture.axis_point_mm), vector3(fixture.axis_offset_mm)};
-  out.limits = {fixture.min_alpha_deg * core::kDegree, fixture.max_alpha_deg * core::kDegree,
-                fixture.min_beta_deg * core::kDegree, fixture.max_beta_deg * core::kDegree,
-                fixture.resolution_deg * core::kDegree};
+  out.kinematics = nominal_kinematics(fixture);
+  out.limits = limits_of(fixture);
   out.errors.axis_point_mm = vector3(hidden.axis_point_error_um) * core::kMicrometre;
   out.errors.axis_offset_mm = vector3(hidden.axis_offset_error_um) * core::kMicrometre;
   out.errors.zero_alpha_rad = hidden.zero_alpha_deg * core::kDegree;
