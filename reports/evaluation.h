@@ -16,6 +16,7 @@
 #include "fit/one_sided_center.h"
 #include "fit/one_sided_cylinder.h"
 #include "fit/probe_tip.h"
+#include "fit/roundness_evaluation.h"
 #include "record/run_record.h"
 #include "reports/thermal.h"
 
@@ -62,6 +63,8 @@ struct LayerResult {
   core::Result<fit::LsCircle> ls;
   core::Result<fit::OneSidedCircle> mc = not_fitted();  ///< Where there is none: why.
   core::Result<fit::OneSidedCircle> mi = not_fitted();
+  /// Gaussian, 50 UPR, with harmonics, where 7 points stand for an undulation; else nothing.
+  std::optional<fit::RoundnessEvaluation> filtered = {};
   std::vector<Eigen::Vector2d> points_mm = {};  ///< What was fitted: `rows`, in the centres' frame.
 };
 

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "core/units.h"
 #include "reports/facts.h"
 
@@ -158,6 +160,20 @@ Json one_sided_json(const core::Result<fit::OneSidedCircle>& circle, double offs
           {"certificate", certificate_json(circle->certificate)}};
 }
 
+Json filtered_json(const std::optional<fit::RoundnessEvaluation>& section) {
+  if (!section) return nullptr;
+  Json json = {{"filter", fit::name_of(section->filter.filter)},
+               {"cutoff_upr", section->filter.cutoff_upr}};
+  for (const fit::Roundness& value : section->values) {
+    json[fmt::format("{}_um", fit::name_of(value.reference))] = in_um(value.total_mm);
+  }
+  json["harmonics_um"] = Json::array();
+  for (const fit::Harmonic& harmonic : section->harmonics.harmonics) {
+    json["harmonics_um"].push_back(in_um(harmonic.amplitude_mm));
+  }
+  return json;
+}
+
 Json layer_json(const LayerResult& layer, const FeatureResult& feature) {
   const double offset_mm = surface_offset_mm(feature);
   Json json = {{"layer", layer.layer},
@@ -183,6 +199,7 @@ Json layer_json(const LayerResult& layer, const FeatureResult& feature) {
                   {"deviation_um", in_um(layer.ls->deviation_mm)},
                   {"rms_um", in_um(layer.ls->rms_mm)}};
   }
+  json["filtered"] = filtered_json(layer.filtered);
   return json;
 }
 

@@ -78,7 +78,14 @@ TEST(Scanning, ALobeThatFewTouchesMissIsSeen) {
   plan.features.front().sampling.method = "scan";
   plan.features.front().sampling.points_per_layer = 360;
   EXPECT_LT(touched_mm, 0.1e-3);
-  EXPECT_NEAR(zone_mm(test::inspect(plan)), 4e-3, 0.1e-3);
+  const auto scanned = test::inspect(plan);
+  EXPECT_NEAR(zone_mm(scanned), 4e-3, 0.1e-3);
+  for (const reports::LayerResult& layer : scanned.evaluation.features.front().layers) {
+    ASSERT_TRUE(layer.filtered) << "360 points carry a filter of 50 UPR";
+    EXPECT_NEAR(layer.filtered->harmonics.harmonics.at(13).amplitude_mm, 2e-3, 0.05e-3);
+    // The Gaussian filter passes 2^-(14/50)^2 of it.
+    EXPECT_NEAR(layer.filtered->values.front().total_mm, 4e-3 * std::exp2(-0.28 * 0.28), 0.1e-3);
+  }
 }
 
 TEST(Scanning, TypicalErrorsShowAsSomeMicrometres) {
