@@ -1,7 +1,7 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
-#include <algorithm>
 
 #include "core/units.h"
 #include "reports/facts.h"
