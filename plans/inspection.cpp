@@ -109,9 +109,9 @@ core::Result<fit::Axis> FeatureSession::locate(const core::Pose& commanded) {
 }
 
 core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
-  if (auto turned = turn(commanded, targets_); !turned) return core::fail(turned.error());
+  if (auto turned = turn(commanded, reach_targets()); !turned) return core::fail(turned.error());
   truth_.clear();
-  auto tips = touch_cloud(targets_, record::Touch::Purpose::kMeasure);
+  auto tips = measure_cloud();
   if (!tips) return core::fail(tips.error());
   return Cloud{reached_, std::move(*tips)};
 }
@@ -119,8 +119,7 @@ core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
 core::Result<void> FeatureSession::repeat(int times) {
   for (int i = 0; i < times; ++i) {
     ++repeat_;
-    if (auto tips = touch_cloud(targets_, record::Touch::Purpose::kMeasure); !tips)
-      return core::fail(tips.error());
+    if (auto tips = measure_cloud(); !tips) return core::fail(tips.error());
   }
   return {};
 }
