@@ -55,9 +55,10 @@ std::string path_lines(const fit::WheelEvaluation& e) {
   std::string out = fmt::format(
       "  path      {} places for the {} radius {:.6f} mm, step {:.6g} mm, cusps up to {:.3f} um, z "
       "of the wheel's {}\n"
-      "            R k_s at most {:.4f}, at x = {:.4f} mm",
+      "            R k_s at most {:.4f}, at x = {:.4g} mm",
       path.rows.size(), name_of(e.radius), path.radius_mm, path.step_mm, um(path.cusp_mm),
-      path.lowest_point ? "lowest point" : "centre", path.load.load, path.load.x_mm + 0.0);
+      path.lowest_point ? "lowest point" : "centre", path.load.load,
+      std::round(path.load.x_mm * 1e4) / 1e4 + 0.0);
   if (path.load.load > 0.0) {
     out += fmt::format(" (concave radius {:.4f} mm)", path.load.concave_radius_mm(path.radius_mm));
   }
