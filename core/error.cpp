@@ -98,6 +98,18 @@ std::string_view code_name(Code code) {
       return "reference-absent";
     case Code::kSeveralOptima:
       return "several-optima";
+    case Code::kFilteredTwice:
+      return "filtered-twice";
+    case Code::kUndercut:
+      return "undercut";
+    case Code::kSense:
+      return "sense";
+    case Code::kAlignment:
+      return "alignment";
+    case Code::kHarmonicLoss:
+      return "harmonic-loss";
+    case Code::kInconsistent:
+      return "inconsistent";
     case Code::kCenterDisagrees:
       return "center-disagrees";
     case Code::kNoAxis:
@@ -108,10 +120,6 @@ std::string_view code_name(Code code) {
       return "correlated";
     case Code::kLowMargin:
       return "low-margin";
-    case Code::kHarmonicLoss:
-      return "harmonic-loss";
-    case Code::kInconsistent:
-      return "inconsistent";
   }
   return "internal";
 }

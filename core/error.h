@@ -56,6 +56,10 @@ enum class Code {
   kExactFit,       ///< exact-fit: no more points than unknowns, the deviation is 0 by construction
   kNotLevel,       ///< not-level: f(pose) > 2 MZ, the pose and not the part dominates f
   kUndersampled,   ///< undersampled: filtered by option with fewer than 7 points per undulation
+  kFilteredTwice,  ///< filtered-twice: the data seem filtered already, or not as said
+  kUndercut,       ///< undercut: the wheel path has loops; the contour is the envelope
+  kSense,          ///< sense: a sign or direction that the data speak against
+  kAlignment,      ///< alignment: the zero of two curves seems to differ
   kAngleOrder,     ///< angle-order: angles that were unsorted, repeated or ran over one turn
   kReferenceAbsent,  ///< reference-absent: a reference that does not exist for these data
   kCenterDisagrees,  ///< center-disagrees: two ways to a wheel centre differ by more than noise

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/units.h"
+#include "fit/column_extremes.h"
 
 namespace rondure::fit {
 namespace {
@@ -65,14 +66,15 @@ ContactRow<4> CylinderFrame::contact_row(const Eigen::Vector3d& p, std::size_t i
 Extremes CylinderFrame::linearise(const WorkingPoints<3>& points, ZoneRows<4>& rows) const {
   const std::size_t count = points.size();
   rows.resize(count);
-  const double* px = points.column(0);
-  const double* py = points.column(1);
-  const double* pz = points.column(2);
-  double* distance = rows.distances().data();
-  double* shift_a = rows.gradients(0).data();
-  double* shift_b = rows.gradients(1).data();
-  double* tilt_a = rows.gradients(2).data();
-  double* tilt_b = rows.gradients(3).data();
+  // Different vectors, which only __restrict tells the compiler; else the loop stays scalar.
+  const double* __restrict px = points.column(0);
+  const double* __restrict py = points.column(1);
+  const double* __restrict pz = points.column(2);
+  double* __restrict distance = rows.distances().data();
+  double* __restrict shift_a = rows.gradients(0).data();
+  double* __restrict shift_b = rows.gradients(1).data();
+  double* __restrict tilt_a = rows.gradients(2).data();
+  double* __restrict tilt_b = rows.gradients(3).data();
   const Eigen::Vector3d o = axis_.point_mm;
   const Eigen::Vector3d a = across_.col(0);
   const Eigen::Vector3d b = across_.col(1);
@@ -87,14 +89,16 @@ Extremes CylinderFrame::linearise(const WorkingPoints<3>& points, ZoneRows<4>& r
     const double r = std::sqrt(qa * qa + qb * qb);
     // On the axis every direction is alike.
     const double back = r > 0.0 ? -1.0 / r : 0.0;
+    const double along_a = back * qa;
+    const double along_b = back * qb;
     distance[i] = r;
-    shift_a[i] = back * qa;
-    shift_b[i] = back * qb;
-    tilt_a[i] = lever * shift_a[i];
-    tilt_b[i] = lever * shift_b[i];
+    shift_a[i] = along_a;
+    shift_b[i] = along_b;
+    tilt_a[i] = lever * along_a;
+    tilt_b[i] = lever * along_b;
   }
-  const auto [low, high] = std::minmax_element(distance, distance + count);
-  return {*low, *high};
+  const ColumnExtremes extremes = column_extremes(rows.distances());
+  return {extremes.low, extremes.high};
 }
 
 double half_extent(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& direction) {

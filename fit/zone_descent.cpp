@@ -11,7 +11,6 @@
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kAllWorked = 128;  // up to here all points are worked on
 constexpr int kProgrammeLimit = 200;
 constexpr int kPassLimit = 100;
 constexpr int kNewtonLimit = 20;
@@ -23,13 +22,22 @@ constexpr double kCoarse = 0.005;
 constexpr double kFirm = 1e-9;
 
 /// Points of the first sample: enough to come near, few against a pass.
+template <int K>
 std::size_t sample_size(std::size_t count) {
-  return std::clamp<std::size_t>(count / 500, 48, 1000);
+  return K == 2 ? std::clamp<std::size_t>(count / 200, 24, 1000)
+                : std::clamp<std::size_t>(count / 500, 48, 1000);
 }
 /// Points a block of a pass: each block gives one candidate a side at most.
-std::size_t block_size(std::size_t count) { return count < 20000 ? 32 : 128; }
+template <int K>
+std::size_t block_size(std::size_t count) {
+  if (count < 4000) return 32;
+  return K == 2 ? (count < 20000 ? 64 : 256) : (count < 20000 ? 32 : 128);
+}
 /// Candidates a side and pass: the first pass meets a place that is not yet good.
-std::size_t candidates(int pass) { return pass == 1 ? 128 : 48; }
+template <int K>
+std::size_t candidates(int pass) {
+  return K == 2 ? (pass == 1 ? 32 : 24) : (pass == 1 ? 128 : 48);
+}
 
 bool all_nonnegative(const Contacts& contacts) {
   return std::all_of(contacts.begin(), contacts.end(),
@@ -58,16 +66,15 @@ auto ZoneDescent<Frame>::run(Points points, const Point& origin, const Frame& st
   weights_ = weights;
   round_off_ = round_off;
   warm_ = coarse_ = false;
-  working_.clear();
   Result state(start);
   if (points.size() > kAllWorked) {
-    for (std::size_t k = 0; k < sample_size(points.size()); ++k) {
+    working_.clear();
+    for (std::size_t k = 0; k < sample_size<K>(points.size()); ++k) {
       take(points, origin, spread_row(k, points.size()));
     }
     minimise_large(points, origin, start, limit_mm, state);
   } else {
-    for (std::size_t i = 0; i < points.size(); ++i) take(points, origin, i);
-    state.zone = extremes(state.frame);
+    working_.assign(points, origin);
     minimise(state, start, limit_mm);
   }
   name_rows(state.outer);
@@ -80,9 +87,12 @@ void ZoneDescent<Frame>::take(Points points, const Point& origin, std::size_t ro
   working_.add(row, points[row] - origin);
 }
 
+/// Contacts by row of the data instead of working point, in the order of the rows.
 template <class Frame>
 void ZoneDescent<Frame>::name_rows(Contacts& contacts) const {
   for (Contact& c : contacts) c.index = working_.row(c.index);
+  std::sort(contacts.begin(), contacts.end(),
+            [](const Contact& a, const Contact& b) { return a.index < b.index; });
 }
 
 template <class Frame>
@@ -94,10 +104,9 @@ Extremes ZoneDescent<Frame>::extremes(const Frame& frame) {
 template <class Frame>
 void ZoneDescent<Frame>::minimise_large(Points points, const Point& origin, const Frame& start,
                                         double limit_mm, Result& state) {
-  blocks_.block = block_size(points.size());
+  blocks_.block = block_size<K>(points.size());
   while (state.passes < kPassLimit) {
     coarse_ = state.passes == 0;
-    state.zone = extremes(state.frame);
     minimise(state, start, limit_mm);
     if (state.ending == ZoneEnding::kStrayed) return;
     state.frame = state.frame.snapped(origin);
@@ -134,7 +143,7 @@ std::size_t ZoneDescent<Frame>::add_worst(Points points, const Point& origin, co
   for (std::size_t k = 0; k < extreme.size(); ++k) {
     if (high ? extreme[k] > limit * limit : extreme[k] < limit * limit) order_.push_back(k);
   }
-  const std::size_t most = std::min(order_.size(), candidates(state.passes));
+  const std::size_t most = std::min(order_.size(), candidates<K>(state.passes));
   const auto worse = [&](std::size_t a, std::size_t b) {
     if (extreme[a] != extreme[b]) return high == (extreme[a] > extreme[b]);
     return a < b;
@@ -154,6 +163,9 @@ std::size_t ZoneDescent<Frame>::add_worst(Points points, const Point& origin, co
 /// tilt may still narrow the zone by its curvature: such saddles are left and the search goes on.
 template <class Frame>
 void ZoneDescent<Frame>::minimise(Result& state, const Frame& start, double limit_mm) {
+  if constexpr (Frame::kHasBall) {
+    if (weights_.inner == 0.0) return enclose(state);
+  }
   for (int i = 0; i < kSaddleLimit; ++i) {
     settle(state);
     if (state.frame.strayed(start, limit_mm)) {
@@ -166,6 +178,21 @@ void ZoneDescent<Frame>::minimise(Result& state, const Frame& start, double limi
     if (vertex_ || coarse_) return;
     const auto descent = escape(state);
     if (descent.isZero() || !leave_saddle(state, descent)) return;
+  }
+}
+
+/// The smallest ball of the working points: no start is too far from it.
+template <class Frame>
+void ZoneDescent<Frame>::enclose(Result& state) {
+  if constexpr (Frame::kHasBall) {
+    const Ball<D> ball = ball_.enclose(working_, state.frame.center(), warm_, round_off_);
+    warm_ = true;
+    coarse_ = false;
+    state.frame = Frame(ball.center_mm);
+    state.zone = ball.zone;
+    state.outer = ball.outer;
+    state.pivots += ball.exchanges;
+    state.ending = ball.solved ? ZoneEnding::kConverged : ZoneEnding::kLimit;
   }
 }
 
@@ -230,6 +257,8 @@ void ZoneDescent<Frame>::settle(Result& state) {
     state.frame = next;
     state.zone = zone;
     std::swap(rows_, trial_rows_);
+    // Straight as it was, the way holds no second step worth its programme.
+    if (coarse_ && step.inside_box && gained > 0.9 * promised) return;
   }
   if (!vertex_ && !coarse_) settle_by_curvature(state, box);
 }

@@ -7,6 +7,7 @@
 #include "core/result.h"
 #include "fit/ls_cylinder.h"
 #include "plans/cell.h"
+#include "plans/feature_planner.h"
 #include "plans/past.h"
 #include "plans/plan_reach.h"
 #include "plans/pose_search.h"
@@ -37,6 +38,8 @@ struct RunContext {
   Progress progress = {};
   Past past = {};
   std::vector<TouchStep> last_steps = {};  ///< The last recalled touches of the present cloud.
+  bool retreating = false;  ///< The operator refused a motion: back and up without asking.
+  std::string doing = {};   ///< What the next motions are for, in words.
   bool lost_place = false;  ///< An interruption was not overcome: only a person may move the tip.
 
   /// While touches come from the journal nothing moves.
@@ -52,7 +55,10 @@ struct RunContext {
   /// difference and limit, when one is not where it was; kMachine when the fixture does not read
   /// what it read in that pose. Then the tip stands at the last of them.
   [[nodiscard]] core::Result<void> come_back();
-  /// Moves the tip through the corners of a path.
+  /// kStopped when the operator, asked in a run of single steps, wants no motion.
+  [[nodiscard]] core::Result<void> ask_for_homing();
+  /// Moves the tip through the corners of a path. When the operator refuses one of the moves the
+  /// tip goes back to where the path began.
   [[nodiscard]] core::Result<void> follow(const Polyline& path_W);
   /// Straight up to the park height, from above the part or from the reference sphere.
   [[nodiscard]] core::Result<void> rise();
@@ -62,6 +68,7 @@ struct RunContext {
   [[nodiscard]] core::Result<void> note(int feature, const std::string& text);
 
  private:
+  [[nodiscard]] core::Result<void> ask(const NextMove& move);
   [[nodiscard]] core::Result<record::Touch> recall(TouchStep step, const record::Touch& known);
   /// Of the fixture: how far two readings of one pose may differ.
   [[nodiscard]] double resolution_rad() const;
@@ -92,13 +99,20 @@ class FeatureSession final : public PoseSession {
   /// Turns to a pose in which all targets can be reached.
   [[nodiscard]] core::Result<void> turn(const core::Pose& commanded,
                                         const std::vector<Target>& targets);
-  /// Touches targets once in the present pose, rises, and gives the tip centres.
+  /// Touches targets once in the present pose, in the order of the path, rises, and gives the tip
+  /// centres in the order of the targets.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> touch_cloud(
       const std::vector<Target>& targets, record::Touch::Purpose purpose);
   [[nodiscard]] core::Result<Eigen::Vector3d> touch(TouchStep step, const Target& target);
-  /// How targets[i] is touched, from the one before it or from above.
-  [[nodiscard]] TouchStep step_to(const std::vector<Target>& targets, std::size_t i,
+  /// The ways through these targets in a pose. kUnreachable: nothing has moved.
+  [[nodiscard]] core::Result<CloudPath> lay(const std::vector<Target>& targets,
+                                            const core::Pose& pose);
+  /// How the k-th target of a path is touched, from the one before it or from above.
+  [[nodiscard]] TouchStep step_to(const CloudPath& path, std::size_t k,
                                   record::Touch::Purpose purpose) const;
+  /// After a refused or failed motion to the k-th target: from the pre-touch point where the tip
+  /// stands up to the sky.
+  void leave(const CloudPath& path, std::size_t k);
   /// The same fault with the point it happened at, and what a person can do about it.
   [[nodiscard]] tl::unexpected<core::Error> fault_at(const Target& target,
                                                      const core::Error& error) const;
@@ -114,6 +128,7 @@ class FeatureSession final : public PoseSession {
   std::vector<Target> targets_;
   Eigen::Isometry3d X_BP_;  ///< Best knowledge of the part in the body frame.
   PathGeometry geometry_;
+  FeaturePlanner planner_;
   core::Pose reached_;
   int pose_id_ = -1;
   int repeat_ = 0;

@@ -14,6 +14,8 @@ namespace {
 /// shows a shift along its own direction only.
 constexpr std::size_t kChecks = 3;
 
+constexpr double kStill_mm = 1e-6;  // a shorter move is none
+
 /// A pose of the journal that is taken again must read as before: part and targets follow the
 /// recorded reading.
 core::Result<void> check_reading(const record::PoseVisit& known, const core::Pose& reads,
@@ -59,6 +61,9 @@ core::Result<record::Touch> RunContext::touch(TouchStep step) {
   step.row.approach = step.command.direction_W;
   if (const record::Touch* known = past.touch(next_touch)) return recall(std::move(step), *known);
   if (auto stop = check_stop(); !stop) return core::fail(stop.error());
+  const NextMove next = {NextMove::Kind::kTouch, doing + ": touch", cell->machine().position_W_mm(),
+                         step.command.expected_tip_W_mm};
+  if (auto go = ask(next); !go) return core::fail(go.error());
   const auto reading = cell->machine().touch(step.command);
   if (!reading) return core::fail(reading.error());
   record::Touch row = step.row;
@@ -89,7 +94,9 @@ core::Result<record::Touch> RunContext::recall(TouchStep step, const record::Tou
 }
 
 core::Result<void> RunContext::come_back() {
+  if (auto go = ask_for_homing(); !go) return go;
   lost_place = true;
+  doing = "repeating the last touches";
   const auto reads = cell->home_again();
   if (!reads) return core::fail(reads.error());
   if (const record::PoseVisit* known = past.pose(last_steps.back().row.pose)) {
@@ -151,10 +158,33 @@ core::Result<double> RunContext::repeat_touch(const TouchStep& step, std::int64_
 
 double RunContext::resolution_rad() const { return cell->fixture().limits().resolution_rad; }
 
+core::Result<void> RunContext::ask(const NextMove& move) {
+  if (!options.before_move || retreating) return {};
+  auto go = options.before_move(move);
+  if (!go) retreating = true;
+  return go;
+}
+
+core::Result<void> RunContext::ask_for_homing() {
+  return ask(
+      {NextMove::Kind::kHome, "home machine and fixture: up, then to the park position", {}, {}});
+}
+
 core::Result<void> RunContext::follow(const Polyline& path_W) {
   if (recalling()) return {};
+  cmm::Machine& machine = cell->machine();
+  Polyline passed = {machine.position_W_mm()};
   for (const Eigen::Vector3d& corner : path_W) {
-    if (auto moved = cell->machine().move_to(corner); !moved) return moved;
+    const NextMove next = {NextMove::Kind::kMove, doing + ": move", passed.back(), corner};
+    const bool moves = (corner - passed.back()).norm() > kStill_mm;
+    if (auto go = moves ? ask(next) : core::Result<void>{}; !go) {
+      for (auto back = passed.rbegin() + 1; back != passed.rend(); ++back) {
+        if (auto moved = machine.move_to(*back); !moved) return moved;
+      }
+      return go;
+    }
+    if (auto moved = machine.move_to(corner); !moved) return moved;
+    passed.push_back(corner);
   }
   return {};
 }
@@ -163,10 +193,16 @@ core::Result<void> RunContext::rise() {
   if (recalling()) return {};
   Eigen::Vector3d up = cell->machine().position_W_mm();
   up.z() = std::max(up.z(), plan.machine->park_mm[2]);
-  return cell->machine().move_to(up);
+  return follow({up});
 }
 
 core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& commanded) {
+  if (!recalling()) {
+    const std::string what =
+        fmt::format("turn the fixture to ({:.4f}, {:.4f}) deg", commanded.alpha_rad / core::kDegree,
+                    commanded.beta_rad / core::kDegree);
+    if (auto go = ask({NextMove::Kind::kTurn, what, {}, {}}); !go) return core::fail(go.error());
+  }
   const auto reached = recalling() ? cell->recall_turn(commanded) : cell->turn_to(commanded);
   if (!reached) return core::fail(reached.error());
   if (const record::PoseVisit* known = past.pose(next_pose)) {

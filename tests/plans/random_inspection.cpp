@@ -12,8 +12,9 @@
 #include "core/units.h"
 #include "fit/center_search.h"
 #include "fit/min_zone_cylinder.h"
-#include "plans/cell.h"
+#include "plans/hidden_errors.h"
 #include "plans/runner.h"
+#include "plans/simulated_cell.h"
 #include "record/journal.h"
 
 namespace rondure::test {
