@@ -18,7 +18,7 @@ std::string radius_entries(const WheelFacts& facts) {
   }
   std::string html =
       entry("Radius R",
-            with_note(fixed(m.radius_mm, 6) + " mm",
+            with_note(fixed(m.radius_mm, 5) + " mm",
                       fmt::format("u(R) {} µm{}", um(m.radius_uncertainty_mm), nominal)),
             "lead");
   html += entry(

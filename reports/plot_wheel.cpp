@@ -56,7 +56,7 @@ void draw_angles(Svg& svg, const EdgeView& view) {
     const Eigen::Vector2d b = view.at(angle, from + (tick % 3 == 0 ? 7.0 : 4.0));
     svg.line(a.x(), a.y(), b.x(), b.y(), "tick");
     if (tick % 3 != 0) continue;
-    const Eigen::Vector2d place = view.at(angle, from + 17.0);
+    const Eigen::Vector2d place = view.at(angle, from + 20.0);
     svg.text(place.x(), place.y() + 4.0, "middle", "label",
              kNames[static_cast<std::size_t>(tick / 3)]);
   }
@@ -155,6 +155,8 @@ SideView side_view(const fit::WheelPath& path) {
   const Eigen::Vector2d size = view.high - view.low;
   view.px_per_mm =
       std::min((kViewWidth - view.left - kRightMargin) / size.x(), kMostHeight / size.y());
+  // A tall view is narrower than the page: in its middle.
+  view.left = std::max(view.left, 0.5 * (kViewWidth - view.px_per_mm * size.x()));
   view.bottom = kTop + view.px_per_mm * size.y();
   return view;
 }
@@ -174,7 +176,7 @@ void draw_axes(Svg& svg, const SideView& view) {
   }
   svg.rect(view.left, kTop, corner.x() - view.left, view.bottom - kTop, "frame");
   svg.text(0.5 * (view.left + corner.x()), view.bottom + 36.0, "middle", "title", "x / mm");
-  svg.upward_text(14.0, 0.5 * (kTop + view.bottom), "title", "z / mm");
+  svg.upward_text(view.left - 50.0, 0.5 * (kTop + view.bottom), "title", "z / mm");
 }
 
 /// The line through places of all rows, thinned to some 700.
