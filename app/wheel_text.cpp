@@ -65,6 +65,16 @@ std::string path_lines(const fit::WheelEvaluation& e) {
   return out + "\n";
 }
 
+/// What run-out does to a path for the mean radius.
+std::string overcut_line(const fit::WheelEvaluation& e) {
+  if (e.radius != fit::RadiusChoice::kMean || !e.wheel.runout) return {};
+  return fmt::format(
+      "  overcut   {:.3f} um: the highest point cuts deeper than the mean radius; --radius "
+      "effective "
+      "takes it into account\n",
+      um(e.wheel.runout->effective_radius_mm - e.wheel.radius_mm));
+}
+
 std::string forecast_lines(const fit::WheelForecast& f) {
   std::string out;
   if (f.nominal) {
@@ -95,7 +105,7 @@ std::string wheel_table(const fit::WheelEvaluation& evaluation, const fit::Wheel
     out += fmt::format("  robust    {} points dropped, scale {:.3f} um\n", m.dropped.size(),
                        um(m.outlier_scale_mm));
   }
-  if (evaluation.path) out += path_lines(evaluation);
+  if (evaluation.path) out += path_lines(evaluation) + overcut_line(evaluation);
   if (evaluation.forecast) out += forecast_lines(*evaluation.forecast);
   for (const core::Error& w : m.warnings) out += warning_line(w);
   if (evaluation.path) {

@@ -140,8 +140,14 @@ std::string path_part(const WheelFacts& facts) {
     return html + fmt::format(R"(<p class="banner alarm"><b>No path:</b> {}.</p>)",
                               in_sentence(e.refused->what));
   }
-  html += path_text(*e.path, e.radius) + wheel_path_plot(*e.path) +
-          load_chart(*e.path, facts.task.path->options.load_limit);
+  html += path_text(*e.path, e.radius);
+  if (e.radius == fit::RadiusChoice::kMean && e.wheel.runout) {
+    html += fmt::format(
+        R"(<p class="note">The path is for the mean radius: the farthest point from the axis cuts {} µm )"
+        "deeper.</p>",
+        um(e.wheel.runout->effective_radius_mm - e.wheel.radius_mm));
+  }
+  html += wheel_path_plot(*e.path) + load_chart(*e.path, facts.task.path->options.load_limit);
   return html + forecast_part(*e.forecast);
 }
 
