@@ -159,7 +159,7 @@ auto CenterZoneFitter<D>::fit_from(std::span<const Point> points_mm, const Point
   const CenterFrame<D> start(Point::Zero());
   if (!std::isfinite(round_off)) {
     ZoneFit<Point> out;
-    out.place = Point::Zero();
+    out.place = center_mm;
     out.ending = ZoneEnding::kNotFinite;
     return out;
   }
