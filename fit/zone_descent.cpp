@@ -29,10 +29,12 @@ std::size_t block_size(std::size_t count) {
   if (count < 4000) return 32;
   return K == 2 ? (count < 20000 ? 64 : 256) : (count < 20000 ? 32 : 128);
 }
-/// Candidates a side and pass: the first pass meets a place that is not yet good.
+/// Candidates a side and pass: the first pass meets a place that is not yet good, and more of them
+/// are cheap where a pass costs more.
 template <int K>
-std::size_t candidates(int pass) {
-  return K == 2 ? (pass == 1 ? 32 : 24) : (pass == 1 ? 128 : 48);
+std::size_t candidates(int pass, std::size_t blocks) {
+  if (K != 2) return pass == 1 ? 128 : 48;
+  return pass == 1 ? std::clamp<std::size_t>(blocks / 12, 32, 128) : 32;
 }
 
 }  // namespace
@@ -125,7 +127,7 @@ std::size_t ZoneDescent<Frame>::add_worst(Points points, const Point& origin, co
   for (std::size_t k = 0; k < extreme.size(); ++k) {
     if (high ? extreme[k] > limit * limit : extreme[k] < limit * limit) order_.push_back(k);
   }
-  const std::size_t most = std::min(order_.size(), candidates<K>(state.passes));
+  const std::size_t most = std::min(order_.size(), candidates<K>(state.passes, extreme.size()));
   const auto worse = [&](std::size_t a, std::size_t b) {
     if (extreme[a] != extreme[b]) return high == (extreme[a] > extreme[b]);
     return a < b;
