@@ -21,7 +21,8 @@ using core::Code;
 /// The quantities that a file holds, in rad and mm; nothing for one without its column.
 using Columns = std::vector<std::optional<std::vector<double>>>;
 
-core::Result<Columns> read_columns(const std::string& file, const std::vector<ContourQuantity>& quantities,
+core::Result<Columns> read_columns(const std::string& file,
+                                   const std::vector<ContourQuantity>& quantities,
                                    const std::vector<ContourColumn>& mapping, bool required) {
   const auto bytes = record::read_file(file);
   if (!bytes) return core::fail(bytes.error());

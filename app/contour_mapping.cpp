@@ -24,11 +24,14 @@ struct Unit {
   bool angle;
   double size;
 };
-constexpr std::array kUnits = {
-    Unit{"deg", true, core::kDegree},           Unit{"mdeg", true, 1e-3 * core::kDegree},
-    Unit{"arcsec", true, core::kDegree / 3600}, Unit{"rad", true, 1.0},
-    Unit{"mrad", true, 1e-3},                   Unit{"mm", false, 1.0},
-    Unit{"um", false, core::kMicrometre},       Unit{"nm", false, 1e-6}};
+constexpr std::array kUnits = {Unit{"deg", true, core::kDegree},
+                               Unit{"mdeg", true, 1e-3 * core::kDegree},
+                               Unit{"arcsec", true, core::kDegree / 3600},
+                               Unit{"rad", true, 1.0},
+                               Unit{"mrad", true, 1e-3},
+                               Unit{"mm", false, 1.0},
+                               Unit{"um", false, core::kMicrometre},
+                               Unit{"nm", false, 1e-6}};
 
 constexpr std::array kQuantities = {
     ContourQuantity{"c", "c_deg"},
@@ -88,16 +91,17 @@ core::Result<void> check(const ContourColumn& column) {
   if (column.unit.empty()) return {};
   const Unit* const unit = unit_named(column.unit);
   if (unit != nullptr && unit->angle == unit_of(*quantity).angle) return {};
-  return core::fail(Code::kBadOption,
-                    fmt::format("{} has the unit \"{}\"; it is {} (of {})", column.quantity,
-                                column.unit,
-                                unit == nullptr ? "none that is known"
-                                                : (unit->angle ? "one of angles" : "one of lengths"),
-                                names_of(kUnits)));
+  return core::fail(
+      Code::kBadOption,
+      fmt::format("{} has the unit \"{}\"; it is {} (of {})", column.quantity, column.unit,
+                  unit == nullptr ? "none that is known"
+                                  : (unit->angle ? "one of angles" : "one of lengths"),
+                  names_of(kUnits)));
 }
 
 core::Result<ContourColumn> column_of(const plans::JsonMember& member, const std::string& file) {
-  const std::string place = fmt::format("{}#{}", file, plans::member_pointer("/columns", member.key));
+  const std::string place =
+      fmt::format("{}#{}", file, plans::member_pointer("/columns", member.key));
   ContourColumn out;
   out.quantity = member.key;
   if (member.value.kind != plans::JsonValue::Kind::kObject) {

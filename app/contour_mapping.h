@@ -38,7 +38,8 @@ struct ContourReading {
 /// @return kBadOption for a quantity, unit or sign that does not exist.
 [[nodiscard]] core::Result<ContourColumn> parse_contour_column(std::string_view text);
 
-/// Reads a mapping file: {"columns": {"x_error": {"column": "X_FOLLOW", "unit": "um", "sign": -1}}}.
+/// Reads a mapping file: {"columns": {"x_error": {"column": "X_FOLLOW", "unit": "um", "sign":
+/// -1}}}.
 /// @return kFile, kSyntax, kMissingKey, kUnknownKey, kWrongType, kBadOption with the JSON pointer.
 [[nodiscard]] core::Result<std::vector<ContourColumn>> read_contour_mapping(
     const std::string& file);

@@ -19,7 +19,8 @@ double deg(double rad) { return rad / core::kDegree; }
 std::string head(const fit::ContourStudy& study, const fit::ContourStudyOptions& options) {
   const fit::CrankGeometry& g = options.geometry;
   std::string out = fmt::format(
-      "crank pins, {} part{}, method {}\n  crank radius {} mm, wheel radius {} mm, pin radius {} mm\n",
+      "crank pins, {} part{}, method {}\n  crank radius {} mm, wheel radius {} mm, pin radius {} "
+      "mm\n",
       study.parts.size(), study.parts.size() == 1 ? "" : "s", fit::name_of(options.method),
       g.crank_radius_mm, g.wheel_radius_mm, g.pin_radius_mm);
   if (options.error.filter.filter != fit::ProfileFilter::kNone) {
@@ -41,10 +42,10 @@ std::string part_lines(const fit::ContourPartResult& part, const std::string& na
   out += line("n, not following", part.direct.rest_mm);
   if (part.main) out += line("main journal", part.main->contour.error_mm);
   const fit::ContourSeparation& d = part.direct;
-  out += fmt::format(
-      "    balance um^2: {:.4f} = {:.4f} + {:.4f} {} {:.4f}; n {} the total\n", um2(d.total_mm2),
-      um2(d.following_mm2), um2(d.rest_mm2), d.cross_mm2 < 0.0 ? '-' : '+',
-      std::abs(um2(d.cross_mm2)), d.enlarges() ? "enlarges" : "reduces");
+  out += fmt::format("    balance um^2: {:.4f} = {:.4f} + {:.4f} {} {:.4f}; n {} the total\n",
+                     um2(d.total_mm2), um2(d.following_mm2), um2(d.rest_mm2),
+                     d.cross_mm2 < 0.0 ? '-' : '+', std::abs(um2(d.cross_mm2)),
+                     d.enlarges() ? "enlarges" : "reduces");
   if (part.indirect) {
     out += fmt::format("    indirect: correlation with f {:.4f}, rms difference {:.4f} um\n",
                        part.indirect->correlation, um(part.indirect->rms_difference_mm));

@@ -10,6 +10,7 @@
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "app/wheel_command.h"
+#include "core/numbers.h"
 #include "core/version.h"
 #include "plans/simulation_table.h"
 #include "reports/exports.h"
@@ -39,6 +40,14 @@ std::string check_seed(const std::string& text) {
                       text.find_first_not_of("0123456789") == std::string::npos;
   if (digits && std::stod(text) <= plans::kMaxSeed) return {};
   return fmt::format("{} is not a whole number from 0 to {:.0f}", text, plans::kMaxSeed);
+}
+
+/// How many times faster than a real machine.
+std::string check_speed(const std::string& text) {
+  if (text == "inf") return {};
+  const auto factor = core::parse_number(text);
+  if (factor && *factor >= 1e-3 && *factor <= 1e6) return {};
+  return fmt::format("{} is neither inf nor a number from 0.001 to 1000000", text);
 }
 
 void add_validate(CLI::App& app, ValidateArguments& arguments) {
@@ -236,7 +245,8 @@ void add_contour(CLI::App& fit_verb, ContourArguments& arguments) {
       "  pin, main   angle_deg, deviation_um: one turn, steps of at most 1 deg\n"
       "Quantities of a mapping: c, c_error, x_error, alpha_cmd, d_cmd, alpha_act, d_act, angle,\n"
       "deviation, main_angle, main_deviation. Units: deg, mdeg, arcsec, rad, mrad; mm, um, nm.\n"
-      "As a file: {\"columns\": {\"x_error\": {\"column\": \"X_FOLLOW\", \"unit\": \"um\", \"sign\": "
+      "As a file: {\"columns\": {\"x_error\": {\"column\": \"X_FOLLOW\", \"unit\": \"um\", "
+      "\"sign\": "
       "-1}}}\n"
       "\nExample:\n"
       "  rondure fit contour --axes tests/data/spec_contour/axes1.csv --pin "
@@ -252,6 +262,30 @@ void add_selftest(CLI::App& fit_verb, SelfTestArguments& arguments) {
       "filter-selftest", "Measures the transmission of the Gaussian filter: 0 passed, 2 failed");
   verb->add_option("--cutoff-upr", arguments.cutoff_upr, "Cut-off of the table (default: 50)");
   verb->footer("\nExample: rondure fit filter-selftest --cutoff-upr 15");
+}
+
+void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
+  auto* verb = app.add_subcommand(
+      "simulate-cmm",
+      "Serves the virtual machine of a plan over I++ DME, for one client at a time");
+  verb->add_option("PLAN", arguments.plan, "Plan file (JSON) with a simulation")->required();
+  verb->add_option("--port", arguments.port, "TCP port (default: 1294); 0: any free one");
+  verb->add_option("--listen", arguments.address,
+                   "Address to listen at (default: 127.0.0.1, this computer only)")
+      ->type_name("ADDRESS");
+  verb->add_option("--speed", arguments.speed,
+                   "How much faster than a real machine (default: 1); inf: motions take no time")
+      ->check(check_speed)
+      ->type_name("FACTOR");
+  verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
+      ->check(check_seed);
+  verb->add_flag("--as-seen", arguments.as_seen,
+                 "Answers as another server was seen to where that differs from the specification");
+  verb->add_option("--wire-log", arguments.wire_log, "Every line both ways, added to this file")
+      ->type_name("FILE");
+  verb->footer(
+      "\nExample: rondure simulate-cmm plans/examples/01_spool_simulated.json --speed inf\n"
+      "Any I++ DME client can be tried against it. What it speaks: docs/ipp-dme-server.md");
 }
 
 void add_report(CLI::App& app, ReportArguments& arguments) {
@@ -358,6 +392,7 @@ int main_of(int argc, char** argv) {
   ValidateArguments validate_arguments;
   PlanArguments plan_arguments;
   RunArguments run_arguments;
+  SimulateCmmArguments simulate_arguments;
   FitArguments fit_arguments;
   RoundnessArguments roundness_arguments;
   SelfTestArguments selftest_arguments;
@@ -370,6 +405,7 @@ int main_of(int argc, char** argv) {
   add_validate(app, validate_arguments);
   add_plan(app, plan_arguments);
   add_run(app, run_arguments);
+  add_simulate_cmm(app, simulate_arguments);
   CLI::App* const fit_verb = add_fit(app, fit_arguments);
   add_roundness(*fit_verb, roundness_arguments);
   add_contour(*fit_verb, contour_arguments);
@@ -386,6 +422,7 @@ int main_of(int argc, char** argv) {
   }
   if (app.got_subcommand("validate")) return validate(validate_arguments);
   if (app.got_subcommand("run")) return run(run_arguments);
+  if (app.got_subcommand("simulate-cmm")) return simulate_cmm(simulate_arguments);
   if (app.got_subcommand("plan")) return plan(plan_arguments);
   if (fit_verb->got_subcommand("roundness")) return roundness(roundness_arguments);
   if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);

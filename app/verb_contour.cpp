@@ -57,14 +57,14 @@ core::Result<std::vector<ContourColumn>> mapping_of(const ContourArguments& argu
 
 core::Result<void> check_counts(const ContourArguments& arguments) {
   const std::size_t parts = arguments.axes.size();
-  if (arguments.pin.size() == parts &&
-      (arguments.main.empty() || arguments.main.size() == parts)) {
+  if (arguments.pin.size() == parts && (arguments.main.empty() || arguments.main.size() == parts)) {
     return {};
   }
-  return core::fail(core::Code::kBadOption,
-                    fmt::format("{} files for --axes, {} for --pin and {} for --main; one of each a "
-                                "part, or no main journals",
-                                parts, arguments.pin.size(), arguments.main.size()));
+  return core::fail(
+      core::Code::kBadOption,
+      fmt::format("{} files for --axes, {} for --pin and {} for --main; one of each a "
+                  "part, or no main journals",
+                  parts, arguments.pin.size(), arguments.main.size()));
 }
 
 /// All parts of the command line.

@@ -133,7 +133,7 @@ int wheel(const WheelArguments& arguments) {
     }
   }
   // The wheel is measured even where the surface cannot be ground with it.
-  say(arguments.json ? reports::wheel_json(*evaluation, *task, true).dump(1) + "\n"
+  say(arguments.json ? reports::wheel_json(*evaluation, *task).dump(1) + "\n"
                      : wheel_table(*evaluation, *task));
   return evaluation->refused ? refuse(*evaluation->refused, {}) : kAllWell;
 }

@@ -47,6 +47,17 @@ struct RunArguments {
 };
 [[nodiscard]] int run(const RunArguments& arguments);
 
+struct SimulateCmmArguments {
+  std::string plan;
+  std::uint16_t port = 1294;
+  std::string address = "127.0.0.1";
+  double speed = 1.0;  ///< Simulated seconds in a second; infinity: no waiting.
+  std::optional<std::uint64_t> seed;
+  bool as_seen = false;  ///< Answers as an independent server does where that differs.
+  std::string wire_log;  ///< File; empty: none.
+};
+[[nodiscard]] int simulate_cmm(const SimulateCmmArguments& arguments);
+
 struct ReportArguments {
   std::string directory;
   std::vector<std::string> formats;

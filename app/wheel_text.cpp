@@ -55,13 +55,24 @@ std::string path_lines(const fit::WheelEvaluation& e) {
   std::string out = fmt::format(
       "  path      {} places for the {} radius {:.6f} mm, step {:.6g} mm, cusps up to {:.3f} um, z "
       "of the wheel's {}\n"
-      "            R k_s at most {:.4f}, at x = {:.4f} mm",
+      "            R k_s at most {:.4f}, at x = {:.4g} mm",
       path.rows.size(), name_of(e.radius), path.radius_mm, path.step_mm, um(path.cusp_mm),
-      path.lowest_point ? "lowest point" : "centre", path.load.load, path.load.x_mm + 0.0);
+      path.lowest_point ? "lowest point" : "centre", path.load.load,
+      std::round(path.load.x_mm * 1e4) / 1e4 + 0.0);
   if (path.load.load > 0.0) {
     out += fmt::format(" (concave radius {:.4f} mm)", path.load.concave_radius_mm(path.radius_mm));
   }
   return out + "\n";
+}
+
+/// What run-out does to a path for the mean radius.
+std::string overcut_line(const fit::WheelEvaluation& e) {
+  if (e.radius != fit::RadiusChoice::kMean || !e.wheel.runout) return {};
+  return fmt::format(
+      "  overcut   {:.3f} um: the highest point cuts deeper than the mean radius; --radius "
+      "effective "
+      "takes it into account\n",
+      um(e.wheel.runout->effective_radius_mm - e.wheel.radius_mm));
 }
 
 std::string forecast_lines(const fit::WheelForecast& f) {
@@ -94,7 +105,7 @@ std::string wheel_table(const fit::WheelEvaluation& evaluation, const fit::Wheel
     out += fmt::format("  robust    {} points dropped, scale {:.3f} um\n", m.dropped.size(),
                        um(m.outlier_scale_mm));
   }
-  if (evaluation.path) out += path_lines(evaluation);
+  if (evaluation.path) out += path_lines(evaluation) + overcut_line(evaluation);
   if (evaluation.forecast) out += forecast_lines(*evaluation.forecast);
   for (const core::Error& w : m.warnings) out += warning_line(w);
   if (evaluation.path) {

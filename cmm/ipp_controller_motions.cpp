@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
+#include "cmm/ipp_arguments.h"
 #include "cmm/ipp_controller.h"
 #include "cmm/ipp_errors.h"
 #include "cmm/scan_path.h"
@@ -19,12 +20,7 @@ namespace {
 using Arguments = std::vector<Item>;
 using Eigen::Vector3d;
 
-constexpr double kThere_mm = 1e-6;            // the tip stands where it shall be
-constexpr std::size_t kNumbersInALine = 400;  // of a scan: some 8000 characters
-
-tl::unexpected<Failure> fail(int number, std::string what) {
-  return tl::unexpected(Failure{number, std::move(what)});
-}
+constexpr double kThere_mm = 1e-6;  // the tip stands where it shall be
 
 /// All arguments as numbers.
 std::optional<std::vector<double>> numbers(const Arguments& arguments) {
@@ -72,7 +68,7 @@ Failure Controller::failure_of(const core::Error& error, std::string_view method
 }
 
 tl::expected<void, Failure> Controller::ready_to_move() {
-  if (!is_homed()) return fail(kUnableToMove, "the machine is not homed; send Home() first");
+  if (!is_homed()) return refusal(kUnableToMove, "the machine is not homed; send Home() first");
   user_enabled_ = false;
   return {};
 }
@@ -86,15 +82,15 @@ tl::expected<Vector3d, Failure> Controller::position_argument(const Arguments& a
     const auto value = item.kind == Item::Kind::kCall ? single_number(item) : std::nullopt;
     const bool axis = item.text == "X" || item.text == "Y" || item.text == "Z";
     if (!value || !axis) {
-      return fail(kIncorrectArguments,
-                  fmt::format("{} names no axis with a number", to_text(item)));
+      return refusal(kIncorrectArguments,
+                     fmt::format("{} names no axis with a number", to_text(item)));
     }
     const auto index = static_cast<std::size_t>(item.text[0] - 'X');
-    if (named[index]) return fail(kIncorrectArguments, item.text + " is there twice");
+    if (named[index]) return refusal(kIncorrectArguments, item.text + " is there twice");
     named[index] = true;
     p_mm[static_cast<Eigen::Index>(index)] = *value;
   }
-  if (!named[0] && !named[1] && !named[2]) return fail(kIncorrectArguments, "no axis is named");
+  if (!named[0] && !named[1] && !named[2]) return refusal(kIncorrectArguments, "no axis is named");
   return Vector3d(X_CW_.inverse() * p_mm);
 }
 
@@ -108,7 +104,7 @@ tl::expected<Motion, Failure> Controller::plan_motion(const Command& command) {
 }
 
 tl::expected<Motion, Failure> Controller::plan_home(const Arguments& arguments) {
-  if (!arguments.empty()) return fail(kIncorrectArguments, "the arguments are not ()");
+  if (!arguments.empty()) return refusal(kIncorrectArguments, "the arguments are not ()");
   user_enabled_ = false;
   Motion out;
   out.phases.push_back({{}, [this]() -> core::Result<std::vector<Vector3d>> {
@@ -135,17 +131,17 @@ tl::expected<Motion, Failure> Controller::plan_go_to(const Arguments& arguments)
 }
 
 tl::expected<Motion, Failure> Controller::plan_touch(const Arguments& arguments) {
-  if (tool_.empty()) return fail(kToolNotDefined, "no tool is active; send ChangeTool first");
+  if (tool_.empty()) return refusal(kToolNotDefined, "no tool is active; send ChangeTool first");
   auto nominal = position_argument(arguments, true);
   if (!nominal) return tl::unexpected(std::move(nominal.error()));
   Vector3d outward_W = machine().position_W_mm() - *nominal;
   if (const Item* ijk = find_call(arguments, "IJK")) {
     const auto direction = vector_of(*ijk);
-    if (!direction) return fail(kIncorrectArguments, "IJK has not three numbers");
+    if (!direction) return refusal(kIncorrectArguments, "IJK has not three numbers");
     outward_W = X_CW_.linear().transpose() * *direction;
   }
   if (!has_direction(outward_W)) {
-    return fail(kNoNorm, "the direction of the touch has no length");
+    return refusal(kNoNorm, "the direction of the touch has no length");
   }
   TouchCommand touch;
   touch.expected_tip_W_mm = *nominal;
@@ -183,21 +179,22 @@ Motion Controller::touch_motion(const TouchCommand& touch) {
 }
 
 tl::expected<Motion, Failure> Controller::plan_scan(const Arguments& arguments) {
-  if (tool_.empty()) return fail(kToolNotDefined, "no tool is active; send ChangeTool first");
+  if (tool_.empty()) return refusal(kToolNotDefined, "no tool is active; send ChangeTool first");
   const auto n = numbers(arguments);
-  if (!n || n->size() != 12) return fail(kIncorrectArguments, "the arguments are not 12 numbers");
+  if (!n || n->size() != 12)
+    return refusal(kIncorrectArguments, "the arguments are not 12 numbers");
   const double delta_deg = (*n)[9];
   const double surface_deg = (*n)[10];
   const double step_deg = (*n)[11];
   const Vector3d normal = three(*n, 6);
-  if (!has_direction(normal)) return fail(kNoNorm, "the normal of the circle has no length");
+  if (!has_direction(normal)) return refusal(kNoNorm, "the normal of the circle has no length");
   if (surface_deg != 0.0 && surface_deg != 180.0) {
-    return fail(kNotSupported, "only the surface angles 0 (outside) and 180 (inside) are there");
+    return refusal(kNotSupported, "only the surface angles 0 (outside) and 180 (inside) are there");
   }
   const double count = std::round(std::abs(delta_deg) / step_deg);
   if (!(step_deg > 0.0) || !(count >= 1.0) || count > kMaxScanPoints) {
-    return fail(kBadArgument, fmt::format("{} deg in steps of {} deg are not 1..{} points",
-                                          delta_deg, step_deg, kMaxScanPoints));
+    return refusal(kBadArgument, fmt::format("{} deg in steps of {} deg are not 1..{} points",
+                                             delta_deg, step_deg, kMaxScanPoints));
   }
   const Eigen::Isometry3d X_WC = X_CW_.inverse();
   ScanCircleCommand scan;
@@ -210,7 +207,7 @@ tl::expected<Motion, Failure> Controller::plan_scan(const Arguments& arguments) 
   scan.approach_mm = parameters_.act("PtMeasPar.Approach");
   scan.search_mm = parameters_.act("PtMeasPar.Search");
   if (scan.points >= 3) {
-    if (auto sound = check_scan(scan); !sound) return fail(kBadArgument, sound.error().what);
+    if (auto sound = check_scan(scan); !sound) return refusal(kBadArgument, sound.error().what);
   }
   return scan_motion(scan);
 }
@@ -241,14 +238,14 @@ Motion Controller::scan_motion(const ScanCircleCommand& scan) {
 tl::expected<Motion, Failure> Controller::plan_align(const Arguments& arguments) {
   const auto n = numbers(arguments);
   if (!n || (n->size() != 7 && n->size() != 14)) {
-    return fail(kIncorrectArguments, "the arguments are not 7 or 14 numbers");
+    return refusal(kIncorrectArguments, "the arguments are not 7 or 14 numbers");
   }
   const std::size_t pairs = n->size() / 7;
   std::vector<Alignment> wanted;
   for (std::size_t i = 0; i < pairs; ++i) {
     wanted.push_back({three(*n, 6 * i), three(*n, 6 * i + 3)});
     if (!has_direction(wanted[i].part) || !has_direction(wanted[i].machine)) {
-      return fail(kNoNorm, "a vector of the alignment has no length");
+      return refusal(kNoNorm, "a vector of the alignment has no length");
     }
     wanted[i].part = direction_on_grid(wanted[i].part);
     wanted[i].machine = direction_on_grid(wanted[i].machine);
@@ -256,7 +253,7 @@ tl::expected<Motion, Failure> Controller::plan_align(const Arguments& arguments)
   const std::vector<double> limits_deg(n->begin() + static_cast<std::ptrdiff_t>(6 * pairs),
                                        n->end());
   if (backend_.table_angles_deg().empty()) {
-    return fail(kUnsupportedCommand, "the machine has no rotary table");
+    return refusal(kUnsupportedCommand, "the machine has no rotary table");
   }
   const auto reached = std::make_shared<std::vector<Vector3d>>();
   Motion out;
@@ -270,71 +267,6 @@ tl::expected<Motion, Failure> Controller::plan_align(const Arguments& arguments)
   out.reply = [this, wanted, limits_deg, reached] {
     return align_reply(wanted, limits_deg, *reached);
   };
-  return out;
-}
-
-Reply Controller::align_reply(const std::vector<Alignment>& wanted,
-                              const std::vector<double>& limits_deg,
-                              const std::vector<Vector3d>& reached) const {
-  Reply out;
-  out.lines.emplace_back();
-  for (std::size_t i = 0; i < reached.size() && i < wanted.size(); ++i) {
-    const Vector3d& v = reached[i];
-    const Item vector = call_item("", v);
-    if (seen()) {
-      out.lines[0].push_back(vector);
-    } else {
-      out.lines[0].insert(out.lines[0].end(), vector.arguments.begin(), vector.arguments.end());
-    }
-    const double off_deg =
-        std::atan2(v.cross(wanted[i].machine).norm(), v.dot(wanted[i].machine)) / core::kDegree;
-    if (limits_deg[i] > 0.0 && off_deg > limits_deg[i]) out.report = kNotAligned;
-  }
-  return out;
-}
-
-std::vector<double> Controller::report_values(const std::string& name, const TouchReading& reading,
-                                              const Vector3d& direction_W) const {
-  if (name == "X" || name == "Y" || name == "Z") {
-    return {(X_CW_ * reading.tip_W_mm)[name[0] - 'X']};
-  }
-  if (name == "IJK") {
-    const Vector3d ijk = X_CW_.linear() * direction_W;
-    return {ijk.x(), ijk.y(), ijk.z()};
-  }
-  if (name == "ER") {
-    return {reading.tip_radius_mm > 0.0 ? reading.tip_radius_mm : options_.tip_radius_mm};
-  }
-  if (name == "Part.Temperature") return {reading.temperature_degC};
-  if (name == "Scale.Temperature") return {reading.scale_temperature_degC};
-  if (name == "Time") return {reading.time_s};
-  return {0.0};  // Q: every simulated point is good
-}
-
-Reply Controller::touch_reply(const TouchReading& reading, const Vector3d& direction_W) const {
-  Reply out;
-  out.lines.emplace_back();
-  for (const std::string& name : in_order(touch_report_)) {
-    std::vector<Item> values;
-    for (const double value : report_values(name, reading, direction_W)) {
-      values.push_back(number_item(value));
-    }
-    out.lines[0].push_back(call_item(name, std::move(values)));
-  }
-  return out;
-}
-
-Reply Controller::scan_reply(const std::vector<TouchReading>& readings) const {
-  Reply out;
-  const std::vector<std::string> columns = in_order(scan_report_);
-  for (const TouchReading& reading : readings) {
-    if (out.lines.empty() || out.lines.back().size() + columns.size() > kNumbersInALine) {
-      out.lines.emplace_back();
-    }
-    for (const std::string& name : columns) {
-      out.lines.back().push_back(number_item(report_values(name, reading, {})[0]));
-    }
-  }
   return out;
 }
 

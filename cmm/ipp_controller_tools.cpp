@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cmm/ipp_arguments.h"
 #include "cmm/ipp_controller.h"
 #include "cmm/ipp_errors.h"
 
@@ -17,12 +18,7 @@ constexpr std::string_view kNoTool = "NoTool";
 constexpr std::string_view kTool = "Tool.";
 constexpr std::string_view kFoundTool = "FoundTool.";
 constexpr std::string_view kSimulation = "Simulation.";
-constexpr std::size_t kMaxNames = 64;   // in one command, so that an answer fits into a line
 constexpr double kLargestCount = 9e15;  // a double holds every whole number up to here
-
-tl::unexpected<Failure> fail(int number, std::string what) {
-  return tl::unexpected(Failure{number, std::move(what)});
-}
 
 struct PropertyName {
   std::string_view name;
@@ -64,7 +60,7 @@ std::optional<std::string> prefix_of(const Arguments& arguments) {
 }  // namespace
 
 Outcome Controller::enum_tools(const Arguments& arguments) {
-  if (!arguments.empty()) return fail(kIncorrectArguments, "the arguments are not ()");
+  if (!arguments.empty()) return refusal(kIncorrectArguments, "the arguments are not ()");
   Reply out;
   out.lines.push_back({string_item(kNoTool)});
   for (const std::string& tool : machine().capabilities().tools) {
@@ -75,10 +71,10 @@ Outcome Controller::enum_tools(const Arguments& arguments) {
 
 Outcome Controller::find_tool(const Arguments& arguments) {
   const auto name = arguments.size() == 1 ? string_of(arguments[0]) : std::nullopt;
-  if (!name) return fail(kIncorrectArguments, "the argument is not a name in quotes");
+  if (!name) return refusal(kIncorrectArguments, "the argument is not a name in quotes");
   const std::vector<std::string> tools = machine().capabilities().tools;
   if (*name != kNoTool && std::find(tools.begin(), tools.end(), *name) == tools.end()) {
-    return fail(kToolNotFound, fmt::format("there is no tool \"{}\"", *name));
+    return refusal(kToolNotFound, fmt::format("there is no tool \"{}\"", *name));
   }
   found_tool_ = *name;
   return Reply{};
@@ -137,16 +133,16 @@ std::optional<Item> Controller::property(const std::string& name) const {
 Outcome Controller::get_properties(const Arguments& arguments) {
   Reply out;
   out.lines.emplace_back();
-  if (arguments.size() > kMaxNames) return fail(kIncorrectArguments, "too many properties");
+  if (arguments.size() > kMaxNames) return refusal(kIncorrectArguments, "too many properties");
   for (const Item& item : arguments) {
     if (item.kind != Item::Kind::kCall || !item.arguments.empty()) {
-      return fail(kIncorrectArguments, "the arguments are not properties, as Tool.Name()");
+      return refusal(kIncorrectArguments, "the arguments are not properties, as Tool.Name()");
     }
     auto value = property(item.text);
-    if (!value) return fail(kBadProperty, fmt::format("there is no property {}", item.text));
+    if (!value) return refusal(kBadProperty, fmt::format("there is no property {}", item.text));
     out.lines[0].push_back(std::move(*value));
   }
-  if (out.lines[0].empty()) return fail(kIncorrectArguments, "no property is named");
+  if (out.lines[0].empty()) return refusal(kIncorrectArguments, "no property is named");
   return out;
 }
 
@@ -188,17 +184,17 @@ int Controller::set_property(const std::string& name, double value) {
 
 Outcome Controller::set_properties(const Arguments& arguments) {
   Reply out;
-  if (arguments.empty()) return fail(kIncorrectArguments, "no property is named");
+  if (arguments.empty()) return refusal(kIncorrectArguments, "no property is named");
   for (const Item& item : arguments) {
     const auto value = item.kind == Item::Kind::kCall ? single_number(item) : std::nullopt;
     if (!value) {
-      return fail(kIncorrectArguments, "the arguments are not properties with a number");
+      return refusal(kIncorrectArguments, "the arguments are not properties with a number");
     }
     const int number = set_property(item.text, *value);
     if (number == kOutOfRange) {
       out.report = number;
     } else if (number != 0) {
-      return fail(number, fmt::format("{} cannot be set to {}", item.text, *value));
+      return refusal(number, fmt::format("{} cannot be set to {}", item.text, *value));
     }
   }
   if (auto set = machine().set_speeds(parameters_.speeds()); !set) {
@@ -209,14 +205,14 @@ Outcome Controller::set_properties(const Arguments& arguments) {
 
 Outcome Controller::enum_all_properties(const Arguments& arguments) {
   const auto prefix = prefix_of(arguments);
-  if (!prefix) return fail(kIncorrectArguments, "the argument is not a property, as Tool()");
+  if (!prefix) return refusal(kIncorrectArguments, "the argument is not a property, as Tool()");
   Reply out;
   for (const auto& [name, type] : property_list(parameters_)) {
     if (name.starts_with(*prefix)) {
       out.lines.push_back(pair_of_strings(name.substr(prefix->size()), type));
     }
   }
-  if (out.lines.empty()) return fail(kBadProperty, "nothing is below this property");
+  if (out.lines.empty()) return refusal(kBadProperty, "nothing is below this property");
   return out;
 }
 

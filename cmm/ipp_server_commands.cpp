@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cmm/ipp_arguments.h"
 #include "cmm/ipp_errors.h"
 #include "cmm/ipp_server.h"
 
@@ -12,10 +13,6 @@ namespace rondure::cmm::ipp {
 namespace {
 
 constexpr double kLeastInterval_s = 0.1;  // at most ten lines a second
-
-tl::unexpected<Failure> fail(int number, std::string what) {
-  return tl::unexpected(Failure{number, std::move(what)});
-}
 
 std::optional<Tag> tag_argument(const Command& command) {
   if (command.arguments.size() != 1 || command.arguments[0].kind != Item::Kind::kName) {
@@ -40,7 +37,7 @@ Server::Outcome Server::execute(const Command& command) {
     if (entry.method != command.method) continue;
     const bool takes_tag = entry.method == "StopDaemon";
     if (!takes_tag && !command.arguments.empty()) {
-      return fail(kIncorrectArguments, "the arguments are not ()");
+      return refusal(kIncorrectArguments, "the arguments are not ()");
     }
     return (this->*entry.handler)(command);
   }
@@ -50,7 +47,7 @@ Server::Outcome Server::execute(const Command& command) {
 Server::Outcome Server::start_session(const Command&) {
   if (session_) {
     const bool seen = controller_.options().manner == Manner::kSeen;
-    return fail(seen ? kIllegalCommand : kProtocolError, "a session is open already");
+    return refusal(seen ? kIllegalCommand : kProtocolError, "a session is open already");
   }
   session_ = true;
   error_.reset();
@@ -68,7 +65,7 @@ Server::Outcome Server::end_session(const Command&) {
 
 Server::Outcome Server::clear_all_errors(const Command&) {
   if (auto recovered = controller_.recover(); !recovered) {
-    return fail(kMachineInErrorState, recovered.error().what);
+    return refusal(kMachineInErrorState, recovered.error().what);
   }
   error_.reset();
   return Reply{};
@@ -90,11 +87,11 @@ Server::Outcome Server::extended_status(const Command&) {
 
 Server::Outcome Server::stop_daemon(const Command& command) {
   const auto tag = tag_argument(command);
-  if (!tag) return fail(kIncorrectArguments, "the argument is not the tag of a daemon");
+  if (!tag) return refusal(kIncorrectArguments, "the argument is not the tag of a daemon");
   const auto found = std::find_if(daemons_.begin(), daemons_.end(),
                                   [&](const Daemon& daemon) { return daemon.tag == *tag; });
   if (found == daemons_.end()) {
-    return fail(kNoSuchDaemon, fmt::format("there is no daemon {}", to_text(*tag)));
+    return refusal(kNoSuchDaemon, fmt::format("there is no daemon {}", to_text(*tag)));
   }
   daemons_.erase(found);
   return Reply{};
@@ -117,14 +114,14 @@ void Server::receive_event(const Waiting& waiting, double now_s) {
   if (command.method == "GetPropE") return conclude(waiting, controller_.execute(command));
   if (command.method == "OnMoveReportE") return conclude(waiting, add_daemon(command, now_s));
   if (!command.arguments.empty()) {
-    return conclude(waiting, fail(kIncorrectArguments, "the arguments are not ()"));
+    return conclude(waiting, refusal(kIncorrectArguments, "the arguments are not ()"));
   }
   if (command.method == "AbortE") return abort_all(waiting, now_s);
   if (command.method == "GetErrStatusE") {
     const Item status = call_item("ErrStatus", {error_ ? 1.0 : 0.0});
     return conclude(waiting, Reply{{{status}}, 0});
   }
-  conclude(waiting, fail(kUnsupportedCommand, command.method + " is not supported"));
+  conclude(waiting, refusal(kUnsupportedCommand, command.method + " is not supported"));
 }
 
 void Server::abort_all(const Waiting& waiting, double now_s) {
@@ -155,7 +152,7 @@ Server::Outcome Server::add_daemon(const Command& command, double now_s) {
     } else if (item.kind == Item::Kind::kCall && item.arguments.empty()) {
       daemon.names.push_back(item.text);
     } else {
-      return fail(kIncorrectArguments, to_text(item) + " is no argument of OnMoveReportE");
+      return refusal(kIncorrectArguments, to_text(item) + " is no argument of OnMoveReportE");
     }
   }
   if (std::isinf(daemon.interval_s) && std::isinf(daemon.distance_mm)) {
@@ -165,12 +162,12 @@ Server::Outcome Server::add_daemon(const Command& command, double now_s) {
   daemon.last_W_mm = tip_now_W_mm(now_s);
   const auto values = controller_.position_report(daemon.names, daemon.last_W_mm);
   if (!values) return tl::unexpected(values.error());
-  if (daemon.names.empty()) return fail(kIncorrectArguments, "nothing is to be reported");
+  if (daemon.names.empty()) return refusal(kIncorrectArguments, "nothing is to be reported");
   const bool exists = std::any_of(daemons_.begin(), daemons_.end(),
                                   [&](const Daemon& other) { return other.tag == daemon.tag; });
-  if (exists) return fail(kDaemonExists, to_text(daemon.tag) + " is a daemon already");
+  if (exists) return refusal(kDaemonExists, to_text(daemon.tag) + " is a daemon already");
   if (daemons_.size() >= kMaxDaemons) {
-    return fail(kNotSupported, fmt::format("there are {} daemons already", kMaxDaemons));
+    return refusal(kNotSupported, fmt::format("there are {} daemons already", kMaxDaemons));
   }
   daemons_.push_back(std::move(daemon));
   return out;

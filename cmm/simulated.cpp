@@ -11,6 +11,7 @@
 #include "cmm/machine_map.h"
 #include "cmm/scan_path.h"
 #include "core/noise.h"
+#include "core/units.h"
 
 namespace rondure::cmm {
 namespace {
@@ -340,7 +341,9 @@ core::Result<std::vector<TouchReading>> SimulatedMachine::scan_circle(
     readings.push_back(reading_at(found, touch, scan_time_s(command, i)));
   }
   settle(command, readings.back());
-  position_W_mm_ = on_grid_mm(start_of(scan_point(command, command.points)));
+  // Full turns end where they began, to the last bit.
+  const bool full_turns = std::abs(std::remainder(command.sweep_rad, core::kTwoPi)) < 1e-9;
+  if (!full_turns) position_W_mm_ = on_grid_mm(start_of(scan_point(command, command.points)));
   return readings;
 }
 

@@ -31,19 +31,22 @@ Extremes CenterFrame<D>::linearise(const WorkingPoints<D>& points, ZoneRows<D>& 
   double* __restrict along_x = rows.gradients(0).data();
   double* __restrict along_y = rows.gradients(1).data();
   [[maybe_unused]] double* __restrict along_z = rows.gradients(D - 1).data();
-  const Point c = center_;
+  // Plain numbers: matrices of Eigen inside the loop keep it scalar too.
+  const double cx = center_[0];
+  const double cy = center_[1];
+  [[maybe_unused]] const double cz = center_[D - 1];
   for (std::size_t i = 0; i < count; ++i) {
-    const double x = c[0] - px[i];
-    const double y = c[1] - py[i];
+    const double x = cx - px[i];
+    const double y = cy - py[i];
     double square = x * x + y * y;
-    if constexpr (D == 3) square += (c[2] - pz[i]) * (c[2] - pz[i]);
+    if constexpr (D == 3) square += (cz - pz[i]) * (cz - pz[i]);
     const double r = std::sqrt(square);
     // At the centre every direction is alike.
     const double unit = r > 0.0 ? 1.0 / r : 0.0;
     distance[i] = r;
     along_x[i] = x * unit;
     along_y[i] = y * unit;
-    if constexpr (D == 3) along_z[i] = (c[2] - pz[i]) * unit;
+    if constexpr (D == 3) along_z[i] = (cz - pz[i]) * unit;
   }
   const ColumnExtremes extremes = column_extremes(rows.distances());
   return {extremes.low, extremes.high};

@@ -1,7 +1,9 @@
 #include "fit/enclosing_ball.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <Eigen/Dense>
 
@@ -30,7 +32,10 @@ Ball<D> EnclosingBall<D>::enclose(const WorkingPoints<D>& points, const Point& n
   while (out.exchanges < kExchangeLimit) {
     const std::size_t farthest = look(points);
     const double limit = std::sqrt(square_) + 2.0 * round_off;
-    out.solved = squares_.high <= limit * limit;
+    // A contact that is farthest itself is so by round-off.
+    const auto contacts = std::span(rows_).first(static_cast<std::size_t>(count_));
+    const bool known = std::find(contacts.begin(), contacts.end(), farthest) != contacts.end();
+    out.solved = known || squares_.high <= limit * limit;
     if (out.solved) break;
     append(points, farthest, 0.0);
     ++out.exchanges;

@@ -50,14 +50,15 @@ struct Descent {
 
 /// Goes from a place to a local minimum of  outer weight * max r - inner weight * min r  (minimum
 /// zone, minimum circumscribed, maximum inscribed): linear programmes inside a trust region, Newton
-/// on the stationarity equations of the contacts where curvature holds the place, and a way out of
-/// saddles.
+/// on the stationarity equations of the contacts where curvature holds the place, and ways out of
+/// saddles and of valleys that weak contacts close. Circumscribed circles and spheres need none of
+/// it: EnclosingBall.
 ///
 /// Up to kAllWorked points all are worked on. Of more, a sample is; then passes over all points add
 /// those that stick out farthest, at most one a block, until none does: the optimum of a subset
 /// that holds all points is the optimum of the whole. An object keeps its memory between calls.
 ///
-/// Cost: some 2 to 20 us up to 128 points; commonly two to four passes over more.
+/// Cost: some 0.3 to 10 us up to 128 points; commonly two to four passes over more.
 /// Sources: methods, cylindricity sections 9.3, 11.2 and 11.4; performance, the method in words.
 template <class Frame>
 class ZoneDescent {
@@ -99,9 +100,10 @@ class ZoneDescent {
   bool polish(Result& state);
   [[nodiscard]] Newton newton_step(const Result& state) const;
   [[nodiscard]] bool contacts_hold(const Result& state) const;
-  [[nodiscard]] bool held_by_contacts(const Result& state) const;
+  [[nodiscard]] Eigen::Matrix<double, K, 1> curvature_of(const Result& state) const;
+  void slip(Result& state);
   [[nodiscard]] Eigen::Matrix<double, K, 1> escape(const Result& state) const;
-  bool leave_saddle(Result& state, const Eigen::Matrix<double, K, 1>& descent);
+  bool leave_saddle(Result& state);
   [[nodiscard]] Extremes extremes(const Frame& frame);
   void name_rows(Contacts& contacts) const;
 

@@ -121,15 +121,24 @@ CylinderFrame frame_of(std::span<const Eigen::Vector3d> sample, const Axis& axis
   return {Axis{Eigen::Vector3d::Zero(), axis.direction}, std::max(half, round_off)};
 }
 
+/// The first `count` angles [rad].
+struct Tilts {
+  std::array<double, 3> angles{};
+  std::size_t count = 0;
+
+  [[nodiscard]] const double* begin() const { return angles.data(); }
+  [[nodiscard]] const double* end() const { return angles.data() + count; }
+};
+
 /// Tilts at which a search starts too, where several minima are to be feared: minimum zones of few
 /// points, or of part of the circumference, may have others far off; circumscribed and inscribed
 /// cylinders of few points have others close by.
-std::vector<double> other_tilts(std::span<const Eigen::Vector3d> points, const LsCylinder& start,
-                                const ZoneWeights& weights) {
+Tilts other_tilts(std::span<const Eigen::Vector3d> points, const LsCylinder& start,
+                  const ZoneWeights& weights) {
   if (weights.outer == 0.0 || weights.inner == 0.0) {
     if (points.size() > kSmall) return {};
     const double form = std::atan(start.deviation_mm / half_extent(points, start.axis.direction));
-    return {form, 4.0 * form};
+    return {{form, 4.0 * form}, 2};
   }
   if (points.size() >= kOneStart) return {};
   if (points.size() >= 12) {
@@ -141,7 +150,7 @@ std::vector<double> other_tilts(std::span<const Eigen::Vector3d> points, const L
     const auto section = std::span(flat).first(points.size());
     if (largest_gap_rad(section, Eigen::Vector2d::Zero()) <= kFullGap) return {};
   }
-  return {0.5 * core::kDegree, 2.0 * core::kDegree, 6.0 * core::kDegree};
+  return {{0.5 * core::kDegree, 2.0 * core::kDegree, 6.0 * core::kDegree}, 3};
 }
 
 double value_of(const CylinderZone& zone, const ZoneWeights& weights) {

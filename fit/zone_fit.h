@@ -45,6 +45,7 @@ using CylinderZone = ZoneFit<Axis>;
 /// Starts at the least-squares circle (algebraic), sphere or cylinder of at most some hundred
 /// points spread over the data; see ZoneDescent for the rest and the cost. Few points, or points on
 /// part of the circumference, may have several minima: then neighbouring axes are starts too.
+/// Circumscribed circles and spheres are convex and start anywhere.
 ///
 /// fit_from() starts at a place the caller knows; `ending` tells when it went farther than
 /// `limit_mm` from there. fit() returns the zone; or kNoPoints, kNotFinite (row), kTooFewPoints,

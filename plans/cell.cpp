@@ -12,4 +12,10 @@ core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan, const CellOption
   return std::make_unique<SimulatedCell>(plan, options.seed, options.resumed);
 }
 
+// A real machine keeps no state that depends on the past.
+core::Result<void> Cell::recall_scan(const cmm::ScanCircleCommand& /*command*/,
+                                     const cmm::TouchReading& /*last*/) {
+  return {};
+}
+
 }  // namespace rondure::plans

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -50,6 +51,9 @@ class Cell {
   /// checks: the clock goes on as if there had been no interruption.
   [[nodiscard]] virtual core::Result<void> recall_touch(const cmm::TouchCommand& command,
                                                         const cmm::TouchReading& reading) = 0;
+  /// A scan, by its last reading; otherwise like recall_touch().
+  [[nodiscard]] virtual core::Result<void> recall_scan(const cmm::ScanCircleCommand& command,
+                                                       const cmm::TouchReading& last);
   /// Homes machine and fixture and turns the part to where the last recalled turn left it; gives
   /// the pose that the fixture reads there.
   [[nodiscard]] virtual core::Result<core::Pose> home_again() = 0;
@@ -57,6 +61,8 @@ class Cell {
   /// Noise-free tip centre of the last touch, where the world is simulated in this program. For the
   /// truth that a simulation shows beside its result.
   [[nodiscard]] virtual std::optional<Eigen::Vector3d> true_tip_W_mm() const = 0;
+  /// The same for all points of the last scan; empty where the world is real.
+  [[nodiscard]] virtual std::vector<Eigen::Vector3d> true_scan_W_mm() const { return {}; }
 
  protected:
   /// @param plan  Has `fixture`.

@@ -127,9 +127,9 @@ core::Result<void> FeatureSession::locate_again() {
 core::Result<std::vector<Eigen::Vector3d>> FeatureSession::turn_and_touch(
     const core::Pose& commanded) {
   for (;;) {
-    if (auto turned = turn(commanded, targets_); !turned) return core::fail(turned.error());
+    if (auto turned = turn(commanded, reach_targets()); !turned) return core::fail(turned.error());
     truth_.clear();
-    auto tips = touch_cloud(targets_, record::Touch::Purpose::kMeasure);
+    auto tips = measure_cloud();
     if (tips || !context_.relocation_due) return tips;
     if (auto located = locate_again(); !located) return core::fail(located.error());
   }
@@ -144,7 +144,7 @@ core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
 core::Result<void> FeatureSession::repeat(int times) {
   for (int i = 0; i < times; ++i) {
     ++repeat_;
-    const auto tips = touch_cloud(targets_, record::Touch::Purpose::kMeasure);
+    const auto tips = measure_cloud();
     if (tips) continue;
     if (!context_.relocation_due) return core::fail(tips.error());
     // The whole final cloud anew: touches of two placements are never merged.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -24,6 +25,17 @@ struct TouchStep {
   record::Touch row;          ///< What it is for; number, reading and direction are filled in.
   Polyline entry_W;           ///< From park height to its pre-touch point.
   Polyline way_W;             ///< From where the tip stands to its pre-touch point.
+  /// The scan that it stands for, as its first point, and how that ended.
+  std::optional<cmm::ScanCircleCommand> scan = {};
+  cmm::TouchReading scan_end = {};
+};
+
+/// One circle to scan and the ways to it.
+struct ScanStep {
+  cmm::ScanCircleCommand command;  ///< Its number is filled in.
+  record::Touch row;               ///< Of its points; what differs among them is filled in.
+  Polyline entry_W;                ///< As of a touch at its first point.
+  Polyline way_W;
 };
 
 /// What all features of a run share: cell, journal, the numbers of touches and poses, who watches,
@@ -52,6 +64,9 @@ struct RunContext {
   /// last known touch the machine is brought to where it stood (come_back()). Nothing is journalled
   /// when it fails.
   [[nodiscard]] core::Result<record::Touch> touch(TouchStep step);
+  /// The same for a whole scan: all of its points are journalled in one transaction before the next
+  /// command. When a run goes on behind it, its first point is touched for comparison.
+  [[nodiscard]] core::Result<std::vector<record::Touch>> scan(ScanStep step);
   /// Homes machine and fixture, goes to the last known touches and repeats them: kLocation, with
   /// difference and limit, when one is not where it was; kMachine when the fixture does not read
   /// what it read in that pose. Then the tip stands at the last of them.
@@ -74,6 +89,12 @@ struct RunContext {
   /// What follows when the part is not where it was: kLocation, with relocation_due set if the part
   /// may be located again. The tip is at park height.
   [[nodiscard]] tl::unexpected<core::Error> part_has_moved(const core::Error& error);
+  [[nodiscard]] core::Result<std::vector<record::Touch>> recall_scan(ScanStep step);
+  /// A step that came from the journal is among those that are checked before the run goes on, and
+  /// behind the last of them it does.
+  [[nodiscard]] core::Result<void> keep_recalled(TouchStep step);
+  /// The simulation takes the state behind a recalled step.
+  [[nodiscard]] core::Result<void> recall_state(const TouchStep& step);
   /// Of the fixture: how far two readings of one pose may differ.
   [[nodiscard]] double resolution_rad() const;
   /// Repeats a touch; the difference to the recorded one [mm].
@@ -115,6 +136,15 @@ class FeatureSession final : public PoseSession {
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> touch_cloud(
       const std::vector<Target>& targets, record::Touch::Purpose purpose);
   [[nodiscard]] core::Result<Eigen::Vector3d> touch(TouchStep step, const Target& target);
+  /// Measures all targets once, as the plan samples them.
+  [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> measure_cloud();
+  /// Scans the targets layer by layer, rises, and gives the tip centres.
+  [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> scan_cloud(
+      const std::vector<Target>& targets);
+  /// The scan of a whole layer from the k-th target of a path through one target a layer.
+  [[nodiscard]] ScanStep scan_of(const CloudPath& path, std::size_t k, int points) const;
+  /// Targets that stand for all of them when their reach is looked at.
+  [[nodiscard]] std::vector<Target> reach_targets() const;
   /// The ways through these targets in a pose. kUnreachable: nothing has moved.
   [[nodiscard]] core::Result<CloudPath> lay(const std::vector<Target>& targets,
                                             const core::Pose& pose);

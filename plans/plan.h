@@ -37,6 +37,8 @@ struct PartPlan {
   std::string drawing;
   double location_uncertainty_mm =
       1.0;  ///< How far the surface may be from nominal at first touch.
+  std::optional<double> expansion_per_K;  ///< None: nothing is brought to 20 degC.
+  double expansion_uncertainty_per_K = 1e-6;
   std::vector<SectionPlan> sections;
 };
 
@@ -47,6 +49,9 @@ struct MachinePlan {
   double clearance_mm = 5.0;  ///< Kept from the part while travelling.
   double travel_speed_mm_s = 100.0;
   double touch_speed_mm_s = 5.0;
+  double scan_speed_mm_s = 10.0;
+  std::optional<double> scale_expansion_per_K;  ///< Of the scales; none: the machine compensates.
+  double scale_expansion_uncertainty_per_K = 1e-6;
   std::array<double, 3> park_mm = {0.0, 0.0, 500.0};  ///< Tip position above everything.
   std::array<double, 3> volume_min_mm = {-10'000.0, -10'000.0, -10'000.0};  ///< Reach of the tip.
   std::array<double, 3> volume_max_mm = {10'000.0, 10'000.0, 10'000.0};
@@ -107,6 +112,7 @@ struct ProbePlan {
 struct EnvironmentPlan {
   double min_degC = 18.0;
   double max_degC = 22.0;
+  double temperature_uncertainty_K = 0.1;
 };
 
 struct NominalPlan {
@@ -116,6 +122,7 @@ struct NominalPlan {
 };
 
 struct SamplingPlan {
+  std::string method = "touch";  ///< "touch" or "scan".
   int layers = 4;
   int points_per_layer = 7;
   double margin_mm = 5.0;

@@ -57,6 +57,13 @@ void describe(Visitor& v, PartPlan& p) {
             .at_most = 100.0,
             .meaning = "How far the surface may be from its nominal place at the first touch, from "
                        "a tilted or shifted clamping."});
+  v.number("expansion_per_K", p.expansion_per_K,
+           {.at_least = 0.0,
+            .at_most = 1e-4,
+            .meaning = "Thermal expansion of the material, e.g. 11.5e-6 of steel; sizes and forms "
+                       "are then brought to 20 degC. Left out: they stay as measured."});
+  v.number("expansion_uncertainty_per_K", p.expansion_uncertainty_per_K,
+           {.at_least = 0.0, .at_most = 1e-4, .meaning = "Its standard uncertainty."});
   v.list("sections", p.sections,
          {.meaning = "The part beside the inspected surfaces: shoulders, necks, neighbours. The "
                      "path of the tip keeps clear of them."});
@@ -88,6 +95,18 @@ void describe(Visitor& v, MachinePlan& p) {
             .at_most = 50.0,
             .above = true,
             .meaning = "Speed while searching the surface."});
+  v.number("scan_speed_mm_s", p.scan_speed_mm_s,
+           {.at_least = 0.0,
+            .at_most = 500.0,
+            .above = true,
+            .meaning = "Speed of the tip along a scanned circle."});
+  v.number("scale_expansion_per_K", p.scale_expansion_per_K,
+           {.at_least = 0.0,
+            .at_most = 1e-4,
+            .meaning = "Expansion of the scales; what they read is then brought to 20 degC with "
+                       "their measured temperature. Left out: the machine does it, or nobody."});
+  v.number("scale_expansion_uncertainty_per_K", p.scale_expansion_uncertainty_per_K,
+           {.at_least = 0.0, .at_most = 1e-4, .meaning = "Its standard uncertainty."});
   v.numbers("park_mm", p.park_mm,
             {.at_least = -kMaxCoordinate_mm,
              .at_most = kMaxCoordinate_mm,
@@ -261,6 +280,10 @@ void describe(Visitor& v, EnvironmentPlan& p) {
            {.at_least = 10.0,
             .at_most = 40.0,
             .meaning = "A part warmer than this makes the result void."});
+  v.number("temperature_uncertainty_K", p.temperature_uncertainty_K,
+           {.at_least = 0.0,
+            .at_most = 5.0,
+            .meaning = "Standard uncertainty of a measured temperature."});
 }
 
 template <class Visitor>
@@ -285,6 +308,11 @@ void describe(Visitor& v, NominalPlan& p) {
 
 template <class Visitor>
 void describe(Visitor& v, SamplingPlan& p) {
+  v.text(
+      "method", p.method,
+      {.one_of = {"touch", "scan"},
+       .meaning = "touch: single touches. scan: every layer in one circle, where the machine can; "
+                  "then hundreds of points a layer cost seconds."});
   v.whole("layers", p.layers,
           {.at_least = 1,
            .at_most = 1000,

@@ -70,6 +70,7 @@ core::Result<record::Touch> RunContext::touch(TouchStep step) {
   row.tip_mm = reading->tip_W_mm;
   row.temperature_degC = reading->temperature_degC;
   row.time_s = reading->time_s;
+  row.scale_temperature_degC = reading->scale_temperature_degC;
   if (auto kept = journal.add(row); !kept) return core::fail(kept.error());
   ++next_touch;
   progress.touches = static_cast<std::size_t>(next_touch);
@@ -83,8 +84,13 @@ core::Result<record::Touch> RunContext::recall(TouchStep step, const record::Tou
     return core::fail(kept.error());
   }
   ++next_touch;
-  progress.touches = static_cast<std::size_t>(next_touch);
   step.row = known;
+  if (auto kept = keep_recalled(std::move(step)); !kept) return core::fail(kept.error());
+  return known;
+}
+
+core::Result<void> RunContext::keep_recalled(TouchStep step) {
+  progress.touches = static_cast<std::size_t>(next_touch);
   if (last_steps.size() == kChecks) last_steps.erase(last_steps.begin());
   last_steps.push_back(std::move(step));
   if (past.relocated_behind(next_touch)) {
@@ -94,10 +100,12 @@ core::Result<record::Touch> RunContext::recall(TouchStep step, const record::Tou
     relocation_due = true;
     return core::fail(core::Code::kLocation, "the part was located again");
   }
-  if (!recalling()) {
-    if (auto back = come_back(); !back) return core::fail(back.error());
-  }
-  return known;
+  return recalling() ? core::Result<void>{} : come_back();
+}
+
+core::Result<void> RunContext::recall_state(const TouchStep& step) {
+  if (step.scan) return cell->recall_scan(*step.scan, step.scan_end);
+  return cell->recall_touch(step.command, reading_of(step.row));
 }
 
 core::Result<void> RunContext::come_back() {
@@ -127,8 +135,7 @@ core::Result<void> RunContext::come_back() {
       "{:g} um",
       options.started_utc, next_touch, last_steps.size(), largest_mm / core::kMicrometre,
       plan.machine->resume_limit_um);
-  const TouchStep& last = last_steps.back();
-  if (auto on = cell->recall_touch(last.command, reading_of(last.row)); !on) return on;
+  if (auto on = recall_state(last_steps.back()); !on) return on;
   lost_place = false;
   return journal.add(record::Decision{-1, cell->machine().time_s(), text});
 }
@@ -174,6 +181,7 @@ core::Result<double> RunContext::repeat_touch(const TouchStep& step, std::int64_
   check.tip_mm = reading->tip_W_mm;
   check.temperature_degC = reading->temperature_degC;
   check.time_s = reading->time_s;
+  check.scale_temperature_degC = reading->scale_temperature_degC;
   if (auto kept = journal.add(check); !kept) return core::fail(kept.error());
   const double difference_mm = (check.tip_mm - step.row.tip_mm).norm();
   if (difference_mm <= plan.machine->resume_limit_um * core::kMicrometre) return difference_mm;

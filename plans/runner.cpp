@@ -221,6 +221,7 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     features.push_back(feature_of(plan.features[i]));
     features.back().points_sha256 = known->files[i].sha256;
+    features.back().settings = settings_of(plan, plan.features[i]);
   }
   auto journal = record::Journal::create(options.directory, header, artefact_of(plan), features);
   if (!journal) return core::fail(journal.error());

@@ -34,6 +34,7 @@ cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t see
   out.park_W_mm = vector3(plan.machine->park_mm);
   out.speeds.travel_mm_s = plan.machine->travel_speed_mm_s;
   out.speeds.touch_mm_s = plan.machine->touch_speed_mm_s;
+  out.speeds.scan_mm_s = plan.machine->scan_speed_mm_s;
   out.temperature_degC = plan.simulation->temperature_degC;
   out.errors = machine_errors(*plan.simulation);
   out.part_errors = part_errors(plan.simulation->part);

@@ -32,10 +32,20 @@ class SimulatedCell final : public Cell {
   [[nodiscard]] core::Result<core::Pose> recall_turn(const core::Pose& commanded) override;
   [[nodiscard]] core::Result<void> recall_touch(const cmm::TouchCommand& command,
                                                 const cmm::TouchReading& reading) override;
+  [[nodiscard]] core::Result<void> recall_scan(const cmm::ScanCircleCommand& command,
+                                               const cmm::TouchReading& last) override {
+    return machine_.continue_after(command, last);
+  }
   [[nodiscard]] core::Result<core::Pose> home_again() override;
+
+  /// The next turn of the fixture has the noise of this one since its homing, which is number 0.
+  void continue_at_turn(std::uint64_t number) { fixture_.continue_after(number - 1); }
 
   [[nodiscard]] std::optional<Eigen::Vector3d> true_tip_W_mm() const override {
     return machine_.true_tip_W_mm();
+  }
+  [[nodiscard]] std::vector<Eigen::Vector3d> true_scan_W_mm() const override {
+    return machine_.true_tips_W_mm();
   }
 
  private:

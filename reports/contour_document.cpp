@@ -54,14 +54,14 @@ Json gauge_json(const fit::MeasuredContour& measured) {
 }
 
 Json part_json(const fit::ContourPartResult& part, const std::string& name) {
-  Json out = {{"name", name},
-              {"axes",
-               {{"samples_per_turn", part.axes.samples_per_turn}, {"turns", part.axes.turns}}},
-              {"regularity", part.ground.regularity},
-              {"undercut", part.ground.undercut},
-              {"total", gauge_json(part.pin)},
-              {"following", contour_json(part.following)},
-              {"rest", curve_json(part.direct.rest_mm)}};
+  Json out = {
+      {"name", name},
+      {"axes", {{"samples_per_turn", part.axes.samples_per_turn}, {"turns", part.axes.turns}}},
+      {"regularity", part.ground.regularity},
+      {"undercut", part.ground.undercut},
+      {"total", gauge_json(part.pin)},
+      {"following", contour_json(part.following)},
+      {"rest", curve_json(part.direct.rest_mm)}};
   out["main"] = part.main ? gauge_json(*part.main) : Json(nullptr);
   out["balance_um2"] = {{"total", in_um2(part.direct.total_mm2)},
                         {"following", in_um2(part.direct.following_mm2)},
@@ -111,27 +111,27 @@ Json repeatability_json(const std::optional<fit::Repeatability>& found, double s
 
 Json settings_json(const fit::ContourStudyOptions& options) {
   const fit::CrankGeometry& g = options.geometry;
-  return {{"method", fit::name_of(options.method)},
-          {"crank_radius_mm", g.crank_radius_mm},
-          {"wheel_radius_mm", g.wheel_radius_mm},
-          {"pin_radius_mm", g.pin_radius_mm},
-          {"main_radius_mm", options.main_radius_mm},
-          {"error_sign", options.axes.error_sign},
-          {"c_direction", options.axes.c_direction},
-          {"path_samples", options.axes.samples},
-          {"pre_filter_upr", options.pre_filter_upr},
-          {"samples", options.samples},
-          {"filter", fit::name_of(options.error.filter.filter)},
-          {"cutoff_upr", options.error.filter.cutoff_upr},
-          {"base_circle",
-           options.error.base == fit::BaseCircle::kLimacon ? "limacon" : "geometric"},
-          {"prefiltered", options.prefiltered},
-          {"phase_offset_deg", in_deg(options.phase_offset_rad)},
-          {"main_phase_offset_deg", in_deg(options.main_phase_offset_rad)},
-          {"gauge_direction", options.gauge_direction},
-          {"map_main", options.map_main},
-          {"stable_from", options.limits.stable},
-          {"partly_from", options.limits.partly}};
+  return {
+      {"method", fit::name_of(options.method)},
+      {"crank_radius_mm", g.crank_radius_mm},
+      {"wheel_radius_mm", g.wheel_radius_mm},
+      {"pin_radius_mm", g.pin_radius_mm},
+      {"main_radius_mm", options.main_radius_mm},
+      {"error_sign", options.axes.error_sign},
+      {"c_direction", options.axes.c_direction},
+      {"path_samples", options.axes.samples},
+      {"pre_filter_upr", options.pre_filter_upr},
+      {"samples", options.samples},
+      {"filter", fit::name_of(options.error.filter.filter)},
+      {"cutoff_upr", options.error.filter.cutoff_upr},
+      {"base_circle", options.error.base == fit::BaseCircle::kLimacon ? "limacon" : "geometric"},
+      {"prefiltered", options.prefiltered},
+      {"phase_offset_deg", in_deg(options.phase_offset_rad)},
+      {"main_phase_offset_deg", in_deg(options.main_phase_offset_rad)},
+      {"gauge_direction", options.gauge_direction},
+      {"map_main", options.map_main},
+      {"stable_from", options.limits.stable},
+      {"partly_from", options.limits.partly}};
 }
 
 }  // namespace
@@ -140,14 +140,16 @@ std::vector<std::string> contour_verdicts(const fit::ContourStudy& study,
                                           const fit::StabilityLimits& limits) {
   std::vector<std::string> out;
   if (study.parts.size() < 4) {
-    out.push_back(fmt::format("{} part{}: stable and unstable sources are told apart from 4 parts on",
-                              study.parts.size(), study.parts.size() == 1 ? "" : "s"));
+    out.push_back(
+        fmt::format("{} part{}: stable and unstable sources are told apart from 4 parts on",
+                    study.parts.size(), study.parts.size() == 1 ? "" : "s"));
     return out;
   }
   const auto say = [&](const char* what, const std::optional<fit::Repeatability>& found) {
     if (!found) return;
     const auto word = found->word(limits);
-    if (word) out.push_back(fmt::format("{}: {} (S = {:.4f})", what, fit::name_of(*word), *found->index));
+    if (word)
+      out.push_back(fmt::format("{}: {} (S = {:.4f})", what, fit::name_of(*word), *found->index));
   };
   say("total", study.total);
   say("following part", study.following);
@@ -159,13 +161,15 @@ std::vector<std::string> contour_verdicts(const fit::ContourStudy& study,
     return found ? found->word(limits) : std::nullopt;
   };
   if (word_of(study.following) == fit::StabilityWord::kStable) {
-    out.push_back(study.amplitude_ratio >= 1.0
-                      ? "the following part repeats and is the greater one: compensate it in X"
-                      : "the following part repeats but is the smaller one: compensation gains little");
+    out.push_back(
+        study.amplitude_ratio >= 1.0
+            ? "the following part repeats and is the greater one: compensate it in X"
+            : "the following part repeats but is the smaller one: compensation gains little");
   }
   if (word_of(study.rest) == fit::StabilityWord::kUnstable) {
-    out.push_back("the non-following part does not repeat: look for a mechanical cause (spindle, "
-                  "workhead, tailstock)");
+    out.push_back(
+        "the non-following part does not repeat: look for a mechanical cause (spindle, "
+        "workhead, tailstock)");
   }
   return out;
 }

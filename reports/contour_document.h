@@ -22,7 +22,8 @@ namespace rondure::reports {
 [[nodiscard]] std::vector<std::string> contour_verdicts(const fit::ContourStudy& study,
                                                         const fit::StabilityLimits& limits);
 
-/// The curves of all parts as CSV: beta_deg, then t, f, n (and the main journal) of each part in um.
+/// The curves of all parts as CSV: beta_deg, then t, f, n (and the main journal) of each part in
+/// um.
 [[nodiscard]] std::string contour_curves_csv(const fit::ContourStudy& study);
 
 }  // namespace rondure::reports

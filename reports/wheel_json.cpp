@@ -63,25 +63,47 @@ Json dropped(const fit::WheelMeasurement& m) {
   return out;
 }
 
-Json deviations(const fit::WheelMeasurement& m) {
+/// One list a column, of all rows.
+template <class Rows, class Value>
+Json column(const Rows& rows, const Value& value) {
   Json out = Json::array();
-  for (const double d : m.deviations_mm) out.push_back(um(d));
+  for (const auto& row : rows) out.push_back(value(row));
   return out;
 }
 
-Json path_row(const fit::WheelPath& path, const fit::WheelPathRow& row) {
-  return {{"x_mm", row.x_mm},
-          {"f_mm", row.surface.height_mm},
-          {"slope", row.surface.slope},
-          {"xc_mm", row.center_mm.x()},
-          {"zc_mm", path.machine_z_mm(row)},
-          {"phi_deg", deg(row.contact_rad)},
-          {"R_ks", row.load},
-          {"clearance_um", um(row.clearance_mm)}};
+Json path_curves(const fit::WheelPath& path) {
+  using Row = fit::WheelPathRow;
+  const auto of = [&](const auto& value) { return column(path.rows, value); };
+  return {{"x_mm", of([](const Row& r) { return r.x_mm; })},
+          {"f_mm", of([](const Row& r) { return r.surface.height_mm; })},
+          {"slope", of([](const Row& r) { return r.surface.slope; })},
+          {"xc_mm", of([](const Row& r) { return r.center_mm.x(); })},
+          {"zc_mm", of([&](const Row& r) { return path.machine_z_mm(r); })},
+          {"phi_deg", of([](const Row& r) { return deg(r.contact_rad); })},
+          {"R_ks", of([](const Row& r) { return r.load; })},
+          {"clearance_um", of([](const Row& r) { return um(r.clearance_mm); })}};
 }
 
-Json path_json(const fit::WheelPath& path, const fit::WheelPathTask& task, bool rows) {
-  Json out = {
+Json residual_curves(const fit::ResidualForm& form) {
+  using Row = fit::ResidualRow;
+  const auto of = [&](const auto& value) { return column(form.rows, value); };
+  return {{"x_mm", of([](const Row& r) { return r.x_mm; })},
+          {"vertical_um", of([](const Row& r) { return um(r.vertical_mm); })},
+          {"touched_off_um", of([](const Row& r) { return um(r.touched_mm); })}};
+}
+
+Json curves(const fit::WheelEvaluation& e) {
+  Json out = {{"deviations_um", column(e.wheel.deviations_mm, um)}};
+  if (e.path) out["path"] = path_curves(*e.path);
+  if (e.forecast) {
+    out["residual_measured"] = residual_curves(e.forecast->measured);
+    if (e.forecast->nominal) out["residual_nominal"] = residual_curves(*e.forecast->nominal);
+  }
+  return out;
+}
+
+Json path_json(const fit::WheelPath& path, const fit::WheelPathTask& task) {
+  return {
       {"radius", fit::name_of(task.radius)},
       {"radius_mm", path.radius_mm},
       {"reference", path.lowest_point ? "lowest-point" : "center"},
@@ -90,29 +112,17 @@ Json path_json(const fit::WheelPath& path, const fit::WheelPathTask& task, bool 
       {"cusp_um", um(path.cusp_mm)},
       {"greatest_R_ks",
        {{"value", path.load.load}, {"x_mm", path.load.x_mm}, {"limit", task.options.load_limit}}}};
-  if (!rows) return out;
-  out["rows"] = Json::array();
-  for (const auto& row : path.rows) out["rows"].push_back(path_row(path, row));
-  return out;
 }
 
-Json residual(const fit::ResidualForm& form, bool rows) {
-  Json out = {{"delta_um", um(form.delta_mm)},
-              {"touch_off_mm", form.touch_off_mm},
-              {"deviation_um", um(form.deviation_mm)}};
-  if (!rows) return out;
-  out["rows"] = Json::array();
-  for (const fit::ResidualRow& row : form.rows) {
-    out["rows"].push_back({{"x_mm", row.x_mm},
-                           {"vertical_um", um(row.vertical_mm)},
-                           {"touched_off_um", um(row.touched_mm)}});
-  }
-  return out;
+Json residual(const fit::ResidualForm& form) {
+  return {{"delta_um", um(form.delta_mm)},
+          {"touch_off_mm", form.touch_off_mm},
+          {"deviation_um", um(form.deviation_mm)}};
 }
 
-Json forecast(const fit::WheelForecast& f, bool rows) {
-  Json out = {{"nominal", f.nominal ? residual(*f.nominal, rows) : Json(nullptr)},
-              {"measured", residual(f.measured, rows)}};
+Json forecast(const fit::WheelForecast& f) {
+  Json out = {{"nominal", f.nominal ? residual(*f.nominal) : Json(nullptr)},
+              {"measured", residual(f.measured)}};
   out["improvement"] = f.improvement ? Json(*f.improvement) : Json(nullptr);
   out["limited_by_machine"] = f.capped;
   return out;
@@ -133,7 +143,7 @@ Json warnings(const fit::WheelEvaluation& e) {
 }  // namespace
 
 nlohmann::ordered_json wheel_json(const fit::WheelEvaluation& evaluation,
-                                  const fit::WheelTask& task, bool rows) {
+                                  const fit::WheelTask& task) {
   const fit::WheelMeasurement& m = evaluation.wheel;
   Json out = {{"shape", "wheel"},
               {"mode", fit::name_of(m.mode)},
@@ -159,16 +169,16 @@ nlohmann::ordered_json wheel_json(const fit::WheelEvaluation& evaluation,
   const auto effective = m.effective_radius_mm();
   out["effective_radius_mm"] = effective ? Json(*effective) : Json(nullptr);
   out["limits"] = limits(task.wheel);
-  if (rows) out["deviations_um"] = deviations(m);
   if (task.path) {
-    out["path"] = evaluation.path ? path_json(*evaluation.path, *task.path, rows) : Json(nullptr);
-    out["forecast"] = evaluation.forecast ? forecast(*evaluation.forecast, rows) : Json(nullptr);
+    out["path"] = evaluation.path ? path_json(*evaluation.path, *task.path) : Json(nullptr);
+    out["forecast"] = evaluation.forecast ? forecast(*evaluation.forecast) : Json(nullptr);
     if (evaluation.refused) {
       out["path_refused"] = {{"code", core::code_name(evaluation.refused->code)},
                              {"what", evaluation.refused->what}};
     }
   }
   out["warnings"] = warnings(evaluation);
+  out["curves"] = curves(evaluation);
   return out;
 }
 

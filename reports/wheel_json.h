@@ -7,9 +7,9 @@
 namespace rondure::reports {
 
 /// A wheel evaluation with its settings and limits: the JSON of `rondure fit wheel` and of
-/// report.json (docs/wheel.md). A number that is not finite stands as null.
-/// @param rows  Whether the places of the path and of the residual form are in it, too.
+/// report.json (docs/wheel.md). A number that is not finite stands as null. Deviations, path and
+/// residual form stand under "curves", a list a column.
 [[nodiscard]] nlohmann::ordered_json wheel_json(const fit::WheelEvaluation& evaluation,
-                                                const fit::WheelTask& task, bool rows);
+                                                const fit::WheelTask& task);
 
 }  // namespace rondure::reports

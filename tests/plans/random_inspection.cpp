@@ -14,7 +14,6 @@
 #include "fit/min_zone_cylinder.h"
 #include "plans/hidden_errors.h"
 #include "plans/runner.h"
-#include "plans/simulated_cell.h"
 #include "record/journal.h"
 
 namespace rondure::test {
