@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "app/analysis_verbs.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "core/version.h"
@@ -252,6 +253,8 @@ int main_of(int argc, char** argv) {
   FitArguments fit_arguments;
   RoundnessArguments roundness_arguments;
   SelfTestArguments selftest_arguments;
+  SpindleArguments spindle_arguments;
+  DesignArguments design_arguments;
   ReportArguments report_arguments;
   SignArguments sign_arguments;
   VerifyArguments verify_arguments;
@@ -260,11 +263,13 @@ int main_of(int argc, char** argv) {
   add_run(app, run_arguments);
   CLI::App* const fit_verb = add_fit(app, fit_arguments);
   add_roundness(*fit_verb, roundness_arguments);
+  add_spindle(*fit_verb, spindle_arguments);
   add_selftest(*fit_verb, selftest_arguments);
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
   add_history(app, history_arguments);
   add_sign(app, sign_arguments);
+  add_design_probes(app, design_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -273,10 +278,12 @@ int main_of(int argc, char** argv) {
   if (app.got_subcommand("validate")) return validate(validate_arguments);
   if (app.got_subcommand("run")) return run(run_arguments);
   if (fit_verb->got_subcommand("roundness")) return roundness(roundness_arguments);
+  if (fit_verb->got_subcommand("spindle")) return spindle(spindle_arguments);
   if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
   if (app.got_subcommand("history")) return history(history_arguments);
+  if (app.got_subcommand("design-probes")) return design_probes(design_arguments);
   if (app.got_subcommand("sign")) return sign(sign_arguments);
   return verify(verify_arguments);
 }
