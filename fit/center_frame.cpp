@@ -1,8 +1,8 @@
 #include "fit/center_frame.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "fit/column_extremes.h"
 
 namespace rondure::fit {
 
@@ -22,26 +22,34 @@ template <int D>
 Extremes CenterFrame<D>::linearise(const WorkingPoints<D>& points, ZoneRows<D>& rows) const {
   const std::size_t count = points.size();
   rows.resize(count);
-  double* distance = rows.distances().data();
-  std::array<double*, D> gradients;
-  for (std::size_t i = 0; i < count; ++i) distance[i] = 0.0;
-  for (std::size_t k = 0; k < D; ++k) {
-    const double* p = points.column(static_cast<int>(k));
-    double* gradient = gradients[k] = rows.gradients(static_cast<int>(k)).data();
-    const double c = center_(static_cast<Eigen::Index>(k));
-    for (std::size_t i = 0; i < count; ++i) {
-      gradient[i] = c - p[i];
-      distance[i] += gradient[i] * gradient[i];
-    }
-  }
+  // Different vectors, which only __restrict tells the compiler; else the loop stays scalar. In the
+  // plane the last of each three is not touched.
+  const double* __restrict px = points.column(0);
+  const double* __restrict py = points.column(1);
+  [[maybe_unused]] const double* __restrict pz = points.column(D - 1);
+  double* __restrict distance = rows.distances().data();
+  double* __restrict along_x = rows.gradients(0).data();
+  double* __restrict along_y = rows.gradients(1).data();
+  [[maybe_unused]] double* __restrict along_z = rows.gradients(D - 1).data();
+  // Plain numbers: matrices of Eigen inside the loop keep it scalar too.
+  const double cx = center_[0];
+  const double cy = center_[1];
+  [[maybe_unused]] const double cz = center_[D - 1];
   for (std::size_t i = 0; i < count; ++i) {
-    distance[i] = std::sqrt(distance[i]);
+    const double x = cx - px[i];
+    const double y = cy - py[i];
+    double square = x * x + y * y;
+    if constexpr (D == 3) square += (cz - pz[i]) * (cz - pz[i]);
+    const double r = std::sqrt(square);
     // At the centre every direction is alike.
-    const double unit = distance[i] > 0.0 ? 1.0 / distance[i] : 0.0;
-    for (std::size_t k = 0; k < D; ++k) gradients[k][i] *= unit;
+    const double unit = r > 0.0 ? 1.0 / r : 0.0;
+    distance[i] = r;
+    along_x[i] = x * unit;
+    along_y[i] = y * unit;
+    if constexpr (D == 3) along_z[i] = (cz - pz[i]) * unit;
   }
-  const auto [low, high] = std::minmax_element(distance, distance + count);
-  return {*low, *high};
+  const ColumnExtremes extremes = column_extremes(rows.distances());
+  return {extremes.low, extremes.high};
 }
 
 template class CenterFrame<2>;

@@ -17,6 +17,7 @@ class CenterFrame {
  public:
   static constexpr int kUnknowns = D;
   static constexpr int kDimension = D;
+  static constexpr bool kHasBall = true;  ///< EnclosingBall minimises the outer distance.
   using Point = Eigen::Matrix<double, D, 1>;
   using Place = Point;  ///< What a scan measures from.
 

@@ -21,6 +21,7 @@ class CylinderFrame {
  public:
   static constexpr int kUnknowns = 4;
   static constexpr int kDimension = 3;
+  static constexpr bool kHasBall = false;
   using Point = Eigen::Vector3d;
   using Place = Axis;  ///< What a scan measures from.
 

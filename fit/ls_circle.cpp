@@ -83,7 +83,7 @@ std::optional<LsCircle> from_sample(std::span<const Eigen::Vector2d> points_mm) 
 
 }  // namespace
 
-core::Result<LsCircle> algebraic_circle(std::span<const Eigen::Vector2d> points_mm) {
+core::Result<LsCircle> algebraic_start(std::span<const Eigen::Vector2d> points_mm) {
   if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
   if (distinct_points(points_mm, 3) < 3) {
     return core::fail(core::Code::kTooFewPoints,
@@ -112,7 +112,12 @@ core::Result<LsCircle> algebraic_circle(std::span<const Eigen::Vector2d> points_
   circle.center_mm = mean + Eigen::Vector2d(uc, vc);
   circle.radius_mm =
       std::sqrt(uc * uc + vc * vc + (suu + svv) / static_cast<double>(points_mm.size()));
-  fill_residuals(points_mm, circle);
+  return circle;
+}
+
+core::Result<LsCircle> algebraic_circle(std::span<const Eigen::Vector2d> points_mm) {
+  auto circle = algebraic_start(points_mm);
+  if (circle) fill_residuals(points_mm, *circle);
   return circle;
 }
 
@@ -120,7 +125,7 @@ core::Result<LsCircle> ls_circle(std::span<const Eigen::Vector2d> points_mm) {
   if (points_mm.size() > kSample) {
     if (const auto circle = from_sample(points_mm)) return *circle;
   }
-  const auto start = algebraic_circle(points_mm);
+  const auto start = algebraic_start(points_mm);
   if (!start) return start;
   const Eigen::Vector2d origin = mean_point(points_mm);
   CircleModel model{start->center_mm - origin, start->radius_mm};

@@ -24,6 +24,10 @@ struct LsCircle {
 /// Source: methods, cylindricity section 5; I. Kasa, IEEE Trans. Instrum. Meas. 25 (1976).
 [[nodiscard]] core::Result<LsCircle> algebraic_circle(std::span<const Eigen::Vector2d> points_mm);
 
+/// algebraic_circle() without its residuals: deviation and rms stay 0. Where a search starts they
+/// would cost as much as the circle.
+[[nodiscard]] core::Result<LsCircle> algebraic_start(std::span<const Eigen::Vector2d> points_mm);
+
 /// Least-squares circle in the sense of ISO 12181 (LSCI): minimises the sum of squared radial
 /// distances by damped Gauss-Newton from the algebraic circle.
 ///

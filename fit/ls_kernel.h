@@ -50,6 +50,22 @@ struct Sums {
   double low, high;
 };
 
+/// What every instruction set does with single numbers. A template of the type that uses it, so
+/// that each has functions of its own.
+template <class T>
+struct Singles {
+  static void store(double* p, double v) { *p = v; }
+  static void load3(const double* p, double& x, double& y, double& z) {
+    x = p[0];
+    y = p[1];
+    z = p[2];
+  }
+  static void load2(const double* p, double& x, double& y) {
+    x = p[0];
+    y = p[1];
+  }
+};
+
 /// (1 - 1/sqrt(1 + e)) / e by its binomial series; the next term is below 1e-15 within kNear.
 inline constexpr double kSeries[] = {1.0 / 2.0, -3.0 / 8.0, 5.0 / 16.0, -35.0 / 128.0,
                                      63.0 / 256.0};

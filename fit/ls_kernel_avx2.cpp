@@ -9,8 +9,11 @@ namespace rondure::fit::ls_kernel {
 namespace {
 
 /// Four points at a time.
-struct Avx2 {
+struct Avx2 : Singles<Avx2> {
   using Vector = __m256d;
+  using Singles<Avx2>::store;
+  using Singles<Avx2>::load2;
+  using Singles<Avx2>::load3;
 
   template <class V>
   static V load(const double* p) {
@@ -20,19 +23,9 @@ struct Avx2 {
       return _mm256_loadu_pd(p);
     }
   }
-  static void store(double* p, double v) { *p = v; }
   static void store(double* p, Vector v) { _mm256_storeu_pd(p, v); }
   static double root(double v) { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(v))); }
   static Vector root(Vector v) { return _mm256_sqrt_pd(v); }
-  static void load3(const double* p, double& x, double& y, double& z) {
-    x = p[0];
-    y = p[1];
-    z = p[2];
-  }
-  static void load2(const double* p, double& x, double& y) {
-    x = p[0];
-    y = p[1];
-  }
   /// The halves at p and q: [p0 p1 | q0 q1].
   static Vector halves(const double* p, const double* q) {
     return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p)), _mm_loadu_pd(q), 1);

@@ -9,8 +9,11 @@ namespace rondure::fit::ls_kernel {
 namespace {
 
 /// Eight points at a time.
-struct Avx512 {
+struct Avx512 : Singles<Avx512> {
   using Vector = __m512d;
+  using Singles<Avx512>::store;
+  using Singles<Avx512>::load2;
+  using Singles<Avx512>::load3;
 
   template <class V>
   static V load(const double* p) {
@@ -20,19 +23,9 @@ struct Avx512 {
       return _mm512_loadu_pd(p);
     }
   }
-  static void store(double* p, double v) { *p = v; }
   static void store(double* p, Vector v) { _mm512_storeu_pd(p, v); }
   static double root(double v) { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(v))); }
   static Vector root(Vector v) { return _mm512_maskz_sqrt_pd(0xff, v); }
-  static void load3(const double* p, double& x, double& y, double& z) {
-    x = p[0];
-    y = p[1];
-    z = p[2];
-  }
-  static void load2(const double* p, double& x, double& y) {
-    x = p[0];
-    y = p[1];
-  }
   /// Every third of 24 numbers: the index picks from a and b (+ 8), then from c where it says so.
   static Vector thirds(Vector a, Vector b, Vector c, __m512i from_ab, __m512i from_c) {
     return _mm512_permutex2var_pd(_mm512_permutex2var_pd(a, from_ab, b), from_c, c);

@@ -82,8 +82,9 @@ std::size_t distinct_points(std::span<const Eigen::Vector3d> points_mm, std::siz
 
 std::size_t spread_row(std::size_t k, std::size_t count) {
   const double place = static_cast<double>(k) / std::numbers::phi;
-  const auto row =
-      static_cast<std::size_t>((place - std::floor(place)) * static_cast<double>(count));
+  // The whole part by way of an integer: without SSE 4.1 floor() is a call.
+  const double whole = static_cast<double>(static_cast<std::ptrdiff_t>(place));
+  const auto row = static_cast<std::size_t>((place - whole) * static_cast<double>(count));
   return std::min(row, count - 1);
 }
 
@@ -96,11 +97,13 @@ void sample_points(std::span<const Eigen::Vector3d> points_mm, std::span<Eigen::
 
 double largest_gap_rad(std::span<const Eigen::Vector2d> points_mm,
                        const Eigen::Vector2d& center_mm) {
-  std::vector<double> angles;
-  angles.reserve(points_mm.size());
-  for (const Eigen::Vector2d& p : points_mm) {
-    angles.push_back(std::atan2(p.y() - center_mm.y(), p.x() - center_mm.x()));
-  }
+  // Few points need no memory of their own: fits in loops allocate nothing.
+  std::array<double, 64> few;
+  std::vector<double> many(points_mm.size() > few.size() ? points_mm.size() : 0);
+  const auto angles = many.empty() ? std::span(few).first(points_mm.size()) : std::span(many);
+  std::transform(points_mm.begin(), points_mm.end(), angles.begin(), [&](const auto& p) {
+    return std::atan2(p.y() - center_mm.y(), p.x() - center_mm.x());
+  });
   std::sort(angles.begin(), angles.end());
   double gap = angles.front() + core::kTwoPi - angles.back();
   for (std::size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,6 +30,20 @@ class WorkingPoints {
   void clear() {
     rows_.clear();
     for (auto& column : columns_) column.clear();
+  }
+  /// All points of a set, relative to the origin; what was here is forgotten.
+  void assign(std::span<const Point> points, const Point& origin) {
+    rows_.resize(points.size());
+    std::iota(rows_.begin(), rows_.end(), std::size_t{0});
+    for (auto& column : columns_) column.resize(points.size());
+    std::array<double*, D> out;
+    for (std::size_t k = 0; k < D; ++k) out[k] = columns_[k].data();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::size_t k = 0; k < D; ++k) {
+        const auto at = static_cast<Eigen::Index>(k);
+        out[k][i] = points[i](at) - origin(at);
+      }
+    }
   }
   void add(std::size_t row, const Point& point) {
     rows_.push_back(row);

@@ -10,6 +10,7 @@
 #include "fit/center_frame.h"
 #include "fit/contacts.h"
 #include "fit/cylinder_frame.h"
+#include "fit/enclosing_ball.h"
 #include "fit/local_certificate.h"
 #include "fit/scan.h"
 #include "fit/working_points.h"
@@ -20,6 +21,9 @@ namespace rondure::fit {
 /// Size of rounding errors of a distance: relative coordinates carry the error of the given ones.
 /// @param size_mm  Largest absolute coordinate.
 [[nodiscard]] double distance_round_off(double size_mm);
+
+/// Up to so many points a descent works on all of them.
+inline constexpr std::size_t kAllWorked = 128;
 
 /// Why a descent ended.
 enum class ZoneEnding {
@@ -46,14 +50,15 @@ struct Descent {
 
 /// Goes from a place to a local minimum of  outer weight * max r - inner weight * min r  (minimum
 /// zone, minimum circumscribed, maximum inscribed): linear programmes inside a trust region, Newton
-/// on the stationarity equations of the contacts where curvature holds the place, and a way out of
-/// saddles.
+/// on the stationarity equations of the contacts where curvature holds the place, and ways out of
+/// saddles and of valleys that weak contacts close. Circumscribed circles and spheres need none of
+/// it: EnclosingBall.
 ///
-/// Up to 128 points all are worked on. Of more, a sample is; then passes over all points add those
-/// that stick out farthest, at most one a block, until none does: the optimum of a subset that
-/// holds all points is the optimum of the whole. An object keeps its memory between calls.
+/// Up to kAllWorked points all are worked on. Of more, a sample is; then passes over all points add
+/// those that stick out farthest, at most one a block, until none does: the optimum of a subset
+/// that holds all points is the optimum of the whole. An object keeps its memory between calls.
 ///
-/// Cost: some 2 to 20 us up to 128 points; commonly two to four passes over more.
+/// Cost: some 0.3 to 10 us up to 128 points; commonly two to four passes over more.
 /// Sources: methods, cylindricity sections 9.3, 11.2 and 11.4; performance, the method in words.
 template <class Frame>
 class ZoneDescent {
@@ -84,6 +89,7 @@ class ZoneDescent {
   bool add_violators(Points points, const Point& origin, const Result& state);
   std::size_t add_worst(Points points, const Point& origin, const Result& state, bool high);
   void minimise(Result& state, const Frame& start, double limit_mm);
+  void enclose(Result& state);
   [[nodiscard]] Extremes linearise(const Frame& frame, ZoneRows<K>& rows) const;
   ZoneStep<K> programme(Result& state, double box);
   void settle(Result& state);
@@ -94,9 +100,10 @@ class ZoneDescent {
   bool polish(Result& state);
   [[nodiscard]] Newton newton_step(const Result& state) const;
   [[nodiscard]] bool contacts_hold(const Result& state) const;
-  [[nodiscard]] bool held_by_contacts(const Result& state) const;
+  [[nodiscard]] Eigen::Matrix<double, K, 1> curvature_of(const Result& state) const;
+  void slip(Result& state);
   [[nodiscard]] Eigen::Matrix<double, K, 1> escape(const Result& state) const;
-  bool leave_saddle(Result& state, const Eigen::Matrix<double, K, 1>& descent);
+  bool leave_saddle(Result& state);
   [[nodiscard]] Extremes extremes(const Frame& frame);
   void name_rows(Contacts& contacts) const;
 
@@ -111,6 +118,7 @@ class ZoneDescent {
   ZoneRows<K> trial_rows_;   ///< At the place a step leads to.
   ZoneRows<K> looked_rows_;  ///< Of extremes(), which wants no more than these.
   ZoneProgram<K> program_;
+  EnclosingBall<D> ball_;
   BlockScan blocks_;
   std::vector<std::size_t> order_;
 };

@@ -6,8 +6,10 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include "core/units.h"
+#include "fit/column_extremes.h"
 #include "fit/ls_circle.h"
 #include "fit/ls_cylinder.h"
 #include "fit/ls_sphere.h"
@@ -16,7 +18,7 @@
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kCenterSample = 128;
+constexpr std::size_t kCenterSample = 48;
 constexpr std::size_t kCylinderSample = 240;
 /// From here on one start is enough, whatever the arc (performance: small sets).
 constexpr std::size_t kOneStart = 24;
@@ -34,12 +36,14 @@ std::span<const Point> spread(std::span<const Point> points, std::size_t most,
   return memory;
 }
 
-/// Round-off of distances: a place is never farther from the origin than the points are wide.
+/// Round-off of distances: a place is never farther from the origin than the points are wide. Not
+/// finite where a coordinate is not.
 template <class Point>
 double round_off_of(std::span<const Point> sample) {
-  double size = 0.0;
-  for (const Point& p : sample) size = std::max(size, p.cwiseAbs().maxCoeff());
-  return distance_round_off(size);
+  const std::span<const double> numbers(sample.front().data(),
+                                        sample.size() * Point::SizeAtCompileTime);
+  const double size = largest_magnitude(numbers);
+  return std::isfinite(size) ? distance_round_off(size) : size;
 }
 
 template <class Place, class Frame>
@@ -84,21 +88,30 @@ core::Result<ZoneFit<Place>> judged(ZoneFit<Place> zone, std::span<const Point> 
   return zone;
 }
 
-/// Where a centre starts.
-template <int D>
-struct Start {
-  Eigen::Matrix<double, D, 1> center_mm;
-  double radius_mm = 0.0;
-};
-core::Result<Start<2>> start_fit(std::span<const Eigen::Vector2d> points) {
-  const auto circle = algebraic_circle(points);
+core::Result<CenterStart<2>> start_fit(std::span<const Eigen::Vector2d> points) {
+  const auto circle = algebraic_start(points);
   if (!circle) return core::fail(circle.error());
-  return Start<2>{circle->center_mm, circle->radius_mm};
+  return CenterStart<2>{circle->center_mm, circle->radius_mm};
 }
-core::Result<Start<3>> start_fit(std::span<const Eigen::Vector3d> points) {
+core::Result<CenterStart<3>> start_fit(std::span<const Eigen::Vector3d> points) {
   const auto sphere = ls_sphere(points);
   if (!sphere) return core::fail(sphere.error());
-  return Start<3>{sphere->center_mm, sphere->radius_mm};
+  return CenterStart<3>{sphere->center_mm, sphere->radius_mm};
+}
+
+/// Whether the contacts of a ball by themselves tell that its points lie on no line (plane): they
+/// span a triangle (tetrahedron) that is not small against it.
+template <class Point>
+bool spans_space(std::span<const Point> points, const ZoneFit<Point>& ball) {
+  constexpr int D = Point::SizeAtCompileTime;
+  if (ball.outer.size() != D + 1) return false;
+  Eigen::Matrix<double, D, D> sides;
+  for (int k = 0; k < D; ++k) {
+    sides.col(k) =
+        (points[ball.outer[static_cast<std::size_t>(k) + 1].index] - points[ball.outer[0].index]) /
+        ball.outer_radius_mm;
+  }
+  return std::abs(sides.determinant()) > 0.01;
 }
 
 /// The axis as a frame, with the extent of the points along it as the scale of its tilts.
@@ -108,15 +121,24 @@ CylinderFrame frame_of(std::span<const Eigen::Vector3d> sample, const Axis& axis
   return {Axis{Eigen::Vector3d::Zero(), axis.direction}, std::max(half, round_off)};
 }
 
+/// The first `count` angles [rad].
+struct Tilts {
+  std::array<double, 3> angles{};
+  std::size_t count = 0;
+
+  [[nodiscard]] const double* begin() const { return angles.data(); }
+  [[nodiscard]] const double* end() const { return angles.data() + count; }
+};
+
 /// Tilts at which a search starts too, where several minima are to be feared: minimum zones of few
 /// points, or of part of the circumference, may have others far off; circumscribed and inscribed
 /// cylinders of few points have others close by.
-std::vector<double> other_tilts(std::span<const Eigen::Vector3d> points, const LsCylinder& start,
-                                const ZoneWeights& weights) {
+Tilts other_tilts(std::span<const Eigen::Vector3d> points, const LsCylinder& start,
+                  const ZoneWeights& weights) {
   if (weights.outer == 0.0 || weights.inner == 0.0) {
     if (points.size() > kSmall) return {};
     const double form = std::atan(start.deviation_mm / half_extent(points, start.axis.direction));
-    return {form, 4.0 * form};
+    return {{form, 4.0 * form}, 2};
   }
   if (points.size() >= kOneStart) return {};
   if (points.size() >= 12) {
@@ -128,7 +150,7 @@ std::vector<double> other_tilts(std::span<const Eigen::Vector3d> points, const L
     const auto section = std::span(flat).first(points.size());
     if (largest_gap_rad(section, Eigen::Vector2d::Zero()) <= kFullGap) return {};
   }
-  return {0.5 * core::kDegree, 2.0 * core::kDegree, 6.0 * core::kDegree};
+  return {{0.5 * core::kDegree, 2.0 * core::kDegree, 6.0 * core::kDegree}, 3};
 }
 
 double value_of(const CylinderZone& zone, const ZoneWeights& weights) {
@@ -138,33 +160,47 @@ double value_of(const CylinderZone& zone, const ZoneWeights& weights) {
 }  // namespace
 
 template <int D>
-auto CenterZoneFitter<D>::descend(std::span<const Point> points_mm, std::span<const Point> sample,
-                                  const Point& center_mm, const ZoneWeights& weights,
-                                  double limit_mm) -> ZoneFit<Point> {
-  const auto found = descent_.run(points_mm, center_mm, CenterFrame<D>(Point::Zero()), weights,
-                                  round_off_of(sample), limit_mm);
+auto CenterZoneFitter<D>::fit_from(std::span<const Point> points_mm, const Point& center_mm,
+                                   const ZoneWeights& weights, double limit_mm) -> ZoneFit<Point> {
+  const bool few = points_mm.size() <= kAllWorked;
+  const double round_off =
+      round_off_of(few ? points_mm : spread(points_mm, kCenterSample, sample_));
+  const CenterFrame<D> start(Point::Zero());
+  if (!std::isfinite(round_off)) {
+    ZoneFit<Point> out;
+    out.place = center_mm;
+    out.ending = ZoneEnding::kNotFinite;
+    return out;
+  }
+  const auto found = descent_.run(points_mm, center_mm, start, weights, round_off, limit_mm);
   return zone_of(found, found.frame.place(center_mm));
 }
 
+/// Where to start, from a sample; from all where that misses what the data have.
 template <int D>
-auto CenterZoneFitter<D>::fit_from(std::span<const Point> points_mm, const Point& center_mm,
-                                   const ZoneWeights& weights, double limit_mm) -> ZoneFit<Point> {
-  return descend(points_mm, spread(points_mm, kCenterSample, sample_), center_mm, weights,
-                 limit_mm);
+auto CenterZoneFitter<D>::start_of(std::span<const Point> points_mm)
+    -> core::Result<CenterStart<D>> {
+  if (auto start = start_fit(spread(points_mm, kCenterSample, sample_))) return start;
+  return start_fit(points_mm);
 }
 
 template <int D>
 auto CenterZoneFitter<D>::fit(std::span<const Point> points_mm, const ZoneWeights& weights)
     -> core::Result<ZoneFit<Point>> {
   if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
-  const auto sample = spread(points_mm, kCenterSample, sample_);
-  auto start = start_fit(sample);
-  // A sample may miss what the data have.
-  if (!start) start = start_fit(points_mm);
+  constexpr std::string_view kShape = D == 2 ? "circle" : "sphere";
+  if (weights.inner == 0.0) {
+    // Convex: no start is too far.
+    const auto zone = fit_from(points_mm, points_mm.front(), weights);
+    if (zone.ending == ZoneEnding::kConverged && !spans_space(points_mm, zone)) {
+      if (const auto start = start_of(points_mm); !start) return core::fail(start.error());
+    }
+    return judged(zone, points_mm, weights, kShape);
+  }
+  const auto start = start_of(points_mm);
   if (!start) return core::fail(start.error());
   const double limit = limit_of(weights, start->radius_mm);
-  return judged(descend(points_mm, sample, start->center_mm, weights, limit), points_mm, weights,
-                D == 2 ? "circle" : "sphere");
+  return judged(fit_from(points_mm, start->center_mm, weights, limit), points_mm, weights, kShape);
 }
 
 template class CenterZoneFitter<2>;

@@ -45,11 +45,19 @@ using CylinderZone = ZoneFit<Axis>;
 /// Starts at the least-squares circle (algebraic), sphere or cylinder of at most some hundred
 /// points spread over the data; see ZoneDescent for the rest and the cost. Few points, or points on
 /// part of the circumference, may have several minima: then neighbouring axes are starts too.
+/// Circumscribed circles and spheres are convex and start anywhere.
 ///
 /// fit_from() starts at a place the caller knows; `ending` tells when it went farther than
 /// `limit_mm` from there. fit() returns the zone; or kNoPoints, kNotFinite (row), kTooFewPoints,
 /// kCollinear, kRank (as the least-squares fits); kReferenceAbsent for a circumscribed or inscribed
 /// reference that does not exist next to the least-squares one.
+/// Where the search for a centre starts.
+template <int D>
+struct CenterStart {
+  Eigen::Matrix<double, D, 1> center_mm = Eigen::Matrix<double, D, 1>::Zero();
+  double radius_mm = 0.0;
+};
+
 template <int D>
 class CenterZoneFitter {
  public:
@@ -63,8 +71,7 @@ class CenterZoneFitter {
                           double limit_mm = std::numeric_limits<double>::infinity());
 
  private:
-  ZoneFit<Point> descend(std::span<const Point> points_mm, std::span<const Point> sample,
-                         const Point& center_mm, const ZoneWeights& weights, double limit_mm);
+  core::Result<CenterStart<D>> start_of(std::span<const Point> points_mm);
 
   std::vector<Point> sample_;
   ZoneDescent<CenterFrame<D>> descent_;

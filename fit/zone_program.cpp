@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
+#include <Eigen/LU>
+
+#include "fit/column_extremes.h"
 
 namespace rondure::fit {
 namespace {
@@ -21,39 +21,6 @@ constexpr double kWorn = 1e-13;
 constexpr double kPivot = 1e-11;
 /// Residuals above this mean that a basis was next to singular.
 constexpr double kSound = 1e-9;
-
-struct Place {
-  std::size_t far = 0;
-  std::size_t near = 0;
-};
-
-/// Rows of the least and the largest value, the first of equal ones.
-Place extreme_rows(const std::vector<double>& values) {
-  const std::size_t count = values.size();
-  double high = values[0];
-  double low = values[0];
-  std::size_t i = 0;
-#if defined(__SSE2__)
-  // The compiler must not reorder minima, so it leaves this loop scalar.
-  __m128d highs = _mm_set1_pd(high);
-  __m128d lows = highs;
-  for (; i + 2 <= count; i += 2) {
-    const __m128d pair = _mm_loadu_pd(values.data() + i);
-    highs = _mm_max_pd(highs, pair);
-    lows = _mm_min_pd(lows, pair);
-  }
-  high = std::max(_mm_cvtsd_f64(highs), _mm_cvtsd_f64(_mm_unpackhi_pd(highs, highs)));
-  low = std::min(_mm_cvtsd_f64(lows), _mm_cvtsd_f64(_mm_unpackhi_pd(lows, lows)));
-#endif
-  for (; i < count; ++i) {
-    high = std::max(high, values[i]);
-    low = std::min(low, values[i]);
-  }
-  Place out;
-  while (out.far + 1 < count && values[out.far] != high) ++out.far;
-  while (out.near + 1 < count && values[out.near] != low) ++out.near;
-  return out;
-}
 
 /// Gauss-Jordan with row exchanges: for at most 6 x 6 several times faster than a general inverse,
 /// and the residuals are looked at afterwards. @return Whether there is an inverse.
@@ -99,6 +66,7 @@ template <int K>
 ZoneStep<K> ZoneProgram<K>::solve_again(const ZoneRows<K>& rows, double box_mm,
                                         const ZoneWeights& weights, int pivot_limit) {
   set(rows, box_mm, weights);
+  for (int k = 0; k < kRows; ++k) put(k, basis_[static_cast<std::size_t>(k)]);
   if (!factorise() || values_.minCoeff() < 0.0) start_basis();
   return run(pivot_limit);
 }
@@ -109,74 +77,59 @@ void ZoneProgram<K>::set(const ZoneRows<K>& rows, double box_mm, const ZoneWeigh
   box_ = box_mm;
   weights_ = weights;
   moved_.resize(rows.size());
+  for (int k = 0; k < K; ++k) gradients_[static_cast<std::size_t>(k)] = rows.gradients(k).data();
 }
 
 template <int K>
 void ZoneProgram<K>::start_basis() {
-  const auto& distances = rows_->distances();
-  const Place at = extreme_rows(distances);
-  const double spread = distances[at.far] - distances[at.near];
+  const std::vector<double>& distances = rows_->distances();
+  const ColumnExtremes extremes = column_extremes(distances);
   // Violations below this are round-off of the distances; they are not worth a pivot.
-  tolerance_ = 1e-13 * spread + 4.0 * kEps * std::abs(distances[at.far]);
-  basis_[0] = {Column::Kind::kOuter, at.far};
-  basis_[1] = {Column::Kind::kInner, at.near};
+  tolerance_ = 1e-13 * (extremes.high - extremes.low) + 4.0 * kEps * std::abs(extremes.high);
+  put(0, {Column::Kind::kOuter, first_row_of(distances, extremes.high)});
+  put(1, {Column::Kind::kInner, first_row_of(distances, extremes.low)});
   // The box takes up whatever the two points do not balance; so the basis is triangular.
-  const Unknowns outer = weights_.outer * rows_->gradient(at.far);
-  const Unknowns inner = -weights_.inner * rows_->gradient(at.near);
   inverse_.setIdentity();
   values_.template head<2>().setOnes();
   for (int k = 0; k < K; ++k) {
-    const double rest = outer(k) + inner(k);
+    const double outer = columns_(k + 2, 0);
+    const double inner = columns_(k + 2, 1);
+    const double rest = outer + inner;
     const double sign = rest > 0.0 ? -1.0 : 1.0;
-    basis_[static_cast<std::size_t>(k) + 2] = {
-        rest > 0.0 ? Column::Kind::kBoxDown : Column::Kind::kBoxUp, static_cast<std::size_t>(k)};
-    inverse_(k + 2, 0) = -sign * outer(k);
-    inverse_(k + 2, 1) = -sign * inner(k);
+    put(k + 2,
+        {rest > 0.0 ? Column::Kind::kBoxDown : Column::Kind::kBoxUp, static_cast<std::size_t>(k)});
+    inverse_(k + 2, 0) = -sign * outer;
+    inverse_(k + 2, 1) = -sign * inner;
     inverse_(k + 2, k + 2) = sign;
     values_(k + 2) = std::abs(rest);
   }
 }
 
+/// Makes a column basic.
 template <int K>
-auto ZoneProgram<K>::column(const Column& c) const -> Vector {
-  Vector a = Vector::Zero();
-  switch (c.kind) {
-    case Column::Kind::kOuter:
-      a(0) = 1.0;
-      a.template tail<K>() = weights_.outer * rows_->gradient(c.index);
-      break;
-    case Column::Kind::kInner:
-      a(1) = 1.0;
-      a.template tail<K>() = -weights_.inner * rows_->gradient(c.index);
-      break;
-    case Column::Kind::kBoxUp:
-      a(static_cast<Eigen::Index>(c.index) + 2) = 1.0;
-      break;
-    case Column::Kind::kBoxDown:
-      a(static_cast<Eigen::Index>(c.index) + 2) = -1.0;
-      break;
+void ZoneProgram<K>::put(int place, const Column& c) {
+  basis_[static_cast<std::size_t>(place)] = c;
+  auto column = columns_.col(place);
+  if (c.kind == Column::Kind::kOuter || c.kind == Column::Kind::kInner) {
+    const bool outer = c.kind == Column::Kind::kOuter;
+    const double weight = outer ? weights_.outer : -weights_.inner;
+    column(0) = outer ? 1.0 : 0.0;
+    column(1) = outer ? 0.0 : 1.0;
+    for (int k = 0; k < K; ++k) {
+      column(k + 2) = weight * gradients_[static_cast<std::size_t>(k)][c.index];
+    }
+    costs_(place) = weight * rows_->distances()[c.index];
+    return;
   }
-  return a;
-}
-
-template <int K>
-double ZoneProgram<K>::cost(const Column& c) const {
-  switch (c.kind) {
-    case Column::Kind::kOuter:
-      return weights_.outer * rows_->distances()[c.index];
-    case Column::Kind::kInner:
-      return -weights_.inner * rows_->distances()[c.index];
-    default:
-      return -box_;
-  }
+  column.setZero();
+  column(static_cast<Eigen::Index>(c.index) + 2) = c.kind == Column::Kind::kBoxUp ? 1.0 : -1.0;
+  costs_(place) = -box_;
 }
 
 /// Inverse of the basis from its columns. @return Whether it has one.
 template <int K>
 bool ZoneProgram<K>::factorise() {
-  Eigen::Matrix<double, kRows, kRows> basis;
-  for (int k = 0; k < kRows; ++k) basis.col(k) = column(basis_[static_cast<std::size_t>(k)]);
-  if (!invert<kRows>(basis, inverse_)) return false;
+  if (!invert<kRows>(columns_, inverse_)) return false;
   values_ = inverse_.col(0) + inverse_.col(1);
   return true;
 }
@@ -216,48 +169,56 @@ ZoneStep<K> ZoneProgram<K>::attempt(int pivot_limit, int swift) {
     if (!again || !factorise()) break;
     fresh = true;
   }
-  if (!out.solved) settle_prices();
+  if (!out.solved) {
+    settle_prices();
+    worn();
+  }
   return out;
 }
 
-/// Whether multipliers and prices solve the equations of the basis, and no multiplier is negative.
+/// Whether multipliers and prices solved the equations of the basis when worn() refined them, and
+/// no multiplier is negative.
 template <int K>
 bool ZoneProgram<K>::sound() const {
-  Vector right = Vector::Zero();
-  right(0) = right(1) = 1.0;
-  double price_error = 0.0;
-  for (int k = 0; k < kRows; ++k) {
-    const Vector a = column(basis_[static_cast<std::size_t>(k)]);
-    right -= values_(k) * a;
-    price_error =
-        std::max(price_error, std::abs(a.dot(prices_) - cost(basis_[static_cast<std::size_t>(k)])));
-  }
-  return right.cwiseAbs().maxCoeff() <= kSound && price_error <= kSound * (1.0 + box_) &&
+  return value_flaw_ <= kSound && price_flaw_ <= kSound * (1.0 + box_) &&
          values_.minCoeff() >= -kSound;
+}
+
+template <int K>
+auto ZoneProgram<K>::value_residual() const -> Vector {
+  Vector out = Vector::Zero();
+  out(0) = out(1) = 1.0;
+  for (int k = 0; k < kRows; ++k) out -= values_(k) * columns_.col(k);
+  return out;
+}
+
+template <int K>
+auto ZoneProgram<K>::price_residual() const -> Vector {
+  Vector out;
+  for (int k = 0; k < kRows; ++k) out(k) = costs_(k) - columns_.col(k).dot(prices_);
+  return out;
 }
 
 /// Prices of the rows, c_B times the inverse of the basis.
 template <int K>
 void ZoneProgram<K>::settle_prices() {
-  Vector costs;
-  for (int k = 0; k < kRows; ++k) costs(k) = cost(basis_[static_cast<std::size_t>(k)]);
-  prices_ = inverse_.transpose() * costs;
+  for (int k = 0; k < kRows; ++k) prices_(k) = inverse_.col(k).dot(costs_);
 }
 
 /// Refines multipliers and prices once with their residuals.
 /// @return Whether these were so large that the inverse should be computed anew.
 template <int K>
 bool ZoneProgram<K>::worn() {
-  Eigen::Matrix<double, kRows, kRows> basis;
-  Vector costs;
+  const Vector value_rest = value_residual();
+  const Vector price_rest = price_residual();
+  value_flaw_ = value_rest.cwiseAbs().maxCoeff();
+  price_flaw_ = price_rest.cwiseAbs().maxCoeff();
+  Vector value_error = Vector::Zero();
+  Vector price_error;
   for (int k = 0; k < kRows; ++k) {
-    basis.col(k) = column(basis_[static_cast<std::size_t>(k)]);
-    costs(k) = cost(basis_[static_cast<std::size_t>(k)]);
+    value_error += value_rest(k) * inverse_.col(k);
+    price_error(k) = inverse_.col(k).dot(price_rest);
   }
-  Vector right = Vector::Zero();
-  right(0) = right(1) = 1.0;
-  const Vector value_error = inverse_ * (right - basis * values_);
-  const Vector price_error = inverse_.transpose() * (costs - basis.transpose() * prices_);
   values_ += value_error;
   prices_ += price_error;
   return !(value_error.cwiseAbs().maxCoeff() <= kWorn &&
@@ -269,14 +230,8 @@ template <int K>
 auto ZoneProgram<K>::price(bool bland) -> Entering {
   const Unknowns move = -prices_.template tail<K>();
   const std::size_t count = rows_->size();
-  const double* distance = rows_->distances().data();
-  double* moved = moved_.data();
-  for (std::size_t i = 0; i < count; ++i) moved[i] = distance[i];
-  for (int k = 0; k < K; ++k) {
-    const double* gradient = rows_->gradients(k).data();
-    const double by = move(k);
-    for (std::size_t i = 0; i < count; ++i) moved[i] += gradient[i] * by;
-  }
+  const ColumnExtremes extremes =
+      move_column<K>(rows_->distances(), gradients_.data(), move.data(), moved_.data());
   double worst = tolerance_;
   Entering entering;
   const auto offer = [&](double violation, typename Column::Kind kind, std::size_t index) {
@@ -288,13 +243,18 @@ auto ZoneProgram<K>::price(bool bland) -> Entering {
   const double inner = prices_(1);
   if (bland) {
     for (std::size_t i = 0; i < count; ++i)
-      offer(weights_.outer * moved[i] - outer, Column::Kind::kOuter, i);
+      offer(weights_.outer * moved_[i] - outer, Column::Kind::kOuter, i);
     for (std::size_t i = 0; i < count; ++i)
-      offer(-weights_.inner * moved[i] - inner, Column::Kind::kInner, i);
+      offer(-weights_.inner * moved_[i] - inner, Column::Kind::kInner, i);
   } else {
-    const Place at = extreme_rows(moved_);
-    offer(weights_.outer * moved[at.far] - outer, Column::Kind::kOuter, at.far);
-    offer(-weights_.inner * moved[at.near] - inner, Column::Kind::kInner, at.near);
+    // Only the side that violates more is worth looking for its row.
+    const double far = weights_.outer * extremes.high - outer;
+    const double near = -weights_.inner * extremes.low - inner;
+    if (far >= near && far > worst) {
+      offer(far, Column::Kind::kOuter, first_row_of(moved_, extremes.high));
+    } else if (near > worst) {
+      offer(near, Column::Kind::kInner, first_row_of(moved_, extremes.low));
+    }
   }
   for (int k = 0; k < K; ++k) {
     offer(move(k) - box_, Column::Kind::kBoxUp, static_cast<std::size_t>(k));
@@ -305,10 +265,25 @@ auto ZoneProgram<K>::price(bool bland) -> Entering {
   return entering;
 }
 
+/// The column as a mixture of the basic ones.
+template <int K>
+auto ZoneProgram<K>::in_basis(const Column& c) const -> Vector {
+  if (c.kind == Column::Kind::kBoxUp) return inverse_.col(static_cast<Eigen::Index>(c.index) + 2);
+  if (c.kind == Column::Kind::kBoxDown)
+    return -inverse_.col(static_cast<Eigen::Index>(c.index) + 2);
+  const bool outer = c.kind == Column::Kind::kOuter;
+  const double weight = outer ? weights_.outer : -weights_.inner;
+  Vector out = inverse_.col(outer ? 0 : 1);
+  for (int k = 0; k < K; ++k) {
+    out += weight * gradients_[static_cast<std::size_t>(k)][c.index] * inverse_.col(k + 2);
+  }
+  return out;
+}
+
 /// Exchanges the entering column; false when no basic column limits it (never: the box bounds).
 template <int K>
 bool ZoneProgram<K>::pivot(const Column& entering) {
-  const Vector direction = inverse_ * column(entering);
+  const Vector direction = in_basis(entering);
   int leaving = -1;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kRows; ++k) {
@@ -328,7 +303,7 @@ bool ZoneProgram<K>::pivot(const Column& entering) {
   }
   inverse_.row(leaving) = row;
   values_ = inverse_.col(0) + inverse_.col(1);
-  basis_[static_cast<std::size_t>(leaving)] = entering;
+  put(leaving, entering);
   return true;
 }
 

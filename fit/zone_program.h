@@ -95,6 +95,7 @@ class ZoneProgram {
  private:
   static constexpr int kRows = K + 2;
   using Vector = Eigen::Matrix<double, kRows, 1>;
+  using Square = Eigen::Matrix<double, kRows, kRows>;
   using Unknowns = Eigen::Matrix<double, K, 1>;
 
   /// A column of the dual programme. Order of the kinds is Bland's order.
@@ -112,26 +113,33 @@ class ZoneProgram {
 
   void set(const ZoneRows<K>& rows, double box_mm, const ZoneWeights& weights);
   void start_basis();
+  void put(int place, const Column& c);
+  [[nodiscard]] Vector in_basis(const Column& c) const;
   bool factorise();
   ZoneStep<K> run(int pivot_limit);
   ZoneStep<K> attempt(int pivot_limit, int swift);
   [[nodiscard]] bool sound() const;
+  [[nodiscard]] Vector value_residual() const;
+  [[nodiscard]] Vector price_residual() const;
   void settle_prices();
   bool worn();
-  [[nodiscard]] Vector column(const Column& c) const;
-  [[nodiscard]] double cost(const Column& c) const;
   Entering price(bool bland);
   bool pivot(const Column& entering);
   void report(ZoneStep<K>& out) const;
 
   const ZoneRows<K>* rows_ = nullptr;
+  std::array<const double*, K> gradients_{};  ///< Of the rows.
   double box_ = 0.0;
   ZoneWeights weights_;
   double tolerance_ = 0.0;
   std::array<Column, kRows> basis_{};
-  Eigen::Matrix<double, kRows, kRows> inverse_ = Eigen::Matrix<double, kRows, kRows>::Identity();
-  Vector values_ = Vector::Zero();  ///< Multipliers of the basic columns.
+  Square columns_ = Square::Identity();  ///< Of the basis.
+  Vector costs_ = Vector::Zero();        ///< Of the basis.
+  Square inverse_ = Square::Identity();  ///< Of columns_.
+  Vector values_ = Vector::Zero();       ///< Multipliers of the basic columns.
   Vector prices_ = Vector::Zero();
+  double value_flaw_ = 0.0;  ///< Largest residual of the multipliers before the last refinement.
+  double price_flaw_ = 0.0;
   std::vector<double> moved_;  ///< Distances of all points at the current prices.
 };
 

@@ -237,18 +237,19 @@ Touch::Purpose purpose_of(const std::string& word) {
       fmt::format("touch.purpose holds the unknown word \"{}\"", word.substr(0, 40)));
 }
 
-void read_touches(soci::session& sql, RunRecord& record) {
+void read_touches(soci::session& sql, RunRecord& record, std::int64_t version) {
   Touch row;
   std::string purpose;
+  // Before version 3 nothing was brought to 20 degC, and nobody asked how warm the scales were.
+  const std::string query = fmt::format(
+      "select id, purpose, pose, layer, point, repeat, tip_x_mm, tip_y_mm, tip_z_mm, approach_x, "
+      "approach_y, approach_z, temperature_degC, time_s, {} from touch order by id",
+      version < 3 ? "20.0" : "scale_temperature_degC");
   soci::statement rows =
-      (sql.prepare
-           << "select id, purpose, pose, layer, point, repeat, tip_x_mm, tip_y_mm, tip_z_mm, "
-              "approach_x, approach_y, approach_z, temperature_degC, time_s from touch "
-              "order by id",
-       into(row.id), into(purpose), into(row.pose), into(row.layer), into(row.point),
-       into(row.repeat), into(row.tip_mm.x()), into(row.tip_mm.y()), into(row.tip_mm.z()),
-       into(row.approach.x()), into(row.approach.y()), into(row.approach.z()),
-       into(row.temperature_degC), into(row.time_s));
+      (sql.prepare << query, into(row.id), into(purpose), into(row.pose), into(row.layer),
+       into(row.point), into(row.repeat), into(row.tip_mm.x()), into(row.tip_mm.y()),
+       into(row.tip_mm.z()), into(row.approach.x()), into(row.approach.y()), into(row.approach.z()),
+       into(row.temperature_degC), into(row.time_s), into(row.scale_temperature_degC));
   rows.execute();
   while (rows.fetch()) {
     row.purpose = purpose_of(purpose);
@@ -306,7 +307,7 @@ ReadJournal read_tables(soci::session& sql) {
   read_search_steps(sql, journal.record);
   read_characteristics(sql, journal.record);
   read_poses(sql, journal.record);
-  read_touches(sql, journal.record);
+  read_touches(sql, journal.record, journal.version);
   read_decisions(sql, journal.record);
   read_truths(sql, journal.record);
   read_series_tables(sql, journal.record, journal.version);

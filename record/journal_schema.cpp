@@ -8,7 +8,7 @@ namespace {
 
 // Numbers that were measured have the type `any`: a column of type `real` would lose the sign of
 // -0.0, because SQLite packs whole numbers there as integers.
-constexpr std::array<Table, 18> kTables = {{
+constexpr std::array<Table, 19> kTables = {{
     {"header",
      R"(create table header (
   id integer primary key check (id = 0),
@@ -103,7 +103,27 @@ constexpr std::array<Table, 18> kTables = {{
   approach_z any not null,
   temperature_degC any not null,
   time_s any not null
-) strict)"},
+) strict)",
+     1, 2},
+    {"touch",
+     R"(create table touch (
+  id integer primary key,
+  purpose text not null,
+  pose integer not null,
+  layer integer not null,
+  point integer not null,
+  repeat integer not null,
+  tip_x_mm any not null,
+  tip_y_mm any not null,
+  tip_z_mm any not null,
+  approach_x any not null,
+  approach_y any not null,
+  approach_z any not null,
+  temperature_degC any not null,
+  time_s any not null,
+  scale_temperature_degC any not null
+) strict)",
+     3},
     {"decision",
      R"(create table decision (
   id integer primary key,
@@ -198,7 +218,7 @@ constexpr std::array<Table, 18> kTables = {{
 std::vector<Table> chained_tables(std::int64_t version) {
   std::vector<Table> out;
   for (const Table& table : std::span(kTables).first(kTables.size() - 2)) {
-    if (table.since <= version) out.push_back(table);
+    if (table.since <= version && version <= table.until) out.push_back(table);
   }
   return out;
 }

@@ -21,8 +21,9 @@ inline constexpr std::int64_t kOldestSchemaVersion = 1;
 /// One table of the journal.
 struct Table {
   std::string_view name;
-  std::string_view sql;    ///< The statement that makes it, as SQLite keeps it.
-  std::int64_t since = 1;  ///< The first version that has it.
+  std::string_view sql;                 ///< The statement that makes it, as SQLite keeps it.
+  std::int64_t since = 1;               ///< The first version that has it so.
+  std::int64_t until = kSchemaVersion;  ///< The last one.
 };
 
 /// The tables of a version whose rows are linked in the chain, in their order in the seal.

@@ -167,6 +167,12 @@ core::Result<Series> parse_series_csv(std::string_view text, std::string_view na
       auto found = read_layout(*line, wanted, names);
       if (!found) return core::fail(found.error().at(here()));
       layout = *std::move(found);
+      if (layout->wanted.empty()) {
+        return core::fail(
+            syntax_error(fmt::format("none of the columns {} stands in the first line, {}",
+                                     list_of(wanted), quoted_text(*line)))
+                .at(here()));
+      }
       for (const std::size_t w : layout->wanted) {
         out.columns.push_back(
             {std::string(wanted[w].name), std::string(unit_of_column(wanted[w].name))});

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "reports/analysis.h"
 #include "reports/facts.h"
 #include "reports/json_parts.h"
@@ -134,6 +136,20 @@ Json one_sided_json(const core::Result<fit::OneSidedCircle>& circle, double offs
           {"certificate", certificate_json(circle->certificate)}};
 }
 
+Json filtered_json(const std::optional<fit::RoundnessEvaluation>& section) {
+  if (!section) return nullptr;
+  Json json = {{"filter", fit::name_of(section->filter.filter)},
+               {"cutoff_upr", section->filter.cutoff_upr}};
+  for (const fit::Roundness& value : section->values) {
+    json[fmt::format("{}_um", fit::name_of(value.reference))] = in_um(value.total_mm);
+  }
+  json["harmonics_um"] = Json::array();
+  for (const fit::Harmonic& harmonic : section->harmonics.harmonics) {
+    json["harmonics_um"].push_back(in_um(harmonic.amplitude_mm));
+  }
+  return json;
+}
+
 Json layer_json(const LayerResult& layer, const FeatureResult& feature) {
   const double offset_mm = surface_offset_mm(feature);
   Json json = {{"layer", layer.layer},
@@ -159,6 +175,7 @@ Json layer_json(const LayerResult& layer, const FeatureResult& feature) {
                   {"deviation_um", in_um(layer.ls->deviation_mm)},
                   {"rms_um", in_um(layer.ls->rms_mm)}};
   }
+  json["filtered"] = filtered_json(layer.filtered);
   return json;
 }
 
@@ -189,6 +206,16 @@ Json levelling_json(const std::optional<core::Pose>& pose) {
   return {{"alpha_deg", in_deg(pose->alpha_rad)}, {"beta_deg", in_deg(pose->beta_rad)}};
 }
 
+Json thermal_json(const std::optional<ThermalCorrection>& c) {
+  if (!c) return nullptr;
+  return {{"part_expansion_per_K", c->part_expansion_1_K},
+          {"scale_expansion_per_K", c->scale_expansion_1_K},
+          {"part_degC", c->part_degC},
+          {"scale_degC", c->scale_degC},
+          {"factor", c->factor},
+          {"factor_standard_uncertainty", c->factor_uncertainty}};
+}
+
 Json feature_json(const FeatureResult& feature) {
   if (record::is_analysis(feature.feature.shape)) return analysis_json(feature);
   const record::Feature& asked = feature.feature;
@@ -215,6 +242,7 @@ Json feature_json(const FeatureResult& feature) {
   json["repeat_zone_sd_um"] = optional_um(feature.repeat_zone_sd_mm);
   json["mean_temperature_degC"] =
       feature.temperatures ? Json(feature.temperatures->mean_degC) : Json(nullptr);
+  json["temperature_correction"] = thermal_json(feature.thermal);
   json["layers"] = list_json(feature.layers,
                              [&](const LayerResult& layer) { return layer_json(layer, feature); });
   json["poses"] = list_json(feature.poses, pose_json);

@@ -119,6 +119,7 @@ Touch sample_touch(Numbers& n, std::int64_t id) {
   touch.approach = n.vector();
   touch.temperature_degC = n.real();
   touch.time_s = n.real();
+  touch.scale_temperature_degC = n.real();
   return touch;
 }
 
@@ -283,7 +284,7 @@ std::string every_bit(const RunRecord& record) {
   bits << record.touches.size();
   for (const Touch& t : record.touches) {
     bits << t.id << static_cast<int>(t.purpose) << t.pose << t.layer << t.point << t.repeat
-         << t.tip_mm << t.approach << t.temperature_degC << t.time_s;
+         << t.tip_mm << t.approach << t.temperature_degC << t.time_s << t.scale_temperature_degC;
   }
   for (const Decision& d : record.decisions) bits << d.feature << d.time_s << d.text;
   for (const SimulationTruth& t : record.truths) bits << t.feature << t.cylt_mm;

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+
+namespace rondure::fit {
+
+/// Least and largest number of a column.
+struct ColumnExtremes {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+};
+
+/// Two numbers at a time where the processor can: the compiler must not reorder minima, so it would
+/// leave this loop scalar.
+[[nodiscard]] ColumnExtremes column_extremes(std::span<const double> values);
+
+/// The largest absolute value; not finite as soon as one number is not.
+[[nodiscard]] double largest_magnitude(std::span<const double> values);
+
+/// Writes  moved = values + sum of gradients[k] * move[k]  and finds its extremes in the same loop.
+/// @param gradients  K columns as long as `values`, of which each takes `move[k]`.
+template <int K>
+ColumnExtremes move_column(std::span<const double> values, const double* const* gradients,
+                           const double* move, double* moved);
+
+/// Writes the squared distances of points, given by D columns, from a centre, and finds their
+/// extremes in the same loop.
+template <int D>
+ColumnExtremes square_column(std::size_t count, const double* const* columns, const double* center,
+                             double* squares);
+
+/// The first row that holds exactly this number; the last row when none does.
+[[nodiscard]] std::size_t first_row_of(std::span<const double> values, double value);
+
+extern template ColumnExtremes move_column<1>(std::span<const double>, const double* const*,
+                                              const double*, double*);
+extern template ColumnExtremes move_column<2>(std::span<const double>, const double* const*,
+                                              const double*, double*);
+extern template ColumnExtremes move_column<3>(std::span<const double>, const double* const*,
+                                              const double*, double*);
+extern template ColumnExtremes move_column<4>(std::span<const double>, const double* const*,
+                                              const double*, double*);
+extern template ColumnExtremes square_column<2>(std::size_t, const double* const*, const double*,
+                                                double*);
+extern template ColumnExtremes square_column<3>(std::size_t, const double* const*, const double*,
+                                                double*);
+
+}  // namespace rondure::fit
