@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "app/analysis_verbs.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "app/wheel_command.h"
@@ -359,6 +360,8 @@ int main_of(int argc, char** argv) {
   SelfTestArguments selftest_arguments;
   WheelArguments wheel_arguments;
   ContourArguments contour_arguments;
+  SpindleArguments spindle_arguments;
+  DesignArguments design_arguments;
   ReportArguments report_arguments;
   SignArguments sign_arguments;
   VerifyArguments verify_arguments;
@@ -369,12 +372,14 @@ int main_of(int argc, char** argv) {
   CLI::App* const fit_verb = add_fit(app, fit_arguments);
   add_roundness(*fit_verb, roundness_arguments);
   add_contour(*fit_verb, contour_arguments);
+  add_spindle(*fit_verb, spindle_arguments);
   add_selftest(*fit_verb, selftest_arguments);
   add_wheel(*fit_verb, wheel_arguments);
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
   add_history(app, history_arguments);
   add_sign(app, sign_arguments);
+  add_design_probes(app, design_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -384,12 +389,14 @@ int main_of(int argc, char** argv) {
   if (app.got_subcommand("run")) return run(run_arguments);
   if (app.got_subcommand("plan")) return plan(plan_arguments);
   if (fit_verb->got_subcommand("roundness")) return roundness(roundness_arguments);
+  if (fit_verb->got_subcommand("spindle")) return spindle(spindle_arguments);
   if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
   if (fit_verb->got_subcommand("wheel")) return wheel(wheel_arguments);
   if (fit_verb->got_subcommand("contour")) return contour(contour_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
   if (app.got_subcommand("history")) return history(history_arguments);
+  if (app.got_subcommand("design-probes")) return design_probes(design_arguments);
   if (app.got_subcommand("sign")) return sign(sign_arguments);
   return verify(verify_arguments);
 }

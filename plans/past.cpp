@@ -64,6 +64,11 @@ bool Past::knows_truth(int feature) const {
                      [&](const auto& truth) { return truth.feature == feature; });
 }
 
+bool Past::knows_series(int feature) const {
+  return std::any_of(run_.series.begin(), run_.series.end(),
+                     [&](const auto& series) { return series.feature == feature; });
+}
+
 std::int64_t Past::next_check() const {
   return run_.checks.empty() ? -1 : run_.checks.back().id - 1;
 }

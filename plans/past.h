@@ -31,6 +31,8 @@ class Past {
   [[nodiscard]] const record::Decision* next_decision();
   /// Whether the hidden truth of a feature is in the journal.
   [[nodiscard]] bool knows_truth(int feature) const;
+  /// Whether the series of a feature are in the journal: all of them, or none is.
+  [[nodiscard]] bool knows_series(int feature) const;
   /// The number of the next check: -1, -2, ...
   [[nodiscard]] std::int64_t next_check() const;
 

@@ -10,6 +10,8 @@
 
 #include "core/result.h"
 #include "plans/machine_errors_plan.h"
+#include "plans/spindle_plan.h"
+#include "plans/wheel_plan.h"
 
 namespace rondure::plans {
 
@@ -118,18 +120,32 @@ struct PoseSearchPlan {
   int repeats = 5;             ///< Touches of every point of the final cloud.
 };
 
+struct HarmonicLimitPlan {
+  int from = 2;
+  int to = 50;
+  double amplitude_um = 0.0;
+};
+
 struct CharacteristicPlan {
   std::string id;
   std::string form = "cylindricity";
   std::optional<std::string> reference;  ///< "mz", "ls", "mc" or "mi".
   std::optional<double> tolerance_um;
   std::string drawing_zone;
+  std::vector<HarmonicLimitPlan> harmonic_limits;  ///< Of the form "harmonic-limits".
+};
+
+/// How a file calls a column that an analysis reads.
+struct ColumnPlan {
+  std::string column;   ///< As the analysis names it, e.g. "H1_um".
+  std::string in_file;  ///< As the file names it.
 };
 
 struct SourcePlan {
-  std::string file;  ///< CSV of tip centres, relative to the plan.
+  std::string file;  ///< CSV of tip centres or of series, relative to the plan.
   std::optional<double>
       tip_diameter_mm;  ///< Of the probe that took them; none: radii stay tip-centre radii.
+  std::vector<ColumnPlan> columns;  ///< Of series whose file names them otherwise.
 };
 
 struct FeaturePlan {
@@ -139,6 +155,8 @@ struct FeaturePlan {
   NominalPlan nominal;
   SamplingPlan sampling;
   PoseSearchPlan pose_search;
+  std::optional<SpindlePlan> spindle;  ///< Needed by, and only by, the type of that name.
+  std::optional<WheelPlan> wheel;      ///< The same.
   std::optional<SourcePlan> source;
   std::vector<CharacteristicPlan> characteristics;
 };
@@ -202,6 +220,8 @@ struct SimulationPlan {
   SimulatedProbePlan probe;
   SimulatedFixturePlan fixture;
   SimulatedFaultsPlan faults;
+  std::optional<SimulatedSpindlePlan> spindle;
+  std::optional<SimulatedWheelPlan> wheel;
 };
 
 struct ReportsPlan {

@@ -4,6 +4,8 @@
 #include "plans/key_spec.h"
 #include "plans/plan.h"
 #include "plans/simulation_table.h"
+#include "plans/spindle_table.h"
+#include "plans/wheel_table.h"
 
 // The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
 // meaning, once. Defaults are the member initialisers of plan.h. A visitor walks it: TableReader
@@ -315,16 +317,36 @@ void describe(Visitor& v, PoseSearchPlan& p) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, HarmonicLimitPlan& p) {
+  const auto order = [](std::string_view meaning) {
+    return NumberSpec{.at_least = 2, .at_most = 10'000, .required = true, .meaning = meaning};
+  };
+  v.whole("from", p.from, order("First undulation number of this line of the mask."));
+  v.whole("to", p.to, order("Last undulation number."));
+  v.number("amplitude_um", p.amplitude_um,
+           {.at_least = 0.0,
+            .at_most = 1000.0,
+            .above = true,
+            .required = true,
+            .meaning = "Largest amplitude (half of peak to valley) of each of them."});
+}
+
+template <class Visitor>
 void describe(Visitor& v, CharacteristicPlan& p) {
   v.text("id", p.id,
          {.required = true,
           .empty_allowed = false,
           .meaning = "Name in the report, unique within the feature."});
-  v.text("form", p.form,
-         {.one_of = {"cylindricity", "roundness"},
-          .required = true,
-          .meaning = "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle or of the "
-                     "worst layer of a cylinder."});
+  v.text(
+      "form", p.form,
+      {.one_of = {"cylindricity", "roundness", "roundness-rms", "harmonic-limits", "motion-total",
+                  "motion-synchronous", "motion-asynchronous", "radius", "run-out"},
+       .required = true,
+       .meaning = "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
+                  "layer of a cylinder or of a spindle feature. Of a spindle feature also: "
+                  "roundness-rms (RONq); harmonic-limits; motion-total, motion-synchronous, "
+                  "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
+                  "roundness of its edge; radius, the departure from nominal; run-out."});
   v.text("reference", p.reference,
          {.one_of = {"mz", "ls", "mc", "mi"},
           .meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
@@ -338,6 +360,18 @@ void describe(Visitor& v, CharacteristicPlan& p) {
        .meaning = "Upper limit on the drawing; without it the value is reported, not judged."});
   v.text("drawing_zone", p.drawing_zone,
          {.meaning = "Where it stands on the drawing, e.g. \"C4\"."});
+  v.list("harmonic_limits", p.harmonic_limits,
+         {.meaning = "The mask of harmonic-limits, instead of tolerance_um."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, ColumnPlan& p) {
+  v.text("column", p.column,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Name that the analysis gives it, with its unit, e.g. H1_um."});
+  v.text("in_file", p.in_file,
+         {.required = true, .empty_allowed = false, .meaning = "Name in the file."});
 }
 
 template <class Visitor>
@@ -345,8 +379,8 @@ void describe(Visitor& v, SourcePlan& p) {
   v.text("file", p.file,
          {.required = true,
           .empty_allowed = false,
-          .meaning =
-              "CSV of tip centres in mm, with a header line x,y or x,y,z; relative to the plan."});
+          .meaning = "CSV of tip centres in mm, with a header line x,y or x,y,z; for a spindle, of "
+                     "readings (docs/spindle.md). Relative to the plan."});
   v.number(
       "tip_diameter_mm", p.tip_diameter_mm,
       {.at_least = 0.0,
@@ -354,6 +388,9 @@ void describe(Visitor& v, SourcePlan& p) {
        .above = true,
        .meaning =
            "Of the probe that took the points; without it radii stay those of the tip centre."});
+  v.list("columns", p.columns,
+         {.meaning = "Columns that the file of a spindle names otherwise; with this list columns "
+                     "that nobody asks for are passed over."});
 }
 
 template <class Visitor>
@@ -363,12 +400,17 @@ void describe(Visitor& v, FeaturePlan& p) {
           .empty_allowed = false,
           .meaning = "Name of the feature, unique in the plan."});
   v.text("type", p.type,
-         {.one_of = {"cylinder", "circle"}, .required = true, .meaning = "What the surface is."});
+         {.one_of = {"cylinder", "circle", "spindle", "wheel"},
+          .required = true,
+          .meaning = "What the surface is; spindle: form of a part and motion of its axis, from "
+                     "three probes; wheel: a grinding wheel, from points of its edge."});
   v.text("side", p.side,
          {.one_of = {"outside", "inside"}, .meaning = "outside: a shaft; inside: a bore."});
   v.object("nominal", p.nominal, {.meaning = "The surface on the drawing, part frame: axis z."});
   v.object("sampling", p.sampling, {.meaning = "Where it is touched."});
   v.object("pose_search", p.pose_search, {.meaning = "How the fixture levels it."});
+  v.object("spindle", p.spindle, {.meaning = "Probes and evaluation of the type spindle."});
+  v.object("wheel", p.wheel, {.meaning = "Points and evaluation of the type wheel."});
   v.object("source", p.source,
            {.meaning = "Points from a file in place of touches; no machine is needed then."});
   v.list("characteristics", p.characteristics,

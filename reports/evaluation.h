@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "fit/one_sided_cylinder.h"
 #include "fit/probe_tip.h"
 #include "record/run_record.h"
+#include "reports/analysis.h"
 
 namespace rondure::reports {
 
@@ -96,6 +98,7 @@ struct FeatureResult {
   std::optional<double> repeat_zone_mean_mm;  ///< Mean of the zones of the single repeats.
   std::optional<double> repeat_zone_sd_mm;
   std::optional<Temperatures> temperatures;  ///< Of the final cloud; none for points of a file.
+  std::shared_ptr<const AnalysisResult> analysis;  ///< Of a feature whose data are series.
   std::vector<CharacteristicResult> characteristics;
   std::vector<core::Error> warnings;
   std::optional<core::Error> failure;  ///< Why there is no result.
