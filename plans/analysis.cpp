@@ -15,7 +15,7 @@ namespace {
 
 using core::Code;
 
-std::array<const AnalysisKind*, 1> kinds() { return {&spindle_kind()}; }
+std::array<const AnalysisKind*, 2> kinds() { return {&spindle_kind(), &wheel_kind()}; }
 
 core::Result<AnalysisData> read_files(const Plan& plan, std::size_t index,
                                       const AnalysisKind& kind) {

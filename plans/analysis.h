@@ -62,5 +62,6 @@ void check_analysis(const Plan& plan, std::size_t index, Findings& findings);
 
 /// The kinds themselves, one file each.
 [[nodiscard]] const AnalysisKind& spindle_kind();
+[[nodiscard]] const AnalysisKind& wheel_kind();
 
 }  // namespace rondure::plans

@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "core/result.h"
-#include "plans/spindle_plan.h"
 #include "plans/machine_errors_plan.h"
+#include "plans/spindle_plan.h"
+#include "plans/wheel_plan.h"
 
 namespace rondure::plans {
 
@@ -162,6 +163,7 @@ struct FeaturePlan {
   SamplingPlan sampling;
   PoseSearchPlan pose_search;
   std::optional<SpindlePlan> spindle;  ///< Needed by, and only by, the type of that name.
+  std::optional<WheelPlan> wheel;      ///< The same.
   std::optional<SourcePlan> source;
   std::vector<CharacteristicPlan> characteristics;
 };
@@ -226,6 +228,7 @@ struct SimulationPlan {
   SimulatedFixturePlan fixture;
   SimulatedFaultsPlan faults;
   std::optional<SimulatedSpindlePlan> spindle;
+  std::optional<SimulatedWheelPlan> wheel;
 };
 
 struct ReportsPlan {

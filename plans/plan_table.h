@@ -5,6 +5,7 @@
 #include "plans/plan.h"
 #include "plans/simulation_table.h"
 #include "plans/spindle_table.h"
+#include "plans/wheel_table.h"
 
 // The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
 // meaning, once. Defaults are the member initialisers of plan.h. A visitor walks it: TableReader
@@ -367,12 +368,13 @@ void describe(Visitor& v, CharacteristicPlan& p) {
   v.text(
       "form", p.form,
       {.one_of = {"cylindricity", "roundness", "roundness-rms", "harmonic-limits", "motion-total",
-                  "motion-synchronous", "motion-asynchronous"},
+                  "motion-synchronous", "motion-asynchronous", "radius", "run-out"},
        .required = true,
        .meaning = "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
                   "layer of a cylinder or of a spindle feature. Of a spindle feature also: "
                   "roundness-rms (RONq); harmonic-limits; motion-total, motion-synchronous, "
-                  "motion-asynchronous (values of ISO 230-7, the greater of X and Y)."});
+                  "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
+                  "roundness of its edge; radius, the departure from nominal; run-out."});
   v.text("reference", p.reference,
          {.one_of = {"mz", "ls", "mc", "mi"},
           .meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
@@ -426,16 +428,17 @@ void describe(Visitor& v, FeaturePlan& p) {
           .empty_allowed = false,
           .meaning = "Name of the feature, unique in the plan."});
   v.text("type", p.type,
-         {.one_of = {"cylinder", "circle", "spindle"},
+         {.one_of = {"cylinder", "circle", "spindle", "wheel"},
           .required = true,
           .meaning = "What the surface is; spindle: form of a part and motion of its axis, from "
-                     "three probes."});
+                     "three probes; wheel: a grinding wheel, from points of its edge."});
   v.text("side", p.side,
          {.one_of = {"outside", "inside"}, .meaning = "outside: a shaft; inside: a bore."});
   v.object("nominal", p.nominal, {.meaning = "The surface on the drawing, part frame: axis z."});
   v.object("sampling", p.sampling, {.meaning = "Where it is touched."});
   v.object("pose_search", p.pose_search, {.meaning = "How the fixture levels it."});
   v.object("spindle", p.spindle, {.meaning = "Probes and evaluation of the type spindle."});
+  v.object("wheel", p.wheel, {.meaning = "Points and evaluation of the type wheel."});
   v.object("source", p.source,
            {.meaning = "Points from a file in place of touches; no machine is needed then."});
   v.list("characteristics", p.characteristics,

@@ -4,6 +4,7 @@
 #include "plans/machine_errors_table.h"
 #include "plans/plan.h"
 #include "plans/spindle_table.h"
+#include "plans/wheel_table.h"
 
 // The part of plan_table.h that describes the hidden truth of a simulation.
 
@@ -125,6 +126,7 @@ void describe(Visitor& v, SimulationPlan& p) {
            {.meaning = "What interrupts the simulated run. A resumed run meets none of it."});
   v.object("spindle", p.spindle,
            {.meaning = "Part and motion that the probes of a spindle feature see."});
+  v.object("wheel", p.wheel, {.meaning = "The wheel whose edge points a wheel feature gets."});
 }
 
 }  // namespace rondure::plans

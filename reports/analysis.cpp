@@ -90,6 +90,9 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index) {
     case record::Shape::kSpindle:
       evaluate_spindle(record, index, result);
       break;
+    case record::Shape::kWheel:
+      evaluate_wheel(record, index, result);
+      break;
     default:
       result.failure = core::Error{
           core::Code::kMeaning,
