@@ -109,12 +109,12 @@ struct NominalPlan {
 };
 
 struct SamplingPlan {
-  std::string method = "touch";  ///< "touch" or "scan".
   int layers = 4;
   int points_per_layer = 7;
   double margin_mm = 5.0;
   double start_deg = 0.0;
-  double stagger = 1.0;  ///< 0: every layer starts alike; 1: evenly interleaved.
+  double stagger = 1.0;          ///< 0: every layer starts alike; 1: evenly interleaved.
+  std::string method = "touch";  ///< "touch" or "scan".
 };
 
 struct PoseSearchPlan {
