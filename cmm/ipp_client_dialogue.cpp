@@ -80,6 +80,23 @@ core::Result<Eigen::Vector3d> find_point(const Reply& reply) {
                               told(reply).substr(0, 80)));
 }
 
+std::vector<Eigen::Vector3d> find_vectors(const Reply& reply) {
+  std::vector<const Item*> all;
+  for (const Response& line : reply.data) collect(line.data, all);
+  std::vector<Eigen::Vector3d> out;
+  std::vector<double> bare;
+  for (const Item* item : all) {
+    if (item->kind == Item::Kind::kNumber) bare.push_back(item->number);
+    const bool vector = item->kind == Item::Kind::kVector;
+    if (const auto value = vector ? vector_of(*item) : std::nullopt) out.push_back(*value);
+  }
+  if (!out.empty()) return out;
+  for (std::size_t i = 0; i + 2 < bare.size(); i += 3) {
+    out.emplace_back(bare[i], bare[i + 1], bare[i + 2]);
+  }
+  return out;
+}
+
 core::Result<std::vector<Eigen::Vector3d>> scan_points(const Reply& reply) {
   std::vector<Eigen::Vector3d> out;
   for (const Response& line : reply.data) {

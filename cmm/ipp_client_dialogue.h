@@ -45,6 +45,8 @@ struct PointReport {
 [[nodiscard]] std::optional<double> find_number(const Reply& reply, std::string_view name);
 /// X, Y and Z.
 [[nodiscard]] core::Result<Eigen::Vector3d> find_point(const Reply& reply);
+/// All vectors, written in parentheses or as bare numbers, three a vector.
+[[nodiscard]] std::vector<Eigen::Vector3d> find_vectors(const Reply& reply);
 /// All bare numbers in groups of three, as a scan with the report X(),Y(),Z() gives them.
 [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> scan_points(const Reply& reply);
 

@@ -122,17 +122,7 @@ core::Result<IppMachine::Alignment> IppMachine::align_part(const Alignment& targ
   items.push_back(number_item(0.0));
   const auto reply = run("AlignPart", std::move(items), 0.0, "turning the part");
   if (!reply) return core::fail(reply.error());
-  std::vector<Vector3d> reached;
-  std::vector<double> bare;
-  for (const ipp::Response& line : reply->data) {
-    for (const Item& item : line.data) {
-      if (const auto vector = ipp::vector_of(item)) reached.push_back(*vector);
-      if (item.kind == Item::Kind::kNumber) bare.push_back(item.number);
-    }
-  }
-  if (bare.size() == 6) {
-    reached = {{bare[0], bare[1], bare[2]}, {bare[3], bare[4], bare[5]}};
-  }
+  const std::vector<Vector3d> reached = ipp::client::find_vectors(*reply);
   if (reached.size() != 2) {
     return fault(
         fmt::format("turning the part: the machine answered with {} vectors instead of 2; "

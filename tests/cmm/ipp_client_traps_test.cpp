@@ -306,7 +306,7 @@ TEST(IppClientTraps, SeesThatScanColumnsAreNotXyz) {
   ScanCircleCommand scan;
   scan.center_W_mm = {0.0, 0.0, 10.0};
   scan.start_tip_W_mm = {23.0, 0.0, 10.0};
-  scan.sweep_rad = 0.5 * core::kPi;
+  scan.sweep_rad = 0.25 * core::kTwoPi;
   scan.points = 4;
   ASSERT_TRUE(machine->move_to({26.0, 0.0, 10.0}));
   const auto refused = machine->scan_circle(scan);
