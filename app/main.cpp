@@ -89,6 +89,8 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   verb->add_option("--archive", arguments.archive,
                    "Where the results are kept besides: a file, postgresql://... or none\n"
                    "(default: as the plan says, else archive.db beside the run directory)");
+  verb->add_option("--wire-log", arguments.wire_log,
+                   "File for every line to and from a machine behind I++ DME");
   verb->add_flag("--quiet", arguments.quiet, "No progress, no summary");
   verb->add_flag("--step", arguments.step,
                  "First run: slow, each move confirmed on the terminal (Enter go, c continue\n"

@@ -42,6 +42,7 @@ struct RunArguments {
   std::optional<std::uint64_t> seed;
   std::vector<std::string> formats;  ///< Empty: as the plan says.
   std::string archive;               ///< Empty: as the plan says.
+  std::string wire_log;              ///< Empty: none.
   bool quiet = false;
   bool step = false;  ///< Each move confirmed on the terminal, at reduced speed.
 };

@@ -59,6 +59,14 @@ struct MachinePlan {
   std::array<double, 3> volume_max_mm = {10'000.0, 10'000.0, 10'000.0};
   double step_speed_mm_s = 10.0;  ///< Of a first run in single steps.
   double resume_limit_um = 5.0;   ///< Largest change of a repeated touch before a run goes on.
+  // Of the driver "ippdme".
+  std::string host = "127.0.0.1";
+  int port = 1294;
+  std::string tool;  ///< Empty: the tool that is active.
+  double answer_limit_s = 5.0;
+  double motion_limit_s = 120.0;
+  std::string abort = "works";          ///< Or "broken".
+  std::string retract = "to-approach";  ///< Or "by-distance".
 };
 
 struct FixturePlan {

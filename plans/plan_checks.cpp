@@ -148,6 +148,24 @@ void check_mask(const CharacteristicPlan& c, const std::string& where, Findings&
   }
 }
 
+/// A part that is simulated here does not stand in front of a machine elsewhere, nor the reverse.
+void check_drivers(const Plan& plan, Findings& findings) {
+  if (!plan.machine || !plan.fixture || !findings.sound("/machine/driver") ||
+      !findings.sound("/fixture/driver")) {
+    return;
+  }
+  const std::string& machine = plan.machine->driver;
+  const std::string& fixture = plan.fixture->driver;
+  if ((machine == "simulated") == (fixture == "simulated") &&
+      (fixture != "ippdme" || machine == "ippdme")) {
+    return;
+  }
+  findings.meaning(Code::kMeaning, "/fixture/driver",
+                   fmt::format("a fixture \"{}\" cannot carry a part in front of a machine \"{}\"; "
+                               "give both the same driver",
+                               fixture, machine));
+}
+
 void check_characteristic(const FeaturePlan& feature, std::size_t index,
                           const std::string& feature_where, Findings& findings) {
   const std::string where = item_pointer(feature_where + "/characteristics", index);
@@ -231,6 +249,7 @@ void check_equipment(const Plan& plan, Findings& findings) {
     check_travel(plan.fixture->min_alpha_deg, plan.fixture->max_alpha_deg, "alpha", findings);
     check_travel(plan.fixture->min_beta_deg, plan.fixture->max_beta_deg, "beta", findings);
   }
+  check_drivers(plan, findings);
   check_environment(plan, findings);
   if (plan.probe) check_stylus(*plan.probe, findings);
   check_sections(plan.part, findings);

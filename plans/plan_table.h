@@ -71,9 +71,44 @@ void describe(Visitor& v, PartPlan& p) {
                      "path of the tip keeps clear of them."});
 }
 
+/// What the driver "ippdme" needs to know of its server.
+template <class Visitor>
+void describe_server(Visitor& v, MachinePlan& p) {
+  v.text("host", p.host,
+         {.empty_allowed = false,
+          .meaning = "ippdme: name or address of the computer that serves the machine."});
+  v.whole("port", p.port,
+          {.at_least = 1, .at_most = 65'535, .meaning = "ippdme: port of the server."});
+  v.text(
+      "tool", p.tool,
+      {.meaning = "ippdme: the tool to take, as the machine calls it. Left out: the tool that is "
+                  "active."});
+  v.number("answer_limit_s", p.answer_limit_s,
+           {.at_least = 0.1,
+            .at_most = 600.0,
+            .meaning = "ippdme: a command that is not acknowledged, or a question not answered, "
+                       "within this time ends the run."});
+  v.number("motion_limit_s", p.motion_limit_s,
+           {.at_least = 1.0,
+            .at_most = 3600.0,
+            .meaning = "ippdme: a motion, a tool change or the homing that takes this much longer "
+                       "than its way explains is stopped."});
+  v.text("abort", p.abort,
+         {.one_of = {"works", "broken"},
+          .meaning = "ippdme: whether AbortE of the server stops a motion; with \"broken\" a stop "
+                     "waits for the end of the motion."});
+  v.text("retract", p.retract,
+         {.one_of = {"to-approach", "by-distance"},
+          .meaning = "ippdme: \"by-distance\" for a server that refuses a negative Retract, which "
+                     "means back to the start of the touch."});
+}
+
 template <class Visitor>
 void describe(Visitor& v, MachinePlan& p) {
-  v.text("driver", p.driver, {.one_of = {"simulated"}, .meaning = "Which machine measures."});
+  v.text("driver", p.driver,
+         {.one_of = {"simulated", "ippdme"},
+          .meaning = "Which machine measures: a simulation in this program, or a machine behind "
+                     "I++ DME (docs/ipp-dme.md)."});
   v.number("approach_mm", p.approach_mm,
            {.at_least = 0.0,
             .at_most = 100.0,
@@ -132,6 +167,7 @@ void describe(Visitor& v, MachinePlan& p) {
             .above = true,
             .meaning = "A resumed run repeats its last touches; when one of them differs by more, "
                        "part or machine has moved and the run must start again."});
+  describe_server(v, p);
 }
 
 template <class Visitor>
@@ -148,7 +184,9 @@ void describe(Visitor& v, FixturePlan& p) {
         .at_least = -90.0, .at_most = 90.0, .code = core::Code::kPoseRange, .meaning = meaning};
   };
   v.text("driver", p.driver,
-         {.one_of = {"simulated"}, .meaning = "Which fixture carries the part."});
+         {.one_of = {"simulated", "ippdme"},
+          .meaning = "Which fixture carries the part: a simulation in this program, or two rotary "
+                     "axes of the machine behind I++ DME (AlignPart)."});
   v.numbers("axis_point_mm", p.axis_point_mm,
             place("A point of the base-fixed axis (alpha): x, y, z in the machine frame."));
   v.numbers("axis_offset_mm", p.axis_offset_mm,

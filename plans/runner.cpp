@@ -228,9 +228,12 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   std::unique_ptr<Cell> cell;
   record::Header header = header_of(plan, options, known->seed);
   if (touches_anything(plan)) {
-    auto opened = open_cell(driven(plan, options), {known->seed, false});
+    auto opened = open_cell(driven(plan, options),
+                            {known->seed, false, options.wire_log, options.stop_requested});
     if (!opened) return core::fail(opened.error());
     cell = std::move(*opened);
+    header.simulated = cell->is_simulated();
+    if (!header.simulated) header.seed = 0;
     header.machine = cell->machine().description();
     header.fixture = cell->fixture().description();
   }
@@ -267,7 +270,8 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
   if (!changes.empty()) return tl::unexpected(std::move(changes));
   std::unique_ptr<Cell> cell;
   if (touches_anything(plan)) {
-    auto opened = open_cell(driven(plan, options), {known->seed, true});
+    auto opened = open_cell(driven(plan, options),
+                            {known->seed, true, options.wire_log, options.stop_requested});
     if (!opened) return refuse(opened.error());
     cell = std::move(*opened);
   }
