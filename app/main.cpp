@@ -9,6 +9,8 @@
 
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "app/wheel_command.h"
+#include "core/numbers.h"
 #include "core/version.h"
 #include "plans/simulation_table.h"
 #include "reports/exports.h"
@@ -40,10 +42,34 @@ std::string check_seed(const std::string& text) {
   return fmt::format("{} is not a whole number from 0 to {:.0f}", text, plans::kMaxSeed);
 }
 
+/// How many times faster than a real machine.
+std::string check_speed(const std::string& text) {
+  if (text == "inf") return {};
+  const auto factor = core::parse_number(text);
+  if (factor && *factor >= 1e-3 && *factor <= 1e6) return {};
+  return fmt::format("{} is neither inf nor a number from 0.001 to 1000000", text);
+}
+
 void add_validate(CLI::App& app, ValidateArguments& arguments) {
   auto* verb = app.add_subcommand("validate", "Checks a plan: every problem, one a line");
   verb->add_option("PLAN", arguments.plan, "Plan file (JSON)")->required();
   verb->footer("\nExample: rondure validate plans/examples/01_spool_simulated.json");
+}
+
+void add_plan(CLI::App& app, PlanArguments& arguments) {
+  auto* verb = app.add_subcommand(
+      "plan", "What a run would do: poses, touches, path, time, reach; nothing moves");
+  verb->add_option("PLAN", arguments.plan, "Plan file (JSON)")->required();
+  verb->add_flag("--json", arguments.json, "JSON instead of text");
+  verb->add_option("--svg", arguments.svg, "Draws the way of the tip: side and top view")
+      ->type_name("FILE");
+  verb->add_option("--feature", arguments.feature,
+                   "Feature to draw (default: the first that is touched)")
+      ->type_name("ID");
+  verb->footer(
+      "\nExample: rondure plan plans/examples/01_spool_simulated.json --svg path.svg\n"
+      "The run follows the same path. Targets out of reach are named with the reason and what "
+      "would\nhelp; then the exit status is 2. More: docs/planning.md");
 }
 
 void add_run(CLI::App& app, RunArguments& arguments) {
@@ -63,6 +89,9 @@ void add_run(CLI::App& app, RunArguments& arguments) {
                    "Where the results are kept besides: a file, postgresql://... or none\n"
                    "(default: as the plan says, else archive.db beside the run directory)");
   verb->add_flag("--quiet", arguments.quiet, "No progress, no summary");
+  verb->add_flag("--step", arguments.step,
+                 "First run: slow, each move confirmed on the terminal (Enter go, c continue\n"
+                 "without asking, q stop in order)");
   verb->footer(
       std::string("\nExample: rondure run plans/examples/01_spool_simulated.json --serial "
                   "0042 --operator mk\n"
@@ -139,11 +168,120 @@ void add_roundness(CLI::App& fit_verb, RoundnessArguments& arguments) {
       "Filters, formulas and end effects: docs/filters.md");
 }
 
+void add_contour_files(CLI::App& verb, ContourArguments& arguments) {
+  const auto add_files = [&](const char* name, std::vector<std::string>& files,
+                             const char* meaning) {
+    return verb.add_option(name, files, meaning)
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("FILE,...");
+  };
+  add_files("--axes", arguments.axes, "Traces of the control, one file a part")->required();
+  add_files("--pin", arguments.pin, "Contours of the pins from the gauge, one file a part")
+      ->required();
+  add_files("--main", arguments.main, "Contours of the neighbouring main journals, if measured");
+  verb.add_option("--mapping", arguments.mapping, "JSON file that names the columns")
+      ->type_name("FILE");
+  verb.add_option("--column", arguments.columns,
+                  "One column: quantity=column[:unit[:sign]]; may be given several times")
+      ->allow_extra_args(false)
+      ->type_name("TEXT");
+  verb.add_option("--curves", arguments.curves, "Writes t, f, n of all parts as CSV")
+      ->type_name("FILE");
+  verb.add_flag("--json", arguments.json, "JSON instead of text");
+}
+
+void add_contour_settings(CLI::App& verb, ContourArguments& arguments) {
+  const auto one_of_signs = CLI::IsMember({1, -1});
+  verb.add_option("--crank-radius-mm", arguments.crank_radius_mm, "R (default: 49)");
+  verb.add_option("--wheel-radius-mm", arguments.wheel_radius_mm, "Rgw (default: 299.88)");
+  verb.add_option("--pin-radius-mm", arguments.pin_radius_mm, "r (default: 24.56)");
+  verb.add_option("--main-radius-mm", arguments.main_radius_mm, "Main journal (default: 30)");
+  verb.add_option("--cutoff-upr", arguments.cutoff_upr, "Gaussian low pass (default: 50)");
+  verb.add_option("--pre-filter-upr", arguments.pre_filter_upr,
+                  "Gaussian low pass of the axis errors first (default: none)");
+  verb.add_option("--samples", arguments.samples, "Points of a contour (default: 1440)");
+  verb.add_option("--path-samples", arguments.path_samples,
+                  "C positions the traces are brought to (default: 1440)");
+  verb.add_option("--phase-offset-deg", arguments.phase_offset_deg,
+                  "Gauge angle of the direction from the crankshaft's to the pin's axis");
+  verb.add_option("--main-phase-offset-deg", arguments.main_phase_offset_deg,
+                  "The same of the main journals (default: as the pins)");
+  verb.add_option("--gauge-direction", arguments.gauge_direction,
+                  "1 (default), or -1: the gauge turns the other way")
+      ->check(one_of_signs);
+  verb.add_option("--c-direction", arguments.c_direction,
+                  "1 (default), or -1: C turns the crank counter-clockwise under the wheel")
+      ->check(one_of_signs);
+  verb.add_option("--error-sign", arguments.error_sign,
+                  "1 (default): actual minus command; -1: command minus actual, as a following "
+                  "error of most controls")
+      ->check(one_of_signs);
+  verb.add_option("--base", arguments.base, "Base circle: limacon (default) or geometric")
+      ->check(CLI::IsMember({"limacon", "geometric"}));
+  verb.add_option("--method", arguments.method,
+                  "corrected (default), or as-published: each f is turned onto its t")
+      ->check(CLI::IsMember({"corrected", "as-published"}));
+  verb.add_flag("--prefiltered", arguments.prefiltered, "The gauge has filtered the contours");
+  verb.add_flag("--map-main", arguments.map_main,
+                "Carry a main journal to the pin as n(alpha(beta)) cos(eta)");
+}
+
+void add_contour(CLI::App& fit_verb, ContourArguments& arguments) {
+  auto* verb = fit_verb.add_subcommand(
+      "contour",
+      "Crank pins in follow grinding: which share of the contour error follows the axes, and which "
+      "share repeats");
+  add_contour_files(*verb, arguments);
+  add_contour_settings(*verb, arguments);
+  verb->footer(
+      "\nColumns without a mapping (CSV, a header line, a row a sample):\n"
+      "  axes   c_deg, c_error_deg, x_error_mm: C position and the errors of both axes, or\n"
+      "         alpha_cmd_deg, d_cmd_mm, alpha_act_deg, d_act_mm: positions, 360 deg at least\n"
+      "  pin, main   angle_deg, deviation_um: one turn, steps of at most 1 deg\n"
+      "Quantities of a mapping: c, c_error, x_error, alpha_cmd, d_cmd, alpha_act, d_act, angle,\n"
+      "deviation, main_angle, main_deviation. Units: deg, mdeg, arcsec, rad, mrad; mm, um, nm.\n"
+      "As a file: {\"columns\": {\"x_error\": {\"column\": \"X_FOLLOW\", \"unit\": \"um\", "
+      "\"sign\": "
+      "-1}}}\n"
+      "\nExample:\n"
+      "  rondure fit contour --axes tests/data/spec_contour/axes1.csv --pin "
+      "tests/data/spec_contour/pin1.csv --prefiltered\n"
+      "  rondure fit contour --axes a1.csv,a2.csv,a3.csv,a4.csv --pin p1.csv,p2.csv,p3.csv,p4.csv\n"
+      "      --column c_error=C_FOLLOW:mdeg:-1 --column x_error=X_FOLLOW:um:-1 "
+      "--phase-offset-deg 12.5\n"
+      "Method, columns, keys of the JSON: docs/contour.md");
+}
+
 void add_selftest(CLI::App& fit_verb, SelfTestArguments& arguments) {
   auto* verb = fit_verb.add_subcommand(
       "filter-selftest", "Measures the transmission of the Gaussian filter: 0 passed, 2 failed");
   verb->add_option("--cutoff-upr", arguments.cutoff_upr, "Cut-off of the table (default: 50)");
   verb->footer("\nExample: rondure fit filter-selftest --cutoff-upr 15");
+}
+
+void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
+  auto* verb = app.add_subcommand(
+      "simulate-cmm",
+      "Serves the virtual machine of a plan over I++ DME, for one client at a time");
+  verb->add_option("PLAN", arguments.plan, "Plan file (JSON) with a simulation")->required();
+  verb->add_option("--port", arguments.port, "TCP port (default: 1294); 0: any free one");
+  verb->add_option("--listen", arguments.address,
+                   "Address to listen at (default: 127.0.0.1, this computer only)")
+      ->type_name("ADDRESS");
+  verb->add_option("--speed", arguments.speed,
+                   "How much faster than a real machine (default: 1); inf: motions take no time")
+      ->check(check_speed)
+      ->type_name("FACTOR");
+  verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
+      ->check(check_seed);
+  verb->add_flag("--as-seen", arguments.as_seen,
+                 "Answers as another server was seen to where that differs from the specification");
+  verb->add_option("--wire-log", arguments.wire_log, "Every line both ways, added to this file")
+      ->type_name("FILE");
+  verb->footer(
+      "\nExample: rondure simulate-cmm plans/examples/01_spool_simulated.json --speed inf\n"
+      "Any I++ DME client can be tried against it. What it speaks: docs/ipp-dme-server.md");
 }
 
 void add_report(CLI::App& app, ReportArguments& arguments) {
@@ -248,19 +386,27 @@ int main_of(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(kExits);
   ValidateArguments validate_arguments;
+  PlanArguments plan_arguments;
   RunArguments run_arguments;
+  SimulateCmmArguments simulate_arguments;
   FitArguments fit_arguments;
   RoundnessArguments roundness_arguments;
   SelfTestArguments selftest_arguments;
+  WheelArguments wheel_arguments;
+  ContourArguments contour_arguments;
   ReportArguments report_arguments;
   SignArguments sign_arguments;
   VerifyArguments verify_arguments;
   HistoryArguments history_arguments;
   add_validate(app, validate_arguments);
+  add_plan(app, plan_arguments);
   add_run(app, run_arguments);
+  add_simulate_cmm(app, simulate_arguments);
   CLI::App* const fit_verb = add_fit(app, fit_arguments);
   add_roundness(*fit_verb, roundness_arguments);
+  add_contour(*fit_verb, contour_arguments);
   add_selftest(*fit_verb, selftest_arguments);
+  add_wheel(*fit_verb, wheel_arguments);
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
   add_history(app, history_arguments);
@@ -272,8 +418,12 @@ int main_of(int argc, char** argv) {
   }
   if (app.got_subcommand("validate")) return validate(validate_arguments);
   if (app.got_subcommand("run")) return run(run_arguments);
+  if (app.got_subcommand("simulate-cmm")) return simulate_cmm(simulate_arguments);
+  if (app.got_subcommand("plan")) return plan(plan_arguments);
   if (fit_verb->got_subcommand("roundness")) return roundness(roundness_arguments);
   if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
+  if (fit_verb->got_subcommand("wheel")) return wheel(wheel_arguments);
+  if (fit_verb->got_subcommand("contour")) return contour(contour_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
   if (app.got_subcommand("history")) return history(history_arguments);

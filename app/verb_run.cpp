@@ -7,6 +7,7 @@
 #include "app/processor.h"
 #include "app/resumption.h"
 #include "app/run_ending.h"
+#include "app/step_prompt.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "plans/plan.h"
@@ -57,8 +58,13 @@ plans::RunOptions options_of(const RunArguments& arguments) {
 
 /// Measures, from the beginning or from the last touch on.
 plans::RunOrRefusals measure(const plans::Plan& plan, plans::RunOptions options, bool resume,
-                             bool quiet) {
-  ProgressLine line(quiet);
+                             const RunArguments& arguments) {
+  ProgressLine line(arguments.quiet || arguments.step);
+  StepPrompt prompt;
+  if (arguments.step) {
+    options.single_step = true;
+    options.before_move = [&prompt](const plans::NextMove& move) { return prompt.ask(move); };
+  }
   options.progress = [&line](const plans::Progress& progress) { line.show(progress); };
   if (resume) return plans::resume_plan(plan, options);
   auto run = plans::run_plan(plan, options);
@@ -96,6 +102,12 @@ core::Result<Resumption> look(const RunArguments& arguments) {
 }  // namespace
 
 int run(const RunArguments& arguments) {
+  if (arguments.step) {
+    if (auto terminal = StepPrompt::check_terminal(); !terminal) {
+      complain(terminal.error());
+      return kBadInput;
+    }
+  }
   const auto resumption = look(arguments);
   if (!resumption) {
     complain(resumption.error());
@@ -123,7 +135,7 @@ int run(const RunArguments& arguments) {
   if (arguments.resume && !resume && !arguments.quiet) {
     tell(fmt::format("rondure: {} holds no run yet; it begins\n", options.directory.string()));
   }
-  auto run = measure(*plan, options, resume, arguments.quiet);
+  auto run = measure(*plan, options, resume, arguments);
   if (!run) {
     refuse(run.error(), resume, options.directory);
     if (!arguments.resume) tell_about_resume(ending);

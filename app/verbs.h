@@ -24,6 +24,14 @@ struct ValidateArguments {
 };
 [[nodiscard]] int validate(const ValidateArguments& arguments);
 
+struct PlanArguments {
+  std::string plan;
+  bool json = false;
+  std::string svg;      ///< File for a picture; empty: none.
+  std::string feature;  ///< To draw; empty: the first.
+};
+[[nodiscard]] int plan(const PlanArguments& arguments);
+
 struct RunArguments {
   std::string plan;  ///< With `resume` also a run directory.
   std::string out;   ///< Empty: runs/<plan>-<UTC>.
@@ -34,8 +42,20 @@ struct RunArguments {
   std::vector<std::string> formats;  ///< Empty: as the plan says.
   std::string archive;               ///< Empty: as the plan says.
   bool quiet = false;
+  bool step = false;  ///< Each move confirmed on the terminal, at reduced speed.
 };
 [[nodiscard]] int run(const RunArguments& arguments);
+
+struct SimulateCmmArguments {
+  std::string plan;
+  std::uint16_t port = 1294;
+  std::string address = "127.0.0.1";
+  double speed = 1.0;  ///< Simulated seconds in a second; infinity: no waiting.
+  std::optional<std::uint64_t> seed;
+  bool as_seen = false;  ///< Answers as an independent server does where that differs.
+  std::string wire_log;  ///< File; empty: none.
+};
+[[nodiscard]] int simulate_cmm(const SimulateCmmArguments& arguments);
 
 struct ReportArguments {
   std::string directory;
@@ -92,6 +112,34 @@ struct RoundnessArguments {
   bool json = false;
 };
 [[nodiscard]] int roundness(const RoundnessArguments& arguments);
+
+struct ContourArguments {
+  std::vector<std::string> axes;  ///< One file a part; as pin and main (or no main at all).
+  std::vector<std::string> pin;
+  std::vector<std::string> main;
+  std::string mapping;
+  std::vector<std::string> columns;
+  double crank_radius_mm = 49.0;
+  double wheel_radius_mm = 299.88;
+  double pin_radius_mm = 24.56;
+  double main_radius_mm = 30.0;
+  double cutoff_upr = 50.0;
+  double pre_filter_upr = 0.0;
+  std::size_t samples = 1440;
+  std::size_t path_samples = 1440;
+  double phase_offset_deg = 0.0;
+  std::optional<double> main_phase_offset_deg;  ///< Absent: as of the pins.
+  int gauge_direction = 1;
+  int c_direction = 1;
+  int error_sign = 1;
+  std::string base = "limacon";
+  std::string method = "corrected";
+  bool prefiltered = false;
+  bool map_main = false;
+  std::string curves;  ///< File for the curves; empty: none.
+  bool json = false;
+};
+[[nodiscard]] int contour(const ContourArguments& arguments);
 
 struct SelfTestArguments {
   double cutoff_upr = 50.0;  ///< Of the table; the standard ones are checked besides.

@@ -54,7 +54,7 @@ std::optional<SideContact> end_contact(const PartSurface& surface, const SphereS
 
 /// The outer wall of the block around a bore, as a shaft of ideal form.
 PartSurface block_wall(const PartSurface& bore) {
-  return {bore.radius_mm + kBlockWall_mm, bore.half_length_mm, false, {}};
+  return {bore.radius_mm + kBlockWall_mm, bore.half_length_mm, false, {}, {}};
 }
 
 core::Error in_contact_already() {
@@ -86,7 +86,7 @@ core::Result<Contact> first_contact(const PartSurface& surface, const Vector3d& 
                                     double max_travel_mm) {
   const SphereSweep sweep = {start_P_mm, direction_P, tip_radius_mm, max_travel_mm};
   const Vector3d end_P_mm = start_P_mm + max_travel_mm * direction_P;
-  if (surely_clear(surface, shape_bounds(surface).deviation_mm, start_P_mm, end_P_mm,
+  if (surely_clear(surface, shape_bounds(surface).toward_free_mm, start_P_mm, end_P_mm,
                    tip_radius_mm)) {
     return core::fail(no_contact(max_travel_mm));
   }

@@ -26,6 +26,18 @@ struct PartForm {
   double bend_phase_rad = 0.0;
 };
 
+/// A keyway, a burr, a flat spot: a patch of the surface that is raised or sunk. Its flanks are C2:
+///   dr = height W(u) W(z),  W = 1 within the patch but for its flanks, 0 outside,
+/// u along the circumference at the nominal radius; the floor follows the surface.
+struct SurfaceMark {
+  double theta_rad = 0.0;  ///< Of its middle.
+  double z_mm = 0.0;       ///< Of its middle, from mid-length.
+  double width_mm = 0.0;   ///< Along the circumference, flanks included; > 0.
+  double length_mm = 0.0;  ///< Along the axis, flanks included; > 0.
+  double height_mm = 0.0;  ///< Toward the free side: a burr > 0, a keyway < 0.
+  double flank_mm = 0.1;   ///< Width of each flank; > 0, at most half of width and length.
+};
+
 /// Thickness of the block around a simulated bore [mm].
 inline constexpr double kBlockWall_mm = 20.0;
 
@@ -37,9 +49,12 @@ struct PartSurface {
   double half_length_mm = 0.0;
   bool inside = false;  ///< true: a bore in a block, false: a shaft.
   PartForm form;
+  std::vector<SurfaceMark> marks = {};
 
   /// Radius at an angle and height.
   [[nodiscard]] double radius_at(double theta_rad, double z_mm) const;
+  /// The same part with every length multiplied, about the origin of P: as heat changes it.
+  [[nodiscard]] PartSurface scaled(double factor) const;
 };
 
 }  // namespace rondure::cmm

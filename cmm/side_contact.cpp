@@ -328,12 +328,37 @@ std::optional<std::optional<SideContact>> gentle_contact(const PartSurface& surf
   return SideContact{minimum->value, surface_jet(surface, minimum->at.x(), minimum->at.y()).x_mm};
 }
 
+/// True when the sphere stays away from every mark all along its way.
+bool passes_marks(const PartSurface& surface, const SphereSweep& sweep) {
+  const Vector3d a = sweep.start_P_mm;
+  const Vector3d b = a + sweep.travel_mm * sweep.direction_P;
+  const double theta = std::atan2(a.y(), a.x());
+  const double turn = std::abs(std::remainder(std::atan2(b.y(), b.x()) - theta, core::kTwoPi));
+  // Seen from the axis the way turns by less than half a turn only where it does not cross it.
+  if (turn > 0.25 * core::kTwoPi) return false;
+  return std::none_of(surface.marks.begin(), surface.marks.end(), [&](const SurfaceMark& mark) {
+    const double keep_off = sweep.radius_mm + std::abs(mark.height_mm);
+    const double least_z = std::min(a.z(), b.z()) - 0.5 * mark.length_mm - mark.z_mm;
+    const double most_z = mark.z_mm - 0.5 * mark.length_mm - std::max(a.z(), b.z());
+    if (std::max(least_z, most_z) > keep_off) return false;
+    const double half = 0.5 * mark.width_mm / surface.radius_mm;
+    const double apart =
+        std::abs(std::remainder(theta - mark.theta_rad, core::kTwoPi)) - turn - half;
+    const double reach = surface.radius_mm - std::abs(mark.height_mm);
+    if (apart <= 0.0) return true;
+    return reach * std::sin(std::min(apart, 0.25 * core::kTwoPi)) <= keep_off;
+  });
+}
+
 }  // namespace
 
 core::Result<std::optional<SideContact>> first_side_contact(const PartSurface& surface,
                                                             const SphereSweep& sweep) {
   const ShapeBounds bounds = shape_bounds(surface);
-  if (const auto gentle = gentle_contact(surface, bounds, sweep)) return *gentle;
+  if (surface.marks.empty() || passes_marks(surface, sweep)) {
+    const ShapeBounds beside = surface.marks.empty() ? bounds : bounds_beside_marks(surface);
+    if (const auto gentle = gentle_contact(surface, beside, sweep)) return *gentle;
+  }
   return SideSearch(surface, bounds, sweep).run();
 }
 

@@ -35,6 +35,7 @@ struct SurfaceJet {
 /// Bounds that hold everywhere on a surface.
 struct ShapeBounds {
   double deviation_mm = 0.0;         ///< |r - radius|.
+  double toward_free_mm = 0.0;       ///< r - radius of a shaft, radius - r of a bore.
   double stretch_u = 0.0;            ///< |dX/du|.
   double stretch_z = 0.0;            ///< |dX/dz|.
   double form_curvature_1_mm = 0.0;  ///< Of the form alone, the ideal cylinder left out [1/mm].
@@ -42,5 +43,7 @@ struct ShapeBounds {
 };
 
 [[nodiscard]] ShapeBounds shape_bounds(const PartSurface& surface);
+/// The same where no mark is.
+[[nodiscard]] ShapeBounds bounds_beside_marks(const PartSurface& surface);
 
 }  // namespace rondure::cmm

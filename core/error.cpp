@@ -22,6 +22,20 @@ std::string_view code_name(Code code) {
       return "not-converged";
     case Code::kUnits:
       return "units";
+    case Code::kShortArc:
+      return "short-arc";
+    case Code::kTooFewCenters:
+      return "too-few-centers";
+    case Code::kOutliers:
+      return "outliers";
+    case Code::kSurface:
+      return "surface";
+    case Code::kTable:
+      return "table";
+    case Code::kGouge:
+      return "gouge";
+    case Code::kWheelArc:
+      return "wheel-arc";
     case Code::kBadOption:
       return "bad-option";
     case Code::kSyntax:
@@ -84,6 +98,28 @@ std::string_view code_name(Code code) {
       return "reference-absent";
     case Code::kSeveralOptima:
       return "several-optima";
+    case Code::kFilteredTwice:
+      return "filtered-twice";
+    case Code::kUndercut:
+      return "undercut";
+    case Code::kSense:
+      return "sense";
+    case Code::kAlignment:
+      return "alignment";
+    case Code::kHarmonicLoss:
+      return "harmonic-loss";
+    case Code::kInconsistent:
+      return "inconsistent";
+    case Code::kCenterDisagrees:
+      return "center-disagrees";
+    case Code::kNoAxis:
+      return "no-axis";
+    case Code::kLocalForm:
+      return "local-form";
+    case Code::kCorrelated:
+      return "correlated";
+    case Code::kLowMargin:
+      return "low-margin";
   }
   return "internal";
 }

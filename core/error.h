@@ -17,6 +17,14 @@ enum class Code {
   kRank,            ///< rank: a parameter is undetermined, e.g. the tilt of a single layer
   kNotConverged,    ///< not-converged: an iteration limit ended the computation
   kUnits,           ///< units: a size that suggests metres or micrometres
+  // Grinding wheel and its path.
+  kShortArc,       ///< short-arc: the points cover too little of the circle
+  kTooFewCenters,  ///< too-few-centers: fewer than 6 quadruples of points give a usable centre
+  kOutliers,       ///< outliers: single points that are not the surface; dropped, or too many
+  kSurface,        ///< surface: a height that does not exist or is not known at this x
+  kTable,          ///< table: x not strictly increasing, or fewer than 5 rows
+  kGouge,          ///< gouge: the wheel would cut into the surface beside its contact
+  kWheelArc,       ///< wheel-arc: the contact leaves the trued arc of the wheel
   // Plans, files, arguments.
   kBadOption,    ///< bad-option: a setting outside its range
   kSyntax,       ///< syntax: the text is not JSON or not CSV
@@ -48,10 +56,23 @@ enum class Code {
   kExactFit,       ///< exact-fit: no more points than unknowns, the deviation is 0 by construction
   kNotLevel,       ///< not-level: f(pose) > 2 MZ, the pose and not the part dominates f
   kUndersampled,   ///< undersampled: filtered by option with fewer than 7 points per undulation
+  kFilteredTwice,  ///< filtered-twice: the data seem filtered already, or not as said
+  kUndercut,       ///< undercut: the wheel path has loops; the contour is the envelope
+  kSense,          ///< sense: a sign or direction that the data speak against
+  kAlignment,      ///< alignment: the zero of two curves seems to differ
   kAngleOrder,     ///< angle-order: angles that were unsorted, repeated or ran over one turn
   kReferenceAbsent,  ///< reference-absent: a reference that does not exist for these data
+  kCenterDisagrees,  ///< center-disagrees: two ways to a wheel centre differ by more than noise
+  kNoAxis,           ///< no-axis: without the axis of rotation there is roundness but no run-out
+  kLocalForm,        ///< local-form: neighbouring points that are form (wear, flat), not outliers
+  kCorrelated,       ///< correlated: neighbouring residuals are alike; they are not noise alone
+  kLowMargin,        ///< low-margin: a wheel radius close to the concave radius it must grind
   kSeveralOptima,    ///< several-optima: a reference is one of several that are nearly alike
+  kHarmonicLoss,     ///< harmonic-loss: harmonics that a separation loses or amplifies much
+  kInconsistent,     ///< inconsistent: data that contradict the geometry they were taken with
 };
+/// The last of them.
+inline constexpr Code kLastCode = Code::kInconsistent;
 
 /// The name of a code as JSON and messages spell it, e.g. "too-few-points".
 [[nodiscard]] std::string_view code_name(Code code);

@@ -23,4 +23,11 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
+double on_grid(double value, double steps_per_unit) {
+  constexpr double kExact = 0x1p53;
+  const double steps = std::nearbyint(value * steps_per_unit);
+  if (!(std::abs(steps) < kExact)) return value;
+  return steps / steps_per_unit + 0.0;  // no negative zero: its text loses the sign
+}
+
 }  // namespace rondure::core

@@ -1,146 +1,21 @@
 #include "plans/cell.h"
 
-#include <cmath>
-
-#include "core/units.h"
 #include "plans/plan_reach.h"
+#include "plans/simulated_cell.h"
 
 namespace rondure::plans {
-namespace {
 
-fixture::Kinematics kinematics_of(const FixturePlan& plan) {
-  return {vector3(plan.axis_point_mm), vector3(plan.axis_offset_mm)};
+Cell::Cell(const Plan& plan)
+    : kinematics_(nominal_kinematics(*plan.fixture)), X_BP_(nominal_seat(*plan.fixture)) {}
+
+core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan, const CellOptions& options) {
+  return std::make_unique<SimulatedCell>(plan, options.seed, options.resumed);
 }
 
-fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t seed,
-                                                 bool resumed) {
-  const FixturePlan& fixture = *plan.fixture;
-  const SimulatedFixturePlan& hidden = plan.simulation->fixture;
-  fixture::SimulatedFixtureOptions out;
-  out.kinematics = kinematics_of(fixture);
-  out.limits = {fixture.min_alpha_deg * core::kDegree, fixture.max_alpha_deg * core::kDegree,
-                fixture.min_beta_deg * core::kDegree, fixture.max_beta_deg * core::kDegree,
-                fixture.resolution_deg * core::kDegree};
-  out.errors.axis_point_mm = vector3(hidden.axis_point_error_um) * core::kMicrometre;
-  out.errors.axis_offset_mm = vector3(hidden.axis_offset_error_um) * core::kMicrometre;
-  out.errors.zero_alpha_rad = hidden.zero_alpha_deg * core::kDegree;
-  out.errors.zero_beta_rad = hidden.zero_beta_deg * core::kDegree;
-  out.errors.squareness_rad = hidden.squareness_deg * core::kDegree;
-  out.errors.repeatability_rad = hidden.repeatability_deg * core::kDegree;
-  out.seed = seed;
-  const int stall = plan.simulation->faults.fixture_stalls_at_move;
-  if (!resumed) out.stalls_at_move = static_cast<std::uint64_t>(stall);
-  return out;
-}
-
-cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t seed, bool resumed) {
-  cmm::SimulatedMachineOptions out;
-  out.nominal_tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
-  out.park_W_mm = vector3(plan.machine->park_mm);
-  out.travel_speed_mm_s = plan.machine->travel_speed_mm_s;
-  out.touch_speed_mm_s = plan.machine->touch_speed_mm_s;
-  out.temperature_degC = plan.simulation->temperature_degC;
-  out.errors.repeatability_mm = plan.simulation->probe.repeatability_um * core::kMicrometre;
-  out.errors.tip_radius_error_mm = plan.simulation->probe.tip_radius_error_um * core::kMicrometre;
-  out.seed = seed;
-  if (!resumed) out.lost_at_touch = plan.simulation->faults.connection_lost_at_touch;
-  return out;
-}
-
-/// Where the simulated part really sits: shifted and tilted about the part origin, then up to the
-/// middle of the surface, where its own frame begins.
-Eigen::Isometry3d true_seat(const Eigen::Isometry3d& nominal, const SimulatedPartPlan& part,
-                            const FeaturePlan& feature) {
-  const double toward = part.tilt_toward_deg * core::kDegree;
-  Eigen::Isometry3d seat = nominal;
-  seat.translate(Eigen::Vector3d(part.offset_x_mm, part.offset_y_mm, 0.0));
-  seat.rotate(Eigen::AngleAxisd(part.tilt_deg * core::kDegree,
-                                Eigen::Vector3d(-std::sin(toward), std::cos(toward), 0.0)));
-  seat.translate(
-      Eigen::Vector3d(0.0, 0.0, 0.5 * (feature.nominal.from_mm + feature.nominal.to_mm)));
-  return seat;
-}
-
-}  // namespace
-
-cmm::PartSurface simulated_surface(const SimulationPlan& simulation, const FeaturePlan& feature) {
-  const SimulatedPartPlan& part = simulation.part;
-  cmm::PartSurface out;
-  out.radius_mm = 0.5 * (feature.nominal.diameter_mm + part.diameter_error_um * core::kMicrometre);
-  out.half_length_mm = 0.5 * (feature.nominal.to_mm - feature.nominal.from_mm);
-  out.inside = feature.side == "inside";
-  for (const LobePlan& lobe : part.lobes) {
-    out.form.lobes.push_back({lobe.order, lobe.amplitude_um * core::kMicrometre,
-                              lobe.phase_deg * core::kDegree, lobe.twist_deg * core::kDegree});
-  }
-  out.form.taper_mm = part.taper_um * core::kMicrometre;
-  out.form.barrel_mm = part.barrel_um * core::kMicrometre;
-  out.form.bend_mm = part.bend_um * core::kMicrometre;
-  out.form.bend_phase_rad = part.bend_phase_deg * core::kDegree;
-  return out;
-}
-
-Cell::Cell(const Plan& plan, std::uint64_t seed, bool resumed)
-    : simulation_(*plan.simulation),
-      kinematics_(kinematics_of(*plan.fixture)),
-      fixture_(fixture_options(plan, seed, resumed)),
-      machine_(machine_options(plan, seed, resumed)) {
-  X_BP_.translation() = vector3(plan.fixture->part_position_mm);
-  machine_.place_sphere({vector3(plan.probe->qualification.sphere_center_mm),
-                         0.5 * plan.probe->qualification.sphere_diameter_mm});
-}
-
-void Cell::mount(const FeaturePlan& feature) {
-  surface_ = simulated_surface(simulation_, feature);
-  true_X_BP_ = true_seat(X_BP_, simulation_.part, feature);
-  place_part();
-}
-
-core::Result<core::Pose> Cell::home_fixture() {
-  auto reached = fixture_.home();
-  turns_ = 0;
-  place_part();
-  return reached;
-}
-
-core::Result<core::Pose> Cell::turn_to(const core::Pose& commanded) { return turn(commanded); }
-
-core::Result<core::Pose> Cell::recall_home() { return home_fixture(); }
-
-core::Result<core::Pose> Cell::recall_turn(const core::Pose& commanded) { return turn(commanded); }
-
-core::Result<core::Pose> Cell::turn(const core::Pose& commanded) {
-  auto reached = fixture_.move_to(commanded);
-  if (reached) {
-    ++turns_;
-    last_turn_ = commanded;
-  }
-  place_part();
-  return reached;
-}
-
-core::Result<void> Cell::recall_touch(const cmm::TouchCommand& command,
-                                      const cmm::TouchReading& reading) {
-  return machine_.continue_after(command, reading);
-}
-
-core::Result<core::Pose> Cell::home_again() {
-  shift_mm_.x() = simulation_.faults.part_moved_um * core::kMicrometre;
-  fixture_.stop_beside(simulation_.faults.fixture_off_deg * core::kDegree);
-  if (auto homed = machine_.home(); !homed) return core::fail(homed.error());
-  auto reached = fixture_.home();
-  if (reached && turns_ > 0) {
-    fixture_.continue_after(turns_ - 1);
-    reached = fixture_.move_to(last_turn_);
-  }
-  place_part();
-  return reached;
-}
-
-void Cell::place_part() {
-  if (!surface_) return;
-  machine_.place_part(
-      *surface_, fixture_.true_body_to_machine() * Eigen::Translation3d(shift_mm_) * true_X_BP_);
+// A real machine keeps no state that depends on the past.
+core::Result<void> Cell::recall_scan(const cmm::ScanCircleCommand& /*command*/,
+                                     const cmm::TouchReading& /*last*/) {
+  return {};
 }
 
 }  // namespace rondure::plans

@@ -18,7 +18,8 @@ FeatureSession::FeatureSession(RunContext& context, int feature_index, std::vect
       feature_(context.plan.features[static_cast<std::size_t>(feature_index)]),
       targets_(std::move(targets)),
       X_BP_(context.cell->nominal_part()),
-      geometry_(path_geometry(context.plan, feature_, context.plan.part.location_uncertainty_mm)) {
+      geometry_(path_geometry(context.plan, feature_, context.plan.part.location_uncertainty_mm)),
+      planner_(context.plan, feature_) {
   context_.progress.feature = feature_.id;
 }
 
@@ -56,11 +57,7 @@ bool FeatureSession::must_locate() const {
 
 core::Result<void> FeatureSession::turn(const core::Pose& commanded,
                                         const std::vector<Target>& targets) {
-  const FixturePlan& fixture = *context_.plan.fixture;
-  const Surroundings surroundings{fixture.rim_height_mm, fixture.clamp_from_mm,
-                                  fixture.clamp_to_mm};
-  if (auto reach = check_reachable(targets, geometry_, part_at(commanded), surroundings); !reach)
-    return reach;
+  if (const auto path = lay(targets, commanded); !path) return core::fail(path.error());
   const auto visit = context_.turn(index_, commanded);
   if (!visit) return core::fail(visit.error());
   reached_ = visit->reached;
@@ -92,8 +89,8 @@ core::Result<void> FeatureSession::check_location(const fit::LsCylinder& found) 
   }
   if (!(found.deviation_mm <= allowed)) return refuse("form", found.deviation_mm);
   const double cosine = std::min(1.0, std::abs(found.axis.direction.dot(expected_axis())));
-  const double reach =
-      0.5 * (geometry_.to_mm - geometry_.from_mm) * std::sqrt(1.0 - cosine * cosine);
+  const double half_mm = 0.5 * (feature_.nominal.to_mm - feature_.nominal.from_mm);
+  const double reach = half_mm * std::sqrt(1.0 - cosine * cosine);
   if (!(reach <= allowed)) return refuse("end of the axis", reach);
   return {};
 }
@@ -112,9 +109,9 @@ core::Result<fit::Axis> FeatureSession::locate(const core::Pose& commanded) {
 }
 
 core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
-  if (auto turned = turn(commanded, targets_); !turned) return core::fail(turned.error());
+  if (auto turned = turn(commanded, reach_targets()); !turned) return core::fail(turned.error());
   truth_.clear();
-  auto tips = touch_cloud(targets_, record::Touch::Purpose::kMeasure);
+  auto tips = measure_cloud();
   if (!tips) return core::fail(tips.error());
   return Cloud{reached_, std::move(*tips)};
 }
@@ -122,8 +119,7 @@ core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
 core::Result<void> FeatureSession::repeat(int times) {
   for (int i = 0; i < times; ++i) {
     ++repeat_;
-    if (auto tips = touch_cloud(targets_, record::Touch::Purpose::kMeasure); !tips)
-      return core::fail(tips.error());
+    if (auto tips = measure_cloud(); !tips) return core::fail(tips.error());
   }
   return {};
 }
@@ -133,7 +129,7 @@ core::Result<void> FeatureSession::keep_as_final() {
   if (known == nullptr || !known->final_cloud) {
     if (auto marked = context_.journal.mark_final(pose_id_); !marked) return marked;
   }
-  if (context_.past.knows_truth(index_)) return {};
+  if (truth_.empty() || context_.past.knows_truth(index_)) return {};
   // Only a comparison for simulations: a truth that cannot be evaluated must not end the run.
   std::optional<double> zone_mm;
   if (feature_.type == "circle") {
@@ -179,9 +175,15 @@ void FeatureSession::show(double f_mm) {
   context_.show();
 }
 
-TouchStep FeatureSession::step_to(const std::vector<Target>& targets, std::size_t i,
+core::Result<CloudPath> FeatureSession::lay(const std::vector<Target>& targets,
+                                            const core::Pose& pose) {
+  return planner_.lay(targets, geometry_,
+                      fixture::body_to_machine(context_.cell->kinematics(), pose), X_BP_);
+}
+
+TouchStep FeatureSession::step_to(const CloudPath& path, std::size_t k,
                                   record::Touch::Purpose purpose) const {
-  const Target& target = targets[i];
+  const Target& target = path.target(k);
   const Eigen::Isometry3d X_WP = part_at(reached_);
   TouchStep step;
   step.command.expected_tip_W_mm = X_WP * contact_tip(geometry_, target);
@@ -194,43 +196,47 @@ TouchStep FeatureSession::step_to(const std::vector<Target>& targets, std::size_
   step.row.layer = target.layer;
   step.row.point = target.point;
   step.row.repeat = repeat_;
-  step.entry_W = in_machine_frame(entry_path(geometry_, target), X_WP);
-  // Sideways only at park height; then straight down to above the part.
-  Eigen::Vector3d above = step.entry_W.front();
-  above.z() = std::max(above.z(), context_.plan.machine->park_mm[2]);
-  step.entry_W.insert(step.entry_W.begin(), above);
-  step.way_W = i == 0 ? step.entry_W
-                      : in_machine_frame(path_between(geometry_, targets[i - 1], target), X_WP);
+  step.entry_W = path.entry_W(k);
+  step.way_W = path.way_W(k);
   return step;
+}
+
+void FeatureSession::leave(const CloudPath& path, std::size_t k) {
+  if (auto out = context_.follow(path.exit_W(k)); out) (void)context_.rise();
 }
 
 core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud(
     const std::vector<Target>& targets, record::Touch::Purpose purpose) {
-  const Eigen::Isometry3d X_WP = part_at(reached_);
-  const auto way_out = [&](const Target& target) {
-    return in_machine_frame(exit_path(geometry_, target), X_WP);
-  };
+  const auto path = lay(targets, reached_);
+  if (!path) return core::fail(path.error());
   context_.last_steps.clear();
-  std::vector<Eigen::Vector3d> tips;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    const TouchStep step = step_to(targets, i, purpose);
-    if (auto moved = context_.follow(step.way_W); !moved)
-      return fault_at(targets[i], moved.error());
-    auto tip = touch(step, targets[i]);
+  std::vector<Eigen::Vector3d> tips(targets.size());
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    const Target& target = path->target(k);
+    const TouchStep step = step_to(*path, k, purpose);
+    context_.doing =
+        fmt::format("{}, layer {}, point {}", feature_.id, target.layer + 1, target.point + 1);
+    if (auto moved = context_.follow(step.way_W); !moved) {
+      // Refused by the operator: the tip is back at the touch before. After a fault it stays.
+      if (context_.retreating && k > 0) leave(*path, k - 1);
+      return fault_at(target, moved.error());
+    }
+    const auto tip = touch(step, target);
     if (!tip) {
       // The tip stands at the pre-touch point, except after a collision: then the machine has
       // stopped and only a person may move it.
-      if (tip.error().code != core::Code::kCollision && !context_.lost_place) {
-        if (auto out = context_.follow(way_out(targets[i])); out) (void)context_.rise();
-      }
+      if (tip.error().code != core::Code::kCollision && !context_.lost_place) leave(*path, k);
       return core::fail(tip.error());
     }
-    tips.push_back(*tip);
+    tips[path->order()[k]] = *tip;
   }
-  if (auto moved = context_.follow(way_out(targets.back())); !moved) {
-    return fault_at(targets.back(), moved.error());
+  context_.doing = fmt::format("{}, back to park height", feature_.id);
+  const std::size_t last = targets.size() - 1;
+  if (auto moved = context_.follow(path->exit_W(last)); !moved) {
+    if (context_.retreating) leave(*path, last);
+    return fault_at(path->target(last), moved.error());
   }
-  if (auto moved = context_.rise(); !moved) return fault_at(targets.back(), moved.error());
+  if (auto moved = context_.rise(); !moved) return fault_at(path->target(last), moved.error());
   return tips;
 }
 
@@ -240,7 +246,9 @@ core::Result<Eigen::Vector3d> FeatureSession::touch(TouchStep step, const Target
   if (!touched) {
     return context_.lost_place ? core::fail(touched.error()) : fault_at(target, touched.error());
   }
-  if (shows_truth) truth_.push_back(context_.cell->true_tip_W_mm());
+  if (const auto truth = context_.cell->true_tip_W_mm(); truth && shows_truth) {
+    truth_.push_back(*truth);
+  }
   return touched->tip_mm;
 }
 

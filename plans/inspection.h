@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -7,6 +8,7 @@
 #include "core/result.h"
 #include "fit/ls_cylinder.h"
 #include "plans/cell.h"
+#include "plans/feature_planner.h"
 #include "plans/past.h"
 #include "plans/plan_reach.h"
 #include "plans/pose_search.h"
@@ -23,6 +25,17 @@ struct TouchStep {
   record::Touch row;          ///< What it is for; number, reading and direction are filled in.
   Polyline entry_W;           ///< From park height to its pre-touch point.
   Polyline way_W;             ///< From where the tip stands to its pre-touch point.
+  /// The scan that it stands for, as its first point, and how that ended.
+  std::optional<cmm::ScanCircleCommand> scan = {};
+  cmm::TouchReading scan_end = {};
+};
+
+/// One circle to scan and the ways to it.
+struct ScanStep {
+  cmm::ScanCircleCommand command;  ///< Its number is filled in.
+  record::Touch row;               ///< Of its points; what differs among them is filled in.
+  Polyline entry_W;                ///< As of a touch at its first point.
+  Polyline way_W;
 };
 
 /// What all features of a run share: cell, journal, the numbers of touches and poses, who watches,
@@ -37,6 +50,8 @@ struct RunContext {
   Progress progress = {};
   Past past = {};
   std::vector<TouchStep> last_steps = {};  ///< The last recalled touches of the present cloud.
+  bool retreating = false;  ///< The operator refused a motion: back and up without asking.
+  std::string doing = {};   ///< What the next motions are for, in words.
   bool lost_place = false;  ///< An interruption was not overcome: only a person may move the tip.
 
   /// While touches come from the journal nothing moves.
@@ -48,11 +63,17 @@ struct RunContext {
   /// last known touch the machine is brought to where it stood (come_back()). Nothing is journalled
   /// when it fails.
   [[nodiscard]] core::Result<record::Touch> touch(TouchStep step);
+  /// The same for a whole scan: all of its points are journalled in one transaction before the next
+  /// command. When a run goes on behind it, its first point is touched for comparison.
+  [[nodiscard]] core::Result<std::vector<record::Touch>> scan(ScanStep step);
   /// Homes machine and fixture, goes to the last known touches and repeats them: kLocation, with
   /// difference and limit, when one is not where it was; kMachine when the fixture does not read
   /// what it read in that pose. Then the tip stands at the last of them.
   [[nodiscard]] core::Result<void> come_back();
-  /// Moves the tip through the corners of a path.
+  /// kStopped when the operator, asked in a run of single steps, wants no motion.
+  [[nodiscard]] core::Result<void> ask_for_homing();
+  /// Moves the tip through the corners of a path. When the operator refuses one of the moves the
+  /// tip goes back to where the path began.
   [[nodiscard]] core::Result<void> follow(const Polyline& path_W);
   /// Straight up to the park height, from above the part or from the reference sphere.
   [[nodiscard]] core::Result<void> rise();
@@ -62,7 +83,14 @@ struct RunContext {
   [[nodiscard]] core::Result<void> note(int feature, const std::string& text);
 
  private:
+  [[nodiscard]] core::Result<void> ask(const NextMove& move);
   [[nodiscard]] core::Result<record::Touch> recall(TouchStep step, const record::Touch& known);
+  [[nodiscard]] core::Result<std::vector<record::Touch>> recall_scan(ScanStep step);
+  /// A step that came from the journal is among those that are checked before the run goes on, and
+  /// behind the last of them it does.
+  [[nodiscard]] core::Result<void> keep_recalled(TouchStep step);
+  /// The simulation takes the state behind a recalled step.
+  [[nodiscard]] core::Result<void> recall_state(const TouchStep& step);
   /// Of the fixture: how far two readings of one pose may differ.
   [[nodiscard]] double resolution_rad() const;
   /// Repeats a touch; the difference to the recorded one [mm].
@@ -92,13 +120,29 @@ class FeatureSession final : public PoseSession {
   /// Turns to a pose in which all targets can be reached.
   [[nodiscard]] core::Result<void> turn(const core::Pose& commanded,
                                         const std::vector<Target>& targets);
-  /// Touches targets once in the present pose, rises, and gives the tip centres.
+  /// Touches targets once in the present pose, in the order of the path, rises, and gives the tip
+  /// centres in the order of the targets.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> touch_cloud(
       const std::vector<Target>& targets, record::Touch::Purpose purpose);
   [[nodiscard]] core::Result<Eigen::Vector3d> touch(TouchStep step, const Target& target);
-  /// How targets[i] is touched, from the one before it or from above.
-  [[nodiscard]] TouchStep step_to(const std::vector<Target>& targets, std::size_t i,
+  /// Measures all targets once, as the plan samples them.
+  [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> measure_cloud();
+  /// Scans the targets layer by layer, rises, and gives the tip centres.
+  [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> scan_cloud(
+      const std::vector<Target>& targets);
+  /// The scan of a whole layer from the k-th target of a path through one target a layer.
+  [[nodiscard]] ScanStep scan_of(const CloudPath& path, std::size_t k, int points) const;
+  /// Targets that stand for all of them when their reach is looked at.
+  [[nodiscard]] std::vector<Target> reach_targets() const;
+  /// The ways through these targets in a pose. kUnreachable: nothing has moved.
+  [[nodiscard]] core::Result<CloudPath> lay(const std::vector<Target>& targets,
+                                            const core::Pose& pose);
+  /// How the k-th target of a path is touched, from the one before it or from above.
+  [[nodiscard]] TouchStep step_to(const CloudPath& path, std::size_t k,
                                   record::Touch::Purpose purpose) const;
+  /// After a refused or failed motion to the k-th target: from the pre-touch point where the tip
+  /// stands up to the sky.
+  void leave(const CloudPath& path, std::size_t k);
   /// The same fault with the point it happened at, and what a person can do about it.
   [[nodiscard]] tl::unexpected<core::Error> fault_at(const Target& target,
                                                      const core::Error& error) const;
@@ -114,6 +158,7 @@ class FeatureSession final : public PoseSession {
   std::vector<Target> targets_;
   Eigen::Isometry3d X_BP_;  ///< Best knowledge of the part in the body frame.
   PathGeometry geometry_;
+  FeaturePlanner planner_;
   core::Pose reached_;
   int pose_id_ = -1;
   int repeat_ = 0;

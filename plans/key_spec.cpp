@@ -10,17 +10,40 @@ struct Suffix {
   std::string_view unit;
 };
 
-// Longest first: "_mm_s" ends in "_s". Behind the first five stand units that a plan never uses but
-// that people write.
+// Longest first: "_um_m" ends in "_m". The units of hidden errors come first, then those of the
+// plan; behind "_um" stand units that a plan never uses but that people write.
 constexpr std::array kSuffixes = {
-    Suffix{"_mm_s", "mm/s"},     Suffix{"_degC", "degC"}, Suffix{"_deg", "deg"},
-    Suffix{"_mm", "mm"},         Suffix{"_um", "um"},     Suffix{"_arcsec", "arcsec"},
-    Suffix{"_arcmin", "arcmin"}, Suffix{"_inches", "in"}, Suffix{"_inch", "in"},
-    Suffix{"_mm_min", "mm/min"}, Suffix{"_m_s", "m/s"},   Suffix{"_mrad", "mrad"},
-    Suffix{"_degF", "degF"},     Suffix{"_rad", "rad"},   Suffix{"_mic", "um"},
-    Suffix{"_nm", "nm"},         Suffix{"_cm", "cm"},     Suffix{"_in", "in"},
-    Suffix{"_C", "degC"},        Suffix{"_F", "degF"},    Suffix{"_K", "K"},
+    Suffix{"_urad_m2", "urad/m^2"},
+    Suffix{"_um_m2", "um/m^2"},
+    Suffix{"_urad_m", "urad/m"},
+    Suffix{"_um_m", "um/m"},
+    Suffix{"_urad", "urad"},
+    Suffix{"_per_K", "1/K"},
+    Suffix{"_GPa", "GPa"},
+    Suffix{"_N", "N"},
+    Suffix{"_mm_s", "mm/s"},
+    Suffix{"_degC", "degC"},
+    Suffix{"_deg", "deg"},
+    Suffix{"_mm", "mm"},
+    Suffix{"_um", "um"},
+    Suffix{"_arcsec", "arcsec"},
+    Suffix{"_arcmin", "arcmin"},
+    Suffix{"_inches", "in"},
+    Suffix{"_inch", "in"},
+    Suffix{"_mm_min", "mm/min"},
+    Suffix{"_m_s", "m/s"},
+    Suffix{"_mrad", "mrad"},
+    Suffix{"_degF", "degF"},
+    Suffix{"_rad", "rad"},
+    Suffix{"_mic", "um"},
+    Suffix{"_nm", "nm"},
+    Suffix{"_cm", "cm"},
+    Suffix{"_in", "in"},
+    Suffix{"_C", "degC"},
+    Suffix{"_F", "degF"},
+    Suffix{"_K", "K"},
     Suffix{"_m", "m"},
+    Suffix{"_s", "s"},
 };
 
 }  // namespace

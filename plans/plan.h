@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "plans/machine_errors_plan.h"
 
 namespace rondure::plans {
 
@@ -22,12 +23,23 @@ struct PlanHead {
   std::string note;
 };
 
+/// A piece of the part beside the inspected surfaces, for the planner.
+struct SectionPlan {
+  double from_mm = 0.0;  ///< Lower end, part z.
+  double to_mm = 0.0;
+  double diameter_mm = 0.0;
+  double bore_diameter_mm = 0.0;  ///< 0: solid.
+};
+
 struct PartPlan {
   std::string id;
   std::string name;
   std::string drawing;
   double location_uncertainty_mm =
       1.0;  ///< How far the surface may be from nominal at first touch.
+  std::optional<double> expansion_per_K;  ///< None: nothing is brought to 20 degC.
+  double expansion_uncertainty_per_K = 1e-6;
+  std::vector<SectionPlan> sections;
 };
 
 struct MachinePlan {
@@ -37,8 +49,14 @@ struct MachinePlan {
   double clearance_mm = 5.0;  ///< Kept from the part while travelling.
   double travel_speed_mm_s = 100.0;
   double touch_speed_mm_s = 5.0;
+  double scan_speed_mm_s = 10.0;
+  std::optional<double> scale_expansion_per_K;  ///< Of the scales; none: the machine compensates.
+  double scale_expansion_uncertainty_per_K = 1e-6;
   std::array<double, 3> park_mm = {0.0, 0.0, 500.0};  ///< Tip position above everything.
-  double resume_limit_um = 5.0;  ///< Largest change of a repeated touch before a run goes on.
+  std::array<double, 3> volume_min_mm = {-10'000.0, -10'000.0, -10'000.0};  ///< Reach of the tip.
+  std::array<double, 3> volume_max_mm = {10'000.0, 10'000.0, 10'000.0};
+  double step_speed_mm_s = 10.0;  ///< Of a first run in single steps.
+  double resume_limit_um = 5.0;   ///< Largest change of a repeated touch before a run goes on.
 };
 
 struct FixturePlan {
@@ -54,6 +72,9 @@ struct FixturePlan {
   double rim_height_mm = -1000.0;  ///< Machine z below which the tip must not go.
   double clamp_from_mm = 0.0;      ///< Clamped band on the part, part z; empty when from >= to.
   double clamp_to_mm = 0.0;
+  double ring_diameter_mm = 0.0;     ///< Outside of the clamping ring; 0: nothing passes it.
+  double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
+  double table_height_mm = -1000.0;  ///< Machine z.
 };
 
 struct QualificationPlan {
@@ -62,16 +83,21 @@ struct QualificationPlan {
   int points = 13;
   double form_limit_um = 5.0;
   double radius_tolerance_um = 100.0;
+  double stem_diameter_mm = 0.0;  ///< Below the sphere; 0: a third of it.
 };
 
 struct ProbePlan {
   double tip_diameter_mm = 4.0;
+  double stylus_length_mm = 0.0;    ///< From the centre of the ball up; 0: only the ball counts.
+  double stylus_diameter_mm = 0.0;  ///< Of the shaft.
+  double holder_diameter_mm = 0.0;  ///< Of what carries the stylus; 0: nothing.
   QualificationPlan qualification;
 };
 
 struct EnvironmentPlan {
   double min_degC = 18.0;
   double max_degC = 22.0;
+  double temperature_uncertainty_K = 0.1;
 };
 
 struct NominalPlan {
@@ -81,6 +107,7 @@ struct NominalPlan {
 };
 
 struct SamplingPlan {
+  std::string method = "touch";  ///< "touch" or "scan".
   int layers = 4;
   int points_per_layer = 7;
   double margin_mm = 5.0;
@@ -145,6 +172,11 @@ struct SimulatedPartPlan {
   double tilt_toward_deg = 0.0;
   double offset_x_mm = 0.0;
   double offset_y_mm = 0.0;
+  double expansion_per_K = 0.0;  ///< Real.
+  std::vector<KeywayPlan> keyways;
+  std::vector<BurrPlan> burrs;
+  double dust_share = 0.0;  ///< Of the touches.
+  double dust_um = 0.0;     ///< Largest particle.
 };
 
 struct SimulatedProbePlan {
@@ -173,6 +205,7 @@ struct SimulationPlan {
   std::uint64_t seed = 1;
   double temperature_degC = 20.0;
   SimulatedPartPlan part;
+  SimulatedMachinePlan machine;
   SimulatedProbePlan probe;
   SimulatedFixturePlan fixture;
   SimulatedFaultsPlan faults;

@@ -51,6 +51,44 @@ void check_environment(const Plan& plan, Findings& findings) {
                                plain(environment.min_degC), plain(environment.max_degC)));
 }
 
+void check_stylus(const ProbePlan& probe, Findings& findings) {
+  if (!findings.sound("/probe")) return;
+  const bool long_enough = probe.stylus_length_mm > 0.0;
+  if (long_enough != (probe.stylus_diameter_mm > 0.0)) {
+    findings.meaning(Code::kMeaning, "/probe/stylus_length_mm",
+                     "length and diameter of the stylus belong together; give both, or neither");
+  } else if (!long_enough && probe.holder_diameter_mm > 0.0) {
+    findings.meaning(Code::kMeaning, "/probe/holder_diameter_mm",
+                     "where the holder begins is not known; give stylus_length_mm and "
+                     "stylus_diameter_mm");
+  } else if (long_enough && probe.stylus_diameter_mm >= probe.tip_diameter_mm) {
+    findings.meaning(Code::kMeaning, "/probe/stylus_diameter_mm",
+                     fmt::format("a shaft of {} mm is not thinner than the ball of {} mm: it would "
+                                 "touch first; correct one of them",
+                                 plain(probe.stylus_diameter_mm), plain(probe.tip_diameter_mm)));
+  }
+}
+
+void check_sections(const PartPlan& part, Findings& findings) {
+  for (std::size_t i = 0; i < part.sections.size(); ++i) {
+    const std::string where = item_pointer("/part/sections", i);
+    if (!findings.sound(where)) continue;
+    const SectionPlan& s = part.sections[i];
+    if (s.from_mm >= s.to_mm) {
+      findings.meaning(Code::kMeaning, where + "/from_mm",
+                       fmt::format("the lower end {} mm is not below the upper end {} mm; exchange "
+                                   "or correct them",
+                                   plain(s.from_mm), plain(s.to_mm)));
+    }
+    if (s.bore_diameter_mm >= s.diameter_mm) {
+      findings.meaning(Code::kMeaning, where + "/bore_diameter_mm",
+                       fmt::format("a hole of {} mm leaves nothing of a section of {} mm; correct "
+                                   "one of them",
+                                   plain(s.bore_diameter_mm), plain(s.diameter_mm)));
+    }
+  }
+}
+
 void check_archive(const Plan& plan, Findings& findings) {
   constexpr std::string_view kWhere = "/reports/archive";
   const std::string& archive = plan.reports.archive;
@@ -155,6 +193,8 @@ void check_equipment(const Plan& plan, Findings& findings) {
     check_travel(plan.fixture->min_beta_deg, plan.fixture->max_beta_deg, "beta", findings);
   }
   check_environment(plan, findings);
+  if (plan.probe) check_stylus(*plan.probe, findings);
+  check_sections(plan.part, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     if (is_touched(i, findings)) return check_needs(plan, i, findings);
   }

@@ -7,22 +7,67 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fixture/kinematics.h"
+#include "plans/feature_planner.h"
+#include "plans/reach_advice.h"
 
 namespace rondure::plans {
 namespace {
 
-/// The nominal part in the machine frame, in the start pose of a feature.
-Eigen::Isometry3d nominal_part(const FixturePlan& fixture, const PoseSearchPlan& search) {
-  const core::Pose start{search.start_alpha_deg * core::kDegree,
-                         search.start_beta_deg * core::kDegree};
-  Eigen::Isometry3d X_WP = fixture::body_to_machine(
-      {vector3(fixture.axis_point_mm), vector3(fixture.axis_offset_mm)}, start);
-  X_WP.translate(vector3(fixture.part_position_mm));
-  return X_WP;
+core::Pose start_pose(const FeaturePlan& feature) {
+  return {feature.pose_search.start_alpha_deg * core::kDegree,
+          feature.pose_search.start_beta_deg * core::kDegree};
+}
+
+/// The targets that are out of reach besides the first: "; nor can layer 1 points 2, 3, layer 2
+/// point 1 be reached".
+std::string others(const std::vector<Unreachable>& missed) {
+  constexpr std::size_t kNamed = 20;
+  if (missed.size() < 2) return {};
+  std::string out = "; nor can";
+  int layer = -1;
+  for (std::size_t i = 1; i < std::min(missed.size(), kNamed + 1); ++i) {
+    const Target& t = missed[i].target;
+    const char* between = i == 1 ? "" : ",";
+    if (t.layer != layer) {
+      out += fmt::format("{} layer {} point {}", between, t.layer + 1, t.point + 1);
+    } else {
+      out += fmt::format("{} {}", between, t.point + 1);
+    }
+    layer = t.layer;
+  }
+  if (missed.size() > kNamed + 1) out += fmt::format(" and {} more", missed.size() - kNamed - 1);
+  return out + " be reached";
 }
 
 }  // namespace
+
+fixture::Kinematics nominal_kinematics(const FixturePlan& fixture) {
+  return {vector3(fixture.axis_point_mm), vector3(fixture.axis_offset_mm)};
+}
+
+Eigen::Isometry3d nominal_seat(const FixturePlan& fixture) {
+  Eigen::Isometry3d X_BP = Eigen::Isometry3d::Identity();
+  X_BP.translation() = vector3(fixture.part_position_mm);
+  return X_BP;
+}
+
+fixture::FixtureLimits limits_of(const FixturePlan& fixture) {
+  return {fixture.min_alpha_deg * core::kDegree, fixture.max_alpha_deg * core::kDegree,
+          fixture.min_beta_deg * core::kDegree, fixture.max_beta_deg * core::kDegree,
+          fixture.resolution_deg * core::kDegree};
+}
+
+std::vector<SectionPlan> part_sections(const Plan& plan, const FeaturePlan& feature) {
+  std::vector<SectionPlan> out = plan.part.sections;
+  const NominalPlan& mine = feature.nominal;
+  for (const FeaturePlan& other : plan.features) {
+    const NominalPlan& n = other.nominal;
+    const bool beside = n.from_mm >= mine.to_mm || n.to_mm <= mine.from_mm;
+    if (other.source || other.side == "inside" || feature.side == "inside" || !beside) continue;
+    out.push_back({n.from_mm, n.to_mm, n.diameter_mm, 0.0});
+  }
+  return out;
+}
 
 PathGeometry path_geometry(const Plan& plan, const FeaturePlan& feature, double location_mm) {
   PathGeometry out;
@@ -33,7 +78,31 @@ PathGeometry path_geometry(const Plan& plan, const FeaturePlan& feature, double 
   out.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
   out.approach_mm = plan.machine->approach_mm + location_mm;
   out.clearance_mm = plan.machine->clearance_mm + location_mm;
+  for (const SectionPlan& section : part_sections(plan, feature)) {
+    out.from_mm = std::min(out.from_mm, section.from_mm);
+    out.to_mm = std::max(out.to_mm, section.to_mm);
+    if (section.to_mm > feature.nominal.from_mm) {
+      out.stand_off_mm = std::max(out.stand_off_mm, 0.5 * section.diameter_mm - out.radius_mm);
+    }
+  }
   return out;
+}
+
+core::Result<void> check_clamp(const std::vector<Target>& targets, const PathGeometry& geometry,
+                               const FixturePlan& fixture) {
+  const bool band = fixture.clamp_from_mm < fixture.clamp_to_mm;
+  if (geometry.inside || !band || fixture.ring_diameter_mm > 0.0) return {};
+  const double limit_mm = fixture.clamp_to_mm + geometry.clearance_mm + geometry.tip_radius_mm;
+  for (const Target& target : targets) {
+    if (target.z_mm >= limit_mm) continue;
+    return core::fail(
+        core::Code::kUnreachable,
+        fmt::format(
+            "layer {}, point {}: height {:.3f} mm on the part is below {:.3f} mm, where the "
+            "clamp, the tip and the clearance end",
+            target.layer + 1, target.point + 1, target.z_mm, limit_mm));
+  }
+  return {};
 }
 
 core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_t index) {
@@ -43,14 +112,14 @@ core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_
   if (!targets) return core::fail(targets.error().at(where));
   const PathGeometry geometry = path_geometry(plan, feature, plan.part.location_uncertainty_mm);
   if (auto fits = check_fits(geometry); !fits) return core::fail(fits.error().at(where));
-  const FixturePlan& fixture = *plan.fixture;
-  const Surroundings surroundings{fixture.rim_height_mm, fixture.clamp_from_mm,
-                                  fixture.clamp_to_mm};
-  const Eigen::Isometry3d X_WP = nominal_part(fixture, feature.pose_search);
-  if (auto reach = check_reachable(*targets, geometry, X_WP, surroundings); !reach) {
-    return core::fail(reach.error().at(where));
+  if (auto clamp = check_clamp(*targets, geometry, *plan.fixture); !clamp) {
+    return core::fail(clamp.error().at(where));
   }
-  return targets;
+  const std::vector<Unreachable> missed = unreachable_targets(plan, feature, start_pose(feature));
+  if (missed.empty()) return targets;
+  return core::fail(core::Code::kUnreachable,
+                    in_words(missed.front()) + others(missed) + "; " + reach_advice(plan, feature),
+                    where);
 }
 
 core::Result<void> check_room(const Plan& plan) {

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "core/result.h"
+#include "fixture/fixture.h"
+#include "fixture/kinematics.h"
 #include "plans/plan.h"
 #include "plans/sampling.h"
 #include "plans/travel.h"
@@ -18,14 +20,35 @@ namespace rondure::plans {
   return {v[0], v[1], v[2]};
 }
 
-/// The way of the tip around a feature. `location_mm` is added to approach and clearance while the
-/// part is not located.
+/// The axes of the fixture, as the plan states them.
+[[nodiscard]] fixture::Kinematics nominal_kinematics(const FixturePlan& fixture);
+
+/// Where the plan says that the part sits in the clamping ring: X_BP.
+[[nodiscard]] Eigen::Isometry3d nominal_seat(const FixturePlan& fixture);
+
+[[nodiscard]] fixture::FixtureLimits limits_of(const FixturePlan& fixture);
+
+/// The part beside a feature: the sections of the plan, and the other touched outside surfaces that
+/// lie above or below it (not of a bore, whose block hides them).
+[[nodiscard]] std::vector<SectionPlan> part_sections(const Plan& plan, const FeaturePlan& feature);
+
+/// The way of the tip around a feature. Shoulders that stand wider than a shaft push the way around
+/// it out. `location_mm` is added to approach and clearance while the part is not located.
 [[nodiscard]] PathGeometry path_geometry(const Plan& plan, const FeaturePlan& feature,
                                          double location_mm);
 
-/// Targets of a touched feature, if the probe can reach every one of them in the start pose, with
+/// Checks that no target outside lies in or below the clamped band of a ring of unknown size: the
+/// tip comes from above and cannot pass it.
+/// @return kUnreachable, naming layer and point (from 1), height and limit.
+[[nodiscard]] core::Result<void> check_clamp(const std::vector<Target>& targets,
+                                             const PathGeometry& geometry,
+                                             const FixturePlan& fixture);
+
+/// Targets of a touched feature, if the tool can reach every one of them in the start pose, with
 /// the part where the plan says it is.
-/// @return kSampling or kUnreachable with the pointer of the feature's sampling. Nothing moves.
+/// @return kSampling or kUnreachable with the pointer of the feature's sampling; the first target
+///         that cannot be reached, how many more there are, why, and what would help. Nothing
+///         moves.
 [[nodiscard]] core::Result<std::vector<Target>> reachable_targets(const Plan& plan,
                                                                   std::size_t index);
 

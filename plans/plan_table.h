@@ -28,6 +28,26 @@ void describe(Visitor& v, PlanHead& p) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, SectionPlan& p) {
+  const auto height = [](std::string_view meaning) {
+    return NumberSpec{.at_least = -kMaxCoordinate_mm,
+                      .at_most = kMaxCoordinate_mm,
+                      .required = true,
+                      .meaning = meaning};
+  };
+  v.number("from_mm", p.from_mm, height("Lower end of the section, part z."));
+  v.number("to_mm", p.to_mm, height("Upper end of the section, part z."));
+  v.number("diameter_mm", p.diameter_mm,
+           {.at_least = 0.0,
+            .at_most = 2000.0,
+            .above = true,
+            .required = true,
+            .meaning = "Outer diameter of the section."});
+  v.number("bore_diameter_mm", p.bore_diameter_mm,
+           {.at_least = 0.0, .at_most = 2000.0, .meaning = "Of its hole; 0: solid."});
+}
+
+template <class Visitor>
 void describe(Visitor& v, PartPlan& p) {
   v.text("id", p.id, {.required = true, .empty_allowed = false, .meaning = "Part number."});
   v.text("name", p.name, {.meaning = "What the part is called."});
@@ -37,6 +57,16 @@ void describe(Visitor& v, PartPlan& p) {
             .at_most = 100.0,
             .meaning = "How far the surface may be from its nominal place at the first touch, from "
                        "a tilted or shifted clamping."});
+  v.number("expansion_per_K", p.expansion_per_K,
+           {.at_least = 0.0,
+            .at_most = 1e-4,
+            .meaning = "Thermal expansion of the material, e.g. 11.5e-6 of steel; sizes and forms "
+                       "are then brought to 20 degC. Left out: they stay as measured."});
+  v.number("expansion_uncertainty_per_K", p.expansion_uncertainty_per_K,
+           {.at_least = 0.0, .at_most = 1e-4, .meaning = "Its standard uncertainty."});
+  v.list("sections", p.sections,
+         {.meaning = "The part beside the inspected surfaces: shoulders, necks, neighbours. The "
+                     "path of the tip keeps clear of them."});
 }
 
 template <class Visitor>
@@ -56,7 +86,7 @@ void describe(Visitor& v, MachinePlan& p) {
            {.at_least = 0.0,
             .at_most = 500.0,
             .above = true,
-            .meaning = "Distance kept from the part while travelling."});
+            .meaning = "Distance kept from part, fixture and table while travelling."});
   v.number(
       "travel_speed_mm_s", p.travel_speed_mm_s,
       {.at_least = 0.0, .at_most = 1000.0, .above = true, .meaning = "Speed between touches."});
@@ -65,10 +95,35 @@ void describe(Visitor& v, MachinePlan& p) {
             .at_most = 50.0,
             .above = true,
             .meaning = "Speed while searching the surface."});
+  v.number("scan_speed_mm_s", p.scan_speed_mm_s,
+           {.at_least = 0.0,
+            .at_most = 500.0,
+            .above = true,
+            .meaning = "Speed of the tip along a scanned circle."});
+  v.number("scale_expansion_per_K", p.scale_expansion_per_K,
+           {.at_least = 0.0,
+            .at_most = 1e-4,
+            .meaning = "Expansion of the scales; what they read is then brought to 20 degC with "
+                       "their measured temperature. Left out: the machine does it, or nobody."});
+  v.number("scale_expansion_uncertainty_per_K", p.scale_expansion_uncertainty_per_K,
+           {.at_least = 0.0, .at_most = 1e-4, .meaning = "Its standard uncertainty."});
   v.numbers("park_mm", p.park_mm,
             {.at_least = -kMaxCoordinate_mm,
              .at_most = kMaxCoordinate_mm,
              .meaning = "Where the tip waits, above everything: x, y, z in the machine frame."});
+  const auto corner = [](std::string_view meaning) {
+    return NumberSpec{
+        .at_least = -kMaxCoordinate_mm, .at_most = kMaxCoordinate_mm, .meaning = meaning};
+  };
+  v.numbers("volume_min_mm", p.volume_min_mm,
+            corner("Lower ends of the travel of the tip: x, y, z in the machine frame."));
+  v.numbers("volume_max_mm", p.volume_max_mm,
+            corner("Upper ends of the travel of the tip: x, y, z in the machine frame."));
+  v.number("step_speed_mm_s", p.step_speed_mm_s,
+           {.at_least = 0.0,
+            .at_most = 50.0,
+            .above = true,
+            .meaning = "Speed between touches of a first run in single steps (run --step)."});
   v.number("resume_limit_um", p.resume_limit_um,
            {.at_least = 0.0,
             .at_most = 1000.0,
@@ -114,6 +169,18 @@ void describe(Visitor& v, FixturePlan& p) {
            place("Lower end of the band that the clamping ring covers, part z. No band when it is "
                  "not below clamp_to_mm."));
   v.number("clamp_to_mm", p.clamp_to_mm, place("Upper end of the clamped band, part z."));
+  const auto diameter = [](std::string_view meaning) {
+    return NumberSpec{.at_least = 0.0, .at_most = 5000.0, .meaning = meaning};
+  };
+  v.number(
+      "ring_diameter_mm", p.ring_diameter_mm,
+      diameter("Outer diameter of the clamping ring; 0: unknown, then nothing is touched at or "
+               "below the clamped band."));
+  v.number(
+      "rim_diameter_mm", p.rim_diameter_mm,
+      diameter("Outer diameter of the bowl, about axis_point_mm; 0: unknown, then the tip goes "
+               "nowhere below rim_height_mm."));
+  v.number("table_height_mm", p.table_height_mm, place("Height of the table, machine z."));
 }
 
 template <class Visitor>
@@ -140,6 +207,10 @@ void describe(Visitor& v, QualificationPlan& p) {
             .at_most = 1000.0,
             .above = true,
             .meaning = "Largest difference between the effective and the nominal tip radius."});
+  v.number("stem_diameter_mm", p.stem_diameter_mm,
+           {.at_least = 0.0,
+            .at_most = 200.0,
+            .meaning = "Diameter of the stem below the sphere; 0: a third of the sphere's."});
 }
 
 template <class Visitor>
@@ -149,6 +220,19 @@ void describe(Visitor& v, ProbePlan& p) {
             .at_most = 50.0,
             .above = true,
             .meaning = "Nominal diameter of the ball of the stylus."});
+  v.number("stylus_length_mm", p.stylus_length_mm,
+           {.at_least = 0.0,
+            .at_most = 1000.0,
+            .meaning = "From the centre of the ball up to the holder; 0: unknown, then only the "
+                       "ball is kept clear of everything."});
+  v.number("stylus_diameter_mm", p.stylus_diameter_mm,
+           {.at_least = 0.0,
+            .at_most = 50.0,
+            .meaning = "Diameter of the shaft, less than the ball's. Needed with a length."});
+  v.number("holder_diameter_mm", p.holder_diameter_mm,
+           {.at_least = 0.0,
+            .at_most = 500.0,
+            .meaning = "Diameter of what carries the stylus (extension, probe head); 0: none."});
   v.object(
       "qualification", p.qualification,
       {.meaning = "How the effective tip radius is found on a reference sphere before a run."});
@@ -164,6 +248,10 @@ void describe(Visitor& v, EnvironmentPlan& p) {
            {.at_least = 10.0,
             .at_most = 40.0,
             .meaning = "A part warmer than this makes the result void."});
+  v.number("temperature_uncertainty_K", p.temperature_uncertainty_K,
+           {.at_least = 0.0,
+            .at_most = 5.0,
+            .meaning = "Standard uncertainty of a measured temperature."});
 }
 
 template <class Visitor>
@@ -188,6 +276,11 @@ void describe(Visitor& v, NominalPlan& p) {
 
 template <class Visitor>
 void describe(Visitor& v, SamplingPlan& p) {
+  v.text(
+      "method", p.method,
+      {.one_of = {"touch", "scan"},
+       .meaning = "touch: single touches. scan: every layer in one circle, where the machine can; "
+                  "then hundreds of points a layer cost seconds."});
   v.whole("layers", p.layers,
           {.at_least = 1,
            .at_most = 1000,

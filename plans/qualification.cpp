@@ -31,15 +31,7 @@ core::Result<void> check_limits(const fit::ProbeTip& tip, const ProbePlan& plan)
   return {};
 }
 
-core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, const Eigen::Vector3d& outward,
-                                           TouchStep step, const PathGeometry& geometry) {
-  const QualificationPlan& plan = context.plan.probe->qualification;
-  cmm::TouchCommand& command = step.command;
-  command.expected_tip_W_mm = vector3(plan.sphere_center_mm) +
-                              (0.5 * plan.sphere_diameter_mm + geometry.tip_radius_mm) * outward;
-  command.direction_W = -outward;
-  command.approach_mm = geometry.approach_mm;
-  command.search_mm = context.plan.machine->search_mm;
+core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, TouchStep step) {
   const int point = step.row.point;
   const auto touched = context.touch(std::move(step));
   if (touched) return touched->tip_mm;
@@ -50,29 +42,58 @@ core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, const Eigen::Vec
                     fmt::format("reference sphere, point {}: {}", point + 1, touched.error().what));
 }
 
+core::Result<std::vector<Eigen::Vector3d>> touch_all(RunContext& context,
+                                                     const std::vector<TouchStep>& steps) {
+  context.last_steps.clear();
+  std::vector<Eigen::Vector3d> tips;
+  for (const TouchStep& step : steps) {
+    context.doing = fmt::format("reference sphere, point {}", step.row.point + 1);
+    if (auto moved = context.follow(step.way_W); !moved) {
+      if (context.retreating) (void)context.rise();
+      return core::fail(moved.error());
+    }
+    auto tip = touch_sphere(context, step);
+    if (!tip) {
+      const bool movable = tip.error().code != core::Code::kCollision && !context.lost_place;
+      if (movable) (void)context.rise();
+      return core::fail(tip.error());
+    }
+    tips.push_back(*tip);
+  }
+  // The last touch is at or above the equator, outside the sphere: upward is free.
+  context.doing = "back to park height";
+  if (auto moved = context.rise(); !moved) {
+    if (context.retreating) (void)context.rise();
+    return core::fail(moved.error());
+  }
+  return tips;
+}
+
 }  // namespace
 
-core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
-  const QualificationPlan& plan = context.plan.probe->qualification;
-  const auto directions = qualification_directions(plan.points);
+core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan) {
+  const QualificationPlan& sphere = plan.probe->qualification;
+  const auto directions = qualification_directions(sphere.points);
   if (!directions) return core::fail(directions.error());
-  const Eigen::Vector3d center = vector3(plan.sphere_center_mm);
+  const Eigen::Vector3d center = vector3(sphere.sphere_center_mm);
   PathGeometry geometry;
-  geometry.tip_radius_mm = 0.5 * context.plan.probe->tip_diameter_mm;
-  geometry.approach_mm = context.plan.machine->approach_mm;
-  geometry.clearance_mm = context.plan.machine->clearance_mm;
-  const double radius = 0.5 * plan.sphere_diameter_mm;
+  geometry.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
+  geometry.approach_mm = plan.machine->approach_mm;
+  geometry.clearance_mm = plan.machine->clearance_mm;
+  const double radius = 0.5 * sphere.sphere_diameter_mm;
 
   // From park height straight down to the pole; from there around the sphere.
   const Eigen::Vector3d pole =
       center + (radius + geometry.tip_radius_mm + geometry.approach_mm) * directions->front();
-  const Polyline down = {{pole.x(), pole.y(), std::max(pole.z(), context.plan.machine->park_mm[2])},
-                         pole};
-  context.last_steps.clear();
-  std::vector<Eigen::Vector3d> tips;
+  const Polyline down = {{pole.x(), pole.y(), std::max(pole.z(), plan.machine->park_mm[2])}, pole};
+  std::vector<TouchStep> steps;
   for (std::size_t i = 0; i < directions->size(); ++i) {
     const Eigen::Vector3d& outward = (*directions)[i];
     TouchStep step;
+    step.command.expected_tip_W_mm = center + (radius + geometry.tip_radius_mm) * outward;
+    step.command.direction_W = -outward;
+    step.command.approach_mm = geometry.approach_mm;
+    step.command.search_mm = plan.machine->search_mm;
     step.row.purpose = record::Touch::Purpose::kQualification;
     step.row.point = static_cast<int>(i);
     step.entry_W = down;
@@ -83,18 +104,18 @@ core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
       step.entry_W.insert(step.entry_W.end(), around.begin(), around.end());
       step.way_W = path_around_sphere(center, radius, geometry, (*directions)[i - 1], outward);
     }
-    if (auto moved = context.follow(step.way_W); !moved) return core::fail(moved.error());
-    auto tip = touch_sphere(context, outward, std::move(step), geometry);
-    if (!tip) {
-      const bool movable = tip.error().code != core::Code::kCollision && !context.lost_place;
-      if (movable) (void)context.rise();
-      return core::fail(tip.error());
-    }
-    tips.push_back(*tip);
+    steps.push_back(std::move(step));
   }
-  // The last touch is at or above the equator, outside the sphere: upward is free.
-  if (auto moved = context.rise(); !moved) return core::fail(moved.error());
-  const auto tip = fit::qualify_tip(tips, radius);
+  return steps;
+}
+
+core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
+  const auto steps = qualification_steps(context.plan);
+  if (!steps) return core::fail(steps.error());
+  const auto tips = touch_all(context, *steps);
+  if (!tips) return core::fail(tips.error());
+  const auto tip =
+      fit::qualify_tip(*tips, 0.5 * context.plan.probe->qualification.sphere_diameter_mm);
   if (!tip) return core::fail(tip.error());
   if (auto checked = check_limits(*tip, *context.plan.probe); !checked)
     return core::fail(checked.error());

@@ -14,6 +14,8 @@ namespace {
 /// shows a shift along its own direction only.
 constexpr std::size_t kChecks = 3;
 
+constexpr double kStill_mm = 1e-6;  // a shorter move is none
+
 /// A pose of the journal that is taken again must read as before: part and targets follow the
 /// recorded reading.
 core::Result<void> check_reading(const record::PoseVisit& known, const core::Pose& reads,
@@ -59,12 +61,16 @@ core::Result<record::Touch> RunContext::touch(TouchStep step) {
   step.row.approach = step.command.direction_W;
   if (const record::Touch* known = past.touch(next_touch)) return recall(std::move(step), *known);
   if (auto stop = check_stop(); !stop) return core::fail(stop.error());
+  const NextMove next = {NextMove::Kind::kTouch, doing + ": touch", cell->machine().position_W_mm(),
+                         step.command.expected_tip_W_mm};
+  if (auto go = ask(next); !go) return core::fail(go.error());
   const auto reading = cell->machine().touch(step.command);
   if (!reading) return core::fail(reading.error());
   record::Touch row = step.row;
   row.tip_mm = reading->tip_W_mm;
   row.temperature_degC = reading->temperature_degC;
   row.time_s = reading->time_s;
+  row.scale_temperature_degC = reading->scale_temperature_degC;
   if (auto kept = journal.add(row); !kept) return core::fail(kept.error());
   ++next_touch;
   progress.touches = static_cast<std::size_t>(next_touch);
@@ -78,18 +84,27 @@ core::Result<record::Touch> RunContext::recall(TouchStep step, const record::Tou
     return core::fail(kept.error());
   }
   ++next_touch;
-  progress.touches = static_cast<std::size_t>(next_touch);
   step.row = known;
-  if (last_steps.size() == kChecks) last_steps.erase(last_steps.begin());
-  last_steps.push_back(std::move(step));
-  if (!recalling()) {
-    if (auto back = come_back(); !back) return core::fail(back.error());
-  }
+  if (auto kept = keep_recalled(std::move(step)); !kept) return core::fail(kept.error());
   return known;
 }
 
+core::Result<void> RunContext::keep_recalled(TouchStep step) {
+  progress.touches = static_cast<std::size_t>(next_touch);
+  if (last_steps.size() == kChecks) last_steps.erase(last_steps.begin());
+  last_steps.push_back(std::move(step));
+  return recalling() ? core::Result<void>{} : come_back();
+}
+
+core::Result<void> RunContext::recall_state(const TouchStep& step) {
+  if (step.scan) return cell->recall_scan(*step.scan, step.scan_end);
+  return cell->recall_touch(step.command, reading_of(step.row));
+}
+
 core::Result<void> RunContext::come_back() {
+  if (auto go = ask_for_homing(); !go) return go;
   lost_place = true;
+  doing = "repeating the last touches";
   const auto reads = cell->home_again();
   if (!reads) return core::fail(reads.error());
   if (const record::PoseVisit* known = past.pose(last_steps.back().row.pose)) {
@@ -113,8 +128,7 @@ core::Result<void> RunContext::come_back() {
       "{:g} um",
       options.started_utc, next_touch, last_steps.size(), largest_mm / core::kMicrometre,
       plan.machine->resume_limit_um);
-  const TouchStep& last = last_steps.back();
-  if (auto on = cell->recall_touch(last.command, reading_of(last.row)); !on) return on;
+  if (auto on = recall_state(last_steps.back()); !on) return on;
   lost_place = false;
   return journal.add(record::Decision{-1, cell->machine().time_s(), text});
 }
@@ -137,6 +151,7 @@ core::Result<double> RunContext::repeat_touch(const TouchStep& step, std::int64_
   check.tip_mm = reading->tip_W_mm;
   check.temperature_degC = reading->temperature_degC;
   check.time_s = reading->time_s;
+  check.scale_temperature_degC = reading->scale_temperature_degC;
   if (auto kept = journal.add(check); !kept) return core::fail(kept.error());
   const double difference_mm = (check.tip_mm - step.row.tip_mm).norm();
   if (difference_mm <= plan.machine->resume_limit_um * core::kMicrometre) return difference_mm;
@@ -151,10 +166,33 @@ core::Result<double> RunContext::repeat_touch(const TouchStep& step, std::int64_
 
 double RunContext::resolution_rad() const { return cell->fixture().limits().resolution_rad; }
 
+core::Result<void> RunContext::ask(const NextMove& move) {
+  if (!options.before_move || retreating) return {};
+  auto go = options.before_move(move);
+  if (!go) retreating = true;
+  return go;
+}
+
+core::Result<void> RunContext::ask_for_homing() {
+  return ask(
+      {NextMove::Kind::kHome, "home machine and fixture: up, then to the park position", {}, {}});
+}
+
 core::Result<void> RunContext::follow(const Polyline& path_W) {
   if (recalling()) return {};
+  cmm::Machine& machine = cell->machine();
+  Polyline passed = {machine.position_W_mm()};
   for (const Eigen::Vector3d& corner : path_W) {
-    if (auto moved = cell->machine().move_to(corner); !moved) return moved;
+    const NextMove next = {NextMove::Kind::kMove, doing + ": move", passed.back(), corner};
+    const bool moves = (corner - passed.back()).norm() > kStill_mm;
+    if (auto go = moves ? ask(next) : core::Result<void>{}; !go) {
+      for (auto back = passed.rbegin() + 1; back != passed.rend(); ++back) {
+        if (auto moved = machine.move_to(*back); !moved) return moved;
+      }
+      return go;
+    }
+    if (auto moved = machine.move_to(corner); !moved) return moved;
+    passed.push_back(corner);
   }
   return {};
 }
@@ -163,10 +201,16 @@ core::Result<void> RunContext::rise() {
   if (recalling()) return {};
   Eigen::Vector3d up = cell->machine().position_W_mm();
   up.z() = std::max(up.z(), plan.machine->park_mm[2]);
-  return cell->machine().move_to(up);
+  return follow({up});
 }
 
 core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& commanded) {
+  if (!recalling()) {
+    const std::string what =
+        fmt::format("turn the fixture to ({:.4f}, {:.4f}) deg", commanded.alpha_rad / core::kDegree,
+                    commanded.beta_rad / core::kDegree);
+    if (auto go = ask({NextMove::Kind::kTurn, what, {}, {}}); !go) return core::fail(go.error());
+  }
   const auto reached = recalling() ? cell->recall_turn(commanded) : cell->turn_to(commanded);
   if (!reached) return core::fail(reached.error());
   if (const record::PoseVisit* known = past.pose(next_pose)) {

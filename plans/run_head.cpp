@@ -69,6 +69,27 @@ record::Feature feature_of(const FeaturePlan& plan) {
   return out;
 }
 
+std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& feature) {
+  std::vector<record::Setting> out;
+  if (from_file(feature) || !plan.machine) return out;
+  const auto add = [&](std::string_view name, double number) {
+    out.push_back({std::string(name), number, ""});
+  };
+  if (feature.sampling.method == "scan") out.push_back({"sampling_method", std::nullopt, "scan"});
+  if (plan.part.expansion_per_K) {
+    add("part_expansion_per_K", *plan.part.expansion_per_K);
+    add("part_expansion_uncertainty_per_K", plan.part.expansion_uncertainty_per_K);
+  }
+  if (plan.machine->scale_expansion_per_K) {
+    add("scale_expansion_per_K", *plan.machine->scale_expansion_per_K);
+    add("scale_expansion_uncertainty_per_K", plan.machine->scale_expansion_uncertainty_per_K);
+  }
+  if (plan.part.expansion_per_K || plan.machine->scale_expansion_per_K) {
+    add("temperature_uncertainty_K", plan.environment.temperature_uncertainty_K);
+  }
+  return out;
+}
+
 record::Header header_of(const Plan& plan, const RunOptions& options, std::uint64_t seed) {
   record::Header out;
   out.run_id = options.run_id;

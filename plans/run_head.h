@@ -18,6 +18,9 @@ namespace rondure::plans {
 [[nodiscard]] record::Strategy strategy_of(const FeaturePlan& feature);
 /// A feature without the digest of its points file, which is not read here.
 [[nodiscard]] record::Feature feature_of(const FeaturePlan& plan);
+/// How a touched feature is sampled and brought to 20 degC, where the evaluation needs it.
+[[nodiscard]] std::vector<record::Setting> settings_of(const Plan& plan,
+                                                       const FeaturePlan& feature);
 /// The head without the descriptions of machine and fixture.
 /// @param seed  Of the simulation; kept when anything is touched.
 [[nodiscard]] record::Header header_of(const Plan& plan, const RunOptions& options,

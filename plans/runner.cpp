@@ -1,6 +1,7 @@
 #include "plans/runner.h"
 
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -112,12 +113,32 @@ core::Result<void> prepare(RunContext& context) {
   if (context.recalling()) {
     if (auto homed = context.cell->recall_home(); !homed) return core::fail(homed.error());
   } else {
+    if (auto go = context.ask_for_homing(); !go) return go;
     if (auto homed = context.cell->machine().home(); !homed) return homed;
     if (auto turned = context.cell->home_fixture(); !turned) return core::fail(turned.error());
   }
   if (auto tip = qualify_probe(context); !tip)
     return core::fail(tip.error().at("/probe/qualification"));
   return {};
+}
+
+/// The plan as its machine is driven: slower while each move is confirmed.
+Plan driven(const Plan& plan, const RunOptions& options) {
+  Plan out = plan;
+  if (options.single_step && out.machine) {
+    double& speed = out.machine->travel_speed_mm_s;
+    speed = std::min(speed, out.machine->step_speed_mm_s);
+  }
+  return out;
+}
+
+/// The record says that a run was made in single steps.
+core::Result<void> note_single_steps(RunContext& context) {
+  if (!context.options.single_step || context.past.touch(0) != nullptr) return {};
+  return context.journal.add(record::Decision{
+      -1, 0.0,
+      fmt::format("single-step mode: travel at {:g} mm/s at most, moves confirmed by the operator",
+                  context.plan.machine->step_speed_mm_s)});
 }
 
 /// What is known before the first touch.
@@ -148,7 +169,8 @@ void execute(const Plan& plan, const RunOptions& options, const Preparation& kno
   const bool touching = cell != nullptr;
   if (touching)
     context.progress.touches_expected += static_cast<std::size_t>(plan.probe->qualification.points);
-  auto done = touching ? prepare(context) : core::Result<void>{};
+  auto done = touching ? note_single_steps(context) : core::Result<void>{};
+  if (done && touching) done = prepare(context);
   if (done) done = inspect(context, known.targets, known.files);
   if (!done) run.failure = done.error();
   const std::string ending = done                                        ? "finished"
@@ -179,10 +201,12 @@ bool is_resumable(const core::Error& failure) {
 core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   const auto known = prepare_plan(plan, options);
   if (!known) return core::fail(known.error());
-  std::optional<Cell> cell;
+  std::unique_ptr<Cell> cell;
   record::Header header = header_of(plan, options, known->seed);
   if (touches_anything(plan)) {
-    cell.emplace(plan, known->seed, false);
+    auto opened = open_cell(driven(plan, options), {known->seed, false});
+    if (!opened) return core::fail(opened.error());
+    cell = std::move(*opened);
     header.machine = cell->machine().description();
     header.fixture = cell->fixture().description();
   }
@@ -190,11 +214,12 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     features.push_back(feature_of(plan.features[i]));
     features.back().points_sha256 = known->files[i].sha256;
+    features.back().settings = settings_of(plan, plan.features[i]);
   }
   auto journal = record::Journal::create(options.directory, header, artefact_of(plan), features);
   if (!journal) return core::fail(journal.error());
   Run run{std::move(*journal), std::nullopt};
-  execute(plan, options, *known, cell ? &*cell : nullptr, {}, run);
+  execute(plan, options, *known, cell.get(), {}, run);
   return run;
 }
 
@@ -215,15 +240,19 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
     }
   }
   if (!changes.empty()) return tl::unexpected(std::move(changes));
+  std::unique_ptr<Cell> cell;
+  if (touches_anything(plan)) {
+    auto opened = open_cell(driven(plan, options), {known->seed, true});
+    if (!opened) return refuse(opened.error());
+    cell = std::move(*opened);
+  }
   auto journal = record::Journal::reopen(options.directory);
   if (!journal) return refuse(journal.error());
   auto past = record::read_journal(options.directory);  // again, now that no one else can write
   if (!past) return refuse(past.error());
-  std::optional<Cell> cell;
-  if (touches_anything(plan)) cell.emplace(plan, known->seed, true);
   Run run{std::move(*journal), std::nullopt};
   past->record.ending = found->record.ending;  // reopening took it out
-  execute(plan, options, *known, cell ? &*cell : nullptr, std::move(past->record), run);
+  execute(plan, options, *known, cell.get(), std::move(past->record), run);
   return run;
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/pose.h"
 #include "core/result.h"
 #include "plans/plan.h"
@@ -24,6 +26,17 @@ struct Progress {
   std::optional<double> f_mm;        ///< Least zone of the last complete cloud in its pose.
 };
 
+/// A motion that comes next, for whoever follows a run step by step.
+struct NextMove {
+  enum class Kind { kHome, kMove, kTouch, kTurn };
+  Kind kind = Kind::kMove;
+  std::string what;  ///< In words, e.g. "layer 1, point 2: move".
+  /// Tip centre before and after, machine frame; the expected contact of a touch. Only of kMove and
+  /// kTouch.
+  Eigen::Vector3d from_W_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d to_W_mm = Eigen::Vector3d::Zero();
+};
+
 /// Everything about a run that does not stand in the plan.
 struct RunOptions {
   std::filesystem::path directory;  ///< Is made; must be absent or empty. Of a run to resume: its.
@@ -36,6 +49,10 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;     ///< Takes the place of the plan's.
   std::function<bool()> stop_requested;  ///< Asked before every touch.
   std::function<void(const Progress&)> progress;
+  /// Asked before each motion; an error (kStopped) ends the run: the tip goes back on the way it
+  /// came, without asking, and up. Not asked for motions that a fault makes necessary.
+  std::function<core::Result<void>(const NextMove&)> before_move;
+  bool single_step = false;  ///< A first run: travels at the plan's step_speed_mm_s at most.
 };
 
 /// A run that began: its journal, and why it ended early if it did.

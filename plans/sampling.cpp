@@ -85,7 +85,8 @@ core::Result<std::vector<Target>> locating_targets(const FeaturePlan& feature,
   const double length_mm = feature.nominal.to_mm - feature.nominal.from_mm;
   locating.type = "cylinder";  // a circle's surface has an axis too
   locating.sampling.layers = 2;
-  locating.sampling.points_per_layer = 5;
+  locating.sampling.points_per_layer = 3;
+  locating.sampling.stagger = 1.0;
   // A fifth of the length must stay between the layers, or the tilt could not be told.
   locating.sampling.margin_mm =
       std::min(feature.sampling.margin_mm + uncertainty_mm, 0.4 * length_mm);

@@ -28,9 +28,13 @@ struct Target {
 /// Source: methods, cylindricity section 4.
 [[nodiscard]] core::Result<std::vector<Target>> sampling_targets(const FeaturePlan& feature);
 
-/// Targets that find where a part sits before it is measured: two layers of five points, kept
-/// from both ends by the margin and by how far the surface may be from nominal, so that a crooked
-/// part is met on its side and not on its rim.
+/// Targets that find where a part sits before it is measured: two layers of three points, 60 deg
+/// between the layers. A cylinder has five unknowns (two crossings of its axis with two planes, and
+/// the radius); three points a layer give a crossing and a radius each, so the six touches
+/// determine all five and leave one check, that both layers have one radius. The variance of a
+/// crossing is 2/3 of that of a touch in every direction. The layers are kept from both ends by the
+/// margin and by how far the surface may be from nominal, so that a crooked part is met on its side
+/// and not on its rim.
 /// @return  As sampling_targets().
 [[nodiscard]] core::Result<std::vector<Target>> locating_targets(const FeaturePlan& feature,
                                                                  double uncertainty_mm);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "plans/key_spec.h"
+#include "plans/machine_errors_table.h"
 #include "plans/plan.h"
 
 // The part of plan_table.h that describes the hidden truth of a simulation.
@@ -48,6 +49,12 @@ void describe(Visitor& v, SimulatedPartPlan& p) {
   };
   v.number("offset_x_mm", p.offset_x_mm, offset("Shift of the part in the clamping ring, x."));
   v.number("offset_y_mm", p.offset_y_mm, offset("Shift of the part in the clamping ring, y."));
+  v.number("expansion_per_K", p.expansion_per_K, range(0.0, 1e-4, "Real expansion of the part."));
+  v.list("keyways", p.keyways, {.meaning = "Slots along the part."});
+  v.list("burrs", p.burrs, {.meaning = "Raised spots."});
+  v.number("dust_share", p.dust_share,
+           range(0.0, 1.0, "Share of the touches of the part that meet a particle of dust."));
+  v.number("dust_um", p.dust_um, range(0.0, 1000.0, "Thickness of the largest particle."));
 }
 
 template <class Visitor>
@@ -110,6 +117,7 @@ void describe(Visitor& v, SimulationPlan& p) {
   v.number("temperature_degC", p.temperature_degC,
            {.at_least = 10.0, .at_most = 40.0, .meaning = "Temperature of the simulated part."});
   v.object("part", p.part, {.meaning = "Form of the simulated part and how it sits in the ring."});
+  v.object("machine", p.machine, {.meaning = "Errors of the simulated machine."});
   v.object("probe", p.probe, {.meaning = "Errors of the simulated probe."});
   v.object("fixture", p.fixture, {.meaning = "Errors of the simulated fixture."});
   v.object("faults", p.faults,

@@ -31,36 +31,13 @@ double pre_touch_radius(const PathGeometry& g) {
 /// of a bore.
 double travel_radius(const PathGeometry& g) {
   if (g.inside) return 0.0;
-  return (contact_radius(g) + std::max(g.approach_mm, g.clearance_mm)) /
+  return (contact_radius(g) + std::max(g.approach_mm, g.clearance_mm) + g.stand_off_mm) /
          std::cos(0.5 * kArcStep_rad);
 }
 
 int arc_steps(double angle_rad) {
   // A hair of slack, so that 45 deg are three steps of 15 deg and not four.
   return std::max(1, static_cast<int>(std::ceil(std::abs(angle_rad) / kArcStep_rad - 1e-9)));
-}
-
-core::Result<void> check_height(const Vector3d& tip_P_mm, const Target& target,
-                                const Eigen::Isometry3d& X_WP, double limit_mm) {
-  const double height_mm = (X_WP * tip_P_mm).z();
-  if (height_mm >= limit_mm) return {};
-  return core::fail(
-      core::Code::kUnreachable,
-      fmt::format("layer {}, point {}: the tip would go down to machine z {:.3f} mm, below the "
-                  "limit of {:.3f} mm (rim, clearance and tip radius)",
-                  target.layer + 1, target.point + 1, height_mm, limit_mm));
-}
-
-core::Result<void> check_clamp(const Target& target, const PathGeometry& geometry,
-                               const Surroundings& surroundings) {
-  if (geometry.inside || surroundings.clamp_from_mm >= surroundings.clamp_to_mm) return {};
-  const double limit_mm = surroundings.clamp_to_mm + geometry.clearance_mm + geometry.tip_radius_mm;
-  if (target.z_mm >= limit_mm) return {};
-  return core::fail(
-      core::Code::kUnreachable,
-      fmt::format("layer {}, point {}: height {:.3f} mm on the part is below {:.3f} mm, where the "
-                  "clamp, the tip and the clearance end",
-                  target.layer + 1, target.point + 1, target.z_mm, limit_mm));
 }
 
 }  // namespace
@@ -132,29 +109,6 @@ Polyline path_around_sphere(const Vector3d& center_W_mm, double radius_mm,
   }
   path.push_back(center_W_mm + start_mm * to);
   return path;
-}
-
-core::Result<void> check_reachable(std::span<const Target> targets, const PathGeometry& geometry,
-                                   const Eigen::Isometry3d& X_WP,
-                                   const Surroundings& surroundings) {
-  // The lowest point of the tip is its ball's, not its centre.
-  const double limit_mm =
-      surroundings.rim_height_mm + geometry.clearance_mm + geometry.tip_radius_mm;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    const Target& target = targets[i];
-    if (auto free = check_clamp(target, geometry, surroundings); !free) return free;
-    Polyline way =
-        i == 0 ? entry_path(geometry, target) : path_between(geometry, targets[i - 1], target);
-    way.push_back(contact_tip(geometry, target));
-    for (const Vector3d& corner : way) {
-      if (auto high = check_height(corner, target, X_WP, limit_mm); !high) return high;
-    }
-  }
-  if (targets.empty()) return {};
-  for (const Vector3d& corner : exit_path(geometry, targets.back())) {
-    if (auto high = check_height(corner, targets.back(), X_WP, limit_mm); !high) return high;
-  }
-  return {};
 }
 
 }  // namespace rondure::plans

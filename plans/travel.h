@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -18,7 +17,10 @@ struct PathGeometry {
   bool inside = false;     ///< true: a bore, open above.
   double tip_radius_mm = 2.0;
   double approach_mm = 3.0;   ///< From the pre-touch point to the expected contact.
-  double clearance_mm = 5.0;  ///< Kept from the part while travelling.
+  double clearance_mm = 5.0;  ///< Kept from everything while travelling.
+  double stand_off_mm = 0.0;  ///< Added to the radius of the way around a shaft.
+
+  friend bool operator==(const PathGeometry&, const PathGeometry&) = default;
 };
 
 /// Corners of a path of the tip centre, joined by straight moves, part frame [mm].
@@ -56,21 +58,5 @@ using Polyline = std::vector<Eigen::Vector3d>;
 [[nodiscard]] Polyline path_around_sphere(const Eigen::Vector3d& center_W_mm, double radius_mm,
                                           const PathGeometry& geometry, const Eigen::Vector3d& from,
                                           const Eigen::Vector3d& to);
-
-/// What lies below and around the part.
-struct Surroundings {
-  double rim_height_mm = -1000.0;  ///< Machine z below which the tip must not go.
-  double clamp_from_mm = 0.0;      ///< Clamped band on the part; none when from >= to.
-  double clamp_to_mm = 0.0;
-};
-
-/// Checks that every corner of the way through all targets, in their order, and every contact lies
-/// clearance above the rim, and that no target outside lies in or below the clamped band (the tip
-/// comes from above and cannot pass it).
-/// @return  kUnreachable, naming layer and point (from 1), height and limit.
-[[nodiscard]] core::Result<void> check_reachable(std::span<const Target> targets,
-                                                 const PathGeometry& geometry,
-                                                 const Eigen::Isometry3d& X_WP,
-                                                 const Surroundings& surroundings);
 
 }  // namespace rondure::plans

@@ -152,10 +152,10 @@ Digest chain_head(soci::session& sql) {
   return head;
 }
 
-std::vector<BrokenTable> check_chain(soci::session& sql) {
+std::vector<BrokenTable> check_chain(soci::session& sql, std::int64_t version) {
   std::vector<BrokenTable> out;
   auto expected = follow_links(sql, out);
-  for (const Table& table : chained_tables()) {
+  for (const Table& table : chained_tables(version)) {
     compare_rows(sql, table.name, std::move(expected[std::string(table.name)]), out);
     expected.erase(std::string(table.name));
   }

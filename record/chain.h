@@ -57,6 +57,7 @@ class Chain {
 
 /// Walks the chain and says for each table what does not fit first, in words that name the row;
 /// table "chain" when the links themselves do not follow from each other. O(rows).
-[[nodiscard]] std::vector<BrokenTable> check_chain(soci::session& sql);
+/// @param version  Of the tables.
+[[nodiscard]] std::vector<BrokenTable> check_chain(soci::session& sql, std::int64_t version);
 
 }  // namespace rondure::record

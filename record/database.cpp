@@ -52,11 +52,12 @@ std::string system_reason_of(soci::session* session) {
 
 core::Result<std::string> connection_string(const std::filesystem::path& file) {
   if (file.string().find('"') != std::string::npos) {
-    return core::fail(core::Code::kFile,
-                      fmt::format("a database cannot be kept under a path with a double quote ({}); "
-                                  "name another place",
-                                  file.string()),
-                      file.string());
+    return core::fail(
+        core::Code::kFile,
+        fmt::format("a database cannot be kept under a path with a double quote ({}); "
+                    "name another place",
+                    file.string()),
+        file.string());
   }
   return fmt::format("dbname=\"{}\" timeout=5", file.string());
 }

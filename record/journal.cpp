@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "record/journal_impl.h"
+#include "record/journal_series.h"
 
 namespace rondure::record {
 
@@ -59,6 +60,15 @@ core::Result<void> Journal::add(const SimulationTruth& truth) {
     impl_->statements->insert_truth.execute(true);
     impl_->chain->append_inserted("truth");
   });
+}
+
+core::Result<void> Journal::add(std::span<const Series> series,
+                                std::span<const TruthValue> truths) {
+  if (series.empty() && truths.empty()) return {};
+  const std::string subject = series.empty()
+                                  ? std::string("the truth of the simulation")
+                                  : fmt::format("the series of feature {}", series.front().feature);
+  return impl_->write(subject, [&] { insert_series(impl_->sql, *impl_->chain, series, truths); });
 }
 
 core::Result<void> Journal::mark_final(int pose_id) {

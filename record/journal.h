@@ -33,8 +33,8 @@ class Journal {
   /// row; the chain goes on behind its last link. What ended the run before is taken out of the
   /// header (end() writes the new ending); what a killed writer of reports left behind is removed.
   /// kFile when there is no journal or another process is at work in the directory; kJournal when
-  /// it cannot be read, does not follow its chain, is sealed or is of version 1. Read the rows with
-  /// read_journal().
+  /// it cannot be read, does not follow its chain, is sealed or is of an older version. Read the
+  /// rows with read_journal().
   [[nodiscard]] static core::Result<Journal> reopen(const std::filesystem::path& directory);
 
   Journal(Journal&&) noexcept;
@@ -47,6 +47,11 @@ class Journal {
   [[nodiscard]] core::Result<void> add(const PoseVisit& pose);
   [[nodiscard]] core::Result<void> add(const Decision& decision);
   [[nodiscard]] core::Result<void> add(const SimulationTruth& truth);
+  /// The series of one feature with the numbers of its hidden truth, in one transaction: after a
+  /// kill all of it is there or nothing. kJournal also for a series that is none: a value that is
+  /// not finite, values that do not fill the columns.
+  [[nodiscard]] core::Result<void> add(std::span<const Series> series,
+                                       std::span<const TruthValue> truths);
   /// Marks the pose whose cloud is evaluated.
   [[nodiscard]] core::Result<void> mark_final(int pose_id);
   /// Writes how the run ended; call once, or once again after reopen().

@@ -91,6 +91,13 @@ std::string loss_of(soci::session& sql, std::string_view table,
   return to_the_end ? std::string() : fmt::format("{}: only {} rows can be read", table, rows);
 }
 
+/// Of the tables; the present one where the head does not tell it.
+std::int64_t version_of(soci::session& sql) {
+  long long version = 0;
+  sql << "pragma user_version", soci::into(version);
+  return version < kOldestSchemaVersion || version > kSchemaVersion ? kSchemaVersion : version;
+}
+
 std::string lost_rows(soci::session& sql) {
   const auto sealed = sealed_rows(sql);
   std::string lost;
@@ -98,8 +105,9 @@ std::string lost_rows(soci::session& sql) {
     const std::string loss = loss_of(sql, table.name, sealed);
     if (!loss.empty()) lost += fmt::format("{}{}", lost.empty() ? "" : ", ", loss);
   };
-  for (const Table& table : chained_tables()) add(table);
-  add(chain_table());
+  const std::int64_t version = version_of(sql);
+  for (const Table& table : chained_tables(version)) add(table);
+  if (chain_table().since <= version) add(chain_table());
   add(seal_table());
   return lost;
 }

@@ -15,6 +15,7 @@
 
 #include "record/journal_schema.h"
 #include "record/journal_seal.h"
+#include "record/journal_series.h"
 
 namespace rondure::record {
 namespace {
@@ -79,7 +80,7 @@ Enum named(std::string_view column, const std::string& text, std::initializer_li
 }
 
 core::Code code_named(const std::string& text) {
-  for (int i = 0; i <= static_cast<int>(core::Code::kReferenceAbsent); ++i) {
+  for (int i = 0; i <= static_cast<int>(core::kLastCode); ++i) {
     if (core::code_name(static_cast<core::Code>(i)) == text) return static_cast<core::Code>(i);
   }
   throw Contradiction(fmt::format("header.failure_code is the unknown \"{}\"", text.substr(0, 40)));
@@ -157,11 +158,13 @@ void read_features(soci::session& sql, RunRecord& record) {
     if (id != static_cast<std::int64_t>(record.features.size())) {
       throw Contradiction(fmt::format("feature {} is missing", record.features.size()));
     }
-    row.shape = named("feature.shape", shape, {Shape::kCylinder, Shape::kCircle});
+    row.shape =
+        named("feature.shape", shape,
+              {Shape::kCylinder, Shape::kCircle, Shape::kSpindle, Shape::kWheel, Shape::kContour});
     row.side = named("feature.side", side, {Side::kOutside, Side::kInside});
     row.strategy = named("feature.strategy", strategy,
                          {Strategy::kGuided, Strategy::kRefined, Strategy::kAsPublished,
-                          Strategy::kVirtual, Strategy::kPointsFile});
+                          Strategy::kVirtual, Strategy::kPointsFile, Strategy::kSeries});
     row.tip_radius_mm = tip_given == soci::i_ok ? std::optional(tip_radius_mm) : std::nullopt;
     record.features.push_back(row);
   }
@@ -194,7 +197,11 @@ void read_characteristics(soci::session& sql, RunRecord& record) {
   rows.execute();
   while (rows.fetch()) {
     require_feature(record, feature, 0, "characteristic");
-    row.form = named("characteristic.form", form, {Form::kCylindricity, Form::kRoundness});
+    row.form =
+        named("characteristic.form", form,
+              {Form::kCylindricity, Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits,
+               Form::kMotionTotal, Form::kMotionSynchronous, Form::kMotionAsynchronous,
+               Form::kRadius, Form::kRunOut, Form::kContourDeviation});
     row.reference = named("characteristic.reference", reference,
                           {Reference::kLeastSquares, Reference::kMinimumZone,
                            Reference::kMinimumCircumscribed, Reference::kMaximumInscribed});
@@ -230,18 +237,19 @@ Touch::Purpose purpose_of(const std::string& word) {
       fmt::format("touch.purpose holds the unknown word \"{}\"", word.substr(0, 40)));
 }
 
-void read_touches(soci::session& sql, RunRecord& record) {
+void read_touches(soci::session& sql, RunRecord& record, std::int64_t version) {
   Touch row;
   std::string purpose;
+  // Before version 3 nothing was brought to 20 degC, and nobody asked how warm the scales were.
+  const std::string query = fmt::format(
+      "select id, purpose, pose, layer, point, repeat, tip_x_mm, tip_y_mm, tip_z_mm, approach_x, "
+      "approach_y, approach_z, temperature_degC, time_s, {} from touch order by id",
+      version < 3 ? "20.0" : "scale_temperature_degC");
   soci::statement rows =
-      (sql.prepare
-           << "select id, purpose, pose, layer, point, repeat, tip_x_mm, tip_y_mm, tip_z_mm, "
-              "approach_x, approach_y, approach_z, temperature_degC, time_s from touch "
-              "order by id",
-       into(row.id), into(purpose), into(row.pose), into(row.layer), into(row.point),
-       into(row.repeat), into(row.tip_mm.x()), into(row.tip_mm.y()), into(row.tip_mm.z()),
-       into(row.approach.x()), into(row.approach.y()), into(row.approach.z()),
-       into(row.temperature_degC), into(row.time_s));
+      (sql.prepare << query, into(row.id), into(purpose), into(row.pose), into(row.layer),
+       into(row.point), into(row.repeat), into(row.tip_mm.x()), into(row.tip_mm.y()),
+       into(row.tip_mm.z()), into(row.approach.x()), into(row.approach.y()), into(row.approach.z()),
+       into(row.temperature_degC), into(row.time_s), into(row.scale_temperature_degC));
   rows.execute();
   while (rows.fetch()) {
     row.purpose = purpose_of(purpose);
@@ -289,7 +297,8 @@ void read_results(soci::session& sql, RunRecord& record) {
 ReadJournal read_tables(soci::session& sql) {
   ReadJournal journal;
   journal.version = static_cast<int>(require_journal(sql));
-  for (const Table& table : chained_tables()) require_table(sql, table, journal.version);
+  for (const Table& table : chained_tables(journal.version))
+    require_table(sql, table, journal.version);
   if (journal.version >= kFirstChainedVersion) require_table(sql, chain_table(), journal.version);
   require_table(sql, seal_table(), journal.version);
   read_header(sql, journal.record);
@@ -298,9 +307,10 @@ ReadJournal read_tables(soci::session& sql) {
   read_search_steps(sql, journal.record);
   read_characteristics(sql, journal.record);
   read_poses(sql, journal.record);
-  read_touches(sql, journal.record);
+  read_touches(sql, journal.record, journal.version);
   read_decisions(sql, journal.record);
   read_truths(sql, journal.record);
+  read_series_tables(sql, journal.record, journal.version);
   read_results(sql, journal.record);
   journal.record.sealed = is_sealed(sql);
   journal.broken = check_seal(sql, journal.version);

@@ -9,6 +9,7 @@
 
 #include "record/chain.h"
 #include "record/journal_schema.h"
+#include "record/journal_series.h"
 
 namespace rondure::record {
 namespace {
@@ -58,6 +59,7 @@ void insert_characteristic(soci::session& sql, int feature, const Characteristic
          "values (:feature, :name, :form, :reference, :tolerance, :zone)",
       use(feature), use(c.id), use(form), use(reference), use(tolerance_mm, given),
       use(c.drawing_zone);
+  insert_harmonic_limits(sql, c.harmonic_limits);
 }
 
 void insert_feature(soci::session& sql, int id, const Feature& f) {
@@ -78,6 +80,7 @@ void insert_feature(soci::session& sql, int id, const Feature& f) {
   for (const Characteristic& characteristic : f.characteristics) {
     insert_characteristic(sql, id, characteristic);
   }
+  insert_settings(sql, id, f.settings);
 }
 
 }  // namespace
@@ -85,11 +88,11 @@ void insert_feature(soci::session& sql, int id, const Feature& f) {
 Statements::Statements(soci::session& sql)
     : insert_touch((
           sql.prepare << "insert into touch values (:id, :purpose, :pose, :layer, :point, :repeat, "
-                         ":tx, :ty, :tz, :ax, :ay, :az, :temperature, :time)",
+                         ":tx, :ty, :tz, :ax, :ay, :az, :temperature, :time, :scales)",
           use(touch.id), use(purpose), use(touch.pose), use(touch.layer), use(touch.point),
           use(touch.repeat), use(touch.tip_mm.x()), use(touch.tip_mm.y()), use(touch.tip_mm.z()),
           use(touch.approach.x()), use(touch.approach.y()), use(touch.approach.z()),
-          use(touch.temperature_degC), use(touch.time_s))),
+          use(touch.temperature_degC), use(touch.time_s), use(touch.scale_temperature_degC))),
       insert_pose((sql.prepare << "insert into pose values (:id, :feature, :ca, :cb, :ra, :rb, "
                                   ":final, :time)",
                    use(pose.id), use(pose.feature), use(pose.commanded.alpha_rad),

@@ -1,13 +1,14 @@
 #include "record/journal_schema.h"
 
 #include <array>
+#include <span>
 
 namespace rondure::record {
 namespace {
 
 // Numbers that were measured have the type `any`: a column of type `real` would lose the sign of
 // -0.0, because SQLite packs whole numbers there as integers.
-constexpr std::array<Table, 12> kTables = {{
+constexpr std::array<Table, 19> kTables = {{
     {"header",
      R"(create table header (
   id integer primary key check (id = 0),
@@ -102,7 +103,27 @@ constexpr std::array<Table, 12> kTables = {{
   approach_z any not null,
   temperature_degC any not null,
   time_s any not null
-) strict)"},
+) strict)",
+     1, 2},
+    {"touch",
+     R"(create table touch (
+  id integer primary key,
+  purpose text not null,
+  pose integer not null,
+  layer integer not null,
+  point integer not null,
+  repeat integer not null,
+  tip_x_mm any not null,
+  tip_y_mm any not null,
+  tip_z_mm any not null,
+  approach_x any not null,
+  approach_y any not null,
+  approach_z any not null,
+  temperature_degC any not null,
+  time_s any not null,
+  scale_temperature_degC any not null
+) strict)",
+     3},
     {"decision",
      R"(create table decision (
   id integer primary key,
@@ -122,6 +143,58 @@ constexpr std::array<Table, 12> kTables = {{
   name text not null,
   value any not null
 ) strict)"},
+    {"setting",
+     R"(create table setting (
+  id integer primary key,
+  feature integer not null,
+  name text not null,
+  number any,
+  text text not null
+) strict)",
+     3},
+    {"harmonic_limit",
+     R"(create table harmonic_limit (
+  id integer primary key,
+  characteristic integer not null,
+  first_order integer not null,
+  last_order integer not null,
+  amplitude_mm any not null
+) strict)",
+     3},
+    {"series",
+     R"(create table series (
+  id integer primary key,
+  feature integer not null,
+  name text not null,
+  role text not null,
+  row_count integer not null
+) strict)",
+     3},
+    {"series_column",
+     R"(create table series_column (
+  id integer primary key,
+  series integer not null,
+  name text not null,
+  unit text not null
+) strict)",
+     3},
+    {"series_block",
+     R"(create table series_block (
+  id integer primary key,
+  series integer not null,
+  first_row integer not null,
+  row_count integer not null,
+  rows text not null
+) strict)",
+     3},
+    {"truth_value",
+     R"(create table truth_value (
+  id integer primary key,
+  feature integer not null,
+  name text not null,
+  value any not null
+) strict)",
+     3},
     {"chain",
      R"(create table chain (
   id integer primary key,
@@ -129,7 +202,8 @@ constexpr std::array<Table, 12> kTables = {{
   row_id integer not null,
   row_sha256 text not null,
   sha256 text not null
-) strict)"},
+) strict)",
+     kFirstChainedVersion},
     {"seal",
      R"(create table seal (
   id integer primary key,
@@ -141,7 +215,13 @@ constexpr std::array<Table, 12> kTables = {{
 
 }  // namespace
 
-std::span<const Table> chained_tables() { return std::span(kTables).first(kTables.size() - 2); }
+std::vector<Table> chained_tables(std::int64_t version) {
+  std::vector<Table> out;
+  for (const Table& table : std::span(kTables).first(kTables.size() - 2)) {
+    if (table.since <= version && version <= table.until) out.push_back(table);
+  }
+  return out;
+}
 
 const Table& chain_table() { return kTables[kTables.size() - 2]; }
 

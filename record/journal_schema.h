@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string_view>
+#include <vector>
 
 // Private to the room: the tables of journal.db. docs/journal.md explains them; a test holds both
 // together.
@@ -12,7 +12,7 @@ namespace rondure::record {
 /// "Rond" in SQLite's header: this database is a journal of ours.
 inline constexpr std::int64_t kApplicationId = 0x526f6e64;
 /// Counts changes of the tables below.
-inline constexpr std::int64_t kSchemaVersion = 2;
+inline constexpr std::int64_t kSchemaVersion = 3;
 /// The first version with a chain.
 inline constexpr std::int64_t kFirstChainedVersion = 2;
 /// The oldest version that is still read.
@@ -21,11 +21,13 @@ inline constexpr std::int64_t kOldestSchemaVersion = 1;
 /// One table of the journal.
 struct Table {
   std::string_view name;
-  std::string_view sql;  ///< The statement that makes it, as SQLite keeps it.
+  std::string_view sql;                 ///< The statement that makes it, as SQLite keeps it.
+  std::int64_t since = 1;               ///< The first version that has it so.
+  std::int64_t until = kSchemaVersion;  ///< The last one.
 };
 
-/// The tables whose rows are linked in the chain, in their order in the seal.
-[[nodiscard]] std::span<const Table> chained_tables();
+/// The tables of a version whose rows are linked in the chain, in their order in the seal.
+[[nodiscard]] std::vector<Table> chained_tables(std::int64_t version = kSchemaVersion);
 /// The links themselves; absent in version 1.
 [[nodiscard]] const Table& chain_table();
 /// The table of the digests themselves.

@@ -22,7 +22,7 @@ Digest seal_digest_of(soci::session& sql, const Table& table) {
 }
 
 std::vector<Table> sealed_tables(std::int64_t version) {
-  std::vector<Table> tables(chained_tables().begin(), chained_tables().end());
+  std::vector<Table> tables = chained_tables(version);
   if (version >= kFirstChainedVersion) tables.push_back(chain_table());
   return tables;
 }
@@ -61,7 +61,7 @@ bool is_sealed(soci::session& sql) {
 
 std::vector<BrokenTable> check_seal(soci::session& sql, std::int64_t version) {
   std::vector<BrokenTable> broken;
-  if (version >= kFirstChainedVersion) broken = check_chain(sql);
+  if (version >= kFirstChainedVersion) broken = check_chain(sql, version);
   if (!is_sealed(sql)) return broken;
   for (const Table& table : sealed_tables(version)) {
     const auto differs = compare(sql, table);

@@ -11,10 +11,10 @@
 
 #include <fmt/format.h>
 
+#include "record/csv_lines.h"
+
 namespace rondure::record {
 namespace {
-
-constexpr std::string_view kBlanks = " \t";
 
 /// Columns that belong together, and the unit of each.
 struct ColumnSet {
@@ -45,108 +45,6 @@ struct Columns {
   [[nodiscard]] std::string_view unit(std::size_t i) const { return set.units[fields[i]]; }
 };
 
-/// Hands out lines without their LF or CRLF and counts them from 1.
-class Lines {
- public:
-  explicit Lines(std::string_view text) : rest_(text) {}
-
-  std::optional<std::string_view> next() {
-    if (rest_.empty()) return std::nullopt;
-    ++number_;
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
-  }
-
-  /// What is still to be read, from the start of a line.
-  [[nodiscard]] std::string_view rest() const { return rest_; }
-  /// Passes over the next line, which takes so many bytes with its end.
-  void pass(std::size_t bytes) {
-    rest_.remove_prefix(bytes);
-    ++number_;
-  }
-
-  [[nodiscard]] std::size_t number() const { return number_; }
-  [[nodiscard]] std::size_t bytes_left() const { return rest_.size(); }
-
- private:
-  std::string_view rest_;
-  std::size_t number_ = 0;
-};
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
-/// Blank lines and comments hold no point.
-bool holds_nothing(std::string_view line) {
-  const std::size_t first = line.find_first_not_of(kBlanks);
-  return first == std::string_view::npos || line[first] == '#';
-}
-
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> fields;
-  while (true) {
-    const std::size_t comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return fields;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-/// At most 40 characters of a file's text, in quotes, with bytes that do not print spelled out.
-std::string quoted(std::string_view text) {
-  constexpr std::size_t kLongest = 40;
-  std::string shown = "\"";
-  for (const char c : text.substr(0, kLongest)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte >= 0x7f) {
-      shown += fmt::format("\\x{:02x}", byte);
-    } else {
-      shown += c;
-    }
-  }
-  return shown + (text.size() > kLongest ? "...\"" : "\"");
-}
-
-core::Error syntax(std::string what) { return {core::Code::kSyntax, std::move(what), {}}; }
-
-/// What spreadsheets and editors do to a table, or nothing.
-std::optional<core::Error> foreign_format(std::string_view line) {
-  const auto has = [&](char c) { return line.find(c) != std::string_view::npos; };
-  if (has('\0')) {
-    return syntax(
-        fmt::format("the line holds a NUL byte ({}); plain text is expected, saved as UTF-8 "
-                    "and not as UTF-16",
-                    quoted(line)));
-  }
-  if (has('\r')) {
-    return syntax(
-        fmt::format("{} holds a carriage return without a line feed; end lines with LF or "
-                    "CRLF",
-                    quoted(line)));
-  }
-  if (has('"') || has('\'')) {
-    return syntax(
-        fmt::format("{} holds quotes; write names and numbers without them", quoted(line)));
-  }
-  if (has(';')) {
-    return syntax(
-        fmt::format("{} is separated by semicolons; separate fields by commas and write "
-                    "12.5 with a point",
-                    quoted(line)));
-  }
-  if (!has(',') && trimmed(line).find_first_of(kBlanks) != std::string_view::npos) {
-    return syntax(
-        fmt::format("{} is separated by blanks; separate fields by commas", quoted(line)));
-  }
-  return std::nullopt;
-}
-
 std::optional<std::size_t> place_of(std::string_view field, const ColumnSet& set) {
   for (std::size_t i = 0; i < set.names.size(); ++i) {
     if (!field.empty() && field == set.names[i]) return i;
@@ -156,7 +54,7 @@ std::optional<std::size_t> place_of(std::string_view field, const ColumnSet& set
 
 core::Result<Columns> read_header(std::string_view line, const Format& format) {
   if (auto foreign = foreign_format(line)) return core::fail(*std::move(foreign));
-  const auto names = split(line);
+  const auto names = split_fields(line);
   Columns columns;
   columns.set = place_of(names.front(), format.sets[0]) ? format.sets[0] : format.sets[1];
   std::array<bool, 3> seen{};
@@ -166,12 +64,12 @@ core::Result<Columns> read_header(std::string_view line, const Format& format) {
       return core::fail(core::Code::kSyntax,
                         fmt::format("column {} is unknown; the first line must name the columns "
                                     "{}{}",
-                                    quoted(field), format.columns, format.units));
+                                    quoted_text(field), format.columns, format.units));
     }
     if (std::exchange(seen[*place], true)) {
       return core::fail(core::Code::kSyntax,
                         fmt::format("column {} stands twice; the columns are {}, each once",
-                                    quoted(field), format.columns));
+                                    quoted_text(field), format.columns));
     }
     columns.fields[columns.count++] = *place;
   }
@@ -180,7 +78,7 @@ core::Result<Columns> read_header(std::string_view line, const Format& format) {
     return core::fail(
         core::Code::kSyntax,
         fmt::format("column \"{}\" is missing in {}; the columns are {}{}", columns.set.names[i],
-                    quoted(line), format.columns, format.units));
+                    quoted_text(line), format.columns, format.units));
   }
   return columns;
 }
@@ -264,60 +162,27 @@ bool read_row(std::string_view line, const Columns& columns, Eigen::Vector3d& po
   return at == end;
 }
 
-/// What is wrong with one field, or nothing.
-std::optional<core::Error> explain_field(std::string_view field, std::string_view axis,
-                                         std::string_view unit) {
-  double value = 0.0;
-  std::string_view digits = field;
-  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
-  const char* const end = digits.data() + digits.size();
-  const auto [stop, problem] = std::from_chars(digits.data(), end, value);
-  const bool whole = !digits.empty() && stop == end;
-  if (whole && problem == std::errc() && std::isfinite(value)) return std::nullopt;
-  if (whole && problem == std::errc::result_out_of_range) {
-    return core::Error{core::Code::kNotFinite,
-                       fmt::format("{} is {}, beyond the range of numbers (4.9e-324 to 1.8e308)",
-                                   axis, quoted(field)),
-                       {}};
-  }
-  if (whole && problem == std::errc()) {
-    return core::Error{
-        core::Code::kNotFinite,
-        fmt::format("{} is {}; a finite number in {} is expected", axis, quoted(field), unit),
-        {}};
-  }
-  if (field.empty()) {
-    return syntax(fmt::format("{} is empty; a number in {} such as 12.5 is expected", axis, unit));
-  }
-  return syntax(fmt::format(
-      "{} is {}; a number in {} such as 12.5 is expected{}", axis, quoted(field), unit,
-      field.find('#') == std::string_view::npos ? "" : " (a comment needs a line of its own)"));
-}
-
 /// Why read_row() refused a row.
 core::Error explain(std::string_view line, const Columns& columns) {
   if (auto foreign = foreign_format(line)) return *std::move(foreign);
-  const auto fields = split(line);
+  const auto fields = split_fields(line);
   std::string names;
   for (std::size_t i = 0; i < columns.count; ++i) {
     if (i > 0) names += ',';
     names += columns.name(i);
   }
   if (fields.size() != columns.count) {
-    return syntax(fmt::format(
+    return syntax_error(fmt::format(
         "{} field{} in {}, {} expected ({}){}", fields.size(), fields.size() == 1 ? "" : "s",
-        quoted(line), columns.count, names,
+        quoted_text(line), columns.count, names,
         fields.size() == 2 * columns.count ? "; write decimals with a point, not a comma" : ""));
   }
   for (std::size_t i = 0; i < columns.count; ++i) {
     if (auto error = explain_field(fields[i], columns.name(i), columns.unit(i)))
       return *std::move(error);
   }
-  return syntax(fmt::format("{} cannot be read; numbers for {} are expected", quoted(line), names));
-}
-
-bool is_utf16(std::string_view text) {
-  return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+  return syntax_error(
+      fmt::format("{} cannot be read; numbers for {} are expected", quoted_text(line), names));
 }
 
 /// Reads a whole file: `begin(columns)` once, then `row(values, rows to come)` for each
@@ -325,9 +190,8 @@ bool is_utf16(std::string_view text) {
 template <class Begin, class Row>
 core::Result<void> parse(std::string_view text, std::string_view name, const Format& format,
                          const Begin& begin, const Row& row) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  Lines lines(text);
+  text = without_byte_order_mark(text);
+  CsvLines lines(text);
   const auto here = [&] {
     return fmt::format("{}:{}", name, std::max<std::size_t>(lines.number(), 1));
   };

@@ -1,5 +1,7 @@
 #include "record/run_record.h"
 
+#include <algorithm>
+
 namespace rondure::record {
 
 std::string_view name_of(Shape shape) {
@@ -8,8 +10,18 @@ std::string_view name_of(Shape shape) {
       return "cylinder";
     case Shape::kCircle:
       return "circle";
+    case Shape::kSpindle:
+      return "spindle";
+    case Shape::kWheel:
+      return "wheel";
+    case Shape::kContour:
+      return "contour";
   }
   return "";
+}
+
+bool is_analysis(Shape shape) {
+  return shape == Shape::kSpindle || shape == Shape::kWheel || shape == Shape::kContour;
 }
 
 std::string_view name_of(Side side) {
@@ -28,6 +40,22 @@ std::string_view name_of(Form form) {
       return "cylindricity";
     case Form::kRoundness:
       return "roundness";
+    case Form::kRoundnessRms:
+      return "roundness-rms";
+    case Form::kHarmonicLimits:
+      return "harmonic-limits";
+    case Form::kMotionTotal:
+      return "motion-total";
+    case Form::kMotionSynchronous:
+      return "motion-synchronous";
+    case Form::kMotionAsynchronous:
+      return "motion-asynchronous";
+    case Form::kRadius:
+      return "radius";
+    case Form::kRunOut:
+      return "run-out";
+    case Form::kContourDeviation:
+      return "contour-deviation";
   }
   return "";
 }
@@ -58,6 +86,8 @@ std::string_view name_of(Strategy strategy) {
       return "virtual";
     case Strategy::kPointsFile:
       return "points-file";
+    case Strategy::kSeries:
+      return "series";
   }
   return "";
 }
@@ -74,6 +104,66 @@ std::string_view name_of(Touch::Purpose purpose) {
       return "check";
   }
   return "measure";
+}
+
+std::string_view name_of(Series::Role role) {
+  return role == Series::Role::kTruth ? "truth" : "data";
+}
+
+std::optional<double> Feature::number(std::string_view name) const {
+  for (const Setting& setting : settings) {
+    if (setting.name == name && setting.number) return setting.number;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> Feature::word(std::string_view name) const {
+  for (const Setting& setting : settings) {
+    if (setting.name == name && !setting.number) return setting.text;
+  }
+  return std::nullopt;
+}
+
+std::vector<double> Feature::numbers(std::string_view name) const {
+  std::vector<double> out;
+  for (const Setting& setting : settings) {
+    if (setting.name == name && setting.number) out.push_back(*setting.number);
+  }
+  return out;
+}
+
+std::optional<std::vector<double>> Series::column(std::string_view wanted) const {
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const SeriesColumn& column) {
+    return column.name == wanted;
+  });
+  if (found == columns.end()) return std::nullopt;
+  std::vector<double> out;
+  out.reserve(rows());
+  for (auto i = static_cast<std::size_t>(found - columns.begin()); i < values.size();
+       i += columns.size()) {
+    out.push_back(values[i]);
+  }
+  return out;
+}
+
+namespace {
+
+const Series* find_series(const std::vector<Series>& all, int feature, std::string_view name,
+                          Series::Role role) {
+  for (const Series& series : all) {
+    if (series.feature == feature && series.name == name && series.role == role) return &series;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+const Series* RunRecord::data_of(int feature, std::string_view name) const {
+  return find_series(series, feature, name, Series::Role::kData);
+}
+
+const Series* RunRecord::truth_series_of(int feature, std::string_view name) const {
+  return find_series(series, feature, name, Series::Role::kTruth);
 }
 
 }  // namespace rondure::record

@@ -15,11 +15,27 @@ namespace rondure::record {
 
 /// What the plan asks of a feature. Stands in the journal, so that a run can be evaluated without
 /// the code that reads plans.
-enum class Shape { kCylinder, kCircle };
+/// kSpindle, kWheel and kContour are analyses: their data are series, not touches.
+enum class Shape { kCylinder, kCircle, kSpindle, kWheel, kContour };
 enum class Side { kOutside, kInside };
-enum class Form { kCylindricity, kRoundness };
+/// kCylindricity and kRoundness have a reference; the others do not look at it.
+enum class Form {
+  kCylindricity,        ///< CYLt.
+  kRoundness,           ///< RONt.
+  kRoundnessRms,        ///< RONq, about the least-squares circle.
+  kHarmonicLimits,      ///< Amplitudes of harmonics against a mask.
+  kMotionTotal,         ///< Total error motion value of an axis (ISO 230-7).
+  kMotionSynchronous,   ///< Synchronous error motion value.
+  kMotionAsynchronous,  ///< Asynchronous error motion value.
+  kRadius,              ///< Departure of a radius from nominal.
+  kRunOut,              ///< Radial run-out.
+  kContourDeviation,    ///< Peak to valley of a contour.
+};
 enum class Reference { kLeastSquares, kMinimumZone, kMinimumCircumscribed, kMaximumInscribed };
-enum class Strategy { kGuided, kRefined, kAsPublished, kVirtual, kPointsFile };
+enum class Strategy { kGuided, kRefined, kAsPublished, kVirtual, kPointsFile, kSeries };
+
+/// Whether the data of a shape are series.
+[[nodiscard]] bool is_analysis(Shape shape);
 
 /// Spelling in plans, journals and JSON: "cylinder", "outside", "cylindricity", "ls", "mz", ...
 [[nodiscard]] std::string_view name_of(Shape shape);
@@ -28,6 +44,13 @@ enum class Strategy { kGuided, kRefined, kAsPublished, kVirtual, kPointsFile };
 [[nodiscard]] std::string_view name_of(Reference reference);
 [[nodiscard]] std::string_view name_of(Strategy strategy);
 
+/// Largest amplitude of the harmonics first..last; one line of a mask.
+struct HarmonicLimit {
+  int first = 2;
+  int last = 50;
+  double amplitude_mm = 0.0;
+};
+
 /// One toleranced (or only reported) characteristic of a feature.
 struct Characteristic {
   std::string id;                   ///< Name in the plan, unique within the feature.
@@ -35,6 +58,14 @@ struct Characteristic {
   Reference reference = Reference::kMinimumZone;
   std::optional<double> tolerance_mm;  ///< Upper limit of the deviation [mm]; none: reported only.
   std::string drawing_zone;            ///< Where it stands on the drawing; may be empty.
+  std::vector<HarmonicLimit> harmonic_limits;  ///< Of kHarmonicLimits; never empty there.
+};
+
+/// One setting of an analysis, by its key in the plan ("phi2_deg"): a number or a word.
+struct Setting {
+  std::string name;
+  std::optional<double> number;
+  std::string text;  ///< Only looked at without a number.
 };
 
 /// One feature and how its points are obtained.
@@ -51,6 +82,13 @@ struct Feature {
   std::string points_sha256;             ///< Of that file's bytes.
   std::optional<double> tip_radius_mm;   ///< Of the probe behind a points file, if stated.
   std::vector<Characteristic> characteristics;
+  std::vector<Setting> settings;  ///< Of an analysis; a list has its key once for each item.
+
+  /// The first number or word of that name, or nothing.
+  [[nodiscard]] std::optional<double> number(std::string_view name) const;
+  [[nodiscard]] std::optional<std::string> word(std::string_view name) const;
+  /// All numbers of that name, in order.
+  [[nodiscard]] std::vector<double> numbers(std::string_view name) const;
 };
 
 /// Head of a run: who measured what with which program, and how it ended.
@@ -109,8 +147,9 @@ struct Touch {
   int repeat = 0;  ///< 0-based.
   Eigen::Vector3d tip_mm = Eigen::Vector3d::Zero();    ///< Tip centre, machine frame.
   Eigen::Vector3d approach = Eigen::Vector3d::Zero();  ///< Unit direction of the approach.
-  double temperature_degC = 20.0;
-  double time_s = 0.0;  ///< Machine clock.
+  double temperature_degC = 20.0;                      ///< Of the part.
+  double time_s = 0.0;                                 ///< Machine clock.
+  double scale_temperature_degC = 20.0;                ///< Of the scales of the machine.
 };
 
 /// "qualification", "locate", "measure", "check".
@@ -121,6 +160,40 @@ struct Decision {
   int feature = -1;  ///< -1: concerns the whole run.
   double time_s = 0.0;
   std::string text;
+};
+
+/// One column of a series: its name in the file, which carries the unit ("H1_um"), and that unit.
+struct SeriesColumn {
+  std::string name;
+  std::string unit;
+};
+
+/// Rows of numbers that belong together: what probes or a control recorded, in the units of the
+/// columns.
+struct Series {
+  /// kTruth: the hidden truth of a simulation; reports show it, evaluation never reads it.
+  enum class Role { kData, kTruth };
+  int feature = 0;  ///< Index into RunRecord::features.
+  std::string name = "data";
+  Role role = Role::kData;
+  std::vector<SeriesColumn> columns;
+  std::vector<double> values;  ///< Row by row: columns.size() numbers each; finite.
+
+  [[nodiscard]] std::size_t rows() const {
+    return columns.empty() ? 0 : values.size() / columns.size();
+  }
+  /// The values of a column, or nothing when there is no such column.
+  [[nodiscard]] std::optional<std::vector<double>> column(std::string_view wanted) const;
+};
+
+/// "data", "truth".
+[[nodiscard]] std::string_view name_of(Series::Role role);
+
+/// A number of the hidden truth of a simulated analysis.
+struct TruthValue {
+  int feature = 0;
+  std::string name;  ///< With its unit, e.g. "RONt_um".
+  double value = 0.0;
 };
 
 /// The hidden truth of a simulation, written by the simulated cell. Reports show it beside the
@@ -148,8 +221,15 @@ struct RunRecord {
   std::vector<Touch> checks;   ///< Repeated touches of a resumed run, in order.
   std::vector<Decision> decisions;
   std::vector<SimulationTruth> truths;
+  std::vector<Series> series;            ///< In the order of recording.
+  std::vector<TruthValue> truth_values;  ///< Of analyses.
   std::vector<StoredResult> results;
   bool sealed = false;  ///< The journal was closed with digests of its tables.
+
+  /// The recorded series of a feature by name, or nullptr. Never a truth.
+  [[nodiscard]] const Series* data_of(int feature, std::string_view name) const;
+  /// The same of the hidden truth, for reports.
+  [[nodiscard]] const Series* truth_series_of(int feature, std::string_view name) const;
 };
 
 }  // namespace rondure::record

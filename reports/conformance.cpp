@@ -104,6 +104,7 @@ std::string operator_text(const FeatureResult& result,
   text += feature.layers > 0
               ? fmt::format("; {} x {} points", feature.layers, feature.points_per_layer)
               : fmt::format("; {} points", result.cloud.size());
+  if (feature.word("sampling_method") == "scan") text += ", scanned";
   if (!cylinder && result.layers.size() > 1) text += "; worst layer";
   if (!result.cloud.empty() && result.cloud.front().repeats > 1) {
     text += fmt::format("; mean of {} touches a point", result.cloud.front().repeats);
@@ -112,6 +113,11 @@ std::string operator_text(const FeatureResult& result,
                                : "; r_tip unknown";
   if (result.temperatures) {
     text += fmt::format("; {:.1f} degC", result.temperatures->mean_degC);
+  }
+  if (result.thermal) {
+    text +=
+        fmt::format(" brought to 20 degC, {:.2f} um a metre with U = {:.2f} um (k = 2)",
+                    1e6 * (result.thermal->factor - 1.0), 2e6 * result.thermal->factor_uncertainty);
   }
   return text + "; at the sampled points";
 }

@@ -164,6 +164,16 @@ void mark_contacts(const std::vector<fit::Contact>& outer, const std::vector<fit
   for (const fit::Contact& c : inner) cloud[rows[c.index]].inner_contact = true;
 }
 
+/// The filtered section of a dense layer; the verdict stays with the points as measured.
+std::optional<fit::RoundnessEvaluation> dense_section(const std::vector<Eigen::Vector2d>& points) {
+  constexpr std::size_t kDense = 7 * 50;   // points at the cut-off of 50 UPR
+  constexpr std::size_t kAtMost = 10'000;  // a file may hold far more; this is only shown
+  if (points.size() < kDense || points.size() > kAtMost) return std::nullopt;
+  auto section = fit::evaluate_section(points, {});
+  if (!section) return std::nullopt;  // an arc, or gaps: there is no filtered profile
+  return *std::move(section);
+}
+
 /// Sections normal to an axis, by layer.
 std::vector<LayerResult> sections(const fit::Axis& axis, const std::vector<CloudPoint>& cloud) {
   std::map<int, std::vector<std::size_t>> layers;
@@ -180,6 +190,7 @@ std::vector<LayerResult> sections(const fit::Axis& axis, const std::vector<Cloud
     LayerResult result{layer, height, rows, fit::min_zone_circle(section), fit::ls_circle(section)};
     result.mc = fit::min_circumscribed_circle(section);
     result.mi = fit::max_inscribed_circle(section);
+    result.filtered = dense_section(section);
     result.points_mm = std::move(section);
     out.push_back(std::move(result));
   }
@@ -349,6 +360,11 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     return result;
   }
   if (result.feature.strategy != record::Strategy::kPointsFile) take_temperatures(touches, result);
+  result.thermal = thermal_correction(record, index, last->id);
+  if (result.thermal && result.tip_radius_mm) {
+    const ThermalCorrection& c = *result.thermal;
+    *result.tip_radius_mm /= 1.0 + c.part_expansion_1_K * (c.part_degC - 20.0);
+  }
   const auto direction = expected_axis(record, result.feature, *last);
   if (result.feature.shape == record::Shape::kCylinder) {
     evaluate_cylinder(direction, result);
@@ -367,7 +383,9 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
 
 }  // namespace
 
-tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& record) {
+tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& measured) {
+  const std::optional<RunRecord> at_20 = compensated(measured);
+  const RunRecord& record = at_20 ? *at_20 : measured;
   Evaluation out;
   out.probe = evaluate_probe(record);
   for (std::size_t i = 0; i < record.features.size(); ++i) {

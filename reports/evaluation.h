@@ -16,7 +16,9 @@
 #include "fit/one_sided_center.h"
 #include "fit/one_sided_cylinder.h"
 #include "fit/probe_tip.h"
+#include "fit/roundness_evaluation.h"
 #include "record/run_record.h"
+#include "reports/thermal.h"
 
 namespace rondure::reports {
 
@@ -61,6 +63,8 @@ struct LayerResult {
   core::Result<fit::LsCircle> ls;
   core::Result<fit::OneSidedCircle> mc = not_fitted();  ///< Where there is none: why.
   core::Result<fit::OneSidedCircle> mi = not_fitted();
+  /// Gaussian, 50 UPR, with harmonics, where 7 points stand for an undulation; else nothing.
+  std::optional<fit::RoundnessEvaluation> filtered = {};
   std::vector<Eigen::Vector2d> points_mm = {};  ///< What was fitted: `rows`, in the centres' frame.
 };
 
@@ -96,6 +100,7 @@ struct FeatureResult {
   std::optional<double> repeat_zone_mean_mm;  ///< Mean of the zones of the single repeats.
   std::optional<double> repeat_zone_sd_mm;
   std::optional<Temperatures> temperatures;  ///< Of the final cloud; none for points of a file.
+  std::optional<ThermalCorrection> thermal;  ///< All above is at 20 degC; none: as measured.
   std::vector<CharacteristicResult> characteristics;
   std::vector<core::Error> warnings;
   std::optional<core::Error> failure;  ///< Why there is no result.

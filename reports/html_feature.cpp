@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -103,6 +104,24 @@ std::string pose_entries(const FeatureResult& feature) {
   return html;
 }
 
+/// The worst filtered section of dense layers, and the largest undulation of all.
+std::string dense_entry(const FeatureResult& feature) {
+  double total_mm = -1.0;
+  fit::Harmonic largest;
+  for (const LayerResult& layer : feature.layers) {
+    if (!layer.filtered || layer.filtered->values.empty()) continue;
+    total_mm = std::max(total_mm, layer.filtered->values.back().total_mm);
+    for (const fit::Harmonic& harmonic : layer.filtered->harmonics.harmonics) {
+      if (harmonic.number > 1 && harmonic.amplitude_mm > largest.amplitude_mm) largest = harmonic;
+    }
+  }
+  if (total_mm < 0.0) return {};
+  return entry("Sections through a Gaussian filter, 50 UPR",
+               with_note(um(total_mm) + " µm, the worst (MZ)",
+                         fmt::format("largest undulation {} UPR, amplitude {} µm", largest.number,
+                                     um(largest.amplitude_mm))));
+}
+
 std::string data_entries(const FeatureResult& feature) {
   const bool from_file = feature.feature.strategy == record::Strategy::kPointsFile;
   std::string html = entry(
@@ -123,6 +142,15 @@ std::string data_entries(const FeatureResult& feature) {
   if (!from_file)
     html += entry("Mean temperature",
                   feature.temperatures ? fixed(feature.temperatures->mean_degC, 2) + " °C" : "–");
+  html += dense_entry(feature);
+  if (feature.thermal) {
+    html += entry("Brought to 20 °C",
+                  with_note(fixed(1e6 * (feature.thermal->factor - 1.0), 2) + " µm a metre",
+                            fmt::format("U = {} µm a metre (k = 2); part {} °C, scales {} °C",
+                                        fixed(2e6 * feature.thermal->factor_uncertainty, 2),
+                                        fixed(feature.thermal->part_degC, 2),
+                                        fixed(feature.thermal->scale_degC, 2))));
+  }
   return html;
 }
 

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "core/units.h"
 #include "reports/facts.h"
 
@@ -158,6 +160,20 @@ Json one_sided_json(const core::Result<fit::OneSidedCircle>& circle, double offs
           {"certificate", certificate_json(circle->certificate)}};
 }
 
+Json filtered_json(const std::optional<fit::RoundnessEvaluation>& section) {
+  if (!section) return nullptr;
+  Json json = {{"filter", fit::name_of(section->filter.filter)},
+               {"cutoff_upr", section->filter.cutoff_upr}};
+  for (const fit::Roundness& value : section->values) {
+    json[fmt::format("{}_um", fit::name_of(value.reference))] = in_um(value.total_mm);
+  }
+  json["harmonics_um"] = Json::array();
+  for (const fit::Harmonic& harmonic : section->harmonics.harmonics) {
+    json["harmonics_um"].push_back(in_um(harmonic.amplitude_mm));
+  }
+  return json;
+}
+
 Json layer_json(const LayerResult& layer, const FeatureResult& feature) {
   const double offset_mm = surface_offset_mm(feature);
   Json json = {{"layer", layer.layer},
@@ -183,6 +199,7 @@ Json layer_json(const LayerResult& layer, const FeatureResult& feature) {
                   {"deviation_um", in_um(layer.ls->deviation_mm)},
                   {"rms_um", in_um(layer.ls->rms_mm)}};
   }
+  json["filtered"] = filtered_json(layer.filtered);
   return json;
 }
 
@@ -220,6 +237,16 @@ Json list_json(const Range& range, const Convert& convert) {
   return list;
 }
 
+Json thermal_json(const std::optional<ThermalCorrection>& c) {
+  if (!c) return nullptr;
+  return {{"part_expansion_per_K", c->part_expansion_1_K},
+          {"scale_expansion_per_K", c->scale_expansion_1_K},
+          {"part_degC", c->part_degC},
+          {"scale_degC", c->scale_degC},
+          {"factor", c->factor},
+          {"factor_standard_uncertainty", c->factor_uncertainty}};
+}
+
 Json feature_json(const FeatureResult& feature) {
   const record::Feature& asked = feature.feature;
   Json json;
@@ -245,6 +272,7 @@ Json feature_json(const FeatureResult& feature) {
   json["repeat_zone_sd_um"] = optional_um(feature.repeat_zone_sd_mm);
   json["mean_temperature_degC"] =
       feature.temperatures ? Json(feature.temperatures->mean_degC) : Json(nullptr);
+  json["temperature_correction"] = thermal_json(feature.thermal);
   json["layers"] = list_json(feature.layers,
                              [&](const LayerResult& layer) { return layer_json(layer, feature); });
   json["poses"] = list_json(feature.poses, pose_json);

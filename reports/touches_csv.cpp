@@ -36,7 +36,7 @@ std::string write_touches_csv(const record::RunRecord& record) {
   std::string text = fmt::format("# rondure touches, run {}\n", printable(record.header.run_id));
   text +=
       "id,purpose,feature,pose,layer,point,repeat,x_mm,y_mm,z_mm,dir_x,dir_y,dir_z,"
-      "temperature_degC,time_s\n";
+      "temperature_degC,time_s,scale_temperature_degC\n";
   for (const record::Touch& touch : record.touches) {
     const auto feature = feature_of_pose.find(touch.pose);
     text += fmt::format("{},{},{},{},{},{},{}", touch.id, record::name_of(touch.purpose),
@@ -44,7 +44,8 @@ std::string write_touches_csv(const record::RunRecord& record) {
                         touch.layer, touch.point, touch.repeat);
     for (const double value :
          {touch.tip_mm.x(), touch.tip_mm.y(), touch.tip_mm.z(), touch.approach.x(),
-          touch.approach.y(), touch.approach.z(), touch.temperature_degC, touch.time_s}) {
+          touch.approach.y(), touch.approach.z(), touch.temperature_degC, touch.time_s,
+          touch.scale_temperature_degC}) {
       text += ',';
       text += number(value);
     }

@@ -11,7 +11,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 TEST(Arguments, HelpOfEveryVerbShowsAnExample) {
-  for (const char* verb : {"validate", "run", "fit", "report", "verify"}) {
+  for (const char* verb : {"validate", "plan", "run", "fit", "report", "verify"}) {
     SCOPED_TRACE(verb);
     const Outcome outcome = rondure({verb, "--help"});
     EXPECT_EQ(outcome.status, 0);
@@ -23,7 +23,7 @@ TEST(Arguments, HelpOfEveryVerbShowsAnExample) {
 TEST(Arguments, HelpNamesEveryVerbAndTheExitStatus) {
   const Outcome outcome = rondure({"--help"});
   EXPECT_EQ(outcome.status, 0);
-  for (const char* word : {"validate", "run", "fit", "report", "verify", "Exit status"}) {
+  for (const char* word : {"validate", "plan", "run", "fit", "report", "verify", "Exit status"}) {
     EXPECT_THAT(outcome.out, HasSubstr(word));
   }
 }

@@ -212,6 +212,42 @@ TEST(FirstContact, BridgesTheValleysOfASteepWave) {
   }
 }
 
+TEST(FirstContact, AgreesWithDenseSamplingOnKeywaysAndBurrs) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    core::KeyedNoise random(seed, {9});
+    PartSurface part = random_part(random, seed % 2 == 1);
+    const double rho = between(random, 0.5, 2.0);
+    const Line line = random_line(random, part, rho, 3.0, 0.5);
+    const double theta = std::atan2(line.start.y(), line.start.x());
+    SurfaceMark mark;
+    mark.theta_rad = theta + between(random, -2.0, 2.0) / part.radius_mm;
+    mark.z_mm = line.start.z() + between(random, -2.0, 2.0);
+    mark.width_mm = between(random, 2.0, 6.0);
+    mark.length_mm = between(random, 2.0, 12.0);
+    mark.height_mm = seed % 4 < 2 ? between(random, -0.8, -0.2) : between(random, 0.02, 0.3);
+    mark.flank_mm = between(random, 0.5, 1.0);
+    part.marks = {mark};
+    expect_true_contact(part, line, rho);
+  }
+}
+
+TEST(FirstContact, AMarkOutOfReachChangesNothing) {
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    core::KeyedNoise random(seed, {10});
+    PartSurface part = random_part(random, seed % 2 == 1);
+    const Line line = random_line(random, part, 1.0, 3.0, 0.3);
+    const auto plain = first_contact(part, line.start, line.direction, 1.0, 20.0);
+    ASSERT_TRUE(plain);
+    const double theta = std::atan2(plain->point_P_mm.y(), plain->point_P_mm.x());
+    part.marks = {{theta + (seed % 3 == 0 ? 1.5 : 3.0), 0.0, 3.0, 10.0, -0.5, 0.3}};
+    const auto marked = first_contact(part, line.start, line.direction, 1.0, 20.0);
+    ASSERT_TRUE(marked);
+    EXPECT_NEAR(marked->travel_mm, plain->travel_mm, 1e-12);
+  }
+}
+
 TEST(FirstContact, IsNotWhereARadialShortcutWouldPutIt) {
   const PartSurface part = gear_like(false);
   const auto excess = [&part](double theta, double rho) {

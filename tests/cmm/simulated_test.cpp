@@ -31,6 +31,7 @@ TouchCommand touch_from_x(std::int64_t id) {
 }
 
 void go_to_x30(SimulatedMachine& machine) {
+  ASSERT_TRUE(machine.home());
   ASSERT_TRUE(machine.move_to({30.0, 0.0, 500.0}));
   ASSERT_TRUE(machine.move_to({30.0, 0.0, 0.0}));
 }
@@ -41,8 +42,8 @@ TEST(SimulatedMachine, TouchesTheSurfaceWhereItIs) {
   go_to_x30(machine);
   const auto reading = machine.touch(touch_from_x(1));
   ASSERT_TRUE(reading);
-  EXPECT_NEAR(reading->tip_W_mm.x(), 27.0, 1e-12);
-  EXPECT_EQ(reading->tip_W_mm, machine.true_tip_W_mm());
+  EXPECT_EQ(reading->tip_W_mm, Vector3d(27.0, 0.0, 0.0)) << "on the grid";
+  EXPECT_NEAR(machine.true_tip_W_mm().x(), 27.0, 1e-12);
   EXPECT_EQ(reading->temperature_degC, 20.0);
   EXPECT_EQ(machine.position_W_mm(), Vector3d(30.0, 0.0, 0.0));
 }
@@ -54,6 +55,7 @@ TEST(SimulatedMachine, TouchesATiltedPartWhereItReallyStands) {
   X_WP.translate(Vector3d(200, 150, 80)).rotate(Eigen::AngleAxisd(0.3, Vector3d::UnitX()));
   SimulatedMachine machine({});
   machine.place_part(part, X_WP);
+  ASSERT_TRUE(machine.home());
   const double r = part.radius_mm + 2.0;
   const Vector3d expected = X_WP * Vector3d(0.0, r, 5.0);
   const Vector3d d = X_WP.linear() * -Vector3d::UnitY();
@@ -146,6 +148,7 @@ TEST(SimulatedMachine, StopsJustBeforeAPartInItsWay) {
 TEST(SimulatedMachine, StopsBeforeTheFlatEndOfAPart) {
   SimulatedMachine machine({});
   place_shaft(machine);
+  ASSERT_TRUE(machine.home());
   const auto crash = machine.move_to({0.0, 0.0, 20.0});
   ASSERT_FALSE(crash);
   EXPECT_THAT(crash.error().what, HasSubstr("met the part at (0.000, 0.000, 40.000) mm"));
@@ -162,6 +165,7 @@ TEST(SimulatedMachine, MayGrazeASurfaceByAMicrometreThousandthButNotMore) {
 TEST(SimulatedMachine, StopsBeforeTheReferenceSphere) {
   SimulatedMachine machine({});
   machine.place_sphere({{0, 0, 100}, 12.5});
+  ASSERT_TRUE(machine.home());
   const auto crash = machine.move_to({0.0, 0.0, 0.0});
   ASSERT_FALSE(crash);
   EXPECT_THAT(crash.error().what, HasSubstr("met the reference sphere at (0.000, 0.000, 112.500)"));
@@ -175,6 +179,7 @@ TEST(SimulatedMachine, TouchesWhatComesFirst) {
   SimulatedMachine machine({});
   place_shaft(machine);
   machine.place_sphere({{28.0, 0.0, 0.0}, 1.0});
+  ASSERT_TRUE(machine.home());
   ASSERT_TRUE(machine.move_to({34.0, 0.0, 500.0}));
   ASSERT_TRUE(machine.move_to({34.0, 0.0, 0.0}));
   const auto reading = machine.touch({1, {29.0, 0, 0}, -Vector3d::UnitX(), 5.0, 5.0});
@@ -185,6 +190,7 @@ TEST(SimulatedMachine, TouchesWhatComesFirst) {
 TEST(SimulatedMachine, SaysWhereItSearchedInVain) {
   SimulatedMachine machine({});
   place_shaft(machine);
+  ASSERT_TRUE(machine.home());
   ASSERT_TRUE(machine.move_to({40.0, 0.0, 500.0}));
   ASSERT_TRUE(machine.move_to({40.0, 0.0, 0.0}));
   const double before_s = machine.time_s();
@@ -200,6 +206,7 @@ TEST(SimulatedMachine, SaysWhereItSearchedInVain) {
 
 TEST(SimulatedMachine, RefusesATouchThatStartsInContact) {
   SimulatedMachine machine({});
+  ASSERT_TRUE(machine.home());
   ASSERT_TRUE(machine.move_to({26.0, 0.0, 0.0}));
   machine.place_part(plain_shaft(), Eigen::Isometry3d::Identity());
   const auto touch = machine.touch({1, {23.0, 0, 0}, -Vector3d::UnitX(), 3.0, 3.0});
@@ -280,6 +287,65 @@ TEST(SimulatedMachine, AnswersNothingOnceTheLineIsLost) {
   EXPECT_EQ(machine.move_to({40.0, 0.0, 0.0}).error().code, core::Code::kMachine);
   EXPECT_THAT(machine.home().error().what, HasSubstr("connection is lost"));
   EXPECT_EQ(machine.position_W_mm(), Vector3d(30.0, 0.0, 0.0));
+}
+
+TEST(SimulatedMachine, ContinuesAfterAScanAsIfItHadMadeIt) {
+  SimulatedMachineOptions options;
+  options.errors.repeatability_mm = 0.001;
+  ScanCircleCommand command;
+  command.start_tip_W_mm = {27.0, 0.0, 0.0};
+  command.sweep_rad = core::kTwoPi;
+  command.points = 100;
+  SimulatedMachine scanned(options);
+  place_shaft(scanned);
+  go_to_x30(scanned);
+  const auto readings = scanned.scan_circle(command);
+  ASSERT_TRUE(readings);
+  SimulatedMachine resumed(options);
+  place_shaft(resumed);
+  ASSERT_TRUE(resumed.home());
+  ASSERT_TRUE(resumed.continue_after(command, readings->back()));
+  EXPECT_EQ(resumed.time_s(), scanned.time_s());
+  EXPECT_EQ(resumed.true_tips_W_mm(), scanned.true_tips_W_mm());
+  EXPECT_EQ(scanned.true_tips_W_mm().size(), 100U);
+}
+
+TEST(SimulatedMachine, ScansAtTheScanSpeed) {
+  SimulatedMachineOptions options;
+  options.speeds.scan_mm_s = 20.0;
+  SimulatedMachine machine(options);
+  place_shaft(machine);
+  go_to_x30(machine);
+  ScanCircleCommand command;
+  command.start_tip_W_mm = {27.0, 0.0, 0.0};
+  command.sweep_rad = core::kTwoPi;
+  command.points = 54;
+  const double before_s = machine.time_s();
+  const auto readings = machine.scan_circle(command);
+  ASSERT_TRUE(readings);
+  EXPECT_NEAR(readings->front().time_s, before_s + 3.0 / 5.0, 1e-9);
+  EXPECT_NEAR(readings->back().time_s - readings->front().time_s,
+              53.0 / 54.0 * core::kTwoPi * 27.0 / 20.0, 1e-8);
+  EXPECT_NEAR(machine.time_s() - readings->front().time_s,
+              core::kTwoPi * 27.0 / 20.0 + 3.0 / 100.0 + 0.2, 1e-8);
+}
+
+TEST(SimulatedMachine, NoiseOfAScanIsThatOfItsPoints) {
+  SimulatedMachineOptions options;
+  options.errors.repeatability_mm = 0.001;
+  SimulatedMachine machine(options);
+  place_shaft(machine);
+  go_to_x30(machine);
+  ScanCircleCommand command;
+  command.first_id = 5;
+  command.start_tip_W_mm = {27.0, 0.0, 0.0};
+  command.sweep_rad = core::kTwoPi;
+  command.points = 10;
+  const auto readings = machine.scan_circle(command);
+  ASSERT_TRUE(readings);
+  EXPECT_EQ(readings->front().tip_W_mm, machine.touch(touch_from_x(5))->tip_W_mm);
+  command.first_id = 15;
+  EXPECT_NE(machine.scan_circle(command)->front().tip_W_mm, readings->front().tip_W_mm);
 }
 
 TEST(SimulatedMachine, DescribesItself) {

@@ -12,7 +12,7 @@
 #include "core/units.h"
 #include "fit/center_search.h"
 #include "fit/min_zone_cylinder.h"
-#include "plans/cell.h"
+#include "plans/hidden_errors.h"
 #include "plans/runner.h"
 #include "record/journal.h"
 

@@ -246,7 +246,7 @@ TEST_F(InterruptedRun, DoesNotGoOnWhenItWasChangedOrSealedOrIsHeldOpen) {
   fs::copy_file(fs::path(RONDURE_SOURCE_DIR) / "tests/data/journal_v1/journal.db",
                 other / "old/journal.db");
   meddle(other / "old/journal.db", "delete from seal");
-  EXPECT_THAT(refusal(other / "old"), HasSubstr("version 1, a run goes on in version 2 only"));
+  EXPECT_THAT(refusal(other / "old"), HasSubstr("version 1, a run goes on in version 3 only"));
 
   const auto first = Journal::reopen(scratch / "run");
   ASSERT_TRUE(first) << first.error().what;

@@ -257,7 +257,7 @@ TEST(Journal, TheDocumentShowsTheTablesAsTheyAre) {
     EXPECT_THAT(*document, HasSubstr(sql));
     ++tables;
   }
-  EXPECT_EQ(tables, 12);
+  EXPECT_EQ(tables, 18);
 }
 
 }  // namespace

@@ -119,7 +119,30 @@ Touch sample_touch(Numbers& n, std::int64_t id) {
   touch.approach = n.vector();
   touch.temperature_degC = n.real();
   touch.time_s = n.real();
+  touch.scale_temperature_degC = n.real();
   return touch;
+}
+
+/// What analyses leave: settings, a mask, series longer than a block, hidden truth.
+void add_series(std::uint64_t seed, RunRecord& r) {
+  Numbers n(seed ^ 0x5e41e5U);
+  const auto finite = [&] {
+    double value = n.real();
+    while (!std::isfinite(value)) value = n.real();
+    return value;
+  };
+  Feature& feature = r.features.back();
+  feature.settings = {{"phi2_deg", n.real(), ""},
+                      {"mode", std::nullopt, n.text()},
+                      {"steps", n.real(), n.text()},
+                      {"steps", n.real(), ""}};
+  feature.characteristics.front().form = Form::kHarmonicLimits;
+  feature.characteristics.front().harmonic_limits = {{2, n.whole(50), n.real()}, {3, 7, n.real()}};
+  const int index = static_cast<int>(r.features.size()) - 1;
+  Series data{index, "data", Series::Role::kData, {{"alpha_deg", "deg"}, {"H1_um", "um"}}, {}};
+  for (int i = 0; i < 2 * 300; ++i) data.values.push_back(finite());
+  r.series = {data, {index, "profile", Series::Role::kTruth, {{n.text(), ""}}, {finite(), -0.0}}};
+  r.truth_values = {{index, "RONt_um", n.real()}, {0, n.text(), n.real()}};
 }
 
 /// Writes values one after the other, doubles by their bits, texts with their length.
@@ -165,6 +188,10 @@ void add_feature(Bits& bits, const Feature& f) {
   for (const Characteristic& c : f.characteristics) {
     bits << c.id << static_cast<int>(c.form) << static_cast<int>(c.reference)
          << c.tolerance_mm.has_value() << c.tolerance_mm.value_or(0.0) << c.drawing_zone;
+    for (const HarmonicLimit& l : c.harmonic_limits) bits << l.first << l.last << l.amplitude_mm;
+  }
+  for (const Setting& s : f.settings) {
+    bits << s.name << s.number.has_value() << s.number.value_or(0.0) << s.text;
   }
 }
 
@@ -205,6 +232,7 @@ RunRecord sample_run(std::uint64_t seed, int touches) {
   r.ending = "failed: the probe met nothing";
   if (n.whole(2) == 1) r.failure = core::Error{core::Code::kNoTouch, n.text(), n.text()};
   r.sealed = true;
+  add_series(seed, r);
   return r;
 }
 
@@ -227,6 +255,7 @@ core::Result<void> write_run(const fs::path& directory, const RunRecord& record)
   }
   for (const Decision& decision : record.decisions) step(journal->add(decision));
   for (const SimulationTruth& truth : record.truths) step(journal->add(truth));
+  step(journal->add(record.series, record.truth_values));
   step(journal->end(record.ending, record.failure ? &*record.failure : nullptr));
   if (record.sealed) step(journal->seal(record.results));
   return done;
@@ -255,10 +284,16 @@ std::string every_bit(const RunRecord& record) {
   bits << record.touches.size();
   for (const Touch& t : record.touches) {
     bits << t.id << static_cast<int>(t.purpose) << t.pose << t.layer << t.point << t.repeat
-         << t.tip_mm << t.approach << t.temperature_degC << t.time_s;
+         << t.tip_mm << t.approach << t.temperature_degC << t.time_s << t.scale_temperature_degC;
   }
   for (const Decision& d : record.decisions) bits << d.feature << d.time_s << d.text;
   for (const SimulationTruth& t : record.truths) bits << t.feature << t.cylt_mm;
+  for (const Series& s : record.series) {
+    bits << s.feature << s.name << static_cast<int>(s.role) << s.columns.size() << s.values.size();
+    for (const SeriesColumn& c : s.columns) bits << c.name << c.unit;
+    for (const double value : s.values) bits << value;
+  }
+  for (const TruthValue& t : record.truth_values) bits << t.feature << t.name << t.value;
   for (const StoredResult& r : record.results) bits << r.name << r.value;
   return bits.str();
 }

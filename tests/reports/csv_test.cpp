@@ -44,8 +44,8 @@ TEST(TouchesCsv, HasARowATouchUnderItsHeader) {
   EXPECT_EQ(lines[0], "# rondure touches, run 01_spool_simulated-20261121T023302Z");
   EXPECT_EQ(lines[1],
             "id,purpose,feature,pose,layer,point,repeat,x_mm,y_mm,z_mm,dir_x,dir_y,dir_z,"
-            "temperature_degC,time_s");
-  for (std::size_t i = 2; i < lines.size(); ++i) EXPECT_EQ(fields_of(lines[i]).size(), 15U);
+            "temperature_degC,time_s,scale_temperature_degC");
+  for (std::size_t i = 2; i < lines.size(); ++i) EXPECT_EQ(fields_of(lines[i]).size(), 16U);
 }
 
 TEST(TouchesCsv, NumbersReadBackToTheSameDouble) {

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "fit/wheel_evaluation.h"
+
+namespace rondure::app {
+
+/// A wheel evaluation for a person.
+[[nodiscard]] std::string wheel_table(const fit::WheelEvaluation& evaluation,
+                                      const fit::WheelTask& task);
+
+}  // namespace rondure::app

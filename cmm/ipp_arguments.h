@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "cmm/ipp_controller.h"
+
+// What the handlers of commands share. Internal to the server.
+
+namespace rondure::cmm::ipp {
+
+inline constexpr std::size_t kMaxNames = 64;  ///< In a command: the answer must fit into a line.
+
+[[nodiscard]] inline tl::unexpected<Failure> refusal(int number, std::string what) {
+  return tl::unexpected(Failure{number, std::move(what)});
+}
+
+[[nodiscard]] inline bool is_one_of(std::string_view name,
+                                    std::span<const std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The names of X(), Y(), IJK(); nothing when one of the arguments is anything else, when there is
+/// none, or more than kMaxNames.
+[[nodiscard]] inline std::optional<std::vector<std::string>> empty_calls(
+    const std::vector<Item>& arguments) {
+  std::vector<std::string> out;
+  for (const Item& item : arguments) {
+    if (item.kind != Item::Kind::kCall || !item.arguments.empty()) return std::nullopt;
+    out.push_back(item.text);
+  }
+  if (out.empty() || out.size() > kMaxNames) return std::nullopt;
+  return out;
+}
+
+}  // namespace rondure::cmm::ipp

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace rondure::cmm::ipp {
+
+/// The six numbers of SetCsyTransformation().
+struct CsyTransformation {
+  Eigen::Vector3d x0_mm = Eigen::Vector3d::Zero();
+  double theta_deg = 0.0;  ///< 0..180.
+  double psi_deg = 0.0;
+  double phi_deg = 0.0;
+};
+
+/// The specification contradicts itself on the translation, and servers follow either reading.
+enum class TranslationReading {
+  kSubtracted,  ///< (A)  x_csy = R (x_machine - x0): the chapter on machines, and VDMA 8722.
+  kAdded,       ///< (B)  x_csy = R x_machine + x0: the description of the command.
+};
+
+/// Maps the machine frame to the system: turn about z by psi, the new x by theta, the new z by phi.
+[[nodiscard]] Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation,
+                                               TranslationReading reading);
+
+}  // namespace rondure::cmm::ipp

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace rondure::cmm::ipp {
+
+/// The number as we send it: the shortest text that reads back to the same double, at most 16
+/// digits, which the protocol allows ("-0.25", "300", "1e-10"). A double that needs 17 is rounded;
+/// positions on the grid of 1e-10 mm and directions on that of 1e-15 never do (grid.h).
+/// `value` must be finite.
+[[nodiscard]] std::string wire_number(double value);
+
+/// Reads a number of the grammar: an optional sign, digits with at most one point and at least one
+/// digit, an exponent of one to three digits. Nothing for anything else and for a number that no
+/// double holds.
+/// @param max_digits  Of the mantissa; 16 by the protocol, more where we are liberal.
+[[nodiscard]] std::optional<double> read_number(std::string_view text, int max_digits = 16);
+
+}  // namespace rondure::cmm::ipp

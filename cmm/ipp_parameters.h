@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cmm/machine.h"
+
+namespace rondure::cmm::ipp {
+
+/// What the parameters of a tool are after every tool change.
+struct ParameterDefaults {
+  Speeds speeds;  ///< Of travel (GoToPar), of touches (PtMeasPar), of scans (ScanPar).
+  double approach_mm = 3.0;
+  double search_mm = 3.0;
+  double retract_mm = -1.0;  ///< Negative: back to where the search began.
+};
+
+/// The blocks GoToPar, PtMeasPar and ScanPar of the active tool: each parameter with the values
+/// Act, Min, Max and Def. Accelerations are kept and have no effect.
+class ToolParameters {
+ public:
+  /// @param least, greatest  Speeds the machine accepts.
+  ToolParameters(const ParameterDefaults& defaults, const Speeds& least, const Speeds& greatest);
+
+  /// By the name behind "Tool.": "PtMeasPar.Speed", "PtMeasPar.Speed.Max".
+  [[nodiscard]] std::optional<double> get(std::string_view name) const;
+
+  enum class Set { kDone, kClamped, kNoSuch };
+  /// Sets Act; a value out of range is clamped.
+  [[nodiscard]] Set set(std::string_view name, double value);
+  /// Act becomes Def everywhere.
+  void reset();
+
+  [[nodiscard]] Speeds speeds() const;
+  [[nodiscard]] double act(std::string_view name) const { return get(name).value_or(0.0); }
+  /// All names, as "PtMeasPar.Speed".
+  [[nodiscard]] std::vector<std::string> names() const;
+
+ private:
+  struct Parameter {
+    std::string name;
+    double def = 0.0;
+    double min = 0.0;
+    double max = 0.0;
+    double act = 0.0;
+  };
+  std::vector<Parameter> parameters_;
+};
+
+}  // namespace rondure::cmm::ipp

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "cmm/error_model.h"
+
+namespace rondure::cmm {
+
+/// A good bridge machine of about 1 m with a kinematic touch-trigger probe, in a measuring room.
+/// Values and their sources: docs/simulation.md. The repeatability and the ball are left ideal:
+/// they belong to the probe that a plan describes.
+[[nodiscard]] MachineErrors typical_errors();
+
+}  // namespace rondure::cmm

@@ -1,0 +1,227 @@
+#include "fit/axis_trace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "fit/periodic_spline.h"
+
+namespace rondure::fit {
+namespace {
+
+constexpr std::size_t kLeastSamples = 16;
+constexpr double kMargin = 0.2;       ///< Beside the turn, for the ends of the spline [rad].
+constexpr double kMissingStep = 1.6;  ///< Times the neighbouring steps.
+constexpr double kLargeX = 0.5;       ///< mm
+constexpr double kLargeC = 0.5 * core::kDegree;
+constexpr double kLargeMeanX = 0.1;  ///< mm
+constexpr double kSameAngle = 1e-9;
+
+core::Result<void> check(const AxisTrace& trace, const AxisTraceOptions& options) {
+  const std::size_t n = trace.c_rad.size();
+  if (trace.c_error_rad.size() != n || trace.x_error_mm.size() != n) {
+    return core::fail(core::Code::kMeaning,
+                      fmt::format("{} positions of C, {} errors of C and {} errors of X; one row "
+                                  "each for all three",
+                                  n, trace.c_error_rad.size(), trace.x_error_mm.size()));
+  }
+  for (const int sign : {options.error_sign, options.c_direction}) {
+    if (sign == 1 || sign == -1) continue;
+    return core::fail(core::Code::kMeaning,
+                      fmt::format("a sign or direction of {}; it is 1 or -1", sign));
+  }
+  if (n < kLeastSamples) {
+    return core::fail(
+        core::Code::kTooFewPoints,
+        fmt::format("{} samples of the axes; at least {} are needed", n, kLeastSamples));
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (std::isfinite(trace.c_rad[i]) && std::isfinite(trace.c_error_rad[i]) &&
+        std::isfinite(trace.x_error_mm[i])) {
+      continue;
+    }
+    return core::fail(
+        core::Code::kNotFinite,
+        fmt::format("row {} of the axes is (C {} rad, error of C {} rad, error of X {} "
+                    "mm); all must be finite numbers",
+                    i, trace.c_rad[i], trace.c_error_rad[i], trace.x_error_mm[i]));
+  }
+  return {};
+}
+
+/// The trace in the sense and sign of the method, continuous, alpha ascending.
+AxisTrace oriented(const AxisTrace& trace, const AxisTraceOptions& options) {
+  AxisTrace out = trace;
+  const double sense = options.c_direction;
+  const double sign = options.error_sign;
+  for (double& c : out.c_rad) c *= sense;
+  for (double& c : out.c_error_rad) c *= sense * sign;
+  for (double& x : out.x_error_mm) x *= sign;
+  for (std::size_t i = 1; i < out.c_rad.size(); ++i) {
+    const double step = out.c_rad[i] - out.c_rad[i - 1];
+    // Only what jumps by half a turn was wrapped: larger true steps would be no trace.
+    if (std::abs(step) > 0.5 * core::kTwoPi) {
+      out.c_rad[i] = out.c_rad[i - 1] + std::remainder(step, core::kTwoPi);
+    }
+  }
+  if (out.c_rad.back() < out.c_rad.front()) {
+    std::reverse(out.c_rad.begin(), out.c_rad.end());
+    std::reverse(out.c_error_rad.begin(), out.c_error_rad.end());
+    std::reverse(out.x_error_mm.begin(), out.x_error_mm.end());
+  }
+  return out;
+}
+
+/// @param reversed  Rows of the caller run the other way.
+core::Result<void> check_steps(const std::vector<double>& alpha, bool reversed) {
+  const std::size_t n = alpha.size();
+  const auto row = [&](std::size_t i) { return reversed ? n - 1 - i : i; };
+  for (std::size_t i = 1; i < n; ++i) {
+    if (alpha[i] > alpha[i - 1]) continue;
+    return core::fail(
+        core::Code::kAngleOrder,
+        fmt::format("C stands still or goes back at row {}, by {:.4g} deg; it must turn "
+                    "one way all the time",
+                    std::max(row(i), row(i - 1)), (alpha[i - 1] - alpha[i]) / core::kDegree));
+  }
+  for (std::size_t i = 1; i < n; ++i) {
+    const double step = alpha[i] - alpha[i - 1];
+    const double before = i > 1 ? alpha[i - 1] - alpha[i - 2] : 0.0;
+    const double after = i + 1 < n ? alpha[i + 1] - alpha[i] : 0.0;
+    if (step <= kMissingStep * std::max(before, after)) continue;
+    return core::fail(
+        core::Code::kSampling,
+        fmt::format("C steps {:.4g} deg at row {} and {:.4g} deg beside it: samples are missing",
+                    step / core::kDegree, std::max(row(i), row(i - 1)),
+                    std::max(before, after) / core::kDegree));
+  }
+  return {};
+}
+
+/// Rows [first, end) of one turn, and whether rows beside it are used, too.
+struct Cut {
+  double start_rad = 0.0;
+  std::size_t first = 0;
+  std::size_t end = 0;
+  bool margins = false;
+};
+
+std::size_t first_at(const std::vector<double>& alpha, double angle) {
+  return static_cast<std::size_t>(std::lower_bound(alpha.begin(), alpha.end(), angle - kSameAngle) -
+                                  alpha.begin());
+}
+
+core::Result<Cut> cut_of(const std::vector<double>& alpha) {
+  const double span = alpha.back() - alpha.front();
+  const double step = span / static_cast<double>(alpha.size() - 1);
+  if (span + 1.5 * step < core::kTwoPi) {
+    return core::fail(
+        core::Code::kNotFullSection,
+        fmt::format("C turns by {:.4f} deg altogether; one whole turn of 360 deg is needed{}",
+                    span / core::kDegree,
+                    std::abs(span / core::kDegree - core::kTwoPi) < 0.2
+                        ? " (that is one turn in radians: give degrees)"
+                        : ""));
+  }
+  Cut cut;
+  const double last = core::kTwoPi * std::floor((alpha.back() + kSameAngle) / core::kTwoPi);
+  if (last - core::kTwoPi >= alpha.front() - kSameAngle) {
+    cut.start_rad = last - core::kTwoPi;
+    cut.margins = cut.start_rad - kMargin >= alpha.front() && last + kMargin <= alpha.back();
+  } else {
+    cut.start_rad = alpha.back() + step - core::kTwoPi;  // closed: the next sample is the first one
+    cut.start_rad = alpha[std::min(first_at(alpha, cut.start_rad - 0.5 * step), alpha.size() - 1)];
+  }
+  const double reserve = cut.margins ? kMargin : 0.0;
+  cut.first = first_at(alpha, cut.start_rad - reserve);
+  cut.end = first_at(alpha, cut.start_rad + core::kTwoPi + reserve);
+  return cut;
+}
+
+/// Values of a turn at uniform command angles. With margins the rows overlap by twice the margin:
+/// there the spline of period one turn longer than that is used, whose seam lies outside the turn.
+std::vector<double> on_uniform(const std::vector<double>& alpha, const std::vector<double>& values,
+                               const Cut& cut, std::size_t samples) {
+  const double period = core::kTwoPi + (cut.margins ? 2.0 * kMargin + 0.05 : 0.0);
+  const double scale = core::kTwoPi / period;
+  const double origin = cut.margins ? cut.start_rad - kMargin - 0.025 : 0.0;
+  std::vector<std::pair<double, double>> rows;
+  for (std::size_t i = cut.first; i < cut.end; ++i) {
+    const double turned = scale * (alpha[i] - origin);
+    const double within = turned - core::kTwoPi * std::floor(turned / core::kTwoPi + 1e-12);
+    rows.emplace_back(std::max(0.0, within), values[i]);
+  }
+  std::sort(rows.begin(), rows.end());
+  std::vector<double> angle;
+  std::vector<double> value;
+  for (const auto& [a, v] : rows) {
+    angle.push_back(a);
+    value.push_back(v);
+  }
+  const PeriodicSpline spline(std::move(angle), std::move(value));
+  std::vector<double> out(samples);
+  for (std::size_t m = 0; m < samples; ++m) {
+    const double at = core::kTwoPi * static_cast<double>(m) / static_cast<double>(samples);
+    out[m] = spline(cut.margins ? scale * (at + cut.start_rad - origin) : at);
+  }
+  return out;
+}
+
+void warn_of_units(AxisTurn& turn) {
+  const auto greatest = [](const std::vector<double>& values) {
+    double out = 0.0;
+    for (const double v : values) out = std::max(out, std::abs(v));
+    return out;
+  };
+  const double x = greatest(turn.errors.x_mm);
+  const double c = greatest(turn.errors.c_rad);
+  const double mean = std::accumulate(turn.errors.x_mm.begin(), turn.errors.x_mm.end(), 0.0) /
+                      static_cast<double>(turn.errors.x_mm.size());
+  const auto warn = [&](std::string what) {
+    turn.warnings.push_back({core::Code::kUnits, std::move(what), {}});
+  };
+  if (x > kLargeX) {
+    warn(fmt::format("errors of X reach {:.4g} mm, above {} mm: is the unit right?", x, kLargeX));
+  }
+  if (c > kLargeC) {
+    warn(fmt::format("errors of C reach {:.4g} deg, above {} deg: is the unit right?",
+                     c / core::kDegree, kLargeC / core::kDegree));
+  }
+  if (std::abs(mean) > kLargeMeanX) {
+    warn(fmt::format("the mean error of X is {:.4g} mm, above {} mm: an offset or another unit?",
+                     mean, kLargeMeanX));
+  }
+}
+
+}  // namespace
+
+core::Result<AxisTurn> last_turn(const AxisTrace& trace, const AxisTraceOptions& options) {
+  if (auto checked = check(trace, options); !checked) return core::fail(checked.error());
+  if (options.samples < kLeastSamples) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("the axes on {} angles are asked for; at least {} are needed",
+                                  options.samples, kLeastSamples));
+  }
+  const AxisTrace rows = oriented(trace, options);
+  const bool reversed = options.c_direction * trace.c_rad[0] != rows.c_rad[0];
+  if (auto checked = check_steps(rows.c_rad, reversed); !checked) {
+    return core::fail(checked.error());
+  }
+  const auto cut = cut_of(rows.c_rad);
+  if (!cut) return core::fail(cut.error());
+  AxisTurn out;
+  const double span = rows.c_rad.back() - rows.c_rad.front();
+  const double step = span / static_cast<double>(rows.c_rad.size() - 1);
+  out.samples_per_turn = core::kTwoPi / step;
+  out.turns = (span + step) / core::kTwoPi;
+  out.errors.c_rad = on_uniform(rows.c_rad, rows.c_error_rad, *cut, options.samples);
+  out.errors.x_mm = on_uniform(rows.c_rad, rows.x_error_mm, *cut, options.samples);
+  warn_of_units(out);
+  return out;
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+
+namespace rondure::fit {
+
+/// How well a curve repeats from part to part.
+enum class StabilityWord { kStable, kPartly, kUnstable };
+/// "stable", "partly", "unstable".
+[[nodiscard]] std::string_view name_of(StabilityWord word);
+
+/// From which index on a word is said; both in [0, 1], in order.
+struct StabilityLimits {
+  double stable = 0.9;
+  double partly = 0.5;
+};
+
+/// The same curve of several parts, side by side.
+struct Repeatability {
+  std::vector<double> mean_curve;    ///< Over the parts, in the unit of the curves.
+  std::vector<double> spread_curve;  ///< Standard deviation over the parts, place by place.
+  double mean_rms = 0.0;             ///< A, of the mean curve.
+  double spread = 0.0;               ///< s, of the parts about the mean curve.
+  /// S = (A^2 - s^2/q) / (A^2 - s^2/q + s^2): 1 repeats perfectly, 0 is only random; a negative
+  /// estimate stays as it is. Absent when all curves are zero.
+  std::optional<double> index;
+  std::vector<double> peak_to_valley;  ///< One a part.
+  std::vector<double> rms;             ///< One a part.
+  double variation = 0.0;       ///< Of the peak to valley: standard deviation / mean; 0 for mean 0.
+  Eigen::MatrixXd correlation;  ///< q x q.
+  double mean_correlation = 0.0;   ///< Of the pairs.
+  double least_correlation = 0.0;  ///< Of the pairs.
+
+  /// Nothing with fewer than 4 parts, or without an index.
+  [[nodiscard]] std::optional<StabilityWord> word(const StabilityLimits& limits = {}) const;
+};
+
+/// Compares q >= 2 curves of M >= 16 values each.
+///
+/// @return kTooFewPoints (fewer than 2 curves, or 16 values), kMeaning (different lengths).
+/// Source: methods, contour section 8.
+[[nodiscard]] core::Result<Repeatability> repeatability(
+    std::span<const std::vector<double>> curves);
+
+}  // namespace rondure::fit

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+#include "core/units.h"
+#include "fit/ls_circle.h"
+#include "fit/min_zone_circle.h"
+#include "fit/wheel_centers.h"
+#include "fit/wheel_outliers.h"
+#include "fit/wheel_spread.h"
+
+namespace rondure::fit {
+
+/// How edge points of a wheel were taken; it decides what they are.
+enum class WheelMode {
+  kIndexed,   ///< Wheel at known angles: points of its body; the centre is that of its profile.
+  kEnvelope,  ///< Wheel at speed, long exposure: points of the circle it sweeps about its axis.
+};
+/// "indexed", "envelope".
+[[nodiscard]] std::string_view name_of(WheelMode mode);
+
+/// How the centres of the quadruples become one.
+enum class WheelMean {
+  kAsPublished,  ///< Their mean: the "direct least squares" of the patent.
+  kWeighted,     ///< Weighted by 1/kappa^2.
+};
+/// "as-published", "weighted".
+[[nodiscard]] std::string_view name_of(WheelMean mean);
+
+/// Settings of measure_wheel(). A value outside its range gives Code::kBadOption.
+struct WheelOptions {
+  WheelMode mode = WheelMode::kIndexed;
+  WheelMean mean = WheelMean::kWeighted;
+  QuadrupleOptions quadruples;
+  bool robust = false;  ///< Drop isolated outliers first.
+  OutlierOptions outliers;
+  std::optional<Eigen::Vector2d> axis_mm;   ///< Spindle axis, from calibration or kEnvelope [mm].
+  std::optional<double> nominal_radius_mm;  ///< R must be within 5 % of it.
+  bool allow_short_arc = false;             ///< Also evaluate less than 20 deg of the circle.
+  bool minimum_zone = true;                 ///< Compute the minimum-zone roundness, too.
+};
+
+/// Radial run-out and what follows from it: known with the spindle axis only.
+struct WheelRunout {
+  Eigen::Vector2d axis_mm = Eigen::Vector2d::Zero();
+  double fim_mm = 0.0;               ///< Full indicator movement: max - min distance from the axis.
+  double eccentricity_mm = 0.0;      ///< Distance of the profile's centre from the axis.
+  double effective_radius_mm = 0.0;  ///< Largest distance from the axis: what cuts.
+};
+
+/// A grinding wheel's centre and radius.
+struct WheelMeasurement {
+  WheelMode mode = WheelMode::kIndexed;
+  WheelMean mean = WheelMean::kWeighted;
+  std::size_t points = 0;  ///< Given, with those dropped.
+  std::vector<DroppedPoint> dropped;
+  double outlier_scale_mm = 0.0;                        ///< Of the robust variant; 0 without it.
+  Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  ///< S
+  double radius_mm = 0.0;                               ///< R, mean distance of the points from S.
+  double radius_uncertainty_mm = 0.0;                   ///< u(R), standard: s_r a_R sqrt(tau).
+  double spread_mm = 0.0;             ///< s_r, standard deviation of the distances, n - 3.
+  double deviation_mm = 0.0;          ///< PV of the distances: roundness about S, not run-out.
+  std::vector<double> deviations_mm;  ///< Distance from S minus R, of every given point.
+  AngularOrder order;                 ///< Of the points used, about S; rows of the given points.
+  CircleFactors factors;
+  double correlation = 1.0;           ///< tau
+  WheelCenters centers;               ///< Rows of the given points.
+  double center_scatter_mm = 0.0;     ///< s_c of the quadruple centres; an indicator only.
+  double expected_scatter_mm = 0.0;   ///< s_r rms(kappa): what noise alone gives.
+  double farthest_center_mm = 0.0;    ///< Of a quadruple centre from S.
+  LsCircle check;                     ///< Geometric least squares of the same points.
+  std::optional<MinZoneCircle> zone;  ///< Minimum-zone roundness.
+  std::optional<WheelRunout> runout;  ///< kIndexed with an axis; absent otherwise.
+  std::string_view runout_absent;     ///< Why there is none; empty when there is.
+  std::vector<core::Error> warnings;
+
+  /// The radius that cuts: farthest from the axis (kIndexed with axis), or R itself (kEnvelope).
+  [[nodiscard]] std::optional<double> effective_radius_mm() const;
+};
+
+/// Measures a wheel from points of its edge: centres of quadruples by perpendicular bisectors, one
+/// centre of them, mean distance, spread, and run-out where the spindle axis is known.
+///
+/// @param points_mm  n >= 8 points (x, z) of the wheel's plane [mm].
+/// @return kNotFinite (row), kTooFewPoints (fewer than 8 that are more than 1 um apart),
+///         kCollinear, kShortArc (below 20 deg), kUnits (R outside 0.5 to 1000 mm), kOutOfRange
+///         (more than 5 % off the nominal radius), kTooFewCenters, kOutliers, kMeaning (an axis in
+///         envelope mode: the sweep hides run-out), kBadOption, and those of ls_circle(). Warnings:
+///         kShortArc (below 90 deg), kCenterDisagrees, kNoAxis, kOutliers, kLocalForm,
+///         kCorrelated. Some 1 ms.
+/// Source: methods, wheel sections 2 to 7; patent CN103029041A, step one.
+[[nodiscard]] core::Result<WheelMeasurement> measure_wheel(
+    std::span<const Eigen::Vector2d> points_mm, const WheelOptions& options = {});
+
+}  // namespace rondure::fit

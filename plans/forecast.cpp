@@ -1,0 +1,226 @@
+#include "plans/forecast.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "fixture/simulated.h"
+#include "plans/feature_planner.h"
+#include "plans/plan_reach.h"
+#include "plans/pose_search.h"
+#include "plans/qualification.h"
+#include "plans/run_head.h"
+
+namespace rondure::plans {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kSettle_s = 0.2;  // after each touch, as the simulated machine does
+
+/// Follows the tip and adds up.
+class Tally {
+ public:
+  Tally(const MachinePlan& machine, Forecast& out)
+      : machine_(machine), out_(out), tip_W_mm_(vector3(machine.park_mm)) {}
+
+  void move(ForecastStage& stage, const Polyline& corners_W) {
+    for (const Vector3d& corner : corners_W) {
+      const double way_mm = (corner - tip_W_mm_).norm();
+      stage.path_mm += way_mm;
+      stage.time_s += way_mm / machine_.travel_speed_mm_s;
+      if (stage.times == 1) stage.moves_W.push_back(corner);
+      tip_W_mm_ = corner;
+    }
+  }
+  void rise(ForecastStage& stage) {
+    move(stage, {{tip_W_mm_.x(), tip_W_mm_.y(), std::max(tip_W_mm_.z(), machine_.park_mm[2])}});
+  }
+  void touch(ForecastStage& stage, const Vector3d& contact_W_mm, double approach_mm) {
+    stage.path_mm += 2.0 * approach_mm;
+    stage.time_s += approach_mm / machine_.touch_speed_mm_s +
+                    approach_mm / machine_.travel_speed_mm_s + kSettle_s;
+    if (stage.times == 1) {
+      stage.contacts_W.push_back(contact_W_mm);
+      ++stage.touches;
+    }
+  }
+  void add(ForecastStage stage) { out_.stages.push_back(std::move(stage)); }
+  [[nodiscard]] Forecast& forecast() { return out_; }
+
+ private:
+  const MachinePlan& machine_;
+  Forecast& out_;
+  Vector3d tip_W_mm_;
+};
+
+fixture::SimulatedFixture ideal_fixture(const Plan& plan) {
+  fixture::SimulatedFixtureOptions options;
+  options.kinematics = nominal_kinematics(*plan.fixture);
+  options.limits = limits_of(*plan.fixture);
+  return fixture::SimulatedFixture(options);
+}
+
+/// A feature on the nominal part: the pose search sees ideal touches.
+class NominalSession final : public PoseSession {
+ public:
+  NominalSession(const Plan& plan, int index, Tally& tally)
+      : plan_(plan),
+        index_(index),
+        feature_(plan.features[static_cast<std::size_t>(index)]),
+        tally_(tally),
+        fixture_(ideal_fixture(plan)),
+        planner_(plan, feature_),
+        geometry_(path_geometry(plan, feature_, plan.part.location_uncertainty_mm)) {}
+
+  core::Result<Cloud> measure(const core::Pose& commanded) override {
+    const auto targets = sampling_targets(feature_);
+    if (!targets) return core::fail(targets.error());
+    if (auto turned = turn(commanded, *targets); !turned) return core::fail(turned.error());
+    if (auto done = touch(*targets, ForecastStage::Kind::kCloud); !done)
+      return core::fail(done.error());
+    return Cloud{reached_, tips(*targets)};
+  }
+
+  core::Result<void> repeat(int times) override {
+    if (times < 1) return {};
+    const auto targets = sampling_targets(feature_);
+    if (!targets) return core::fail(targets.error());
+    const auto path = lay(*targets, reached_);
+    if (!path) return core::fail(path.error());
+    ForecastStage& stage = tally_.forecast().stages.back();
+    for (int i = 0; i < times; ++i) {
+      ++stage.times;
+      follow(*path, stage);
+    }
+    return {};
+  }
+
+  core::Result<void> keep_as_final() override {
+    tally_.forecast().stages.back().final_cloud = true;
+    return {};
+  }
+
+  core::Result<fit::Axis> locate(const core::Pose& commanded) override {
+    const auto targets = locating_targets(feature_, plan_.part.location_uncertainty_mm);
+    if (!targets) return core::fail(targets.error());
+    if (auto turned = turn(commanded, *targets); !turned) return core::fail(turned.error());
+    if (auto done = touch(*targets, ForecastStage::Kind::kLocation); !done)
+      return core::fail(done.error());
+    geometry_ = path_geometry(plan_, feature_, 0.0);
+    return fit::Axis{part_at(reached_).translation(), expected_axis()};
+  }
+
+  [[nodiscard]] bool must_locate() const override {
+    return plan_.part.location_uncertainty_mm > 0.0;
+  }
+  [[nodiscard]] Vector3d expected_axis() const override {
+    return part_at(reached_).linear() * Vector3d::UnitZ();
+  }
+  [[nodiscard]] core::Pose levelling(const Vector3d& direction_W) const override {
+    Vector3d t_B = body_at(reached_).linear().transpose() * direction_W;
+    if (t_B.z() < 0.0) t_B = -t_B;
+    return fixture::levelling_pose(t_B);
+  }
+  [[nodiscard]] const fixture::FixtureLimits& limits() const override { return fixture_.limits(); }
+  core::Result<void> note(const std::string&) override { return {}; }
+  void show(double) override {}
+
+ private:
+  [[nodiscard]] Eigen::Isometry3d body_at(const core::Pose& pose) const {
+    return fixture::body_to_machine(nominal_kinematics(*plan_.fixture), pose);
+  }
+  [[nodiscard]] Eigen::Isometry3d part_at(const core::Pose& pose) const {
+    return body_at(pose) * nominal_seat(*plan_.fixture);
+  }
+
+  core::Result<CloudPath> lay(const std::vector<Target>& targets, const core::Pose& pose) {
+    return planner_.lay(targets, geometry_, body_at(pose), nominal_seat(*plan_.fixture));
+  }
+
+  core::Result<void> turn(const core::Pose& commanded, const std::vector<Target>& targets) {
+    if (const auto path = lay(targets, commanded); !path) return core::fail(path.error());
+    const auto reached = fixture_.move_to(commanded);
+    if (!reached) return core::fail(reached.error());
+    reached_ = *reached;
+    ++tally_.forecast().poses;
+    return {};
+  }
+
+  core::Result<void> touch(const std::vector<Target>& targets, ForecastStage::Kind kind) {
+    const auto path = lay(targets, reached_);
+    if (!path) return core::fail(path.error());
+    ForecastStage stage;
+    stage.kind = kind;
+    stage.feature = index_;
+    stage.pose = reached_;
+    stage.placement = {part_at(reached_), part_at(reached_)};
+    follow(*path, stage);
+    tally_.add(std::move(stage));
+    return {};
+  }
+
+  void follow(const CloudPath& path, ForecastStage& stage) {
+    const Eigen::Isometry3d X_WP = part_at(reached_);
+    for (std::size_t k = 0; k < path.order().size(); ++k) {
+      tally_.move(stage, path.way_W(k));
+      tally_.touch(stage, X_WP * contact_tip(geometry_, path.target(k)), geometry_.approach_mm);
+    }
+    tally_.move(stage, path.exit_W(path.order().size() - 1));
+    tally_.rise(stage);
+  }
+
+  [[nodiscard]] std::vector<Vector3d> tips(const std::vector<Target>& targets) const {
+    std::vector<Vector3d> out;
+    for (const Target& t : targets) out.emplace_back(part_at(reached_) * contact_tip(geometry_, t));
+    return out;
+  }
+
+  const Plan& plan_;
+  int index_;
+  const FeaturePlan& feature_;
+  Tally& tally_;
+  fixture::SimulatedFixture fixture_;
+  FeaturePlanner planner_;
+  PathGeometry geometry_;
+  core::Pose reached_;
+};
+
+core::Result<void> add_qualification(const Plan& plan, Tally& tally) {
+  const auto steps = qualification_steps(plan);
+  if (!steps) return core::fail(steps.error().at("/probe/qualification"));
+  ForecastStage stage;
+  stage.kind = ForecastStage::Kind::kQualification;
+  for (const TouchStep& step : *steps) {
+    tally.move(stage, step.way_W);
+    tally.touch(stage, step.command.expected_tip_W_mm, step.command.approach_mm);
+  }
+  tally.rise(stage);
+  tally.add(std::move(stage));
+  return {};
+}
+
+}  // namespace
+
+core::Result<Forecast> forecast(const Plan& plan) {
+  Forecast out;
+  if (!touches_anything(plan)) return out;
+  Tally tally(*plan.machine, out);
+  if (auto added = add_qualification(plan, tally); !added) return core::fail(added.error());
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (from_file(plan.features[i])) continue;
+    NominalSession session(plan, static_cast<int>(i), tally);
+    if (auto searched = search_pose(session, plan.features[i]); !searched) {
+      return core::fail(searched.error().at(fmt::format("/features/{}", i)));
+    }
+  }
+  for (const ForecastStage& stage : out.stages) {
+    out.touches += stage.times * stage.touches;
+    out.path_mm += stage.path_mm;
+    out.time_s += stage.time_s;
+  }
+  return out;
+}
+
+}  // namespace rondure::plans

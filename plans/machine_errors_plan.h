@@ -1,0 +1,84 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rondure::plans {
+
+// simulation.machine and the marks of simulation.part, as their JSON spells them. See plan.h.
+
+/// One of the nine translations of the axes, e.g. EXX.
+struct TranslationErrorPlan {
+  std::string error;
+  double linear_um_m = 0.0;
+  double quadratic_um_m2 = 0.0;
+  double wave_um = 0.0;
+  double wave_period_mm = 100.0;
+  double wave_phase_deg = 0.0;
+};
+
+/// One of their nine rotations, e.g. EAX.
+struct RotationErrorPlan {
+  std::string error;
+  double linear_urad_m = 0.0;
+  double quadratic_urad_m2 = 0.0;
+  double wave_urad = 0.0;
+  double wave_period_mm = 100.0;
+  double wave_phase_deg = 0.0;
+};
+
+struct PretravelLobePlan {
+  int order = 3;
+  double amplitude_um = 0.0;
+  double phase_deg = 0.0;
+};
+
+/// Hidden errors of the machine. What is given takes the place of what `errors` says.
+struct SimulatedMachinePlan {
+  std::string errors = "off";  ///< "off" or "typical".
+  std::vector<TranslationErrorPlan> translations;
+  std::vector<RotationErrorPlan> rotations;
+  std::optional<double> squareness_xy_urad;
+  std::optional<double> squareness_xz_urad;
+  std::optional<double> squareness_yz_urad;
+  std::optional<double> tip_offset_x_mm;
+  std::optional<double> tip_offset_y_mm;
+  std::optional<double> tip_offset_z_mm;
+  std::optional<double> pretravel_um;
+  std::optional<double> pretravel_z_um;
+  std::vector<PretravelLobePlan> pretravel_lobes;
+  std::optional<double> stylus_length_mm;
+  std::optional<double> stylus_diameter_mm;
+  std::optional<double> stylus_modulus_GPa;
+  std::optional<double> trigger_force_N;
+  std::optional<double> backlash_x_um;
+  std::optional<double> backlash_y_um;
+  std::optional<double> backlash_z_um;
+  std::optional<double> scale_expansion_per_K;
+  std::optional<double> scale_temperature_degC;
+  std::optional<double> drift_x_um;
+  std::optional<double> drift_y_um;
+  std::optional<double> drift_z_um;
+  std::optional<double> drift_time_s;
+};
+
+/// A slot along the part.
+struct KeywayPlan {
+  double at_deg = 0.0;
+  double z_mm = 0.0;
+  double width_mm = 6.0;
+  double length_mm = 20.0;
+  double depth_mm = 0.5;
+};
+
+/// A raised spot.
+struct BurrPlan {
+  double at_deg = 0.0;
+  double z_mm = 0.0;
+  double width_mm = 1.0;
+  double length_mm = 1.0;
+  double height_um = 20.0;
+};
+
+}  // namespace rondure::plans

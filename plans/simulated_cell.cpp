@@ -1,0 +1,128 @@
+#include "plans/simulated_cell.h"
+
+#include <cmath>
+
+#include "core/units.h"
+#include "plans/hidden_errors.h"
+#include "plans/plan_reach.h"
+
+namespace rondure::plans {
+namespace {
+
+fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t seed,
+                                                 bool resumed) {
+  const FixturePlan& fixture = *plan.fixture;
+  const SimulatedFixturePlan& hidden = plan.simulation->fixture;
+  fixture::SimulatedFixtureOptions out;
+  out.kinematics = nominal_kinematics(fixture);
+  out.limits = limits_of(fixture);
+  out.errors.axis_point_mm = vector3(hidden.axis_point_error_um) * core::kMicrometre;
+  out.errors.axis_offset_mm = vector3(hidden.axis_offset_error_um) * core::kMicrometre;
+  out.errors.zero_alpha_rad = hidden.zero_alpha_deg * core::kDegree;
+  out.errors.zero_beta_rad = hidden.zero_beta_deg * core::kDegree;
+  out.errors.squareness_rad = hidden.squareness_deg * core::kDegree;
+  out.errors.repeatability_rad = hidden.repeatability_deg * core::kDegree;
+  out.seed = seed;
+  const int stall = plan.simulation->faults.fixture_stalls_at_move;
+  if (!resumed) out.stalls_at_move = static_cast<std::uint64_t>(stall);
+  return out;
+}
+
+cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t seed, bool resumed) {
+  cmm::SimulatedMachineOptions out;
+  out.nominal_tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
+  out.park_W_mm = vector3(plan.machine->park_mm);
+  out.speeds.travel_mm_s = plan.machine->travel_speed_mm_s;
+  out.speeds.touch_mm_s = plan.machine->touch_speed_mm_s;
+  out.speeds.scan_mm_s = plan.machine->scan_speed_mm_s;
+  out.temperature_degC = plan.simulation->temperature_degC;
+  out.errors = machine_errors(*plan.simulation);
+  out.part_errors = part_errors(plan.simulation->part);
+  out.seed = seed;
+  if (!resumed) out.lost_at_touch = plan.simulation->faults.connection_lost_at_touch;
+  return out;
+}
+
+/// Where the simulated part really sits: shifted and tilted about the part origin, then up to the
+/// middle of the surface, where its own frame begins.
+Eigen::Isometry3d true_seat(const Eigen::Isometry3d& nominal, const SimulatedPartPlan& part,
+                            const FeaturePlan& feature) {
+  const double toward = part.tilt_toward_deg * core::kDegree;
+  Eigen::Isometry3d seat = nominal;
+  seat.translate(Eigen::Vector3d(part.offset_x_mm, part.offset_y_mm, 0.0));
+  seat.rotate(Eigen::AngleAxisd(part.tilt_deg * core::kDegree,
+                                Eigen::Vector3d(-std::sin(toward), std::cos(toward), 0.0)));
+  seat.translate(
+      Eigen::Vector3d(0.0, 0.0, 0.5 * (feature.nominal.from_mm + feature.nominal.to_mm)));
+  return seat;
+}
+
+}  // namespace
+
+SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed)
+    : Cell(plan),
+      simulation_(*plan.simulation),
+      fixture_(fixture_options(plan, seed, resumed)),
+      machine_(machine_options(plan, seed, resumed)) {
+  machine_.place_sphere({vector3(plan.probe->qualification.sphere_center_mm),
+                         0.5 * plan.probe->qualification.sphere_diameter_mm});
+}
+
+void SimulatedCell::mount(const FeaturePlan& feature) {
+  surface_ = simulated_surface(simulation_, feature);
+  true_X_BP_ = true_seat(nominal_part(), simulation_.part, feature);
+  place_part();
+}
+
+core::Result<core::Pose> SimulatedCell::home_fixture() {
+  auto reached = fixture_.home();
+  turns_ = 0;
+  place_part();
+  return reached;
+}
+
+core::Result<core::Pose> SimulatedCell::turn_to(const core::Pose& commanded) {
+  return turn(commanded);
+}
+
+core::Result<core::Pose> SimulatedCell::recall_home() { return home_fixture(); }
+
+core::Result<core::Pose> SimulatedCell::recall_turn(const core::Pose& commanded) {
+  return turn(commanded);
+}
+
+core::Result<core::Pose> SimulatedCell::turn(const core::Pose& commanded) {
+  auto reached = fixture_.move_to(commanded);
+  if (reached) {
+    ++turns_;
+    last_turn_ = commanded;
+  }
+  place_part();
+  return reached;
+}
+
+core::Result<void> SimulatedCell::recall_touch(const cmm::TouchCommand& command,
+                                               const cmm::TouchReading& reading) {
+  return machine_.continue_after(command, reading);
+}
+
+core::Result<core::Pose> SimulatedCell::home_again() {
+  shift_mm_.x() = simulation_.faults.part_moved_um * core::kMicrometre;
+  fixture_.stop_beside(simulation_.faults.fixture_off_deg * core::kDegree);
+  if (auto homed = machine_.home(); !homed) return core::fail(homed.error());
+  auto reached = fixture_.home();
+  if (reached && turns_ > 0) {
+    fixture_.continue_after(turns_ - 1);
+    reached = fixture_.move_to(last_turn_);
+  }
+  place_part();
+  return reached;
+}
+
+void SimulatedCell::place_part() {
+  if (!surface_) return;
+  machine_.place_part(
+      *surface_, fixture_.true_body_to_machine() * Eigen::Translation3d(shift_mm_) * true_X_BP_);
+}
+
+}  // namespace rondure::plans

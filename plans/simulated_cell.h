@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include "cmm/simulated.h"
+#include "fixture/simulated.h"
+#include "plans/cell.h"
+
+namespace rondure::plans {
+
+/// Fixture, machine and part in software. The simulated machine cannot know how the fixture moved
+/// the part; the cell tells it after every turn.
+class SimulatedCell final : public Cell {
+ public:
+  /// Opens the simulated cell of a plan that has `machine`, `fixture`, `probe` and `simulation`.
+  /// @param seed     Of all noise; takes the place of the plan's.
+  /// @param resumed  The faults of the simulation lie in the past.
+  SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed);
+
+  [[nodiscard]] fixture::Fixture& fixture() override { return fixture_; }
+  [[nodiscard]] cmm::Machine& machine() override { return machine_; }
+
+  /// Puts the part with this feature into the clamping ring.
+  void mount(const FeaturePlan& feature) override;
+  [[nodiscard]] core::Result<core::Pose> home_fixture() override;
+  [[nodiscard]] core::Result<core::Pose> turn_to(const core::Pose& commanded) override;
+
+  [[nodiscard]] core::Result<core::Pose> recall_home() override;
+  [[nodiscard]] core::Result<core::Pose> recall_turn(const core::Pose& commanded) override;
+  [[nodiscard]] core::Result<void> recall_touch(const cmm::TouchCommand& command,
+                                                const cmm::TouchReading& reading) override;
+  [[nodiscard]] core::Result<void> recall_scan(const cmm::ScanCircleCommand& command,
+                                               const cmm::TouchReading& last) override {
+    return machine_.continue_after(command, last);
+  }
+  [[nodiscard]] core::Result<core::Pose> home_again() override;
+
+  /// The next turn of the fixture has the noise of this one since its homing, which is number 0.
+  void continue_at_turn(std::uint64_t number) { fixture_.continue_after(number - 1); }
+
+  [[nodiscard]] std::optional<Eigen::Vector3d> true_tip_W_mm() const override {
+    return machine_.true_tip_W_mm();
+  }
+  [[nodiscard]] std::vector<Eigen::Vector3d> true_scan_W_mm() const override {
+    return machine_.true_tips_W_mm();
+  }
+
+ private:
+  void place_part();
+  core::Result<core::Pose> turn(const core::Pose& commanded);
+
+  SimulationPlan simulation_;
+  fixture::SimulatedFixture fixture_;
+  cmm::SimulatedMachine machine_;
+  std::optional<cmm::PartSurface> surface_;
+  Eigen::Isometry3d true_X_BP_ = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d shift_mm_ = Eigen::Vector3d::Zero();  ///< Of the part, while interrupted.
+  std::uint64_t turns_ = 0;                             ///< Of the fixture since its homing.
+  core::Pose last_turn_;                                ///< As commanded.
+};
+
+}  // namespace rondure::plans

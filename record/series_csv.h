@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+#include "record/run_record.h"
+
+namespace rondure::record {
+
+/// A column that an analysis reads. The name carries the unit: "alpha_deg", "H1_um".
+struct WantedColumn {
+  std::string_view name;
+  bool required = true;
+};
+
+/// How a file calls a wanted column, where it calls it otherwise.
+struct ColumnName {
+  std::string wanted;
+  std::string in_file;
+};
+
+/// The unit that a column's name ends with ("um" of "H1_um"), or "".
+[[nodiscard]] std::string_view unit_of_column(std::string_view name);
+
+/// Reads a table of numbers: a header line with the names of the columns, in any order, then a row
+/// a line. Blank lines, `#` comments, CRLF and a byte order mark as in parse_points_csv().
+///
+/// Without `names` every column must be a wanted one. With `names` a column is looked for under its
+/// name in the file; what nobody asked for is passed over.
+///
+/// @param name  The file's name for `where` ("name:line").
+/// @return  The wanted columns that the file has, in the order of `wanted`; kWrongUnit for a column
+///          with another unit than the wanted one of that name, kSyntax, kNotFinite, kNoPoints as
+///          parse_points_csv(), kBadOption for a name in `names` that is not wanted. O(bytes).
+[[nodiscard]] core::Result<Series> parse_series_csv(std::string_view text, std::string_view name,
+                                                    std::span<const WantedColumn> wanted,
+                                                    std::span<const ColumnName> names = {});
+
+}  // namespace rondure::record

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "fit/contour_study.h"
+
+namespace rondure::reports {
+
+/// A study of crank pins as JSON, keys in their published order (docs/contour.md): of `fit contour`
+/// and of a contour feature in report.json.
+/// @param names  One a part.
+[[nodiscard]] nlohmann::ordered_json contour_document(const fit::ContourStudy& study,
+                                                      const fit::ContourStudyOptions& options,
+                                                      std::span<const std::string> names);
+
+/// What the indices say of the sources, one sentence each; fewer than 4 parts: that they say
+/// nothing yet.
+[[nodiscard]] std::vector<std::string> contour_verdicts(const fit::ContourStudy& study,
+                                                        const fit::StabilityLimits& limits);
+
+/// The curves of all parts as CSV: beta_deg, then t, f, n (and the main journal) of each part in
+/// um.
+[[nodiscard]] std::string contour_curves_csv(const fit::ContourStudy& study);
+
+}  // namespace rondure::reports

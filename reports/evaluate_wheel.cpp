@@ -1,0 +1,210 @@
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/evaluation.h"
+#include "reports/text.h"
+#include "reports/wheel_json.h"
+#include "reports/wheel_result.h"
+
+namespace rondure::reports {
+namespace {
+
+using core::kDegree;
+using core::kMicrometre;
+
+fit::WheelOptions wheel_options(const record::Feature& feature, std::uint64_t seed) {
+  fit::WheelOptions out;
+  if (feature.word("mode") == "envelope") out.mode = fit::WheelMode::kEnvelope;
+  if (feature.word("center") == "as-published") out.mean = fit::WheelMean::kAsPublished;
+  if (feature.word("quadruples") == "best") out.quadruples.choice = fit::QuadrupleChoice::kBest;
+  if (feature.word("quadruples") == "random") {
+    out.quadruples.choice = fit::QuadrupleChoice::kRandom;
+  }
+  out.quadruples.count = static_cast<std::size_t>(feature.number("count").value_or(6.0));
+  out.quadruples.seed = seed;
+  out.quadruples.kappa_limit = feature.number("kappa_limit");
+  out.robust = feature.word("robust") == "on";
+  out.allow_short_arc = feature.word("short_arc") == "allowed";
+  out.nominal_radius_mm = feature.number("nominal_radius_mm");
+  const auto x = feature.number("axis_x_mm");
+  const auto z = feature.number("axis_z_mm");
+  if (x && z) out.axis_mm = Eigen::Vector2d(*x, *z);
+  return out;
+}
+
+core::Result<fit::WheelSurface> formula_or_table(const record::Feature& feature) {
+  const auto form = feature.word("surface/form");
+  if (form == "table") {
+    return fit::WheelSurface::table(feature.numbers("surface/table_x_mm"),
+                                    feature.numbers("surface/table_z_mm"));
+  }
+  if (form == "polynomial") {
+    return fit::WheelSurface::polynomial({feature.numbers("surface/coefficients")});
+  }
+  const auto radius = feature.number("surface/vertex_radius_mm");
+  return fit::WheelSurface::asphere({radius ? 1.0 / *radius : 0.0,
+                                     feature.number("surface/conic").value_or(0.0),
+                                     feature.numbers("surface/even_terms")});
+}
+
+core::Result<fit::WheelSurface> surface_of(const record::Feature& feature) {
+  auto out = formula_or_table(feature);
+  std::vector<double> depth = feature.numbers("surface/removal_depth_um");
+  if (!out || depth.empty()) return out;
+  for (double& d : depth) d *= kMicrometre;
+  return out->less(feature.numbers("surface/removal_x_mm"), std::move(depth));
+}
+
+fit::WheelPathOptions path_options(const record::Feature& feature,
+                                   const fit::WheelSurface& surface) {
+  const auto number = [&](std::string_view key, double otherwise) {
+    return feature.number(fmt::format("surface/{}", key)).value_or(otherwise);
+  };
+  fit::WheelPathOptions out;
+  out.from_mm = number("from_mm", 0.0);
+  out.to_mm = number("to_mm", 0.0);
+  out.step_mm = number("step_mm", out.step_mm);
+  if (const auto cusp = feature.number("surface/cusp_um")) out.cusp_mm = *cusp * kMicrometre;
+  out.least_contact_rad = number("wheel_arc_from_deg", -90.0) * kDegree;
+  out.greatest_contact_rad = number("wheel_arc_to_deg", 90.0) * kDegree;
+  if (const auto whole = surface.range_mm()) {
+    out.surface_from_mm = whole->first;
+    out.surface_to_mm = whole->second;
+  }
+  return out;
+}
+
+core::Result<std::optional<fit::WheelPathTask>> path_task(const record::Feature& feature) {
+  if (!feature.word("surface/form")) return std::nullopt;
+  auto surface = surface_of(feature);
+  if (!surface) return core::fail(surface.error());
+  const auto options = path_options(feature, *surface);
+  fit::WheelPathTask out{*std::move(surface), options, fit::RadiusChoice::kMean,
+                         feature.number("surface/repeatability_um").value_or(0.0) * kMicrometre,
+                         feature.number("surface/touch_off_mm")};
+  if (feature.word("surface/radius") == "effective") out.radius = fit::RadiusChoice::kEffective;
+  return out;
+}
+
+std::vector<Eigen::Vector2d> points_of(const record::Series& series) {
+  const auto x = series.column("x").value_or(std::vector<double>());
+  const auto z = series.column("z").value_or(std::vector<double>());
+  std::vector<Eigen::Vector2d> out;
+  for (std::size_t i = 0; i < std::min(x.size(), z.size()); ++i) out.emplace_back(x[i], z[i]);
+  return out;
+}
+
+core::Result<AnalysisValue> departure(const fit::WheelMeasurement& m,
+                                      const std::optional<double>& nominal_mm) {
+  if (!nominal_mm) return core::fail(core::Code::kMissingKey, "there is no nominal radius");
+  AnalysisValue out;
+  out.value_mm = std::abs(m.radius_mm - *nominal_mm);
+  out.detail = fmt::format("R {:.6f} mm, nominal {:g} mm", m.radius_mm, *nominal_mm);
+  return out;
+}
+
+core::Result<AnalysisValue> roundness(const fit::WheelMeasurement& m, record::Reference reference) {
+  if (reference == record::Reference::kLeastSquares) {
+    return AnalysisValue{m.check.deviation_mm, {}, {}, {}};
+  }
+  if (reference != record::Reference::kMinimumZone) {
+    return core::fail(core::Code::kReferenceAbsent,
+                      "roundness of a wheel has the references mz, ls");
+  }
+  if (!m.zone) return core::fail(core::Code::kNotConverged, "there is no minimum zone");
+  AnalysisValue out{m.zone->width_mm(), {}, {}, {}};
+  if (m.zone->certificate.kind != fit::Certificate::Kind::kGlobal) {
+    out.void_because = "the minimum zone is not proven: " + m.zone->certificate.reason;
+  }
+  return out;
+}
+
+}  // namespace
+
+core::Result<AnalysisValue> WheelResult::value_of(
+    const record::Characteristic& characteristic) const {
+  const fit::WheelMeasurement& m = facts_.evaluation.wheel;
+  if (characteristic.form == record::Form::kRadius) {
+    return departure(m, facts_.task.wheel.nominal_radius_mm);
+  }
+  if (characteristic.form == record::Form::kRoundness) {
+    return roundness(m, characteristic.reference);
+  }
+  if (!m.runout) return core::fail(core::Code::kNoAxis, std::string(m.runout_absent));
+  return AnalysisValue{m.runout->fim_mm, {}, {}, {}};
+}
+
+std::string WheelResult::operator_text(const record::Characteristic& characteristic) const {
+  const fit::WheelMeasurement& m = facts_.evaluation.wheel;
+  const std::string points = fmt::format("{} of {} points, {} mode", m.points - m.dropped.size(),
+                                         m.points, fit::name_of(m.mode));
+  if (characteristic.form == record::Form::kRunOut) {
+    return "full indicator movement about the given axis; " + points;
+  }
+  if (characteristic.form == record::Form::kRoundness) return points;
+  return fmt::format("mean distance from the centre ({} mean of {} quadruples); {}",
+                     fit::name_of(m.mean), m.centers.accepted.size(), points);
+}
+
+std::string WheelResult::filter_text() const {
+  return facts_.task.wheel.robust ? "unfiltered, isolated outliers dropped" : "unfiltered";
+}
+
+std::string WheelResult::sampling_text() const {
+  const fit::WheelMeasurement& m = facts_.evaluation.wheel;
+  return fmt::format("{} points, {} mode, {:.0f} deg", m.points, fit::name_of(m.mode),
+                     m.order.coverage_rad() / kDegree);
+}
+
+nlohmann::ordered_json WheelResult::json() const {
+  return wheel_json(facts_.evaluation, facts_.task);
+}
+
+std::vector<SummaryLine> WheelResult::summary() const {
+  const fit::WheelMeasurement& m = facts_.evaluation.wheel;
+  std::vector<SummaryLine> out = {
+      {"wheel", fmt::format("R {:.6f} mm, u(R) {} um, PV {} um, centre ({:.6f}, {:.6f}) mm",
+                            m.radius_mm, um(m.radius_uncertainty_mm), um(m.deviation_mm),
+                            m.center_mm.x(), m.center_mm.y())}};
+  if (m.runout) {
+    out.push_back({"run-out", fmt::format("{} um; effective radius {:.6f} mm", um(m.runout->fim_mm),
+                                          m.runout->effective_radius_mm)});
+  }
+  const auto& e = facts_.evaluation;
+  if (e.path) {
+    out.push_back(
+        {"path", fmt::format("{} places, R k_s at most {:.4f}, PV left {} um", e.path->rows.size(),
+                             e.path->load.load, um(e.forecast->measured.deviation_mm))});
+  }
+  if (e.refused) out.push_back({"no path", e.refused->what});
+  return out;
+}
+
+void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& result) {
+  auto task = path_task(result.feature);
+  if (!task) {
+    result.failure = task.error();
+    return;
+  }
+  WheelFacts facts;
+  facts.points_mm = points_of(*record.data_of(index, "data"));
+  facts.task = {wheel_options(result.feature, record.header.seed), *std::move(task)};
+  auto evaluation = fit::evaluate_wheel(facts.points_mm, facts.task);
+  if (!evaluation) {
+    result.failure = evaluation.error();
+    return;
+  }
+  facts.evaluation = *std::move(evaluation);
+  result.warnings = facts.evaluation.wheel.warnings;
+  if (facts.evaluation.path) {
+    const auto& more = facts.evaluation.path->warnings;
+    result.warnings.insert(result.warnings.end(), more.begin(), more.end());
+  }
+  if (facts.evaluation.refused) result.warnings.push_back(*facts.evaluation.refused);
+  result.analysis = std::make_shared<WheelResult>(std::move(facts));
+}
+
+}  // namespace rondure::reports

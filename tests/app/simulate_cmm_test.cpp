@@ -1,0 +1,112 @@
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/app/files.h"
+#include "tests/app/program.h"
+#include "wire/tcp_line.h"
+
+namespace rondure::app::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string spool() { return RONDURE_SOURCE_DIR "/plans/examples/01_spool_simulated.json"; }
+
+/// The program as a server, on a port that it chose.
+class Serving {
+ public:
+  Serving() : program_(arguments(folder_), surroundings(folder_)) {
+    for (int i = 0; i < 5000 && port_ == 0 && !program_.ended(); ++i) {
+      const std::string text = read(folder_ / "out");
+      const std::size_t at = text.find("listens at 127.0.0.1:");
+      unsigned port = 0;
+      if (at != std::string::npos) std::sscanf(text.c_str() + at, "listens at 127.0.0.1:%u", &port);
+      port_ = static_cast<std::uint16_t>(port);
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+
+  [[nodiscard]] std::unique_ptr<wire::LineTransport> connect() const {
+    auto line = wire::connect_tcp("127.0.0.1", port_);
+    return line ? std::move(*line) : nullptr;
+  }
+  [[nodiscard]] Program& program() { return program_; }
+  [[nodiscard]] std::string wire_log() const { return read(folder_ / "wire.log"); }
+
+ private:
+  static std::vector<std::string> arguments(const TemporaryFolder& folder) {
+    return {"simulate-cmm", spool(), "--port",     "0",
+            "--speed",      "inf",   "--wire-log", folder / "wire.log"};
+  }
+  static Surroundings surroundings(const TemporaryFolder& folder) {
+    Surroundings out;
+    out.standard_output = folder / "out";
+    return out;
+  }
+
+  TemporaryFolder folder_;
+  Program program_;
+  std::uint16_t port_ = 0;
+};
+
+std::string ask(wire::LineTransport& line, const std::string& command) {
+  std::string out;
+  EXPECT_TRUE(line.write_line(command));
+  while (!out.ends_with("%|")) {
+    const auto read = line.read_line(std::chrono::milliseconds(5000));
+    if (!read || !*read) break;
+    out += (*read)->text + "|";
+  }
+  return out;
+}
+
+TEST(SimulateCmm, ServesTheVirtualCellUntilItIsStopped) {
+  Serving serving;
+  const auto client = serving.connect();
+  ASSERT_NE(client, nullptr);
+  EXPECT_EQ(ask(*client, "00001 StartSession()"), "00001 &|00001 %|");
+  EXPECT_EQ(ask(*client, "00002 Home()"), "00002 &|00002 %|");
+  EXPECT_EQ(ask(*client, "00003 ChangeTool(\"T1\")"), "00003 &|00003 %|");
+  EXPECT_EQ(ask(*client, "00004 Get(X(),Y(),Z())"), "00004 &|00004 # X(0), Y(0), Z(500)|00004 %|");
+  EXPECT_THAT(ask(*client, "00005 AlignPart(0,0,1,0,0,1,0,1,0,0,1,0,0,0)"),
+              HasSubstr("# 0,0,1,0,1,0|"));
+  serving.program().send(SIGINT);
+  const Outcome outcome = serving.program().wait();
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("is connected"));
+  EXPECT_THAT(outcome.err, HasSubstr("rondure: ended"));
+  EXPECT_THAT(serving.wire_log(), HasSubstr("<- C: 00004 Get(X(),Y(),Z())"));
+}
+
+TEST(SimulateCmm, RefusesAPortInUseAPlanWithoutASimulationAndAStandstill) {
+  auto taken = wire::TcpListener::open("127.0.0.1", 0);
+  ASSERT_TRUE(taken.has_value());
+  const std::string port = std::to_string(taken->port());
+  const Outcome in_use = rondure({"simulate-cmm", spool(), "--port", port});
+  EXPECT_EQ(in_use.status, 2);
+  EXPECT_THAT(in_use.err, HasSubstr(port));
+  const Outcome no_simulation =
+      rondure({"simulate-cmm", RONDURE_SOURCE_DIR "/plans/examples/03_axle_points_file.json",
+               "--port", "0"});
+  EXPECT_EQ(no_simulation.status, 2);
+  EXPECT_THAT(no_simulation.err, HasSubstr("no virtual machine to serve"));
+  const Outcome no_log =
+      rondure({"simulate-cmm", spool(), "--port", "0", "--wire-log", "/nowhere/x"});
+  EXPECT_EQ(no_log.status, 2);
+  EXPECT_THAT(no_log.err, HasSubstr("/nowhere/x: cannot be written"));
+  for (const char* speed : {"0", "-1", "nan", "fast"}) {
+    const Outcome standstill = rondure({"simulate-cmm", spool(), "--speed", speed});
+    EXPECT_EQ(standstill.status, 2) << speed;
+    EXPECT_THAT(standstill.err, HasSubstr("--speed")) << speed;
+  }
+}
+
+}  // namespace
+}  // namespace rondure::app::testing

@@ -1,0 +1,204 @@
+// Traces of the control and contours of a gauge, on their way to the method.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/noise.h"
+#include "core/units.h"
+#include "fit/axis_trace.h"
+#include "fit/measured_contour.h"
+#include "tests/fit/contour_cases.h"
+
+namespace rondure::fit {
+namespace {
+
+using core::kDegree;
+using core::kMicrometre;
+
+double worst_x_error(const AxisTurn& turn) {
+  double out = 0.0;
+  const std::size_t n = turn.errors.x_mm.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double expected = test::spec_x_um(test::turn_angle(i, n)) * kMicrometre;
+    out = std::max(out, std::abs(turn.errors.x_mm[i] - expected));
+  }
+  return out;
+}
+
+TEST(AxisTrace, HandsUniformSamplesOn) {
+  const auto turn = last_turn(test::spec_trace(300), {.samples = 300}).value();
+  EXPECT_LT(worst_x_error(turn), 1e-9 * kMicrometre);
+  EXPECT_NEAR(turn.samples_per_turn, 300.0, 1e-9);
+  EXPECT_NEAR(turn.turns, 1.0, 1e-9);
+  EXPECT_TRUE(turn.warnings.empty());
+}
+
+TEST(AxisTrace, TakesOneTurnOfAnyStartAndLength) {
+  for (const double turns : {1.0, 1.3, 2.0, 2.7, 4.0}) {
+    for (const double start : {0.0, 0.1, 2.0, 6.2}) {
+      SCOPED_TRACE(testing::Message() << turns << " turns from " << start);
+      const auto turn = last_turn(test::spec_trace(300, turns, start));
+      ASSERT_TRUE(turn) << turn.error().what;
+      EXPECT_LT(worst_x_error(*turn), 2e-3 * kMicrometre);  // 31 undulations on 300 samples
+    }
+  }
+}
+
+TEST(AxisTrace, TakesTheLastTurn) {
+  auto trace = test::spec_trace(300, 3.5, 0.5);
+  for (std::size_t i = 0; i < 400; ++i) trace.x_error_mm[i] += 0.05;
+  EXPECT_LT(worst_x_error(last_turn(trace).value()), 2e-3 * kMicrometre);
+}
+
+TEST(AxisTrace, ReadsATraceThatRunsBackwards) {
+  auto trace = test::spec_trace(300, 1.5, 0.2);
+  std::reverse(trace.c_rad.begin(), trace.c_rad.end());
+  std::reverse(trace.c_error_rad.begin(), trace.c_error_rad.end());
+  std::reverse(trace.x_error_mm.begin(), trace.x_error_mm.end());
+  EXPECT_LT(worst_x_error(last_turn(trace).value()), 2e-3 * kMicrometre);
+}
+
+TEST(AxisTrace, NamesTheRowWhereCGoesBackOrSamplesAreMissing) {
+  auto trace = test::spec_trace(300);
+  std::swap(trace.c_rad[100], trace.c_rad[101]);
+  const auto back = last_turn(trace);
+  ASSERT_FALSE(back);
+  EXPECT_EQ(back.error().code, core::Code::kAngleOrder);
+  EXPECT_NE(back.error().what.find("row 101,"), std::string::npos) << back.error().what;
+
+  trace = test::spec_trace(300);
+  trace.c_rad.erase(trace.c_rad.begin() + 50);
+  trace.c_error_rad.erase(trace.c_error_rad.begin() + 50);
+  trace.x_error_mm.erase(trace.x_error_mm.begin() + 50);
+  const auto missing = last_turn(trace);
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, core::Code::kSampling);
+  EXPECT_NE(missing.error().what.find("at row 50 "), std::string::npos) << missing.error().what;
+
+  trace.c_error_rad.pop_back();
+  EXPECT_EQ(last_turn(trace).error().code, core::Code::kMeaning);
+}
+
+TEST(AxisTrace, RefusesLessThanOneTurnAndSaysWhenItIsInRadians) {
+  EXPECT_EQ(last_turn(test::spec_trace(300, 0.95)).error().code, core::Code::kNotFullSection);
+  auto trace = test::spec_trace(300);
+  for (double& c : trace.c_rad) c *= kDegree;  // radians taken for degrees
+  const auto radians = last_turn(trace);
+  ASSERT_FALSE(radians);
+  EXPECT_EQ(radians.error().code, core::Code::kNotFullSection);
+  EXPECT_NE(radians.error().what.find("radians"), std::string::npos);
+}
+
+TEST(AxisTrace, WarnsOfErrorsThatSuggestAnotherUnit) {
+  auto trace = test::spec_trace(300);
+  for (double& x : trace.x_error_mm) x *= 1e3;
+  EXPECT_EQ(last_turn(trace).value().warnings.size(), 2U);  // size and mean
+  trace = test::spec_trace(300);
+  for (double& c : trace.c_error_rad) c *= 1e3;
+  const auto warnings = last_turn(trace).value().warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].code, core::Code::kUnits);
+}
+
+TEST(AxisTrace, RefusesNaNAndSignsThatAreNone) {
+  auto trace = test::spec_trace(300);
+  trace.c_error_rad[17] = std::numeric_limits<double>::infinity();
+  EXPECT_NE(last_turn(trace).error().what.find("row 17 "), std::string::npos);
+  EXPECT_EQ(last_turn(test::spec_trace(300), {.error_sign = 0}).error().code, core::Code::kMeaning);
+  EXPECT_EQ(last_turn(test::spec_trace(15)).error().code, core::Code::kTooFewPoints);
+}
+
+/// A ground pin with its roughness, 1440 points.
+struct Gauge {
+  std::vector<double> angle;
+  std::vector<double> deviation;
+  explicit Gauge(std::uint64_t seed = 1, double rough_um = 0.2) {
+    core::KeyedNoise noise(seed, {3});
+    for (std::size_t m = 0; m < 1440; ++m) {
+      angle.push_back(test::turn_angle(m, 1440));
+      deviation.push_back((2.0 * std::cos(2.0 * angle[m]) + rough_um * noise.normal()) *
+                          kMicrometre);
+    }
+  }
+};
+
+TEST(MeasuredContour, SeesThatTheGaugeHasFiltered) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Gauge gauge(seed);
+    EXPECT_TRUE(measured_contour(gauge.angle, gauge.deviation).value().warnings.empty());
+    gauge.deviation = filter_closed(gauge.deviation, {}).value().r_mm;
+    const auto twice = measured_contour(gauge.angle, gauge.deviation).value();
+    ASSERT_EQ(twice.warnings.size(), 1U);
+    EXPECT_EQ(twice.warnings[0].code, core::Code::kFilteredTwice);
+    EXPECT_NEAR(twice.filter.cutoff_upr.value(), 50.0, 12.0);
+    MeasuredContourOptions options;
+    options.error.filtered_already = true;
+    EXPECT_TRUE(measured_contour(gauge.angle, gauge.deviation, options).value().warnings.empty());
+  }
+}
+
+TEST(MeasuredContour, DoubtsAFilterThatLeftEverything) {
+  const Gauge gauge;
+  MeasuredContourOptions options;
+  options.error.filtered_already = true;
+  const auto out = measured_contour(gauge.angle, gauge.deviation, options).value();
+  ASSERT_EQ(out.warnings.size(), 1U);
+  EXPECT_EQ(out.warnings[0].code, core::Code::kFilteredTwice);
+}
+
+TEST(MeasuredContour, FollowsOffsetAndDirection) {
+  const Gauge straight(1, 0.2);
+  Gauge turned = straight;
+  for (double& a : turned.angle) a = 0.7 - a;
+  MeasuredContourOptions options;
+  options.phase_offset_rad = 0.7;
+  options.direction = -1;
+  const auto a = measured_contour(straight.angle, straight.deviation).value().contour.error_mm;
+  const auto b = measured_contour(turned.angle, turned.deviation, options).value().contour.error_mm;
+  for (std::size_t m = 0; m < a.size(); ++m) EXPECT_NEAR(a[m], b[m], 1e-12);
+}
+
+TEST(MeasuredContour, RefusesGapsWrongOrderAndWrongUnits) {
+  Gauge gauge;
+  std::swap(gauge.angle[20], gauge.angle[21]);
+  const auto order = measured_contour(gauge.angle, gauge.deviation);
+  EXPECT_EQ(order.error().code, core::Code::kAngleOrder);
+  EXPECT_NE(order.error().what.find("row 21,"), std::string::npos) << order.error().what;
+
+  Gauge gap;
+  gap.angle.erase(gap.angle.begin() + 100, gap.angle.begin() + 104);
+  gap.deviation.erase(gap.deviation.begin() + 100, gap.deviation.begin() + 104);
+  EXPECT_EQ(measured_contour(gap.angle, gap.deviation).error().code, core::Code::kNotFullSection);
+
+  Gauge one;
+  one.angle.erase(one.angle.begin() + 100);
+  one.deviation.erase(one.deviation.begin() + 100);
+  const auto sparse = measured_contour(one.angle, one.deviation).value();
+  ASSERT_EQ(sparse.warnings.size(), 1U);
+  EXPECT_EQ(sparse.warnings[0].code, core::Code::kSparse);
+
+  Gauge radians;
+  for (double& a : radians.angle) a *= kDegree;
+  EXPECT_NE(measured_contour(radians.angle, radians.deviation).error().what.find("in radians"),
+            std::string::npos);
+
+  Gauge mm;
+  for (double& d : mm.deviation) d *= 1e-3;
+  EXPECT_EQ(measured_contour(mm.angle, mm.deviation).value().warnings.back().code,
+            core::Code::kUnits);
+}
+
+TEST(MeasuredContour, RefusesDifferentLengthsAndTooFewRows) {
+  Gauge gauge;
+  gauge.deviation.pop_back();
+  EXPECT_EQ(measured_contour(gauge.angle, gauge.deviation).error().code, core::Code::kMeaning);
+  EXPECT_EQ(measured_contour(std::vector<double>(4, 0.0), std::vector<double>(4, 0.0)).error().code,
+            core::Code::kTooFewPoints);
+}
+
+}  // namespace
+}  // namespace rondure::fit

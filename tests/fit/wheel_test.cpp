@@ -1,0 +1,430 @@
+// Wheel centre and radius: worked examples, scatter, properties, bad input.
+
+#include "fit/wheel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "tests/fit/wheel_cases.h"
+
+namespace rondure::fit {
+namespace {
+
+using testing::arc_points;
+using testing::example_1;
+using testing::example_2;
+using testing::full;
+using ::testing::HasSubstr;
+using testing::Points;
+
+// Points are printed to 1e-6 mm: half a digit of each reaches a centre kappa times.
+constexpr double kDigit = 1.01e-6;
+
+bool warned(const WheelMeasurement& m, core::Code code) {
+  return std::any_of(m.warnings.begin(), m.warnings.end(),
+                     [&](const core::Error& w) { return w.code == code; });
+}
+
+WheelOptions plain(WheelMean mean = WheelMean::kAsPublished) {
+  WheelOptions out;
+  out.mean = mean;
+  return out;
+}
+
+TEST(FourPointCenter, GivesEveryRowOfWorkedExample1) {
+  struct Row {
+    std::array<std::size_t, 4> points;
+    double x, z, psi_deg, ab, cd, kappa;
+  };
+  const std::array<Row, 6> rows = {{
+      {{1, 5, 3, 7}, 12.001448, -6.996698, 90.0000, 100.000000, 100.000000, 1.0000},
+      {{2, 6, 4, 8}, 11.999427, -7.000819, 90.0000, 99.999999, 100.000000, 1.0000},
+      {{1, 4, 5, 7}, 12.002022, -6.995879, 22.4999, 92.389801, 70.707142, 3.2908},
+      {{2, 5, 6, 8}, 11.998762, -6.997050, 22.4997, 92.385182, 70.711385, 3.2907},
+      {{1, 6, 3, 7}, 11.998832, -6.997160, 67.5002, 92.390724, 100.000000, 1.1278},
+      {{3, 6, 8, 2}, 12.004590, -6.999909, 22.5001, 92.391648, 70.709971, 3.2906},
+  }};
+  const Points points = example_1();
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Row& row : rows) {
+    SCOPED_TRACE(row.x);
+    auto places = row.points;
+    for (auto& p : places) --p;
+    const auto c = four_point_center(points, places, 50.0);
+    EXPECT_NEAR(c.center_mm.x(), row.x, kDigit * row.kappa);
+    EXPECT_NEAR(c.center_mm.y(), row.z, kDigit * row.kappa);
+    EXPECT_NEAR(c.psi_rad / core::kDegree, row.psi_deg, 5.1e-5);
+    EXPECT_NEAR(c.first_chord_mm, row.ab, kDigit);
+    EXPECT_NEAR(c.second_chord_mm, row.cd, kDigit);
+    EXPECT_NEAR(c.kappa, row.kappa, 5.1e-5);
+    sum += c.center_mm / 6.0;
+  }
+  EXPECT_NEAR(sum.x(), 12.000847, kDigit);
+  EXPECT_NEAR(sum.y(), -6.997919, kDigit);
+  const auto parallel = four_point_center(points, {0, 3, 5, 6}, 50.0);
+  EXPECT_NEAR(parallel.psi_rad / core::kDegree, 0.0051, 5.1e-5);
+  // Their bisectors are nearly one line: a rounding of 1e-6 mm moves the crossing by millimetres.
+  EXPECT_NEAR(parallel.kappa, 22654.0, 22654.0 * 1e-3);
+  EXPECT_NEAR(parallel.center_mm.x(), -3.463192, 0.03);
+  EXPECT_NEAR(parallel.center_mm.y(), -76.757686, 0.1);
+}
+
+TEST(FourPointCenter, AmplifiesNoiseByKappa) {
+  // Two diameters at 90 deg, and at 15 deg: kappa 1.000 and 3.864.
+  for (const double angle : {90.0, 15.0}) {
+    SCOPED_TRACE(angle);
+    core::KeyedNoise noise(3, {static_cast<std::uint64_t>(angle)});
+    constexpr double kSigma = 1e-3;
+    const int draws = 20000;
+    double squares = 0.0;
+    double kappa = 0.0;
+    for (int i = 0; i < draws; ++i) {
+      Points points;
+      for (const double deg : {0.0, 180.0, angle, angle + 180.0}) {
+        const double r = 50.0 + kSigma * noise.normal();
+        points.emplace_back(r * std::cos(deg * core::kDegree), r * std::sin(deg * core::kDegree));
+      }
+      const auto c = four_point_center(points, {0, 1, 2, 3}, 50.0);
+      squares += c.center_mm.squaredNorm();
+      kappa = c.kappa;
+    }
+    EXPECT_NEAR(kappa, angle > 45.0 ? 1.0 : 3.864, 1e-3);
+    EXPECT_NEAR(std::sqrt(squares / draws) / kSigma, kappa, 0.02 * kappa);
+  }
+}
+
+TEST(Wheel, GivesTheCenterRadiusAndRoundnessOfWorkedExample1) {
+  const auto mean = measure_wheel(example_1(), plain());
+  ASSERT_TRUE(mean) << mean.error().what;
+  EXPECT_EQ(mean->centers.accepted.size(), 70U);
+  EXPECT_NEAR(mean->center_mm.x(), 12.000438, kDigit);
+  EXPECT_NEAR(mean->center_mm.y(), -6.998759, kDigit);
+  EXPECT_NEAR(mean->radius_mm, 50.0, kDigit);
+  EXPECT_NEAR(mean->deviation_mm / core::kMicrometre, 4.535, 1.6e-3);
+  EXPECT_NEAR(mean->check.center_mm.x(), 12.000438, kDigit);
+  EXPECT_NEAR(mean->check.center_mm.y(), -6.998759, kDigit);
+  const std::array r = {50.001353, 49.997732, 50.001853, 49.999646,
+                        49.998646, 50.002267, 49.998146, 50.000354};
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    EXPECT_NEAR(mean->radius_mm + mean->deviations_mm[i], r[i], 2.0 * kDigit) << i;
+  }
+  ASSERT_TRUE(mean->zone);
+  EXPECT_LE(mean->zone->width_mm(), mean->deviation_mm);
+  EXPECT_FALSE(mean->runout);
+  EXPECT_TRUE(warned(*mean, core::Code::kNoAxis));
+  EXPECT_FALSE(mean->effective_radius_mm());
+}
+
+TEST(Wheel, StatesRunoutOnlyWithTheSpindleAxisAndNeverOfAnEnvelope) {
+  WheelOptions options;
+  options.axis_mm = {12.02, -7.0};
+  const auto m = measure_wheel(example_1(), options);
+  ASSERT_TRUE(m) << m.error().what;
+  ASSERT_TRUE(m->runout);
+  EXPECT_NEAR(m->runout->fim_mm / core::kMicrometre, 35.393, 1.6e-3);
+  EXPECT_NEAR(m->runout->effective_radius_mm, 50.017696, kDigit);
+  EXPECT_FALSE(warned(*m, core::Code::kNoAxis));
+  options.mode = WheelMode::kEnvelope;
+  const auto refused = measure_wheel(example_1(), options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, core::Code::kMeaning);
+  options.axis_mm.reset();
+  const auto envelope = measure_wheel(example_1(), options);
+  ASSERT_TRUE(envelope);
+  EXPECT_FALSE(envelope->runout);
+  EXPECT_EQ(envelope->effective_radius_mm(), envelope->radius_mm);
+}
+
+TEST(Wheel, GivesEveryNumberOfWorkedExample2) {
+  const auto all = measure_wheel(example_2(), plain());
+  ASSERT_TRUE(all) << all.error().what;
+  EXPECT_EQ(all->centers.accepted.size(), 495U);
+  EXPECT_NEAR(all->centers.best_kappa(), 1.00, 5e-3);
+  EXPECT_NEAR(all->centers.worst_kappa(), 4.00, 5e-3);
+  EXPECT_NEAR(all->center_mm.x(), 0.495383, kDigit);
+  EXPECT_NEAR(all->center_mm.y(), 0.256488, kDigit);
+  EXPECT_NEAR(all->radius_mm, 75.017069, kDigit);
+  EXPECT_NEAR(all->deviation_mm / core::kMicrometre, 54.399, 1.6e-3);
+  EXPECT_NEAR(all->check.center_mm.x(), 0.495381, kDigit);
+  EXPECT_NEAR(all->check.center_mm.y(), 0.256490, kDigit);
+
+  const auto outliers = find_outliers(example_2(), all->centers.accepted);
+  ASSERT_TRUE(outliers);
+  EXPECT_NEAR(outliers->center_mm.x(), 0.499681, 2.0 * kDigit);
+  EXPECT_NEAR(outliers->center_mm.y(), 0.250245, 2.0 * kDigit);
+  EXPECT_NEAR(outliers->scale_mm / core::kMicrometre, 3.887, 3e-3);
+  const std::array deviations = {4.53,  -0.24, -3.85, 0.24,  53.40, -2.05,
+                                 -3.73, 2.63,  3.83,  -1.01, -2.62, 2.16};
+  for (std::size_t i = 0; i < deviations.size(); ++i) {
+    EXPECT_NEAR(outliers->deviations_mm[i] / core::kMicrometre, deviations[i], 7e-3) << i;
+  }
+
+  WheelOptions options = plain();
+  options.robust = true;
+  const auto robust = measure_wheel(example_2(), options);
+  ASSERT_TRUE(robust) << robust.error().what;
+  ASSERT_EQ(robust->dropped.size(), 1U);
+  EXPECT_EQ(robust->dropped.front().row, 4U);
+  EXPECT_EQ(robust->centers.accepted.size(), 330U);
+  EXPECT_NEAR(robust->center_mm.x(), 0.500561, kDigit);
+  EXPECT_NEAR(robust->center_mm.y(), 0.248937, kDigit);
+  EXPECT_NEAR(robust->radius_mm, 75.012475, kDigit);
+  EXPECT_NEAR(robust->deviation_mm / core::kMicrometre, 7.965, 1.6e-3);
+  EXPECT_NEAR(robust->check.center_mm.x(), 0.500655, kDigit);
+  EXPECT_NEAR(robust->check.center_mm.y(), 0.248958, kDigit);
+  EXPECT_NEAR(robust->check.radius_mm, 75.012471, kDigit);
+  EXPECT_NEAR(robust->check.deviation_mm / core::kMicrometre, 7.906, 1.6e-3);
+  EXPECT_NEAR(robust->center_scatter_mm / core::kMicrometre, 5.06, 6e-3);
+  EXPECT_NEAR(robust->spread_mm / core::kMicrometre, 3.06, 6e-3);
+  EXPECT_NEAR(robust->expected_scatter_mm / core::kMicrometre, 5.10, 6e-3);
+
+  options.mean = WheelMean::kWeighted;
+  const auto weighted = measure_wheel(example_2(), options);
+  ASSERT_TRUE(weighted);
+  EXPECT_NEAR(weighted->center_mm.x(), 0.500620, kDigit);
+  EXPECT_NEAR(weighted->center_mm.y(), 0.248949, kDigit);
+  EXPECT_NEAR(weighted->radius_mm, 75.012473, kDigit);
+  EXPECT_NEAR(weighted->deviation_mm / core::kMicrometre, 7.929, 1.6e-3);
+
+  options.mean = WheelMean::kAsPublished;
+  options.quadruples.choice = QuadrupleChoice::kBest;
+  const auto best = measure_wheel(example_2(), options);
+  ASSERT_TRUE(best);
+  EXPECT_EQ(best->centers.accepted.size(), 6U);
+  EXPECT_NEAR(best->center_mm.x(), 0.501163, 2.0 * kDigit);
+  EXPECT_NEAR(best->center_mm.y(), 0.248935, 2.0 * kDigit);
+  EXPECT_NEAR(best->radius_mm, 75.012443, kDigit);
+  EXPECT_NEAR(best->deviation_mm / core::kMicrometre, 7.811, 2e-3);
+}
+
+TEST(Wheel, AmplifiesByTheFactorsOfTheArc) {
+  struct Arc {
+    double deg, center, radius, digit_center, digit_radius;
+  };
+  for (const Arc& arc :
+       {Arc{20, 54.6, 54.2, .1, .1}, Arc{30, 24.4, 24.0, .1, .1}, Arc{60, 6.245, 5.9, .001, .1},
+        Arc{90, 2.9, 2.5, .1, .1}, Arc{120, 1.7, 1.35, .1, .01}, Arc{180, 0.91, 0.56, .01, .01},
+        Arc{360, 0.58, 0.29, .01, .01}}) {
+    SCOPED_TRACE(arc.deg);
+    const auto points = arc_points(12, arc.deg, 50.0, 0.0, 1);
+    const auto factors = circle_factors(angular_order(points, {0.0, 0.0}).angles_rad);
+    EXPECT_NEAR(factors.center, arc.center, 0.51 * arc.digit_center);
+    EXPECT_NEAR(factors.radius, arc.radius, 0.51 * arc.digit_radius);
+  }
+}
+
+struct Scatter {
+  double center_um = 0.0;
+  double radius_um = 0.0;
+};
+
+/// Root mean square errors of centre and radius over seeded runs: n = 12, R = 50, sigma = 2 um.
+Scatter scatter_of(double arc_deg, WheelOptions options, int runs) {
+  options.minimum_zone = false;
+  double center = 0.0;
+  double radius = 0.0;
+  for (int run = 0; run < runs; ++run) {
+    const auto seed = static_cast<std::uint64_t>(run);
+    options.quadruples.seed = 1000 + seed;
+    const auto m = measure_wheel(arc_points(12, arc_deg, 50.0, 2e-3, seed), options);
+    if (!m) {
+      ADD_FAILURE() << m.error().what;
+      return {};
+    }
+    center += m->center_mm.squaredNorm();
+    radius += (m->radius_mm - 50.0) * (m->radius_mm - 50.0);
+  }
+  return {std::sqrt(center / runs) * 1e3, std::sqrt(radius / runs) * 1e3};
+}
+
+TEST(Wheel, ScattersAsTheTableOfTheMethodSays) {
+  struct Row {
+    double arc_deg;
+    QuadrupleChoice choice;
+    WheelMean mean;
+    double center_um, radius_um;
+  };
+  using Choice = QuadrupleChoice;
+  using Mean = WheelMean;
+  for (const Row& row : {Row{360, Choice::kBest, Mean::kAsPublished, 1.27, 0.61},
+                         Row{360, Choice::kAll, Mean::kAsPublished, 1.11, 0.61},
+                         Row{360, Choice::kAll, Mean::kWeighted, 1.11, 0.61},
+                         Row{120, Choice::kBest, Mean::kAsPublished, 4.0, 3.0},
+                         Row{120, Choice::kAll, Mean::kAsPublished, 3.6, 2.6},
+                         Row{120, Choice::kAll, Mean::kWeighted, 3.4, 2.6},
+                         Row{60, Choice::kBest, Mean::kAsPublished, 12.6, 11.7},
+                         Row{60, Choice::kAll, Mean::kAsPublished, 12.1, 11.1},
+                         Row{60, Choice::kAll, Mean::kWeighted, 11.9, 11.0}}) {
+    SCOPED_TRACE(::testing::Message()
+                 << row.arc_deg << " deg, " << name_of(row.choice) << ", " << name_of(row.mean));
+    WheelOptions options = plain(row.mean);
+    options.quadruples.choice = row.choice;
+    const Scatter found = scatter_of(row.arc_deg, options, full() ? 4000 : 1000);
+    EXPECT_NEAR(found.center_um, row.center_um, 0.1 * row.center_um);
+    EXPECT_NEAR(found.radius_um, row.radius_um, 0.1 * row.radius_um);
+  }
+}
+
+TEST(Wheel, ScattersSeveralTimesMoreWithSixRandomQuadruples) {
+  // The table was made of 200 runs. Single bad quadruples rule these sums, so that 200 runs scatter
+  // themselves: standard deviation of 100 blocks of 200 runs each, as a share.
+  struct Row {
+    double arc_deg, center_um, radius_um, own_scatter;
+  };
+  for (const Row& row :
+       {Row{360, 3.54, 0.61, 0.06}, Row{120, 17.3, 13.0, 0.09}, Row{60, 46.8, 43.7, 0.065}}) {
+    SCOPED_TRACE(row.arc_deg);
+    WheelOptions options = plain();
+    options.quadruples.choice = QuadrupleChoice::kRandom;
+    const Scatter found = scatter_of(row.arc_deg, options, full() ? 20000 : 4000);
+    const double share = 0.1 + row.own_scatter;
+    EXPECT_NEAR(found.center_um, row.center_um, share * row.center_um);
+    EXPECT_NEAR(found.radius_um, row.radius_um, share * row.radius_um);
+  }
+}
+
+TEST(Wheel, MovesTurnsAndGrowsWithItsPointsAndKnowsNoOrder) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const double arc = seed % 2 == 0 ? 360.0 : 110.0;
+    const Points points = arc_points(9 + seed % 8, arc, 40.0, 2e-3, seed);
+    const auto base = measure_wheel(points, {});
+    ASSERT_TRUE(base) << base.error().what;
+    core::KeyedNoise noise(seed, {5});
+    const Eigen::Vector2d shift(500.0 * noise.normal(), 500.0 * noise.normal());
+    const Eigen::Rotation2Dd turn(core::kTwoPi * noise.uniform());
+    const double scale = 0.5 + noise.uniform();
+    Points moved;
+    for (const auto& p : points) moved.emplace_back(shift + scale * (turn * p));
+    std::rotate(moved.begin(), moved.begin() + 3, moved.end());
+    std::swap(moved[0], moved[4]);
+    const auto other = measure_wheel(moved, {});
+    ASSERT_TRUE(other) << other.error().what;
+    const Eigen::Vector2d expected = shift + scale * (turn * base->center_mm);
+    EXPECT_LT((other->center_mm - expected).norm(), 1e-9);
+    EXPECT_NEAR(other->radius_mm, scale * base->radius_mm, 1e-9);
+    EXPECT_NEAR(other->deviation_mm, scale * base->deviation_mm, 1e-10);
+    EXPECT_NEAR(other->radius_uncertainty_mm, scale * base->radius_uncertainty_mm, 1e-10);
+    EXPECT_EQ(other->centers.accepted.size(), base->centers.accepted.size());
+  }
+}
+
+TEST(Wheel, FindsAnExactCircleExactlyAndHoldsItsUncertainty) {
+  const auto exact = measure_wheel(arc_points(30, 200.0, 60.0, 0.0, 1, {5.0, -3.0}), {});
+  ASSERT_TRUE(exact) << exact.error().what;
+  EXPECT_LT((exact->center_mm - Eigen::Vector2d(5.0, -3.0)).norm(), 1e-9);
+  EXPECT_NEAR(exact->radius_mm, 60.0, 1e-9);
+  const int runs = full() ? 2000 : 300;
+  int inside = 0;
+  for (int run = 0; run < runs; ++run) {
+    WheelOptions options;
+    options.minimum_zone = false;
+    const auto points = arc_points(16, 360.0, 50.0, 2e-3, 500 + static_cast<std::uint64_t>(run));
+    const auto m = measure_wheel(points, options);
+    ASSERT_TRUE(m);
+    inside += std::abs(m->radius_mm - 50.0) <= 2.0 * m->radius_uncertainty_mm ? 1 : 0;
+  }
+  EXPECT_GT(inside, runs * 90 / 100);
+  EXPECT_LT(inside, runs * 995 / 1000);
+}
+
+TEST(Wheel, KeepsAWornSectorAndDropsALoneChip) {
+  Points points = arc_points(36, 360.0, 50.0, 1e-3, 9);
+  for (std::size_t i = 10; i < 15; ++i) points[i] *= (50.0 - 0.03) / 50.0;
+  points[25] *= 50.2 / 50.0;
+  WheelOptions options;
+  options.robust = true;
+  const auto m = measure_wheel(points, options);
+  ASSERT_TRUE(m) << m.error().what;
+  ASSERT_EQ(m->dropped.size(), 1U);
+  EXPECT_EQ(m->dropped.front().row, 25U);
+  EXPECT_TRUE(warned(*m, core::Code::kLocalForm));
+  EXPECT_TRUE(warned(*m, core::Code::kOutliers));
+  EXPECT_TRUE(warned(*m, core::Code::kCorrelated));
+  EXPECT_GT(m->deviation_mm, 0.028);
+}
+
+core::Error refused(const Points& points, const WheelOptions& options = {}) {
+  const auto m = measure_wheel(points, options);
+  if (m) ADD_FAILURE() << "accepted";
+  return m ? core::Error{} : m.error();
+}
+
+TEST(Wheel, RefusesPointsThatAreNoWheel) {
+  using core::Code;
+  const Points good = arc_points(12, 360.0, 50.0, 1e-3, 1);
+  EXPECT_EQ(refused({good.begin(), good.begin() + 7}).code, Code::kTooFewPoints);
+  EXPECT_EQ(refused({}).code, Code::kTooFewPoints);
+  Points same = {good.begin(), good.begin() + 6};
+  for (int i = 0; i < 6; ++i) same.push_back(good[0]);
+  const auto few = refused(same);
+  EXPECT_EQ(few.code, Code::kTooFewPoints);
+  EXPECT_THAT(few.what, HasSubstr("6 of 12 points"));
+  Points bad = good;
+  bad[7].y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refused(bad).code, Code::kNotFinite);
+  EXPECT_THAT(refused(bad).what, HasSubstr("point 7"));
+  Points line;
+  for (int i = 0; i < 10; ++i) line.emplace_back(i, 2.0 * i);
+  EXPECT_EQ(refused(line).code, Code::kCollinear);
+  EXPECT_EQ(refused(arc_points(12, 15.0, 50.0, 1e-4, 1)).code, Code::kShortArc);
+  const auto um = refused(arc_points(12, 360.0, 50000.0, 1.0, 1));
+  EXPECT_EQ(um.code, Code::kUnits);
+  EXPECT_THAT(um.what, HasSubstr("um"));
+  EXPECT_EQ(refused(arc_points(12, 360.0, 0.05, 1e-6, 1)).code, Code::kUnits);
+  WheelOptions options;
+  options.nominal_radius_mm = 100.0;
+  EXPECT_EQ(refused(good, options).code, Code::kOutOfRange);
+  options = {};
+  options.quadruples.count = 5;
+  EXPECT_EQ(refused(good, options).code, Code::kBadOption);
+  options = {};
+  options.outliers.scales = 3.0;
+  options.robust = true;
+  EXPECT_EQ(refused(good, options).code, Code::kBadOption);
+  options = {};
+  options.quadruples.kappa_limit = 1.0;
+  const auto centers = refused(arc_points(12, 100.0, 50.0, 1e-3, 1), options);
+  EXPECT_EQ(centers.code, Code::kTooFewCenters);
+  EXPECT_THAT(centers.what, HasSubstr("kappa above 1"));
+}
+
+TEST(Wheel, EvaluatesAShortArcWhenToldToAndWarns) {
+  WheelOptions options;
+  options.allow_short_arc = true;
+  const auto m = measure_wheel(arc_points(12, 15.0, 50.0, 1e-4, 1), options);
+  ASSERT_TRUE(m) << m.error().what;
+  EXPECT_TRUE(warned(*m, core::Code::kShortArc));
+  EXPECT_NEAR(m->order.coverage_rad() / core::kDegree, 15.0, 0.5);
+}
+
+TEST(Wheel, RefusesTooManyOutliers) {
+  // Without the two chips seven points would stay.
+  Points points = arc_points(9, 360.0, 50.0, 5e-4, 2);
+  points[0] *= 1.002;
+  points[4] *= 1.002;
+  WheelOptions options;
+  options.robust = true;
+  EXPECT_EQ(refused(points, options).code, core::Code::kOutliers);
+}
+
+TEST(Wheel, TakesFiveThousandDrawnQuadruplesOfManyPoints) {
+  const auto points = arc_points(200, 300.0, 80.0, 2e-3, 4);
+  const auto a = measure_wheel(points, {});
+  const auto b = measure_wheel(points, {});
+  ASSERT_TRUE(a && b);
+  const auto& c = a->centers;
+  EXPECT_EQ(c.accepted.size() + c.short_chord + c.parallel_chords + c.ill_conditioned, 5000U);
+  EXPECT_EQ(a->center_mm, b->center_mm);
+  EXPECT_LT((a->center_mm - a->check.center_mm).norm(), 1e-3);
+}
+
+}  // namespace
+}  // namespace rondure::fit

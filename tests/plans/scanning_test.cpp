@@ -1,0 +1,199 @@
+// Scans, hidden errors and temperatures through whole runs.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "plans/runner.h"
+#include "random_inspection.h"
+#include "record/journal.h"
+#include "tests/plans/files.h"
+
+namespace rondure::plans {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A perfect cylinder that stands straight: radius 25 mm.
+Plan perfect_plan(const std::string& method) {
+  Plan plan = test::random_plan(1, "guided", 0.0);
+  plan.simulation->part = {};
+  plan.part.location_uncertainty_mm = 2.0;
+  plan.features.front().sampling.method = method;
+  return plan;
+}
+
+double zone_mm(const test::Inspection& run) {
+  return run.evaluation.features.front().mz_cylinder->width_mm();
+}
+
+double radius_mm(const test::Inspection& run) {
+  const reports::FeatureResult& feature = run.evaluation.features.front();
+  return feature.ls_cylinder->radius_mm - feature.tip_radius_mm.value();
+}
+
+TEST(Scanning, WithoutErrorsAPerfectCylinderHasNoForm) {
+  for (const char* method : {"touch", "scan"}) {
+    SCOPED_TRACE(method);
+    Plan plan = perfect_plan(method);
+    plan.simulation->part.tilt_deg = 3.0;
+    plan.features.front().sampling.points_per_layer = 36;
+    EXPECT_LT(zone_mm(test::inspect(plan)), 1e-9);
+  }
+}
+
+TEST(Scanning, GivesTheCloudThatTouchesGive) {
+  Plan plan = test::random_plan(4, "guided", 0.05);
+  plan.features.front().sampling.points_per_layer = 48;
+  plan.features.front().sampling.stagger = 0.0;
+  plan.features.front().pose_search.max_poses = 1;
+  const auto touched = test::inspect(plan);
+  plan.features.front().sampling.method = "scan";
+  const auto scanned = test::inspect(plan);
+  const auto& a = touched.evaluation.features.front().cloud;
+  const auto& b = scanned.evaluation.features.front().cloud;
+  ASSERT_EQ(a.size(), 4U * 48U);
+  ASSERT_EQ(b.size(), a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_LT((a[i].tip_mm - b[i].tip_mm).norm(), 1e-7) << i;
+    ASSERT_EQ(a[i].layer, b[i].layer);
+    ASSERT_EQ(a[i].point, b[i].point);
+  }
+  EXPECT_NEAR(scanned.record.truths.front().cylt_mm, zone_mm(scanned), 2e-10);
+  EXPECT_NE(scanned.evaluation.features.front().characteristics.front().operator_text.find(
+                "4 x 48 points, scanned"),
+            std::string::npos);
+}
+
+TEST(Scanning, ALobeThatFewTouchesMissIsSeen) {
+  Plan plan = perfect_plan("touch");
+  plan.simulation->part.lobes = {{14, 2.0, 90.0, 0.0}};  // seven touches meet it at its zeros
+  plan.features.front().sampling.stagger = 0.0;
+  const double touched_mm = zone_mm(test::inspect(plan));
+  plan.features.front().sampling.method = "scan";
+  plan.features.front().sampling.points_per_layer = 360;
+  EXPECT_LT(touched_mm, 0.1e-3);
+  const auto scanned = test::inspect(plan);
+  EXPECT_NEAR(zone_mm(scanned), 4e-3, 0.1e-3);
+  for (const reports::LayerResult& layer : scanned.evaluation.features.front().layers) {
+    ASSERT_TRUE(layer.filtered) << "360 points carry a filter of 50 UPR";
+    EXPECT_NEAR(layer.filtered->harmonics.harmonics.at(13).amplitude_mm, 2e-3, 0.05e-3);
+    // The Gaussian filter passes 2^-(14/50)^2 of it.
+    EXPECT_NEAR(layer.filtered->values.front().total_mm, 4e-3 * std::exp2(-0.28 * 0.28), 0.1e-3);
+  }
+}
+
+TEST(Scanning, TypicalErrorsShowAsSomeMicrometres) {
+  Plan plan = perfect_plan("scan");
+  plan.features.front().sampling.points_per_layer = 72;
+  plan.simulation->machine.errors = "typical";
+  const double zone = zone_mm(test::inspect(plan));
+  EXPECT_GT(zone, 0.5e-3);
+  EXPECT_LT(zone, 5e-3);
+}
+
+TEST(Scanning, AGivenErrorTakesThePlaceOfTheTypicalOne) {
+  Plan plan = perfect_plan("scan");
+  plan.features.front().sampling.points_per_layer = 72;
+  plan.simulation->machine.squareness_xy_urad = 100.0;
+  EXPECT_NEAR(zone_mm(test::inspect(plan)), 27.0 * 100e-6, 1e-6);
+}
+
+TEST(Scanning, KeywayAndBurrAreSeen) {
+  Plan plan = perfect_plan("scan");
+  plan.features.front().sampling.points_per_layer = 180;
+  plan.simulation->part.burrs = {{90.0, -35.0, 2.0, 2.0, 30.0}};
+  const auto burr = test::inspect(plan);
+  EXPECT_NEAR(zone_mm(burr), 0.03, 1e-3);
+  const auto& cloud = burr.evaluation.features.front().cloud;
+  const auto highest = std::max_element(
+      cloud.begin(), cloud.end(),
+      [](const auto& x, const auto& y) { return x.deviation_mm < y.deviation_mm; });
+  EXPECT_NEAR(highest->angle_rad, M_PI / 2, 0.03);
+  EXPECT_EQ(highest->layer, 0);
+  plan.simulation->part.burrs.clear();
+  plan.simulation->part.keyways = {{180.0, 0.0, 8.0, 200.0, 0.3}};
+  EXPECT_NEAR(zone_mm(test::inspect(plan)), 0.3, 0.01);
+}
+
+TEST(Temperature, SizesAreBroughtToTwentyDegrees) {
+  Plan plan = perfect_plan("touch");
+  plan.environment.max_degC = 25.0;
+  plan.simulation->temperature_degC = 23.0;
+  plan.simulation->part.expansion_per_K = 12e-6;
+  plan.simulation->machine.scale_expansion_per_K = 8e-6;
+  plan.simulation->machine.scale_temperature_degC = 22.0;
+  const auto raw = test::inspect(plan);
+  EXPECT_NEAR(radius_mm(raw), 25.0 * (1.0 + 36e-6) - 12.5 * 16e-6, 1e-6)
+      << "the scales are short by 16e-6, of which the sphere of 12.5 mm takes its share away";
+  EXPECT_FALSE(raw.evaluation.features.front().thermal);
+  plan.part.expansion_per_K = 12e-6;
+  plan.machine->scale_expansion_per_K = 8e-6;
+  const auto at_20 = test::inspect(plan);
+  // The reference sphere stands warm in the room, but is taken as at 20 degC, as it is simulated.
+  EXPECT_NEAR(radius_mm(at_20), 25.0, 1e-8);
+  const auto& thermal = at_20.evaluation.features.front().thermal;
+  ASSERT_TRUE(thermal);
+  EXPECT_NEAR(thermal->factor, (1.0 + 16e-6) / (1.0 + 36e-6), 1e-12);
+  const double u = std::hypot(std::hypot(12e-6 * 0.1, 3.0 * 1e-6), std::hypot(8e-6 * 0.1, 2e-6));
+  EXPECT_NEAR(thermal->factor_uncertainty, u, 1e-12);
+  ASSERT_EQ(at_20.record.touches.size(), raw.record.touches.size());
+  EXPECT_EQ(at_20.record.touches.back().tip_mm, raw.record.touches.back().tip_mm)
+      << "the journal keeps what was read";
+  EXPECT_EQ(at_20.record.touches.back().scale_temperature_degC, 22.0);
+}
+
+RunOptions options_for(const fs::path& directory) {
+  RunOptions options;
+  options.directory = directory;
+  options.run_id = "run";
+  options.plan_file = "plan.json";
+  options.started_utc = "2026-11-21T02:33:02Z";
+  return options;
+}
+
+record::RunRecord journal_of(const fs::path& directory) {
+  auto read = record::read_journal(directory);
+  EXPECT_TRUE(read) << (read ? "" : read.error().what);
+  return read ? std::move(read->record) : record::RunRecord();
+}
+
+TEST(Scanning, AnInterruptedRunGoesOnWithTheSameBits) {
+  const auto plan = read_plan(testing::example("08_shaft_scanned.json"));
+  ASSERT_TRUE(plan) << testing::lines_of(plan);
+  const fs::path root = fs::temp_directory_path() / ("rondure-scan-" + std::to_string(getpid()));
+  fs::remove_all(root);
+  ASSERT_TRUE(run_plan(*plan, options_for(root / "whole")));
+  const auto whole = journal_of(root / "whole");
+  ASSERT_GT(whole.touches.size(), 1400U);
+  for (const int steps : {24, 25, 26}) {  // 13 touches qualify, 10 locate, then circles
+    SCOPED_TRACE(steps);
+    const fs::path directory = root / std::to_string(steps);
+    RunOptions options = options_for(directory);
+    options.stop_requested = [left = steps]() mutable { return left-- == 0; };
+    const auto stopped = run_plan(*plan, options);
+    ASSERT_TRUE(stopped);
+    ASSERT_TRUE(stopped->failure);
+    const auto resumed = resume_plan(*plan, options_for(directory));
+    ASSERT_TRUE(resumed) << resumed.error().front().what;
+    ASSERT_FALSE(resumed->failure) << resumed->failure->what;
+    const auto record = journal_of(directory);
+    ASSERT_EQ(record.touches.size(), whole.touches.size());
+    for (std::size_t i = 0; i < whole.touches.size(); ++i) {
+      ASSERT_EQ(record.touches[i].tip_mm, whole.touches[i].tip_mm) << i;
+      ASSERT_EQ(record.touches[i].time_s, whole.touches[i].time_s) << i;
+      ASSERT_EQ(record.touches[i].approach, whole.touches[i].approach) << i;
+    }
+    EXPECT_EQ(record.truths.front().cylt_mm, whole.truths.front().cylt_mm);
+    EXPECT_FALSE(record.checks.empty());
+  }
+  fs::remove_all(root);
+}
+
+}  // namespace
+}  // namespace rondure::plans

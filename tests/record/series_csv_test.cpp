@@ -1,0 +1,73 @@
+// Tables of numbers with named columns.
+#include "record/series_csv.h"
+
+#include <array>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace rondure::record {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr std::array<WantedColumn, 3> kWanted = {{{"alpha_deg"}, {"H1_um"}, {"beta_deg", false}}};
+
+core::Error refusal(std::string_view text, std::span<const ColumnName> names = {}) {
+  const auto series = parse_series_csv(text, "probes.csv", kWanted, names);
+  return series ? core::Error{core::Code::kInternal, "it was read", {}} : series.error();
+}
+
+TEST(SeriesCsv, ReadsColumnsInAnyOrderWithTheirUnits) {
+  const auto series = parse_series_csv(
+      "\xef\xbb\xbf# probes\r\nH1_um, alpha_deg\r\n 1.5,0\r\n\n-2e-3,+90\n", "p", kWanted);
+  ASSERT_TRUE(series) << series.error().what;
+  ASSERT_EQ(series->columns.size(), 2U);
+  EXPECT_EQ(series->columns[0].name, "alpha_deg");
+  EXPECT_EQ(series->columns[0].unit, "deg");
+  EXPECT_EQ(series->columns[1].unit, "um");
+  EXPECT_THAT(series->values, ElementsAre(0.0, 1.5, 90.0, -2e-3));
+  EXPECT_EQ(series->rows(), 2U);
+  EXPECT_THAT(*series->column("H1_um"), ElementsAre(1.5, -2e-3));
+  EXPECT_FALSE(series->column("beta_deg"));
+}
+
+TEST(SeriesCsv, TakesNamesOfTheFileAndPassesOverTheRest) {
+  const std::array<ColumnName, 2> names = {{{"alpha_deg", "C"}, {"H1_um", "gauge 1"}}};
+  const auto series =
+      parse_series_csv("t,C,gauge 1\nx,1,2\ny,3,4\n", "control.csv", kWanted, names);
+  ASSERT_TRUE(series) << series.error().what;
+  EXPECT_THAT(series->values, ElementsAre(1.0, 2.0, 3.0, 4.0));
+  const std::array<ColumnName, 1> foreign = {{{"gamma_deg", "C"}}};
+  EXPECT_EQ(refusal("C\n1\n", foreign).code, core::Code::kBadOption);
+}
+
+TEST(SeriesCsv, RefusesWhatIsNotSuchATable) {
+  using core::Code;
+  const core::Error unit = refusal("alpha_rad,H1_um\n0,1\n");
+  EXPECT_EQ(unit.code, Code::kWrongUnit);
+  EXPECT_EQ(unit.where, "probes.csv:1");
+  EXPECT_THAT(unit.what, HasSubstr("\"alpha_rad\" is not in deg; give alpha_deg"));
+  EXPECT_THAT(refusal("alpha_deg,H9_um\n0,1\n").what, HasSubstr("column \"H9_um\" is unknown"));
+  EXPECT_THAT(refusal("alpha_deg\n0\n").what, HasSubstr("column \"H1_um\" is missing"));
+  EXPECT_THAT(refusal("alpha_deg,H1_um,H1_um\n0,1,1\n").what, HasSubstr("stands twice"));
+  const core::Error empty = refusal("alpha_deg,H1_um\n0,1\n1,\n");
+  EXPECT_EQ(empty.where, "probes.csv:3");
+  EXPECT_THAT(empty.what, HasSubstr("H1_um is empty"));
+  EXPECT_EQ(refusal("alpha_deg,H1_um\n0,nan\n").code, Code::kNotFinite);
+  EXPECT_THAT(refusal("alpha_deg,H1_um\n0,1,2\n").what, HasSubstr("3 fields"));
+  EXPECT_THAT(refusal("alpha_deg;H1_um\n0;1\n").what, HasSubstr("semicolons"));
+  EXPECT_EQ(refusal("alpha_deg,H1_um\n").code, Code::kNoPoints);
+  EXPECT_EQ(refusal("").code, Code::kNoPoints);
+}
+
+TEST(SeriesCsv, KnowsTheUnitAtTheEndOfAName) {
+  EXPECT_EQ(unit_of_column("H1_um"), "um");
+  EXPECT_EQ(unit_of_column("X"), "");
+  EXPECT_EQ(unit_of_column("X_error"), "");
+  EXPECT_EQ(unit_of_column("_um"), "");
+}
+
+}  // namespace
+}  // namespace rondure::record

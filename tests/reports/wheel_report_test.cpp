@@ -1,0 +1,140 @@
+// A wheel feature from its series to the reports.
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "record/run_record.h"
+#include "reports/evaluation.h"
+#include "reports/writers.h"
+#include "tests/fit/wheel_cases.h"
+
+namespace rondure::reports {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+record::Setting word(std::string name, std::string text) {
+  return {std::move(name), std::nullopt, std::move(text)};
+}
+record::Setting number(std::string name, double value) { return {std::move(name), value, {}}; }
+
+record::Characteristic asked(std::string id, record::Form form, double tolerance_mm) {
+  record::Characteristic out;
+  out.id = std::move(id);
+  out.form = form;
+  out.tolerance_mm = tolerance_mm;
+  return out;
+}
+
+/// Worked example 1 with its axis, grinding a parabola of vertex radius 80 mm.
+record::RunRecord wheel_run() {
+  record::RunRecord run;
+  run.header.run_id = "wheel";
+  run.ending = "finished";
+  record::Feature feature;
+  feature.id = "wheel";
+  feature.shape = record::Shape::kWheel;
+  feature.strategy = record::Strategy::kSeries;
+  feature.settings = {word("mode", "indexed"),
+                      number("nominal_radius_mm", 50.01),
+                      number("axis_x_mm", 12.02),
+                      number("axis_z_mm", -7.0),
+                      word("center", "as-published"),
+                      word("surface/form", "polynomial"),
+                      number("surface/coefficients", 0.0),
+                      number("surface/coefficients", 0.0),
+                      number("surface/coefficients", 0.5 / 80.0),
+                      number("surface/from_mm", -20.0),
+                      number("surface/to_mm", 20.0),
+                      number("surface/step_mm", 1.0)};
+  feature.characteristics = {asked("R", record::Form::kRadius, 0.020),
+                             asked("FIM", record::Form::kRunOut, 0.030),
+                             asked("edge", record::Form::kRoundness, 0.005)};
+  run.features = {feature};
+  record::Series data;
+  data.columns = {{"x", "mm"}, {"z", "mm"}};
+  for (const auto& p : fit::testing::example_1())
+    data.values.insert(data.values.end(), {p.x(), p.y()});
+  run.series = {data};
+  return run;
+}
+
+TEST(WheelReport, JudgesRadiusRunOutAndRoundnessOfWorkedExample1) {
+  const auto evaluation = evaluate(wheel_run());
+  ASSERT_TRUE(evaluation) << evaluation.error().what;
+  const auto& results = evaluation->features.at(0).characteristics;
+  ASSERT_EQ(results.size(), 3U);
+  EXPECT_NEAR(results[0].value_mm.value() * 1e3, 10.0, 1.1e-3);
+  EXPECT_EQ(results[0].verdict, Verdict::kConforms);
+  EXPECT_NEAR(results[1].value_mm.value() * 1e3, 35.393, 1.6e-3);
+  EXPECT_EQ(results[1].verdict, Verdict::kDoesNotConform);
+  EXPECT_LT(results[2].value_mm.value() * 1e3, 4.535);
+  EXPECT_EQ(results[2].verdict, Verdict::kConforms);
+}
+
+TEST(WheelReport, ShowsEdgePathMarginAndResidual) {
+  const auto run = wheel_run();
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const std::string html = write_html(run, *evaluation);
+  EXPECT_THAT(html, HasSubstr("Edge of the wheel"));
+  EXPECT_THAT(html, HasSubstr("Way of the wheel's centre"));
+  EXPECT_THAT(html, HasSubstr("x / mm"));
+  EXPECT_THAT(html, HasSubstr("z / mm"));
+  EXPECT_THAT(html, HasSubstr("Form left after touch-off"));
+  EXPECT_THAT(html, Not(HasSubstr("nan")));
+  const auto json = nlohmann::json::parse(write_json(run, *evaluation));
+  const auto& wheel = json["features"][0]["wheel"];
+  EXPECT_NEAR(wheel["radius_mm"], 50.0, 1.1e-6);
+  EXPECT_EQ(wheel["path"]["places"], 41);
+  EXPECT_NEAR(wheel["path"]["greatest_R_ks"]["value"], 50.0 / 80.0, 1e-6);
+  EXPECT_EQ(wheel["curves"]["path"]["xc_mm"].size(), 41U);
+  EXPECT_NEAR(wheel["forecast"]["nominal"]["delta_um"], 10.0, 1.1e-3);
+  EXPECT_THAT(write_summary(run, *evaluation), HasSubstr("R 50.000000 mm"));
+  for (const auto& stored : stored_results(*evaluation)) {
+    EXPECT_THAT(stored.name, Not(HasSubstr("curves")));
+  }
+}
+
+TEST(WheelReport, SaysWhyThereIsNoPathAndStillJudgesTheWheel) {
+  auto run = wheel_run();
+  run.features[0].settings[8].number = 0.5 / 40.0;
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  EXPECT_EQ(evaluation->features[0].characteristics[0].verdict, Verdict::kConforms);
+  const std::string html = write_html(run, *evaluation);
+  EXPECT_THAT(html, HasSubstr("No path:"));
+  EXPECT_THAT(html, HasSubstr("exceeds the concave radius of curvature 40 mm"));
+  const auto json = nlohmann::json::parse(write_json(run, *evaluation));
+  EXPECT_TRUE(json["features"][0]["wheel"]["path"].is_null());
+  EXPECT_EQ(json["features"][0]["wheel"]["path_refused"]["code"], "gouge");
+}
+
+TEST(WheelReport, LeavesRunOutVoidWithoutTheAxis) {
+  auto run = wheel_run();
+  run.features[0].settings.erase(run.features[0].settings.begin() + 2,
+                                 run.features[0].settings.begin() + 4);
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  EXPECT_EQ(evaluation->features[0].characteristics[1].verdict, Verdict::kVoid);
+  EXPECT_THAT(evaluation->features[0].characteristics[1].reason, HasSubstr("axis is not given"));
+}
+
+TEST(WheelReport, LeavesEverythingVoidForPointsThatAreNoWheel) {
+  auto run = wheel_run();
+  for (double& value : run.series[0].values) value *= 1000.0;
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  ASSERT_TRUE(evaluation->features[0].failure);
+  EXPECT_EQ(evaluation->features[0].failure->code, core::Code::kUnits);
+  for (const auto& result : evaluation->features[0].characteristics) {
+    EXPECT_EQ(result.verdict, Verdict::kVoid);
+  }
+}
+
+}  // namespace
+}  // namespace rondure::reports

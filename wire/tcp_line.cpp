@@ -1,0 +1,248 @@
+#include "wire/tcp_line.h"
+
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+#include <asio.hpp>
+
+namespace rondure::wire {
+namespace {
+
+using std::chrono::milliseconds;
+using Tcp = asio::ip::tcp;
+
+constexpr std::size_t kChunk_bytes = 16'384;
+
+tl::unexpected<core::Error> fault(std::string what) {
+  return core::fail(core::Code::kMachine, std::move(what));
+}
+
+std::string place(const std::string& host, std::uint16_t port) {
+  return fmt::format("{}:{}", host, port);
+}
+
+/// Runs the pending operation to its end, at most for the time limit; `cancel` stops it then.
+/// False when the limit passed. Either way its handler has been called.
+template <class Cancel>
+bool run_within(asio::io_context& io, milliseconds limit, Cancel cancel) {
+  io.restart();
+  io.run_for(limit);
+  if (io.stopped()) return true;
+  cancel();
+  io.run();
+  return false;
+}
+
+class TcpLine final : public LineTransport {
+ public:
+  TcpLine(std::unique_ptr<asio::io_context> io, Tcp::socket socket, const TcpOptions& options)
+      : io_(std::move(io)), socket_(std::move(socket)), options_(options) {
+    asio::error_code ignored;  // a line without these options still works
+    socket_.set_option(Tcp::no_delay(true), ignored);
+    socket_.set_option(asio::socket_base::keep_alive(true), ignored);
+    asio::error_code unknown;
+    const auto end = socket_.remote_endpoint(unknown);
+    peer_ = unknown ? "a peer that has gone" : place(end.address().to_string(), end.port());
+  }
+  ~TcpLine() override { close(); }
+
+  [[nodiscard]] core::Result<void> write_line(std::string_view text) override {
+    if (!open_) return core::fail(failure_);
+    const std::string bytes = fmt::format("{}\r\n", text);
+    asio::error_code result;
+    asio::async_write(socket_, asio::buffer(bytes),
+                      [&](const asio::error_code& error, std::size_t) { result = error; });
+    if (!run_within(*io_, options_.write_limit, [&] { cancel(); }) && result) {
+      return lose(fmt::format("{} takes no data for {:g} s; the connection was closed", peer_,
+                              seconds(options_.write_limit)));
+    }
+    if (result) return lose(fmt::format("the connection to {} broke: {}", peer_, result.message()));
+    return {};
+  }
+
+  [[nodiscard]] core::Result<std::optional<Line>> read_line(milliseconds time_limit) override {
+    if (!open_) return core::fail(failure_);
+    const auto deadline = std::chrono::steady_clock::now() + time_limit;
+    for (;;) {
+      if (auto line = take_line()) return line;
+      if (received_.size() > options_.max_line_bytes) {
+        return lose(fmt::format("{} sent a line of more than {} bytes; the connection was closed",
+                                peer_, options_.max_line_bytes));
+      }
+      const auto left = std::chrono::duration_cast<milliseconds>(
+          deadline - std::chrono::steady_clock::now() + milliseconds(1));
+      if (auto more = receive(std::max(milliseconds(0), left)); !more)
+        return core::fail(more.error());
+      else if (!*more)
+        return std::optional<Line>{};
+    }
+  }
+
+  void close() override {
+    if (!open_) return;
+    open_ = false;
+    failure_ = {core::Code::kMachine, fmt::format("the connection to {} is closed", peer_), {}};
+    asio::error_code ignored;
+    socket_.shutdown(Tcp::socket::shutdown_both, ignored);
+    socket_.close(ignored);
+  }
+
+  [[nodiscard]] bool is_open() const override { return open_; }
+  [[nodiscard]] std::string peer() const override { return peer_; }
+
+ private:
+  static double seconds(milliseconds t) { return static_cast<double>(t.count()) / 1000.0; }
+
+  void cancel() {
+    asio::error_code ignored;
+    socket_.cancel(ignored);
+  }
+
+  /// Waits for bytes; false when none came in time.
+  core::Result<bool> receive(milliseconds limit) {
+    asio::error_code result;
+    std::size_t count = 0;
+    socket_.async_read_some(asio::buffer(chunk_),
+                            [&](const asio::error_code& error, std::size_t n) {
+                              result = error;
+                              count = n;
+                            });
+    (void)run_within(*io_, limit, [&] { cancel(); });
+    received_.append(chunk_.data(), count);
+    if (result == asio::error::operation_aborted) return count > 0;
+    if (!result) return true;
+    if (result != asio::error::eof) {
+      return lose(fmt::format("the connection to {} broke: {}", peer_, result.message()));
+    }
+    if (received_.empty()) return lose(fmt::format("{} closed the connection", peer_));
+    return lose(
+        fmt::format("{} closed the connection in the middle of a line, after {} bytes of it", peer_,
+                    received_.size()));
+  }
+
+  /// The first whole line of what was received.
+  std::optional<Line> take_line() {
+    const auto end = received_.find('\n', searched_);
+    if (end == std::string::npos || end > options_.max_line_bytes) {
+      searched_ = received_.size();
+      return std::nullopt;
+    }
+    Line line{received_.substr(0, end), false};
+    received_.erase(0, end + 1);
+    searched_ = 0;
+    line.crlf = !line.text.empty() && line.text.back() == '\r';
+    if (line.crlf) line.text.pop_back();
+    return line;
+  }
+
+  tl::unexpected<core::Error> lose(std::string what) {
+    close();
+    failure_ = {core::Code::kMachine, std::move(what), {}};
+    return core::fail(failure_);
+  }
+
+  std::unique_ptr<asio::io_context> io_;  // outlives the socket
+  Tcp::socket socket_;
+  TcpOptions options_;
+  std::string peer_;
+  std::array<char, kChunk_bytes> chunk_ = {};
+  std::string received_;
+  std::size_t searched_ = 0;  ///< So many received bytes hold no line end.
+  bool open_ = true;
+  core::Error failure_;
+};
+
+}  // namespace
+
+core::Result<std::unique_ptr<LineTransport>> connect_tcp(const std::string& host,
+                                                         std::uint16_t port,
+                                                         const TcpOptions& options) {
+  auto io = std::make_unique<asio::io_context>();
+  Tcp::resolver resolver(*io);
+  Tcp::socket socket(*io);
+  asio::error_code result;
+  bool resolved = false;
+  resolver.async_resolve(
+      host, std::to_string(port),
+      [&](const asio::error_code& error, const Tcp::resolver::results_type& places) {
+        result = error;
+        if (error) return;
+        resolved = true;
+        asio::async_connect(
+            socket, places,
+            [&](const asio::error_code& refused, const Tcp::endpoint&) { result = refused; });
+      });
+  const bool in_time = run_within(*io, options.connect_limit, [&] {
+    resolver.cancel();
+    asio::error_code ignored;
+    socket.close(ignored);
+  });
+  const std::string where = place(host, port);
+  if (!in_time && result) {
+    return fault(fmt::format("{} does not answer within {} ms; check address, cable and firewall",
+                             where, options.connect_limit.count()));
+  }
+  if (result && !resolved) {
+    return fault(fmt::format("the computer {} is not known here: {}", host, result.message()));
+  }
+  if (result) {
+    return fault(
+        fmt::format("no connection to {}: {}; check that the server runs and listens on "
+                    "port {}",
+                    where, result.message(), port));
+  }
+  return std::make_unique<TcpLine>(std::move(io), std::move(socket), options);
+}
+
+struct TcpListener::Socket {
+  asio::io_context io;
+  Tcp::acceptor acceptor{io};
+  TcpOptions options;
+};
+
+TcpListener::TcpListener(std::unique_ptr<Socket> socket) : socket_(std::move(socket)) {}
+TcpListener::TcpListener(TcpListener&&) noexcept = default;
+TcpListener& TcpListener::operator=(TcpListener&&) noexcept = default;
+TcpListener::~TcpListener() = default;
+
+core::Result<TcpListener> TcpListener::open(const std::string& address, std::uint16_t port,
+                                            const TcpOptions& options) {
+  auto socket = std::make_unique<Socket>();
+  socket->options = options;
+  asio::error_code error;
+  const auto ip = asio::ip::make_address(address, error);
+  if (error) return fault(fmt::format("{} is not an IP address, e.g. 127.0.0.1", address));
+  const Tcp::endpoint end(ip, port);
+  Tcp::acceptor& acceptor = socket->acceptor;
+  acceptor.open(end.protocol(), error);
+  if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
+  if (!error) acceptor.bind(end, error);
+  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (error) {
+    return fault(fmt::format("cannot listen on {}: {}; choose another port", place(address, port),
+                             error.message()));
+  }
+  return TcpListener(std::move(socket));
+}
+
+std::uint16_t TcpListener::port() const {
+  asio::error_code ignored;
+  return socket_->acceptor.local_endpoint(ignored).port();
+}
+
+core::Result<std::unique_ptr<LineTransport>> TcpListener::accept(milliseconds time_limit) {
+  auto io = std::make_unique<asio::io_context>();  // the client's own: it outlives the listener
+  Tcp::socket client(*io);
+  asio::error_code result;
+  socket_->acceptor.async_accept(client, [&](const asio::error_code& error) { result = error; });
+  (void)run_within(socket_->io, time_limit, [&] {
+    asio::error_code ignored;
+    socket_->acceptor.cancel(ignored);
+  });
+  if (result == asio::error::operation_aborted) return std::unique_ptr<LineTransport>{};
+  if (result) return fault(fmt::format("no client could be accepted: {}", result.message()));
+  return std::make_unique<TcpLine>(std::move(io), std::move(client), socket_->options);
+}
+
+}  // namespace rondure::wire
