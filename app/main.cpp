@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "app/analysis_verbs.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "app/wheel_command.h"
@@ -92,6 +93,8 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   verb->add_option("--archive", arguments.archive,
                    "Where the results are kept besides: a file, postgresql://... or none\n"
                    "(default: as the plan says, else archive.db beside the run directory)");
+  verb->add_option("--wire-log", arguments.wire_log,
+                   "File for every line to and from a machine behind I++ DME");
   verb->add_flag("--quiet", arguments.quiet, "No progress, no summary");
   verb->add_flag("--step", arguments.step,
                  "First run: slow, each move confirmed on the terminal (Enter go, c continue\n"
@@ -396,6 +399,8 @@ int main_of(int argc, char** argv) {
   FitArguments fit_arguments;
   RoundnessArguments roundness_arguments;
   SelfTestArguments selftest_arguments;
+  SpindleArguments spindle_arguments;
+  DesignArguments design_arguments;
   WheelArguments wheel_arguments;
   ContourArguments contour_arguments;
   ReportArguments report_arguments;
@@ -408,6 +413,7 @@ int main_of(int argc, char** argv) {
   add_simulate_cmm(app, simulate_arguments);
   CLI::App* const fit_verb = add_fit(app, fit_arguments);
   add_roundness(*fit_verb, roundness_arguments);
+  add_spindle(*fit_verb, spindle_arguments);
   add_contour(*fit_verb, contour_arguments);
   add_selftest(*fit_verb, selftest_arguments);
   add_wheel(*fit_verb, wheel_arguments);
@@ -415,6 +421,7 @@ int main_of(int argc, char** argv) {
   add_verify(app, verify_arguments);
   add_history(app, history_arguments);
   add_sign(app, sign_arguments);
+  add_design_probes(app, design_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -425,12 +432,14 @@ int main_of(int argc, char** argv) {
   if (app.got_subcommand("simulate-cmm")) return simulate_cmm(simulate_arguments);
   if (app.got_subcommand("plan")) return plan(plan_arguments);
   if (fit_verb->got_subcommand("roundness")) return roundness(roundness_arguments);
+  if (fit_verb->got_subcommand("spindle")) return spindle(spindle_arguments);
   if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
   if (fit_verb->got_subcommand("wheel")) return wheel(wheel_arguments);
   if (fit_verb->got_subcommand("contour")) return contour(contour_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
   if (app.got_subcommand("history")) return history(history_arguments);
+  if (app.got_subcommand("design-probes")) return design_probes(design_arguments);
   if (app.got_subcommand("sign")) return sign(sign_arguments);
   return verify(verify_arguments);
 }

@@ -52,6 +52,7 @@ plans::RunOptions options_of(const RunArguments& arguments) {
   options.operator_name = arguments.operator_name;
   options.processor = processor();
   options.seed = arguments.seed;
+  options.wire_log = arguments.wire_log;
   options.stop_requested = stop_requested;
   options.relocate = arguments.relocate;
   return options;
@@ -93,6 +94,11 @@ void refuse(const std::vector<core::Error>& reasons, bool resume, const fs::path
                   "or start a new run:\n",
                   directory.string()));
   complain(reasons);
+}
+
+/// A machine that does not answer or has a fault is no mistake in the input.
+int status_of(const std::vector<core::Error>& reasons) {
+  return reasons.front().code == core::Code::kMachine ? kRunFailed : kBadInput;
 }
 
 /// The state of the run that is resumed; a run that is not resumed begins.
@@ -140,7 +146,7 @@ int run(const RunArguments& arguments) {
   if (!run) {
     refuse(run.error(), resume, options.directory);
     if (!arguments.resume) tell_about_resume(ending);
-    return kBadInput;
+    return status_of(run.error());
   }
   if (run->failure) complain(*run->failure);
   const int status = conclude(ending, &*run);

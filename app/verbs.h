@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/probe_layout.h"
 #include "record/archive.h"
 
 namespace rondure::app {
@@ -42,6 +43,7 @@ struct RunArguments {
   std::optional<std::uint64_t> seed;
   std::vector<std::string> formats;  ///< Empty: as the plan says.
   std::string archive;               ///< Empty: as the plan says.
+  std::string wire_log;              ///< Empty: none.
   bool quiet = false;
   bool step = false;  ///< Each move confirmed on the terminal, at reduced speed.
 };
@@ -141,6 +143,37 @@ struct ContourArguments {
   bool json = false;
 };
 [[nodiscard]] int contour(const ContourArguments& arguments);
+
+struct SpindleArguments {
+  std::string file;
+  std::string layout;  ///< Empty: by the angles.
+  std::optional<double> p1_to_p2_deg;
+  std::optional<double> p2_to_p3_deg;
+  std::optional<double> p1_to_p3_deg;
+  double crank_radius_mm = 0.0;
+  double wheel_radius_mm = 0.0;
+  double pin_radius_mm = 0.0;
+  int samples = 1024;
+  int highest_order = 50;
+  double greatest_gain = 100.0;
+  std::optional<double> probe_noise_um;
+  std::optional<double> expected_amplitude_um;  ///< Given: the regularised form.
+  std::string second_order = "auto";
+  double cutoff_upr = 50.0;
+  bool no_resampling = false;
+  bool as_published = false;
+  bool inside = false;
+  bool json = false;
+};
+[[nodiscard]] int spindle(const SpindleArguments& arguments);
+
+struct DesignArguments {
+  fit::LayoutSearch search;                    ///< Its ranges come from the two below.
+  std::vector<double> p2_deg = {40.0, 140.0};  ///< Lower and upper end.
+  std::vector<double> p3_deg = {-140.0, -40.0};
+  bool json = false;
+};
+[[nodiscard]] int design_probes(const DesignArguments& arguments);
 
 struct SelfTestArguments {
   double cutoff_upr = 50.0;  ///< Of the table; the standard ones are checked besides.

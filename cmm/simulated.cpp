@@ -9,7 +9,9 @@
 #include "cmm/contact.h"
 #include "cmm/grid.h"
 #include "cmm/machine_map.h"
+#include "cmm/place_text.h"
 #include "cmm/scan_path.h"
+#include "cmm/touch_check.h"
 #include "core/noise.h"
 #include "core/units.h"
 
@@ -25,14 +27,6 @@ constexpr double kSettle_s = 0.2;
 constexpr double kHalfVolume_mm = 10'000.0;  // the grid of 1e-10 mm holds it with 15 digits
 constexpr Speeds kSlowest = {0.001, 0.001, 0.001};
 constexpr Speeds kFastest = {1000.0, 50.0, 500.0};
-
-std::string in_words(const Vector3d& p) {
-  return fmt::format("({:.3f}, {:.3f}, {:.3f}) mm", p.x(), p.y(), p.z());
-}
-
-Vector3d start_of(const TouchCommand& command) {
-  return command.expected_tip_W_mm - command.approach_mm * command.direction_W;
-}
 
 tl::unexpected<core::Error> fault(std::string what) {
   return core::fail(core::Code::kMachine, std::move(what));
@@ -209,22 +203,7 @@ core::Result<void> SimulatedMachine::check_volume(const Vector3d& tip_W_mm) cons
 }
 
 core::Result<void> SimulatedMachine::check_command(const TouchCommand& command) const {
-  const bool finite = command.expected_tip_W_mm.allFinite() && command.direction_W.allFinite() &&
-                      std::isfinite(command.approach_mm) && std::isfinite(command.search_mm);
-  if (!finite) return fault(fmt::format("touch {} is not finite; no motion", command.id));
-  if (std::abs(command.direction_W.norm() - 1.0) > 1e-9) {
-    return fault(fmt::format("the direction of touch {} has the length {:.9g}, not 1; no motion",
-                             command.id, command.direction_W.norm()));
-  }
-  if (command.approach_mm + command.search_mm < 0.0) {
-    return fault(
-        fmt::format("the search of touch {} ends before it starts; no motion", command.id));
-  }
-  const Vector3d start = start_of(command);
-  if ((start - position_W_mm_).norm() > kGraze_mm) {
-    return fault(fmt::format("touch {} starts at {}, but the tip stands at {}; move there first",
-                             command.id, in_words(start), in_words(position_W_mm_)));
-  }
+  if (auto sound = check_touch(command, position_W_mm_); !sound) return sound;
   return check_volume(command.expected_tip_W_mm + command.search_mm * command.direction_W);
 }
 

@@ -90,4 +90,28 @@ std::vector<double> series_of(std::span<const Complex> half, std::size_t count) 
   return out;
 }
 
+std::array<std::vector<double>, 2> series_pair_of(std::span<const Complex> first,
+                                                  std::span<const Complex> second,
+                                                  std::size_t count) {
+  assert(first.size() == count / 2 + 1 && second.size() == first.size());
+  constexpr Complex kTurn(0.0, 1.0);
+  Values conjugate(count);  // of first + j second, whose transform is real in both parts
+  conjugate[0] = std::conj(first[0].real() + kTurn * second[0].real());
+  for (std::size_t k = 1; k < first.size(); ++k) {
+    conjugate[k] = std::conj(first[k] + kTurn * second[k]);
+    conjugate[count - k] = std::conj(std::conj(first[k]) + kTurn * std::conj(second[k]));
+  }
+  if (count % 2 == 0) {
+    const std::size_t half = count / 2;
+    conjugate[half] = std::conj(first[half].real() + kTurn * second[half].real());
+  }
+  const Values x = transform(conjugate);
+  std::array<std::vector<double>, 2> out = {std::vector<double>(count), std::vector<double>(count)};
+  for (std::size_t i = 0; i < count; ++i) {
+    out[0][i] = x[i].real() / static_cast<double>(count);
+    out[1][i] = -x[i].imag() / static_cast<double>(count);
+  }
+  return out;
+}
+
 }  // namespace rondure::fit

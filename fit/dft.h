@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <span>
@@ -18,5 +19,11 @@ namespace rondure::fit {
 /// @param half  floor(N/2) + 1 values; the imaginary parts of k = 0 and k = N/2 are not looked at.
 [[nodiscard]] std::vector<double> series_of(std::span<const std::complex<double>> half,
                                             std::size_t count);
+
+/// Two real series by one transform: series_of() of both halves.
+/// @param second  As long as `first`.
+[[nodiscard]] std::array<std::vector<double>, 2> series_pair_of(
+    std::span<const std::complex<double>> first, std::span<const std::complex<double>> second,
+    std::size_t count);
 
 }  // namespace rondure::fit

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,6 +28,8 @@ class Cell {
 
   [[nodiscard]] virtual fixture::Fixture& fixture() = 0;
   [[nodiscard]] virtual cmm::Machine& machine() = 0;
+  /// Whether the part exists in software only, here or behind a simulated server.
+  [[nodiscard]] virtual bool is_simulated() const = 0;
   /// Nominal axes, on the base as found: all that the program may assume.
   [[nodiscard]] const fixture::Kinematics& kinematics() const { return kinematics_; }
   /// The base of the fixture was found there.
@@ -75,12 +79,14 @@ class Cell {
 
 /// What a cell needs to know beside its plan.
 struct CellOptions {
-  std::uint64_t seed = 1;  ///< Of all simulated noise; takes the place of the plan's.
-  bool resumed = false;    ///< The faults of the simulation lie in the past.
+  std::uint64_t seed = 1;               ///< Of all simulated noise; takes the place of the plan's.
+  bool resumed = false;                 ///< The faults of the simulation lie in the past.
+  std::filesystem::path wire_log = {};  ///< Of what goes to a machine and comes; "": none.
+  std::function<bool()> stop_requested = {};  ///< Asked while a machine moves: it stops at once.
 };
 
 /// Opens the cell of a plan that has `machine`, `fixture` and `probe`, with the drivers it names.
-/// Nothing moves.
+/// Nothing moves. kMachine when a machine cannot be reached.
 [[nodiscard]] core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan,
                                                             const CellOptions& options);
 

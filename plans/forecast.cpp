@@ -245,7 +245,7 @@ core::Result<Forecast> forecast(const Plan& plan) {
     return core::fail(added.error());
   }
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (from_file(plan.features[i])) continue;
+    if (!is_touched(plan.features[i])) continue;
     NominalSession session(plan, static_cast<int>(i), tally);
     if (auto searched = search_pose(session, plan.features[i]); !searched) {
       return core::fail(searched.error().at(fmt::format("/features/{}", i)));

@@ -82,6 +82,11 @@ bool Past::has_decision(const std::string& text) const {
                      [&](const auto& d) { return d.feature < 0 && d.text == text; });
 }
 
+bool Past::knows_series(int feature) const {
+  return std::any_of(run_.series.begin(), run_.series.end(),
+                     [&](const auto& series) { return series.feature == feature; });
+}
+
 std::int64_t Past::next_check() const {
   return run_.checks.empty() ? -1 : run_.checks.back().id - 1;
 }

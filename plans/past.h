@@ -38,6 +38,8 @@ class Past {
   [[nodiscard]] bool goes_on_untouched(int next_pose) const;
   /// Whether a decision about the whole run is in the journal.
   [[nodiscard]] bool has_decision(const std::string& text) const;
+  /// Whether the series of a feature are in the journal: all of them, or none is.
+  [[nodiscard]] bool knows_series(int feature) const;
   /// The number of the next check: -1, -2, ...
   [[nodiscard]] std::int64_t next_check() const;
 

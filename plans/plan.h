@@ -10,6 +10,8 @@
 
 #include "core/result.h"
 #include "plans/machine_errors_plan.h"
+#include "plans/spindle_plan.h"
+#include "plans/wheel_plan.h"
 
 namespace rondure::plans {
 
@@ -57,6 +59,14 @@ struct MachinePlan {
   std::array<double, 3> volume_max_mm = {10'000.0, 10'000.0, 10'000.0};
   double step_speed_mm_s = 10.0;  ///< Of a first run in single steps.
   double resume_limit_um = 5.0;   ///< Largest change of a repeated touch before a run goes on.
+  // Of the driver "ippdme".
+  std::string host = "127.0.0.1";
+  int port = 1294;
+  std::string tool;  ///< Empty: the tool that is active.
+  double answer_limit_s = 5.0;
+  double motion_limit_s = 120.0;
+  std::string abort = "works";          ///< Or "broken".
+  std::string retract = "to-approach";  ///< Or "by-distance".
 };
 
 /// A reference sphere on the base of the fixture.
@@ -122,12 +132,12 @@ struct NominalPlan {
 };
 
 struct SamplingPlan {
-  std::string method = "touch";  ///< "touch" or "scan".
   int layers = 4;
   int points_per_layer = 7;
   double margin_mm = 5.0;
   double start_deg = 0.0;
-  double stagger = 1.0;  ///< 0: every layer starts alike; 1: evenly interleaved.
+  double stagger = 1.0;          ///< 0: every layer starts alike; 1: evenly interleaved.
+  std::string method = "touch";  ///< "touch" or "scan".
 };
 
 struct PoseSearchPlan {
@@ -140,18 +150,32 @@ struct PoseSearchPlan {
   int repeats = 5;             ///< Touches of every point of the final cloud.
 };
 
+struct HarmonicLimitPlan {
+  int from = 2;
+  int to = 50;
+  double amplitude_um = 0.0;
+};
+
 struct CharacteristicPlan {
   std::string id;
   std::string form = "cylindricity";
   std::optional<std::string> reference;  ///< "mz", "ls", "mc" or "mi".
   std::optional<double> tolerance_um;
   std::string drawing_zone;
+  std::vector<HarmonicLimitPlan> harmonic_limits;  ///< Of the form "harmonic-limits".
+};
+
+/// How a file calls a column that an analysis reads.
+struct ColumnPlan {
+  std::string column;   ///< As the analysis names it, e.g. "H1_um".
+  std::string in_file;  ///< As the file names it.
 };
 
 struct SourcePlan {
-  std::string file;  ///< CSV of tip centres, relative to the plan.
+  std::string file;  ///< CSV of tip centres or of series, relative to the plan.
   std::optional<double>
       tip_diameter_mm;  ///< Of the probe that took them; none: radii stay tip-centre radii.
+  std::vector<ColumnPlan> columns;  ///< Of series whose file names them otherwise.
 };
 
 struct FeaturePlan {
@@ -161,6 +185,8 @@ struct FeaturePlan {
   NominalPlan nominal;
   SamplingPlan sampling;
   PoseSearchPlan pose_search;
+  std::optional<SpindlePlan> spindle;  ///< Needed by, and only by, the type of that name.
+  std::optional<WheelPlan> wheel;      ///< The same.
   std::optional<SourcePlan> source;
   std::vector<CharacteristicPlan> characteristics;
 };
@@ -226,6 +252,8 @@ struct SimulationPlan {
   SimulatedProbePlan probe;
   SimulatedFixturePlan fixture;
   SimulatedFaultsPlan faults;
+  std::optional<SimulatedSpindlePlan> spindle;
+  std::optional<SimulatedWheelPlan> wheel;
 };
 
 struct ReportsPlan {

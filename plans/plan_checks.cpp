@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "plans/analysis.h"
 #include "plans/json_text.h"
 #include "record/archive_place.h"
 
@@ -132,10 +133,53 @@ void check_needs(const Plan& plan, std::size_t touched, Findings& findings) {
   }
 }
 
+// The lines of a mask, and that it stands where it has an effect.
+void check_mask(const CharacteristicPlan& c, const std::string& where, Findings& findings) {
+  const bool masked = c.form == "harmonic-limits";
+  if (masked && c.harmonic_limits.empty() && !findings.is_given(where + "/harmonic_limits")) {
+    findings.meaning(Code::kMissingKey, where + "/harmonic_limits",
+                     "this key is missing: the mask, e.g. [{\"from\": 2, \"to\": 50, "
+                     "\"amplitude_um\": 0.3}]");
+  }
+  if (!masked && !c.harmonic_limits.empty()) {
+    findings.meaning(Code::kMeaning, where + "/harmonic_limits",
+                     "has no effect: the form is not \"harmonic-limits\"; remove it");
+  }
+  if (masked && c.tolerance_um) {
+    findings.meaning(Code::kMeaning, where + "/tolerance_um",
+                     "has no effect: the mask holds the limits; remove it");
+  }
+  for (std::size_t i = 0; i < c.harmonic_limits.size(); ++i) {
+    const HarmonicLimitPlan& line = c.harmonic_limits[i];
+    if (line.from <= line.to) continue;
+    findings.meaning(Code::kMeaning, item_pointer(where + "/harmonic_limits", i),
+                     fmt::format("from {} is above to {}; exchange them", line.from, line.to));
+  }
+}
+
+/// A part that is simulated here does not stand in front of a machine elsewhere, nor the reverse.
+void check_drivers(const Plan& plan, Findings& findings) {
+  if (!plan.machine || !plan.fixture || !findings.sound("/machine/driver") ||
+      !findings.sound("/fixture/driver")) {
+    return;
+  }
+  const std::string& machine = plan.machine->driver;
+  const std::string& fixture = plan.fixture->driver;
+  if ((machine == "simulated") == (fixture == "simulated") &&
+      (fixture != "ippdme" || machine == "ippdme")) {
+    return;
+  }
+  findings.meaning(Code::kMeaning, "/fixture/driver",
+                   fmt::format("a fixture \"{}\" cannot carry a part in front of a machine \"{}\"; "
+                               "give both the same driver",
+                               fixture, machine));
+}
+
 void check_characteristic(const FeaturePlan& feature, std::size_t index,
                           const std::string& feature_where, Findings& findings) {
   const std::string where = item_pointer(feature_where + "/characteristics", index);
   const CharacteristicPlan& c = feature.characteristics[index];
+  check_mask(c, where, findings);
   if (const auto twin = earlier_with_same_id(feature.characteristics, index)) {
     findings.meaning(
         Code::kMeaning, where + "/id",
@@ -161,7 +205,15 @@ void check_characteristic(const FeaturePlan& feature, std::size_t index,
                                    feature.sampling.points_per_layer));
     }
   }
-  if (c.tolerance_um && !c.reference && !findings.is_given(where + "/reference")) {
+  const bool analysis = analysis_kind(feature.type) != nullptr;
+  if (!analysis && c.form != "cylindricity" && c.form != "roundness") {
+    findings.meaning(Code::kMeaning, where + "/form",
+                     fmt::format("a {} has no {}; ask for \"roundness\" or, of a cylinder, for "
+                                 "\"cylindricity\"",
+                                 feature.type, c.form));
+  }
+  const bool has_reference = c.form == "cylindricity" || c.form == "roundness";
+  if (has_reference && c.tolerance_um && !c.reference && !findings.is_given(where + "/reference")) {
     findings.meaning(
         Code::kMeaning, where + "/reference",
         fmt::format("the tolerance of {} um has no reference; add \"reference\": \"mz\" "
@@ -178,6 +230,10 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
     if (!findings.is_given(where + key)) return;
     findings.meaning(Code::kMeaning, where + key, fmt::format("has no effect: {}; remove it", why));
   };
+  if (analysis_kind(feature.type) != nullptr) return;  // check_analysis() says it
+  refuse("/spindle", "the feature is touched, not probed by three probes");
+  refuse("/wheel", "the feature is no wheel");
+  refuse("/source/columns", "points have the columns x,y or x,y,z");
   if (findings.is_given(where + "/source")) {
     refuse("/sampling", "the points come from a file");
     refuse("/pose_search", "the points come from a file");
@@ -192,8 +248,9 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
 
 std::string feature_pointer(std::size_t index) { return item_pointer("/features", index); }
 
-bool is_touched(std::size_t index, const Findings& findings) {
-  return !findings.is_given(feature_pointer(index) + "/source");
+bool is_touched(const Plan& plan, std::size_t index, const Findings& findings) {
+  return !findings.is_given(feature_pointer(index) + "/source") &&
+         analysis_kind(plan.features[index].type) == nullptr;
 }
 
 void check_equipment(const Plan& plan, Findings& findings) {
@@ -201,12 +258,13 @@ void check_equipment(const Plan& plan, Findings& findings) {
     check_travel(plan.fixture->min_alpha_deg, plan.fixture->max_alpha_deg, "alpha", findings);
     check_travel(plan.fixture->min_beta_deg, plan.fixture->max_beta_deg, "beta", findings);
   }
+  check_drivers(plan, findings);
   check_environment(plan, findings);
   if (plan.probe) check_stylus(*plan.probe, findings);
   check_sections(plan.part, findings);
   if (plan.fixture) check_datum(*plan.fixture, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (is_touched(i, findings)) return check_needs(plan, i, findings);
+    if (is_touched(plan, i, findings)) return check_needs(plan, i, findings);
   }
 }
 
@@ -232,9 +290,11 @@ void check_plan(const Plan& plan, Findings& findings) {
   check_archive(plan, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     check_feature(plan, i, findings);
-    if (is_touched(i, findings)) {
+    if (is_touched(plan, i, findings)) {
       check_sampling(plan, i, findings);
       check_pose_search(plan, i, findings);
+    } else if (analysis_kind(plan.features[i].type) != nullptr) {
+      check_analysis(plan, i, findings);
     } else {
       check_points_file(plan, i, findings);
     }

@@ -31,7 +31,7 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings);
 /// The pointer of a feature: "/features/2".
 [[nodiscard]] std::string feature_pointer(std::size_t index);
 
-/// Whether a feature is touched by the machine, not read from a file.
-[[nodiscard]] bool is_touched(std::size_t index, const Findings& findings);
+/// Whether a feature is touched by the machine: not read from a file, and no analysis of series.
+[[nodiscard]] bool is_touched(const Plan& plan, std::size_t index, const Findings& findings);
 
 }  // namespace rondure::plans

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "plans/feature_planner.h"
 #include "plans/reach_advice.h"
+#include "plans/run_head.h"
 
 namespace rondure::plans {
 namespace {
@@ -63,7 +64,8 @@ std::vector<SectionPlan> part_sections(const Plan& plan, const FeaturePlan& feat
   for (const FeaturePlan& other : plan.features) {
     const NominalPlan& n = other.nominal;
     const bool beside = n.from_mm >= mine.to_mm || n.to_mm <= mine.from_mm;
-    if (other.source || other.side == "inside" || feature.side == "inside" || !beside) continue;
+    if (!is_touched(other) || other.side == "inside" || feature.side == "inside" || !beside)
+      continue;
     out.push_back({n.from_mm, n.to_mm, n.diameter_mm, 0.0});
   }
   return out;

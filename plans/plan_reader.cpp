@@ -11,6 +11,7 @@
 #include "plans/plan_checks.h"
 #include "plans/plan_reach.h"
 #include "plans/plan_table.h"
+#include "plans/run_head.h"
 #include "plans/table_reader.h"
 #include "record/points_csv.h"
 
@@ -51,13 +52,11 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
   std::vector<core::Error> problems = findings.take();
   // Reach can be judged only once every number is sound.
   if (problems.empty()) {
-    const bool touching = std::any_of(plan.features.begin(), plan.features.end(),
-                                      [](const FeaturePlan& feature) { return !feature.source; });
-    if (touching) {
+    if (touches_anything(plan)) {
       if (auto room = check_room(plan); !room) problems.push_back(room.error());
     }
     for (std::size_t i = 0; i < plan.features.size(); ++i) {
-      if (!is_touched(i, findings) || !problems.empty()) continue;
+      if (!is_touched(plan, i, findings) || !problems.empty()) continue;
       if (auto targets = reachable_targets(plan, i); !targets) problems.push_back(targets.error());
     }
   }

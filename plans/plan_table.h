@@ -4,6 +4,8 @@
 #include "plans/key_spec.h"
 #include "plans/plan.h"
 #include "plans/simulation_table.h"
+#include "plans/spindle_table.h"
+#include "plans/wheel_table.h"
 
 // The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
 // meaning, once. Defaults are the member initialisers of plan.h. A visitor walks it: TableReader
@@ -69,9 +71,44 @@ void describe(Visitor& v, PartPlan& p) {
                      "path of the tip keeps clear of them."});
 }
 
+/// What the driver "ippdme" needs to know of its server.
+template <class Visitor>
+void describe_server(Visitor& v, MachinePlan& p) {
+  v.text("host", p.host,
+         {.empty_allowed = false,
+          .meaning = "ippdme: name or address of the computer that serves the machine."});
+  v.whole("port", p.port,
+          {.at_least = 1, .at_most = 65'535, .meaning = "ippdme: port of the server."});
+  v.text(
+      "tool", p.tool,
+      {.meaning = "ippdme: the tool to take, as the machine calls it. Left out: the tool that is "
+                  "active."});
+  v.number("answer_limit_s", p.answer_limit_s,
+           {.at_least = 0.1,
+            .at_most = 600.0,
+            .meaning = "ippdme: a command that is not acknowledged, or a question not answered, "
+                       "within this time ends the run."});
+  v.number("motion_limit_s", p.motion_limit_s,
+           {.at_least = 1.0,
+            .at_most = 3600.0,
+            .meaning = "ippdme: a motion, a tool change or the homing that takes this much longer "
+                       "than its way explains is stopped."});
+  v.text("abort", p.abort,
+         {.one_of = {"works", "broken"},
+          .meaning = "ippdme: whether AbortE of the server stops a motion; with \"broken\" a stop "
+                     "waits for the end of the motion."});
+  v.text("retract", p.retract,
+         {.one_of = {"to-approach", "by-distance"},
+          .meaning = "ippdme: \"by-distance\" for a server that refuses a negative Retract, which "
+                     "means back to the start of the touch."});
+}
+
 template <class Visitor>
 void describe(Visitor& v, MachinePlan& p) {
-  v.text("driver", p.driver, {.one_of = {"simulated"}, .meaning = "Which machine measures."});
+  v.text("driver", p.driver,
+         {.one_of = {"simulated", "ippdme"},
+          .meaning = "Which machine measures: a simulation in this program, or a machine behind "
+                     "I++ DME (docs/ipp-dme.md)."});
   v.number("approach_mm", p.approach_mm,
            {.at_least = 0.0,
             .at_most = 100.0,
@@ -130,6 +167,7 @@ void describe(Visitor& v, MachinePlan& p) {
             .above = true,
             .meaning = "A resumed run repeats its last touches; when one of them differs by more, "
                        "part or machine has moved and the run must start again."});
+  describe_server(v, p);
 }
 
 template <class Visitor>
@@ -175,7 +213,9 @@ void describe(Visitor& v, FixturePlan& p) {
         .at_least = -90.0, .at_most = 90.0, .code = core::Code::kPoseRange, .meaning = meaning};
   };
   v.text("driver", p.driver,
-         {.one_of = {"simulated"}, .meaning = "Which fixture carries the part."});
+         {.one_of = {"simulated", "ippdme"},
+          .meaning = "Which fixture carries the part: a simulation in this program, or two rotary "
+                     "axes of the machine behind I++ DME (AlignPart)."});
   v.numbers("axis_point_mm", p.axis_point_mm,
             place("A point of the base-fixed axis (alpha): x, y, z in the machine frame."));
   v.numbers("axis_offset_mm", p.axis_offset_mm,
@@ -375,16 +415,36 @@ void describe(Visitor& v, PoseSearchPlan& p) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, HarmonicLimitPlan& p) {
+  const auto order = [](std::string_view meaning) {
+    return NumberSpec{.at_least = 2, .at_most = 10'000, .required = true, .meaning = meaning};
+  };
+  v.whole("from", p.from, order("First undulation number of this line of the mask."));
+  v.whole("to", p.to, order("Last undulation number."));
+  v.number("amplitude_um", p.amplitude_um,
+           {.at_least = 0.0,
+            .at_most = 1000.0,
+            .above = true,
+            .required = true,
+            .meaning = "Largest amplitude (half of peak to valley) of each of them."});
+}
+
+template <class Visitor>
 void describe(Visitor& v, CharacteristicPlan& p) {
   v.text("id", p.id,
          {.required = true,
           .empty_allowed = false,
           .meaning = "Name in the report, unique within the feature."});
-  v.text("form", p.form,
-         {.one_of = {"cylindricity", "roundness"},
-          .required = true,
-          .meaning = "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle or of the "
-                     "worst layer of a cylinder."});
+  v.text(
+      "form", p.form,
+      {.one_of = {"cylindricity", "roundness", "roundness-rms", "harmonic-limits", "motion-total",
+                  "motion-synchronous", "motion-asynchronous", "radius", "run-out"},
+       .required = true,
+       .meaning = "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
+                  "layer of a cylinder or of a spindle feature. Of a spindle feature also: "
+                  "roundness-rms (RONq); harmonic-limits; motion-total, motion-synchronous, "
+                  "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
+                  "roundness of its edge; radius, the departure from nominal; run-out."});
   v.text("reference", p.reference,
          {.one_of = {"mz", "ls", "mc", "mi"},
           .meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
@@ -398,6 +458,18 @@ void describe(Visitor& v, CharacteristicPlan& p) {
        .meaning = "Upper limit on the drawing; without it the value is reported, not judged."});
   v.text("drawing_zone", p.drawing_zone,
          {.meaning = "Where it stands on the drawing, e.g. \"C4\"."});
+  v.list("harmonic_limits", p.harmonic_limits,
+         {.meaning = "The mask of harmonic-limits, instead of tolerance_um."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, ColumnPlan& p) {
+  v.text("column", p.column,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Name that the analysis gives it, with its unit, e.g. H1_um."});
+  v.text("in_file", p.in_file,
+         {.required = true, .empty_allowed = false, .meaning = "Name in the file."});
 }
 
 template <class Visitor>
@@ -405,8 +477,8 @@ void describe(Visitor& v, SourcePlan& p) {
   v.text("file", p.file,
          {.required = true,
           .empty_allowed = false,
-          .meaning =
-              "CSV of tip centres in mm, with a header line x,y or x,y,z; relative to the plan."});
+          .meaning = "CSV of tip centres in mm, with a header line x,y or x,y,z; for a spindle, of "
+                     "readings (docs/spindle.md). Relative to the plan."});
   v.number(
       "tip_diameter_mm", p.tip_diameter_mm,
       {.at_least = 0.0,
@@ -414,6 +486,9 @@ void describe(Visitor& v, SourcePlan& p) {
        .above = true,
        .meaning =
            "Of the probe that took the points; without it radii stay those of the tip centre."});
+  v.list("columns", p.columns,
+         {.meaning = "Columns that the file of a spindle names otherwise; with this list columns "
+                     "that nobody asks for are passed over."});
 }
 
 template <class Visitor>
@@ -423,12 +498,17 @@ void describe(Visitor& v, FeaturePlan& p) {
           .empty_allowed = false,
           .meaning = "Name of the feature, unique in the plan."});
   v.text("type", p.type,
-         {.one_of = {"cylinder", "circle"}, .required = true, .meaning = "What the surface is."});
+         {.one_of = {"cylinder", "circle", "spindle", "wheel"},
+          .required = true,
+          .meaning = "What the surface is; spindle: form of a part and motion of its axis, from "
+                     "three probes; wheel: a grinding wheel, from points of its edge."});
   v.text("side", p.side,
          {.one_of = {"outside", "inside"}, .meaning = "outside: a shaft; inside: a bore."});
   v.object("nominal", p.nominal, {.meaning = "The surface on the drawing, part frame: axis z."});
   v.object("sampling", p.sampling, {.meaning = "Where it is touched."});
   v.object("pose_search", p.pose_search, {.meaning = "How the fixture levels it."});
+  v.object("spindle", p.spindle, {.meaning = "Probes and evaluation of the type spindle."});
+  v.object("wheel", p.wheel, {.meaning = "Points and evaluation of the type wheel."});
   v.object("source", p.source,
            {.meaning = "Points from a file in place of touches; no machine is needed then."});
   v.list("characteristics", p.characteristics,

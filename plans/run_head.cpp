@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "core/version.h"
 #include "fit/pose_walk.h"
+#include "plans/analysis.h"
 #include "record/sha256.h"
 
 namespace rondure::plans {
@@ -19,26 +20,47 @@ record::Reference reference_of(const CharacteristicPlan& plan) {
   return record::Reference::kMinimumZone;
 }
 
+record::Form form_of(std::string_view name) {
+  using record::Form;
+  for (const Form form : {Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits,
+                          Form::kMotionTotal, Form::kMotionSynchronous, Form::kMotionAsynchronous,
+                          Form::kRadius, Form::kRunOut, Form::kContourDeviation}) {
+    if (record::name_of(form) == name) return form;
+  }
+  return Form::kCylindricity;
+}
+
 record::Characteristic characteristic_of(const CharacteristicPlan& plan) {
   record::Characteristic out;
   out.id = plan.id;
-  out.form = plan.form == "roundness" ? record::Form::kRoundness : record::Form::kCylindricity;
+  out.form = form_of(plan.form);
   out.reference = reference_of(plan);
   if (plan.tolerance_um) out.tolerance_mm = *plan.tolerance_um * core::kMicrometre;
   out.drawing_zone = plan.drawing_zone;
+  for (const HarmonicLimitPlan& line : plan.harmonic_limits) {
+    out.harmonic_limits.push_back({line.from, line.to, line.amplitude_um * core::kMicrometre});
+  }
   return out;
 }
 
 }  // namespace
 
-bool from_file(const FeaturePlan& feature) { return feature.source.has_value(); }
+bool is_touched(const FeaturePlan& feature) {
+  return !feature.source && analysis_kind(feature.type) == nullptr;
+}
 
 bool touches_anything(const Plan& plan) {
-  return !std::all_of(plan.features.begin(), plan.features.end(), from_file);
+  return std::any_of(plan.features.begin(), plan.features.end(), is_touched);
+}
+
+bool simulates_anything(const Plan& plan) {
+  return std::any_of(plan.features.begin(), plan.features.end(),
+                     [](const FeaturePlan& feature) { return !feature.source; });
 }
 
 record::Strategy strategy_of(const FeaturePlan& feature) {
-  if (from_file(feature)) return record::Strategy::kPointsFile;
+  if (analysis_kind(feature.type) != nullptr) return record::Strategy::kSeries;
+  if (feature.source) return record::Strategy::kPointsFile;
   const std::string& name = feature.pose_search.strategy;
   if (name == "refined") return record::Strategy::kRefined;
   if (name == "as-published") return record::Strategy::kAsPublished;
@@ -49,14 +71,19 @@ record::Strategy strategy_of(const FeaturePlan& feature) {
 record::Feature feature_of(const FeaturePlan& plan) {
   record::Feature out;
   out.id = plan.id;
+  const AnalysisKind* kind = analysis_kind(plan.type);
   out.shape = plan.type == "circle" ? record::Shape::kCircle : record::Shape::kCylinder;
+  if (kind != nullptr) {
+    out.shape = kind->shape;
+    out.settings = kind->settings(plan);
+  }
   out.side = plan.side == "inside" ? record::Side::kInside : record::Side::kOutside;
   out.nominal_diameter_mm = plan.nominal.diameter_mm;
   out.strategy = strategy_of(plan);
-  if (!from_file(plan)) {
+  if (is_touched(plan)) {
     out.layers = plan.sampling.layers;
     out.points_per_layer = plan.sampling.points_per_layer;
-  } else {
+  } else if (plan.source) {
     out.points_file = plan.source->file;
     if (plan.source->tip_diameter_mm) out.tip_radius_mm = 0.5 * *plan.source->tip_diameter_mm;
   }
@@ -71,7 +98,7 @@ record::Feature feature_of(const FeaturePlan& plan) {
 
 std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& feature) {
   std::vector<record::Setting> out;
-  if (from_file(feature) || !plan.machine) return out;
+  if (!is_touched(feature) || !plan.machine) return out;
   const auto add = [&](std::string_view name, double number) {
     out.push_back({std::string(name), number, ""});
   };
@@ -107,7 +134,7 @@ record::Header header_of(const Plan& plan, const RunOptions& options, std::uint6
   out.serial = options.serial;
   out.operator_name = options.operator_name;
   out.decision_rule = plan.decision_rule.rule;
-  out.simulated = touches_anything(plan);
+  out.simulated = simulates_anything(plan);
   out.seed = out.simulated ? seed : 0;
   out.temperature_min_degC = plan.environment.min_degC;
   out.temperature_max_degC = plan.environment.max_degC;

@@ -10,8 +10,10 @@
 
 namespace rondure::plans {
 
-/// Whether the points of a feature are read from a file instead of being touched.
-[[nodiscard]] bool from_file(const FeaturePlan& feature);
+/// Whether a feature is touched by a machine: neither points from a file nor series.
+[[nodiscard]] bool is_touched(const FeaturePlan& feature);
+/// Whether anything of a plan is simulated.
+[[nodiscard]] bool simulates_anything(const Plan& plan);
 /// Whether a plan needs a machine.
 [[nodiscard]] bool touches_anything(const Plan& plan);
 
@@ -22,7 +24,7 @@ namespace rondure::plans {
 [[nodiscard]] std::vector<record::Setting> settings_of(const Plan& plan,
                                                        const FeaturePlan& feature);
 /// The head without the descriptions of machine and fixture.
-/// @param seed  Of the simulation; kept when anything is touched.
+/// @param seed  Of the simulation; kept when anything is simulated.
 [[nodiscard]] record::Header header_of(const Plan& plan, const RunOptions& options,
                                        std::uint64_t seed);
 /// The reference sphere; empty for a plan without a probe.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "plans/analysis.h"
 #include "plans/fixture_datum.h"
 #include "plans/inspection.h"
 #include "plans/plan_changes.h"
@@ -19,7 +20,7 @@ namespace {
 
 /// Touches a strategy commonly needs, for the time left.
 std::size_t expected_touches(const FeaturePlan& feature, std::size_t targets) {
-  if (from_file(feature)) return 0;
+  if (!is_touched(feature)) return 0;
   const auto repeats = static_cast<std::size_t>(feature.pose_search.repeats);
   switch (strategy_of(feature)) {
     case record::Strategy::kGuided:
@@ -37,7 +38,7 @@ std::size_t expected_touches(const FeaturePlan& feature, std::size_t targets) {
 core::Result<std::vector<std::vector<Target>>> plan_targets(const Plan& plan) {
   std::vector<std::vector<Target>> out(plan.features.size());
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (from_file(plan.features[i])) continue;
+    if (!is_touched(plan.features[i])) continue;
     auto targets = reachable_targets(plan, i);
     if (!targets) return core::fail(targets.error());
     out[i] = std::move(*targets);
@@ -45,22 +46,36 @@ core::Result<std::vector<std::vector<Target>>> plan_targets(const Plan& plan) {
   return out;
 }
 
-/// A points file, read once: what is hashed is what is evaluated.
-struct PointsFile {
+/// What is known of a feature without a machine, read once: what is hashed is what is evaluated.
+struct FeatureData {
   std::string sha256;
-  record::PointTable table;
+  record::PointTable points;  ///< Of a points file.
+  AnalysisData series;        ///< Of an analysis.
 };
 
-core::Result<std::vector<PointsFile>> read_points_files(const Plan& plan) {
-  std::vector<PointsFile> out(plan.features.size());
+core::Result<FeatureData> read_points_file(const Plan& plan, std::size_t index) {
+  const std::string& name = plan.features[index].source->file;
+  const auto bytes = record::read_file(plan.folder / name);
+  if (!bytes) return core::fail(bytes.error());
+  auto table = record::parse_points_csv(*bytes, name);
+  if (!table) return core::fail(table.error());
+  return FeatureData{record::sha256_hex(*bytes), *std::move(table), {}};
+}
+
+core::Result<std::vector<FeatureData>> read_data(const Plan& plan, std::uint64_t seed) {
+  std::vector<FeatureData> out(plan.features.size());
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (!from_file(plan.features[i])) continue;
-    const std::string& name = plan.features[i].source->file;
-    const auto bytes = record::read_file(plan.folder / name);
-    if (!bytes) return core::fail(bytes.error());
-    auto table = record::parse_points_csv(*bytes, name);
-    if (!table) return core::fail(table.error());
-    out[i] = {record::sha256_hex(*bytes), std::move(*table)};
+    if (is_touched(plan.features[i])) continue;
+    if (analysis_kind(plan.features[i].type) != nullptr) {
+      auto data = analysis_data(plan, i, seed);
+      if (!data) return core::fail(data.error());
+      out[i].sha256 = data->sha256;
+      out[i].series = *std::move(data);
+    } else {
+      auto data = read_points_file(plan, i);
+      if (!data) return core::fail(data.error());
+      out[i] = *std::move(data);
+    }
   }
   return out;
 }
@@ -87,13 +102,22 @@ core::Result<void> take_points(RunContext& context, int index, const record::Poi
   return context.journal.add(rows);
 }
 
+/// Puts the series of an analysis into the journal: all of them or none.
+core::Result<void> take_series(RunContext& context, int index, const AnalysisData& data) {
+  if (context.past.knows_series(index)) return {};
+  return context.journal.add(data.series, data.truths);
+}
+
 core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Target>>& targets,
-                           const std::vector<PointsFile>& files) {
+                           const std::vector<FeatureData>& data) {
   for (std::size_t i = 0; i < context.plan.features.size(); ++i) {
     const FeaturePlan& feature = context.plan.features[i];
     const auto index = static_cast<int>(i);
-    if (from_file(feature)) {
-      if (auto taken = take_points(context, index, files[i].table); !taken) return taken;
+    if (!is_touched(feature)) {
+      auto taken = analysis_kind(feature.type) != nullptr
+                       ? take_series(context, index, data[i].series)
+                       : take_points(context, index, data[i].points);
+      if (!taken) return taken;
       continue;
     }
     context.cell->mount(feature);
@@ -108,8 +132,8 @@ core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Ta
 /// References machine and fixture and qualifies the probe.
 core::Result<void> prepare(RunContext& context) {
   // The part is in the ring from the start: whatever moves must keep clear of it.
-  const auto first =
-      std::find_if_not(context.plan.features.begin(), context.plan.features.end(), from_file);
+  const auto first = std::find_if(context.plan.features.begin(), context.plan.features.end(),
+                                  [](const FeaturePlan& feature) { return is_touched(feature); });
   context.cell->mount(*first);
   if (context.recalling()) {
     if (auto homed = context.cell->recall_home(); !homed) return core::fail(homed.error());
@@ -146,17 +170,17 @@ core::Result<void> note_single_steps(RunContext& context) {
 /// What is known before the first touch.
 struct Preparation {
   std::vector<std::vector<Target>> targets;
-  std::vector<PointsFile> files;
+  std::vector<FeatureData> data;
   std::uint64_t seed = 0;
 };
 
 core::Result<Preparation> prepare_plan(const Plan& plan, const RunOptions& options) {
   auto targets = plan_targets(plan);
   if (!targets) return core::fail(targets.error());
-  auto files = read_points_files(plan);
-  if (!files) return core::fail(files.error());
-  return Preparation{std::move(*targets), std::move(*files),
-                     options.seed.value_or(plan.simulation ? plan.simulation->seed : 0)};
+  const std::uint64_t seed = options.seed.value_or(plan.simulation ? plan.simulation->seed : 0);
+  auto data = read_data(plan, seed);
+  if (!data) return core::fail(data.error());
+  return Preparation{std::move(*targets), std::move(*data), seed};
 }
 
 /// Goes through the plan and writes how the run ended.
@@ -178,7 +202,7 @@ void execute(const Plan& plan, const RunOptions& options, const Preparation& kno
   }
   auto done = touching ? note_single_steps(context) : core::Result<void>{};
   if (done && touching) done = prepare(context);
-  if (done) done = inspect(context, known.targets, known.files);
+  if (done) done = inspect(context, known.targets, known.data);
   if (!done) run.failure = done.error();
   const std::string ending = done                                        ? "finished"
                              : run.failure->code == core::Code::kStopped ? "stopped"
@@ -211,17 +235,21 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   std::unique_ptr<Cell> cell;
   record::Header header = header_of(plan, options, known->seed);
   if (touches_anything(plan)) {
-    auto opened = open_cell(driven(plan, options), {known->seed, false});
+    auto opened = open_cell(driven(plan, options),
+                            {known->seed, false, options.wire_log, options.stop_requested});
     if (!opened) return core::fail(opened.error());
     cell = std::move(*opened);
+    header.simulated = cell->is_simulated();
+    if (!header.simulated) header.seed = 0;
     header.machine = cell->machine().description();
     header.fixture = cell->fixture().description();
   }
   std::vector<record::Feature> features;
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     features.push_back(feature_of(plan.features[i]));
-    features.back().points_sha256 = known->files[i].sha256;
-    features.back().settings = settings_of(plan, plan.features[i]);
+    features.back().points_sha256 = known->data[i].sha256;
+    if (analysis_kind(plan.features[i].type) == nullptr)
+      features.back().settings = settings_of(plan, plan.features[i]);
   }
   auto journal = record::Journal::create(options.directory, header, artefact_of(plan), features);
   if (!journal) return core::fail(journal.error());
@@ -242,14 +270,15 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
   if (!known) return refuse(known.error());
   auto changes = changes_since(found->record, plan, same);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (changes.empty() && known->files[i].sha256 != found->record.features[i].points_sha256) {
-      changes.push_back(points_changed(i, found->record.features[i], known->files[i].sha256));
+    if (changes.empty() && known->data[i].sha256 != found->record.features[i].points_sha256) {
+      changes.push_back(points_changed(i, found->record.features[i], known->data[i].sha256));
     }
   }
   if (!changes.empty()) return tl::unexpected(std::move(changes));
   std::unique_ptr<Cell> cell;
   if (touches_anything(plan)) {
-    auto opened = open_cell(driven(plan, options), {known->seed, true});
+    auto opened = open_cell(driven(plan, options),
+                            {known->seed, true, options.wire_log, options.stop_requested});
     if (!opened) return refuse(opened.error());
     cell = std::move(*opened);
   }

@@ -47,7 +47,8 @@ struct RunOptions {
   std::string started_utc;  ///< Of this start, also of a resumed run. For the record only.
   std::string processor;
   std::optional<std::uint64_t> seed;     ///< Takes the place of the plan's.
-  std::function<bool()> stop_requested;  ///< Asked before every touch.
+  std::filesystem::path wire_log;        ///< Of what goes to a machine and comes; "": none.
+  std::function<bool()> stop_requested;  ///< Asked before every touch, and while a machine moves.
   std::function<void(const Progress&)> progress;
   /// Asked before each motion; an error (kStopped) ends the run: the tip goes back on the way it
   /// came, without asking, and up. Not asked for motions that a fault makes necessary.

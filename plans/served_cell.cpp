@@ -13,7 +13,8 @@ namespace rondure::plans {
 
 ServedCell::ServedCell(const Plan& plan, std::uint64_t seed)
     : features_(plan.features), cell_(plan, seed, false) {
-  const auto first = std::find_if_not(features_.begin(), features_.end(), from_file);
+  const auto first = std::find_if(features_.begin(), features_.end(),
+                                  [](const FeaturePlan& feature) { return is_touched(feature); });
   if (first != features_.end()) cell_.mount(*first);
 }
 
@@ -43,7 +44,7 @@ core::Result<std::vector<Eigen::Vector3d>> ServedCell::align_part(
 
 core::Result<void> ServedCell::choose_feature(int index) {
   const auto count = static_cast<int>(features_.size());
-  if (index < 0 || index >= count || from_file(features_[static_cast<std::size_t>(index)])) {
+  if (index < 0 || index >= count || !is_touched(features_[static_cast<std::size_t>(index)])) {
     return core::fail(
         core::Code::kOutOfRange,
         fmt::format("feature {} is none of the {} that can be touched", index, count));
@@ -66,7 +67,7 @@ cmm::ipp::ServerOptions server_options(const Plan& plan) {
 
 core::Result<void> check_servable(const Plan& plan) {
   const bool touched = std::any_of(plan.features.begin(), plan.features.end(),
-                                   [](const FeaturePlan& feature) { return !from_file(feature); });
+                                   [](const FeaturePlan& feature) { return is_touched(feature); });
   if (touched && plan.machine && plan.fixture && plan.probe && plan.simulation) return {};
   return core::fail(core::Code::kMeaning,
                     "the plan has no virtual machine to serve: it needs machine, fixture, probe, "

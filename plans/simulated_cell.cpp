@@ -5,6 +5,7 @@
 #include "core/units.h"
 #include "plans/hidden_errors.h"
 #include "plans/plan_reach.h"
+#include "plans/pose_grid.h"
 
 namespace rondure::plans {
 namespace {
@@ -110,13 +111,14 @@ core::Result<core::Pose> SimulatedCell::recall_turn(const core::Pose& commanded)
 }
 
 core::Result<core::Pose> SimulatedCell::turn(const core::Pose& commanded) {
-  auto reached = fixture_.move_to(commanded);
+  const auto reached = fixture_.move_to(on_grid(commanded));
   if (reached) {
     ++turns_;
     last_turn_ = commanded;
   }
   place_part();
-  return reached;
+  if (!reached) return reached;
+  return on_grid(*reached);
 }
 
 core::Result<void> SimulatedCell::recall_touch(const cmm::TouchCommand& command,
@@ -131,10 +133,11 @@ core::Result<core::Pose> SimulatedCell::home_again() {
   auto reached = fixture_.home();
   if (reached && turns_ > 0) {
     fixture_.continue_after(turns_ - 1);
-    reached = fixture_.move_to(last_turn_);
+    reached = fixture_.move_to(on_grid(last_turn_));
   }
   place_part();
-  return reached;
+  if (!reached) return reached;
+  return on_grid(*reached);
 }
 
 void SimulatedCell::place_part() {

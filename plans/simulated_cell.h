@@ -23,6 +23,8 @@ class SimulatedCell final : public Cell {
   [[nodiscard]] fixture::Fixture& fixture() override { return fixture_; }
   [[nodiscard]] cmm::Machine& machine() override { return machine_; }
 
+  [[nodiscard]] bool is_simulated() const override { return true; }
+
   /// Puts the part with this feature into the clamping ring.
   void mount(const FeaturePlan& feature) override;
   [[nodiscard]] core::Result<core::Pose> home_fixture() override;

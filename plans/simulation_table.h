@@ -3,6 +3,8 @@
 #include "plans/key_spec.h"
 #include "plans/machine_errors_table.h"
 #include "plans/plan.h"
+#include "plans/spindle_table.h"
+#include "plans/wheel_table.h"
 
 // The part of plan_table.h that describes the hidden truth of a simulation.
 
@@ -130,6 +132,9 @@ void describe(Visitor& v, SimulationPlan& p) {
   v.object("fixture", p.fixture, {.meaning = "Errors of the simulated fixture."});
   v.object("faults", p.faults,
            {.meaning = "What interrupts the simulated run. A resumed run meets none of it."});
+  v.object("spindle", p.spindle,
+           {.meaning = "Part and motion that the probes of a spindle feature see."});
+  v.object("wheel", p.wheel, {.meaning = "The wheel whose edge points a wheel feature gets."});
 }
 
 }  // namespace rondure::plans

@@ -70,8 +70,8 @@ record::ArchiveResult result_of(const FeatureResult& feature, const Characterist
   out.characteristic = well_formed(asked.id);
   out.symbol = symbol_of(asked);
   out.reference = reference_of(asked);
-  out.filter = "unfiltered";
-  out.sampling = sampling_of(feature, asked);
+  out.filter = feature.analysis ? feature.analysis->filter_text() : "unfiltered";
+  out.sampling = feature.analysis ? feature.analysis->sampling_text() : sampling_of(feature, asked);
   out.value = found.value_mm;
   out.upper_limit = asked.tolerance_mm;
   out.verdict = name_of(found.verdict);

@@ -390,6 +390,12 @@ tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& measured) {
   Evaluation out;
   out.probe = evaluate_probe(record);
   for (std::size_t i = 0; i < record.features.size(); ++i) {
+    if (record::is_analysis(record.features[i].shape)) {
+      auto feature = evaluate_analysis(record, static_cast<int>(i));
+      decide_analysis(record, feature);
+      out.features.push_back(std::move(feature));
+      continue;
+    }
     auto feature = evaluate_feature(record, static_cast<int>(i), out.probe);
     if (auto broken = broken_invariant(feature))
       return tl::unexpected(Defect{*std::move(broken), std::move(feature)});

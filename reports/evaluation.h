@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "fit/probe_tip.h"
 #include "fit/roundness_evaluation.h"
 #include "record/run_record.h"
+#include "reports/analysis.h"
 #include "reports/thermal.h"
 
 namespace rondure::reports {
@@ -100,6 +102,7 @@ struct FeatureResult {
   std::optional<double> repeat_zone_mean_mm;  ///< Mean of the zones of the single repeats.
   std::optional<double> repeat_zone_sd_mm;
   std::optional<Temperatures> temperatures;  ///< Of the final cloud; none for points of a file.
+  std::shared_ptr<const AnalysisResult> analysis;  ///< Of a feature whose data are series.
   std::optional<ThermalCorrection> thermal;  ///< All above is at 20 degC; none: as measured.
   std::vector<CharacteristicResult> characteristics;
   std::vector<core::Error> warnings;

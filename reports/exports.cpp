@@ -11,22 +11,37 @@
 
 namespace rondure::reports {
 
+namespace {
+
+constexpr const char* kSeriesFile = "series.csv";
+
+}  // namespace
+
 const std::vector<Export>& exports() {
-  static const std::vector<Export> all = {
-      {"html", "report.html"}, {"json", "report.json"}, {"csv", "touches.csv"}};
+  static const std::vector<Export> all = {{"html", "report.html"},
+                                          {"json", "report.json"},
+                                          {"csv", "touches.csv"},
+                                          {"csv", kSeriesFile}};
   return all;
 }
 
 std::vector<std::string> all_formats() {
   std::vector<std::string> out;
-  for (const Export& e : exports()) out.push_back(e.format);
+  for (const Export& e : exports()) {
+    if (std::find(out.begin(), out.end(), e.format) == out.end()) out.push_back(e.format);
+  }
   return out;
+}
+
+bool applies(const Export& what, const record::RunRecord& record) {
+  return what.file != kSeriesFile || !record.series.empty();
 }
 
 std::string render(const Export& what, const record::RunRecord& record,
                    const Evaluation& evaluation) {
   if (what.format == "html") return write_html(record, evaluation);
   if (what.format == "json") return write_json(record, evaluation);
+  if (what.file == kSeriesFile) return write_series_csv(record);
   return write_touches_csv(record);
 }
 
@@ -34,6 +49,7 @@ bool exports_are_current(const std::filesystem::path& directory,
                          const std::vector<std::string>& formats, const record::RunRecord& record,
                          const Evaluation& evaluation) {
   return std::all_of(exports().begin(), exports().end(), [&](const Export& e) {
+    if (!applies(e, record)) return true;
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) return true;
     const auto bytes = record::read_file(directory / e.file);
     return bytes && *bytes == render(e, record, evaluation);
@@ -55,6 +71,7 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
   std::vector<record::Checksum> sums;
   core::Result<void> done;
   for (const Export& e : exports()) {
+    if (!applies(e, record)) continue;
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) continue;
     const auto path = directory / e.file;
     const std::string bytes = render(e, record, evaluation);

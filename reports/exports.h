@@ -13,12 +13,16 @@ namespace rondure::reports {
 /// One file that is derived from a record.
 struct Export {
   std::string format;  ///< "html", "json", "csv".
-  std::string file;    ///< Name in the run directory: report.html, report.json, touches.csv.
+  std::string file;    ///< Name in the run directory: report.html, report.json, touches.csv,
+                       ///< series.csv.
 };
 
 /// All exports, in the order in which they are written.
 [[nodiscard]] const std::vector<Export>& exports();
 [[nodiscard]] std::vector<std::string> all_formats();
+
+/// Whether a run has this export: series.csv only where series were recorded.
+[[nodiscard]] bool applies(const Export& what, const record::RunRecord& record);
 
 /// The bytes of one export.
 [[nodiscard]] std::string render(const Export& what, const record::RunRecord& record,

@@ -74,6 +74,7 @@ std::optional<LeastSquares> least_squares_of(const FeatureResult& feature) {
 core::Result<OneSided> one_sided_of(const FeatureResult& feature, record::Reference reference) {
   const bool outside = reference == record::Reference::kMinimumCircumscribed;
   if (!outside && reference != record::Reference::kMaximumInscribed) return not_fitted();
+  if (record::is_analysis(feature.feature.shape)) return not_fitted();
   if (feature.feature.shape != record::Shape::kCircle) {
     const auto& cylinder = outside ? feature.mc_cylinder : feature.mi_cylinder;
     if (!cylinder) return core::fail(cylinder.error());
@@ -108,10 +109,37 @@ std::string_view symbol_of(record::Shape shape) {
 }
 
 std::string symbol_of(const record::Characteristic& characteristic) {
-  return characteristic.form == record::Form::kCylindricity ? "CYLt" : "RONt";
+  switch (characteristic.form) {
+    case record::Form::kCylindricity:
+      return "CYLt";
+    case record::Form::kRoundness:
+      return "RONt";
+    case record::Form::kRoundnessRms:
+      return "RONq";
+    case record::Form::kHarmonicLimits:
+      return "A(k)";
+    case record::Form::kMotionTotal:
+      return "EM total";
+    case record::Form::kMotionSynchronous:
+      return "EM sync";
+    case record::Form::kMotionAsynchronous:
+      return "EM async";
+    case record::Form::kRadius:
+      return "dR";
+    case record::Form::kRunOut:
+      return "Run-out";
+    case record::Form::kContourDeviation:
+      return "Contour";
+  }
+  return {};
 }
 
 std::string reference_of(const record::Characteristic& characteristic) {
+  if (characteristic.form == record::Form::kRoundnessRms) return "LSCI";
+  if (characteristic.form != record::Form::kCylindricity &&
+      characteristic.form != record::Form::kRoundness) {
+    return {};
+  }
   return reference_of(characteristic.reference, characteristic.form == record::Form::kCylindricity
                                                     ? record::Shape::kCylinder
                                                     : record::Shape::kCircle);

@@ -12,10 +12,6 @@
 namespace rondure::reports {
 namespace {
 
-std::string with_note(const std::string& value, const std::string& note) {
-  return note.empty() ? value : value + "<small>" + note + "</small>";
-}
-
 /// Nothing for a reference that does not exist: a warning says why.
 std::string one_sided_entry(const FeatureResult& feature, record::Reference reference) {
   const auto found = one_sided_of(feature, reference);
@@ -165,6 +161,20 @@ std::string truth_box(const record::SimulationTruth* truth, const std::optional<
          ". This is not part of the measurement: evaluation never reads it.</div>";
 }
 
+std::string key_numbers(const FeatureResult& feature, const std::optional<Zone>& zone) {
+  std::string html = R"(<dl class="keys">)";
+  if (zone) html += zone_entries(feature, *zone);
+  html += pose_entries(feature) + data_entries(feature);
+  if (zone) html += certificate_entry(*zone) + axis_entry(feature);
+  return html + "</dl>";
+}
+
+}  // namespace
+
+std::string with_note(const std::string& value, const std::string& note) {
+  return note.empty() ? value : value + "<small>" + note + "</small>";
+}
+
 std::string messages(const FeatureResult& feature) {
   std::string html;
   if (feature.failure) {
@@ -183,18 +193,9 @@ std::string messages(const FeatureResult& feature) {
   return html + "</ul>";
 }
 
-std::string key_numbers(const FeatureResult& feature, const std::optional<Zone>& zone) {
-  std::string html = R"(<dl class="keys">)";
-  if (zone) html += zone_entries(feature, *zone);
-  html += pose_entries(feature) + data_entries(feature);
-  if (zone) html += certificate_entry(*zone) + axis_entry(feature);
-  return html + "</dl>";
-}
-
-}  // namespace
-
 std::string feature_section(const record::RunRecord& record, std::size_t index,
                             const FeatureResult& feature) {
+  if (record::is_analysis(feature.feature.shape)) return analysis_section(record, index, feature);
   const auto zone = zone_of(feature);
   const record::Feature& asked = feature.feature;
   std::string nominal;

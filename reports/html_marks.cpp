@@ -37,11 +37,29 @@ std::string verdict_mark(Verdict verdict, int size_px) {
                      size_px, body);
 }
 
+namespace {
+
+/// ISO 1101 where there is a symbol; a wave for what is no geometrical tolerance.
+std::string_view symbol_lines(record::Form form) {
+  switch (form) {
+    case record::Form::kCylindricity:
+      return R"(<circle cx="10" cy="10" r="4.5"/><path d="M2 17L8.5 3M11.5 17L18 3"/>)";
+    case record::Form::kRoundness:
+    case record::Form::kRoundnessRms:
+      return R"(<circle cx="10" cy="10" r="7"/>)";
+    case record::Form::kRunOut:
+      return R"(<path d="M4 17L15 4M9.5 5L15 4L14 9.5"/>)";
+    case record::Form::kContourDeviation:
+      return R"(<path d="M3 15a7 7 0 0 1 14 0"/>)";
+    default:
+      return R"(<path d="M2 10q4 -9 8 0t8 0"/>)";
+  }
+}
+
+}  // namespace
+
 std::string form_symbol(record::Form form) {
-  const std::string_view lines = form == record::Form::kCylindricity
-                                     ? R"(<circle cx="10" cy="10" r="4.5"/>)"
-                                       R"(<path d="M2 17L8.5 3M11.5 17L18 3"/>)"
-                                     : R"(<circle cx="10" cy="10" r="7"/>)";
+  const std::string_view lines = symbol_lines(form);
   return fmt::format(R"(<svg class="symbol" viewBox="0 0 20 20" width="18" height="18" role="img" )"
                      R"(aria-label="{}">{}</svg>)",
                      record::name_of(form), lines);

@@ -21,8 +21,10 @@ std::string write_html(const record::RunRecord& record, const Evaluation& evalua
   }
   html += probe_section(record, evaluation) + "\n" + decisions_section(record) + "\n" +
           provenance_section(record);
-  return html + "\n<footer>Made by Rondure from the touches on record; " +
-         "the raw data are in journal.db and touches.csv beside this page.</footer>\n" +
+  return html + "\n<footer>Made by Rondure from the " +
+         (record.series.empty() ? "touches" : "data") +
+         " on record; the raw data are in journal.db and " +
+         (record.series.empty() ? "touches.csv" : "series.csv") + " beside this page.</footer>\n" +
          "</main>\n</body>\n</html>\n";
 }
 

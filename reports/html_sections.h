@@ -22,6 +22,11 @@ namespace rondure::reports {
 [[nodiscard]] std::string decisions_section(const record::RunRecord& record);
 [[nodiscard]] std::string provenance_section(const record::RunRecord& record);
 
+/// Why a feature has no result, and its warnings.
+[[nodiscard]] std::string messages(const FeatureResult& feature);
+/// A value with small print below it.
+[[nodiscard]] std::string with_note(const std::string& value, const std::string& note);
+
 /// "<div><dt>name</dt><dd>html</dd></div>"; both are HTML already.
 [[nodiscard]] std::string entry(std::string_view name, std::string_view html,
                                 std::string_view css_class = {});

@@ -4,30 +4,20 @@
 
 #include <fmt/format.h>
 
-#include "core/units.h"
+#include "reports/analysis.h"
 #include "reports/facts.h"
+#include "reports/json_parts.h"
 
 namespace rondure::reports {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The one place where lengths become micrometres and angles degrees.
-double in_um(double length_mm) { return length_mm * 1000.0; }
-double in_deg(double angle_rad) { return angle_rad / core::kDegree; }
-
-Json optional_um(const std::optional<double>& length_mm) {
-  return length_mm ? Json(in_um(*length_mm)) : Json(nullptr);
-}
 Json vector_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 Json vector_json(const Eigen::Vector2d& v) { return Json::array({v.x(), v.y()}); }
 
 Json axis_json(const fit::Axis& axis) {
   return {{"point_mm", vector_json(axis.point_mm)}, {"direction", vector_json(axis.direction)}};
-}
-
-Json error_json(const core::Error& error) {
-  return {{"code", core::code_name(error.code)}, {"what", error.what}, {"where", error.where}};
 }
 
 Json header_json(const record::RunRecord& record) {
@@ -63,20 +53,6 @@ Json probe_json(const std::optional<fit::ProbeTip>& probe) {
           {"tip_radius_mm", probe->radius_mm},
           {"tip_radius_sigma_um", in_um(probe->radius_sigma_mm)},
           {"form_um", in_um(probe->form_mm)}};
-}
-
-Json characteristic_json(const CharacteristicResult& result) {
-  const record::Characteristic& asked = result.characteristic;
-  return {{"id", asked.id},
-          {"form", record::name_of(asked.form)},
-          {"symbol", symbol_of(asked)},
-          {"reference", reference_of(asked)},
-          {"value_um", optional_um(result.value_mm)},
-          {"tolerance_um", optional_um(asked.tolerance_mm)},
-          {"verdict", name_of(result.verdict)},
-          {"reason", result.reason},
-          {"operator", result.operator_text},
-          {"drawing_zone", asked.drawing_zone}};
 }
 
 Json contacts_json(const std::vector<fit::Contact>& contacts, const FeatureResult& feature) {
@@ -230,13 +206,6 @@ Json levelling_json(const std::optional<core::Pose>& pose) {
   return {{"alpha_deg", in_deg(pose->alpha_rad)}, {"beta_deg", in_deg(pose->beta_rad)}};
 }
 
-template <class Range, class Convert>
-Json list_json(const Range& range, const Convert& convert) {
-  Json list = Json::array();
-  for (const auto& item : range) list.push_back(convert(item));
-  return list;
-}
-
 Json thermal_json(const std::optional<ThermalCorrection>& c) {
   if (!c) return nullptr;
   return {{"part_expansion_per_K", c->part_expansion_1_K},
@@ -248,6 +217,7 @@ Json thermal_json(const std::optional<ThermalCorrection>& c) {
 }
 
 Json feature_json(const FeatureResult& feature) {
+  if (record::is_analysis(feature.feature.shape)) return analysis_json(feature);
   const record::Feature& asked = feature.feature;
   Json json;
   json["id"] = asked.id;
@@ -305,6 +275,9 @@ nlohmann::ordered_json report_document(const record::RunRecord& record,
   json["features"] = list_json(evaluation.features, feature_json);
   json["decisions"] = list_json(record.decisions, decision_json);
   json["simulation"] = list_json(record.truths, truth_json);
+  for (const record::TruthValue& truth : record.truth_values) {
+    json["simulation"].push_back({{"feature", truth.feature}, {truth.name, truth.value}});
+  }
   return json;
 }
 

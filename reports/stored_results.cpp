@@ -12,7 +12,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Every number below `node` with its JSON pointer. The cloud is left out: it is the touches again,
-/// which the journal's digests hold, and it may have a million rows.
+/// which the journal's digests hold, and it may have a million rows. So may the curves of an
+/// analysis, which follow from its series; report.json holds them.
 void collect(const Json& node, const std::string& pointer, std::vector<record::StoredResult>& out) {
   if (node.is_number()) {
     out.push_back({pointer, node.get<double>()});
@@ -20,7 +21,7 @@ void collect(const Json& node, const std::string& pointer, std::vector<record::S
   }
   if (node.is_object()) {
     for (const auto& [key, value] : node.items()) {
-      if (key != "cloud") collect(value, pointer + "/" + key, out);
+      if (key != "cloud" && key != "curves") collect(value, pointer + "/" + key, out);
     }
   }
   if (node.is_array()) {

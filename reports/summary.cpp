@@ -122,6 +122,32 @@ void add_truth(std::string& out, const record::SimulationTruth* truth,
   add_wrapped(out, "  hidden truth", text + " (of the simulation, not of the measurement)");
 }
 
+/// "spool: outside cylinder, 4 x 7 points", "journal: spindle, 3 revolutions".
+std::string heading_of(const FeatureResult& feature) {
+  const std::string name = shortened(printable(feature.feature.id), 30);
+  if (record::is_analysis(feature.feature.shape)) {
+    return fmt::format("{}: {}{}{}", name, record::name_of(feature.feature.shape),
+                       feature.analysis ? ", " : "",
+                       feature.analysis ? feature.analysis->sampling_text() : std::string());
+  }
+  return fmt::format("{}: {} {}, {}", name, record::name_of(feature.feature.side),
+                     record::name_of(feature.feature.shape), pattern_of(feature));
+}
+
+void add_analysis(std::string& out, const record::RunRecord& record, std::size_t index,
+                  const FeatureResult& feature) {
+  if (feature.analysis) {
+    for (const SummaryLine& line : feature.analysis->summary())
+      add_wrapped(out, fmt::format("  {}", line.name), line.text);
+  }
+  for (const record::TruthValue& truth : record.truth_values) {
+    if (static_cast<std::size_t>(truth.feature) != index) continue;
+    add_wrapped(out, "  hidden truth",
+                fmt::format("{} {:.6g} (of the simulation, not of the measurement)", truth.name,
+                            truth.value));
+  }
+}
+
 }  // namespace
 
 std::string write_summary(const record::RunRecord& record, const Evaluation& evaluation) {
@@ -130,14 +156,12 @@ std::string write_summary(const record::RunRecord& record, const Evaluation& eva
   for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
     const FeatureResult& feature = evaluation.features[i];
     out += "\n";
-    add_wrapped(out, "feature",
-                fmt::format("{}: {} {}, {}", shortened(printable(feature.feature.id), 30),
-                            record::name_of(feature.feature.side),
-                            record::name_of(feature.feature.shape), pattern_of(feature)));
+    add_wrapped(out, "feature", heading_of(feature));
     for (const CharacteristicResult& result : feature.characteristics) {
       add_characteristic(out, result);
     }
     if (feature.failure) add_wrapped(out, "  no result", core::to_line(*feature.failure));
+    add_analysis(out, record, i, feature);
     add_zone(out, feature);
     add_one_sided(out, feature);
     add_truth(out, truth_of(record, i), feature);

@@ -4,22 +4,12 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "reports/csv_field.h"
 #include "reports/text.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {
-
-/// A field by RFC 4180: quoted when it holds a comma, a quote or a line break.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
 
 std::string number(double value) { return std::isfinite(value) ? core::shortest(value) : ""; }
 
@@ -30,7 +20,7 @@ std::string write_touches_csv(const record::RunRecord& record) {
   for (const record::PoseVisit& pose : record.poses) {
     const auto index = static_cast<std::size_t>(pose.feature);
     if (pose.feature >= 0 && index < record.features.size()) {
-      feature_of_pose[pose.id] = field(record.features[index].id);
+      feature_of_pose[pose.id] = csv_field(record.features[index].id);
     }
   }
   std::string text = fmt::format("# rondure touches, run {}\n", printable(record.header.run_id));

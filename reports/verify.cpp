@@ -61,6 +61,7 @@ core::Result<std::string> compare_exports(const fs::path& directory,
   std::string absent;
   for (const Export& e : exports()) {
     if (!stands_there(directory / e.file)) {
+      if (!applies(e, record)) continue;
       absent += (absent.empty() ? "; not there: " : ", ") + e.file;
       continue;
     }
@@ -130,6 +131,13 @@ std::string how_exactly(const record::Header& header, const VerifyOptions& optio
   return words.empty() ? "bit for bit (same kind of processor)" : words;
 }
 
+/// ", 3072 rows of series"; empty without any.
+std::string series_in_words(const record::RunRecord& record) {
+  std::size_t rows = 0;
+  for (const record::Series& series : record.series) rows += series.rows();
+  return rows == 0 ? std::string() : fmt::format(", {} rows of series", rows);
+}
+
 std::vector<std::string> signed_files() {
   std::vector<std::string> files = {record::kJournalName};
   for (const Export& e : exports()) files.push_back(e.file);
@@ -182,9 +190,9 @@ core::Result<Verification> verify_run(const fs::path& directory, const VerifyOpt
   const auto names = compare_exports(directory, record, *evaluation, exactness, *listed, out);
   if (!names) return core::fail(names.error());
   out.what_was_compared =
-      fmt::format("{} touches, {} results follow from the journal, {}; exports compared: {}{}",
-                  record.touches.size(), results, how_exactly(record.header, options, exactness),
-                  *names, *signature);
+      fmt::format("{} touches{}, {} results follow from the journal, {}; exports compared: {}{}",
+                  record.touches.size(), series_in_words(record), results,
+                  how_exactly(record.header, options, exactness), *names, *signature);
   return out;
 }
 

@@ -17,6 +17,9 @@ namespace rondure::reports {
 /// touches.csv: a row a touch, as journalled.
 [[nodiscard]] std::string write_touches_csv(const record::RunRecord& record);
 
+/// series.csv: a line a number: feature, series, row, column, value; hidden truth is left out.
+[[nodiscard]] std::string write_series_csv(const record::RunRecord& record);
+
 /// A few lines for the terminal: verdict, each characteristic, the zone, warnings.
 [[nodiscard]] std::string write_summary(const record::RunRecord& record,
                                         const Evaluation& evaluation);

@@ -27,6 +27,10 @@ std::vector<fs::path> plans_in(const fs::path& folder) {
   return out;
 }
 
+bool needs_server(const fs::path& plan) {
+  return nlohmann::json::parse(read(plan)).value("/machine/driver"_json_pointer, "") == "ippdme";
+}
+
 std::string read(const fs::path& file) {
   std::ostringstream bytes;
   bytes << std::ifstream(file, std::ios::binary).rdbuf();

@@ -16,6 +16,9 @@ namespace rondure::app::testing {
 /// Plans of a folder, by name.
 [[nodiscard]] std::vector<std::filesystem::path> plans_in(const std::filesystem::path& folder);
 
+/// Whether the machine of a plan stands behind a socket: somebody has to serve it.
+[[nodiscard]] bool needs_server(const std::filesystem::path& plan);
+
 /// Bytes of a file; empty when there is none.
 [[nodiscard]] std::string read(const std::filesystem::path& file);
 void write(const std::filesystem::path& file, std::string_view bytes);

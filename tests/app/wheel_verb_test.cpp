@@ -1,5 +1,6 @@
 // `rondure fit wheel`, as a shell sees it.
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -141,6 +142,26 @@ TEST(WheelVerb, NamesWhatIsWrongWithTheInput) {
       rondure({"fit", "wheel", kExample1, "--mode", "envelope", "--axis-mm", "0,0"});
   EXPECT_EQ(envelope.status, 2);
   EXPECT_THAT(envelope.err, HasSubstr("run-out cannot be stated in envelope mode"));
+}
+
+TEST(WheelVerb, TheExamplePlanFindsItsHiddenTruth) {
+  TemporaryFolder folder;
+  const auto run = folder / "run";
+  const auto out = rondure({"run", example("06_wheel.json"), "--out", run});
+  ASSERT_EQ(out.status, 0) << out.err << out.out;
+  const auto wheel = nlohmann::json::parse(read(run / "report.json"))["features"][0]["wheel"];
+  std::map<std::string, double> truth;
+  for (const auto& value : journal_of(run).truth_values) truth[value.name] = value.value;
+  const double u_um = wheel["radius_uncertainty_um"];
+  EXPECT_LT(u_um, 1.5);
+  EXPECT_NEAR(wheel["radius_mm"], truth.at("radius_mm"), 3e-3 * u_um);
+  EXPECT_NEAR(wheel["center_mm"][0], truth.at("center_x_mm"), 5e-3 * u_um);
+  EXPECT_NEAR(wheel["center_mm"][1], truth.at("center_z_mm"), 5e-3 * u_um);
+  // Sixteen points miss the extremes of the form by a share of it; the noise is 0.4 um.
+  EXPECT_NEAR(wheel["runout"]["fim_um"], truth.at("runout_um"), 2.0);
+  ASSERT_EQ(wheel["dropped"].size(), 1U);
+  EXPECT_EQ(wheel["dropped"][0]["row"], 4);
+  EXPECT_GT(wheel["forecast"]["improvement"], 5.0);
 }
 
 }  // namespace

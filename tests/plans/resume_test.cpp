@@ -116,7 +116,7 @@ TEST_P(Resume, EndsWithTheSameBitsWhereverTheRunWasStopped) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Strategies, Resume,
-                         ::testing::Values("01_spool_simulated.json", "02_bore_simulated.json",
+                         ::testing::Values("01_spool_simulated.json", "14_bore_simulated.json",
                                            "13_pose_search_virtual.json"));
 
 TEST(ResumeOften, GoesOnAfterEveryFewTouches) {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "app/verbs.h"
+
+// The command line of the sister analyses: one function a verb, called by main.cpp.
+
+namespace rondure::app {
+
+void add_spindle(CLI::App& fit_verb, SpindleArguments& arguments);
+void add_design_probes(CLI::App& app, DesignArguments& arguments);
+
+}  // namespace rondure::app

@@ -1,0 +1,135 @@
+#include "cmm/ipp_client.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cmm/grid.h"
+#include "cmm/place_text.h"
+#include "cmm/scan_path.h"
+#include "cmm/touch_check.h"
+#include "core/numbers.h"
+#include "core/units.h"
+
+// Circle scans and the rotary tables of a machine behind I++ DME.
+
+namespace rondure::cmm {
+namespace {
+
+using Eigen::Vector3d;
+using ipp::Item;
+using ipp::number_item;
+using ipp::client::Reply;
+
+tl::unexpected<core::Error> fault(std::string what) {
+  return core::fail(core::Code::kMachine, std::move(what));
+}
+
+void append(std::vector<Item>& items, const Vector3d& v) {
+  for (const double value : {v.x(), v.y(), v.z()}) items.push_back(number_item(value));
+}
+
+/// Centre, start, axis, sweep, side of the surface and step of ScanOnCircle.
+std::vector<Item> scan_arguments(const ScanCircleCommand& command) {
+  std::vector<Item> out;
+  append(out, command.center_W_mm);
+  append(out, command.start_tip_W_mm);
+  append(out, command.axis_W);
+  const double sweep_deg = core::on_grid(command.sweep_rad / core::kDegree, kStepsPerDegree);
+  out.push_back(number_item(sweep_deg));
+  out.push_back(number_item(command.inside ? 180.0 : 0.0));
+  out.push_back(number_item(std::abs(sweep_deg) / command.points));
+  return out;
+}
+
+}  // namespace
+
+core::Result<std::vector<TouchReading>> IppMachine::scan_circle(const ScanCircleCommand& given) {
+  if (auto ready = check_ready(); !ready) return core::fail(ready.error());
+  if (auto sound = check_scan(given); !sound) return core::fail(sound.error());
+  if (!identity_.scans) return fault("the machine does not scan circles");
+  const ScanCircleCommand command = on_grid(given);
+  const TouchCommand first = scan_point(command, 0);
+  if (auto checked = check_touch(first, position_W_mm_); !checked) {
+    return core::fail(checked.error());
+  }
+  if (auto set = set_touch_distances(first); !set) return core::fail(set.error());
+  const std::array<std::pair<std::string_view, double>, 1> retract = {
+      {{"Tool.ScanPar.Retract", command.approach_mm}}};
+  if (auto set = dialogue_->set(retract); !set) return core::fail(set.error());
+  if (auto told = number_touch(command.first_id); !told) return core::fail(told.error());
+  const Vector3d start = position_W_mm_;
+  const auto reply = run("ScanOnCircle", scan_arguments(command), scan_length_mm(command),
+                         fmt::format("the scan about {}", in_words(command.center_W_mm)));
+  if (reply) return readings_of(*reply, command);
+  if (reply.error().code == core::Code::kNoTouch) {
+    if (auto back = go_to(start); !back) return core::fail(back.error());
+  }
+  return core::fail(reply.error());
+}
+
+core::Result<std::vector<TouchReading>> IppMachine::readings_of(const Reply& reply,
+                                                                const ScanCircleCommand& command) {
+  const auto tips = ipp::client::scan_points(reply);
+  if (!tips) return core::fail(tips.error());
+  next_touch_ = command.first_id + static_cast<std::int64_t>(tips->size());
+  if (auto sane = check_scanned(*tips, command); !sane) return core::fail(sane.error());
+  const auto stands = dialogue_->position_W_mm();
+  if (!stands) return core::fail(stands.error());
+  position_W_mm_ = on_grid_mm(*stands);
+  std::vector<TouchReading> out;
+  out.reserve(tips->size());
+  TouchReading reading;
+  reading.temperature_degC = temperature_degC_.value_or(kAssumed_degC);
+  reading.scale_temperature_degC = reading.temperature_degC;
+  reading.time_s = time_s();
+  for (const Vector3d& tip : *tips) {
+    reading.tip_W_mm = tip;
+    out.push_back(on_grid(reading));
+  }
+  return out;
+}
+
+core::Result<void> IppMachine::check_scanned(const std::vector<Vector3d>& tips,
+                                             const ScanCircleCommand& command) const {
+  if (tips.size() < 3) {
+    return fault(fmt::format("the scan about {} gave {} points, {} were expected",
+                             in_words(command.center_W_mm), tips.size(), command.points));
+  }
+  // Servers put other columns first than those that were asked for.
+  const double off_mm = (tips.front() - command.start_tip_W_mm).norm();
+  const double allowed_mm = command.approach_mm + command.search_mm +
+                            std::abs(command.sweep_rad) / command.points *
+                                (command.start_tip_W_mm - command.center_W_mm).norm();
+  if (off_mm <= allowed_mm) return {};
+  return fault(
+      fmt::format("the first point of the scan, {}, is {:.3f} mm from where the scan "
+                  "started, at most {:.3f} mm are possible: the columns of the scan report "
+                  "are not X, Y, Z",
+                  in_words(tips.front()), off_mm, allowed_mm));
+}
+
+core::Result<IppMachine::Alignment> IppMachine::align_part(const Alignment& target) {
+  if (auto ready = check_ready(); !ready) return core::fail(ready.error());
+  std::vector<Item> items;
+  append(items, Vector3d::UnitZ());
+  append(items, target.first_W);
+  append(items, Vector3d::UnitY());
+  append(items, target.second_W);
+  items.push_back(number_item(0.0));  // no check of the error that is left: the pose is read back
+  items.push_back(number_item(0.0));
+  const auto reply = run("AlignPart", std::move(items), 0.0, "turning the part");
+  if (!reply) return core::fail(reply.error());
+  const std::vector<Vector3d> reached = ipp::client::find_vectors(*reply);
+  if (reached.size() != 2) {
+    return fault(
+        fmt::format("turning the part: the machine answered with {} vectors instead of 2; "
+                    "it needs two rotary axes (AlignPart with 14 numbers)",
+                    reached.size()));
+  }
+  return Alignment{reached[0], reached[1]};
+}
+
+}  // namespace rondure::cmm

@@ -1,0 +1,133 @@
+#include "cmm/ipp_client.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cmm/grid.h"
+#include "cmm/ipp_client_failure.h"
+
+// Tools and speeds of a machine behind I++ DME.
+
+namespace rondure::cmm {
+namespace {
+
+tl::unexpected<core::Error> fault(std::string what) {
+  return core::fail(core::Code::kMachine, std::move(what));
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out.empty() ? "none" : out;
+}
+
+/// Speeds as properties of the active tool, with the member each one is.
+struct SpeedProperty {
+  std::string_view name;
+  double Speeds::*member;
+};
+constexpr auto kSpeedProperties = std::to_array<SpeedProperty>({
+    {"Tool.GoToPar.Speed", &Speeds::travel_mm_s},
+    {"Tool.PtMeasPar.Speed", &Speeds::touch_mm_s},
+    {"Tool.ScanPar.Speed", &Speeds::scan_mm_s},
+});
+
+}  // namespace
+
+core::Result<void> IppMachine::take_tool(const std::string& name) {
+  const auto& tools = identity_.tools;
+  const bool named = tools.empty() || std::find(tools.begin(), tools.end(), name) != tools.end();
+  if (!named) {
+    return fault(fmt::format("the machine has no tool {}; its tools: {}", name, listed(tools)));
+  }
+  if (auto changed =
+          run("ChangeTool", {ipp::string_item(name)}, 0.0, fmt::format("taking tool {}", name));
+      !changed) {
+    return core::fail(changed.error().code,
+                      fmt::format("{}; its tools: {}", changed.error().what, listed(tools)));
+  }
+  dialogue_->forget_properties();
+  const auto active = dialogue_->active_tool();
+  if (!active) return core::fail(active.error());
+  tool_ = *active;
+  if (tool_ != name) {
+    return fault(
+        fmt::format("tool {} was asked for, the machine says that {} is active; see which "
+                    "tool is in its head",
+                    name, tool_.empty() ? "none" : tool_));
+  }
+  const auto stands = dialogue_->position_W_mm();  // another tip stands elsewhere
+  if (!stands) return core::fail(stands.error());
+  position_W_mm_ = on_grid_mm(*stands);
+  return read_speed_limits();
+}
+
+core::Result<void> IppMachine::check_tool() {
+  if (tool_.empty()) {
+    return fault(
+        fmt::format("the machine has no tool active; name one of its tools (machine.tool): "
+                    "{}",
+                    listed(identity_.tools)));
+  }
+  if (options_.tip_radius_mm == 0.0) return {};
+  const auto radius = dialogue_->property("Tool.AvrRadius");
+  if (!radius) return core::fail(radius.error());
+  const bool unknown = !*radius || **radius == 0.0;  // the qualification of the run will find it
+  if (unknown || std::abs(**radius - options_.tip_radius_mm) <= options_.tip_tolerance_mm)
+    return {};
+  return fault(
+      fmt::format("tool {} has an effective radius of {:.4f} mm, the tip of the plan has "
+                  "{:.4f} mm, at most {:g} mm off: name another tool (machine.tool), "
+                  "correct tip_diameter_mm, or qualify the tool on the machine",
+                  tool_, **radius, options_.tip_radius_mm, options_.tip_tolerance_mm));
+}
+
+core::Result<void> IppMachine::select_tool(const std::string& name) {
+  if (auto ready = check_ready(); !ready) return ready;
+  if (name == tool_) return {};
+  if (auto taken = take_tool(name); !taken) return taken;
+  return send_speeds();
+}
+
+core::Result<void> IppMachine::read_speed_limits() {
+  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  for (const SpeedProperty& speed : kSpeedProperties) {
+    const auto least = dialogue_->property(fmt::format("{}.Min", speed.name));
+    if (!least) return core::fail(least.error());
+    const auto greatest = dialogue_->property(fmt::format("{}.Max", speed.name));
+    if (!greatest) return core::fail(greatest.error());
+    least_.*speed.member = least->value_or(0.0);
+    greatest_.*speed.member = greatest->value_or(kNoLimit);
+  }
+  return {};
+}
+
+core::Result<void> IppMachine::send_speeds() {
+  std::vector<std::pair<std::string_view, double>> values;
+  for (const SpeedProperty& speed : kSpeedProperties) {
+    const bool scan = speed.member == &Speeds::scan_mm_s;
+    if (!scan || identity_.scans) values.emplace_back(speed.name, options_.speeds.*speed.member);
+  }
+  return dialogue_->set(values);
+}
+
+core::Result<void> IppMachine::set_speeds(const Speeds& speeds) {
+  for (const SpeedProperty& speed : kSpeedProperties) {
+    const double value = speeds.*speed.member;
+    const double least = least_.*speed.member;
+    const double greatest = greatest_.*speed.member;
+    if (std::isfinite(value) && value > 0.0 && value >= least && value <= greatest) continue;
+    return core::fail(core::Code::kOutOfRange,
+                      fmt::format("{} of {:g} mm/s is outside {:g}..{:g} mm/s of the machine",
+                                  speed.name, value, least, greatest));
+  }
+  options_.speeds = speeds;
+  return send_speeds();
+}
+
+}  // namespace rondure::cmm

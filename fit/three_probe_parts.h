@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+#include "fit/three_probe.h"
+
+// Private to the room: the steps of separate_three_probe().
+
+namespace rondure::fit {
+
+/// Readings of whole revolutions on samples uniform in theta.
+struct ProbeSamples {
+  std::size_t count = 0;  ///< N of a revolution.
+  int revolutions = 1;
+  double start_rad = 0.0;  ///< theta of the first sample.
+  std::size_t rows = 0;    ///< Readings behind them.
+  bool interpolated = false;
+  std::array<std::vector<double>, 3> h_mm;     ///< count * revolutions values.
+  std::array<std::vector<double>, 3> mean_mm;  ///< Mean revolution.
+  std::vector<double> alpha_rad;               ///< Of the first revolution.
+  std::vector<double> beta_rad;
+  double largest_gap_rad = 0.0;  ///< Between neighbouring readings in theta.
+};
+
+/// A.6: checks, unwraps, interpolates, averages.
+[[nodiscard]] core::Result<ProbeSamples> sample_readings(const ProbeReadings& readings,
+                                                         const SwingArm& arm,
+                                                         const ThreeProbeOptions& options);
+
+/// A.7: motion of every revolution and its mean from the profile of the result and its half
+/// spectrum; then eccentricity and zeros are taken out. `spectrum` belongs to samples at theta -
+/// start.
+void separate_motion(const ProbeSamples& samples, const std::vector<std::complex<double>>& spectrum,
+                     const ThreeProbeOptions& options, ThreeProbeResult& result);
+
+/// A.8: subtracts from each reading of the mean revolution what the linear equations neglect, given
+/// the present profile and motion; the readings of all revolutions move alike.
+/// The motion is that before eccentricity and zeros are taken out: zeros of the probes count as
+/// motion here, so master the probes within some um where the second order matters.
+/// @return Largest correction [mm].
+double correct_second_order(const ProbeSamples& measured,
+                            const std::vector<std::complex<double>>& spectrum,
+                            const ThreeProbeResult& result, double part_radius_mm,
+                            ProbeSamples& samples);
+
+}  // namespace rondure::fit

@@ -1,0 +1,144 @@
+#include "reports/analysis.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/units.h"
+#include "reports/evaluation.h"
+#include "reports/html_sections.h"
+#include "reports/json_parts.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string joined(const std::string& detail) {
+  return detail.empty() ? std::string() : fmt::format(" ({})", detail);
+}
+
+/// The limit that stands when there is no value: of a mask its first line.
+std::optional<double> nominal_limit(const record::Characteristic& asked) {
+  if (!asked.harmonic_limits.empty()) return asked.harmonic_limits.front().amplitude_mm;
+  return asked.tolerance_mm;
+}
+
+void judge(const record::RunRecord& record, const FeatureResult& result,
+           CharacteristicResult& out) {
+  record::Characteristic& asked = out.characteristic;
+  asked.tolerance_mm = nominal_limit(asked);
+  out.verdict = Verdict::kVoid;
+  if (!result.analysis) {
+    out.reason = result.failure ? result.failure->what : "there is no result";
+    return;
+  }
+  const auto value = result.analysis->value_of(asked);
+  if (!value) {
+    out.reason = value.error().what;
+    return;
+  }
+  out.value_mm = value->value_mm;
+  if (value->limit_mm) asked.tolerance_mm = value->limit_mm;
+  if (value->void_because) {
+    out.reason = *value->void_because;
+  } else if (record.ending != "finished") {
+    out.reason = "the run did not finish";
+  } else if (!asked.tolerance_mm) {
+    out.verdict = Verdict::kNotToleranced;
+    out.reason = "reported only" + joined(value->detail);
+  } else {
+    const double limit = *asked.tolerance_mm;
+    const bool conforms = value->value_mm <= limit;
+    out.verdict = conforms ? Verdict::kConforms : Verdict::kDoesNotConform;
+    out.reason =
+        fmt::format("{:.4g} um is {} the tolerance of {:g} um by {:.4g} um{}",
+                    value->value_mm / core::kMicrometre, conforms ? "within" : "above",
+                    limit / core::kMicrometre,
+                    std::abs(limit - value->value_mm) / core::kMicrometre, joined(value->detail));
+  }
+}
+
+/// Numbers of the hidden truth, as a box that says what they are.
+std::string truth_box(const record::RunRecord& record, std::size_t index) {
+  std::string text;
+  for (const record::TruthValue& truth : record.truth_values) {
+    if (static_cast<std::size_t>(truth.feature) != index) continue;
+    text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", escaped(truth.name), truth.value);
+  }
+  if (text.empty()) return {};
+  return fmt::format(
+      R"(<div class="truth"><b>Hidden truth of the simulation:</b> {}. This is not part of the )"
+      "measurement: evaluation never reads it.</div>",
+      text);
+}
+
+}  // namespace
+
+FeatureResult evaluate_analysis(const record::RunRecord& record, int index) {
+  FeatureResult result;
+  result.feature = record.features[static_cast<std::size_t>(index)];
+  const bool recorded = record.data_of(index, "data") != nullptr;
+  if (!recorded) {
+    result.failure =
+        core::Error{core::Code::kNoPoints, "the run ended before its data were kept", {}};
+    return result;
+  }
+  switch (result.feature.shape) {
+    case record::Shape::kSpindle:
+      evaluate_spindle(record, index, result);
+      break;
+    case record::Shape::kWheel:
+      evaluate_wheel(record, index, result);
+      break;
+    default:
+      result.failure = core::Error{
+          core::Code::kMeaning,
+          fmt::format("this version does not evaluate a {}", record::name_of(result.feature.shape)),
+          {}};
+  }
+  return result;
+}
+
+void decide_analysis(const record::RunRecord& record, FeatureResult& result) {
+  for (const record::Characteristic& characteristic : result.feature.characteristics) {
+    CharacteristicResult out;
+    out.characteristic = characteristic;
+    if (result.analysis) out.operator_text = result.analysis->operator_text(characteristic);
+    judge(record, result, out);
+    result.characteristics.push_back(std::move(out));
+  }
+}
+
+Json analysis_json(const FeatureResult& feature) {
+  const record::Feature& asked = feature.feature;
+  Json json;
+  json["id"] = asked.id;
+  json["shape"] = record::name_of(asked.shape);
+  json["side"] = record::name_of(asked.side);
+  json["data_file"] = asked.points_file;
+  json["data_sha256"] = asked.points_sha256;
+  json["characteristics"] = list_json(feature.characteristics, characteristic_json);
+  json[std::string(record::name_of(asked.shape))] =
+      feature.analysis ? feature.analysis->json() : Json(nullptr);
+  json["warnings"] = list_json(feature.warnings, error_json);
+  json["failure"] = feature.failure ? error_json(*feature.failure) : Json(nullptr);
+  return json;
+}
+
+std::string analysis_section(const record::RunRecord& record, std::size_t index,
+                             const FeatureResult& feature) {
+  const record::Feature& asked = feature.feature;
+  std::string html = fmt::format(
+      R"(<section><h2>Feature {}</h2><p class="note">{}; data {}.</p>)", isolated(asked.id),
+      capitalised(record::name_of(asked.shape)),
+      asked.points_file.empty() ? std::string("simulated")
+                                : fmt::format("from the file {}", isolated(asked.points_file)));
+  html += messages(feature);
+  if (feature.analysis) html += feature.analysis->html(record, static_cast<int>(index));
+  return html + truth_box(record, index) + "</section>";
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/result.h"
+#include "record/run_record.h"
+
+namespace rondure::reports {
+
+struct FeatureResult;
+
+/// What an analysis found for one characteristic.
+struct AnalysisValue {
+  double value_mm = 0.0;
+  std::optional<double> limit_mm;           ///< In place of the tolerance: the line of a mask.
+  std::string detail;                       ///< Joins the reason, e.g. "harmonic 5".
+  std::optional<std::string> void_because;  ///< Why the value proves nothing.
+};
+
+/// A line of the terminal's summary: at most 13 characters of name, then text.
+struct SummaryLine {
+  std::string name;
+  std::string text;
+};
+
+/// What one analysis of series (spindle, wheel, contour) found of a feature, and what each report
+/// says of it. Immutable; every function is pure. README.md says how to add one.
+class AnalysisResult {
+ public:
+  AnalysisResult() = default;
+  AnalysisResult(const AnalysisResult&) = delete;
+  AnalysisResult& operator=(const AnalysisResult&) = delete;
+  virtual ~AnalysisResult() = default;
+
+  /// The value of a characteristic, or why there is none.
+  [[nodiscard]] virtual core::Result<AnalysisValue> value_of(
+      const record::Characteristic& characteristic) const = 0;
+  /// How that value came about: "LSCI; gaussian low pass 50 UPR; ...".
+  [[nodiscard]] virtual std::string operator_text(
+      const record::Characteristic& characteristic) const = 0;
+  /// The filter, and what was recorded, as the archive keeps them.
+  [[nodiscard]] virtual std::string filter_text() const = 0;
+  [[nodiscard]] virtual std::string sampling_text() const = 0;
+  /// Everything under the name of the shape in report.json. Curves (one number a sample) stand
+  /// under the key "curves", which the stored results leave out.
+  [[nodiscard]] virtual nlohmann::ordered_json json() const = 0;
+  /// The body of the feature's section: key numbers, drawings, tables. `record` for the hidden
+  /// truth of a simulation.
+  [[nodiscard]] virtual std::string html(const record::RunRecord& record, int feature) const = 0;
+  [[nodiscard]] virtual std::vector<SummaryLine> summary() const = 0;
+};
+
+/// Evaluates a feature whose shape is an analysis, by the file of its shape. Same record, same
+/// bits.
+[[nodiscard]] FeatureResult evaluate_analysis(const record::RunRecord& record, int index);
+
+/// Fills the characteristics of such a feature under the rule `simple acceptance`. Void without a
+/// result, without the value, where the value proves nothing, or when the run did not finish.
+void decide_analysis(const record::RunRecord& record, FeatureResult& result);
+
+/// The evaluations themselves, a file each. They set `analysis` and `warnings`, or `failure`.
+void evaluate_spindle(const record::RunRecord& record, int index, FeatureResult& result);
+void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& result);
+
+/// The parts of the reports that all analyses share: entries of report.json, the section of the
+/// page.
+[[nodiscard]] nlohmann::ordered_json analysis_json(const FeatureResult& feature);
+[[nodiscard]] std::string analysis_section(const record::RunRecord& record, std::size_t index,
+                                           const FeatureResult& feature);
+
+}  // namespace rondure::reports

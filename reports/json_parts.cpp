@@ -1,0 +1,31 @@
+#include "reports/json_parts.h"
+
+#include "reports/facts.h"
+
+namespace rondure::reports {
+
+using Json = nlohmann::ordered_json;
+
+Json optional_um(const std::optional<double>& length_mm) {
+  return length_mm ? Json(in_um(*length_mm)) : Json(nullptr);
+}
+
+Json error_json(const core::Error& error) {
+  return {{"code", core::code_name(error.code)}, {"what", error.what}, {"where", error.where}};
+}
+
+Json characteristic_json(const CharacteristicResult& result) {
+  const record::Characteristic& asked = result.characteristic;
+  return {{"id", asked.id},
+          {"form", record::name_of(asked.form)},
+          {"symbol", symbol_of(asked)},
+          {"reference", reference_of(asked)},
+          {"value_um", optional_um(result.value_mm)},
+          {"tolerance_um", optional_um(asked.tolerance_mm)},
+          {"verdict", name_of(result.verdict)},
+          {"reason", result.reason},
+          {"operator", result.operator_text},
+          {"drawing_zone", asked.drawing_zone}};
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rondure::reports {
+
+/// One line of a drawing of an analysis. `css_class` is one of html_style.h: "profile" (black),
+/// "zone-outer" (orange), "zone-inner" (blue), "guide" (dotted), "mean" (dashed).
+struct Curve {
+  std::string name;
+  std::string css_class = "profile";
+  std::vector<double> x;  ///< Polar: angles [rad]; else in the unit of the axis.
+  std::vector<double> y;  ///< Polar: deviations [um]; else in the unit of the axis.
+};
+
+/// A polar plot of closed curves about a mean circle, all at one magnification, with a scale bar
+/// and the names of the lines. More than 1440 points are thinned to the extremes of equal pieces.
+/// @param closed  The last point joins the first; false for revolutions one after the other.
+[[nodiscard]] std::string polar_chart(std::string_view title, const std::vector<Curve>& curves,
+                                      bool closed = true);
+
+/// An ordinary chart of lines.
+[[nodiscard]] std::string line_chart(std::string_view title, std::string_view x_title,
+                                     std::string_view y_title, const std::vector<Curve>& curves);
+
+/// Bars over whole numbers, with limits drawn as steps where there are any.
+struct Bar {
+  int order = 0;
+  double value = 0.0;
+  bool hollow = false;  ///< Not recovered: there is no value.
+};
+struct BarLimit {
+  int first = 0;
+  int last = 0;
+  double value = 0.0;
+};
+[[nodiscard]] std::string bar_chart(std::string_view title, std::string_view x_title,
+                                    std::string_view y_title, const std::vector<Bar>& bars,
+                                    const std::vector<BarLimit>& limits = {});
+
+}  // namespace rondure::reports

@@ -1,0 +1,181 @@
+#include "reports/spindle_result.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/facts.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+using core::Code;
+using record::Form;
+
+fit::CircleReference circle_of(record::Reference reference) {
+  switch (reference) {
+    case record::Reference::kLeastSquares:
+      return fit::CircleReference::kLs;
+    case record::Reference::kMinimumZone:
+      return fit::CircleReference::kMz;
+    case record::Reference::kMinimumCircumscribed:
+      return fit::CircleReference::kMc;
+    case record::Reference::kMaximumInscribed:
+      return fit::CircleReference::kMi;
+  }
+  return fit::CircleReference::kMz;
+}
+
+const fit::Roundness* roundness_about(const fit::RoundnessEvaluation& evaluation,
+                                      fit::CircleReference reference) {
+  for (const fit::Roundness& value : evaluation.values) {
+    if (value.reference == reference) return &value;
+  }
+  return nullptr;
+}
+
+/// Harmonics that were dropped falsify part and motion.
+std::optional<std::string> loss_of(const SpindleFacts& facts) {
+  if (facts.separation.unrecovered.empty()) return std::nullopt;
+  return fmt::format("{} harmonics were not recovered", facts.separation.unrecovered.size());
+}
+
+core::Result<AnalysisValue> roundness_value(const SpindleFacts& facts,
+                                            const record::Characteristic& asked) {
+  const bool rms = asked.form == Form::kRoundnessRms;
+  const auto reference = rms ? fit::CircleReference::kLs : circle_of(asked.reference);
+  const fit::Roundness* found = roundness_about(facts.roundness, reference);
+  if (found == nullptr) {
+    return core::fail(Code::kReferenceAbsent, "the profile has no such reference circle");
+  }
+  AnalysisValue out;
+  out.value_mm = rms ? found->parameters->rms_mm : found->total_mm;
+  out.void_because = loss_of(facts);
+  return out;
+}
+
+/// The harmonic that comes nearest to its limit, or goes farthest beyond.
+core::Result<AnalysisValue> mask_value(const SpindleFacts& facts,
+                                       const record::Characteristic& asked) {
+  AnalysisValue out;
+  double worst = -1.0;
+  for (const record::HarmonicLimit& line : asked.harmonic_limits) {
+    for (const fit::RecoveredHarmonic& h : facts.separation.harmonics) {
+      if (h.order < line.first || h.order > line.last) continue;
+      if (!h.recovered) {
+        out.void_because = fmt::format("harmonic {} was not recovered", h.order);
+        continue;
+      }
+      if (h.amplitude_mm / line.amplitude_mm <= worst) continue;
+      worst = h.amplitude_mm / line.amplitude_mm;
+      out.value_mm = h.amplitude_mm;
+      out.limit_mm = line.amplitude_mm;
+      out.detail = fmt::format("harmonic {} is nearest to its limit", h.order);
+    }
+    const int highest = facts.separation.harmonics.back().order;
+    if (line.last > highest) {
+      out.void_because = fmt::format("the mask reaches to harmonic {}, {} is the highest recovered",
+                                     line.last, highest);
+    }
+  }
+  if (worst < 0.0) {
+    return core::fail(Code::kMeaning, "the mask names no harmonic that was recovered");
+  }
+  return out;
+}
+
+core::Result<AnalysisValue> motion_value(const SpindleFacts& facts, Form form) {
+  AnalysisValue out;
+  const auto greater = [&](double x_mm, double y_mm) {
+    out.value_mm = std::max(x_mm, y_mm);
+    out.detail = x_mm >= y_mm ? "direction X" : "direction Y";
+  };
+  if (form == Form::kMotionTotal) greater(facts.x.total_mm, facts.y.total_mm);
+  if (form == Form::kMotionSynchronous) greater(facts.x.synchronous_mm, facts.y.synchronous_mm);
+  if (form == Form::kMotionAsynchronous) {
+    if (!facts.x.asynchronous_mm) {
+      return core::fail(Code::kSampling,
+                        "one revolution shows no asynchronous motion; record more");
+    }
+    greater(*facts.x.asynchronous_mm, *facts.y.asynchronous_mm);
+    return out;  // does not depend on the part
+  }
+  out.void_because = loss_of(facts);
+  return out;
+}
+
+}  // namespace
+
+core::Result<AnalysisValue> SpindleResult::value_of(const record::Characteristic& asked) const {
+  switch (asked.form) {
+    case Form::kRoundness:
+    case Form::kRoundnessRms:
+      return roundness_value(facts_, asked);
+    case Form::kHarmonicLimits:
+      return mask_value(facts_, asked);
+    case Form::kMotionTotal:
+    case Form::kMotionSynchronous:
+    case Form::kMotionAsynchronous:
+      return motion_value(facts_, asked.form);
+    default:
+      return core::fail(Code::kMeaning, fmt::format("a spindle has no {}", name_of(asked.form)));
+  }
+}
+
+std::string SpindleResult::filter_text() const {
+  const fit::FilterOptions& filter = facts_.roundness.filter;
+  if (filter.filter == fit::ProfileFilter::kNone) return "unfiltered";
+  return fmt::format("gaussian low pass {:g} UPR", filter.cutoff_upr);
+}
+
+std::string SpindleResult::sampling_text() const {
+  const auto turns = static_cast<std::size_t>(facts_.separation.revolutions);
+  return fmt::format("{} of {} samples", count(turns, "revolution", "revolutions"),
+                     facts_.separation.profile.r_mm.size());
+}
+
+std::string SpindleResult::operator_text(const record::Characteristic& asked) const {
+  const bool part = asked.form == Form::kRoundness || asked.form == Form::kRoundnessRms;
+  const fit::ThreeProbeResult& s = facts_.separation;
+  const auto angles = s.layout.angles_rad();
+  const std::string how = fmt::format(
+      "three probes at 0, {:.4f}, {:.4f} deg; {}; harmonics 2 to {}", angles[1] / core::kDegree,
+      angles[2] / core::kDegree, sampling_text(), s.harmonics.back().order);
+  if (part) return fmt::format("{}; {}; {}", reference_of(asked), filter_text(), how);
+  if (asked.form == Form::kHarmonicLimits)
+    return fmt::format("amplitudes before the filter; {}", how);
+  return fmt::format(
+      "ISO 230-7, fixed direction, about the least-squares centre of the mean revolution; {}", how);
+}
+
+std::vector<SummaryLine> SpindleResult::summary() const {
+  const fit::ThreeProbeResult& s = facts_.separation;
+  std::vector<SummaryLine> out;
+  std::string part;
+  for (const fit::Roundness& value : facts_.roundness.values) {
+    std::string name(fit::name_of(value.reference));
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](char c) { return static_cast<char>(c - 'a' + 'A'); });
+    part += fmt::format("{}{}CI {} um", part.empty() ? "RONt " : ", ", name, um(value.total_mm));
+  }
+  out.push_back({"part", part + "; " + filter_text()});
+  const auto direction = [](const char* name, const fit::AxisMotion& m) {
+    return fmt::format(
+        "{}: total {} um, synchronous {} um{}", name, um(m.total_mm), um(m.synchronous_mm),
+        m.asynchronous_mm ? fmt::format(", asynchronous {} um", um(*m.asynchronous_mm))
+                          : std::string());
+  };
+  out.push_back({"motion", direction("X", facts_.x) + "; " + direction("Y", facts_.y)});
+  out.push_back({"eccentricity", um(s.eccentricity_mm) + " um"});
+  const fit::WorstGain worst = fit::worst_gain(s.layout, 2, s.harmonics.back().order);
+  out.push_back(
+      {"noise gain", fmt::format("at most {:.2f}, at harmonic {}; profile known to {} um (rms, one "
+                                 "standard uncertainty)",
+                                 worst.gain, worst.order, um(s.profile_sigma_mm))});
+  return out;
+}
+
+}  // namespace rondure::reports

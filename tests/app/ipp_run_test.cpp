@@ -1,0 +1,271 @@
+// Whole runs over the wire: `rondure simulate-cmm` in one process, `rondure run` in another.
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/app/cutting_proxy.h"
+#include "tests/app/files.h"
+#include "tests/app/program.h"
+#include "wire/tcp_line.h"
+
+namespace rondure::app::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+
+constexpr const char* kPlan = "02_spool_over_ippdme.json";
+
+/// The example plan with a port and drivers of its own.
+void write_wire_plan(const fs::path& file, std::uint16_t port, const char* driver = "ippdme") {
+  json plan = json::parse(read(example(kPlan)));
+  plan["machine"]["port"] = port;
+  plan["machine"]["driver"] = driver;
+  plan["fixture"]["driver"] = driver;
+  write(file, plan.dump(2));
+}
+
+/// `rondure simulate-cmm` at work.
+class Simulator {
+ public:
+  /// @param speed  Simulated seconds in a second; "inf": motions take no time.
+  explicit Simulator(std::uint16_t port = free_port(), const std::string& speed = "inf")
+      : port_(port),
+        program_(
+            {"simulate-cmm", example(kPlan), "--port", std::to_string(port), "--speed", speed}) {
+    EXPECT_TRUE(wait_for_port(port_));
+  }
+  ~Simulator() {
+    if (!program_.ended()) program_.send(SIGTERM);
+    (void)program_.wait();
+  }
+
+  [[nodiscard]] std::uint16_t port() const { return port_; }
+  void kill() {
+    program_.send(SIGKILL);
+    (void)program_.wait();
+  }
+
+ private:
+  std::uint16_t port_;
+  Program program_;
+};
+
+/// What must not depend on how the machine is reached.
+void expect_same_touches(const record::RunRecord& run, const record::RunRecord& other) {
+  ASSERT_EQ(run.touches.size(), other.touches.size());
+  for (std::size_t i = 0; i < run.touches.size(); ++i) {
+    const record::Touch& a = run.touches[i];
+    const record::Touch& b = other.touches[i];
+    ASSERT_EQ(a.tip_mm, b.tip_mm) << "touch " << i;
+    ASSERT_EQ(a.approach, b.approach) << "touch " << i;
+    ASSERT_EQ(a.temperature_degC, b.temperature_degC) << "touch " << i;
+    ASSERT_TRUE(a.purpose == b.purpose && a.pose == b.pose && a.layer == b.layer &&
+                a.point == b.point && a.repeat == b.repeat)
+        << "touch " << i;
+  }
+  ASSERT_EQ(run.poses.size(), other.poses.size());
+  for (std::size_t i = 0; i < run.poses.size(); ++i) {
+    ASSERT_EQ(run.poses[i].reached, other.poses[i].reached) << "pose " << i;
+  }
+}
+
+double cylt_um(const fs::path& run) {
+  return json::parse(read(run / "report.json")).at("/features/0/mz/deviation_um"_json_pointer);
+}
+
+TEST(IppRun, TouchesOverTheWireAreThoseOfTheRunInOneProcess) {
+  const TemporaryFolder folder;
+  const Simulator simulator;
+  write_wire_plan(folder / "wire.json", simulator.port());
+  write_wire_plan(folder / "inside.json", simulator.port(), "simulated");
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome wire = rondure({"run", folder / "wire.json", "--out", folder / "wire", "--archive",
+                                "none", "--wire-log", folder / "wire.log"});
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  ASSERT_EQ(wire.status, 0) << wire.err << wire.out;
+  const Outcome inside =
+      rondure({"run", folder / "inside.json", "--out", folder / "inside", "--archive", "none"});
+  ASSERT_EQ(inside.status, 0) << inside.err;
+  const auto run = journal_of(folder / "wire");
+  const auto other = journal_of(folder / "inside");
+  expect_same_touches(run, other);
+  for (std::size_t i = 0; i < run.touches.size(); ++i) {
+    ASSERT_EQ(run.touches[i].time_s, other.touches[i].time_s) << "touch " << i;
+  }
+  EXPECT_EQ(cylt_um(folder / "wire"), cylt_um(folder / "inside"));
+  EXPECT_TRUE(run.header.simulated);
+  EXPECT_THAT(run.header.machine, HasSubstr("I++ DME 1.4"));
+  EXPECT_EQ(rondure({"verify", folder / "wire"}).status, 0);
+  const std::string log = read(folder / "wire.log");
+  EXPECT_THAT(log, HasSubstr(" -> C: 00002 StartSession()\n"));
+  EXPECT_THAT(log, HasSubstr(" <- S: 00002 %\n"));
+  std::printf("%zu touches over the wire, with reports and journal: %.3f ms a touch\n",
+              run.touches.size(), 1e3 * took.count() / static_cast<double>(run.touches.size()));
+}
+
+TEST(IppRun, AServedWorldMeasuresTheNextPartAsTheFirst) {
+  const TemporaryFolder folder;
+  const Simulator simulator;
+  write_wire_plan(folder / "plan.json", simulator.port());
+  for (const char* name : {"first", "second"}) {
+    const Outcome ran =
+        rondure({"run", folder / "plan.json", "--out", folder / name, "--archive", "none"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+  }
+  expect_same_touches(journal_of(folder / "first"), journal_of(folder / "second"));
+}
+
+TEST(IppRun, ACutConnectionStopsCleanlyAndTheResumedRunEndsTheSame) {
+  const TemporaryFolder folder;
+  const Simulator simulator;
+  CuttingProxy proxy(simulator.port());
+  write_wire_plan(folder / "plan.json", proxy.port());
+  const auto arguments = [&](const std::string& name) {
+    return std::vector<std::string>{
+        "run",  folder / "plan.json", "--out", folder / name, "--archive",
+        "none", "--format",           "json"};
+  };
+  ASSERT_EQ(rondure(arguments("whole")).status, 0);
+  const auto whole = journal_of(folder / "whole");
+  const std::uint64_t bytes = proxy.take_count();
+  const int cuts = std::getenv("RONDURE_FULL") != nullptr ? 200 : 3;
+  std::mt19937_64 random(1294);
+  int resumed = 0;
+  for (int i = 0; i < cuts; ++i) {
+    const std::uint64_t cut = 1 + random() % (bytes - 1);
+    SCOPED_TRACE(cut);
+    const std::string name = "run" + std::to_string(i);
+    proxy.cut_after(cut);
+    const Outcome stopped = rondure(arguments(name));
+    // Behind the last touch the connection is not needed any more.
+    ASSERT_THAT(stopped.status, AnyOf(0, 3)) << stopped.err;
+    if (stopped.status == 3) {
+      EXPECT_THAT(stopped.err, HasSubstr("[machine]"));
+      auto again = arguments(name);
+      again.emplace_back("--resume");
+      const Outcome ended = rondure(again);
+      ASSERT_EQ(ended.status, 0) << ended.err;
+      ++resumed;
+    }
+    expect_same_touches(journal_of(folder / name), whole);
+    EXPECT_EQ(cylt_um(folder / name), cylt_um(folder / "whole"));
+    fs::remove_all(folder / name);
+  }
+  EXPECT_GE(resumed, cuts - 1 - cuts / 20);
+  std::printf("%d cuts within %llu bytes: %d runs resumed, all with the same touches and result\n",
+              cuts, static_cast<unsigned long long>(bytes), resumed);
+}
+
+TEST(IppRun, GoesOnWithAServerThatWasStartedAgain) {
+  const TemporaryFolder folder;
+  const std::uint16_t port = free_port();
+  write_wire_plan(folder / "plan.json", port);
+  const std::vector<std::string> arguments = {"run",          folder / "plan.json", "--out",
+                                              folder / "run", "--archive",          "none"};
+  {
+    Simulator simulator(port);
+    Program run(arguments);
+    std::error_code absent;
+    while (!run.ended() &&
+           !(fs::file_size(folder / "run" / "journal.db-wal", absent) > 150'000 && !absent)) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    simulator.kill();
+    const Outcome lost = run.wait();
+    ASSERT_EQ(lost.status, 3) << lost.err;
+    EXPECT_THAT(lost.err, HasSubstr("to go on behind the last touch"));
+  }
+  const Outcome nobody = rondure({"run", folder / "run", "--resume", "--archive", "none"});
+  EXPECT_EQ(nobody.status, 3);
+  EXPECT_THAT(nobody.err, HasSubstr("check that the server runs"));
+  const Simulator again(port);
+  const Outcome ended = rondure({"run", folder / "run", "--resume", "--archive", "none"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+}
+
+TEST(IppRun, CtrlCStopsTheMachineAtOnceAndNothingMovesAfterwards) {
+  const TemporaryFolder folder;
+  const Simulator simulator(free_port(), "2");  // the first move takes 1.5 s
+  write_wire_plan(folder / "plan.json", simulator.port());
+  Program run({"run", folder / "plan.json", "--out", folder / "run", "--archive", "none",
+               "--wire-log", folder / "wire.log"});
+  while (!run.ended() && read(folder / "wire.log").find(" GoTo(") == std::string::npos) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const auto start = std::chrono::steady_clock::now();
+  run.send(SIGINT);
+  const Outcome stopped = run.wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(1500));
+  EXPECT_EQ(stopped.status, 3);
+  EXPECT_THAT(stopped.err, HasSubstr("[stopped]"));
+  EXPECT_THAT(stopped.err, HasSubstr("to go on behind the last touch"));
+  const std::string log = read(folder / "wire.log");
+  const std::size_t abort = log.find(" AbortE()");
+  ASSERT_NE(abort, std::string::npos)
+      << log.substr(log.size() - std::min<std::size_t>(log.size(), 500));
+  EXPECT_EQ(log.find(" GoTo(", abort), std::string::npos);
+  EXPECT_EQ(log.find(" PtMeas(", abort), std::string::npos);
+  EXPECT_NE(log.find(" ClearAllErrors()", abort), std::string::npos);
+}
+
+TEST(IppRun, SaysThatNobodyServesTheMachine) {
+  const TemporaryFolder folder;
+  write_wire_plan(folder / "plan.json", free_port());
+  const Outcome refused = rondure({"run", folder / "plan.json", "--out", folder / "run"});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_THAT(refused.err, HasSubstr("no connection to 127.0.0.1:"));
+  EXPECT_FALSE(fs::exists(folder / "run"));
+}
+
+/// A server that answers the first line with something, and then waits.
+class StrangeServer {
+ public:
+  explicit StrangeServer(std::string answer)
+      : listener_(*wire::TcpListener::open("127.0.0.1", 0)), thread_([this, answer] {
+          auto client = listener_.accept(std::chrono::milliseconds(10'000));
+          if (!client || !*client) return;
+          (void)(*client)->read_line(std::chrono::milliseconds(5'000));
+          if (!answer.empty()) (void)(*client)->write_line(answer);
+          (void)(*client)->read_line(std::chrono::milliseconds(1'000));
+        }) {}
+  ~StrangeServer() { thread_.join(); }
+  [[nodiscard]] std::uint16_t port() const { return listener_.port(); }
+
+ private:
+  wire::TcpListener listener_;
+  std::thread thread_;
+};
+
+TEST(IppRun, SaysWhatAStrangeServerSaid) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"HTTP/1.1 400 Bad Request", "HTTP/1.1 400 Bad Request"},
+      {"00001 &\r\n00001 ! Error(3, 0500, \"StartSession()\", \"Emergency stop\")\r\n00001 %",
+       "did not acknowledge"},
+      {std::string(100'000'000, 'x'), "a line of more than 1048576 bytes"},
+      {"", "did not acknowledge EndSession() within 0.3 s"},
+  };
+  for (const auto& [answer, message] : cases) {
+    SCOPED_TRACE(answer.substr(0, 40));
+    const TemporaryFolder folder;
+    const StrangeServer server(answer);
+    write_wire_plan(folder / "plan.json", server.port());
+    replace_in(folder / "plan.json", "\"approach_mm\"", "\"answer_limit_s\": 0.3, \"approach_mm\"");
+    const Outcome refused = rondure({"run", folder / "plan.json", "--out", folder / "run"});
+    EXPECT_EQ(refused.status, 3);
+    EXPECT_THAT(refused.err, HasSubstr(message));
+  }
+}
+
+}  // namespace
+}  // namespace rondure::app::testing

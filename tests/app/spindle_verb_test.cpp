@@ -1,0 +1,193 @@
+// rondure fit spindle, rondure design-probes, and spindle plans with data from a file.
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/app/files.h"
+#include "tests/app/program.h"
+
+namespace rondure::app::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::string data_file() {
+  return (fs::path(RONDURE_SOURCE_DIR) / "tests/data/spindle_dynamic/readings.csv").string();
+}
+
+std::vector<std::string> with_geometry(std::vector<std::string> words) {
+  for (const char* word :
+       {"--crank-radius", "49", "--wheel-radius", "299.88", "--pin-radius", "24.56"}) {
+    words.emplace_back(word);
+  }
+  return words;
+}
+
+TEST(FitSpindle, GivesThePlantedPart) {
+  const Outcome outcome =
+      rondure(with_geometry({"fit", "spindle", data_file(), "--layout", "reference", "--json"}));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json found = json::parse(outcome.out);
+  EXPECT_EQ(found.at("mode"), "tracking");
+  EXPECT_TRUE(found.at("unrecovered").empty());
+  EXPECT_TRUE(found.at("warnings").empty()) << found.at("warnings");
+  const std::map<int, double> planted = {{2, 3.0},  {3, 2.0},  {5, 0.8},  {7, 0.6},
+                                         {11, 0.4}, {16, 0.5}, {23, 0.3}, {40, 0.2}};
+  for (const json& h : found.at("harmonics")) {
+    const auto at = planted.find(h.at("order"));
+    EXPECT_NEAR(h.at("amplitude_um"), at == planted.end() ? 0.0 : at->second, 1e-4) << h;
+  }
+  EXPECT_NEAR(found.at("harmonics").at(0).at("phase_deg"), 20.0, 1e-3);
+  EXPECT_EQ(found.at("curves").at("profile_um").size(), 1024U);
+  const Outcome text =
+      rondure(with_geometry({"fit", "spindle", data_file(), "--layout", "reference"}));
+  EXPECT_THAT(text.out, HasSubstr("tracking: 1024 readings, 1 revolution"));
+}
+
+TEST(FitSpindle, TakesAnglesAsDifferencesAndCumulative) {
+  const auto base =
+      with_geometry({"fit", "spindle", data_file(), "--json", "--p1-to-p2", "52.3828125"});
+  auto differences = base;
+  differences.insert(differences.end(), {"--p2-to-p3", "248.90625"});
+  auto cumulative = base;
+  cumulative.insert(cumulative.end(), {"--p1-to-p3", "301.2890625"});
+  const json a = json::parse(rondure(differences).out);
+  const json b = json::parse(rondure(cumulative).out);
+  EXPECT_NEAR(a.at("layout").at("p2_to_p3_deg"), b.at("layout").at("p2_to_p3_deg"), 1e-12);
+  EXPECT_NEAR(a.at("part").at("mz").at("RONt_um"), b.at("part").at("mz").at("RONt_um"), 1e-9);
+}
+
+TEST(FitSpindle, RefusesBadInput) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text, std::vector<std::string> more) {
+    write(folder / "in.csv", text);
+    more.insert(more.begin(), {"fit", "spindle", (folder / "in.csv").string()});
+    const Outcome outcome = rondure(more);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.out, IsEmpty());
+    return outcome.err;
+  };
+  const std::string good = read(data_file());
+  EXPECT_THAT(refusal(good, {}), HasSubstr("the probe angles are not stated"));
+  EXPECT_THAT(refusal(good, {"--p1-to-p2", "52", "--p2-to-p3", "180"}), HasSubstr("in line"));
+  EXPECT_THAT(refusal(good, {"--layout", "reference", "--p1-to-p2", "52"}), HasSubstr("not both"));
+  EXPECT_THAT(refusal(good, {"--layout", "reference", "--crank-radius", "400", "--wheel-radius",
+                             "300", "--pin-radius", "25"}),
+              HasSubstr("not below wheel radius + pin radius"));
+  EXPECT_THAT(refusal("alpha_rad,H1_um,H2_um,H3_um\n0,1,1,1\n", {"--layout", "reference"}),
+              HasSubstr("\"alpha_rad\" is not in deg"));
+  EXPECT_THAT(refusal("alpha_deg,H1_um,H2_um,H3_um\n0,1,,1\n", {"--layout", "reference"}),
+              HasSubstr("in.csv:2: H2_um is empty"));
+  EXPECT_THAT(refusal("alpha_deg,H1_um,H2_um,H3_um\n0,1,1,1\n1,1,1,1\n", {"--layout", "reference"}),
+              HasSubstr("2 readings do not carry 50 undulations"));
+}
+
+TEST(DesignProbes, NamesTheLayoutsBesideTheKnownOnes) {
+  const Outcome outcome = rondure(
+      {"design-probes", "--samples", "256", "--last-order", "20", "--count", "2", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json found = json::parse(outcome.out);
+  ASSERT_EQ(found.at("layouts").size(), 2U);
+  EXPECT_LT(found.at("layouts").at(0).at("worst_gain"),
+            found.at("for_comparison").at("published-b").at("worst_gain"));
+  const Outcome text =
+      rondure({"design-probes", "--samples", "256", "--p2", "40,90", "--p3=-90,-40"});
+  EXPECT_THAT(text.out, HasSubstr("published-a"));
+  EXPECT_EQ(rondure({"design-probes", "--first-order", "1"}).status, 2);
+}
+
+/// A plan that reads the file of the dynamic case.
+std::string plan_with_file(const std::string& more) {
+  return R"({"plan": {"name": "Pin", "revision": "A"}, "part": {"id": "P"}, "features": [{
+    "id": "pin", "type": "spindle", "spindle": {"layout": "reference", "crank_radius_mm": 49,
+    "wheel_radius_mm": 299.88, "pin_radius_mm": 24.56, "probe_noise_um": 0.001},
+    "source": {"file": ")" +
+         data_file() + R"("}, "characteristics": [)" + more + R"(]}]})";
+}
+
+class SpindlePlan : public ::testing::Test {
+ protected:
+  Outcome run(const std::string& characteristics) {
+    write(folder_ / "plan.json", plan_with_file(characteristics));
+    return rondure({"run", (folder_ / "plan.json").string(), "--out", (folder_ / "run").string(),
+                    "--archive", "none"});
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(SpindlePlan, JudgesVerifiesAndTellsEveryChange) {
+  const Outcome ran = run(
+      R"({"id": "RONt", "form": "roundness", "reference": "ls", "tolerance_um": 1},
+         {"id": "mask", "form": "harmonic-limits", "harmonic_limits":
+           [{"from": 2, "to": 4, "amplitude_um": 3.5}, {"from": 5, "to": 50, "amplitude_um": 0.9}]},
+         {"id": "async", "form": "motion-asynchronous"})");
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  const json report = json::parse(read(folder_ / "run" / "report.json"));
+  const json& found = report.at("features").at(0).at("characteristics");
+  EXPECT_EQ(found.at(0).at("verdict"), "does not conform");
+  EXPECT_EQ(found.at(1).at("verdict"), "conforms");
+  EXPECT_THAT(found.at(1).at("reason"), HasSubstr("harmonic 5 is nearest to its limit"));
+  EXPECT_NEAR(found.at(1).at("value_um"), 0.8, 1e-4);
+  EXPECT_EQ(found.at(2).at("verdict"), "void");
+  EXPECT_THAT(found.at(2).at("reason"), HasSubstr("one revolution"));
+  const auto verify = [&] { return rondure({"verify", (folder_ / "run").string()}); };
+  EXPECT_EQ(verify().status, 0);
+  EXPECT_THAT(verify().out, HasSubstr("1024 rows of series"));
+
+  const std::string csv = read(folder_ / "run" / "series.csv");
+  replace_in(folder_ / "run" / "series.csv", "pin,data,7,H2_um,", "pin,data,7,H2_um,9");
+  EXPECT_EQ(verify().status, 1);
+  write(folder_ / "run" / "series.csv", csv);
+  EXPECT_EQ(verify().status, 0);
+  std::string bytes = read(folder_ / "run" / "journal.db");
+  const std::size_t at = bytes.find("\n0.351562,");
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 1] = '8';
+  write(folder_ / "run" / "journal.db", bytes);
+  const Outcome changed = verify();
+  EXPECT_EQ(changed.status, 1);
+  EXPECT_THAT(changed.out + changed.err, HasSubstr("series_block"));
+}
+
+TEST_F(SpindlePlan, IsRefusedWhenItGuesses) {
+  const auto problems = [&](const std::string& from, const std::string& to) {
+    std::string plan = plan_with_file(R"({"id": "RONt", "form": "roundness"})");
+    const std::size_t at = plan.find(from);
+    EXPECT_NE(at, std::string::npos);
+    plan.replace(at, from.size(), to);
+    write(folder_ / "bad.json", plan);
+    const Outcome outcome = rondure({"validate", (folder_ / "bad.json").string()});
+    EXPECT_EQ(outcome.status, 2);
+    return outcome.out + outcome.err;
+  };
+  const std::string layout = R"("layout": "reference")";
+  EXPECT_THAT(problems(layout, R"("samples": 1024)"),
+              HasSubstr("/features/0/spindle/p1_to_p2_deg"));
+  EXPECT_THAT(problems(layout, R"("p1_to_p2_deg": 60)"), HasSubstr("p2_to_p3_deg"));
+  EXPECT_THAT(problems(layout, R"("p1_to_p2_deg": 60, "p2_to_p3_deg": 240, "p1_to_p3_deg": 300)"),
+              HasSubstr("given twice"));
+  EXPECT_THAT(problems(layout, R"("p1_to_p2_deg": 60, "p2_to_p3_deg": 180)"), HasSubstr("in line"));
+  EXPECT_THAT(problems(layout, R"("layout": "reference", "p1_to_p2_deg": 60)"),
+              HasSubstr("has no effect"));
+  EXPECT_THAT(problems("\"crank_radius_mm\": 49", "\"crank_radius_mm\": 500"),
+              HasSubstr("not below wheel radius"));
+  EXPECT_THAT(problems("\"wheel_radius_mm\": 299.88", "\"wheel_radius_mm\": 299880"),
+              HasSubstr("micrometres"));
+  EXPECT_THAT(problems(layout, R"("layout": "reference", "samples": 90)"),
+              HasSubstr("at least 102"));
+  EXPECT_THAT(problems(R"("form": "roundness")", R"("form": "cylindricity")"),
+              HasSubstr("a spindle has no cylindricity"));
+  EXPECT_THAT(problems(R"("form": "roundness")", R"("form": "harmonic-limits")"),
+              HasSubstr("/characteristics/0/harmonic_limits"));
+  EXPECT_THAT(problems(R"("type": "spindle", "spindle": {)",
+                       R"("type": "spindle", "sampling": {}, "spindle": {)"),
+              HasSubstr("is not touched"));
+  EXPECT_THAT(problems("readings.csv", "SOURCE.md"), HasSubstr("SOURCE.md"));
+}
+
+}  // namespace
+}  // namespace rondure::app::testing

@@ -1,0 +1,408 @@
+// What servers do differently, each once, against the client: the machine behind the script stands
+// where it is sent.
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cmm/ipp_client.h"
+#include "cmm/ipp_grammar.h"
+#include "core/units.h"
+#include "tests/cmm/scripted_server.h"
+
+namespace rondure::cmm {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+using Lines = std::vector<std::string>;
+using Eigen::Vector3d;
+
+constexpr const char* kNoEnd = "no end";  ///< In place of an answer: & and nothing more.
+
+/// A server that answers as the specification says, but for what a test overrides: an answer by the
+/// beginning of the command, without tags.
+class Controller {
+ public:
+  std::vector<std::pair<std::string, Lines>> overrides;
+  std::vector<std::string> heard;  ///< All commands, without tags.
+  ScriptedServer* line = nullptr;  ///< Of the last connection.
+  int connections = 0;
+
+  IppMachine::Connect connect() {
+    return [this]() -> core::Result<std::unique_ptr<wire::LineTransport>> {
+      ++connections;
+      auto out = std::make_unique<ScriptedServer>(
+          [this](const std::string& tag, const std::string& method) {
+            return answer(tag, method);
+          });
+      line = out.get();
+      return out;
+    };
+  }
+
+  core::Result<std::unique_ptr<IppMachine>> open(IppMachineOptions options = {}) {
+    options.answer_limit = options.motion_limit = std::chrono::milliseconds(50);
+    return IppMachine::open(connect(), options);
+  }
+  /// Open, homed, and nothing heard yet.
+  std::unique_ptr<IppMachine> homed(const IppMachineOptions& options = {}) {
+    auto machine = open(options);
+    if (!machine) {
+      ADD_FAILURE() << machine.error().what;
+      return nullptr;
+    }
+    if (auto home = (*machine)->home(); !home) ADD_FAILURE() << home.error().what;
+    heard.clear();
+    return std::move(*machine);
+  }
+  void override_with(std::string beginning, Lines lines) {
+    overrides.insert(overrides.begin(), {std::move(beginning), std::move(lines)});
+  }
+
+ private:
+  Lines answer(const std::string& tag, const std::string& method) {
+    heard.push_back(method);
+    Lines out = {tag + " &"};
+    const auto found = std::find_if(overrides.begin(), overrides.end(), [&](const auto& entry) {
+      return method.starts_with(entry.first);
+    });
+    for (const std::string& text : found != overrides.end() ? found->second : usual(method)) {
+      if (text == kNoEnd) return out;
+      out.push_back(tag + " " + text);
+    }
+    out.push_back(tag + " %");
+    return out;
+  }
+  Lines usual(const std::string& method) {
+    if (method == "GetDMEVersion()") return {"# DMEVersion(\"1.4\")"};
+    if (method == "GetMachineClass()") return {"# GetMachineClass(CartCMMWithRotaryTable)"};
+    if (method == "GetErrStatusE()") return {"# ErrStatus(0)"};
+    if (method == "IsHomed()") return {"# IsHomed(1)"};
+    if (method == "EnumTools()") return {"# \"NoTool\"", "# \"RefTool\"", "# \"Probe1\""};
+    if (method == "GetProp(Tool.Name())") return {"# Tool.Name(\"Probe1\")"};
+    if (method.starts_with("GetProp(Simulation"))
+      return {"! Error(3, 0510, \"GetProp\", \"Bad property\")"};
+    if (method.starts_with("GetProp(Part")) return {"# Part.Temperature(20.5)"};
+    if (method.starts_with("GetProp(")) {
+      return {"# " + method.substr(8, method.find('(', 8) - 8) +
+              (method.find(".Max(") != std::string::npos ? "(500)" : "(1)")};
+    }
+    if (method.starts_with("OnPtMeasReport") && method.find("Time") != std::string::npos) {
+      return {"! Error(3, 0505, \"OnPtMeasReport\", \"Argument not recognized\")"};
+    }
+    if (method.starts_with("Get(")) return {"# X(0), Y(0), Z(500)"};
+    if (method.starts_with("PtMeas(")) return {"# X(27), Y(0), Z(10), ER(2)"};
+    return {};
+  }
+};
+
+TouchCommand touch_from_x() { return {5, {27.0, 0.0, 10.0}, -Vector3d::UnitX(), 3.0, 4.0}; }
+
+TEST(IppClientTraps, OpensAFreshSessionInTheFrameOfTheMachineAndMovesNothing) {
+  Controller server;
+  const auto machine = server.open();
+  ASSERT_TRUE(machine) << machine.error().what;
+  const auto begun = server.heard;
+  ASSERT_GT(begun.size(), 2U);
+  EXPECT_EQ(begun[0], "EndSession()");
+  EXPECT_EQ(begun[1], "StartSession()");
+  EXPECT_THAT(begun, Contains("SetCoordSystem(MachineCsy)"));
+  for (const char* never : {"SetCsyTransformation", "GoTo", "Home", "ChangeTool"}) {
+    EXPECT_THAT(begun, Not(Contains(StartsWith(never))));
+  }
+  EXPECT_THAT((*machine)->capabilities().tools, ElementsAre("RefTool", "Probe1"));
+  EXPECT_THAT((*machine)->description(),
+              HasSubstr("I++ DME 1.4 machine CartCMMWithRotaryTable at script, tool Probe1"));
+}
+
+TEST(IppClientTraps, ClearsErrorsWhereEndSessionIsRefusedInTheErrorState) {
+  Controller server;
+  server.override_with("EndSession",
+                       {"! Error(2, 0514, \"EndSession()\", \"Use ClearAllErrors to continue\")"});
+  EXPECT_TRUE(server.open());
+  EXPECT_THAT(Lines(server.heard.begin(), server.heard.begin() + 4),
+              ElementsAre("EndSession()", "ClearAllErrors()", "EndSession()", "StartSession()"));
+}
+
+TEST(IppClientTraps, TakesAServerThatCannotTellItsVersion) {
+  Controller server;
+  server.override_with("GetDMEVersion",
+                       {"! Error(3, 0501, \"GetDMEVersion()\", \"Unsupported command\")"});
+  const auto machine = server.open();
+  ASSERT_TRUE(machine);
+  EXPECT_EQ((*machine)->identity().version, "before 1.4");
+  EXPECT_THAT(server.heard, Contains("ClearAllErrors()"));
+}
+
+TEST(IppClientTraps, RefusesAnotherVersion) {
+  Controller server;
+  server.override_with("GetDMEVersion", {"# DMEVersion(\"7.0\")"});
+  const auto machine = server.open();
+  ASSERT_FALSE(machine);
+  EXPECT_EQ(machine.error().code, core::Code::kMachine);
+  EXPECT_THAT(machine.error().what, HasSubstr("I++ DME version \"7.0\""));
+}
+
+TEST(IppClientTraps, SaysWhatTheMachineReportsWhenItIsInItsErrorState) {
+  Controller server;
+  server.override_with("GetErrStatusE", {"# ErrStatus(1)"});
+  server.override_with("GetXtdErrStatus", {"# IsHomed(0)", "# \"0500 Emergency stop\""});
+  const auto machine = server.open();
+  ASSERT_FALSE(machine);
+  EXPECT_EQ(machine.error().code, core::Code::kMachine);
+  EXPECT_THAT(machine.error().what, HasSubstr("IsHomed(0); \"0500 Emergency stop\""));
+}
+
+TEST(IppClientTraps, MatchesTheReportByNameAndPointsIjkOutOfThePart) {
+  Controller server;
+  server.override_with("PtMeas(", {"# ER(3.0), IJK(0,0,1), X(27.25), Y(0.5), Z(10.0)"});
+  const auto machine = server.homed();
+  ASSERT_TRUE(machine->move_to({30.0, 0.0, 10.0}));
+  const auto reading = machine->touch(touch_from_x());
+  ASSERT_TRUE(reading) << reading.error().what;
+  EXPECT_EQ(reading->tip_W_mm, Vector3d(27.25, 0.5, 10.0));
+  EXPECT_EQ(reading->tip_radius_mm, 3.0);
+  EXPECT_EQ(reading->temperature_degC, 20.5);
+  EXPECT_EQ(machine->position_W_mm(), Vector3d(30.0, 0.0, 10.0));
+  EXPECT_THAT(server.heard,
+              ElementsAre("GoTo(X(30), Y(0), Z(10))",
+                          "SetProp(Tool.PtMeasPar.Approach(3), Tool.PtMeasPar.Search(4), "
+                          "Tool.PtMeasPar.Retract(-1))",
+                          "PtMeas(X(27), Y(0), Z(10), IJK(1,0,0))"));
+}
+
+TEST(IppClientTraps, GoesBackItselfWhereANegativeRetractIsRefused) {
+  Controller server;
+  IppMachineOptions options;
+  options.returns_to_approach = false;
+  const auto machine = server.homed(options);
+  ASSERT_TRUE(machine->move_to({30.0, 0.0, 10.0}));
+  server.override_with("PtMeas(", {"# X(27.1), Y(0), Z(10)"});
+  ASSERT_TRUE(machine->touch(touch_from_x()));
+  EXPECT_THAT(server.heard, Contains(HasSubstr("Retract(3)")));
+  EXPECT_EQ(server.heard.back(), "GoTo(X(30), Y(0), Z(10))");
+}
+
+TEST(IppClientTraps, TakesBackAMissedTouchAndReturnsToItsStart) {
+  Controller server;
+  const auto machine = server.homed();
+  ASSERT_TRUE(machine->move_to({30.0, 0.0, 10.0}));
+  server.override_with("PtMeas(", {"! Error(2, 1006, PtMeas, \"Surface not found\")"});
+  server.override_with("Get(", {"# Z(10), Y(0), X(23)"});  // the end of the search, any order
+  server.heard.clear();
+  const auto missed = machine->touch(touch_from_x());
+  ASSERT_FALSE(missed);
+  EXPECT_EQ(missed.error().code, core::Code::kNoTouch);
+  EXPECT_THAT(missed.error().what, HasSubstr("Surface not found"));
+  EXPECT_EQ(server.heard[2], "ClearAllErrors()");
+  EXPECT_EQ(server.heard.back(), "GoTo(X(30), Y(0), Z(10))");
+  EXPECT_EQ(machine->position_W_mm(), Vector3d(30.0, 0.0, 10.0));
+}
+
+TEST(IppClientTraps, LeavesAnEmergencyStopToAPerson) {
+  Controller server;
+  const auto machine = server.homed();
+  server.override_with("GoTo(", {"! Error(3, 500, \"GoTo\", \"Emergency stop\")"});
+  const auto stopped = machine->move_to({30.0, 0.0, 10.0});
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, core::Code::kMachine);
+  EXPECT_THAT(server.heard, Not(Contains("ClearAllErrors()")));
+  EXPECT_THAT(machine->move_to({0.0, 0.0, 500.0}).error().what, HasSubstr("Emergency stop"));
+  EXPECT_EQ(server.heard.size(), 1U) << "nothing more was sent";
+  server.override_with("GoTo(", {});
+  ASSERT_TRUE(machine->recover());
+  EXPECT_TRUE(machine->move_to({30.0, 0.0, 10.0}));
+}
+
+TEST(IppClientTraps, TellsWhereACollisionLeftTheTipAndWaits) {
+  Controller server;
+  const auto machine = server.homed();
+  server.override_with("GoTo(", {"! Error(3, 2504, \"GoTo\", \"Collision\")"});
+  server.override_with("Get(", {"# X(12), Y(1), Z(20)"});
+  const auto crash = machine->move_to({30.0, 0.0, 10.0});
+  ASSERT_FALSE(crash);
+  EXPECT_EQ(crash.error().code, core::Code::kCollision);
+  EXPECT_EQ(machine->position_W_mm(), Vector3d(12, 1, 20));
+  EXPECT_EQ(machine->move_to({0.0, 0.0, 500.0}).error().code, core::Code::kMachine);
+}
+
+TEST(IppClientTraps, SaysThatATargetIsOutOfTheVolume) {
+  Controller server;
+  const auto machine = server.homed();
+  server.override_with("GoTo(", {"! Error(3, 2500, \"GoTo\", \"Machine limit encountered [Move Out "
+                                 "Of Limits]\")"});
+  const auto refused = machine->move_to({1e5, 0.0, 10.0});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, core::Code::kUnreachable);
+  EXPECT_THAT(refused.error().what, HasSubstr("Machine limit encountered"));
+  EXPECT_THAT(server.heard, Contains("ClearAllErrors()"));
+}
+
+TEST(IppClientTraps, DoesNotMeasureWithADistanceThatWasClamped) {
+  Controller server;
+  const auto machine = server.homed();
+  ASSERT_TRUE(machine->move_to({30.0, 0.0, 10.0}));
+  server.override_with("SetProp(", {"! Error(1, 0504, \"SetProp\", \"Argument out of range\")"});
+  const auto refused = machine->touch(touch_from_x());
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, core::Code::kOutOfRange);
+  EXPECT_THAT(server.heard, Not(Contains(StartsWith("PtMeas"))));
+}
+
+TEST(IppClientTraps, SetsEverythingAgainAfterAToolChange) {
+  Controller server;
+  const auto machine = server.homed();
+  ASSERT_TRUE(machine->move_to({30.0, 0.0, 10.0}));
+  ASSERT_TRUE(machine->touch(touch_from_x()));
+  server.heard.clear();
+  ASSERT_TRUE(machine->touch(touch_from_x()));
+  EXPECT_EQ(server.heard.size(), 1U) << "distances are known";
+  server.override_with("GetProp(Tool.Name", {"# Tool.Name(\"RefTool\")"});
+  server.override_with("Get(", {"# X(30), Y(0), Z(10)"});
+  ASSERT_TRUE(machine->select_tool("RefTool"));
+  server.heard.clear();
+  ASSERT_TRUE(machine->touch(touch_from_x()));
+  EXPECT_THAT(server.heard, Contains(StartsWith("SetProp(Tool.PtMeasPar.Approach")));
+}
+
+TEST(IppClientTraps, NamesTheToolsThereAre) {
+  Controller server;
+  const auto machine = server.homed();
+  EXPECT_THAT(machine->select_tool("Nope").error().what, HasSubstr("RefTool, Probe1"));
+  server.override_with("ChangeTool",
+                       {"! Error(3, 1502, \"ChangeTool('RefTool')\", \"Tool not found\")"});
+  const auto refused = machine->select_tool("RefTool");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, core::Code::kMachine);
+  EXPECT_THAT(refused.error().what, HasSubstr("Tool not found"));
+  EXPECT_THAT(refused.error().what, HasSubstr("RefTool, Probe1"));
+}
+
+TEST(IppClientTraps, RefusesAToolWithAnotherTip) {
+  Controller server;
+  server.override_with("GetProp(Tool.AvrRadius", {"# Tool.AvrRadius(1.5)"});
+  IppMachineOptions options;
+  options.tip_radius_mm = 2.0;
+  const auto machine = server.open(options);
+  ASSERT_TRUE(machine);
+  const auto refused = (*machine)->home();
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what,
+              HasSubstr("radius of 1.5000 mm, the tip of the plan has 2.0000"));
+}
+
+TEST(IppClientTraps, SeesThatScanColumnsAreNotXyz) {
+  // Recorded: with Q in the report the quality comes first; twelve numbers look like four points.
+  Controller server;
+  server.override_with("ScanOnCircle",
+                       {"# 0.00000,19.91857,11.50002,10.00000,0.00000,11.49995,19.91861,10.00000,"
+                        "0.00000,-0.00008,23.00000,10.00000"});
+  const auto machine = server.homed();
+  ScanCircleCommand scan;
+  scan.center_W_mm = {0.0, 0.0, 10.0};
+  scan.start_tip_W_mm = {23.0, 0.0, 10.0};
+  scan.sweep_rad = 0.25 * core::kTwoPi;
+  scan.points = 4;
+  ASSERT_TRUE(machine->move_to({26.0, 0.0, 10.0}));
+  const auto refused = machine->scan_circle(scan);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("the columns of the scan report are not X, Y, Z"));
+  server.override_with("ScanOnCircle",
+                       {"# 23,0,10, 21.25,8.8,10", "# 16.26,16.26,10,8.8,21.25,10"});
+  ASSERT_TRUE(machine->move_to({26.0, 0.0, 10.0}));
+  server.override_with("Get(", {"# X(0), Y(26), Z(10)"});
+  const auto scanned = machine->scan_circle(scan);
+  ASSERT_TRUE(scanned) << scanned.error().what;
+  EXPECT_EQ(scanned->size(), 4U);
+  EXPECT_EQ(server.heard[server.heard.size() - 2], "ScanOnCircle(0,0,10,23,0,10,0,0,1,90,0,22.5)");
+}
+
+TEST(IppClientTraps, ReadsTheVectorsOfATableHoweverTheyAreWritten) {
+  for (const char* form : {"# (0, 0.6, 0.8), (0, 0.8, -0.6)", "# 0,0.6,0.8,0,0.8,-0.6",
+                           "# AlignPart((0,0.6,0.8),(0,0.8,-0.6))"}) {
+    SCOPED_TRACE(form);
+    Controller server;
+    server.override_with("AlignPart", {form});
+    const auto machine = server.homed();
+    const auto reached = machine->align_part({});
+    ASSERT_TRUE(reached) << reached.error().what;
+    EXPECT_EQ(reached->first_W, Vector3d(0, 0.6, 0.8));
+    EXPECT_EQ(reached->second_W, Vector3d(0, 0.8, -0.6));
+    EXPECT_EQ(server.heard.back(), "AlignPart(0,0,1,0,0,1,0,1,0,0,1,0,0,0)");
+  }
+}
+
+TEST(IppClientTraps, SaysThatASecondRotaryAxisIsMissing) {
+  Controller server;
+  server.override_with("AlignPart", {"# (0, 1, 0)"});
+  const auto machine = server.homed();
+  const auto refused = machine->align_part({});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("it needs two rotary axes"));
+}
+
+TEST(IppClientTraps, StopsWithAbortClearsAndTellsWhereItStands) {
+  Controller server;
+  bool wish = false;
+  IppMachineOptions options;
+  options.stop_requested = [&] {
+    return wish || (!server.heard.empty() && server.heard.back().starts_with("GoTo(X(30)"));
+  };
+  const auto machine = server.homed(options);
+  server.override_with("GoTo(", {kNoEnd});
+  server.override_with("Get(", {"# X(7), Y(8), Z(99)"});
+  const auto stopped = machine->move_to({30.0, 0.0, 10.0});
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, core::Code::kStopped);
+  EXPECT_THAT(stopped.error().what, HasSubstr("the tip stands at (7.000, 8.000, 99.000) mm"));
+  EXPECT_THAT(server.heard, ElementsAre("GoTo(X(30), Y(0), Z(10))", "AbortE()", "ClearAllErrors()",
+                                        "Get(X(), Y(), Z())"));
+  server.heard.clear();
+  EXPECT_EQ(machine->move_to({0.0, 0.0, 500.0}).error().code, core::Code::kStopped);
+  EXPECT_TRUE(server.heard.empty());
+  ASSERT_TRUE(machine->recover());
+  server.heard.clear();
+  wish = true;
+  EXPECT_EQ(machine->move_to({0.0, 0.0, 500.0}).error().code, core::Code::kStopped);
+  EXPECT_TRUE(server.heard.empty()) << "a motion that was not wanted any more did not begin";
+}
+
+TEST(IppClientTraps, ConnectsAgainWhenTheLineWasLost) {
+  Controller server;
+  const auto machine = server.homed();
+  server.line->hang_up();
+  server.line->close();
+  const auto lost = machine->move_to({30.0, 0.0, 10.0});
+  ASSERT_FALSE(lost);
+  EXPECT_EQ(lost.error().code, core::Code::kMachine);
+  EXPECT_THAT(machine->status()->fault, HasSubstr("the connection is lost"));
+  server.heard.clear();
+  ASSERT_TRUE(machine->recover());
+  EXPECT_EQ(server.connections, 2);
+  EXPECT_EQ(server.heard[0], "EndSession()");
+  EXPECT_EQ(server.heard[1], "StartSession()");
+  EXPECT_TRUE(machine->move_to({30.0, 0.0, 10.0}));
+}
+
+TEST(IppClientTraps, HomesOnlyAMachineThatIsNotHomed) {
+  Controller server;
+  server.override_with("IsHomed", {"# IsHomed(0)"});
+  const auto machine = server.open();
+  ASSERT_TRUE(machine);
+  EXPECT_EQ((*machine)->move_to({0, 0, 0}).error().code, core::Code::kMachine);
+  server.heard.clear();
+  ASSERT_TRUE((*machine)->home());
+  EXPECT_THAT(server.heard, Contains("Home()"));
+  server.override_with("IsHomed", {"# IsHomed(1)"});
+  server.heard.clear();
+  ASSERT_TRUE((*machine)->home());
+  EXPECT_THAT(server.heard, Not(Contains("Home()")));
+}
+
+}  // namespace
+}  // namespace rondure::cmm
