@@ -16,6 +16,7 @@ using plans::ForecastStage;
 constexpr std::size_t kFewStages = 4;  // in a row that are listed one by one
 
 std::string feature_of(const plans::Plan& plan, const ForecastStage& stage) {
+  if (stage.kind == ForecastStage::Kind::kBase) return "spheres of fixture";
   return stage.feature < 0 ? "reference sphere"
                            : plan.features[static_cast<std::size_t>(stage.feature)].id;
 }
@@ -24,6 +25,8 @@ const char* name_of(ForecastStage::Kind kind) {
   switch (kind) {
     case ForecastStage::Kind::kQualification:
       return "qualification";
+    case ForecastStage::Kind::kBase:
+      return "fixture base";
     case ForecastStage::Kind::kLocation:
       return "location";
     case ForecastStage::Kind::kCloud:
@@ -39,6 +42,11 @@ std::string clock(double time_s) {
   return fmt::format("{}:{:02}", s / 60, s % 60);
 }
 
+/// Without the sign of a rounded zero.
+double hundredths(double angle_rad) {
+  return std::round(100.0 * angle_rad / core::kDegree) / 100.0 + 0.0;
+}
+
 std::string row(const std::string& what, const std::string& feature, const std::string& pose,
                 int touches, double path_mm, double time_s) {
   return fmt::format("  {:<16.16} {:<18.18} {:>15} {:>7} {:>9.0f} {:>8}\n", what, feature, pose,
@@ -49,10 +57,10 @@ std::string row_of(const plans::Plan& plan, const ForecastStage& stage) {
   std::string what = name_of(stage.kind);
   if (stage.final_cloud) what = "final cloud";
   if (stage.times > 1) what += fmt::format(" x {}", stage.times);
-  const std::string pose =
-      stage.feature < 0 ? ""
-                        : fmt::format("({:.2f}, {:.2f})", stage.pose.alpha_rad / core::kDegree,
-                                      stage.pose.beta_rad / core::kDegree);
+  const std::string pose = stage.feature < 0
+                               ? ""
+                               : fmt::format("({:.2f}, {:.2f})", hundredths(stage.pose.alpha_rad),
+                                             hundredths(stage.pose.beta_rad));
   return row(what, feature_of(plan, stage), pose, stage.times * stage.touches, stage.path_mm,
              stage.time_s);
 }

@@ -81,6 +81,10 @@ void add_run(CLI::App& app, RunArguments& arguments) {
                    "Run directory, absent or empty (default: runs/<plan>-<UTC>)");
   verb->add_flag("--resume", arguments.resume,
                  "Goes on with the run in that directory behind its last touch");
+  verb->add_flag("--relocate", arguments.relocate,
+                 "With --resume: a part that has moved is located again, and its present cloud\n"
+                 "measured anew")
+      ->needs("--resume");
   verb->add_option("--serial", arguments.serial, "Serial number of the part");
   verb->add_option("--operator", arguments.operator_name, "Who measures");
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")

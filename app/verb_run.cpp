@@ -54,6 +54,7 @@ plans::RunOptions options_of(const RunArguments& arguments) {
   options.seed = arguments.seed;
   options.wire_log = arguments.wire_log;
   options.stop_requested = stop_requested;
+  options.relocate = arguments.relocate;
   return options;
 }
 

@@ -37,6 +37,7 @@ struct RunArguments {
   std::string plan;  ///< With `resume` also a run directory.
   std::string out;   ///< Empty: runs/<plan>-<UTC>.
   bool resume = false;
+  bool relocate = false;  ///< With `resume`: a part that has moved is located again.
   std::string serial;
   std::string operator_name;
   std::optional<std::uint64_t> seed;

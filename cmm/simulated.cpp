@@ -49,7 +49,7 @@ void SimulatedMachine::remove_part() {
   warm_part_.reset();
 }
 
-void SimulatedMachine::place_sphere(const ReferenceSphere& sphere) { sphere_ = sphere; }
+void SimulatedMachine::place_sphere(const ReferenceSphere& sphere) { spheres_.push_back(sphere); }
 
 std::string SimulatedMachine::description() const {
   return fmt::format("simulated machine, tip diameter {:.7g} mm, touch speed {:.7g} mm/s",
@@ -132,10 +132,9 @@ core::Result<SimulatedMachine::Obstacle> SimulatedMachine::first_obstacle(
       return core::fail(contact.error());
     }
   }
-  if (sphere_) {
-    const auto contact =
-        first_contact_with_sphere(sphere_->center_W_mm, sphere_->radius_mm, start_W_mm, direction_W,
-                                  tip_radius_mm, max_travel_mm);
+  for (const ReferenceSphere& sphere : spheres_) {
+    const auto contact = first_contact_with_sphere(sphere.center_W_mm, sphere.radius_mm, start_W_mm,
+                                                   direction_W, tip_radius_mm, max_travel_mm);
     if (contact && (!first || contact->travel_mm < first->travel_mm)) {
       first = Obstacle{contact->travel_mm, true, contact->point_P_mm};
     } else if (!contact && contact.error().code != core::Code::kNoTouch) {

@@ -56,6 +56,7 @@ class SimulatedMachine final : public Machine {
   /// Puts a part on the table (X_WP maps its frame to the machine), or moves it there.
   void place_part(const PartSurface& surface, const Eigen::Isometry3d& X_WP);
   void remove_part();
+  /// Puts one more sphere on the table.
   void place_sphere(const ReferenceSphere& sphere);
 
   [[nodiscard]] std::string description() const override;
@@ -146,7 +147,7 @@ class SimulatedMachine final : public Machine {
   std::optional<PartSurface> part_;       ///< At 20 degC.
   std::optional<PartSurface> warm_part_;  ///< At its temperature.
   Eigen::Isometry3d X_WP_ = Eigen::Isometry3d::Identity();
-  std::optional<ReferenceSphere> sphere_;
+  std::vector<ReferenceSphere> spheres_;
   Eigen::Vector3d position_W_mm_ = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> true_tips_W_mm_ = {Eigen::Vector3d::Zero()};
   double time_s_ = 0.0;

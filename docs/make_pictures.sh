@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Makes the picture of the README: the first page of the report of example plan 01.
+# Makes the pictures of README and docs: the first page of the report of example plan 01, and the way of its tip.
 # Needs chromium and imagemagick (Debian packages).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+build/release/rondure plan plans/examples/01_spool_simulated.json --svg docs/images/planning.svg
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 build/release/rondure run plans/examples/01_spool_simulated.json --out "$work/spool" --serial 0042 --quiet

@@ -30,8 +30,10 @@ class Cell {
   [[nodiscard]] virtual cmm::Machine& machine() = 0;
   /// Whether the part exists in software only, here or behind a simulated server.
   [[nodiscard]] virtual bool is_simulated() const = 0;
-  /// Nominal axes: all that the program may assume.
+  /// Nominal axes, on the base as found: all that the program may assume.
   [[nodiscard]] const fixture::Kinematics& kinematics() const { return kinematics_; }
+  /// The base of the fixture was found there.
+  void set_base(const Eigen::Isometry3d& X_WF) { kinematics_.X_WF = X_WF; }
   /// Nominal part frame in the body frame: X_BP.
   [[nodiscard]] const Eigen::Isometry3d& nominal_part() const { return X_BP_; }
 

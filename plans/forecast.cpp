@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "fixture/simulated.h"
 #include "plans/feature_planner.h"
+#include "plans/fixture_datum.h"
 #include "plans/plan_reach.h"
 #include "plans/pose_search.h"
 #include "plans/qualification.h"
@@ -46,6 +47,14 @@ class Tally {
       ++stage.touches;
     }
   }
+  /// A whole circle that begins and ends at one contact.
+  void scan(ForecastStage& stage, const Vector3d& contact_W_mm, double approach_mm,
+            double circle_mm, int points) {
+    touch(stage, contact_W_mm, approach_mm);
+    stage.path_mm += circle_mm;
+    stage.time_s += circle_mm / machine_.scan_speed_mm_s;
+    if (stage.times == 1) stage.touches += points - 1;
+  }
   void add(ForecastStage stage) { out_.stages.push_back(std::move(stage)); }
   [[nodiscard]] Forecast& forecast() { return out_; }
 
@@ -77,8 +86,9 @@ class NominalSession final : public PoseSession {
   core::Result<Cloud> measure(const core::Pose& commanded) override {
     const auto targets = sampling_targets(feature_);
     if (!targets) return core::fail(targets.error());
-    if (auto turned = turn(commanded, *targets); !turned) return core::fail(turned.error());
-    if (auto done = touch(*targets, ForecastStage::Kind::kCloud); !done)
+    const std::vector<Target> stops = stops_of(*targets);
+    if (auto turned = turn(commanded, stops); !turned) return core::fail(turned.error());
+    if (auto done = touch(stops, ForecastStage::Kind::kCloud); !done)
       return core::fail(done.error());
     return Cloud{reached_, tips(*targets)};
   }
@@ -87,7 +97,7 @@ class NominalSession final : public PoseSession {
     if (times < 1) return {};
     const auto targets = sampling_targets(feature_);
     if (!targets) return core::fail(targets.error());
-    const auto path = lay(*targets, reached_);
+    const auto path = lay(stops_of(*targets), reached_);
     if (!path) return core::fail(path.error());
     ForecastStage& stage = tally_.forecast().stages.back();
     for (int i = 0; i < times; ++i) {
@@ -128,6 +138,18 @@ class NominalSession final : public PoseSession {
   void show(double) override {}
 
  private:
+  [[nodiscard]] bool scans() const { return feature_.sampling.method == "scan"; }
+
+  /// Where the tip goes down to the surface: every target, or the start of each scanned layer.
+  [[nodiscard]] std::vector<Target> stops_of(const std::vector<Target>& targets) const {
+    if (!scans()) return targets;
+    std::vector<Target> out;
+    for (const Target& target : targets) {
+      if (out.empty() || target.layer != out.back().layer) out.push_back(target);
+    }
+    return out;
+  }
+
   [[nodiscard]] Eigen::Isometry3d body_at(const core::Pose& pose) const {
     return fixture::body_to_machine(nominal_kinematics(*plan_.fixture), pose);
   }
@@ -165,7 +187,13 @@ class NominalSession final : public PoseSession {
     const Eigen::Isometry3d X_WP = part_at(reached_);
     for (std::size_t k = 0; k < path.order().size(); ++k) {
       tally_.move(stage, path.way_W(k));
-      tally_.touch(stage, X_WP * contact_tip(geometry_, path.target(k)), geometry_.approach_mm);
+      const Vector3d contact_P = contact_tip(geometry_, path.target(k));
+      if (scans() && stage.kind == ForecastStage::Kind::kCloud) {
+        tally_.scan(stage, X_WP * contact_P, geometry_.approach_mm,
+                    core::kTwoPi * contact_P.head<2>().norm(), feature_.sampling.points_per_layer);
+      } else {
+        tally_.touch(stage, X_WP * contact_P, geometry_.approach_mm);
+      }
     }
     tally_.move(stage, path.exit_W(path.order().size() - 1));
     tally_.rise(stage);
@@ -187,12 +215,14 @@ class NominalSession final : public PoseSession {
   core::Pose reached_;
 };
 
-core::Result<void> add_qualification(const Plan& plan, Tally& tally) {
-  const auto steps = qualification_steps(plan);
-  if (!steps) return core::fail(steps.error().at("/probe/qualification"));
+core::Result<void> add_spheres(const core::Result<std::vector<TouchStep>>& steps,
+                               ForecastStage::Kind kind, Tally& tally) {
+  if (!steps) return core::fail(steps.error());
+  if (steps->empty()) return {};
   ForecastStage stage;
-  stage.kind = ForecastStage::Kind::kQualification;
+  stage.kind = kind;
   for (const TouchStep& step : *steps) {
+    if (step.row.point == 0) tally.rise(stage);  // from the sphere before
     tally.move(stage, step.way_W);
     tally.touch(stage, step.command.expected_tip_W_mm, step.command.approach_mm);
   }
@@ -207,7 +237,13 @@ core::Result<Forecast> forecast(const Plan& plan) {
   Forecast out;
   if (!touches_anything(plan)) return out;
   Tally tally(*plan.machine, out);
-  if (auto added = add_qualification(plan, tally); !added) return core::fail(added.error());
+  using Kind = ForecastStage::Kind;
+  if (auto added = add_spheres(qualification_steps(plan), Kind::kQualification, tally); !added) {
+    return core::fail(added.error().at("/probe/qualification"));
+  }
+  if (auto added = add_spheres(datum_steps(plan), Kind::kBase, tally); !added) {
+    return core::fail(added.error());
+  }
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     if (!is_touched(plan.features[i])) continue;
     NominalSession session(plan, static_cast<int>(i), tally);

@@ -11,11 +11,12 @@
 
 namespace rondure::plans {
 
-/// One stage of a run: the touches of the reference sphere, or a cloud in a pose.
+/// One stage of a run: the touches of the reference sphere, of the spheres on the base of the
+/// fixture, or a cloud in a pose.
 struct ForecastStage {
-  enum class Kind { kQualification, kLocation, kCloud };
+  enum class Kind { kQualification, kBase, kLocation, kCloud };
   Kind kind = Kind::kCloud;
-  int feature = -1;          ///< Index; -1 for the qualification.
+  int feature = -1;          ///< Index; -1 for spheres.
   core::Pose pose;           ///< As the fixture would read it.
   bool final_cloud = false;  ///< Its touches would be evaluated.
   int times = 1;             ///< The cloud is touched so often.

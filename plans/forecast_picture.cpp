@@ -43,6 +43,11 @@ struct Shape {
   bool framed = true;  ///< Counts for the size of the window.
 };
 
+/// Degrees to two digits, without the sign of a rounded zero.
+double hundredths(double angle_rad) {
+  return std::round(100.0 * angle_rad / core::kDegree) / 100.0 + 0.0;
+}
+
 /// Text as XML takes it.
 std::string escaped(const std::string& text) {
   std::string out;
@@ -249,8 +254,8 @@ std::string forecast_picture(const Plan& plan, const ForecastStage& stage) {
       "<text x=\"{2:.0f}\" y=\"24\" font-size=\"15\">{3}, pose ({4:.2f}, {5:.2f}) deg: {6} "
       "touches, "
       "way of the tip {7:.0f} mm, {8:.0f} s</text>\n",
-      width, height, kMargin_px, escaped(name), stage.pose.alpha_rad / core::kDegree,
-      stage.pose.beta_rad / core::kDegree, stage.touches, stage.path_mm / stage.times,
+      width, height, kMargin_px, escaped(name), hundredths(stage.pose.alpha_rad),
+      hundredths(stage.pose.beta_rad), stage.touches, stage.path_mm / stage.times,
       stage.time_s / stage.times);
   out += panel(side, shapes, path, stage, "From the side", "z");
   out += panel(top, shapes, path, stage, "From above", "y");

@@ -58,6 +58,7 @@ bool FeatureSession::must_locate() const {
 core::Result<void> FeatureSession::turn(const core::Pose& commanded,
                                         const std::vector<Target>& targets) {
   if (const auto path = lay(targets, commanded); !path) return core::fail(path.error());
+  commanded_ = commanded;
   const auto visit = context_.turn(index_, commanded);
   if (!visit) return core::fail(visit.error());
   reached_ = visit->reached;
@@ -95,7 +96,7 @@ core::Result<void> FeatureSession::check_location(const fit::LsCylinder& found) 
   return {};
 }
 
-core::Result<fit::Axis> FeatureSession::locate(const core::Pose& commanded) {
+core::Result<fit::Axis> FeatureSession::locate_once(const core::Pose& commanded) {
   const auto targets = locating_targets(feature_, context_.plan.part.location_uncertainty_mm);
   if (!targets) return core::fail(targets.error());
   if (auto turned = turn(commanded, *targets); !turned) return core::fail(turned.error());
@@ -108,10 +109,34 @@ core::Result<fit::Axis> FeatureSession::locate(const core::Pose& commanded) {
   return cylinder->axis;
 }
 
+core::Result<fit::Axis> FeatureSession::locate(const core::Pose& commanded) {
+  for (;;) {
+    auto axis = locate_once(commanded);
+    if (axis || !context_.relocation_due) return axis;
+    context_.relocation_due = false;  // it moved while it was located: begin again
+  }
+}
+
+core::Result<void> FeatureSession::locate_again() {
+  context_.relocation_due = false;
+  geometry_ = path_geometry(context_.plan, feature_, context_.plan.part.location_uncertainty_mm);
+  if (const auto axis = locate(commanded_); !axis) return core::fail(axis.error());
+  return {};
+}
+
+core::Result<std::vector<Eigen::Vector3d>> FeatureSession::turn_and_touch(
+    const core::Pose& commanded) {
+  for (;;) {
+    if (auto turned = turn(commanded, reach_targets()); !turned) return core::fail(turned.error());
+    truth_.clear();
+    auto tips = measure_cloud();
+    if (tips || !context_.relocation_due) return tips;
+    if (auto located = locate_again(); !located) return core::fail(located.error());
+  }
+}
+
 core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
-  if (auto turned = turn(commanded, reach_targets()); !turned) return core::fail(turned.error());
-  truth_.clear();
-  auto tips = measure_cloud();
+  auto tips = turn_and_touch(commanded);
   if (!tips) return core::fail(tips.error());
   return Cloud{reached_, std::move(*tips)};
 }
@@ -119,7 +144,14 @@ core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
 core::Result<void> FeatureSession::repeat(int times) {
   for (int i = 0; i < times; ++i) {
     ++repeat_;
-    if (auto tips = measure_cloud(); !tips) return core::fail(tips.error());
+    const auto tips = measure_cloud();
+    if (tips) continue;
+    if (!context_.relocation_due) return core::fail(tips.error());
+    // The whole final cloud anew: touches of two placements are never merged.
+    if (auto located = locate_again(); !located) return located;
+    if (const auto anew = turn_and_touch(commanded_); !anew) return core::fail(anew.error());
+    if (auto kept = keep_as_final(); !kept) return kept;
+    i = -1;
   }
   return {};
 }
@@ -163,7 +195,7 @@ core::Pose FeatureSession::levelling(const Eigen::Vector3d& direction_W) const {
       fixture::body_to_machine(context_.cell->kinematics(), reached_).linear();
   Eigen::Vector3d t_B = R.transpose() * direction_W;
   if (t_B.z() < 0.0) t_B = -t_B;
-  return fixture::levelling_pose(t_B);
+  return fixture::levelling_pose(context_.cell->kinematics(), t_B);
 }
 
 core::Result<void> FeatureSession::note(const std::string& text) {
@@ -225,7 +257,8 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud(
     if (!tip) {
       // The tip stands at the pre-touch point, except after a collision: then the machine has
       // stopped and only a person may move it.
-      if (tip.error().code != core::Code::kCollision && !context_.lost_place) leave(*path, k);
+      const bool standing = tip.error().code != core::Code::kCollision;
+      if (standing && !context_.lost_place && !context_.relocation_due) leave(*path, k);
       return core::fail(tip.error());
     }
     tips[path->order()[k]] = *tip;

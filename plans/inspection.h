@@ -50,8 +50,9 @@ struct RunContext {
   Progress progress = {};
   Past past = {};
   std::vector<TouchStep> last_steps = {};  ///< The last recalled touches of the present cloud.
-  bool retreating = false;  ///< The operator refused a motion: back and up without asking.
-  std::string doing = {};   ///< What the next motions are for, in words.
+  bool retreating = false;      ///< The operator refused a motion: back and up without asking.
+  std::string doing = {};       ///< What the next motions are for, in words.
+  bool relocation_due = false;  ///< The part has moved: locate it, measure the cloud anew.
   bool lost_place = false;  ///< An interruption was not overcome: only a person may move the tip.
 
   /// While touches come from the journal nothing moves.
@@ -85,6 +86,9 @@ struct RunContext {
  private:
   [[nodiscard]] core::Result<void> ask(const NextMove& move);
   [[nodiscard]] core::Result<record::Touch> recall(TouchStep step, const record::Touch& known);
+  /// What follows when the part is not where it was: kLocation, with relocation_due set if the part
+  /// may be located again. The tip is at park height.
+  [[nodiscard]] tl::unexpected<core::Error> part_has_moved(const core::Error& error);
   [[nodiscard]] core::Result<std::vector<record::Touch>> recall_scan(ScanStep step);
   /// A step that came from the journal is among those that are checked before the run goes on, and
   /// behind the last of them it does.
@@ -117,6 +121,13 @@ class FeatureSession final : public PoseSession {
   void show(double f_mm) override;
 
  private:
+  /// Turns to a pose and touches one cloud, once more after each relocation that becomes due.
+  [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> turn_and_touch(
+      const core::Pose& commanded);
+  /// Locates the part that has moved, in the pose where that was found.
+  [[nodiscard]] core::Result<void> locate_again();
+  /// Touches the locating targets in a pose and follows the axis found.
+  [[nodiscard]] core::Result<fit::Axis> locate_once(const core::Pose& commanded);
   /// Turns to a pose in which all targets can be reached.
   [[nodiscard]] core::Result<void> turn(const core::Pose& commanded,
                                         const std::vector<Target>& targets);
@@ -159,6 +170,7 @@ class FeatureSession final : public PoseSession {
   Eigen::Isometry3d X_BP_;  ///< Best knowledge of the part in the body frame.
   PathGeometry geometry_;
   FeaturePlanner planner_;
+  core::Pose commanded_;
   core::Pose reached_;
   int pose_id_ = -1;
   int repeat_ = 0;

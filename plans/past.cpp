@@ -64,6 +64,24 @@ bool Past::knows_truth(int feature) const {
                      [&](const auto& truth) { return truth.feature == feature; });
 }
 
+bool Past::relocated_behind(std::int64_t touches) const {
+  const std::string text = relocation_text(touches);
+  return std::any_of(run_.decisions.begin(), run_.decisions.end(), [&](const auto& d) {
+    return d.feature < 0 && d.text.compare(0, text.size(), text) == 0;
+  });
+}
+
+bool Past::goes_on_untouched(int next_pose) const {
+  const auto ahead = run_.decisions.begin() + static_cast<std::ptrdiff_t>(next_decision_);
+  return pose(next_pose) != nullptr ||
+         std::any_of(ahead, run_.decisions.end(), [](const auto& d) { return d.feature >= 0; });
+}
+
+bool Past::has_decision(const std::string& text) const {
+  return std::any_of(run_.decisions.begin(), run_.decisions.end(),
+                     [&](const auto& d) { return d.feature < 0 && d.text == text; });
+}
+
 bool Past::knows_series(int feature) const {
   return std::any_of(run_.series.begin(), run_.series.end(),
                      [&](const auto& series) { return series.feature == feature; });
@@ -71,6 +89,10 @@ bool Past::knows_series(int feature) const {
 
 std::int64_t Past::next_check() const {
   return run_.checks.empty() ? -1 : run_.checks.back().id - 1;
+}
+
+std::string relocation_text(std::int64_t touches) {
+  return fmt::format("part located again behind {} touches: ", touches);
 }
 
 core::Result<void> check_same_step(const record::Touch& known, const record::Touch& planned) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "core/pose.h"
 #include "core/result.h"
@@ -31,6 +32,12 @@ class Past {
   [[nodiscard]] const record::Decision* next_decision();
   /// Whether the hidden truth of a feature is in the journal.
   [[nodiscard]] bool knows_truth(int feature) const;
+  /// Whether the part was located again behind that many touches.
+  [[nodiscard]] bool relocated_behind(std::int64_t touches) const;
+  /// Whether a feature went on behind the present step without a touch: it decided or turned.
+  [[nodiscard]] bool goes_on_untouched(int next_pose) const;
+  /// Whether a decision about the whole run is in the journal.
+  [[nodiscard]] bool has_decision(const std::string& text) const;
   /// Whether the series of a feature are in the journal: all of them, or none is.
   [[nodiscard]] bool knows_series(int feature) const;
   /// The number of the next check: -1, -2, ...
@@ -41,6 +48,9 @@ class Past {
   std::int64_t machine_touches_end_ = 0;  ///< Behind the last touch that the machine made.
   std::size_t next_decision_ = 0;
 };
+
+/// The decision that a part is located again, without the reason.
+[[nodiscard]] std::string relocation_text(std::int64_t touches);
 
 /// Whether two touches are the same step: number, purpose, place, direction within 1e-9.
 [[nodiscard]] core::Result<void> check_same_step(const record::Touch& known,

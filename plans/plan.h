@@ -69,6 +69,20 @@ struct MachinePlan {
   std::string retract = "to-approach";  ///< Or "by-distance".
 };
 
+/// A reference sphere on the base of the fixture.
+struct DatumSpherePlan {
+  std::array<double, 3> center_mm = {0.0, 0.0, 0.0};  ///< Nominal, base frame.
+};
+
+/// Where the base of the fixture is: found by touching its spheres.
+struct DatumPlan {
+  double sphere_diameter_mm = 20.0;
+  std::vector<DatumSpherePlan> spheres;
+  int points = 7;               ///< Touches of each sphere.
+  double uncertainty_mm = 1.0;  ///< How far a sphere may be from its nominal place.
+  double residual_limit_um = 20.0;
+};
+
 struct FixturePlan {
   std::string driver = "simulated";
   std::array<double, 3> axis_point_mm = {0.0, 0.0, 0.0};     ///< A, machine frame.
@@ -85,6 +99,7 @@ struct FixturePlan {
   double ring_diameter_mm = 0.0;     ///< Outside of the clamping ring; 0: nothing passes it.
   double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
   double table_height_mm = -1000.0;  ///< Machine z.
+  std::optional<DatumPlan> datum;
 };
 
 struct QualificationPlan {
@@ -213,6 +228,8 @@ struct SimulatedProbePlan {
 struct SimulatedFixturePlan {
   std::array<double, 3> axis_point_error_um = {0.0, 0.0, 0.0};
   std::array<double, 3> axis_offset_error_um = {0.0, 0.0, 0.0};
+  std::array<double, 3> base_offset_mm = {0.0, 0.0, 0.0};
+  std::array<double, 3> base_rotation_deg = {0.0, 0.0, 0.0};  ///< About x, then y, then z.
   double zero_alpha_deg = 0.0;
   double zero_beta_deg = 0.0;
   double squareness_deg = 0.0;

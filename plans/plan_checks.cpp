@@ -90,6 +90,15 @@ void check_sections(const PartPlan& part, Findings& findings) {
   }
 }
 
+void check_datum(const FixturePlan& fixture, Findings& findings) {
+  if (!fixture.datum || !findings.sound("/fixture/datum")) return;
+  const std::size_t spheres = fixture.datum->spheres.size();
+  if (spheres >= 3) return;
+  findings.meaning(
+      Code::kTooFewPoints, "/fixture/datum/spheres",
+      fmt::format("{} spheres do not tell where the base is; at least 3 are needed", spheres));
+}
+
 void check_archive(const Plan& plan, Findings& findings) {
   constexpr std::string_view kWhere = "/reports/archive";
   const std::string& archive = plan.reports.archive;
@@ -253,6 +262,7 @@ void check_equipment(const Plan& plan, Findings& findings) {
   check_environment(plan, findings);
   if (plan.probe) check_stylus(*plan.probe, findings);
   check_sections(plan.part, findings);
+  if (plan.fixture) check_datum(*plan.fixture, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     if (is_touched(plan, i, findings)) return check_needs(plan, i, findings);
   }

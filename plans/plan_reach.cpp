@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "plans/feature_planner.h"
 #include "plans/reach_advice.h"
+#include "plans/run_head.h"
 
 namespace rondure::plans {
 namespace {
@@ -63,7 +64,8 @@ std::vector<SectionPlan> part_sections(const Plan& plan, const FeaturePlan& feat
   for (const FeaturePlan& other : plan.features) {
     const NominalPlan& n = other.nominal;
     const bool beside = n.from_mm >= mine.to_mm || n.to_mm <= mine.from_mm;
-    if (other.source || other.side == "inside" || feature.side == "inside" || !beside) continue;
+    if (!is_touched(other) || other.side == "inside" || feature.side == "inside" || !beside)
+      continue;
     out.push_back({n.from_mm, n.to_mm, n.diameter_mm, 0.0});
   }
   return out;
@@ -78,12 +80,18 @@ PathGeometry path_geometry(const Plan& plan, const FeaturePlan& feature, double 
   out.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
   out.approach_mm = plan.machine->approach_mm + location_mm;
   out.clearance_mm = plan.machine->clearance_mm + location_mm;
+  const auto pass_outside = [&](double diameter_mm, double to_mm) {
+    if (to_mm <= feature.nominal.from_mm) return;
+    out.to_mm = std::max(out.to_mm, to_mm);
+    out.stand_off_mm = std::max(out.stand_off_mm, 0.5 * diameter_mm - out.radius_mm);
+  };
+  const FixturePlan& fixture = *plan.fixture;
+  if (fixture.clamp_from_mm < fixture.clamp_to_mm && fixture.ring_diameter_mm > 0.0) {
+    pass_outside(fixture.ring_diameter_mm, fixture.clamp_to_mm);
+  }
   for (const SectionPlan& section : part_sections(plan, feature)) {
     out.from_mm = std::min(out.from_mm, section.from_mm);
-    out.to_mm = std::max(out.to_mm, section.to_mm);
-    if (section.to_mm > feature.nominal.from_mm) {
-      out.stand_off_mm = std::max(out.stand_off_mm, 0.5 * section.diameter_mm - out.radius_mm);
-    }
+    pass_outside(section.diameter_mm, section.to_mm);
   }
   return out;
 }

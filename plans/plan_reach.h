@@ -32,8 +32,9 @@ namespace rondure::plans {
 /// lie above or below it (not of a bore, whose block hides them).
 [[nodiscard]] std::vector<SectionPlan> part_sections(const Plan& plan, const FeaturePlan& feature);
 
-/// The way of the tip around a feature. Shoulders that stand wider than a shaft push the way around
-/// it out. `location_mm` is added to approach and clearance while the part is not located.
+/// The way of the tip around a feature. Shoulders, and a ring of known size, above the lower end of
+/// a shaft push the way around it out. `location_mm` is added to approach and clearance while the
+/// part is not located.
 [[nodiscard]] PathGeometry path_geometry(const Plan& plan, const FeaturePlan& feature,
                                          double location_mm);
 

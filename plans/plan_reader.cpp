@@ -56,7 +56,7 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
       if (auto room = check_room(plan); !room) problems.push_back(room.error());
     }
     for (std::size_t i = 0; i < plan.features.size(); ++i) {
-      if (!is_touched(plan, i, findings)) continue;
+      if (!is_touched(plan, i, findings) || !problems.empty()) continue;
       if (auto targets = reachable_targets(plan, i); !targets) problems.push_back(targets.error());
     }
   }

@@ -171,6 +171,35 @@ void describe(Visitor& v, MachinePlan& p) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, DatumSpherePlan& p) {
+  v.numbers("center_mm", p.center_mm,
+            {.at_least = -kMaxCoordinate_mm,
+             .at_most = kMaxCoordinate_mm,
+             .meaning = "Nominal centre: x, y, z in the base frame, which is the machine frame "
+                        "when the fixture stands in its nominal place."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, DatumPlan& p) {
+  v.number("sphere_diameter_mm", p.sphere_diameter_mm,
+           {.at_least = 1.0, .at_most = 200.0, .meaning = "Diameter of the spheres."});
+  v.list("spheres", p.spheres,
+         {.required = true, .empty_allowed = false, .meaning = "Three or more, not on one line."});
+  v.whole("points", p.points,
+          {.at_least = 5, .at_most = 100, .meaning = "Touches of each sphere."});
+  v.number("uncertainty_mm", p.uncertainty_mm,
+           {.at_least = 0.0,
+            .at_most = 50.0,
+            .meaning = "How far a sphere may be from its nominal place, from the bolting of the "
+                       "fixture."});
+  v.number("residual_limit_um", p.residual_limit_um,
+           {.at_least = 0.0,
+            .at_most = 1000.0,
+            .above = true,
+            .meaning = "Largest distance of a sphere from its place in the base that was found."});
+}
+
+template <class Visitor>
 void describe(Visitor& v, FixturePlan& p) {
   const NumberSpec coordinate = {
       .at_least = -kMaxCoordinate_mm, .at_most = kMaxCoordinate_mm, .meaning = {}};
@@ -221,6 +250,9 @@ void describe(Visitor& v, FixturePlan& p) {
       diameter("Outer diameter of the bowl, about axis_point_mm; 0: unknown, then the tip goes "
                "nowhere below rim_height_mm."));
   v.number("table_height_mm", p.table_height_mm, place("Height of the table, machine z."));
+  v.object("datum", p.datum,
+           {.meaning = "Reference spheres on the base of the fixture, touched before a run: then "
+                       "axis_point_mm is in the base frame they show."});
 }
 
 template <class Visitor>

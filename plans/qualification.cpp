@@ -31,7 +31,8 @@ core::Result<void> check_limits(const fit::ProbeTip& tip, const ProbePlan& plan)
   return {};
 }
 
-core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, TouchStep step) {
+core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, TouchStep step,
+                                           const std::string& name) {
   const int point = step.row.point;
   const auto touched = context.touch(std::move(step));
   if (touched) return touched->tip_mm;
@@ -39,20 +40,23 @@ core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, TouchStep step) 
     return core::fail(touched.error());
   }
   return core::fail(touched.error().code,
-                    fmt::format("reference sphere, point {}: {}", point + 1, touched.error().what));
+                    fmt::format("{}, point {}: {}", name, point + 1, touched.error().what));
 }
 
-core::Result<std::vector<Eigen::Vector3d>> touch_all(RunContext& context,
-                                                     const std::vector<TouchStep>& steps) {
+}  // namespace
+
+core::Result<std::vector<Eigen::Vector3d>> touch_sphere_steps(RunContext& context,
+                                                              const std::vector<TouchStep>& steps,
+                                                              const std::string& name) {
   context.last_steps.clear();
   std::vector<Eigen::Vector3d> tips;
   for (const TouchStep& step : steps) {
-    context.doing = fmt::format("reference sphere, point {}", step.row.point + 1);
+    context.doing = fmt::format("{}, point {}", name, step.row.point + 1);
     if (auto moved = context.follow(step.way_W); !moved) {
       if (context.retreating) (void)context.rise();
       return core::fail(moved.error());
     }
-    auto tip = touch_sphere(context, step);
+    auto tip = touch_sphere(context, step, name);
     if (!tip) {
       const bool movable = tip.error().code != core::Code::kCollision && !context.lost_place;
       if (movable) (void)context.rise();
@@ -69,50 +73,53 @@ core::Result<std::vector<Eigen::Vector3d>> touch_all(RunContext& context,
   return tips;
 }
 
-}  // namespace
-
-core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan) {
-  const QualificationPlan& sphere = plan.probe->qualification;
+core::Result<std::vector<TouchStep>> sphere_steps(const Plan& plan, const SphereToTouch& sphere) {
   const auto directions = qualification_directions(sphere.points);
   if (!directions) return core::fail(directions.error());
-  const Eigen::Vector3d center = vector3(sphere.sphere_center_mm);
+  const Eigen::Vector3d& center = sphere.center_W_mm;
   PathGeometry geometry;
   geometry.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
-  geometry.approach_mm = plan.machine->approach_mm;
-  geometry.clearance_mm = plan.machine->clearance_mm;
-  const double radius = 0.5 * sphere.sphere_diameter_mm;
+  geometry.approach_mm = plan.machine->approach_mm + sphere.uncertainty_mm;
+  geometry.clearance_mm = plan.machine->clearance_mm + sphere.uncertainty_mm;
+  const double reach_mm = sphere.radius_mm + geometry.tip_radius_mm;
 
   // From park height straight down to the pole; from there around the sphere.
-  const Eigen::Vector3d pole =
-      center + (radius + geometry.tip_radius_mm + geometry.approach_mm) * directions->front();
+  const Eigen::Vector3d pole = center + (reach_mm + geometry.approach_mm) * directions->front();
   const Polyline down = {{pole.x(), pole.y(), std::max(pole.z(), plan.machine->park_mm[2])}, pole};
   std::vector<TouchStep> steps;
   for (std::size_t i = 0; i < directions->size(); ++i) {
     const Eigen::Vector3d& outward = (*directions)[i];
+    const auto around = [&](const Eigen::Vector3d& from) {
+      return path_around_sphere(center, sphere.radius_mm, geometry, from, outward);
+    };
     TouchStep step;
-    step.command.expected_tip_W_mm = center + (radius + geometry.tip_radius_mm) * outward;
+    step.command.expected_tip_W_mm = center + reach_mm * outward;
     step.command.direction_W = -outward;
     step.command.approach_mm = geometry.approach_mm;
-    step.command.search_mm = plan.machine->search_mm;
+    step.command.search_mm = plan.machine->search_mm + sphere.uncertainty_mm;
     step.row.purpose = record::Touch::Purpose::kQualification;
     step.row.point = static_cast<int>(i);
     step.entry_W = down;
-    step.way_W = down;
+    step.way_W = i == 0 ? down : around((*directions)[i - 1]);
     if (i > 0) {
-      const Polyline around =
-          path_around_sphere(center, radius, geometry, directions->front(), outward);
-      step.entry_W.insert(step.entry_W.end(), around.begin(), around.end());
-      step.way_W = path_around_sphere(center, radius, geometry, (*directions)[i - 1], outward);
+      const Polyline way = around(directions->front());
+      step.entry_W.insert(step.entry_W.end(), way.begin(), way.end());
     }
     steps.push_back(std::move(step));
   }
   return steps;
 }
 
+core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan) {
+  const QualificationPlan& sphere = plan.probe->qualification;
+  return sphere_steps(plan, {vector3(sphere.sphere_center_mm), 0.5 * sphere.sphere_diameter_mm,
+                             sphere.points, 0.0});
+}
+
 core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
   const auto steps = qualification_steps(context.plan);
   if (!steps) return core::fail(steps.error());
-  const auto tips = touch_all(context, *steps);
+  const auto tips = touch_sphere_steps(context, *steps, "reference sphere");
   if (!tips) return core::fail(tips.error());
   const auto tip =
       fit::qualify_tip(*tips, 0.5 * context.plan.probe->qualification.sphere_diameter_mm);

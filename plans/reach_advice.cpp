@@ -13,7 +13,8 @@
 namespace rondure::plans {
 namespace {
 
-constexpr int kMostTried = 2000;  // targets
+constexpr int kMostTried = 500;    // targets
+constexpr double kMargins = 40.0;  // tried, at most
 constexpr double kLongest_mm = 300.0;
 constexpr double kLengthStep_mm = 5.0;
 
@@ -64,13 +65,15 @@ std::optional<double> longer_stylus(const Plan& plan, const FeaturePlan& feature
   return std::nullopt;
 }
 
-/// The smallest margin, in steps of 1 mm, that reaches everything.
+/// The smallest margin, in steps of 1 mm or more of a long surface, that reaches everything.
 std::optional<double> larger_margin(const Plan& plan, const FeaturePlan& feature) {
   if (feature.type == "circle") return std::nullopt;
   FeaturePlan other = feature;
   const double half_mm = 0.5 * (feature.nominal.to_mm - feature.nominal.from_mm);
   double& margin_mm = other.sampling.margin_mm;
-  for (margin_mm = std::floor(margin_mm) + 1.0; margin_mm < half_mm; margin_mm += 1.0) {
+  const double step_mm = std::ceil(half_mm / kMargins);
+  margin_mm = step_mm * (std::floor(margin_mm / step_mm) + 1.0);
+  for (; margin_mm < half_mm; margin_mm += step_mm) {
     if (reaches_all(plan, other, start_pose(feature))) return margin_mm;
   }
   return std::nullopt;

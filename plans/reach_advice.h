@@ -16,7 +16,7 @@ namespace rondure::plans {
 
 /// What would bring all targets of such a feature within reach: another start pose, a longer stylus
 /// (how long), a larger margin or fewer layers. Each was tried and reaches all targets; "no other
-/// pose, stylus or margin that was tried reaches it" when none does. Up to 2000 targets, beyond
+/// pose, stylus or margin that was tried reaches it" when none does. Up to 500 targets, beyond
 /// which nothing is tried.
 [[nodiscard]] std::string reach_advice(const Plan& plan, const FeaturePlan& feature);
 

@@ -93,6 +93,13 @@ core::Result<void> RunContext::keep_recalled(TouchStep step) {
   progress.touches = static_cast<std::size_t>(next_touch);
   if (last_steps.size() == kChecks) last_steps.erase(last_steps.begin());
   last_steps.push_back(std::move(step));
+  if (past.relocated_behind(next_touch)) {
+    if (!recalling()) {
+      if (const auto reads = cell->home_again(); !reads) return core::fail(reads.error());
+    }
+    relocation_due = true;
+    return core::fail(core::Code::kLocation, "the part was located again");
+  }
   return recalling() ? core::Result<void>{} : come_back();
 }
 
@@ -119,7 +126,7 @@ core::Result<void> RunContext::come_back() {
       if (difference_mm.error().code != core::Code::kCollision) {
         (void)follow({step.entry_W.rbegin(), step.entry_W.rend()});
       }
-      return core::fail(difference_mm.error());
+      return part_has_moved(difference_mm.error());
     }
     largest_mm = std::max(largest_mm, *difference_mm);
   }
@@ -133,12 +140,35 @@ core::Result<void> RunContext::come_back() {
   return journal.add(record::Decision{-1, cell->machine().time_s(), text});
 }
 
+tl::unexpected<core::Error> RunContext::part_has_moved(const core::Error& error) {
+  const bool on_part = last_steps.back().row.pose >= 0;
+  const bool moved = error.code == core::Code::kLocation || error.code == core::Code::kNoTouch;
+  if (!options.relocate || !on_part || !moved) return core::fail(error);
+  if (plan.part.location_uncertainty_mm <= 0.0) {
+    return core::fail(error.code, error.what +
+                                      "; it cannot be located again, the plan states no "
+                                      "location_uncertainty_mm");
+  }
+  if (past.goes_on_untouched(next_pose)) {
+    return core::fail(error.code, error.what +
+                                      "; it cannot be located again, since the run stood between "
+                                      "two clouds");
+  }
+  const record::Decision decision{-1, cell->machine().time_s(),
+                                  relocation_text(next_touch) + error.what};
+  if (auto kept = journal.add(decision); !kept) return core::fail(kept.error());
+  relocation_due = true;
+  lost_place = false;
+  return core::fail(error);
+}
+
 core::Result<double> RunContext::repeat_touch(const TouchStep& step, std::int64_t check_id) {
   cmm::TouchCommand command = step.command;
   command.id = check_id;
   const auto reading = cell->machine().touch(command);
   const std::string moved =
-      "; part or machine has moved while the run was interrupted, start a new run";
+      "; part or machine has moved while the run was interrupted, start a new run, or locate the "
+      "part again (run --resume --relocate)";
   if (!reading) {
     const bool nothing = reading.error().code == core::Code::kNoTouch;
     return core::fail(reading.error().code,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "plans/analysis.h"
+#include "plans/fixture_datum.h"
 #include "plans/inspection.h"
 #include "plans/plan_changes.h"
 #include "plans/plan_reach.h"
@@ -143,6 +144,7 @@ core::Result<void> prepare(RunContext& context) {
   }
   if (auto tip = qualify_probe(context); !tip)
     return core::fail(tip.error().at("/probe/qualification"));
+  if (auto base = find_fixture_base(context); !base) return base;
   return {};
 }
 
@@ -193,6 +195,11 @@ void execute(const Plan& plan, const RunOptions& options, const Preparation& kno
   const bool touching = cell != nullptr;
   if (touching)
     context.progress.touches_expected += static_cast<std::size_t>(plan.probe->qualification.points);
+  if (touching && plan.fixture->datum) {
+    const DatumPlan& datum = *plan.fixture->datum;
+    context.progress.touches_expected +=
+        datum.spheres.size() * static_cast<std::size_t>(datum.points);
+  }
   auto done = touching ? note_single_steps(context) : core::Result<void>{};
   if (done && touching) done = prepare(context);
   if (done) done = inspect(context, known.targets, known.data);

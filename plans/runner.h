@@ -53,6 +53,7 @@ struct RunOptions {
   /// Asked before each motion; an error (kStopped) ends the run: the tip goes back on the way it
   /// came, without asking, and up. Not asked for motions that a fault makes necessary.
   std::function<core::Result<void>(const NextMove&)> before_move;
+  bool relocate = false;     ///< Of a run to resume: a part that has moved is located again.
   bool single_step = false;  ///< A first run: travels at the plan's step_speed_mm_s at most.
 };
 
@@ -83,6 +84,11 @@ using RunOrRefusals = tl::expected<Run, std::vector<core::Error>>;
 /// the plan's resume_limit_um. The repeated touches enter no result. On a simulated cell the record
 /// becomes that of a run without interruption, bit for bit, but for checks and the decision that
 /// tells of the interruption.
+///
+/// With `relocate` a touch on the part that differs by more than the limit does not end the run:
+/// the part is located again in that pose and the present cloud, with its repeats, is measured
+/// anew; the touches of the earlier placement stay in the journal and enter no result. A run that
+/// stood between two clouds ends all the same: what it decided holds for the earlier placement.
 ///
 /// @param options  `seed`, `serial` and `operator_name` may be left out; the run's are kept.
 /// @return  kMeaning for each difference of the plan (`where` its JSON pointer, `what` the old and

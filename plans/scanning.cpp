@@ -138,7 +138,8 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::scan_cloud(
     }
     const auto rows = context_.scan(std::move(step));
     if (!rows) {
-      if (context_.lost_place) return core::fail(rows.error());
+      // Where a relocation is due the tip is at park height already.
+      if (context_.lost_place || context_.relocation_due) return core::fail(rows.error());
       if (rows.error().code != core::Code::kCollision) leave(*path, k);
       return fault_at(start, rows.error());
     }

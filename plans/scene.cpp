@@ -32,7 +32,7 @@ const char* name_of(Body body) {
     case Body::kTable:
       return "the table";
     case Body::kSphere:
-      return "the reference sphere";
+      return "a reference sphere";
     case Body::kStem:
       return "the stem of the reference sphere";
     case Body::kVolume:
@@ -152,6 +152,11 @@ void Scene::add_cell(const Plan& plan, const FeaturePlan& feature) {
   const Vector3d center = vector3(q.sphere_center_mm);
   add(Body::kSphere, Frame::kMachine, center, {0.0, sphere_mm, 0.0, 0.0, true});
   add(Body::kStem, Frame::kMachine, center, {0.0, stem_mm, -kDeep_mm, 0.0});
+  if (!fixture.datum) return;
+  for (const DatumSpherePlan& sphere : fixture.datum->spheres) {
+    add(Body::kSphere, Frame::kMachine, vector3(sphere.center_mm),
+        {0.0, 0.5 * fixture.datum->sphere_diameter_mm, 0.0, 0.0, true});
+  }
 }
 
 std::optional<double> Scene::room_mm(Body body, Limb limb, Phase phase,

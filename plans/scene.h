@@ -54,7 +54,8 @@ struct Hit {
 /// machine (1.0, 2.0, 3.0) mm".
 [[nodiscard]] std::string in_words(const Hit& hit);
 
-/// The tool, pointing to machine -z: ball, shaft from its centre up, holder above the shaft.
+/// The tool, pointing to machine -z: ball, shaft from its centre up, holder above the shaft. Shaft
+/// and holder have round ends, as if a ball ran along their axes: more than there is.
 struct Tool {
   double tip_radius_mm = 2.0;
   double shaft_length_mm = 0.0;  ///< 0: only the ball is considered.

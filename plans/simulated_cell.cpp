@@ -58,13 +58,31 @@ Eigen::Isometry3d true_seat(const Eigen::Isometry3d& nominal, const SimulatedPar
   return seat;
 }
 
+/// Where the simulated fixture really stands on the table.
+Eigen::Isometry3d true_base(const SimulatedFixturePlan& hidden) {
+  const Eigen::Vector3d turn = vector3(hidden.base_rotation_deg) * core::kDegree;
+  Eigen::Isometry3d X_WF = Eigen::Isometry3d::Identity();
+  X_WF.translate(vector3(hidden.base_offset_mm));
+  X_WF.rotate(Eigen::AngleAxisd(turn.z(), Eigen::Vector3d::UnitZ()));
+  X_WF.rotate(Eigen::AngleAxisd(turn.y(), Eigen::Vector3d::UnitY()));
+  X_WF.rotate(Eigen::AngleAxisd(turn.x(), Eigen::Vector3d::UnitX()));
+  return X_WF;
+}
+
 }  // namespace
 
 SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed)
     : Cell(plan),
       simulation_(*plan.simulation),
       fixture_(fixture_options(plan, seed, resumed)),
-      machine_(machine_options(plan, seed, resumed)) {
+      machine_(machine_options(plan, seed, resumed)),
+      true_X_WF_(true_base(plan.simulation->fixture)) {
+  if (const auto& datum = plan.fixture->datum) {
+    for (const DatumSpherePlan& sphere : datum->spheres) {
+      machine_.place_sphere(
+          {true_X_WF_ * vector3(sphere.center_mm), 0.5 * datum->sphere_diameter_mm});
+    }
+  }
   machine_.place_sphere({vector3(plan.probe->qualification.sphere_center_mm),
                          0.5 * plan.probe->qualification.sphere_diameter_mm});
 }
@@ -124,8 +142,8 @@ core::Result<core::Pose> SimulatedCell::home_again() {
 
 void SimulatedCell::place_part() {
   if (!surface_) return;
-  machine_.place_part(
-      *surface_, fixture_.true_body_to_machine() * Eigen::Translation3d(shift_mm_) * true_X_BP_);
+  machine_.place_part(*surface_, true_X_WF_ * fixture_.true_body_to_machine() *
+                                     Eigen::Translation3d(shift_mm_) * true_X_BP_);
 }
 
 }  // namespace rondure::plans

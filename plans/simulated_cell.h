@@ -58,6 +58,7 @@ class SimulatedCell final : public Cell {
   fixture::SimulatedFixture fixture_;
   cmm::SimulatedMachine machine_;
   std::optional<cmm::PartSurface> surface_;
+  Eigen::Isometry3d true_X_WF_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d true_X_BP_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d shift_mm_ = Eigen::Vector3d::Zero();  ///< Of the part, while interrupted.
   std::uint64_t turns_ = 0;                             ///< Of the fixture since its homing.

@@ -80,6 +80,14 @@ void describe(Visitor& v, SimulatedFixturePlan& p) {
             shift("Real minus stated axis_point_mm."));
   v.numbers("axis_offset_error_um", p.axis_offset_error_um,
             shift("Real minus stated axis_offset_mm."));
+  v.numbers("base_offset_mm", p.base_offset_mm,
+            {.at_least = -50.0,
+             .at_most = 50.0,
+             .meaning = "Shift of the whole fixture on the table, with its reference spheres."});
+  v.numbers("base_rotation_deg", p.base_rotation_deg,
+            {.at_least = -10.0,
+             .at_most = 10.0,
+             .meaning = "Its turn about machine x, then y, then z, through the origin."});
   v.number("zero_alpha_deg", p.zero_alpha_deg, angle(-5.0, "Real alpha when the fixture reads 0."));
   v.number("zero_beta_deg", p.zero_beta_deg, angle(-5.0, "Real beta when the fixture reads 0."));
   v.number("squareness_deg", p.squareness_deg,

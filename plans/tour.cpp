@@ -11,6 +11,7 @@ namespace {
 
 using Order = std::vector<std::size_t>;
 
+constexpr std::size_t kEnumerated = 7;  // stops up to which every order is tried
 constexpr std::size_t kImproved = 128;  // stops up to which a tour is improved
 constexpr double kGain_mm = 1e-9;       // less is rounding
 
@@ -96,6 +97,20 @@ Order improved(Order order, const TourCost& cost) {
   return {ring.begin() + 1, ring.end()};
 }
 
+/// The best of all orders.
+Order shortest(Order order, const TourCost& cost) {
+  const CostTable table(order.size(), cost);
+  Order best = order;
+  double best_mm = tour_length_mm(best, table);
+  while (std::next_permutation(order.begin(), order.end())) {
+    const double mm = tour_length_mm(order, table);
+    if (mm >= best_mm - kGain_mm) continue;
+    best = order;
+    best_mm = mm;
+  }
+  return best;
+}
+
 /// Sorted by keys; equal keys keep their order.
 template <class Key>
 Order sorted(std::size_t n, const Key& key) {
@@ -120,12 +135,15 @@ std::vector<std::size_t> short_tour(std::span<const Target> targets, const TourC
   const std::size_t n = targets.size();
   Order best = sorted(n, [](std::size_t i) { return i; });
   double best_mm = tour_length_mm(best, cost);
+  if (n <= kEnumerated) return shortest(std::move(best), cost);
   const auto offer = [&](Order order) {
+    if (n <= kImproved) order = improved(std::move(order), cost);
     const double mm = tour_length_mm(order, cost);
     if (mm >= best_mm - kGain_mm) return;
     best = std::move(order);
     best_mm = mm;
   };
+  offer(best);
   offer(sorted(n, [&](std::size_t i) {  // layers, every other one backward
     const Target& t = targets[i];
     return std::pair(t.layer, t.layer % 2 == 0 ? t.point : -t.point);
@@ -134,7 +152,6 @@ std::vector<std::size_t> short_tour(std::span<const Target> targets, const TourC
     const Target& t = targets[i];
     return std::pair(t.point, t.point % 2 == 0 ? t.layer : -t.layer);
   }));
-  if (n <= kImproved) offer(improved(best, cost));
   return best;
 }
 

@@ -17,11 +17,11 @@ using TourCost = std::function<double(std::size_t from, std::size_t to)>;
 /// Sum over a tour from the sky through all stops in this order and back to it.
 [[nodiscard]] double tour_length_mm(std::span<const std::size_t> order, const TourCost& cost);
 
-/// A short order in which to touch targets, as indices into them: the best of layer after layer,
-/// layers to and fro and columns up and down, then improved by turning round (2-opt) and moving
-/// pieces of up to three stops, while there are at most 128. Never longer than the order given by
-/// the targets themselves, as `cost` says. Same input, same order. O(n^2) a round up to 128 stops,
-/// O(n log n) beyond.
+/// A short order in which to touch targets, as indices into them: the shortest of all for up to 7;
+/// the best of layer after layer, layers to and fro and columns up and down, each improved by
+/// turning round (2-opt) and moving pieces of up to three stops, up to 128; beyond without
+/// improvement. Never longer than the order given by the targets themselves, as `cost` says. Same
+/// input, same order. O(n^2) a round up to 128 stops, O(n log n) beyond.
 [[nodiscard]] std::vector<std::size_t> short_tour(std::span<const Target> targets,
                                                   const TourCost& cost);
 

@@ -341,11 +341,12 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
   } else if (probe) {
     result.tip_radius_mm = probe->radius_mm;
   }
+  // A part that was located again while its final cloud was repeated has two: the later one counts.
   const auto last = std::find_if(
-      record.poses.begin(), record.poses.end(),
+      record.poses.rbegin(), record.poses.rend(),
       [&](const record::PoseVisit& visit) { return visit.feature == index && visit.final_cloud; });
   evaluate_poses(record, index, result);
-  if (last == record.poses.end()) {
+  if (last == record.poses.rend()) {
     result.failure =
         core::Error{core::Code::kNoPoints,
                     record.failure ? "not measured to its end: " + record.failure->what

@@ -92,7 +92,7 @@ class OnTerminal {
 };
 
 std::vector<std::string> stepwise(const TemporaryFolder& folder) {
-  return {"run",    example("07_pose_search_virtual.json"),
+  return {"run",    example("13_pose_search_virtual.json"),
           "--out",  (folder / "run").string(),
           "--step", "--archive",
           "none"};
@@ -135,7 +135,7 @@ TEST(Step, GoesOnWithoutAskingAfterCAndMeasuresTheSame) {
   program.type("c\n");
   EXPECT_LE(program.finish(), 1) << program.shown();
   const TemporaryFolder plain;
-  const Outcome quickly = rondure({"run", example("07_pose_search_virtual.json"), "--out",
+  const Outcome quickly = rondure({"run", example("13_pose_search_virtual.json"), "--out",
                                    (plain / "run").string(), "--archive", "none"});
   EXPECT_LE(quickly.status, 1) << quickly.err;
   const auto slow = journal_of(folder / "run");

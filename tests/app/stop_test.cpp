@@ -118,7 +118,8 @@ TEST(KilledRun, KeepsItsTouchesAndSaysThatItWasInterrupted) {
   EXPECT_EQ(run.program().wait().signal, SIGKILL);
   const auto journal = journal_of(run.directory());
   EXPECT_EQ(journal.ending, "");
-  EXPECT_GT(journal.touches.size(), 20U);  // a touch takes four pages of log
+  // A touch takes four pages of log; poses and decisions come between.
+  EXPECT_GT(journal.touches.size(), 13U) << "beyond the qualification";
   for (std::size_t i = 0; i < journal.touches.size(); ++i) {
     ASSERT_EQ(journal.touches[i].id, static_cast<std::int64_t>(i));
   }

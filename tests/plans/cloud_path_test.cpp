@@ -247,7 +247,7 @@ TEST(Reach, NamesTheTable) {
 TEST(Reach, NamesTheReferenceSphereAndItsStem) {
   Plan plan = plain_plan();
   plan.probe->qualification.sphere_center_mm = {45.0, 0.0, 150.0};
-  EXPECT_THAT(refusal(plan), HasSubstr("to the reference sphere"));
+  EXPECT_THAT(refusal(plan), HasSubstr("to a reference sphere"));
   plan.probe->qualification.sphere_center_mm = {45.0, 0.0, 220.0};
   plan.probe->qualification.sphere_diameter_mm = 10.0;
   plan.probe->qualification.stem_diameter_mm = 20.0;
@@ -306,8 +306,8 @@ TEST(Reach, NamesTheHolderAndTheLengthThatWouldDo) {
   plan.probe->holder_diameter_mm = 20.0;
   const std::string words = refusal(plan);
   EXPECT_THAT(words, AllOf(HasSubstr("the holder of the stylus"), HasSubstr("to the part"),
-                           HasSubstr("take a stylus of 80 mm (stylus_length_mm)")));
-  plan.probe->stylus_length_mm = 80.0;
+                           HasSubstr("take a stylus of 90 mm (stylus_length_mm)")));
+  plan.probe->stylus_length_mm = 90.0;
   EXPECT_EQ(refusal(plan), "everything is reached");
 }
 
@@ -315,7 +315,7 @@ TEST(Reach, NamesTheEndOfTheMachine) {
   Plan plan = plain_plan();
   plan.machine->volume_min_mm = {-30.0, -200.0, 0.0};
   plan.machine->volume_max_mm = {200.0, 200.0, 600.0};
-  EXPECT_THAT(refusal(plan), AllOf(HasSubstr("layer 1, point 4 (154.3 deg)"),
+  EXPECT_THAT(refusal(plan), AllOf(HasSubstr("layer 2, point 4 (167.1 deg)"),
                                    HasSubstr("leave the volume of the machine")));
 }
 

@@ -112,11 +112,11 @@ TEST_P(ForecastOf, IsThePathAndTheTimeOfARunInAnIdealWorld) {
 
 INSTANTIATE_TEST_SUITE_P(Strategies, ForecastOf,
                          ::testing::Values("01_spool_simulated.json", "02_bore_simulated.json",
-                                           "05_pose_search_as_published.json",
-                                           "07_pose_search_virtual.json"));
+                                           "11_pose_search_as_published.json",
+                                           "13_pose_search_virtual.json"));
 
 TEST(Forecast, TellsTheTimeOfARunOnARealPartWithinTwoPercent) {
-  const Plan plan = plan_of("07_pose_search_virtual.json");
+  const Plan plan = plan_of("13_pose_search_virtual.json");
   const auto forecast = plans::forecast(plan);
   ASSERT_TRUE(forecast) << forecast.error().what;
   const Followed run = follow(plan);

@@ -195,6 +195,85 @@ TEST(ResumeChecks, EndTheRunWhenThePartHasMoved) {
   }
 }
 
+/// Touches of the pose that is evaluated, by (layer, point, repeat): each once.
+std::size_t final_touches(const record::RunRecord& record) {
+  int last = -1;
+  for (const record::PoseVisit& visit : record.poses) {
+    if (visit.final_cloud) last = visit.id;
+  }
+  std::size_t count = 0;
+  for (const record::Touch& touch : record.touches) count += touch.pose == last ? 1 : 0;
+  return count;
+}
+
+TEST(ResumeRelocates, APartThatHasMovedAndMeasuresItsCloudAnew) {
+  const Plan plan = with(plan_of("01_spool_simulated.json"), "\"seed\": 20261121",
+                         "\"faults\": {\"part_moved_um\": 300}, \"seed\": 20261121");
+  const Whole whole(plan_of("01_spool_simulated.json"));
+  for (const int touches : {16, 30, 70, 120}) {  // location, a cloud, the next one, the repeats
+    SCOPED_TRACE(touches);
+    const record::Scratch scratch;
+    RunOptions options = options_for(scratch / "run");
+    stop_after(options, touches);
+    (void)run_plan(plan, options);
+    options = options_for(scratch / "run");
+    options.relocate = true;
+    // Interrupted once more behind the relocation: the journal tells the way.
+    stop_after(options, 9);
+    {
+      const auto run = resume_plan(plan, options);
+      ASSERT_TRUE(run && run->failure);
+      ASSERT_EQ(run->failure->code, core::Code::kStopped) << run->failure->what;
+    }
+    stop_after(options, 1'000'000);
+    {
+      const auto run = resume_plan(plan, options);
+      ASSERT_TRUE(run);
+      ASSERT_FALSE(run->failure) << run->failure->what;
+    }
+    const auto record = journal_of(scratch / "run");
+    EXPECT_EQ(record.ending, "finished");
+    EXPECT_EQ(final_touches(record), 5U * 28U);
+    EXPECT_GT(record.touches.size(), whole.record.touches.size());
+    EXPECT_TRUE(std::any_of(
+        record.decisions.begin(), record.decisions.end(), [&](const record::Decision& d) {
+          return d.feature == -1 &&
+                 d.text.find("part located again behind " + std::to_string(touches)) == 0;
+        }));
+  }
+}
+
+TEST(ResumeRelocates, NotBetweenTwoClouds) {
+  const Plan plan = with(plan_of("01_spool_simulated.json"), "\"seed\": 20261121",
+                         "\"faults\": {\"part_moved_um\": 300}, \"seed\": 20261121");
+  const record::Scratch scratch;
+  RunOptions options = options_for(scratch / "run");
+  stop_after(options, 13 + 6);
+  (void)run_plan(plan, options);
+  options = options_for(scratch / "run");
+  options.relocate = true;
+  const auto run = resume_plan(plan, options);
+  ASSERT_TRUE(run && run->failure);
+  EXPECT_EQ(run->failure->code, core::Code::kLocation);
+  EXPECT_THAT(run->failure->what, HasSubstr("between two clouds"));
+}
+
+TEST(ResumeRelocates, NothingThatHasNotMoved) {
+  const Plan plan = plan_of("01_spool_simulated.json");
+  const Whole whole(plan);
+  const record::Scratch scratch;
+  RunOptions options = options_for(scratch / "run");
+  stop_after(options, 70);
+  (void)run_plan(plan, options);
+  options = options_for(scratch / "run");
+  options.relocate = true;
+  {
+    const auto run = resume_plan(plan, options);
+    ASSERT_TRUE(run && !run->failure);
+  }
+  EXPECT_EQ(record::measured_bits(journal_of(scratch / "run")), whole.bits);
+}
+
 TEST(ResumeChecks, EndTheRunWhenTheFixtureReadsAnotherPoseThanItDid) {
   const Plan still = plan_of("01_spool_simulated.json");
   // In a pose that was reached without a touch in it, and in poses with touches.

@@ -59,12 +59,12 @@ TEST(ShortTour, VisitsEveryTargetOnceAndIsNeverLongerThanTheirOwnOrder) {
   EXPECT_GT(shorter, 20) << "of 60";
 }
 
-TEST(ShortTour, IsTheBestOfAllOrdersOfSixTargetsOrNearlySo) {
+TEST(ShortTour, IsTheBestOfAllOrdersOfSixTargetsAndNearlySoOfEight) {
   int best_found = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     Case c = random_case(seed, 4, 6);
-    c.targets.resize(std::min<std::size_t>(c.targets.size(), 6));
+    c.targets.resize(std::min<std::size_t>(c.targets.size(), seed % 2 == 0 ? 6 : 8));
     const TourCost cost = bare_cost(c.targets, c.geometry);
     auto order = own_order(c.targets.size());
     double best_mm = std::numeric_limits<double>::infinity();
@@ -73,7 +73,7 @@ TEST(ShortTour, IsTheBestOfAllOrdersOfSixTargetsOrNearlySo) {
     } while (std::next_permutation(order.begin(), order.end()));
     const double found_mm = tour_length_mm(short_tour(c.targets, cost), cost);
     EXPECT_GE(found_mm, best_mm - 1e-9);
-    EXPECT_LE(found_mm, 1.05 * best_mm);
+    EXPECT_LE(found_mm, (c.targets.size() <= 7 ? 1.0 + 1e-12 : 1.1) * best_mm);
     if (found_mm < best_mm + 1e-6) ++best_found;
   }
   EXPECT_GE(best_found, 15) << "of 20";

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+
+#include <Eigen/Geometry>
+
+#include "core/result.h"
+
+namespace rondure::fit {
+
+/// A motion without scale or reflection that brings points onto others as well as can be.
+struct Registration {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  ///< Maps `from` to `to`.
+  double largest_residual_mm = 0.0;  ///< Greatest distance of a moved point from its partner [mm].
+};
+
+/// Least squares of |motion * from_i - to_i| over rotations and shifts, closed form by the singular
+/// values of the covariance.
+/// @param from_mm, to_mm  Partners in the same order, n >= 3, not on one line [mm].
+/// @return kTooFewPoints (n < 3 or different counts), kNotFinite, kCollinear (the points of `from`
+///         lie on one line within 1e-6 of their spread: the turn about it is undetermined).
+/// Source: S. Umeyama, "Least-squares estimation of transformation parameters between two point
+/// patterns", IEEE Trans. PAMI 13(4), 1991 (as in Eigen).
+[[nodiscard]] core::Result<Registration> rigid_registration(
+    std::span<const Eigen::Vector3d> from_mm, std::span<const Eigen::Vector3d> to_mm);
+
+}  // namespace rondure::fit

@@ -1,0 +1,160 @@
+#include "plans/fixture_datum.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/noise.h"
+#include "core/units.h"
+#include "plans/forecast.h"
+#include "plans/plan_reach.h"
+#include "plans/runner.h"
+#include "record/journal.h"
+#include "tests/plans/files.h"
+#include "tests/record/sample_run.h"
+
+namespace rondure::plans {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// The spool in a world without errors but for where the fixture stands.
+Plan plan_with_base(const Vector3d& offset_mm, const Vector3d& rotation_deg) {
+  auto plan = read_plan(testing::example("01_spool_simulated.json"));
+  EXPECT_TRUE(plan) << testing::lines_of(plan);
+  plan->simulation->part = {};
+  plan->simulation->probe = {};
+  plan->simulation->fixture = {};
+  plan->fixture->datum.emplace();
+  DatumPlan& datum = *plan->fixture->datum;
+  datum.spheres = {{{-200.0, -150.0, 60.0}}, {{-200.0, 150.0, 60.0}}, {{200.0, -150.0, 60.0}}};
+  datum.uncertainty_mm = 3.0;
+  plan->features.front().pose_search.repeats = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    plan->simulation->fixture.base_offset_mm[i] = offset_mm(k);
+    plan->simulation->fixture.base_rotation_deg[i] = rotation_deg(k);
+  }
+  return std::move(*plan);
+}
+
+RunOptions options_for(const std::filesystem::path& directory) {
+  RunOptions options;
+  options.directory = directory;
+  options.run_id = "run";
+  options.started_utc = "2026-11-21T02:33:02Z";
+  return options;
+}
+
+struct Result {
+  std::optional<core::Error> failure;
+  record::RunRecord record;
+};
+
+Result run(const Plan& plan) {
+  const record::Scratch scratch;
+  Result out;
+  const auto run = run_plan(plan, options_for(scratch / "run"));
+  EXPECT_TRUE(run) << (run ? "" : run.error().what);
+  if (run) out.failure = run->failure;
+  out.record = record::read_journal(scratch / "run")->record;
+  return out;
+}
+
+std::vector<std::vector<Vector3d>> base_touches(const record::RunRecord& record) {
+  std::vector<std::vector<Vector3d>> out(3);
+  for (const record::Touch& touch : record.touches) {
+    if (touch.purpose == record::Touch::Purpose::kLocate && touch.pose < 0) {
+      out[static_cast<std::size_t>(touch.layer)].push_back(touch.tip_mm);
+    }
+  }
+  return out;
+}
+
+TEST(FixtureBase, IsRecoveredToANanometre) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    core::KeyedNoise random(seed, {1});
+    const auto draw = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
+    const Vector3d offset(draw(1.0), draw(1.0), draw(1.0));
+    const Vector3d rotation(draw(0.2), draw(0.2), draw(0.2));
+    const Plan plan = plan_with_base(offset, rotation);
+    const Result result = run(plan);
+    ASSERT_FALSE(result.failure) << result.failure->what;
+    const auto found = fixture_base(plan, base_touches(result.record));
+    ASSERT_TRUE(found) << found.error().what;
+    Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
+    const Vector3d turn = rotation * core::kDegree;
+    truth.translate(offset);
+    truth.rotate(Eigen::AngleAxisd(turn.z(), Vector3d::UnitZ()) *
+                 Eigen::AngleAxisd(turn.y(), Vector3d::UnitY()) *
+                 Eigen::AngleAxisd(turn.x(), Vector3d::UnitX()));
+    for (const Vector3d& p : {Vector3d(0.0, 0.0, 150.0), Vector3d(200.0, 150.0, 250.0)}) {
+      EXPECT_LT((found->motion * p - truth * p).norm(), 1e-6);
+    }
+    EXPECT_LT(found->largest_residual_mm, 1e-6);
+  }
+}
+
+TEST(FixtureBase, BringsThePartUprightAndWithinTheFirstSearch) {
+  // 1.4 mm and 0.5 deg off, far beyond what the location of the part may make good.
+  Plan plan = plan_with_base({1.2, -0.7, 0.4}, {0.3, -0.4, 0.2});
+  plan.part.location_uncertainty_mm = 0.3;
+  const Result with = run(plan);
+  ASSERT_FALSE(with.failure) << with.failure->what;
+  EXPECT_THAT(with.record.decisions.front().text, HasSubstr("base of the fixture: shifted by"));
+  plan.fixture->datum.reset();
+  const Result without = run(plan);
+  ASSERT_TRUE(without.failure);
+  EXPECT_EQ(without.failure->code, core::Code::kLocation) << without.failure->what;
+}
+
+TEST(FixtureBase, RefusesSpheresThatDoNotFitOrStandTooFarOff) {
+  Plan plan = plan_with_base({0.1, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  const auto touches = base_touches(run(plan).record);
+  plan.fixture->datum->spheres[1].center_mm[1] += 0.1;
+  const auto crooked = fixture_base(plan, touches);
+  ASSERT_FALSE(crooked);
+  EXPECT_EQ(crooked.error().code, core::Code::kCalibration);
+  EXPECT_THAT(crooked.error().what, HasSubstr("the limit is 20 um (residual_limit_um)"));
+  plan.fixture->datum->uncertainty_mm = 0.05;
+  const auto far = fixture_base(plan, touches);
+  ASSERT_FALSE(far);
+  EXPECT_EQ(far.error().code, core::Code::kLocation);
+  EXPECT_THAT(far.error().what,
+              AllOf(HasSubstr("sphere 1 of the fixture stands 0.100 mm"), HasSubstr("0.05 mm")));
+}
+
+TEST(FixtureBase, IsTakenFromTheJournalByARunThatGoesOn) {
+  const Plan plan = plan_with_base({0.6, -0.2, 0.3}, {0.1, 0.1, -0.1});
+  const record::Scratch whole;
+  ASSERT_FALSE(run_plan(plan, options_for(whole / "run"))->failure);
+  const std::string bits = record::measured_bits(record::read_journal(whole / "run")->record);
+  for (const int touches : {5, 13, 20, 34, 36, 50}) {
+    SCOPED_TRACE(touches);
+    const record::Scratch scratch;
+    RunOptions options = options_for(scratch / "run");
+    options.stop_requested = [left = touches]() mutable { return left-- == 0; };
+    {
+      const auto stopped = run_plan(plan, options);
+      ASSERT_TRUE(stopped && stopped->failure);
+    }
+    const auto resumed = resume_plan(plan, options_for(scratch / "run"));
+    ASSERT_TRUE(resumed && !resumed->failure);
+    EXPECT_EQ(record::measured_bits(record::read_journal(scratch / "run")->record), bits);
+  }
+}
+
+TEST(FixtureBase, IsForetold) {
+  const Plan plan = plan_with_base(Vector3d::Zero(), Vector3d::Zero());
+  const auto told = forecast(plan);
+  ASSERT_TRUE(told) << told.error().what;
+  ASSERT_EQ(told->stages.size(), 4U);
+  EXPECT_EQ(told->stages[1].kind, ForecastStage::Kind::kBase);
+  EXPECT_EQ(told->stages[1].touches, 21);
+  EXPECT_EQ(run(plan).record.touches.size(), static_cast<std::size_t>(told->touches));
+}
+
+}  // namespace
+}  // namespace rondure::plans
