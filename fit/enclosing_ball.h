@@ -28,10 +28,10 @@ struct Ball {
 /// closed form: the farthest point enters, contacts whose multiplier would turn negative leave. The
 /// radius grows with every point that enters: the end is the optimum, and it is the only one.
 ///
-/// An object keeps its memory, and its contacts as a start. Cost: a pass over the working points an
-/// exchange, commonly three to six.
-/// Sources: methods, cylindricity section 11.4 (convex); D. Goldfarb, A. Idnani, Mathematical
-/// Programming 27 (1983) (dual active sets); K. Fischer, B. Gaertner, SoCG 2003 (balls).
+/// An object keeps its memory, and its contacts as a start. Cost: a pass over the working points
+/// for each point that enters, commonly five to eight. Sources: methods, cylindricity section 11.4
+/// (convex); D. Goldfarb, A. Idnani, Mathematical Programming 27 (1983) (dual active sets); K.
+/// Fischer, B. Gaertner, SoCG 2003 (balls).
 template <int D>
 class EnclosingBall {
  public:
