@@ -171,11 +171,12 @@ core::Result<core::Pose> IppCell::home_again() {
   if (auto homed = machine_->home(); !homed) return core::fail(homed.error());
   if (auto told = tell_feature(); !told) return core::fail(told.error());
   auto reached = fixture_.home();
-  if (!reached || turns_ == 0) return reached;
-  if (auto told = machine_->tell_simulation("Simulation.NextTurn", turns_); !told) {
+  if (!reached) return reached;
+  const std::int64_t next_turn = std::max<std::int64_t>(1, turns_);
+  if (auto told = machine_->tell_simulation("Simulation.NextTurn", next_turn); !told) {
     return core::fail(told.error());
   }
-  return fixture_.move_to(last_turn_);
+  return turns_ == 0 ? reached : fixture_.move_to(last_turn_);
 }
 
 }  // namespace rondure::plans

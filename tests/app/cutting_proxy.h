@@ -29,8 +29,8 @@ class CuttingProxy {
   void forward(int client, int server);
 
   std::uint16_t server_port_;
+  std::uint16_t port_ = 0;  // before the listener, which sets it
   int listener_ = -1;
-  std::uint16_t port_ = 0;
   std::atomic<std::uint64_t> cut_after_ = kNever;
   std::atomic<std::uint64_t> passed_ = 0;
   std::atomic<bool> ends_ = false;

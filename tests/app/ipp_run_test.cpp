@@ -46,7 +46,8 @@ class Simulator {
     EXPECT_TRUE(wait_for_port(port_));
   }
   ~Simulator() {
-    if (!program_.ended()) program_.send(SIGTERM);
+    if (killed_) return;
+    program_.send(SIGTERM);
     (void)program_.wait();
   }
 
@@ -54,11 +55,13 @@ class Simulator {
   void kill() {
     program_.send(SIGKILL);
     (void)program_.wait();
+    killed_ = true;
   }
 
  private:
   std::uint16_t port_;
   Program program_;
+  bool killed_ = false;
 };
 
 /// What must not depend on how the machine is reached.

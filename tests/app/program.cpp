@@ -85,7 +85,9 @@ Program::~Program() {
   ::waitpid(pid_, nullptr, 0);
 }
 
-void Program::send(int signal) const { ::kill(pid_, signal); }
+void Program::send(int signal) const {
+  if (pid_ > 0) ::kill(pid_, signal);  // -1, of a program that was waited for, would mean everyone
+}
 
 bool Program::ended() const {
   siginfo_t info{};

@@ -54,6 +54,7 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
+  /// Nothing happens to a program that was waited for.
   void send(int signal) const;
   [[nodiscard]] bool ended() const;
   [[nodiscard]] Outcome wait();
