@@ -69,7 +69,7 @@ plans::Plan random_plan(std::uint64_t seed, const std::string& strategy, double 
   feature.nominal = {50.0, -40.0, 40.0};
   feature.pose_search.strategy = strategy;
   feature.pose_search.repeats = 1;
-  feature.characteristics.push_back({"CYLt", "cylindricity", "mz", 25.0, ""});
+  feature.characteristics.push_back({"CYLt", "cylindricity", "mz", 25.0, "", {}});
   plan.features.push_back(feature);
 
   plan.simulation.emplace();
