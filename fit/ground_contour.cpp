@@ -55,7 +55,7 @@ void push_continuous(std::vector<double>& angles, double angle) {
   angles.push_back(angle);
 }
 
-void cartesian(const WheelPath& path, const Derivatives& x, const Derivatives& y, double wheel,
+void cartesian(const GrindingPath& path, const Derivatives& x, const Derivatives& y, double wheel,
                ParallelCurve& out) {
   for (std::size_t i = 0; i < path.x_mm.size(); ++i) {
     const double s = std::hypot(x.first[i], y.first[i]);
@@ -66,7 +66,7 @@ void cartesian(const WheelPath& path, const Derivatives& x, const Derivatives& y
   }
 }
 
-void polar(const WheelPath& path, const Derivatives& x, const Derivatives& y, double wheel,
+void polar(const GrindingPath& path, const Derivatives& x, const Derivatives& y, double wheel,
            ParallelCurve& out) {
   for (std::size_t i = 0; i < path.x_mm.size(); ++i) {
     const double rho = std::hypot(path.x_mm[i], path.y_mm[i]);
@@ -128,7 +128,7 @@ core::Result<AxisErrors> filtered(const AxisErrors& errors, double cutoff_upr) {
 
 }  // namespace
 
-core::Result<WheelPath> wheel_path(const CrankGeometry& geometry, const AxisErrors& errors) {
+core::Result<GrindingPath> wheel_path(const CrankGeometry& geometry, const AxisErrors& errors) {
   if (auto checked = check_geometry(geometry); !checked) return core::fail(checked.error());
   const std::size_t n = errors.c_rad.size();
   if (errors.x_mm.size() != n) {
@@ -141,7 +141,7 @@ core::Result<WheelPath> wheel_path(const CrankGeometry& geometry, const AxisErro
         core::Code::kTooFewPoints,
         fmt::format("{} samples over the turn; at least {} are needed", n, kLeastSamples));
   }
-  WheelPath path;
+  GrindingPath path;
   for (std::size_t i = 0; i < n; ++i) {
     const double command = core::kTwoPi * static_cast<double>(i) / static_cast<double>(n);
     const double alpha = command + errors.c_rad[i];
@@ -166,7 +166,7 @@ core::Result<WheelPath> wheel_path(const CrankGeometry& geometry, const AxisErro
   return path;
 }
 
-ParallelCurve parallel_curve(const WheelPath& path, double wheel_radius_mm, ParallelForm form) {
+ParallelCurve parallel_curve(const GrindingPath& path, double wheel_radius_mm, ParallelForm form) {
   Derivatives x = derivatives(path.x_mm);
   Derivatives y = derivatives(path.y_mm);
   if (form == ParallelForm::kDifferences) {
@@ -204,7 +204,7 @@ core::Result<GroundContour> ground_contour(const CrankGeometry& geometry, const 
   const double wheel = geometry.wheel_radius_mm;
   const std::size_t times =
       options.refine ? (options.samples + path->x_mm.size() - 1) / path->x_mm.size() : 1;
-  const auto curve_of = [&](const WheelPath& one) {
+  const auto curve_of = [&](const GrindingPath& one) {
     return parallel_curve(times > 1 ? refined(one, times) : one, wheel, options.form);
   };
   ParallelCurve curve = curve_of(*path);
@@ -212,7 +212,7 @@ core::Result<GroundContour> ground_contour(const CrankGeometry& geometry, const 
   out.regularity = curve.regularity;
   out.least_regular_rad = curve.least_regular_rad;
   out.undercut = out.from_envelope = curve.undercut;
-  std::optional<WheelPath> smooth;
+  std::optional<GrindingPath> smooth;
   if (options.pre_filter_upr != 0.0) {
     const auto smoothed = filtered(errors, options.pre_filter_upr);
     if (!smoothed) return core::fail(smoothed.error());

@@ -16,7 +16,7 @@ struct AxisErrors {
 };
 
 /// Centre of the wheel about the nominal pin centre, x from O to Op, at 2 pi m / N.
-struct WheelPath {
+struct GrindingPath {
   std::vector<double> x_mm;
   std::vector<double> y_mm;
 };
@@ -24,11 +24,11 @@ struct WheelPath {
 /// Where the wheel centre really went.
 /// @return check_geometry()'s errors; kMeaning for arrays of different length; kTooFewPoints
 ///         (N < 16); kNotFinite (row); kOutOfRange where the wheel centre comes to O.
-[[nodiscard]] core::Result<WheelPath> wheel_path(const CrankGeometry& geometry,
+[[nodiscard]] core::Result<GrindingPath> wheel_path(const CrankGeometry& geometry,
                                                  const AxisErrors& errors);
 
 /// The Fourier series of a path at `times` as many places.
-[[nodiscard]] WheelPath refined(const WheelPath& path, std::size_t times);
+[[nodiscard]] GrindingPath refined(const GrindingPath& path, std::size_t times);
 
 /// How the parallel curve is computed.
 enum class ParallelForm {
@@ -46,7 +46,7 @@ struct ParallelCurve {
   double least_regular_rad = 0.0;  ///< Command angle there.
   bool undercut = false;           ///< Loops: not regular, or beta not strictly increasing.
 };
-[[nodiscard]] ParallelCurve parallel_curve(const WheelPath& path, double wheel_radius_mm,
+[[nodiscard]] ParallelCurve parallel_curve(const GrindingPath& path, double wheel_radius_mm,
                                            ParallelForm form = ParallelForm::kCartesian);
 
 /// The ground contour as what all wheel positions leave of the pin: for every polar angle the least
@@ -56,7 +56,7 @@ struct ParallelCurve {
 /// parabola. Positions that cannot reach the least found so far are not looked at; the result is
 /// that of looking at all.
 /// @param samples  Angles 2 pi m / samples.
-[[nodiscard]] std::vector<double> envelope_radii_mm(const WheelPath& path, double wheel_radius_mm,
+[[nodiscard]] std::vector<double> envelope_radii_mm(const GrindingPath& path, double wheel_radius_mm,
                                                     std::size_t samples,
                                                     std::size_t oversampling = 40);
 

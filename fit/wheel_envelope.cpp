@@ -42,7 +42,7 @@ struct Positions {
   [[nodiscard]] std::size_t before(std::size_t i) const { return i > 0 ? i - 1 : rho.size() - 1; }
 };
 
-Positions positions_of(const WheelPath& path, double wheel, std::size_t oversampling) {
+Positions positions_of(const GrindingPath& path, double wheel, std::size_t oversampling) {
   const auto [x, y] = refined(path, oversampling);
   Positions out;
   out.wheel = wheel;
@@ -119,11 +119,11 @@ class Search {
 
 }  // namespace
 
-WheelPath refined(const WheelPath& path, std::size_t times) {
+GrindingPath refined(const GrindingPath& path, std::size_t times) {
   return {refined_series(path.x_mm, times), refined_series(path.y_mm, times)};
 }
 
-std::vector<double> envelope_radii_mm(const WheelPath& path, double wheel_radius_mm,
+std::vector<double> envelope_radii_mm(const GrindingPath& path, double wheel_radius_mm,
                                       std::size_t samples, std::size_t oversampling) {
   const Positions at = positions_of(path, wheel_radius_mm, oversampling);
   Search search(at);

@@ -162,8 +162,9 @@ TEST(ThreeProbe, RecoversPlantedPartsWhateverTheMotion) {
     SpindleCase c;
     if (seed % 2 == 0) c.arm.crank_radius_mm = 0.0;
     c.profile.clear();
-    for (int k = 2; k <= 50; ++k) c.profile.push_back({k, between(0.0, 5.0), between(0.0, kTwoPi)});
-    const auto layout = ProbeLayout::of(between(40, 80) * kDegree, between(100, 170) * kDegree);
+    for (int k = 2; k <= 50; ++k)
+      c.profile.push_back({k, between(0.01, 5.0), between(0.0, kTwoPi)});
+    const auto layout = ProbeLayout::of(between(40, 80) * kDegree, between(200, 260) * kDegree);
     ASSERT_TRUE(layout);
     const auto r = separate_three_probe(readings_at(c, *layout, uniform_theta(c.arm, 512)), c.arm,
                                         *layout, exact_options(512));

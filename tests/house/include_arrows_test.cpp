@@ -103,5 +103,35 @@ TEST(PublicHeaders, KeepHeavyLibrariesInTheirSourceFiles) {
   }
 }
 
+/// The name in "struct Name {" or "class Name : Base {" at the start of a line; "" in any other.
+std::string type_begun(const std::string& line) {
+  for (const std::string word : {"struct ", "class "}) {
+    if (line.rfind(word, 0) != 0 || line.back() != '{') continue;
+    return line.substr(word.size(), line.find(' ', word.size()) - word.size());
+  }
+  return "";
+}
+
+TEST(PublicHeaders, NameEachTypeOfARoomOnce) {
+  // Two types of one name in one namespace link, and then destroy each other.
+  for (const auto& [room, allowed] : kMayInclude) {
+    const fs::path folder = fs::path(RONDURE_SOURCE_DIR) / room;
+    if (!fs::exists(folder)) continue;
+    std::map<std::string, fs::path> seen;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      if (entry.path().extension() != ".h") continue;
+      std::ifstream file(entry.path());
+      std::string scope;
+      for (std::string line; std::getline(file, line);) {
+        if (line.rfind("namespace ", 0) == 0) scope = line;
+        const std::string name = type_begun(line);
+        if (name.empty()) continue;
+        const auto [twin, added] = seen.emplace(scope + name, entry.path());
+        EXPECT_TRUE(added) << name << " in " << twin->second << " and " << entry.path();
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rondure
