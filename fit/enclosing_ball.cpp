@@ -18,17 +18,10 @@ constexpr double kDependent = 1e-12;
 }  // namespace
 
 template <int D>
-Ball<D> EnclosingBall<D>::enclose(const WorkingPoints<D>& points, const Point& near_mm, bool again,
-                                  double round_off) {
+Ball<D> EnclosingBall<D>::enclose(const WorkingPoints<D>& points, bool again, double round_off) {
   column_.resize(points.size());
   Ball<D> out;
-  if (!again) {
-    count_ = 0;
-    center_ = near_mm;
-    append(points, look(points), 1.0);
-    center_ = points_[0];
-    square_ = 0.0;
-  }
+  if (!again) start(points, out);
   while (out.exchanges < kExchangeLimit) {
     const std::size_t farthest = look(points);
     const double limit = std::sqrt(square_) + 2.0 * round_off;
@@ -48,6 +41,22 @@ Ball<D> EnclosingBall<D>::enclose(const WorkingPoints<D>& points, const Point& n
     if (multipliers_[k] > 0.0) out.outer.push_back({rows_[k], multipliers_[k]});
   }
   return out;
+}
+
+/// The ball of the two points that are farthest apart along the first coordinate.
+template <int D>
+void EnclosingBall<D>::start(const WorkingPoints<D>& points, Ball<D>& out) {
+  const std::span<const double> places(points.column(0), points.size());
+  const ColumnExtremes ends = column_extremes(places);
+  const std::size_t low = first_row_of(places, ends.low);
+  const std::size_t high = first_row_of(places, ends.high);
+  count_ = 0;
+  append(points, low, 1.0);
+  center_ = points_[0];
+  square_ = 0.0;
+  if (high == low) return;
+  append(points, high, 0.0);
+  enter(out);
 }
 
 /// Squared distances of all points from the centre. @return The row of the farthest.

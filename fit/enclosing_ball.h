@@ -38,15 +38,14 @@ class EnclosingBall {
   using Point = Eigen::Matrix<double, D, 1>;
 
   /// @param points     At least one.
-  /// @param near_mm    A place amid them.
   /// @param again      Starts from the last contacts; the same points, in front of others.
   /// @param round_off  Of distances [mm]: a point farther out by less is on the ball.
-  Ball<D> enclose(const WorkingPoints<D>& points, const Point& near_mm, bool again,
-                  double round_off);
+  Ball<D> enclose(const WorkingPoints<D>& points, bool again, double round_off);
 
  private:
   static constexpr int kMost = D + 2;  // with the point that enters
 
+  void start(const WorkingPoints<D>& points, Ball<D>& out);
   std::size_t look(const WorkingPoints<D>& points);
   void append(const WorkingPoints<D>& points, std::size_t row, double multiplier);
   void drop(int i);

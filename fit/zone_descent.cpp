@@ -169,7 +169,7 @@ void ZoneDescent<Frame>::minimise(Result& state, const Frame& start, double limi
 template <class Frame>
 void ZoneDescent<Frame>::enclose(Result& state) {
   if constexpr (Frame::kHasBall) {
-    const Ball<D> ball = ball_.enclose(working_, state.frame.center(), warm_, round_off_);
+    const Ball<D> ball = ball_.enclose(working_, warm_, round_off_);
     warm_ = true;
     coarse_ = false;
     state.frame = Frame(ball.center_mm);

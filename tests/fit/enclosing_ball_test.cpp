@@ -86,9 +86,7 @@ void solve_hard_sets() {
   for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
     SCOPED_TRACE(seed);
     const auto points = hard_set<D>(seed);
-    const auto near = points[seed % points.size()];
-    expect_smallest<D>(points,
-                       ball.enclose(working<D>(points), near, false, distance_round_off(25.0)));
+    expect_smallest<D>(points, ball.enclose(working<D>(points), false, distance_round_off(25.0)));
   }
 }
 
@@ -101,13 +99,12 @@ TEST(EnclosingBall, GrowsWithPointsThatAreAddedToThoseItHolds) {
     auto points = hard_set<2>(seed);
     auto work = working<2>(points);
     EnclosingBall<2> ball;
-    const Eigen::Vector2d near(3.0, -1.0);
-    const double first = ball.enclose(work, near, false, distance_round_off(25.0)).zone.high;
+    const double first = ball.enclose(work, false, distance_round_off(25.0)).zone.high;
     for (const auto& p : hard_set<2>(seed + 1000)) {
       work.add(points.size(), p);
       points.push_back(p);
     }
-    const auto grown = ball.enclose(work, near, true, distance_round_off(25.0));
+    const auto grown = ball.enclose(work, true, distance_round_off(25.0));
     expect_smallest<2>(points, grown);
     EXPECT_GE(grown.zone.high, first - 1e-13 * 25.0);
   }

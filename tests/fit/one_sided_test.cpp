@@ -3,8 +3,10 @@
 #include <cstdlib>
 #include <iostream>
 #include <limits>
+#include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
@@ -17,6 +19,7 @@
 #include "fit/min_zone_cylinder.h"
 #include "fit/one_sided_center.h"
 #include "fit/one_sided_cylinder.h"
+#include "fit/zone_fit.h"
 
 namespace rondure::fit {
 namespace {
@@ -213,6 +216,39 @@ TEST(OneSided, NamesTheRowThatIsNotANumber) {
     EXPECT_EQ(cylinder.error().code, core::Code::kNotFinite);
     EXPECT_NE(cylinder.error().what.find(" 8 "), std::string::npos) << cylinder.error().what;
   }
+}
+
+TEST(ZoneFitters, LookAtEveryRowForNumbers) {
+  CircleZoneFitter fitter;
+  for (const int count : {20, 100, 128, 300}) {
+    for (int row = 0; row < count; ++row) {
+      SCOPED_TRACE(fmt::format("row {} of {}", row, count));
+      Plane points = circle_points(2, count);
+      points[static_cast<std::size_t>(row)].x() = std::numeric_limits<double>::quiet_NaN();
+      for (const ZoneWeights& weights : {kMinimumZone, kMinimumCircumscribed, kMaximumInscribed}) {
+        const auto zone = fitter.fit(points, weights);
+        ASSERT_FALSE(zone.has_value());
+        EXPECT_EQ(zone.error().code, core::Code::kNotFinite);
+        EXPECT_NE(zone.error().what.find(fmt::format(" {} ", row)), std::string::npos)
+            << zone.error().what;
+      }
+    }
+  }
+}
+
+TEST(MinCircumscribedCircle, RefusesLinesThoughTheyHaveASmallestCircle) {
+  for (const std::size_t count : {3U, 60U, 200U}) {
+    Plane line;
+    for (std::size_t i = 0; i < count; ++i) {
+      line.emplace_back(static_cast<double>(i), 2.0 * static_cast<double>(i));
+    }
+    const auto circle = min_circumscribed_circle(line);
+    ASSERT_FALSE(circle.has_value());
+    EXPECT_EQ(circle.error().code, core::Code::kCollinear);
+  }
+  const auto circle = min_circumscribed_circle(Plane{{1, 2}, {3, 4}, {1, 2}, {3, 4}});
+  ASSERT_FALSE(circle.has_value());
+  EXPECT_EQ(circle.error().code, core::Code::kTooFewPoints);
 }
 
 }  // namespace
