@@ -99,7 +99,10 @@ std::optional<double> fitted_cutoff(const std::vector<double>& amplitude, double
   const double sxy = xy - x * y / n;
   const double syy = yy - y * y / n;
   if (!(sxx > 0.0) || !(sxy < 0.0) || sxy * sxy < 0.5 * sxx * syy) return std::nullopt;
-  return cutoff * std::sqrt(-sxx / sxy);
+  const double found = cutoff * std::sqrt(-sxx / sxy);
+  // Outside of this the harmonics looked at carry too little of the fall, or are lines of the form.
+  if (found < 0.5 * cutoff || found > 2.0 * cutoff) return std::nullopt;
+  return found;
 }
 
 void warn(MeasuredContour& out, core::Code code, std::string what) {

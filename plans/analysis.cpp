@@ -15,7 +15,9 @@ namespace {
 
 using core::Code;
 
-std::array<const AnalysisKind*, 2> kinds() { return {&spindle_kind(), &wheel_kind()}; }
+std::array<const AnalysisKind*, 3> kinds() {
+  return {&spindle_kind(), &wheel_kind(), &contour_kind()};
+}
 
 core::Result<AnalysisData> read_files(const Plan& plan, std::size_t index,
                                       const AnalysisKind& kind) {
@@ -77,7 +79,7 @@ void check_sections(const AnalysisKind& kind, const std::string& where, Findings
 
 void check_data(const Plan& plan, std::size_t index, const AnalysisKind& kind, Findings& findings) {
   const std::string where = feature_pointer(index);
-  if (plan.features[index].source) {
+  if (has_files(plan.features[index])) {
     if (!findings.sound(where + "/source")) return;
     if (const auto data = read_files(plan, index, kind); !data) {
       findings.meaning(data.error().code, data.error().where.empty() ? where : data.error().where,
@@ -95,6 +97,11 @@ void check_data(const Plan& plan, std::size_t index, const AnalysisKind& kind, F
 
 }  // namespace
 
+bool has_files(const FeaturePlan& feature) {
+  const AnalysisKind* const kind = analysis_kind(feature.type);
+  return kind != nullptr && !kind->files(feature).empty();
+}
+
 const AnalysisKind* analysis_kind(std::string_view type) {
   for (const AnalysisKind* kind : kinds()) {
     if (kind->type == type) return kind;
@@ -104,8 +111,8 @@ const AnalysisKind* analysis_kind(std::string_view type) {
 
 core::Result<AnalysisData> analysis_data(const Plan& plan, std::size_t index, std::uint64_t seed) {
   const AnalysisKind& kind = *analysis_kind(plan.features[index].type);
-  return plan.features[index].source ? read_files(plan, index, kind)
-                                     : kind.simulate(plan, index, seed);
+  return has_files(plan.features[index]) ? read_files(plan, index, kind)
+                                         : kind.simulate(plan, index, seed);
 }
 
 void check_analysis(const Plan& plan, std::size_t index, Findings& findings) {

@@ -48,6 +48,9 @@ struct AnalysisKind {
   core::Result<AnalysisData> (*simulate)(const Plan& plan, std::size_t index, std::uint64_t seed);
 };
 
+/// Whether the data of an analysis come from files: as its source says, or its own section.
+[[nodiscard]] bool has_files(const FeaturePlan& feature);
+
 /// The kind of a feature's type, or nullptr for one that is touched.
 [[nodiscard]] const AnalysisKind* analysis_kind(std::string_view type);
 
@@ -63,5 +66,6 @@ void check_analysis(const Plan& plan, std::size_t index, Findings& findings);
 /// The kinds themselves, one file each.
 [[nodiscard]] const AnalysisKind& spindle_kind();
 [[nodiscard]] const AnalysisKind& wheel_kind();
+[[nodiscard]] const AnalysisKind& contour_kind();
 
 }  // namespace rondure::plans

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "plans/contour_plan.h"
 #include "plans/machine_errors_plan.h"
 #include "plans/spindle_plan.h"
 #include "plans/wheel_plan.h"
@@ -187,6 +188,7 @@ struct FeaturePlan {
   PoseSearchPlan pose_search;
   std::optional<SpindlePlan> spindle;  ///< Needed by, and only by, the type of that name.
   std::optional<WheelPlan> wheel;      ///< The same.
+  std::optional<ContourPlan> contour;  ///< The same.
   std::optional<SourcePlan> source;
   std::vector<CharacteristicPlan> characteristics;
 };
@@ -254,6 +256,7 @@ struct SimulationPlan {
   SimulatedFaultsPlan faults;
   std::optional<SimulatedSpindlePlan> spindle;
   std::optional<SimulatedWheelPlan> wheel;
+  std::optional<SimulatedContourPlan> contour;
 };
 
 struct ReportsPlan {

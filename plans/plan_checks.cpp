@@ -233,6 +233,7 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
   if (analysis_kind(feature.type) != nullptr) return;  // check_analysis() says it
   refuse("/spindle", "the feature is touched, not probed by three probes");
   refuse("/wheel", "the feature is no wheel");
+  refuse("/contour", "the feature is touched, not ground after axis traces");
   refuse("/source/columns", "points have the columns x,y or x,y,z");
   if (findings.is_given(where + "/source")) {
     refuse("/sampling", "the points come from a file");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "plans/contour_table.h"
 #include "plans/key_spec.h"
 #include "plans/plan.h"
 #include "plans/simulation_table.h"
@@ -435,16 +436,19 @@ void describe(Visitor& v, CharacteristicPlan& p) {
          {.required = true,
           .empty_allowed = false,
           .meaning = "Name in the report, unique within the feature."});
-  v.text(
-      "form", p.form,
-      {.one_of = {"cylindricity", "roundness", "roundness-rms", "harmonic-limits", "motion-total",
-                  "motion-synchronous", "motion-asynchronous", "radius", "run-out"},
-       .required = true,
-       .meaning = "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
-                  "layer of a cylinder or of a spindle feature. Of a spindle feature also: "
-                  "roundness-rms (RONq); harmonic-limits; motion-total, motion-synchronous, "
-                  "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
-                  "roundness of its edge; radius, the departure from nominal; run-out."});
+  v.text("form", p.form,
+         {.one_of = {"cylindricity", "roundness", "roundness-rms", "harmonic-limits",
+                     "motion-total", "motion-synchronous", "motion-asynchronous", "radius",
+                     "run-out", "contour-deviation", "contour-spread"},
+          .required = true,
+          .meaning =
+              "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
+              "layer of a cylinder or of a spindle feature. Of a spindle feature also: "
+              "roundness-rms (RONq); harmonic-limits; motion-total, motion-synchronous, "
+              "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
+              "roundness of its edge; radius, the departure from nominal; run-out. Of a contour "
+              "feature: contour-deviation (peak to valley, the greatest of all parts); "
+              "contour-spread (standard deviation from part to part); harmonic-limits."});
   v.text("reference", p.reference,
          {.one_of = {"mz", "ls", "mc", "mi"},
           .meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
@@ -498,10 +502,11 @@ void describe(Visitor& v, FeaturePlan& p) {
           .empty_allowed = false,
           .meaning = "Name of the feature, unique in the plan."});
   v.text("type", p.type,
-         {.one_of = {"cylinder", "circle", "spindle", "wheel"},
+         {.one_of = {"cylinder", "circle", "spindle", "wheel", "contour"},
           .required = true,
           .meaning = "What the surface is; spindle: form of a part and motion of its axis, from "
-                     "three probes; wheel: a grinding wheel, from points of its edge."});
+                     "three probes; wheel: a grinding wheel, from points of its edge; contour: "
+                     "crank pins in follow grinding, and what of their error follows the axes."});
   v.text("side", p.side,
          {.one_of = {"outside", "inside"}, .meaning = "outside: a shaft; inside: a bore."});
   v.object("nominal", p.nominal, {.meaning = "The surface on the drawing, part frame: axis z."});
@@ -509,6 +514,7 @@ void describe(Visitor& v, FeaturePlan& p) {
   v.object("pose_search", p.pose_search, {.meaning = "How the fixture levels it."});
   v.object("spindle", p.spindle, {.meaning = "Probes and evaluation of the type spindle."});
   v.object("wheel", p.wheel, {.meaning = "Points and evaluation of the type wheel."});
+  v.object("contour", p.contour, {.meaning = "Crank, files and evaluation of the type contour."});
   v.object("source", p.source,
            {.meaning = "Points from a file in place of touches; no machine is needed then."});
   v.list("characteristics", p.characteristics,

@@ -22,9 +22,10 @@ record::Reference reference_of(const CharacteristicPlan& plan) {
 
 record::Form form_of(std::string_view name) {
   using record::Form;
-  for (const Form form : {Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits,
-                          Form::kMotionTotal, Form::kMotionSynchronous, Form::kMotionAsynchronous,
-                          Form::kRadius, Form::kRunOut, Form::kContourDeviation}) {
+  for (const Form form :
+       {Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits, Form::kMotionTotal,
+        Form::kMotionSynchronous, Form::kMotionAsynchronous, Form::kRadius, Form::kRunOut,
+        Form::kContourDeviation, Form::kContourSpread}) {
     if (record::name_of(form) == name) return form;
   }
   return Form::kCylindricity;
@@ -54,8 +55,9 @@ bool touches_anything(const Plan& plan) {
 }
 
 bool simulates_anything(const Plan& plan) {
-  return std::any_of(plan.features.begin(), plan.features.end(),
-                     [](const FeaturePlan& feature) { return !feature.source; });
+  return std::any_of(plan.features.begin(), plan.features.end(), [](const FeaturePlan& feature) {
+    return !feature.source && !has_files(feature);
+  });
 }
 
 record::Strategy strategy_of(const FeaturePlan& feature) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "plans/contour_table.h"
 #include "plans/key_spec.h"
 #include "plans/machine_errors_table.h"
 #include "plans/plan.h"
@@ -135,6 +136,8 @@ void describe(Visitor& v, SimulationPlan& p) {
   v.object("spindle", p.spindle,
            {.meaning = "Part and motion that the probes of a spindle feature see."});
   v.object("wheel", p.wheel, {.meaning = "The wheel whose edge points a wheel feature gets."});
+  v.object("contour", p.contour,
+           {.meaning = "Axis errors and parts that control and gauge of a contour feature see."});
 }
 
 }  // namespace rondure::plans

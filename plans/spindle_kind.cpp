@@ -33,6 +33,7 @@ std::vector<record::Setting> settings(const FeaturePlan& feature) {
 }
 
 std::vector<SeriesFile> files(const FeaturePlan& feature) {
+  if (!feature.source) return {};
   SeriesFile out;
   out.file = feature.source->file;
   out.where = "/source/file";

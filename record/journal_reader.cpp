@@ -201,7 +201,7 @@ void read_characteristics(soci::session& sql, RunRecord& record) {
         named("characteristic.form", form,
               {Form::kCylindricity, Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits,
                Form::kMotionTotal, Form::kMotionSynchronous, Form::kMotionAsynchronous,
-               Form::kRadius, Form::kRunOut, Form::kContourDeviation});
+               Form::kRadius, Form::kRunOut, Form::kContourDeviation, Form::kContourSpread});
     row.reference = named("characteristic.reference", reference,
                           {Reference::kLeastSquares, Reference::kMinimumZone,
                            Reference::kMinimumCircumscribed, Reference::kMaximumInscribed});

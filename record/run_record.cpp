@@ -56,6 +56,8 @@ std::string_view name_of(Form form) {
       return "run-out";
     case Form::kContourDeviation:
       return "contour-deviation";
+    case Form::kContourSpread:
+      return "contour-spread";
   }
   return "";
 }

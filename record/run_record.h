@@ -29,7 +29,8 @@ enum class Form {
   kMotionAsynchronous,  ///< Asynchronous error motion value.
   kRadius,              ///< Departure of a radius from nominal.
   kRunOut,              ///< Radial run-out.
-  kContourDeviation,    ///< Peak to valley of a contour.
+  kContourDeviation,    ///< Peak to valley of a contour, the greatest of all parts.
+  kContourSpread,       ///< Standard deviation of the parts about their mean contour.
 };
 enum class Reference { kLeastSquares, kMinimumZone, kMinimumCircumscribed, kMaximumInscribed };
 enum class Strategy { kGuided, kRefined, kAsPublished, kVirtual, kPointsFile, kSeries };

@@ -1,5 +1,6 @@
 #include "reports/analysis.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -80,7 +81,10 @@ std::string truth_box(const record::RunRecord& record, std::size_t index) {
 FeatureResult evaluate_analysis(const record::RunRecord& record, int index) {
   FeatureResult result;
   result.feature = record.features[static_cast<std::size_t>(index)];
-  const bool recorded = record.data_of(index, "data") != nullptr;
+  const bool recorded =
+      std::any_of(record.series.begin(), record.series.end(), [&](const record::Series& series) {
+        return series.feature == index && series.role == record::Series::Role::kData;
+      });
   if (!recorded) {
     result.failure =
         core::Error{core::Code::kNoPoints, "the run ended before its data were kept", {}};
@@ -92,6 +96,9 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index) {
       break;
     case record::Shape::kWheel:
       evaluate_wheel(record, index, result);
+      break;
+    case record::Shape::kContour:
+      evaluate_contour(record, index, result);
       break;
     default:
       result.failure = core::Error{

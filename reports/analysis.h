@@ -66,6 +66,7 @@ void decide_analysis(const record::RunRecord& record, FeatureResult& result);
 /// The evaluations themselves, a file each. They set `analysis` and `warnings`, or `failure`.
 void evaluate_spindle(const record::RunRecord& record, int index, FeatureResult& result);
 void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& result);
+void evaluate_contour(const record::RunRecord& record, int index, FeatureResult& result);
 
 /// The parts of the reports that all analyses share: entries of report.json, the section of the
 /// page.

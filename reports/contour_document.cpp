@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "reports/json_parts.h"
 
 namespace rondure::reports {
 namespace {
@@ -15,9 +16,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kHighestHarmonic = 50;
 
-double in_um(double mm) { return mm / core::kMicrometre; }
 double in_um2(double mm2) { return mm2 / (core::kMicrometre * core::kMicrometre); }
-double in_deg(double rad) { return rad / core::kDegree; }
 
 Json harmonics_json(const std::vector<double>& error_mm) {
   Json out = Json::array();

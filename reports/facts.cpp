@@ -130,6 +130,8 @@ std::string symbol_of(const record::Characteristic& characteristic) {
       return "Run-out";
     case record::Form::kContourDeviation:
       return "Contour";
+    case record::Form::kContourSpread:
+      return "Spread";
   }
   return {};
 }

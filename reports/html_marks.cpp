@@ -50,6 +50,7 @@ std::string_view symbol_lines(record::Form form) {
     case record::Form::kRunOut:
       return R"(<path d="M4 17L15 4M9.5 5L15 4L14 9.5"/>)";
     case record::Form::kContourDeviation:
+    case record::Form::kContourSpread:
       return R"(<path d="M3 15a7 7 0 0 1 14 0"/>)";
     default:
       return R"(<path d="M2 10q4 -9 8 0t8 0"/>)";

@@ -1,0 +1,94 @@
+#include "plans/contour_kind.h"
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "fit/crank_motion.h"
+#include "fit/profile_filter.h"
+#include "plans/contour_table.h"
+#include "plans/json_text.h"
+#include "plans/setting_list.h"
+
+namespace rondure::plans {
+namespace {
+
+using core::Code;
+
+constexpr std::array<std::string_view, 3> kForms = {"contour-deviation", "contour-spread",
+                                                    "harmonic-limits"};
+constexpr std::array<record::WantedColumn, 3> kAxes = {
+    {{"c_deg"}, {"c_error_deg"}, {"x_error_mm"}}};
+constexpr std::array<record::WantedColumn, 2> kGauge = {{{"angle_deg"}, {"deviation_um"}}};
+
+bool is_simulated(const SimulationPlan& simulation) { return simulation.contour.has_value(); }
+
+std::vector<record::Setting> settings(const FeaturePlan& feature) {
+  return settings_of_section(feature.contour.value_or(ContourPlan{}));
+}
+
+std::vector<SeriesFile> files(const FeaturePlan& feature) {
+  std::vector<SeriesFile> out;
+  if (!feature.contour) return out;
+  const auto add = [&](std::size_t part, std::string_view key, const std::string& file,
+                       std::span<const record::WantedColumn> wanted) {
+    SeriesFile one;
+    one.series = fmt::format("{} {}", key, part + 1);
+    one.file = file;
+    one.where = fmt::format("/contour/parts/{}/{}", part, key);
+    one.wanted.assign(wanted.begin(), wanted.end());
+    out.push_back(std::move(one));
+  };
+  for (std::size_t i = 0; i < feature.contour->parts.size(); ++i) {
+    const ContourPartPlan& part = feature.contour->parts[i];
+    add(i, "axes", part.axes, kAxes);
+    add(i, "pin", part.pin, kGauge);
+    if (!part.main.empty()) add(i, "main", part.main, kGauge);
+  }
+  return out;
+}
+
+void check(const FeaturePlan& feature, const std::string& where, Findings& findings) {
+  const ContourPlan& plan = *feature.contour;
+  if (feature.source) {
+    findings.meaning(Code::kMeaning, where.substr(0, where.rfind('/')) + "/source",
+                     "has no effect: the files of a contour stand in contour/parts; remove it");
+  }
+  const fit::CrankGeometry geometry = {plan.crank_radius_mm, plan.wheel_radius_mm,
+                                       plan.pin_radius_mm};
+  if (const auto checked = fit::check_geometry(geometry); !checked) {
+    findings.meaning(checked.error().code, where + "/crank_radius_mm", checked.error().what);
+  }
+  if (plan.filter != "none") {
+    fit::FilterOptions filter;
+    filter.cutoff_upr = plan.cutoff_upr;
+    const auto sampling = fit::check_sampling(static_cast<std::size_t>(plan.samples), filter);
+    if (!sampling) {
+      findings.meaning(sampling.error().code, where + "/cutoff_upr", sampling.error().what);
+    }
+  }
+  if (plan.partly_from > plan.stable_from) {
+    findings.meaning(Code::kMeaning, where + "/partly_from",
+                     fmt::format("{} is above stable_from, {}; exchange them", plan.partly_from,
+                                 plan.stable_from));
+  }
+}
+
+}  // namespace
+
+const AnalysisKind& contour_kind() {
+  static constexpr AnalysisKind kKind = {.type = "contour",
+                                         .shape = record::Shape::kContour,
+                                         .forms = kForms,
+                                         .is_simulated = is_simulated,
+                                         .settings = settings,
+                                         .files = files,
+                                         .check = check,
+                                         .simulate = simulate_contour};
+  return kKind;
+}
+
+}  // namespace rondure::plans
