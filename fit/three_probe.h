@@ -104,7 +104,7 @@ struct ThreeProbeResult {
 ///         highest beyond N/2 - 1); kNotFinite (row); kAngleOrder (theta not increasing, row);
 ///         kNotFullSection (less than one revolution); kUnits (angles that run over one turn in
 ///         radians and are far from a turn in degrees are the caller's to see); kBadOption.
-///         O(M log M): 1e5 samples in some 15 ms.
+///         O(M log M): 1e5 samples in some 20 ms.
 /// Source: methods, roundness A.2 to A.8.
 [[nodiscard]] core::Result<ThreeProbeResult> separate_three_probe(
     const ProbeReadings& readings, const SwingArm& arm, const ProbeLayout& layout,

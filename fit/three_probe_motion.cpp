@@ -100,10 +100,9 @@ void separate_motion(const ProbeSamples& samples, const Spectrum& spectrum,
                      const ThreeProbeOptions& options, ThreeProbeResult& result) {
   const std::size_t count = samples.count;
   const auto angles = result.layout.angles_rad();
-  auto others =
-      series_pair_of(shifted(spectrum, angles[1], 0), shifted(spectrum, angles[2], 0), count);
-  const std::array<const std::vector<double>*, 3> part = {&result.profile.r_mm, &others[0],
-                                                          &others[1]};
+  const auto second = series_of(shifted(spectrum, angles[1], 0), count);
+  const auto third = series_of(shifted(spectrum, angles[2], 0), count);
+  const std::array<const std::vector<double>*, 3> part = {&result.profile.r_mm, &second, &third};
   result.motion.assign(static_cast<std::size_t>(samples.revolutions),
                        {std::vector<double>(count), std::vector<double>(count)});
   result.mean_motion = {std::vector<double>(count), std::vector<double>(count)};

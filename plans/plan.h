@@ -163,7 +163,7 @@ struct CharacteristicPlan {
   std::optional<std::string> reference;  ///< "mz", "ls", "mc" or "mi".
   std::optional<double> tolerance_um;
   std::string drawing_zone;
-  std::vector<HarmonicLimitPlan> harmonic_limits;  ///< Of the form "harmonic-limits".
+  std::vector<HarmonicLimitPlan> harmonic_limits = {};  ///< Of the form "harmonic-limits".
 };
 
 /// How a file calls a column that an analysis reads.

@@ -59,7 +59,7 @@ struct Characteristic {
   Reference reference = Reference::kMinimumZone;
   std::optional<double> tolerance_mm;  ///< Upper limit of the deviation [mm]; none: reported only.
   std::string drawing_zone;            ///< Where it stands on the drawing; may be empty.
-  std::vector<HarmonicLimit> harmonic_limits;  ///< Of kHarmonicLimits; never empty there.
+  std::vector<HarmonicLimit> harmonic_limits = {};  ///< Of kHarmonicLimits; never empty there.
 };
 
 /// One setting of an analysis, by its key in the plan ("phi2_deg"): a number or a word.
