@@ -1,5 +1,7 @@
 #include "app/analysis_verbs.h"
 
+#include <CLI/CLI.hpp>
+
 namespace rondure::app {
 namespace {
 

@@ -1,8 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "app/verbs.h"
+
+namespace CLI {
+class App;
+}
 
 // The command line of the sister analyses: one function a verb, called by main.cpp.
 

@@ -34,7 +34,7 @@ TEST(PlanVerb, TellsStagesTimeAndPathInEightyColumns) {
 }
 
 TEST(PlanVerb, TellsTheSameAsJson) {
-  const Outcome told = rondure({"plan", example("02_bore_simulated.json"), "--json"});
+  const Outcome told = rondure({"plan", example("14_bore_simulated.json"), "--json"});
   ASSERT_EQ(told.status, 0) << told.err;
   const auto json = nlohmann::json::parse(told.out);
   EXPECT_EQ(json["touches"], 13 + 6 + 3 * 45);

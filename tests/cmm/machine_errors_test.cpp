@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 
 #include "cmm/machine_map.h"
 #include "cmm/simulated.h"
@@ -156,13 +157,22 @@ TEST(MachineErrors, SquarenessMakesAnEllipseAndAScaleErrorToo) {
     Cell cell(options);
     std::vector<Vector3d> tips;
     for (int k = 0; k < 8; ++k) tips.push_back(cell.touch(k * core::kTwoPi / 8.0, 0.0).tip_W_mm);
-    Vector3d center = Vector3d::Zero();
-    for (const Vector3d& tip : tips) center += tip / 8.0;
+    // The lines of approach miss the shifted centre, so the tips do not lie evenly about it and
+    // their mean is not the centre: a circle is fitted, 2 c x + t = x^2.
+    Eigen::Matrix<double, 8, 3> rows;
+    Eigen::Matrix<double, 8, 1> squares;
+    for (int k = 0; k < 8; ++k) {
+      const Eigen::Vector2d flat = (tips[static_cast<std::size_t>(k)] - kCenter_mm).head<2>();
+      rows.row(k) << 2.0 * flat.x(), 2.0 * flat.y(), 1.0;
+      squares(k) = flat.squaredNorm();
+    }
+    const Eigen::Vector2d center = rows.colPivHouseholderQr().solve(squares).head<2>();
     double least = 1e9;
     double most = 0.0;
     for (const Vector3d& tip : tips) {
-      least = std::min(least, (tip - center).head<2>().norm());
-      most = std::max(most, (tip - center).head<2>().norm());
+      const double radius_mm = ((tip - kCenter_mm).head<2>() - center).norm();
+      least = std::min(least, radius_mm);
+      most = std::max(most, radius_mm);
     }
     EXPECT_NEAR(most - least, (kRadius_mm + kTip_mm) * 1e-6, 2e-10);
   }

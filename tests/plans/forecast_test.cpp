@@ -111,7 +111,7 @@ TEST_P(ForecastOf, IsThePathAndTheTimeOfARunInAnIdealWorld) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Strategies, ForecastOf,
-                         ::testing::Values("01_spool_simulated.json", "02_bore_simulated.json",
+                         ::testing::Values("01_spool_simulated.json", "14_bore_simulated.json",
                                            "11_pose_search_as_published.json",
                                            "13_pose_search_virtual.json"));
 
