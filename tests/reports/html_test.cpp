@@ -11,24 +11,17 @@
 
 #include "reports/writers.h"
 #include "synthetic.h"
+#include "tests/reports/page_text.h"
 
 namespace rondure::reports {
 namespace {
+
+using testing::shows_nan;
 
 std::string page_of(const Case& made) { return write_html(made.record, made.evaluation); }
 
 bool holds(std::string_view page, std::string_view part) {
   return page.find(part) != std::string_view::npos;
-}
-
-/// "nan" as a word, not as a part of one.
-bool shows_nan(const std::string& page) {
-  const auto letter = [](char c) { return c >= 'a' && c <= 'z'; };
-  for (std::size_t at = page.find("nan"); at != std::string::npos; at = page.find("nan", at + 1)) {
-    if (at > 0 && at + 3 < page.size() && !letter(page[at - 1]) && !letter(page[at + 3]))
-      return true;
-  }
-  return false;
 }
 
 std::size_t occurrences(std::string_view text, std::string_view part) {

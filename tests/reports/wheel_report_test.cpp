@@ -10,6 +10,7 @@
 #include "reports/evaluation.h"
 #include "reports/writers.h"
 #include "tests/fit/wheel_cases.h"
+#include "tests/reports/page_text.h"
 
 namespace rondure::reports {
 namespace {
@@ -86,7 +87,7 @@ TEST(WheelReport, ShowsEdgePathMarginAndResidual) {
   EXPECT_THAT(html, HasSubstr("x / mm"));
   EXPECT_THAT(html, HasSubstr("z / mm"));
   EXPECT_THAT(html, HasSubstr("Form left after touch-off"));
-  EXPECT_THAT(html, Not(HasSubstr("nan")));
+  EXPECT_FALSE(testing::shows_nan(html));
   const auto json = nlohmann::json::parse(write_json(run, *evaluation));
   const auto& wheel = json["features"][0]["wheel"];
   EXPECT_NEAR(wheel["radius_mm"], 50.0, 1.1e-6);
