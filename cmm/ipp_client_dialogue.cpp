@@ -55,6 +55,19 @@ std::string told(const Reply& reply) {
   return out;
 }
 
+/// Whether an answer to the first command reports more than the error state or session of a client
+/// before: what a person has to see and put right before a session is tried.
+bool waits_for_a_person(const ErrorReport& report) {
+  return report.severity > kErrorState && report.number != kUseClearAllErrors &&
+         !is_refusal(report);
+}
+
+/// A failure that came right behind what the machine said before, so that neither hides the other.
+Failure with_earlier(Failure failure, const std::string& said) {
+  if (!said.empty()) failure.what += fmt::format("; before that the machine said {}", said);
+  return failure;
+}
+
 }  // namespace
 
 const Item* find_value(const Reply& reply, std::string_view name) {
@@ -169,18 +182,23 @@ core::Result<void> Dialogue::clear() {
 }
 
 core::Result<void> Dialogue::fresh_session() {
+  constexpr std::string_view kDoing = "opening a session";
   // A session that was not ended may still be there; a server in its error state refuses
   // EndSession.
   auto ended = session_.call("EndSession", {}, limit_);
+  std::string said;
   if (!ended && ended.error().kind == Failure::Kind::kServer) {
+    if (waits_for_a_person(ended.error().report))
+      return core::fail(error_of(ended.error(), kDoing));
+    said = ended.error().what;
     ended = session_.call("ClearAllErrors", {}, limit_);
     if (ended) ended = session_.call("EndSession", {}, limit_);
   }
   if (!ended && ended.error().kind == Failure::Kind::kLine) {
-    return core::fail(error_of(ended.error(), "opening a session"));
+    return core::fail(error_of(with_earlier(ended.error(), said), kDoing));
   }
   if (auto begun = session_.call("StartSession", {}, limit_); !begun) {
-    return core::fail(error_of(begun.error(), "opening a session"));
+    return core::fail(error_of(with_earlier(begun.error(), said), kDoing));
   }
   started_ = true;
   return {};

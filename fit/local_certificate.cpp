@@ -41,37 +41,55 @@ const ContactRow<K>& row_of(Rows<K> rows, std::size_t index) {
                        [&](const ContactRow<K>& row) { return row.index == index; });
 }
 
+using Columns = Eigen::Matrix<double, 4, 2 * static_cast<int>(Contacts::kCapacity)>;
+
+/// Unit move of the most negative curvature of w among the first `unknowns` directions and
+/// orthogonal to all columns; zero when the curvature is positive on all of these.
+Eigen::Vector4d least_curved(const Eigen::Matrix4d& w, Columns columns, int unknowns) {
+  // Gram and Schmidt, the largest column first: what is held by the columns and the padding.
+  Eigen::Matrix4d held = Eigen::Matrix4d::Zero();
+  for (int k = unknowns; k < 4; ++k) held(k, k) = 1.0;
+  const double least = kLevel * std::sqrt(columns.colwise().squaredNorm().maxCoeff());
+  int free = unknowns;
+  for (; free > 0; --free) {
+    Eigen::Index largest = 0;
+    const double size = std::sqrt(columns.colwise().squaredNorm().maxCoeff(&largest));
+    if (!(size > least)) break;
+    Eigen::Vector4d q = columns.col(largest) / size;
+    q = (q - held * q).normalized();
+    held += q * q.transpose();
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) columns.col(k) -= q * q.dot(columns.col(k));
+  }
+  if (free == 0) return Eigen::Vector4d::Zero();
+  // What is held curves more than any of w does: the least curvature is that of a level move.
+  const Eigen::Matrix4d level = Eigen::Matrix4d::Identity() - held;
+  const Eigen::Matrix4d bounded = level * w * level + (1.0 + 2.0 * w.norm()) * held;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> curvature(bounded);
+  if (curvature.eigenvalues()(0) > 0.0) return Eigen::Vector4d::Zero();
+  return curvature.eigenvectors().col(0);
+}
+
 }  // namespace
 
 template <int K>
 Eigen::Matrix<double, K, 1> curvature_descent(std::span<const Contact> outer,
                                               std::span<const Contact> inner, Rows<K> outer_rows,
                                               Rows<K> inner_rows, const ZoneWeights& weights) {
-  constexpr int kMost = static_cast<int>(Contacts::kCapacity);
-  Eigen::Matrix<double, K, K> w = Eigen::Matrix<double, K, K>::Zero();
-  Eigen::Matrix<double, Eigen::Dynamic, K, 0, 2 * kMost, K> level(
-      static_cast<Eigen::Index>(outer.size() + inner.size()), K);
-  Eigen::Index row = 0;
+  // Padded to four unknowns: Eigen's decompositions take half a minute to compile for each size.
+  Eigen::Matrix4d w = Eigen::Matrix4d::Zero();
+  Columns differences = Columns::Zero();
+  Eigen::Index column = 0;
   const auto collect = [&](std::span<const Contact> side, Rows<K> rows, double weight) {
     for (const Contact& c : side) {
       const ContactRow<K>& contact = row_of(rows, c.index);
-      w += weight * c.multiplier * contact.hessian;
-      level.row(row++) = (contact.gradient - row_of(rows, side[0].index).gradient).transpose();
+      w.template topLeftCorner<K, K>() += weight * c.multiplier * contact.hessian;
+      differences.col(column++).template head<K>() =
+          contact.gradient - row_of(rows, side[0].index).gradient;
     }
   };
   collect(outer, outer_rows, weights.outer);
   collect(inner, inner_rows, -weights.inner);
-  Eigen::JacobiSVD<Eigen::Matrix<double, Eigen::Dynamic, K, 0, 2 * kMost, K>> svd(
-      level, Eigen::ComputeFullV);
-  svd.setThreshold(kLevel);
-  const Eigen::Index rank = svd.rank();
-  if (rank == K) return Eigen::Matrix<double, K, 1>::Zero();
-  using Free = Eigen::Matrix<double, K, Eigen::Dynamic, 0, K, K>;
-  const Free moves = svd.matrixV().rightCols(K - rank);
-  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, K, K>;
-  const Eigen::SelfAdjointEigenSolver<Square> curvature(Square(moves.transpose() * w * moves));
-  if (curvature.eigenvalues()(0) > 0.0) return Eigen::Matrix<double, K, 1>::Zero();
-  return moves * curvature.eigenvectors().col(0);
+  return least_curved(w, differences, K).template head<K>();
 }
 
 template <int K>

@@ -129,6 +129,28 @@ TEST(IppClientTraps, ClearsErrorsWhereEndSessionIsRefusedInTheErrorState) {
               ElementsAre("EndSession()", "ClearAllErrors()", "EndSession()", "StartSession()"));
 }
 
+TEST(IppClientTraps, LeavesAFaultThatAnswersTheFirstCommandToAPerson) {
+  Controller server;
+  server.override_with("EndSession", {"! Error(3, 0500, \"EndSession()\", \"Emergency stop\")"});
+  const auto machine = server.open();
+  ASSERT_FALSE(machine);
+  EXPECT_EQ(machine.error().code, core::Code::kMachine);
+  EXPECT_THAT(machine.error().what,
+              HasSubstr("the machine says error 0500, severity 3: Emergency"));
+  EXPECT_THAT(server.heard, ElementsAre("EndSession()"));
+}
+
+TEST(IppClientTraps, SaysWhatTheMachineSaidBeforeItFellSilent) {
+  Controller server;
+  server.override_with("EndSession",
+                       {"! Error(2, 0514, \"EndSession()\", \"Use ClearAllErrors to continue\")"});
+  server.override_with("ClearAllErrors", {kNoEnd});
+  const auto machine = server.open();
+  ASSERT_FALSE(machine);
+  EXPECT_THAT(machine.error().what, HasSubstr("did not finish ClearAllErrors() within 0.05 s"));
+  EXPECT_THAT(machine.error().what, HasSubstr("before that the machine said error 0514"));
+}
+
 TEST(IppClientTraps, TakesAServerThatCannotTellItsVersion) {
   Controller server;
   server.override_with("GetDMEVersion",
