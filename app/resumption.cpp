@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/shell_word.h"
+#include "plans/analysis.h"
 #include "record/archive_place.h"
 #include "record/journal.h"
 #include "record/unborn_run.h"
@@ -34,8 +35,9 @@ bool archives_beside(const plans::Plan& plan) {
 /// Whether a plan goes on only from its folder, where its files stand.
 bool needs_folder(const plans::Plan& plan, const RunArguments& arguments) {
   if (arguments.archive.empty() && archives_beside(plan)) return true;
-  return std::any_of(plan.features.begin(), plan.features.end(),
-                     [](const auto& feature) { return feature.source.has_value(); });
+  return std::any_of(plan.features.begin(), plan.features.end(), [](const auto& feature) {
+    return feature.source || plans::has_files(feature);
+  });
 }
 
 }  // namespace

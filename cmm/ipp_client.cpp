@@ -252,7 +252,8 @@ core::Result<TouchReading> IppMachine::reading_of(const Reply& reply) {
   TouchReading out;
   out.tip_W_mm = point->tip_W_mm;
   out.temperature_degC = temperature_degC_.value_or(kAssumed_degC);
-  out.scale_temperature_degC = point->scale_temperature_degC.value_or(out.temperature_degC);
+  if (point->scale_temperature_degC) scale_temperature_degC_ = point->scale_temperature_degC;
+  out.scale_temperature_degC = scale_temperature_degC_.value_or(out.temperature_degC);
   out.time_s = time_s();
   out.tip_radius_mm = point->tip_radius_mm.value_or(0.0);
   return on_grid(out);

@@ -48,7 +48,8 @@ struct IppMachineOptions {
 /// lost every command is kMachine; recover() connects again.
 ///
 /// time_s() is the time since the connection was opened, unless the server gives its own with each
-/// point. A part temperature that the server does not give reads 20 degC; see knows_temperature().
+/// point; the points of a scan carry the time of the last touch then. A part temperature that the
+/// server does not give reads 20 degC; see knows_temperature().
 class IppMachine final : public Machine {
  public:
   /// Makes the connection; also called by recover() when it was lost.
@@ -131,6 +132,7 @@ class IppMachine final : public Machine {
   Speeds greatest_;
   Eigen::Vector3d position_W_mm_ = Eigen::Vector3d::Zero();
   std::optional<double> temperature_degC_;
+  std::optional<double> scale_temperature_degC_;  ///< Of the last touch that came with one.
   std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
   double server_time_s_ = 0.0;    ///< Of the last point.
   std::int64_t next_touch_ = -1;  ///< As a simulator counts; -1: not known.

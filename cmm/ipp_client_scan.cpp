@@ -79,11 +79,15 @@ core::Result<std::vector<TouchReading>> IppMachine::readings_of(const Reply& rep
   const auto stands = dialogue_->position_W_mm();
   if (!stands) return core::fail(stands.error());
   position_W_mm_ = on_grid_mm(*stands);
+  // The points come without temperatures, and no touch may have given one for many circles.
+  const auto temperature = dialogue_->property("Part.Temperature");
+  if (!temperature) return core::fail(temperature.error());
+  if (*temperature) temperature_degC_ = *temperature;
   std::vector<TouchReading> out;
   out.reserve(tips->size());
   TouchReading reading;
   reading.temperature_degC = temperature_degC_.value_or(kAssumed_degC);
-  reading.scale_temperature_degC = reading.temperature_degC;
+  reading.scale_temperature_degC = scale_temperature_degC_.value_or(reading.temperature_degC);
   reading.time_s = time_s();
   for (const Vector3d& tip : *tips) {
     reading.tip_W_mm = tip;

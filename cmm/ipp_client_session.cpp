@@ -135,8 +135,10 @@ Outcome<bool> Session::wait(const std::function<bool()>& done, Clock::time_point
 Outcome<void> Session::take(const wire::Line& line) {
   const auto response = parse_response(line.text);
   if (!response) {
+    heard_.clear();  // the message shows the line itself
     return break_off(fmt::format("{} does not speak I++ DME: {}", peer(), response.error().what));
   }
+  heard_ = excerpt(line.text);
   if (response->tag == kUnsolicited) {
     take_unsolicited_line(*response);
     return {};
@@ -184,6 +186,12 @@ std::string Session::with_unsolicited(std::string what) {
 
 tl::unexpected<Failure> Session::break_off(std::string what) {
   if (broken_.empty()) {
+    const std::string half = excerpt(line_->unfinished());
+    if (!half.empty()) {
+      what += fmt::format("; half a line came: \"{}\"", half);
+    } else if (!heard_.empty()) {
+      what += fmt::format("; the last line from there: \"{}\"", heard_);
+    }
     broken_ = with_unsolicited(std::move(what));
     const bool may_move = std::any_of(running_.begin(), running_.end(), [](const auto& entry) {
       return entry.first.front() != 'E' && !entry.second.complete;

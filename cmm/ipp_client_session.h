@@ -121,6 +121,7 @@ class Session {
   int last_event_tag_ = 0;
   std::string broken_;       ///< Why the session ended; "" while it goes on.
   std::string unsolicited_;  ///< The last E0000 error.
+  std::string heard_;        ///< The beginning of the last line that was one of I++ DME.
 };
 
 }  // namespace rondure::cmm::ipp::client

@@ -1,7 +1,10 @@
 #include "plans/cell.h"
 
+#include <fmt/format.h>
+
 #include "plans/ipp_cell.h"
 #include "plans/plan_reach.h"
+#include "plans/run_head.h"
 #include "plans/simulated_cell.h"
 
 namespace rondure::plans {
@@ -9,9 +12,31 @@ namespace rondure::plans {
 Cell::Cell(const Plan& plan)
     : kinematics_(nominal_kinematics(*plan.fixture)), X_BP_(nominal_seat(*plan.fixture)) {}
 
+core::Result<void> check_abilities(const Plan& plan, const cmm::Capabilities& machine) {
+  if (machine.scans_circles) return {};
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    const FeaturePlan& feature = plan.features[i];
+    if (!is_touched(feature) || feature.sampling.method != "scan") continue;
+    return core::fail(
+        core::Code::kMachine,
+        fmt::format("feature {} is to be scanned, and the machine, {}, does not scan circles; give "
+                    "\"method\": \"touch\", or take a machine that scans; nothing has moved",
+                    feature.id, machine.name),
+        fmt::format("/features/{}/sampling/method", i));
+  }
+  return {};
+}
+
 core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan, const CellOptions& options) {
-  if (plan.machine->driver == "ippdme") return IppCell::open(plan, options);
-  return std::make_unique<SimulatedCell>(plan, options.seed, options.resumed);
+  if (plan.machine->driver != "ippdme") {
+    return std::make_unique<SimulatedCell>(plan, options.seed, options.resumed);
+  }
+  auto cell = IppCell::open(plan, options);
+  if (!cell) return cell;
+  if (auto able = check_abilities(plan, (*cell)->machine().capabilities()); !able) {
+    return core::fail(able.error());
+  }
+  return cell;
 }
 
 // A real machine keeps no state that depends on the past.

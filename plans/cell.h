@@ -85,8 +85,14 @@ struct CellOptions {
   std::function<bool()> stop_requested = {};  ///< Asked while a machine moves: it stops at once.
 };
 
+/// Whether a machine can do what the plan asks of it. kMachine, at the feature, when it is to scan
+/// and cannot.
+[[nodiscard]] core::Result<void> check_abilities(const Plan& plan,
+                                                 const cmm::Capabilities& machine);
+
 /// Opens the cell of a plan that has `machine`, `fixture` and `probe`, with the drivers it names.
-/// Nothing moves. kMachine when a machine cannot be reached.
+/// Nothing moves. kMachine when a machine cannot be reached, or lacks an ability
+/// (check_abilities()).
 [[nodiscard]] core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan,
                                                             const CellOptions& options);
 

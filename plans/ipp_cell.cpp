@@ -47,6 +47,7 @@ cmm::IppMachineOptions machine_options(const Plan& plan, const CellOptions& opti
   out.park_W_mm = vector3(machine.park_mm);
   out.speeds.travel_mm_s = machine.travel_speed_mm_s;
   out.speeds.touch_mm_s = machine.touch_speed_mm_s;
+  out.speeds.scan_mm_s = machine.scan_speed_mm_s;
   out.answer_limit = milliseconds_of(machine.answer_limit_s);
   out.motion_limit = milliseconds_of(machine.motion_limit_s);
   out.abort_works = machine.abort == "works";

@@ -135,7 +135,8 @@ core::Error points_changed(std::size_t feature_index, const record::Feature& fea
           fmt::format("the points of {} changed since the run began: SHA-256 {}..., now {}...",
                       feature.points_file, feature.points_sha256.substr(0, kShownDigits),
                       sha256.substr(0, kShownDigits)),
-          item_pointer("/features", feature_index) + "/source/file"};
+          item_pointer("/features", feature_index) +
+              (feature.shape == record::Shape::kContour ? "/contour/parts" : "/source/file")};
 }
 
 }  // namespace rondure::plans

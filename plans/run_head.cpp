@@ -60,6 +60,12 @@ bool simulates_anything(const Plan& plan) {
   });
 }
 
+bool simulates_analysis(const Plan& plan) {
+  return std::any_of(plan.features.begin(), plan.features.end(), [](const FeaturePlan& feature) {
+    return analysis_kind(feature.type) != nullptr && !has_files(feature);
+  });
+}
+
 record::Strategy strategy_of(const FeaturePlan& feature) {
   if (analysis_kind(feature.type) != nullptr) return record::Strategy::kSeries;
   if (feature.source) return record::Strategy::kPointsFile;
@@ -78,6 +84,9 @@ record::Feature feature_of(const FeaturePlan& plan) {
   if (kind != nullptr) {
     out.shape = kind->shape;
     out.settings = kind->settings(plan);
+    for (const SeriesFile& file : kind->files(plan)) {
+      out.points_file += (out.points_file.empty() ? "" : ", ") + file.file;
+    }
   }
   out.side = plan.side == "inside" ? record::Side::kInside : record::Side::kOutside;
   out.nominal_diameter_mm = plan.nominal.diameter_mm;
@@ -85,7 +94,7 @@ record::Feature feature_of(const FeaturePlan& plan) {
   if (is_touched(plan)) {
     out.layers = plan.sampling.layers;
     out.points_per_layer = plan.sampling.points_per_layer;
-  } else if (plan.source) {
+  } else if (plan.source && kind == nullptr) {
     out.points_file = plan.source->file;
     if (plan.source->tip_diameter_mm) out.tip_radius_mm = 0.5 * *plan.source->tip_diameter_mm;
   }

@@ -14,6 +14,8 @@ namespace rondure::plans {
 [[nodiscard]] bool is_touched(const FeaturePlan& feature);
 /// Whether anything of a plan is simulated.
 [[nodiscard]] bool simulates_anything(const Plan& plan);
+/// Whether the series of a feature are simulated: they are, also in front of a real machine.
+[[nodiscard]] bool simulates_analysis(const Plan& plan);
 /// Whether a plan needs a machine.
 [[nodiscard]] bool touches_anything(const Plan& plan);
 

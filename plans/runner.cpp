@@ -239,7 +239,7 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
                             {known->seed, false, options.wire_log, options.stop_requested});
     if (!opened) return core::fail(opened.error());
     cell = std::move(*opened);
-    header.simulated = cell->is_simulated();
+    header.simulated = cell->is_simulated() || simulates_analysis(plan);
     if (!header.simulated) header.seed = 0;
     header.machine = cell->machine().description();
     header.fixture = cell->fixture().description();

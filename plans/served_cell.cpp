@@ -58,6 +58,7 @@ cmm::ipp::ServerOptions server_options(const Plan& plan) {
   cmm::ipp::ControllerOptions& controller = out.controller;
   controller.defaults.speeds.travel_mm_s = plan.machine->travel_speed_mm_s;
   controller.defaults.speeds.touch_mm_s = plan.machine->touch_speed_mm_s;
+  controller.defaults.speeds.scan_mm_s = plan.machine->scan_speed_mm_s;
   controller.defaults.approach_mm = plan.machine->approach_mm;
   controller.defaults.search_mm = plan.machine->search_mm;
   controller.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;

@@ -79,9 +79,9 @@ struct Feature {
   int points_per_layer = 0;
   Strategy strategy = Strategy::kGuided;
   std::vector<double> search_steps_deg;  ///< Steps of the software pose search, in order.
-  std::string points_file;               ///< For kPointsFile: the file, as the plan names it.
-  std::string points_sha256;             ///< Of that file's bytes.
-  std::optional<double> tip_radius_mm;   ///< Of the probe behind a points file, if stated.
+  std::string points_file;               ///< Data that were read, as the plan names the file(s).
+  std::string points_sha256;  ///< Of that file's bytes; of several, of lines "sha256 name".
+  std::optional<double> tip_radius_mm;  ///< Of the probe behind a points file, if stated.
   std::vector<Characteristic> characteristics;
   std::vector<Setting> settings;  ///< Of an analysis; a list has its key once for each item.
 

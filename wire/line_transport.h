@@ -34,6 +34,9 @@ class LineTransport {
   /// Errors: the other side closed, also in the middle of a line; a line beyond the length limit.
   [[nodiscard]] virtual core::Result<std::optional<Line>> read_line(
       std::chrono::milliseconds time_limit) = 0;
+  /// What came of a line whose end has not come, its first 100 bytes at most; also of a connection
+  /// that was lost. "" otherwise.
+  [[nodiscard]] virtual std::string unfinished() const { return {}; }
   /// Closes the connection. Safe to call twice.
   virtual void close() = 0;
   [[nodiscard]] virtual bool is_open() const = 0;

@@ -13,6 +13,7 @@ using std::chrono::milliseconds;
 using Tcp = asio::ip::tcp;
 
 constexpr std::size_t kChunk_bytes = 16'384;
+constexpr std::size_t kShown_bytes = 100;
 
 tl::unexpected<core::Error> fault(std::string what) {
   return core::fail(core::Code::kMachine, std::move(what));
@@ -89,6 +90,9 @@ class TcpLine final : public LineTransport {
   }
 
   [[nodiscard]] bool is_open() const override { return open_; }
+  [[nodiscard]] std::string unfinished() const override {
+    return received_.find('\n') == std::string::npos ? received_.substr(0, kShown_bytes) : "";
+  }
   [[nodiscard]] std::string peer() const override { return peer_; }
 
  private:

@@ -68,6 +68,7 @@ class LoggedLine final : public LineTransport {
     inner_->close();
   }
   [[nodiscard]] bool is_open() const override { return inner_->is_open(); }
+  [[nodiscard]] std::string unfinished() const override { return inner_->unfinished(); }
   [[nodiscard]] std::string peer() const override { return inner_->peer(); }
 
  private:

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -267,23 +268,31 @@ class StrangeServer {
 };
 
 TEST(IppRun, SaysWhatAStrangeServerSaid) {
-  const std::vector<std::pair<std::string, std::string>> cases = {
+  struct Case {
+    std::string answer;
+    std::string message;
+    double limit_s = 20.0;  ///< Short where the client is to wait in vain.
+  };
+  const std::vector<Case> cases = {
       {"HTTP/1.1 400 Bad Request", "HTTP/1.1 400 Bad Request"},
       {"00001 &\r\n00001 ! Error(3, 0500, \"EndSession()\", \"Emergency stop\")\r\n00001 %",
        "opening a session: the machine says error 0500, severity 3: Emergency stop"},
       {"00001 &\r\n00001 ! Error(2, 0514, \"EndSession()\", \"Use ClearAllErrors\")\r\n00001 %",
        "did not acknowledge ClearAllErrors() within 0.3 s; is another client connected to it?; "
-       "before that the machine said error 0514, severity 2: Use ClearAllErrors"},
-      {"00001 ! Error(3, 05", "does not speak I++ DME: 00001 ! Error(3, 05"},
+       "the last line from there: \"00001 %\"; before that the machine said error 0514, severity "
+       "2: Use ClearAllErrors",
+       0.3},
+      {"00001 ! Error(3, 05", "the last line from there: \"00001 ! Error(3, 05\"", 0.3},
       {std::string(100'000'000, 'x'), "a line of more than 1048576 bytes"},
-      {"", "did not acknowledge EndSession() within 0.3 s"},
+      {"", "did not acknowledge EndSession() within 0.3 s", 0.3},
   };
-  for (const auto& [answer, message] : cases) {
+  for (const auto& [answer, message, limit_s] : cases) {
     SCOPED_TRACE(answer.substr(0, 40));
     const TemporaryFolder folder;
     const StrangeServer server(answer);
     write_wire_plan(folder / "plan.json", server.port());
-    replace_in(folder / "plan.json", "\"approach_mm\"", "\"answer_limit_s\": 0.3, \"approach_mm\"");
+    replace_in(folder / "plan.json", "\"approach_mm\"",
+               fmt::format("\"answer_limit_s\": {}, \"approach_mm\"", limit_s));
     const Outcome refused = rondure({"run", folder / "plan.json", "--out", folder / "run"});
     EXPECT_EQ(refused.status, 3);
     EXPECT_THAT(refused.err, HasSubstr(message));

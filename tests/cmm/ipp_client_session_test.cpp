@@ -155,11 +155,20 @@ TEST(IppClientSession, EndsWhenNothingIsAcknowledged) {
   EXPECT_EQ(s.session->call("IsHomed", {}, kLong).error().what, silent.error().what);
 }
 
+TEST(IppClientSession, SaysWhatCameOfALineThatNeverEnded) {
+  Scripted s([](const std::string&, const std::string&) { return Lines{}; });
+  s.server->trail_off("00001 ! Error(3, 05");
+  const auto silent = s.session->call("Home", {}, kLong);
+  ASSERT_FALSE(silent);
+  EXPECT_THAT(silent.error().what, HasSubstr("half a line came: \"00001 ! Error(3, 05\""));
+}
+
 TEST(IppClientSession, StopsWhatDoesNotEnd) {
   Scripted s([](const std::string& tag, const std::string&) { return Lines{tag + " &"}; });
   const auto endless = s.session->call("GoTo", {}, kShort);
   ASSERT_FALSE(endless);
   EXPECT_THAT(endless.error().what, HasSubstr("did not finish GoTo() within 0.06 s"));
+  EXPECT_THAT(endless.error().what, HasSubstr("the last line from there: \"00001 &\""));
   EXPECT_EQ(s.sent.back(), "E0001 AbortE()");
 }
 
@@ -183,8 +192,11 @@ TEST(IppClientSession, SaysThatTheConnectionWasLost) {
   s.server->hang_up();
   const auto lost = s.session->call("GoTo", {}, kLong);
   ASSERT_FALSE(lost);
-  EXPECT_THAT(error_of(lost.error(), "the move").what,
-              HasSubstr("closed the connection; the machine ends the motion it was told last"));
+  EXPECT_THAT(
+      error_of(lost.error(), "the move").what,
+      HasSubstr(
+          "closed the connection; the last line from there: \"00001 &\"; the machine ends the "
+          "motion it was told last"));
 }
 
 /// The recorded dialogue: what the client says and what comes back for it, by turns.

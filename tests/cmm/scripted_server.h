@@ -42,15 +42,19 @@ class ScriptedServer final : public wire::LineTransport {
   }
   void close() override { open_ = false; }
   bool is_open() const override { return open_; }
+  std::string unfinished() const override { return half_; }
   std::string peer() const override { return "script"; }
   /// Closes behind the last line.
   void hang_up() { hangs_up_ = true; }
+  /// Behind the last line comes one without an end.
+  void trail_off(std::string half) { half_ = std::move(half); }
   /// A line that comes by itself.
   void say(std::string line) { lines_.push_back(std::move(line)); }
 
  private:
   Answer answer_;
   std::deque<std::string> lines_;
+  std::string half_;
   bool open_ = true;
   bool hangs_up_ = false;
 };

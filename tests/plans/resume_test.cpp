@@ -40,7 +40,7 @@ void stop_after(RunOptions& options, int touches) {
 Plan plan_of(const std::string& example) {
   auto plan = read_plan(testing::example(example));
   EXPECT_TRUE(plan) << testing::lines_of(plan);
-  return std::move(*plan);
+  return std::move(plan).value();  // throws: the test fails, the others go on
 }
 
 /// A simulation is more than its text: `change` gives the plan another text as well.
@@ -50,7 +50,7 @@ Plan with(Plan plan, const std::string& from, const std::string& to) {
   EXPECT_NE(at, std::string::npos) << from;
   auto changed = parse_plan(text.replace(at, from.size(), to), plan.folder, "plan.json");
   EXPECT_TRUE(changed) << testing::lines_of(changed);
-  return std::move(*changed);
+  return std::move(changed).value();
 }
 
 record::RunRecord journal_of(const fs::path& directory) {

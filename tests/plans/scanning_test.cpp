@@ -41,7 +41,7 @@ TEST(Scanning, WithoutErrorsAPerfectCylinderHasNoForm) {
   for (const char* method : {"touch", "scan"}) {
     SCOPED_TRACE(method);
     Plan plan = perfect_plan(method);
-    plan.simulation->part.tilt_deg = 3.0;
+    plan.simulation->part.tilt_deg = 2.8;  // its ends are off by 1.95 of the 2 mm allowed
     plan.features.front().sampling.points_per_layer = 36;
     EXPECT_LT(zone_mm(test::inspect(plan)), 1e-9);
   }
@@ -110,10 +110,15 @@ TEST(Scanning, KeywayAndBurrAreSeen) {
   plan.simulation->part.burrs = {{90.0, -35.0, 2.0, 2.0, 30.0}};
   const auto burr = test::inspect(plan);
   EXPECT_NEAR(zone_mm(burr), 0.03, 1e-3);
+  // From the least-squares axis: the minimum zone moves over until the far side is as high.
   const auto& cloud = burr.evaluation.features.front().cloud;
-  const auto highest = std::max_element(
-      cloud.begin(), cloud.end(),
-      [](const auto& x, const auto& y) { return x.deviation_mm < y.deviation_mm; });
+  const fit::Axis axis = burr.evaluation.features.front().ls_cylinder->axis;
+  const auto height_mm = [&](const auto& point) {
+    return (point.tip_mm - axis.point_mm).cross(axis.direction).norm();
+  };
+  const auto highest =
+      std::max_element(cloud.begin(), cloud.end(),
+                       [&](const auto& x, const auto& y) { return height_mm(x) < height_mm(y); });
   EXPECT_NEAR(highest->angle_rad, M_PI / 2, 0.03);
   EXPECT_EQ(highest->layer, 0);
   plan.simulation->part.burrs.clear();
@@ -168,10 +173,15 @@ TEST(Scanning, AnInterruptedRunGoesOnWithTheSameBits) {
   ASSERT_TRUE(plan) << testing::lines_of(plan);
   const fs::path root = fs::temp_directory_path() / ("rondure-scan-" + std::to_string(getpid()));
   fs::remove_all(root);
-  ASSERT_TRUE(run_plan(*plan, options_for(root / "whole")));
+  int all = 0;  // steps: a touch or a whole circle each
+  RunOptions counted = options_for(root / "whole");
+  counted.stop_requested = [&all] { return ++all < 0; };
+  const auto run = run_plan(*plan, counted);
+  ASSERT_TRUE(run && !run->failure);
   const auto whole = journal_of(root / "whole");
-  ASSERT_GT(whole.touches.size(), 1400U);
-  for (const int steps : {24, 25, 26}) {  // 13 touches qualify, 10 locate, then circles
+  ASSERT_EQ(whole.touches.size(), 13U + 6U + 4U * 360U);
+  ASSERT_EQ(all, 13 + 6 + 4);
+  for (int steps = 17; steps < all; ++steps) {  // two last touches that locate, then circles
     SCOPED_TRACE(steps);
     const fs::path directory = root / std::to_string(steps);
     RunOptions options = options_for(directory);

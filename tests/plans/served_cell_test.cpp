@@ -33,8 +33,8 @@ constexpr double kApproach_mm = 3.0;
 
 Plan spool() {
   auto plan = read_plan(testing::example("01_spool_simulated.json"));
-  EXPECT_TRUE(plan.has_value());
-  return std::move(*plan);
+  EXPECT_TRUE(plan) << testing::lines_of(plan);
+  return std::move(plan).value();  // throws: the test fails, the others go on
 }
 
 /// The touches of 4 layers of 7 points in a pose, with a way around the part that is free.

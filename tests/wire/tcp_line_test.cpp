@@ -115,6 +115,7 @@ TEST(TcpLine, SaysThatTheOtherSideClosedInTheMiddleOfALine) {
   const auto gone = pair.line->read_line(kPatience);
   ASSERT_FALSE(gone);
   EXPECT_THAT(gone.error().what, HasSubstr("in the middle of a line, after 5 bytes"));
+  EXPECT_EQ(pair.line->unfinished(), "00001");
 }
 
 TEST(TcpLine, EndsTheConnectionAtALineOfAHundredMegabytes) {
