@@ -186,9 +186,11 @@ TEST(Scanning, AnInterruptedRunGoesOnWithTheSameBits) {
     const fs::path directory = root / std::to_string(steps);
     RunOptions options = options_for(directory);
     options.stop_requested = [left = steps]() mutable { return left-- == 0; };
-    const auto stopped = run_plan(*plan, options);
-    ASSERT_TRUE(stopped);
-    ASSERT_TRUE(stopped->failure);
+    {
+      const auto stopped = run_plan(*plan, options);
+      ASSERT_TRUE(stopped && stopped->failure);
+      ASSERT_EQ(stopped->failure->code, core::Code::kStopped) << stopped->failure->what;
+    }  // the journal is free again
     const auto resumed = resume_plan(*plan, options_for(directory));
     ASSERT_TRUE(resumed) << resumed.error().front().what;
     ASSERT_FALSE(resumed->failure) << resumed->failure->what;
