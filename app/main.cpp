@@ -381,9 +381,15 @@ int explain(const CLI::App& app, const CLI::ParseError& error,
   } else {
     tell(fmt::format("rondure: there is no verb {}\n", words.front()));
   }
-  tell(verb_known
-           ? fmt::format("What it takes, with an example: rondure {} --help\n", words.front())
-           : "The verbs: rondure --help\n");
+  if (!verb_known) {
+    tell("The verbs: rondure --help\n");
+    return kBadInput;
+  }
+  std::string verb = words.front();
+  for (const CLI::App* inner : app.get_subcommand(verb)->get_subcommands({})) {
+    if (words.size() > 1 && inner->get_name() == words[1]) verb += " " + words[1];
+  }
+  tell(fmt::format("What it takes, with an example: rondure {} --help\n", verb));
   return kBadInput;
 }
 
