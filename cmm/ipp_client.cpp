@@ -121,13 +121,16 @@ bool IppMachine::is_stop_wanted() {
   return stopped_;
 }
 
+core::Error IppMachine::stopped_before(std::string_view what) const {
+  return {core::Code::kStopped,
+          fmt::format("the machine was stopped at {}{}; it moves again once the stop is taken back",
+                      in_words(position_W_mm_),
+                      what.empty() ? "" : fmt::format(", {} was not begun", what)),
+          {}};
+}
+
 core::Result<void> IppMachine::check_ready() {
-  if (is_stop_wanted()) {
-    return core::fail(core::Code::kStopped,
-                      fmt::format("the machine was stopped at {}; it moves again once the stop is "
-                                  "taken back",
-                                  in_words(position_W_mm_)));
-  }
+  if (is_stop_wanted()) return core::fail(stopped_before(""));
   if (!dialogue_->fault().empty()) {
     return fault(
         fmt::format("the machine is in its error state: {}; put that right at the machine, "
@@ -140,6 +143,7 @@ core::Result<void> IppMachine::check_ready() {
 
 core::Result<Reply> IppMachine::run(std::string_view method, std::vector<Item> items,
                                     double length_mm, const std::string& doing) {
+  if (is_stop_wanted()) return core::fail(stopped_before(doing));
   const double longest_s = 2.0 * length_mm / std::max(1e-3, options_.speeds.touch_mm_s);
   const auto limit = options_.motion_limit +
                      std::chrono::milliseconds(std::llround(1000.0 * std::min(longest_s, 1e6)));

@@ -102,6 +102,8 @@ class IppMachine final : public Machine {
 
   [[nodiscard]] core::Result<void> connect();
   [[nodiscard]] bool is_stop_wanted();
+  /// Why a motion did not begin: a stop that was not taken back.
+  [[nodiscard]] core::Error stopped_before(std::string_view what) const;
   /// What every motion needs: a session, no stop, no fault, homed.
   [[nodiscard]] core::Result<void> check_ready();
   [[nodiscard]] core::Result<void> take_tool(const std::string& name);

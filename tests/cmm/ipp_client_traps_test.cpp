@@ -338,10 +338,11 @@ TEST(IppClientTraps, SeesThatScanColumnsAreNotXyz) {
                        {"# 23,0,10, 21.25,8.8,10", "# 16.26,16.26,10,8.8,21.25,10"});
   ASSERT_TRUE(machine->move_to({26.0, 0.0, 10.0}));
   server.override_with("Get(", {"# X(0), Y(26), Z(10)"});
+  server.heard.clear();
   const auto scanned = machine->scan_circle(scan);
   ASSERT_TRUE(scanned) << scanned.error().what;
   EXPECT_EQ(scanned->size(), 4U);
-  EXPECT_EQ(server.heard[server.heard.size() - 2], "ScanOnCircle(0,0,10,23,0,10,0,0,1,90,0,22.5)");
+  EXPECT_THAT(server.heard, Contains("ScanOnCircle(0,0,10,23,0,10,0,0,1,90,0,22.5)"));
 }
 
 TEST(IppClientTraps, ReadsTheVectorsOfATableHoweverTheyAreWritten) {
@@ -392,6 +393,32 @@ TEST(IppClientTraps, StopsWithAbortClearsAndTellsWhereItStands) {
   wish = true;
   EXPECT_EQ(machine->move_to({0.0, 0.0, 500.0}).error().code, core::Code::kStopped);
   EXPECT_TRUE(server.heard.empty()) << "a motion that was not wanted any more did not begin";
+}
+
+TEST(IppClientTraps, NothingRetractsBehindAStop) {
+  const std::vector<Lines> ends = {{kNoEnd},  // ended by AbortE
+                                   {"! Error(2, 1006, PtMeas, \"Surface not found\")"},
+                                   {"# X(27.1), Y(0), Z(10)"}};
+  for (const Lines& end : ends) {
+    SCOPED_TRACE(end.front());
+    Controller server;
+    IppMachineOptions options;
+    options.returns_to_approach = false;  // a GoTo of its own leads back
+    bool wish = false;
+    options.stop_requested = [&] {
+      wish = wish || (!server.heard.empty() && server.heard.back().starts_with("PtMeas("));
+      return wish;
+    };
+    const auto machine = server.homed(options);
+    ASSERT_TRUE(machine->move_to({30.0, 0.0, 10.0}));
+    server.override_with("PtMeas(", end);
+    const auto stopped = machine->touch(touch_from_x());
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().code, core::Code::kStopped) << stopped.error().what;
+    const auto touch = std::find_if(server.heard.begin(), server.heard.end(),
+                                    [](const auto& line) { return line.starts_with("PtMeas("); });
+    EXPECT_THAT(Lines(touch + 1, server.heard.end()), Not(Contains(StartsWith("GoTo("))));
+  }
 }
 
 TEST(IppClientTraps, ConnectsAgainWhenTheLineWasLost) {
