@@ -53,10 +53,12 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
   // Reach can be judged only once every number is sound.
   if (problems.empty()) {
     if (touches_anything(plan)) {
-      if (auto room = check_room(plan); !room) problems.push_back(room.error());
+      if (auto free = check_room(plan); !free) problems.push_back(free.error());
     }
-    for (std::size_t i = 0; i < plan.features.size(); ++i) {
-      if (!is_touched(plan, i, findings) || !problems.empty()) continue;
+    // What stands in the way of the whole part would be found again at every feature.
+    const bool room = problems.empty();
+    for (std::size_t i = 0; room && i < plan.features.size(); ++i) {
+      if (!is_touched(plan, i, findings)) continue;
       if (auto targets = reachable_targets(plan, i); !targets) problems.push_back(targets.error());
     }
   }
