@@ -57,6 +57,16 @@ std::string spelling_message(const std::string& value, const TextSpec& spec) {
   return fmt::format("{} is not known; give {}{}", in_quotes(value), spelled(spec.one_of), hint);
 }
 
+// The first sentence of a meaning: what follows tells more than a line needs. "e.g. x" ends none.
+std::string_view first_sentence(std::string_view text) {
+  for (std::size_t at = text.find(". "); at != std::string_view::npos;
+       at = text.find(". ", at + 1)) {
+    const bool begins = at + 2 < text.size() && text[at + 2] >= 'A' && text[at + 2] <= 'Z';
+    if (begins) return text.substr(0, at + 1);
+  }
+  return text;
+}
+
 // A sentence of the table inside a sentence: no full stop, a small letter unless an abbreviation.
 std::string as_clause(std::string_view sentence) {
   std::string clause(sentence);
@@ -86,7 +96,7 @@ const JsonValue* TableReader::value_at(std::string_view key, bool required,
     findings_.note_given(pointer_to(key));
   } else if (required) {
     problem(object_, Code::kMissingKey, pointer_to(key),
-            fmt::format("this key is missing: {}", as_clause(meaning)));
+            fmt::format("this key is missing: {}", as_clause(first_sentence(meaning))));
   }
   return json;
 }
