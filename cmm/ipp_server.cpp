@@ -125,7 +125,7 @@ void Server::start(Waiting waiting, double now_s) {
   }
   auto motion = controller_.plan_motion(waiting.command);
   if (!motion) return conclude(waiting, tl::unexpected(std::move(motion.error())));
-  running_.emplace();
+  running_ = Running{};
   running_->waiting = std::move(waiting);
   running_->motion = std::move(*motion);
   begin_phase(now_s);
