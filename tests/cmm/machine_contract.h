@@ -275,7 +275,7 @@ TYPED_TEST_P(MachineContract, MayBeStoppedFromAnotherThread) {
 }
 
 TYPED_TEST_P(MachineContract, ScansCirclesOutsideAndInside) {
-  if (!this->machine.capabilities().scans_circles) GTEST_SKIP();
+  if (!this->machine.capabilities().scans_circles) GTEST_SKIP() << "the machine scans no circles";
   ASSERT_TRUE(this->machine.home());
   for (const bool inside : {false, true}) {
     SCOPED_TRACE(inside);
@@ -301,7 +301,7 @@ TYPED_TEST_P(MachineContract, ScansCirclesOutsideAndInside) {
 }
 
 TYPED_TEST_P(MachineContract, ScansMoreThanOneTurnEitherWay) {
-  if (!this->machine.capabilities().scans_circles) GTEST_SKIP();
+  if (!this->machine.capabilities().scans_circles) GTEST_SKIP() << "the machine scans no circles";
   this->stand_before_shaft();
   ASSERT_TRUE(this->machine.move_to({30.0, 0.0, 10.0}));
   const auto on = this->machine.scan_circle(this->scan(false, 2.5 * core::kTwoPi, 250));
@@ -316,7 +316,7 @@ TYPED_TEST_P(MachineContract, ScansMoreThanOneTurnEitherWay) {
 }
 
 TYPED_TEST_P(MachineContract, AScanWithoutASurfaceLeavesTheTipAtItsStart) {
-  if (!this->machine.capabilities().scans_circles) GTEST_SKIP();
+  if (!this->machine.capabilities().scans_circles) GTEST_SKIP() << "the machine scans no circles";
   this->rig.place(false);
   ASSERT_TRUE(this->machine.home());
   ScanCircleCommand command = this->scan(false, core::kTwoPi, 36);
