@@ -42,17 +42,22 @@ struct Turns {
   }
 };
 
-/// Rows of the least-squares solution (X, Y) = P m for one swing angle; m are the three readings
-/// without the part. The normal matrix is that of the directions of the probes.
-Eigen::Matrix<double, 2, 3> solver(const std::array<double, 3>& angles_rad, double beta_rad) {
+/// The least-squares solution (X, Y) = P m without swing; m are the three readings without the
+/// part.
+Eigen::Matrix<double, 2, 3> solver(const std::array<double, 3>& angles_rad) {
   Eigen::Matrix<double, 3, 2> n;
   for (int i = 0; i < 3; ++i) {
-    const double direction = angles_rad[static_cast<std::size_t>(i)] + beta_rad;
+    const double direction = angles_rad[static_cast<std::size_t>(i)];
     n(i, 0) = std::sin(direction);
     n(i, 1) = std::cos(direction);
   }
   const Eigen::Matrix2d normal = n.transpose() * n;
   return normal.inverse() * n.transpose();
+}
+
+/// The same after a swing, which turns the directions of all probes, and so the solution, by beta.
+Eigen::Matrix<double, 2, 3> swung(const Eigen::Matrix<double, 2, 3>& p, double beta_rad) {
+  return Eigen::Rotation2Dd(-beta_rad).toRotationMatrix() * p;
 }
 
 /// The printed formulas: RX from probes 1 and 2, RY = (m1 + RX) / cos(beta), which is wrong.
@@ -107,11 +112,12 @@ void separate_motion(const ProbeSamples& samples, const Spectrum& spectrum,
                        {std::vector<double>(count), std::vector<double>(count)});
   result.mean_motion = {std::vector<double>(count), std::vector<double>(count)};
   const bool published = options.motion == ThreeProbeOptions::Motion::kAsPublished;
+  const Eigen::Matrix<double, 2, 3> unswung = solver(angles);
   Eigen::Matrix<double, 2, 3> p = Eigen::Matrix<double, 2, 3>::Zero();
   for (std::size_t n = 0; n < count; ++n) {
     if (n == 0 || samples.beta_rad[n] != samples.beta_rad[n - 1]) {
       p = published ? as_published(result.layout, samples.beta_rad[n])
-                    : solver(angles, samples.beta_rad[n]);
+                    : swung(unswung, samples.beta_rad[n]);
     }
     for (std::size_t j = 0; j < result.motion.size(); ++j) {
       const std::size_t at = j * count + n;
