@@ -119,7 +119,7 @@ TEST(KilledRun, KeepsItsTouchesAndSaysThatItWasInterrupted) {
   const auto journal = journal_of(run.directory());
   EXPECT_EQ(journal.ending, "");
   // A touch takes four pages of log; poses and decisions come between.
-  EXPECT_GT(journal.touches.size(), 13U) << "beyond the qualification";
+  EXPECT_GE(journal.touches.size(), 20U);  // a touch takes four pages of log
   for (std::size_t i = 0; i < journal.touches.size(); ++i) {
     ASSERT_EQ(journal.touches[i].id, static_cast<std::int64_t>(i));
   }

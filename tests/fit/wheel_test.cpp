@@ -273,13 +273,14 @@ TEST(Wheel, ScattersAsTheTableOfTheMethodSays) {
 }
 
 TEST(Wheel, ScattersSeveralTimesMoreWithSixRandomQuadruples) {
-  // The table was made of 200 runs. Single bad quadruples rule these sums, so that 200 runs scatter
-  // themselves: standard deviation of 100 blocks of 200 runs each, as a share.
+  // The table was made of 200 runs. Single bad quadruples rule these sums: of 100 blocks of 200
+  // runs each one reaches the figure of 60 deg, their mean lies 14 % below it. There the standard
+  // deviation of the blocks, as a share, is allowed on top.
   struct Row {
     double arc_deg, center_um, radius_um, own_scatter;
   };
   for (const Row& row :
-       {Row{360, 3.54, 0.61, 0.06}, Row{120, 17.3, 13.0, 0.09}, Row{60, 46.8, 43.7, 0.065}}) {
+       {Row{360, 3.54, 0.61, 0.0}, Row{120, 17.3, 13.0, 0.0}, Row{60, 46.8, 43.7, 0.065}}) {
     SCOPED_TRACE(row.arc_deg);
     WheelOptions options = plain();
     options.quadruples.choice = QuadrupleChoice::kRandom;
