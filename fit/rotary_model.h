@@ -3,6 +3,8 @@
 #include <vector>
 
 #include "core/result.h"
+#include "fit/open_spline.h"
+#include "fit/periodic_spline.h"
 #include "fit/rotary_errors.h"
 
 namespace rondure::fit {
@@ -62,10 +64,16 @@ class RotaryModel {
   /// errors(angle) = sum over rows of weight(row) * errors(row), a column an error.
   using Weights = Eigen::Matrix<double, Eigen::Dynamic, 6>;
   [[nodiscard]] Weights weights_at(double angle_rad) const;
+  [[nodiscard]] bool bridged_at(double angle_rad) const;
+  /// The angle within the turn, or the range, of the stations.
+  [[nodiscard]] core::Result<double> within(double angle_rad) const;
+  void make_splines();
+  void make_least_squares();
 
   RotaryTable table_;
-  Eigen::MatrixXd second_;            ///< Spline: second derivatives at the rows from their values.
-  std::vector<Eigen::MatrixXd> fit_;  ///< Least squares: coefficients from values, one an error.
+  std::vector<PeriodicSpline> circle_;  ///< Through 1 at one row and 0 at the others, one a row;
+  std::vector<OpenSpline> arc_;         ///< one of the two is empty.
+  std::vector<Eigen::MatrixXd> fit_;    ///< Least squares: coefficients from values, one an error.
 };
 
 }  // namespace rondure::fit
