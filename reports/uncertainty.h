@@ -21,7 +21,7 @@ struct UncertaintyOptions {
   int block_trials = 1000;   ///< Trials between two looks at the tolerance; >= 100.
   int least_trials = 2000;   ///< At least two blocks, so that they can be compared.
   int most_trials = 10000;   ///< >= least_trials, <= 10 000 000.
-  int budget_trials = 1000;  ///< Of each influence alone; 0: no budget.
+  int budget_trials = 1000;  ///< Of each influence alone, >= 2; 0: no budget.
   double coverage = 0.95;    ///< Probability of the interval, 0.5..0.999.
   std::uint64_t seed = 1;    ///< Same seed, same numbers, at any number of threads.
   int threads = 0;           ///< 0: as many as the processor has.
