@@ -388,18 +388,19 @@ tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& measured) {
   const std::optional<RunRecord> at_20 = compensated(measured);
   const RunRecord& record = at_20 ? *at_20 : measured;
   Evaluation out;
+  out.rule = rule_of(record);
   out.probe = evaluate_probe(record);
   for (std::size_t i = 0; i < record.features.size(); ++i) {
     if (record::is_analysis(record.features[i].shape)) {
       auto feature = evaluate_analysis(record, static_cast<int>(i));
-      decide_analysis(record, feature);
+      decide_analysis(record, out.rule, feature);
       out.features.push_back(std::move(feature));
       continue;
     }
     auto feature = evaluate_feature(record, static_cast<int>(i), out.probe);
     if (auto broken = broken_invariant(feature))
       return tl::unexpected(Defect{*std::move(broken), std::move(feature)});
-    decide(record, out.probe, feature);
+    decide(record, out.rule, out.probe, feature);
     out.features.push_back(std::move(feature));
   }
   out.verdict = overall(out.features);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -39,6 +40,7 @@ UncertaintyStatement statement_of(std::span<const double> trials, double coverag
   const std::size_t low = std::max<std::size_t>(below, 1) - 1;
   out.low_mm = sorted[low];
   out.high_mm = sorted[std::min(low + inside, sorted.size() - 1)];
+  out.values_mm = std::move(sorted);
   return out;
 }
 

@@ -45,6 +45,7 @@ struct UncertaintyStatement {
   /// Twice the standard deviation of the mean of the blocks, the largest of estimate, standard
   /// uncertainty, low and high [mm]: what the number of trials leaves open.
   double numerical_tolerance_mm = 0.0;
+  std::vector<double> values_mm;  ///< Of the trials, ascending: the whole distribution.
 
   /// U: half the width of the interval, which need not lie evenly about the estimate.
   [[nodiscard]] double expanded_mm() const { return 0.5 * (high_mm - low_mm); }
