@@ -14,14 +14,16 @@ struct Registration {
   double largest_residual_mm = 0.0;  ///< Greatest distance of a moved point from its partner [mm].
 };
 
-/// Least squares of |motion * from_i - to_i| over rotations and shifts, closed form by the singular
-/// values of the covariance.
+/// Least squares of weight_i |motion * from_i - to_i|^2 over rotations and shifts, closed form by
+/// the singular values of the covariance; never a reflection.
 /// @param from_mm, to_mm  Partners in the same order, n >= 3, not on one line [mm].
+/// @param weights  One a pair, > 0; none: all alike.
 /// @return kTooFewPoints (n < 3 or different counts), kNotFinite, kCollinear (the points of `from`
 ///         lie on one line within 1e-6 of their spread: the turn about it is undetermined).
 /// Source: S. Umeyama, "Least-squares estimation of transformation parameters between two point
-/// patterns", IEEE Trans. PAMI 13(4), 1991 (as in Eigen).
+/// patterns", IEEE Trans. PAMI 13(4), 1991 (the guard against reflections).
 [[nodiscard]] core::Result<Registration> rigid_registration(
-    std::span<const Eigen::Vector3d> from_mm, std::span<const Eigen::Vector3d> to_mm);
+    std::span<const Eigen::Vector3d> from_mm, std::span<const Eigen::Vector3d> to_mm,
+    std::span<const double> weights = {});
 
 }  // namespace rondure::fit

@@ -31,7 +31,7 @@ class DamagedRun : public ::testing::Test {
  protected:
   void SetUp() override {
     ASSERT_EQ(
-        rondure({"run", example("03_axle_points_file.json"), "--out", run_, "--quiet"}).status, 0);
+        rondure({"run", example("09_axle_points_file.json"), "--out", run_, "--quiet"}).status, 0);
     ASSERT_EQ(verify().status, 0);
   }
   [[nodiscard]] Outcome verify() const { return rondure({"verify", run_}); }

@@ -1,0 +1,309 @@
+#include "fit/rotary_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "fit/registration.h"
+
+namespace rondure::fit {
+namespace {
+
+using core::Code;
+using Eigen::Vector3d;
+
+constexpr double kSameAngle = 1e-9;  // rad
+
+double deg(double rad) { return rad / core::kDegree; }
+
+const BallCentre* find_ball(std::span<const BallCentre> balls, const std::string& name) {
+  const auto at = std::find_if(balls.begin(), balls.end(),
+                               [&](const BallCentre& ball) { return ball.ball == name; });
+  return at == balls.end() ? nullptr : &*at;
+}
+
+/// @param exact_allowed  u = 0, for a reference.
+core::Result<void> check_balls(std::span<const BallCentre> balls, const std::string& place,
+                               bool exact_allowed) {
+  std::set<std::string> seen;
+  for (const BallCentre& ball : balls) {
+    if (!ball.centre_mm.allFinite() || !ball.u_mm.allFinite()) {
+      return core::fail(Code::kNotFinite,
+                        fmt::format("ball {} {}: centre or u is not finite", ball.ball, place));
+    }
+    const double least = ball.u_mm.minCoeff();
+    if (least < 0.0 || (least == 0.0 && !exact_allowed)) {
+      return core::fail(Code::kBadOption,
+                        fmt::format("ball {} {}: u is {:g} um, it must be above 0", ball.ball,
+                                    place, least / core::kMicrometre));
+    }
+    if (!seen.insert(ball.ball).second) {
+      return core::fail(Code::kRepeatedKey,
+                        fmt::format("ball {} stands twice {}", ball.ball, place));
+    }
+  }
+  return {};
+}
+
+core::Result<void> check_axis(const RotaryMeasurement& m) {
+  if (!m.axis.direction.allFinite() || !m.axis.origin_mm.allFinite() ||
+      !std::isfinite(m.reference_rad)) {
+    return core::fail(Code::kNotFinite, "axis, origin or reference angle is not finite");
+  }
+  if (std::abs(m.axis.direction.norm() - 1.0) > 1e-6) {
+    return core::fail(Code::kBadOption,
+                      fmt::format("the axis direction has length {:g}, a unit vector is needed",
+                                  m.axis.direction.norm()));
+  }
+  if (m.references.empty()) {
+    return core::fail(Code::kMissingKey,
+                      "the reference pose is missing: measure all balls there, best at start, "
+                      "middle and end");
+  }
+  if (m.stations.empty()) {
+    return core::fail(Code::kTooFewPoints, "there are no stations");
+  }
+  return {};
+}
+
+bool repeats(const RotaryPose& a, const RotaryPose& b) {
+  const bool two_directions = a.approach != b.approach && a.approach != Approach::kUnknown &&
+                              b.approach != Approach::kUnknown;
+  return !two_directions && std::abs(a.angle_rad - b.angle_rad) <= kSameAngle;
+}
+
+core::Result<void> check_station(const RotaryMeasurement& m, std::size_t index,
+                                 const std::set<std::string>& known) {
+  const RotaryPose& station = m.stations[index];
+  if (!std::isfinite(station.angle_rad)) {
+    return core::fail(Code::kNotFinite,
+                      fmt::format("the angle of station {} is not finite", index + 1));
+  }
+  const std::string place = fmt::format("at {:g} deg", deg(station.angle_rad));
+  if (station.angle_rad < m.lowest_rad - kSameAngle ||
+      station.angle_rad > m.highest_rad + kSameAngle) {
+    return core::fail(Code::kPoseRange,
+                      fmt::format("station {:g} deg is outside the range of the axis, {:g}..{:g} "
+                                  "deg",
+                                  deg(station.angle_rad), deg(m.lowest_rad), deg(m.highest_rad)));
+  }
+  for (std::size_t i = 0; i < index; ++i) {
+    if (!repeats(m.stations[i], station)) continue;
+    return core::fail(Code::kRepeatedKey,
+                      fmt::format("station {:g} deg stands twice; state the direction of approach "
+                                  "where it was measured forward and backward",
+                                  deg(station.angle_rad)));
+  }
+  if (auto fine = check_balls(station.balls, place, false); !fine) return fine;
+  for (const BallCentre& ball : station.balls) {
+    if (known.contains(ball.ball)) continue;
+    return core::fail(
+        Code::kUnknownKey,
+        fmt::format("ball {} {} was not measured in the reference pose", ball.ball, place));
+  }
+  return {};
+}
+
+/// What the ratio of two lengths that should be alike looks like.
+std::string_view unit_hint(double ratio) {
+  struct Unit {
+    double factor;
+    std::string_view text;
+  };
+  constexpr std::array<Unit, 4> kUnits = {{{25.4, "mm and inch are mixed"},
+                                           {1000.0, "mm and um or m are mixed"},
+                                           {10.0, "mm and cm are mixed"},
+                                           {1e6, "um and m are mixed"}}};
+  const double size = std::max(ratio, 1.0 / ratio);
+  for (const Unit& unit : kUnits) {
+    if (std::abs(size / unit.factor - 1.0) < 0.02) return unit.text;
+  }
+  return "balls are confused or units are mixed";
+}
+
+/// Rotation left when the true angle of each station is hypothesis(angle from the reference).
+template <class Hypothesis>
+double rotation_left(const std::vector<std::pair<double, Eigen::Matrix3d>>& turns,
+                     const RotaryAxis& axis, const Hypothesis& hypothesis) {
+  double out = 0.0;
+  for (const auto& [angle, turn] : turns) {
+    out = std::max(out, rotation_vector(turn * axis.turn(hypothesis(angle)).transpose()).norm());
+  }
+  return out;
+}
+
+/// Measured turn from the reference at each station that shows one.
+std::vector<std::pair<double, Eigen::Matrix3d>> measured_turns(
+    const RotaryMeasurement& m, std::span<const BallCentre> reference) {
+  std::vector<std::pair<double, Eigen::Matrix3d>> out;
+  for (const RotaryPose& station : m.stations) {
+    std::vector<Vector3d> from;
+    std::vector<Vector3d> to;
+    for (const BallCentre& ball : station.balls) {
+      from.push_back(find_ball(reference, ball.ball)->centre_mm);
+      to.push_back(ball.centre_mm);
+    }
+    const auto found = rigid_registration(from, to);
+    if (found) out.emplace_back(station.angle_rad - m.reference_rad, found->motion.linear());
+  }
+  return out;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Changes of one distance against the reference, in the order of measurement.
+struct DistanceChanges {
+  std::vector<double> change_mm;
+  double u_mm = 0.0;  ///< Of a distance at a station, rms.
+  double reference_u_mm = 0.0;
+};
+
+DistanceChanges changes_of(const RotaryMeasurement& m, const BallCentre& a, const BallCentre& b) {
+  DistanceChanges out;
+  const Vector3d along = a.centre_mm - b.centre_mm;
+  // Of the mean direction: the body turns, u is taken as alike in all directions.
+  out.reference_u_mm = std::sqrt((a.u_mm.squaredNorm() + b.u_mm.squaredNorm()) / 3.0);
+  double squares = 0.0;
+  for (const RotaryPose& station : m.stations) {
+    const BallCentre* first = find_ball(station.balls, a.ball);
+    const BallCentre* second = find_ball(station.balls, b.ball);
+    if (first == nullptr || second == nullptr) continue;
+    out.change_mm.push_back((first->centre_mm - second->centre_mm).norm() - along.norm());
+    squares += (first->u_mm.squaredNorm() + second->u_mm.squaredNorm()) / 3.0;
+  }
+  out.u_mm = std::sqrt(squares / std::max<double>(1.0, static_cast<double>(out.change_mm.size())));
+  return out;
+}
+
+core::Result<void> check_distance(const DistanceChanges& changes, const std::string& name) {
+  const std::vector<double>& all = changes.change_mm;
+  if (all.size() < 3) return {};
+  const double limit = 4.0 * std::hypot(changes.u_mm, changes.reference_u_mm);
+  const double change = median(all);
+  if (std::abs(change) > limit) {
+    return core::fail(Code::kInconsistent,
+                      fmt::format("the distance of balls {} is {:.2f} um off that of the reference "
+                                  "pose, limit {:.2f} um: thermal growth, or a ball has moved",
+                                  name, change / core::kMicrometre, limit / core::kMicrometre));
+  }
+  const auto third = static_cast<std::ptrdiff_t>(all.size() / 3);
+  if (third < 2) return {};
+  const double drift =
+      median({all.end() - third, all.end()}) - median({all.begin(), all.begin() + third});
+  const double drift_limit = 4.0 * std::sqrt(2.0) * changes.u_mm;
+  if (std::abs(drift) <= drift_limit) return {};
+  return core::fail(Code::kInconsistent,
+                    fmt::format("the distance of balls {} drifts by {:.2f} um from the first to "
+                                "the last third of the stations, limit {:.2f} um: thermal growth "
+                                "or a failing clamp",
+                                name, drift / core::kMicrometre, drift_limit / core::kMicrometre));
+}
+
+}  // namespace
+
+core::Result<void> check_measurement(const RotaryMeasurement& measurement) {
+  if (auto fine = check_axis(measurement); !fine) return fine;
+  std::set<std::string> known;
+  for (const auto& reference : measurement.references) {
+    if (auto fine = check_balls(reference, "in the reference pose", true); !fine) return fine;
+    for (const BallCentre& ball : reference) known.insert(ball.ball);
+  }
+  for (std::size_t i = 0; i < measurement.stations.size(); ++i) {
+    if (auto fine = check_station(measurement, i, known); !fine) return fine;
+  }
+  return {};
+}
+
+core::Result<void> check_sizes(const RotaryMeasurement& measurement,
+                               std::span<const BallCentre> reference) {
+  for (const RotaryPose& station : measurement.stations) {
+    for (std::size_t i = 0; i < station.balls.size(); ++i) {
+      for (std::size_t j = i + 1; j < station.balls.size(); ++j) {
+        const BallCentre& a = station.balls[i];
+        const BallCentre& b = station.balls[j];
+        const double here = (a.centre_mm - b.centre_mm).norm();
+        const double there =
+            (find_ball(reference, a.ball)->centre_mm - find_ball(reference, b.ball)->centre_mm)
+                .norm();
+        if (std::abs(here - there) <= 0.1 * there) continue;
+        return core::fail(
+            Code::kUnits,
+            fmt::format("balls {} and {} are {:g} mm apart at {:g} deg and {:g} mm in the "
+                        "reference pose: {}",
+                        a.ball, b.ball, here, deg(station.angle_rad), there,
+                        unit_hint(here / there)));
+      }
+    }
+  }
+  return {};
+}
+
+core::Result<void> check_sense(const RotaryMeasurement& measurement,
+                               std::span<const BallCentre> reference) {
+  constexpr double kLimit = 0.1;  // rad
+  const auto turns = measured_turns(measurement, reference);
+  const auto left = [&](const auto& hypothesis) {
+    return rotation_left(turns, measurement.axis, hypothesis);
+  };
+  const double stated = left([](double a) { return a; });
+  if (stated <= kLimit) return {};
+  return core::fail(
+      Code::kSense,
+      fmt::format("the balls turned otherwise than stated: {:.3f} rad of rotation are left, limit "
+                  "{:g}. Hypotheses: angles in the opposite sense leave {:.3g} rad, degrees read "
+                  "for radians {:.3g} rad, radians read for degrees {:.3g} rad",
+                  stated, kLimit, left([](double a) { return -a; }),
+                  left([](double a) { return a * core::kDegree; }),
+                  left([](double a) { return a / core::kDegree; })));
+}
+
+core::Result<void> check_distances(const RotaryMeasurement& measurement,
+                                   std::span<const BallCentre> reference) {
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    for (std::size_t j = i + 1; j < reference.size(); ++j) {
+      const auto changes = changes_of(measurement, reference[i], reference[j]);
+      const std::string name = fmt::format("{} and {}", reference[i].ball, reference[j].ball);
+      if (auto fine = check_distance(changes, name); !fine) return fine;
+    }
+  }
+  return {};
+}
+
+core::Result<bool> check_periodicity(std::span<const RotaryStation> stations) {
+  constexpr std::array<std::string_view, 6> kNames = {"X", "Y", "Z", "A", "B", "C"};
+  bool checked = false;
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    for (std::size_t j = i + 1; j < stations.size(); ++j) {
+      const RotaryStation& a = stations[i];
+      const RotaryStation& b = stations[j];
+      const double apart = std::abs(a.angle_rad - b.angle_rad);
+      const bool turn_apart = apart > 1.0 && std::abs(std::remainder(apart, core::kTwoPi)) < 1e-9;
+      if (!turn_apart || a.approach != b.approach || a.undetermined || b.undetermined) continue;
+      checked = true;
+      const Vector6 difference = a.errors.values() - b.errors.values();
+      const Vector6 limit =
+          4.0 * (a.measured_covariance + b.measured_covariance).diagonal().cwiseSqrt();
+      for (Eigen::Index k = 0; k < 6; ++k) {
+        if (std::abs(difference(k)) <= limit(k)) continue;
+        return core::fail(
+            Code::kInconsistent,
+            fmt::format("{:g} and {:g} deg are one place, but error E{} differs by {:.2f} {}, "
+                        "limit {:.2f}: drift or hysteresis",
+                        deg(a.angle_rad), deg(b.angle_rad), kNames[static_cast<std::size_t>(k)],
+                        std::abs(difference(k)) * (k < 3 ? 1e3 : 1e6), k < 3 ? "um" : "urad",
+                        limit(k) * (k < 3 ? 1e3 : 1e6)));
+      }
+    }
+  }
+  return checked;
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace rondure::fit {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// A rotary axis as it is meant to be: its line in the frame of the measuring machine.
+struct RotaryAxis {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< Unit vector; turns right-handed.
+  Eigen::Vector3d origin_mm = Eigen::Vector3d::Zero();   ///< Where translations are stated.
+
+  /// The nominal rotation about the direction.
+  [[nodiscard]] Eigen::Matrix3d turn(double angle_rad) const {
+    return Eigen::AngleAxisd(angle_rad, direction).toRotationMatrix();
+  }
+};
+
+/// The six errors of a rotary axis at one angle: a body that should have turned by the angle has
+/// besides been moved by t and turned by w, seen from the origin of the axis.
+///   p_actual = exp([w]x) R(angle) p0 + t,    p relative to the origin of the axis.
+struct RotaryErrors {
+  Eigen::Vector3d t_mm = Eigen::Vector3d::Zero();   ///< Along x, y, z (EX, EY, EZ) [mm].
+  Eigen::Vector3d w_rad = Eigen::Vector3d::Zero();  ///< About x, y, z (EA, EB, EC) [rad].
+  Matrix6 covariance = Matrix6::Zero();  ///< Of (t; w): mm^2, mm rad, rad^2; standard uncertainty.
+  bool bridged = false;                  ///< Interpolated across a station without a solution.
+
+  [[nodiscard]] Vector6 values() const {
+    Vector6 out;
+    out << t_mm, w_rad;
+    return out;
+  }
+  /// Standard uncertainty of each of (t; w) [mm, rad].
+  [[nodiscard]] Vector6 sigma() const { return covariance.diagonal().cwiseMax(0.0).cwiseSqrt(); }
+};
+
+/// The error alone, exact: p -> exp([w]x) p + t, p relative to the origin of the axis [mm].
+[[nodiscard]] Eigen::Isometry3d error_motion(const Eigen::Vector3d& t_mm,
+                                             const Eigen::Vector3d& w_rad);
+
+/// Where a turn of `angle_rad` (counted from the reference pose) with these errors really takes the
+/// body, in the frame of the machine: a point of the body that stands at x_mm in the reference pose
+/// stands at rotary_motion(...) * x_mm. Its inverse takes points measured at the angle back.
+[[nodiscard]] Eigen::Isometry3d rotary_motion(const RotaryAxis& axis, double angle_rad,
+                                              const RotaryErrors& errors);
+
+/// The vector w with exp([w]x) = rotation, |w| <= pi.
+[[nodiscard]] Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation);
+
+/// Matrix [v]x of the cross product: [v]x u = v x u.
+[[nodiscard]] Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
+
+/// What errors of this covariance do to a point: the covariance of t + w x p [mm^2].
+/// @param p_mm  The point at the angle in question, relative to the origin of the axis.
+[[nodiscard]] Eigen::Matrix3d point_covariance_mm2(const Matrix6& covariance,
+                                                   const Eigen::Vector3d& p_mm);
+
+}  // namespace rondure::fit
