@@ -269,6 +269,7 @@ void evaluate_cylinder(const std::optional<Eigen::Vector3d>& direction, FeatureR
 
 void evaluate_circle(const Eigen::Vector3d& direction, FeatureResult& result) {
   const fit::Axis up{mean_of(result.cloud), direction};
+  result.section_axis = up;
   result.layers = sections(up, result.cloud);
   LayerResult& section = result.layers.front();
   if (!section.mz || !section.ls) {

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/pose.h"
 #include "core/result.h"
+#include "fit/axis.h"
 #include "fit/ls_circle.h"
 #include "fit/ls_cylinder.h"
 #include "fit/min_zone_circle.h"
@@ -100,6 +101,7 @@ struct FeatureResult {
   core::Result<fit::OneSidedCylinder> mc_cylinder = not_fitted();  ///< Where there is none: why.
   core::Result<fit::OneSidedCylinder> mi_cylinder = not_fitted();
   std::vector<LayerResult> layers;
+  fit::Axis section_axis = {};               ///< Of a circle: origin and normal of its plane.
   std::vector<PoseValue> poses;              ///< In the order visited.
   std::optional<double> tip_radius_mm;       ///< rho that was used; none for points of unknown tip.
   std::optional<core::Pose> levelling_pose;  ///< That would turn the found axis to machine z.

@@ -106,6 +106,26 @@ void add_characteristic(std::string& out, const CharacteristicResult& result) {
   if (!simple && result.value) add_uncertainty(out, *result.value);
 }
 
+/// The sketch with its legend beside it.
+void add_sketch(std::string& out, const FeatureResult& feature, SketchStyle style) {
+  const auto sketch = polar_sketch(feature, style);
+  const auto zone = zone_of(feature);
+  if (!sketch || !zone) return;
+  const bool braille = style == SketchStyle::kBraille;
+  std::vector<std::string> legend(sketch->rows.size());
+  legend[3] = sketch->sections > 1 ? fmt::format("{} of {}, the one that departs most",
+                                                 sketch->title, sketch->sections)
+                                   : sketch->title;
+  legend[4] = fmt::format("the circles are {} um apart", um(zone->deviation_mm));
+  legend[6] = fmt::format("{} contact outside", braille ? "\u25CF" : "O");
+  legend[7] = fmt::format("{} contact inside", braille ? "\u25CB" : "I");
+  for (std::size_t i = 0; i < sketch->rows.size(); ++i) {
+    std::string line = fmt::format("{:{}}{}   {}", "", kLabel, sketch->rows[i], legend[i]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += line + "\n";
+  }
+}
+
 void add_zone(std::string& out, const FeatureResult& feature) {
   const auto zone = zone_of(feature);
   if (!zone) return;
@@ -177,7 +197,8 @@ void add_analysis(std::string& out, const record::RunRecord& record, std::size_t
 
 }  // namespace
 
-std::string write_summary(const record::RunRecord& record, const Evaluation& evaluation) {
+std::string write_summary(const record::RunRecord& record, const Evaluation& evaluation,
+                          SketchStyle sketch) {
   std::string out;
   add_head(out, record, evaluation);
   for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
@@ -188,6 +209,7 @@ std::string write_summary(const record::RunRecord& record, const Evaluation& eva
       add_characteristic(out, result);
     }
     if (feature.failure) add_wrapped(out, "  no result", core::to_line(*feature.failure));
+    add_sketch(out, feature, sketch);
     add_analysis(out, record, i, feature);
     add_zone(out, feature);
     add_one_sided(out, feature);
