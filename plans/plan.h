@@ -12,6 +12,7 @@
 #include "plans/contour_plan.h"
 #include "plans/machine_errors_plan.h"
 #include "plans/spindle_plan.h"
+#include "plans/uncertainty_plan.h"
 #include "plans/wheel_plan.h"
 
 namespace rondure::plans {
@@ -204,10 +205,6 @@ struct FeaturePlan {
   std::vector<CharacteristicPlan> characteristics;
 };
 
-struct DecisionRulePlan {
-  std::string rule = "simple-acceptance";
-};
-
 struct LobePlan {
   int order = 2;
   double amplitude_um = 0.0;
@@ -284,6 +281,7 @@ struct Plan {
   EnvironmentPlan environment;
   std::vector<FeaturePlan> features;
   DecisionRulePlan decision_rule;
+  std::optional<UncertaintyPlan> uncertainty;
   std::optional<SimulationPlan> simulation;
   ReportsPlan reports;
 

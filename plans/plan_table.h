@@ -6,6 +6,7 @@
 #include "plans/plan.h"
 #include "plans/simulation_table.h"
 #include "plans/spindle_table.h"
+#include "plans/uncertainty_table.h"
 #include "plans/wheel_table.h"
 
 // The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
@@ -549,19 +550,12 @@ void describe(Visitor& v, FeaturePlan& p) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, DecisionRulePlan& p) {
-  v.text("rule", p.rule,
-         {.one_of = {"simple-acceptance"},
-          .meaning = "simple-acceptance: the value is compared with the tolerance, no uncertainty "
-                     "is taken into account."});
-}
-
-template <class Visitor>
 void describe(Visitor& v, ReportsPlan& p) {
   v.texts("formats", p.formats,
-          {.one_of = {"html", "json", "csv"},
+          {.one_of = {"html", "json", "csv", "qif", "dmis", "junit"},
            .empty_allowed = false,
-           .meaning = "Reports that a run writes."});
+           .meaning = "Reports that a run writes: a page, all numbers, tables, QIF 3.0 results, a "
+                      "DMIS output block, a JUnit summary for pipelines."});
   v.text("archive", p.archive,
          {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "
                      "relative to the plan; postgresql://user@host/database without a password; "
@@ -585,6 +579,9 @@ void describe(Visitor& v, Plan& p) {
          {.required = true, .empty_allowed = false, .meaning = "What is measured, in this order."});
   v.object("decision_rule", p.decision_rule,
            {.meaning = "How a value and its tolerance make a verdict."});
+  v.object("uncertainty", p.uncertainty,
+           {.meaning = "What is declared about the measurement, for the intervals of touched "
+                       "features and points of a file. Left out: none are stated."});
   v.object("simulation", p.simulation,
            {.meaning = "The hidden truth of a simulation; no evaluation reads it. Needed with "
                        "simulated drivers."});

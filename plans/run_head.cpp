@@ -7,6 +7,8 @@
 #include "core/version.h"
 #include "fit/pose_walk.h"
 #include "plans/analysis.h"
+#include "plans/setting_list.h"
+#include "plans/uncertainty_table.h"
 #include "record/sha256.h"
 
 namespace rondure::plans {
@@ -138,6 +140,28 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
   if (plan.part.expansion_per_K || plan.machine->scale_expansion_per_K) {
     add("temperature_uncertainty_K", plan.environment.temperature_uncertainty_K);
   }
+  return out;
+}
+
+std::vector<record::Setting> settings_of(const Plan& plan) {
+  DecisionRulePlan rule = plan.decision_rule;
+  SettingList list("decision_rule/");
+  describe(list, rule);
+  std::vector<record::Setting> out = list.take();
+  if (!plan.uncertainty) return out;
+  UncertaintyPlan uncertainty = *plan.uncertainty;
+  SettingList declared("uncertainty/");
+  describe(declared, uncertainty);
+  for (record::Setting& setting : declared.take()) out.push_back(std::move(setting));
+  // A group without a key of its own is declared all the same.
+  const auto given = [&](const char* name, bool there) {
+    if (there) out.push_back({"uncertainty/declared", std::nullopt, name});
+  };
+  given("probe", uncertainty.probe.has_value());
+  given("machine", uncertainty.machine.has_value());
+  given("thermal", uncertainty.thermal.has_value());
+  given("fixture", uncertainty.fixture.has_value());
+  given("form_spectrum", uncertainty.form_spectrum.has_value());
   return out;
 }
 

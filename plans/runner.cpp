@@ -253,7 +253,8 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
     if (analysis_kind(plan.features[i].type) == nullptr)
       features.back().settings = settings_of(plan, plan.features[i]);
   }
-  auto journal = record::Journal::create(options.directory, header, artefact_of(plan), features);
+  auto journal = record::Journal::create(options.directory, header, artefact_of(plan), features,
+                                         settings_of(plan));
   if (!journal) return core::fail(journal.error());
   Run run{std::move(*journal), std::nullopt};
   execute(plan, options, *known, cell.get(), {}, run);

@@ -270,6 +270,7 @@ void evaluate_cylinder(const std::optional<Eigen::Vector3d>& direction, FeatureR
 
 void evaluate_circle(const Eigen::Vector3d& direction, FeatureResult& result) {
   const fit::Axis up{mean_of(result.cloud), direction};
+  result.section_axis = up;
   result.layers = sections(up, result.cloud);
   LayerResult& section = result.layers.front();
   if (!section.mz || !section.ls) {
@@ -419,18 +420,19 @@ tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& measured) {
   const std::optional<RunRecord> at_20 = compensated(measured);
   const RunRecord& record = at_20 ? *at_20 : measured;
   Evaluation out;
+  out.rule = rule_of(record);
   out.probe = evaluate_probe(record);
   for (std::size_t i = 0; i < record.features.size(); ++i) {
     if (record::is_analysis(record.features[i].shape)) {
       auto feature = evaluate_analysis(record, static_cast<int>(i));
-      decide_analysis(record, feature);
+      decide_analysis(record, out.rule, feature);
       out.features.push_back(std::move(feature));
       continue;
     }
     auto feature = evaluate_feature(record, static_cast<int>(i), out.probe);
     if (auto broken = broken_invariant(feature))
       return tl::unexpected(Defect{*std::move(broken), std::move(feature)});
-    decide(record, out.probe, feature);
+    decide(record, out.rule, out.probe, feature);
     out.features.push_back(std::move(feature));
   }
   out.verdict = overall(out.features);

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/pose.h"
 #include "core/result.h"
+#include "fit/axis.h"
 #include "fit/ls_circle.h"
 #include "fit/ls_cylinder.h"
 #include "fit/min_zone_circle.h"
@@ -20,14 +21,13 @@
 #include "fit/roundness_evaluation.h"
 #include "record/run_record.h"
 #include "reports/analysis.h"
+#include "reports/decision.h"
 #include "reports/merged_poses.h"
+#include "reports/stated_value.h"
 #include "reports/thermal.h"
+#include "reports/verdict.h"
 
 namespace rondure::reports {
-
-enum class Verdict { kConforms, kDoesNotConform, kUndecided, kVoid, kNotToleranced };
-/// "conforms", "does not conform", "undecided", "void", "not toleranced".
-[[nodiscard]] std::string_view name_of(Verdict verdict);
 
 /// One point of the cloud that is evaluated: the mean of its repeated touches.
 struct CloudPoint {
@@ -76,10 +76,16 @@ struct LayerResult {
 /// Verdict on one characteristic.
 struct CharacteristicResult {
   record::Characteristic characteristic;
-  std::optional<double> value_mm;  ///< Nothing when it could not be evaluated.
+  std::optional<StatedValue> value;  ///< Nothing when it could not be evaluated.
   Verdict verdict = Verdict::kVoid;
-  std::string reason;         ///< One sentence behind the verdict.
-  std::string operator_text;  ///< "MZCY; unfiltered; 4 x 7 points; ..."
+  std::string reason;                  ///< One sentence behind the verdict.
+  std::optional<RuleOutcome> outcome;  ///< What the rule made of it; none for void, not toleranced.
+  std::optional<GlobalRisks> risks;    ///< Where the rule has a prior.
+
+  /// The value as measured, without what must be said with it: for computing, not for writing.
+  [[nodiscard]] std::optional<double> value_mm() const {
+    return value ? std::optional(value->value_mm()) : std::nullopt;
+  }
 };
 
 /// Part temperature while the final cloud was touched.
@@ -98,6 +104,7 @@ struct FeatureResult {
   core::Result<fit::OneSidedCylinder> mc_cylinder = not_fitted();  ///< Where there is none: why.
   core::Result<fit::OneSidedCylinder> mi_cylinder = not_fitted();
   std::vector<LayerResult> layers;
+  fit::Axis section_axis = {};               ///< Of a circle: origin and normal of its plane.
   std::vector<PoseValue> poses;              ///< In the order visited.
   std::optional<double> tip_radius_mm;       ///< rho that was used; none for points of unknown tip.
   std::optional<core::Pose> levelling_pose;  ///< That would turn the found axis to machine z.
@@ -116,6 +123,7 @@ struct FeatureResult {
 /// What a record says: a pure function of it.
 struct Evaluation {
   std::optional<fit::ProbeTip> probe;
+  core::Result<DecisionRule> rule = DecisionRule();  ///< Of the run, or why it is not known.
   std::vector<FeatureResult> features;
   Verdict verdict = Verdict::kVoid;  ///< The worst of all toleranced characteristics.
 };

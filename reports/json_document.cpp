@@ -301,7 +301,7 @@ Json feature_json(const FeatureResult& feature) {
   return json;
 }
 
-Json decision_json(const record::Decision& decision) {
+Json event_json(const record::Decision& decision) {
   return {{"feature", decision.feature < 0 ? Json(nullptr) : Json(decision.feature)},
           {"time_s", decision.time_s},
           {"text", decision.text}};
@@ -309,6 +309,15 @@ Json decision_json(const record::Decision& decision) {
 
 Json truth_json(const record::SimulationTruth& truth) {
   return {{"feature", truth.feature}, {"cylt_um", in_um(truth.cylt_mm)}};
+}
+
+bool any_interval(const Evaluation& evaluation) {
+  for (const FeatureResult& feature : evaluation.features) {
+    for (const CharacteristicResult& c : feature.characteristics) {
+      if (c.value && c.value->uncertainty().result()) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -319,10 +328,12 @@ nlohmann::ordered_json report_document(const record::RunRecord& record,
   json["schema_version"] = 1;
   json["header"] = header_json(record);
   json["verdict"] = name_of(evaluation.verdict);
-  json["measurement_uncertainty"] = nullptr;
+  json["measurement_uncertainty"] =
+      any_interval(evaluation) ? Json("stated with each characteristic") : Json(nullptr);
+  json["rule"] = rule_json(evaluation);
   json["probe"] = probe_json(evaluation.probe);
   json["features"] = list_json(evaluation.features, feature_json);
-  json["decisions"] = list_json(record.decisions, decision_json);
+  json["decisions"] = list_json(record.decisions, event_json);
   json["simulation"] = list_json(record.truths, truth_json);
   for (const record::TruthValue& truth : record.truth_values) {
     json["simulation"].push_back({{"feature", truth.feature}, {truth.name, truth.value}});
