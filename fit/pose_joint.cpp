@@ -226,7 +226,7 @@ void set_statements(PoseJoint& joint) {
   if (joint.shared == 0) {
     say.emplace_back(
         "no target was touched in more than one pose: form and errors of the poses are told apart "
-        "only as far as the form is smooth");
+        "only as far as the form is smooth, and the uncertainty stated for it is too small");
   }
   if (joint.chi2 > joint.chi2_limit) {
     say.push_back(

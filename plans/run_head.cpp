@@ -46,6 +46,17 @@ record::Characteristic characteristic_of(const CharacteristicPlan& plan) {
   return out;
 }
 
+/// What the evaluation needs to bring the clouds of several poses together.
+void add_merged_settings(const FixturePlan& fixture, const FeaturePlan& feature,
+                         std::vector<record::Setting>& out) {
+  out.push_back({"merge", std::nullopt, feature.pose_search.merge});
+  out.push_back({"merged_poses", static_cast<double>(feature.pose_search.poses.size()), ""});
+  for (const double v : fixture.axis_point_mm) out.push_back({"axis_point_mm", v, ""});
+  for (const double v : fixture.axis_offset_mm) out.push_back({"axis_offset_mm", v, ""});
+  out.push_back({"pose_shift_uncertainty_um", fixture.pose_shift_uncertainty_um, ""});
+  out.push_back({"pose_turn_uncertainty_deg", fixture.pose_turn_uncertainty_deg, ""});
+}
+
 }  // namespace
 
 bool is_touched(const FeaturePlan& feature) {
@@ -75,6 +86,7 @@ record::Strategy strategy_of(const FeaturePlan& feature) {
   if (name == "refined") return record::Strategy::kRefined;
   if (name == "as-published") return record::Strategy::kAsPublished;
   if (name == "virtual") return record::Strategy::kVirtual;
+  if (name == "merged") return record::Strategy::kMerged;
   return record::Strategy::kGuided;
 }
 
@@ -116,6 +128,7 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
     out.push_back({std::string(name), number, ""});
   };
   if (feature.sampling.method == "scan") out.push_back({"sampling_method", std::nullopt, "scan"});
+  if (feature.pose_search.strategy == "merged") add_merged_settings(*plan.fixture, feature, out);
   if (plan.part.expansion_per_K) {
     add("part_expansion_per_K", *plan.part.expansion_per_K);
     add("part_expansion_uncertainty_per_K", plan.part.expansion_uncertainty_per_K);

@@ -25,6 +25,8 @@ std::size_t expected_touches(const FeaturePlan& feature, std::size_t targets) {
   switch (strategy_of(feature)) {
     case record::Strategy::kGuided:
       return targets * (feature.type == "circle" ? repeats : 2 + repeats);
+    case record::Strategy::kMerged:
+      return targets * repeats * feature.pose_search.poses.size();
     case record::Strategy::kVirtual:
       return targets * repeats;
     case record::Strategy::kAsPublished:

@@ -102,6 +102,10 @@ std::string sampling_words(const FeatureResult& result,
                          ? fmt::format("{} x {} points", feature.layers, feature.points_per_layer)
                          : fmt::format("{} points", result.cloud.size());
   if (feature.word("sampling_method") == "scan") text += ", scanned";
+  if (result.merged) {
+    text += fmt::format(" in {} poses, merged {}", result.merged->poses.size(),
+                        result.merged->joint ? "with their errors solved for" : "by kinematics");
+  }
   if (characteristic.form != Form::kCylindricity && result.layers.size() > 1)
     text += "; worst layer";
   if (!result.cloud.empty() && result.cloud.front().repeats > 1) {

@@ -118,6 +118,12 @@ UncertaintyStatus uncertainty_of(const record::RunRecord& record, const FeatureR
                                  const record::Characteristic& asked) {
   const auto declared = declared_for(record, result, probe);
   if (!declared) return UncertaintyStatus::none("the plan declares no uncertainty");
+  if (result.merged) {
+    return UncertaintyStatus::none(
+        "the value is of a cloud of several poses: what the fixture leaves in it is told beside "
+        "it, "
+        "the interval does not hold that yet");
+  }
   if (asked.reference != record::Reference::kMinimumZone) {
     return UncertaintyStatus::none("intervals are computed of minimum zones only");
   }

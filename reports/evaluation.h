@@ -22,6 +22,7 @@
 #include "record/run_record.h"
 #include "reports/analysis.h"
 #include "reports/decision.h"
+#include "reports/merged_poses.h"
 #include "reports/stated_value.h"
 #include "reports/thermal.h"
 #include "reports/verdict.h"
@@ -33,9 +34,11 @@ struct CloudPoint {
   int layer = 0;
   int point = 0;
   int repeats = 1;
-  Eigen::Vector3d tip_mm = Eigen::Vector3d::Zero();  ///< Mean tip centre, machine frame.
-  double angle_rad = 0.0;                            ///< About the minimum-zone axis, in [0, 2 pi).
-  double height_mm = 0.0;                            ///< Along that axis, from the mean point.
+  int pose = 0;  ///< Of a cloud that several poses make: in which of them.
+  /// Mean tip centre, machine frame; of a cloud that several poses make: body frame.
+  Eigen::Vector3d tip_mm = Eigen::Vector3d::Zero();
+  double angle_rad = 0.0;     ///< About the minimum-zone axis, in [0, 2 pi).
+  double height_mm = 0.0;     ///< Along that axis, from the mean point.
   double deviation_mm = 0.0;  ///< Distance from the axis minus the mean of the two zone radii.
   bool outer_contact = false;
   bool inner_contact = false;
@@ -108,7 +111,8 @@ struct FeatureResult {
   std::optional<double> repeat_sigma_mm;     ///< Pooled standard deviation of a single touch.
   std::optional<double> repeat_zone_mean_mm;  ///< Mean of the zones of the single repeats.
   std::optional<double> repeat_zone_sd_mm;
-  std::optional<Temperatures> temperatures;  ///< Of the final cloud; none for points of a file.
+  std::optional<Temperatures> temperatures;   ///< Of the final cloud; none for points of a file.
+  std::shared_ptr<const MergedPoses> merged;  ///< Of the strategy "merged".
   std::shared_ptr<const AnalysisResult> analysis;  ///< Of a feature whose data are series.
   std::optional<ThermalCorrection> thermal;        ///< All above is at 20 degC; none: as measured.
   std::vector<CharacteristicResult> characteristics;

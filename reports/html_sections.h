@@ -26,6 +26,8 @@ namespace rondure::reports {
 [[nodiscard]] std::string decisions_section(const record::RunRecord& record);
 [[nodiscard]] std::string provenance_section(const record::RunRecord& record);
 
+/// How the clouds of several poses became one, and what the fixture adds.
+[[nodiscard]] std::string merged_section(const MergedPoses& merged);
 /// Why a feature has no result, and its warnings.
 [[nodiscard]] std::string messages(const FeatureResult& feature);
 /// A value with small print below it.
