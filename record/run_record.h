@@ -34,7 +34,16 @@ enum class Form {
   kContourSpread,       ///< Standard deviation of the parts about their mean contour.
 };
 enum class Reference { kLeastSquares, kMinimumZone, kMinimumCircumscribed, kMaximumInscribed };
-enum class Strategy { kGuided, kRefined, kAsPublished, kVirtual, kPointsFile, kSeries };
+/// kMerged: no search, one cloud out of several poses.
+enum class Strategy {
+  kGuided,
+  kRefined,
+  kAsPublished,
+  kVirtual,
+  kPointsFile,
+  kSeries,
+  kMerged,
+};
 
 /// Whether the data of a shape are series.
 [[nodiscard]] bool is_analysis(Shape shape);

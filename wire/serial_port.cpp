@@ -171,6 +171,8 @@ class SerialPort final : public ByteStream {
   core::Error failure_;
 };
 
+}  // namespace
+
 std::string why_not_opened(const std::filesystem::path& device, int error) {
   const std::string name = device.string();
   if (error == EACCES || error == EPERM) {
@@ -190,8 +192,6 @@ std::string why_not_opened(const std::filesystem::path& device, int error) {
   }
   return fmt::format("{} cannot be opened: {}", name, std::strerror(error));
 }
-
-}  // namespace
 
 core::Result<std::unique_ptr<ByteStream>> open_serial(const std::filesystem::path& device,
                                                       const SerialSettings& settings) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "wire/byte_stream.h"
 #include "wire/serial_settings.h"
@@ -14,5 +15,9 @@ namespace rondure::wire {
 ///          group to join is named), is in use (by whom), or does not know the settings.
 [[nodiscard]] core::Result<std::unique_ptr<ByteStream>> open_serial(
     const std::filesystem::path& device, const SerialSettings& settings = {});
+
+/// Why the system refuses to open a serial device, with what to do.
+/// @param error  As errno says it.
+[[nodiscard]] std::string why_not_opened(const std::filesystem::path& device, int error);
 
 }  // namespace rondure::wire

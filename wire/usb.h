@@ -50,6 +50,8 @@ struct UsbDeviceInfo {
   std::string product_name;         ///< The same.
   std::string serial;               ///< The same.
   std::optional<UsbFault> refused;  ///< Why it cannot be opened, with what to do; none: it can.
+  std::string kernel_driver;        ///< Bound to it; claim() detaches it. "": none. Of lists only.
+  std::string held_by;  ///< Programs that have it open, device_holders(). Of lists only.
 
   /// E.g. "2939:49c2 at bus 1, address 2".
   [[nodiscard]] std::string place() const;

@@ -125,14 +125,20 @@ UsbFault fault_of(int libusb_code, const UsbDeviceInfo& info, const std::string&
   }
 }
 
-std::string holder_of(libusb_device& device, const UsbDeviceInfo& info, int interface) {
-  namespace fs = std::filesystem;
+std::string kernel_driver_of(libusb_device& device, int interface) {
   std::error_code none;
-  const fs::path place =
+  const std::filesystem::path place =
       fmt::format("/sys/bus/usb/devices/{0}:1.{1}/driver", port_path(device), interface);
-  const std::string driver = fs::read_symlink(place, none).filename().string();
-  if (!driver.empty() && driver != "usbfs") return fmt::format("the kernel driver {}", driver);
-  const std::string programs = device_holders(device_file(info));
+  std::string driver = std::filesystem::read_symlink(place, none).filename().string();
+  return driver == "usbfs" ? std::string() : driver;
+}
+
+std::string programs_with(const UsbDeviceInfo& info) { return device_holders(device_file(info)); }
+
+std::string holder_of(libusb_device& device, const UsbDeviceInfo& info, int interface) {
+  const std::string driver = kernel_driver_of(device, interface);
+  if (!driver.empty()) return fmt::format("the kernel driver {}", driver);
+  const std::string programs = programs_with(info);
   return programs.empty() ? "another program" : programs;
 }
 

@@ -43,6 +43,10 @@ void ask_strings(libusb_device_handle& handle, UsbDeviceInfo& info);
 [[nodiscard]] UsbFault fault_of(int libusb_code, const UsbDeviceInfo& info,
                                 const std::string& doing);
 
+/// The kernel driver of an interface; "" when there is none, or this library itself.
+[[nodiscard]] std::string kernel_driver_of(libusb_device& device, int interface);
+/// The programs that have a device open, as device_holders() tells them.
+[[nodiscard]] std::string programs_with(const UsbDeviceInfo& info);
 /// Who has an interface of a device: a kernel driver, or a program.
 [[nodiscard]] std::string holder_of(libusb_device& device, const UsbDeviceInfo& info,
                                     int interface);
