@@ -47,7 +47,7 @@ core::Result<SurfacePoint> place_on(const Asphere& form, double x) {
   return out;
 }
 
-core::Result<SurfacePoint> place_on(const OpenSpline& form, double x) {
+core::Result<SurfacePoint> place_on(const core::OpenSpline& form, double x) {
   const double low = form.x().front();
   const double high = form.x().back();
   if (x < low - kEndSlack || x > high + kEndSlack) {
@@ -56,11 +56,11 @@ core::Result<SurfacePoint> place_on(const OpenSpline& form, double x) {
                                   "{:.6g} mm",
                                   x, low, high));
   }
-  const OpenSpline::Place place = form(x);
+  const core::OpenSpline::Place place = form(x);
   return SurfacePoint{place.value, place.slope, place.second};
 }
 
-core::Result<OpenSpline> spline_of(std::vector<double> x_mm, std::vector<double> z_mm) {
+core::Result<core::OpenSpline> spline_of(std::vector<double> x_mm, std::vector<double> z_mm) {
   if (x_mm.size() < kLeastRows || z_mm.size() != x_mm.size()) {
     return core::fail(core::Code::kTable,
                       fmt::format("a surface table needs at least {} rows of x and z, there are "
@@ -79,7 +79,7 @@ core::Result<OpenSpline> spline_of(std::vector<double> x_mm, std::vector<double>
                                   "after {:.6g} mm",
                                   i, x_mm[i], x_mm[i - 1]));
   }
-  return OpenSpline(std::move(x_mm), std::move(z_mm));
+  return core::OpenSpline(std::move(x_mm), std::move(z_mm));
 }
 
 bool all_finite(const std::vector<double>& values) {
@@ -150,10 +150,10 @@ core::Result<SurfacePoint> WheelSurface::at(double x_mm) const {
 
 std::vector<double> WheelSurface::rows_mm() const {
   std::vector<double> out;
-  const auto add = [&](const OpenSpline& spline) {
+  const auto add = [&](const core::OpenSpline& spline) {
     out.insert(out.end(), spline.x().begin(), spline.x().end());
   };
-  if (const auto* spline = std::get_if<OpenSpline>(&form_)) add(*spline);
+  if (const auto* spline = std::get_if<core::OpenSpline>(&form_)) add(*spline);
   if (removal_) add(*removal_);
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
@@ -162,12 +162,12 @@ std::vector<double> WheelSurface::rows_mm() const {
 
 std::optional<std::pair<double, double>> WheelSurface::range_mm() const {
   std::optional<std::pair<double, double>> out;
-  const auto narrow = [&](const OpenSpline& spline) {
+  const auto narrow = [&](const core::OpenSpline& spline) {
     if (!out) out = {spline.x().front(), spline.x().back()};
     out->first = std::max(out->first, spline.x().front());
     out->second = std::min(out->second, spline.x().back());
   };
-  if (const auto* spline = std::get_if<OpenSpline>(&form_)) narrow(*spline);
+  if (const auto* spline = std::get_if<core::OpenSpline>(&form_)) narrow(*spline);
   if (removal_) narrow(*removal_);
   return out;
 }

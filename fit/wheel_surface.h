@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/open_spline.h"
 #include "core/result.h"
-#include "fit/open_spline.h"
 
 namespace rondure::fit {
 
@@ -60,11 +60,11 @@ class WheelSurface {
   [[nodiscard]] std::optional<std::pair<double, double>> range_mm() const;
 
  private:
-  using Form = std::variant<Polynomial, Asphere, OpenSpline>;
+  using Form = std::variant<Polynomial, Asphere, core::OpenSpline>;
   explicit WheelSurface(Form form) : form_(std::move(form)) {}
 
   Form form_;
-  std::optional<OpenSpline> removal_;
+  std::optional<core::OpenSpline> removal_;
 };
 
 }  // namespace rondure::fit

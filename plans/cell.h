@@ -67,6 +67,10 @@ class Cell {
   [[nodiscard]] virtual std::optional<Eigen::Vector3d> true_tip_W_mm() const = 0;
   /// The same for all points of the last scan; empty where the world is real.
   [[nodiscard]] virtual std::vector<Eigen::Vector3d> true_scan_W_mm() const { return {}; }
+  /// Where the body frame really is, where the world is simulated in this program.
+  [[nodiscard]] virtual std::optional<Eigen::Isometry3d> true_body_to_machine() const {
+    return std::nullopt;
+  }
 
  protected:
   /// @param plan  Has `fixture`.

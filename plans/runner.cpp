@@ -25,6 +25,8 @@ std::size_t expected_touches(const FeaturePlan& feature, std::size_t targets) {
   switch (strategy_of(feature)) {
     case record::Strategy::kGuided:
       return targets * (feature.type == "circle" ? repeats : 2 + repeats);
+    case record::Strategy::kMerged:
+      return targets * repeats * feature.pose_search.poses.size();
     case record::Strategy::kVirtual:
       return targets * repeats;
     case record::Strategy::kAsPublished:
@@ -251,7 +253,8 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
     if (analysis_kind(plan.features[i].type) == nullptr)
       features.back().settings = settings_of(plan, plan.features[i]);
   }
-  auto journal = record::Journal::create(options.directory, header, artefact_of(plan), features);
+  auto journal = record::Journal::create(options.directory, header, artefact_of(plan), features,
+                                         settings_of(plan));
   if (!journal) return core::fail(journal.error());
   Run run{std::move(*journal), std::nullopt};
   execute(plan, options, *known, cell.get(), {}, run);

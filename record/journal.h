@@ -25,9 +25,11 @@ class Journal {
  public:
   /// Makes `directory` and the journal in it. The directory may exist when it is empty; otherwise
   /// kFile, also when another process is at work there. Nothing is left behind when this fails.
+  /// @param settings  Of the whole run.
   [[nodiscard]] static core::Result<Journal> create(const std::filesystem::path& directory,
                                                     const Header& header, const Artefact& artefact,
-                                                    std::span<const Feature> features);
+                                                    std::span<const Feature> features,
+                                                    std::span<const Setting> settings = {});
 
   /// Opens the journal of a run that was interrupted, stopped or failed, to go on behind its last
   /// row; the chain goes on behind its last link. What ended the run before is taken out of the

@@ -27,7 +27,8 @@ std::string why_not_to_go_on(const ReadJournal& journal) {
 }  // namespace
 
 core::Result<Journal> Journal::create(const fs::path& directory, const Header& header,
-                                      const Artefact& artefact, std::span<const Feature> features) {
+                                      const Artefact& artefact, std::span<const Feature> features,
+                                      std::span<const Setting> settings) {
   fs::path folder = fs::absolute(directory);
   if (!folder.has_filename()) folder = folder.parent_path();  // "runs/1/" is "runs/1"
   const fs::path file = folder / kJournalName;
@@ -42,7 +43,7 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
   try {
     impl = std::make_unique<Impl>(std::move(*lock), file, *connection);
     keep_log(impl->sql);
-    insert_head(impl->sql, header, artefact, features);
+    insert_head(impl->sql, header, artefact, features, settings);
     fold_log(impl->sql);
     impl->prepare();
   } catch (const std::exception& exception) {

@@ -162,9 +162,10 @@ void read_features(soci::session& sql, RunRecord& record) {
         named("feature.shape", shape,
               {Shape::kCylinder, Shape::kCircle, Shape::kSpindle, Shape::kWheel, Shape::kContour});
     row.side = named("feature.side", side, {Side::kOutside, Side::kInside});
-    row.strategy = named("feature.strategy", strategy,
-                         {Strategy::kGuided, Strategy::kRefined, Strategy::kAsPublished,
-                          Strategy::kVirtual, Strategy::kPointsFile, Strategy::kSeries});
+    row.strategy =
+        named("feature.strategy", strategy,
+              {Strategy::kGuided, Strategy::kRefined, Strategy::kAsPublished, Strategy::kVirtual,
+               Strategy::kPointsFile, Strategy::kSeries, Strategy::kMerged});
     row.tip_radius_mm = tip_given == soci::i_ok ? std::optional(tip_radius_mm) : std::nullopt;
     record.features.push_back(row);
   }

@@ -107,7 +107,7 @@ Statements::Statements(soci::session& sql)
           (sql.prepare << "update pose set final_cloud = 1 where id = :id", use(marked_pose))) {}
 
 void insert_head(soci::session& sql, const Header& header, const Artefact& artefact,
-                 std::span<const Feature> features) {
+                 std::span<const Feature> features, std::span<const Setting> settings) {
   soci::transaction transaction(sql);
   make_tables(sql);
   insert_header(sql, header);
@@ -115,6 +115,7 @@ void insert_head(soci::session& sql, const Header& header, const Artefact& artef
   for (std::size_t i = 0; i < features.size(); ++i) {
     insert_feature(sql, static_cast<int>(i), features[i]);
   }
+  insert_settings(sql, kWholeRun, settings);
   Chain chain(sql);
   for (const Table& table : chained_tables()) chain.append_all(table.name);
   transaction.commit();

@@ -34,7 +34,7 @@ struct Statements {
 /// Makes the tables, fills those that are known before the first touch and links their rows, in one
 /// transaction.
 void insert_head(soci::session& sql, const Header& header, const Artefact& artefact,
-                 std::span<const Feature> features);
+                 std::span<const Feature> features, std::span<const Setting> settings);
 
 void insert_results(soci::session& sql, std::span<const StoredResult> results);
 

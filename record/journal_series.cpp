@@ -13,14 +13,13 @@
 #include "record/canonical.h"
 #include "record/csv_lines.h"
 #include "record/journal_reader.h"
+#include "record/journal_schema.h"
 
 namespace rondure::record {
 namespace {
 
 using soci::into;
 using soci::use;
-
-constexpr std::int64_t kFirstVersion = 3;
 
 /// A line a row, numbers in the shortest form that reads back to the same bits.
 std::string block_text(std::span<const double> values, std::size_t columns) {
@@ -90,7 +89,7 @@ Feature& feature_at(RunRecord& record, int feature, std::string_view table) {
   return record.features[static_cast<std::size_t>(feature)];
 }
 
-void read_settings(soci::session& sql, RunRecord& record) {
+void read_settings(soci::session& sql, RunRecord& record, std::int64_t version) {
   int feature = 0;
   Setting row;
   double number = 0.0;
@@ -101,7 +100,8 @@ void read_settings(soci::session& sql, RunRecord& record) {
   rows.execute();
   while (rows.fetch()) {
     row.number = given == soci::i_ok ? std::optional(number) : std::nullopt;
-    feature_at(record, feature, "setting").settings.push_back(row);
+    const bool whole_run = feature == kWholeRun && version >= kFirstRunSettingVersion;
+    (whole_run ? record.settings : feature_at(record, feature, "setting").settings).push_back(row);
   }
 }
 
@@ -284,8 +284,8 @@ void insert_series(soci::session& sql, Chain& chain, std::span<const Series> ser
 }
 
 void read_series_tables(soci::session& sql, RunRecord& record, std::int64_t version) {
-  if (version < kFirstVersion) return;
-  read_settings(sql, record);
+  if (version < kFirstSettingVersion) return;
+  read_settings(sql, record, version);
   read_harmonic_limits(sql, record);
   read_series(sql, record);
   read_truth_values(sql, record);

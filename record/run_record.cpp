@@ -84,6 +84,8 @@ std::string_view name_of(Strategy strategy) {
       return "refined";
     case Strategy::kAsPublished:
       return "as-published";
+    case Strategy::kMerged:
+      return "merged";
     case Strategy::kVirtual:
       return "virtual";
     case Strategy::kPointsFile:
@@ -112,26 +114,38 @@ std::string_view name_of(Series::Role role) {
   return role == Series::Role::kTruth ? "truth" : "data";
 }
 
-std::optional<double> Feature::number(std::string_view name) const {
+std::optional<double> number_in(std::span<const Setting> settings, std::string_view name) {
   for (const Setting& setting : settings) {
     if (setting.name == name && setting.number) return setting.number;
   }
   return std::nullopt;
 }
 
-std::optional<std::string> Feature::word(std::string_view name) const {
+std::optional<std::string> word_in(std::span<const Setting> settings, std::string_view name) {
   for (const Setting& setting : settings) {
     if (setting.name == name && !setting.number) return setting.text;
   }
   return std::nullopt;
 }
 
-std::vector<double> Feature::numbers(std::string_view name) const {
+std::vector<double> numbers_in(std::span<const Setting> settings, std::string_view name) {
   std::vector<double> out;
   for (const Setting& setting : settings) {
     if (setting.name == name && setting.number) out.push_back(*setting.number);
   }
   return out;
+}
+
+std::optional<double> Feature::number(std::string_view name) const {
+  return number_in(settings, name);
+}
+
+std::optional<std::string> Feature::word(std::string_view name) const {
+  return word_in(settings, name);
+}
+
+std::vector<double> Feature::numbers(std::string_view name) const {
+  return numbers_in(settings, name);
 }
 
 std::optional<std::vector<double>> Series::column(std::string_view wanted) const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,7 +34,16 @@ enum class Form {
   kContourSpread,       ///< Standard deviation of the parts about their mean contour.
 };
 enum class Reference { kLeastSquares, kMinimumZone, kMinimumCircumscribed, kMaximumInscribed };
-enum class Strategy { kGuided, kRefined, kAsPublished, kVirtual, kPointsFile, kSeries };
+/// kMerged: no search, one cloud out of several poses.
+enum class Strategy {
+  kGuided,
+  kRefined,
+  kAsPublished,
+  kVirtual,
+  kPointsFile,
+  kSeries,
+  kMerged,
+};
 
 /// Whether the data of a shape are series.
 [[nodiscard]] bool is_analysis(Shape shape);
@@ -62,12 +72,22 @@ struct Characteristic {
   std::vector<HarmonicLimit> harmonic_limits = {};  ///< Of kHarmonicLimits; never empty there.
 };
 
-/// One setting of an analysis, by its key in the plan ("phi2_deg"): a number or a word.
+/// One setting of a feature or of the whole run, by its key in the plan ("phi2_deg"): a number or a
+/// text, e.g. a word.
 struct Setting {
   std::string name;
   std::optional<double> number;
   std::string text;  ///< Only looked at without a number.
 };
+
+/// The first number, or text, of that name, or nothing.
+[[nodiscard]] std::optional<double> number_in(std::span<const Setting> settings,
+                                              std::string_view name);
+[[nodiscard]] std::optional<std::string> word_in(std::span<const Setting> settings,
+                                                 std::string_view name);
+/// All numbers of that name, in order.
+[[nodiscard]] std::vector<double> numbers_in(std::span<const Setting> settings,
+                                             std::string_view name);
 
 /// One feature and how its points are obtained.
 struct Feature {
@@ -83,12 +103,11 @@ struct Feature {
   std::string points_sha256;  ///< Of that file's bytes; of several, of lines "sha256 name".
   std::optional<double> tip_radius_mm;  ///< Of the probe behind a points file, if stated.
   std::vector<Characteristic> characteristics;
-  std::vector<Setting> settings;  ///< Of an analysis; a list has its key once for each item.
+  std::vector<Setting> settings;  ///< A list has its key once for each item.
 
-  /// The first number or word of that name, or nothing.
+  /// As number_in(), word_in() and numbers_in() of the settings.
   [[nodiscard]] std::optional<double> number(std::string_view name) const;
   [[nodiscard]] std::optional<std::string> word(std::string_view name) const;
-  /// All numbers of that name, in order.
   [[nodiscard]] std::vector<double> numbers(std::string_view name) const;
 };
 
@@ -217,6 +236,7 @@ struct RunRecord {
   std::string ending;                  ///< "finished", "stopped", "failed: ..."; "" while it runs.
   std::optional<core::Error> failure;  ///< Why a run did not finish.
   Artefact artefact;                   ///< Only meaningful when there are qualification touches.
+  std::vector<Setting> settings;       ///< Of the whole run; known before its first touch.
   std::vector<Feature> features;
   std::vector<PoseVisit> poses;
   std::vector<Touch> touches;  ///< By id, without checks.

@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 Outcome run_into(const fs::path& place, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words = {"run", example("03_axle_points_file.json"), "--out", place};
+  std::vector<std::string> words = {"run", example("09_axle_points_file.json"), "--out", place};
   words.insert(words.end(), more.begin(), more.end());
   return rondure(words);
 }

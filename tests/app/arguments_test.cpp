@@ -65,10 +65,11 @@ TEST(Arguments, WhatIsNotUnderstoodIsNamed) {
 TEST(Arguments, ThePlanMayFollowTheFormats) {
   const TemporaryFolder folder;
   const Outcome outcome = rondure({"run", "--out", folder / "run", "--format", "html,csv",
-                                   example("03_axle_points_file.json")});
+                                   example("09_axle_points_file.json")});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(names_in(folder / "run"),
-              ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.html", "touches.csv"));
+              ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.html", "results.csv",
+                                     "touches.csv"));
 }
 
 TEST(Arguments, WhatIsNoPlanIsRefusedInOneSentence) {

@@ -61,7 +61,8 @@ TEST(Examples, RunConformVerifyAndWriteTheirReports) {
     const std::string verdict = report.at("verdict");
     EXPECT_EQ(ran.status, verdict == "conforms" || verdict == "not toleranced" ? 0 : 1) << ran.err;
     EXPECT_THAT(ran.err, IsEmpty());
-    std::vector<std::string> files = {"SHA256SUMS", "journal.db", "report.html", "report.json"};
+    std::vector<std::string> files = {"SHA256SUMS", "journal.db", "report.html", "report.json",
+                                      "results.csv"};
     if (is_analysis(json::parse(read(plan)))) files.emplace_back("series.csv");
     files.emplace_back("touches.csv");
     EXPECT_THAT(names_in(folder / "run"), ::testing::ElementsAreArray(files));

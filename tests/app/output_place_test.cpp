@@ -139,10 +139,10 @@ TEST(StandardOutput, ThatTakesNothingIsNotSilent) {
   const TemporaryFolder folder;
   const fs::path points = source_dir() / "tests/data/axle_mzc_3/points.csv";
   const std::vector<std::vector<std::string>> commands = {
-      {"run", example("03_axle_points_file.json"), "--out", folder / "run"},
+      {"run", example("09_axle_points_file.json"), "--out", folder / "run"},
       {"verify", folder / "run"},
       {"report", folder / "run"},
-      {"validate", example("03_axle_points_file.json")},
+      {"validate", example("09_axle_points_file.json")},
       {"fit", "circle", points, "--json"},
       {"--help"},
       {"--version"}};
@@ -165,7 +165,7 @@ TEST(StandardOutput, ClosedIsNoErrorWhenNothingIsPrinted) {
   Surroundings closed;
   closed.standard_output = "closed";
   const Outcome outcome = rondure(
-      {"run", example("03_axle_points_file.json"), "--out", folder / "run", "--quiet"}, closed);
+      {"run", example("09_axle_points_file.json"), "--out", folder / "run", "--quiet"}, closed);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(rondure({"verify", folder / "run"}).status, 0);
 }

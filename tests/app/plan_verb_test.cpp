@@ -70,7 +70,7 @@ TEST(PlanVerb, NamesWhatIsOutOfReachAndMovesNothing) {
 }
 
 TEST(PlanVerb, HasNothingToMoveForPointsFiles) {
-  const Outcome told = rondure({"plan", example("03_axle_points_file.json")});
+  const Outcome told = rondure({"plan", example("09_axle_points_file.json")});
   EXPECT_EQ(told.status, 0) << told.err;
   EXPECT_THAT(told.out, HasSubstr("nothing would move"));
 }

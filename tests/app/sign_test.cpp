@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 class SignedRun : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(rondure({"run", example("03_axle_points_file.json"), "--out", run_, "--quiet",
+    ASSERT_EQ(rondure({"run", example("09_axle_points_file.json"), "--out", run_, "--quiet",
                        "--format", "json,csv"})
                   .status,
               0);
@@ -69,7 +69,7 @@ TEST_F(SignedRun, IsCheckedByTheOpensslCommandToo) {
 TEST_F(SignedRun, AForgerWhoMakesTheWholeRunAgainIsFound) {
   const std::string signature = read(run_ / "SHA256SUMS.sig");
   fs::remove_all(run_);
-  ASSERT_EQ(rondure({"run", example("03_axle_points_file.json"), "--out", run_, "--quiet",
+  ASSERT_EQ(rondure({"run", example("09_axle_points_file.json"), "--out", run_, "--quiet",
                      "--serial", "another part", "--format", "json,csv"})
                 .status,
             0);

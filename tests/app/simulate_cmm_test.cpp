@@ -93,7 +93,7 @@ TEST(SimulateCmm, RefusesAPortInUseAPlanWithoutASimulationAndAStandstill) {
   EXPECT_EQ(in_use.status, 2);
   EXPECT_THAT(in_use.err, HasSubstr(port));
   const Outcome no_simulation =
-      rondure({"simulate-cmm", RONDURE_SOURCE_DIR "/plans/examples/03_axle_points_file.json",
+      rondure({"simulate-cmm", RONDURE_SOURCE_DIR "/plans/examples/09_axle_points_file.json",
                "--port", "0"});
   EXPECT_EQ(no_simulation.status, 2);
   EXPECT_THAT(no_simulation.err, HasSubstr("no virtual machine to serve"));

@@ -150,7 +150,7 @@ TEST(Forecast, HasAStageForEachCloudAndMarksTheFinalOne) {
 }
 
 TEST(Forecast, OfPointsFromAFileIsEmpty) {
-  const auto forecast = plans::forecast(plan_of("03_axle_points_file.json"));
+  const auto forecast = plans::forecast(plan_of("09_axle_points_file.json"));
   ASSERT_TRUE(forecast);
   EXPECT_TRUE(forecast->stages.empty());
   EXPECT_EQ(forecast->time_s, 0.0);

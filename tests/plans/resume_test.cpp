@@ -413,8 +413,8 @@ TEST(ResumeRefuses, AnotherVersionOfTheProgram) {
 
 TEST(ResumeRefuses, AnotherPointsFile) {
   const record::Scratch scratch;
-  fs::copy_file(testing::example("03_axle_points_file.json"), scratch / "plan.json");
-  const auto original = read_plan(testing::example("03_axle_points_file.json"));
+  fs::copy_file(testing::example("09_axle_points_file.json"), scratch / "plan.json");
+  const auto original = read_plan(testing::example("09_axle_points_file.json"));
   ASSERT_TRUE(original);
   const std::string name = original->features.front().source->file;
   fs::path points = fs::path(scratch.path()) / "plans" / "examples" / name;

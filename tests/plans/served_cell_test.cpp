@@ -214,7 +214,7 @@ TEST(ServedCell, TurnsWithinTheLimitsOfTheFixtureOnly) {
 }
 
 TEST(ServedCell, APlanWithoutASimulationCannotBeServed) {
-  const auto plan = read_plan(testing::example("03_axle_points_file.json"));
+  const auto plan = read_plan(testing::example("09_axle_points_file.json"));
   ASSERT_TRUE(plan.has_value());
   EXPECT_EQ(check_servable(*plan).error().code, core::Code::kMeaning);
   EXPECT_TRUE(check_servable(spool()));

@@ -30,7 +30,8 @@ class InterruptedRun : public ::testing::Test {
     run.ending.clear();
     run.failure.reset();
     run.results.clear();
-    auto journal = Journal::create(scratch / "first", run.header, run.artefact, run.features);
+    auto journal =
+        Journal::create(scratch / "first", run.header, run.artefact, run.features, run.settings);
     ASSERT_TRUE(journal);
     for (PoseVisit& pose : run.poses) {
       pose.final_cloud = pose.id == 2;
@@ -96,7 +97,7 @@ TEST_F(InterruptedRun, IsWhole) {
   const auto read = read_journal(scratch / "run");
   ASSERT_TRUE(read) << read.error().what;
   EXPECT_THAT(read->broken, IsEmpty());
-  EXPECT_EQ(read->version, 3);
+  EXPECT_EQ(read->version, 4);
   EXPECT_EQ(every_bit(read->record), every_bit(run));
 }
 
@@ -249,13 +250,13 @@ TEST_F(InterruptedRun, DoesNotGoOnWhenItWasChangedOrSealedOrIsHeldOpen) {
   meddle(other / "changed/journal.db", "delete from touch where id = 3");
   EXPECT_THAT(refusal(other / "changed"), HasSubstr("touch 3 was removed after it was written"));
   EXPECT_THAT(refusal(other / "absent"), HasSubstr("there is no journal.db"));
-  for (const std::string version : {"1", "2"}) {
+  for (const std::string version : {"1", "2", "3"}) {
     const fs::path old = other / ("old " + version);
     fs::create_directory(old);
     fs::copy_file(fs::path(RONDURE_SOURCE_DIR) / ("tests/data/journal_v" + version) / "journal.db",
                   old / "journal.db");
     meddle(old / "journal.db", "delete from seal");
-    EXPECT_THAT(refusal(old), HasSubstr("version " + version + ", a run goes on in version 3"));
+    EXPECT_THAT(refusal(old), HasSubstr("version " + version + ", a run goes on in version 4"));
   }
 
   const auto first = Journal::reopen(scratch / "run");
@@ -311,7 +312,8 @@ TEST(Chain, IsTheOneThatTheDocumentDescribes) {
   ASSERT_TRUE(write_run(scratch / "run", sample_run(9)));
   const fs::path file = scratch / "run/journal.db";
   EXPECT_EQ(checked_by_the_document(file), 0);
-  for (const char* stored : {"tests/data/journal_v1", "tests/data/journal_v2"}) {
+  for (const char* stored :
+       {"tests/data/journal_v1", "tests/data/journal_v2", "tests/data/journal_v3"}) {
     EXPECT_EQ(checked_by_the_document(fs::path(RONDURE_SOURCE_DIR) / stored / "journal.db"), 0);
   }
   const std::string bytes = *read_file(file);

@@ -119,5 +119,46 @@ TEST(JournalSeries, AreAbsentInVersion2WhichIsStillReadAndChecked) {
   EXPECT_THAT(changed->broken[0].what, HasSubstr("touch 3 was changed after it was written"));
 }
 
+TEST(JournalSettings, OfTheWholeRunStandBesideThoseOfItsFeatures) {
+  const Scratch scratch;
+  RunRecord run;
+  run.features.resize(2);
+  run.features[1].settings = {{"trials", 7.0, ""}};
+  run.settings = {{"trials", 400.0, ""}, {"rule", std::nullopt, "jcgm-106"}, {"trials", 2.0, ""}};
+  run.ending = "finished";
+  ASSERT_TRUE(write_run(scratch / "run", run));
+  const auto read = read_journal(scratch / "run");
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(numbers_in(read->record.settings, "trials"), (std::vector<double>{400.0, 2.0}));
+  EXPECT_EQ(number_in(read->record.settings, "trials"), 400.0);
+  EXPECT_EQ(word_in(read->record.settings, "rule"), "jcgm-106");
+  EXPECT_EQ(number_in(read->record.settings, "rule"), std::nullopt);
+  EXPECT_THAT(read->record.features[0].settings, IsEmpty());
+  EXPECT_EQ(read->record.features[1].number("trials"), 7.0);
+  meddle(scratch / "run/journal.db", "update setting set number = 4000 where feature = -1");
+  const auto changed = read_journal(scratch / "run");
+  ASSERT_TRUE(changed);
+  ASSERT_EQ(changed->broken.size(), 1U);
+  EXPECT_THAT(changed->broken[0].what, HasSubstr("was changed after it was written"));
+}
+
+TEST(JournalSettings, OfTheWholeRunAreAbsentInVersion3WhichIsStillReadAndChecked) {
+  const fs::path stored = fs::path(RONDURE_SOURCE_DIR) / "tests/data/journal_v3";
+  const auto read = read_journal(stored);
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(read->version, 3);
+  EXPECT_TRUE(read->record.sealed);
+  EXPECT_THAT(read->broken, IsEmpty());
+  EXPECT_THAT(read->record.settings, IsEmpty());
+  ASSERT_EQ(read->record.features.size(), 1U);
+  EXPECT_EQ(read->record.features[0].settings.size(), 22U);
+  const Scratch scratch;
+  fs::copy_file(stored / "journal.db", scratch / "journal.db");
+  meddle(scratch / "journal.db", "update setting set feature = -1 where id = 3");
+  const auto changed = read_journal(scratch.path());
+  ASSERT_FALSE(changed);
+  EXPECT_THAT(changed.error().what, HasSubstr("table setting names feature -1"));
+}
+
 }  // namespace
 }  // namespace rondure::record

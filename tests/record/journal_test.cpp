@@ -23,7 +23,7 @@ using ::testing::IsEmpty;
 /// A journal with nothing but a head.
 Journal open_journal(const fs::path& directory) {
   const RunRecord run = sample_run(1);
-  auto journal = Journal::create(directory, run.header, run.artefact, run.features);
+  auto journal = Journal::create(directory, run.header, run.artefact, run.features, run.settings);
   EXPECT_TRUE(journal) << journal.error().what;
   return *std::move(journal);
 }

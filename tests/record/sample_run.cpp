@@ -178,6 +178,13 @@ void add_head(Bits& bits, const RunRecord& r) {
        << r.artefact.form_limit_mm << r.sealed;
 }
 
+void add_settings(Bits& bits, const std::vector<Setting>& settings) {
+  bits << settings.size();
+  for (const Setting& s : settings) {
+    bits << s.name << s.number.has_value() << s.number.value_or(0.0) << s.text;
+  }
+}
+
 void add_feature(Bits& bits, const Feature& f) {
   bits << f.id << static_cast<int>(f.shape) << static_cast<int>(f.side) << f.nominal_diameter_mm
        << f.layers << f.points_per_layer << static_cast<int>(f.strategy)
@@ -190,9 +197,7 @@ void add_feature(Bits& bits, const Feature& f) {
          << c.tolerance_mm.has_value() << c.tolerance_mm.value_or(0.0) << c.drawing_zone;
     for (const HarmonicLimit& l : c.harmonic_limits) bits << l.first << l.last << l.amplitude_mm;
   }
-  for (const Setting& s : f.settings) {
-    bits << s.name << s.number.has_value() << s.number.value_or(0.0) << s.text;
-  }
+  add_settings(bits, f.settings);
 }
 
 }  // namespace
@@ -233,11 +238,16 @@ RunRecord sample_run(std::uint64_t seed, int touches) {
   if (n.whole(2) == 1) r.failure = core::Error{core::Code::kNoTouch, n.text(), n.text()};
   r.sealed = true;
   add_series(seed, r);
+  Numbers m(seed ^ 0x5e771U);
+  r.settings = {{"decision_rule/rule", std::nullopt, m.text()},
+                {"uncertainty/trials", m.real(), ""},
+                {"calibration", m.real(), m.text()}};
   return r;
 }
 
 core::Result<void> write_run(const fs::path& directory, const RunRecord& record) {
-  auto journal = Journal::create(directory, record.header, record.artefact, record.features);
+  auto journal =
+      Journal::create(directory, record.header, record.artefact, record.features, record.settings);
   if (!journal) return core::fail(journal.error());
   core::Result<void> done;
   const auto step = [&](const core::Result<void>& next) {
@@ -275,6 +285,7 @@ Touch touch_number(std::int64_t id) {
 std::string every_bit(const RunRecord& record) {
   Bits bits;
   add_head(bits, record);
+  add_settings(bits, record.settings);
   bits << record.features.size();
   for (const Feature& feature : record.features) add_feature(bits, feature);
   bits << record.poses.size();

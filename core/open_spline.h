@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace rondure::fit {
+namespace rondure::core {
 
 /// Cubic spline through points of an open curve; its third derivative runs on across the second and
 /// the last but one point (not-a-knot), so that any cubic is reproduced to round-off and the ends
@@ -28,4 +28,4 @@ class OpenSpline {
   std::vector<double> second_;  ///< Second derivatives at the points.
 };
 
-}  // namespace rondure::fit
+}  // namespace rondure::core

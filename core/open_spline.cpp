@@ -1,10 +1,10 @@
-#include "fit/open_spline.h"
+#include "core/open_spline.h"
 
 #include <algorithm>
 #include <cassert>
 #include <utility>
 
-namespace rondure::fit {
+namespace rondure::core {
 
 OpenSpline::OpenSpline(std::vector<double> x, std::vector<double> values)
     : x_(std::move(x)), values_(std::move(values)) {
@@ -55,4 +55,4 @@ OpenSpline::Place OpenSpline::operator()(double x) const {
   return out;
 }
 
-}  // namespace rondure::fit
+}  // namespace rondure::core

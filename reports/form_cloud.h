@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+#include "fit/axis.h"
+
+namespace rondure::reports {
+
+/// Which value a cloud is measured for.
+enum class FormKind {
+  kCylindricity,  ///< CYLt: minimum zone of all points.
+  kRoundness,     ///< RONt: minimum zone of one section.
+};
+
+/// A sampled point in the frame of its cylinder.
+struct FormPoint {
+  double angle_rad = 0.0;     ///< About the axis.
+  double height_mm = 0.0;     ///< Along the axis, from its point; 0 in a section.
+  double deviation_mm = 0.0;  ///< Distance from the axis minus the radius; 0 where nothing was
+                              ///< measured yet.
+  int repeats = 1;            ///< Touches that the point is the mean of, >= 1.
+  int pose = 0;               ///< Fixture pose it was touched in.
+  double time_1 = 0.0;        ///< When, from 0 (first touch) to 1 (last touch).
+};
+
+/// Points of a cylinder or a section with what the engine of the uncertainty needs to know of
+/// them: measured (form_cloud()) or nominal (before the first touch).
+struct FormCloud {
+  FormKind kind = FormKind::kCylindricity;
+  fit::Axis axis;          ///< Machine frame; angles count from the first vector of fit::across().
+  double radius_mm = 0.0;  ///< Of the tip centres, > 0.
+  bool outside = true;     ///< A shaft, touched towards the axis; else a bore.
+  std::vector<FormPoint> points;
+};
+
+/// The cloud of measured points about their least-squares axis, in the order they were touched:
+/// even times, one pose, one touch each (correct them afterwards where that is not so).
+///
+/// @param points_mm       Tip centres, machine frame. Of a section: the plane through them.
+/// @param near_direction  Of the axis; for a section its normal (z if absent).
+/// @return  The errors of fit::ls_cylinder(), fit::ls_circle().
+[[nodiscard]] core::Result<FormCloud> form_cloud(
+    FormKind kind, std::span<const Eigen::Vector3d> points_mm,
+    const std::optional<Eigen::Vector3d>& near_direction = std::nullopt);
+
+/// The unit vector from the axis to a point, machine frame.
+[[nodiscard]] Eigen::Vector3d outward_normal(const FormCloud& cloud, const FormPoint& point);
+
+/// Where the tip centre is, machine frame [mm].
+[[nodiscard]] Eigen::Vector3d position_mm(const FormCloud& cloud, const FormPoint& point);
+
+/// What a shift, a tilt (cylinder only) and a change of radius do to the deviations, to first
+/// order: n x 5 or n x 3, orthonormal columns (fewer where the points do not determine them).
+[[nodiscard]] Eigen::MatrixXd rigid_basis(const FormCloud& cloud);
+
+}  // namespace rondure::reports
