@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "core/open_spline.h"
 #include "core/result.h"
-#include "fit/open_spline.h"
 #include "fit/periodic_spline.h"
 #include "fit/rotary_errors.h"
 
@@ -72,7 +72,7 @@ class RotaryModel {
 
   RotaryTable table_;
   std::vector<PeriodicSpline> circle_;  ///< Through 1 at one row and 0 at the others, one a row;
-  std::vector<OpenSpline> arc_;         ///< one of the two is empty.
+  std::vector<core::OpenSpline> arc_;   ///< one of the two is empty.
   std::vector<Eigen::MatrixXd> fit_;    ///< Least squares: coefficients from values, one an error.
 };
 

@@ -86,6 +86,19 @@ struct Temperatures {
   double mean_degC = 0.0;
 };
 
+/// The calibration of the fixture that a run used.
+struct FixtureUse {
+  std::string id;
+  std::string fixture_id;
+  std::string measured_utc;
+  std::string expires_utc;
+  std::optional<double> age_days;      ///< At the start of the run.
+  double residual_rms_mm = 0.0;        ///< Left at its combined poses.
+  double residual_max_mm = 0.0;        ///< The largest of them.
+  double residual_tilt_rad = 0.0;      ///< Largest turn of a pose.
+  std::optional<core::Error> invalid;  ///< Why it does not hold; results are void then.
+};
+
 /// Everything evaluated of one feature.
 struct FeatureResult {
   record::Feature feature;
@@ -103,7 +116,7 @@ struct FeatureResult {
   std::optional<double> repeat_zone_sd_mm;
   std::optional<Temperatures> temperatures;  ///< Of the final cloud; none for points of a file.
   std::shared_ptr<const AnalysisResult> analysis;  ///< Of a feature whose data are series.
-  std::optional<ThermalCorrection> thermal;  ///< All above is at 20 degC; none: as measured.
+  std::optional<ThermalCorrection> thermal;        ///< All above is at 20 degC; none: as measured.
   std::vector<CharacteristicResult> characteristics;
   std::vector<core::Error> warnings;
   std::optional<core::Error> failure;  ///< Why there is no result.
@@ -112,6 +125,7 @@ struct FeatureResult {
 /// What a record says: a pure function of it.
 struct Evaluation {
   std::optional<fit::ProbeTip> probe;
+  std::optional<FixtureUse> fixture;  ///< None: taken as nominal.
   std::vector<FeatureResult> features;
   Verdict verdict = Verdict::kVoid;  ///< The worst of all toleranced characteristics.
 };

@@ -14,14 +14,15 @@ namespace rondure::reports {
 struct Export {
   std::string format;  ///< "html", "json", "csv".
   std::string file;    ///< Name in the run directory: report.html, report.json, touches.csv,
-                       ///< series.csv.
+                       ///< series.csv, fixture-calibration.json.
 };
 
 /// All exports, in the order in which they are written.
 [[nodiscard]] const std::vector<Export>& exports();
 [[nodiscard]] std::vector<std::string> all_formats();
 
-/// Whether a run has this export: series.csv only where series were recorded.
+/// Whether a run has this export: series.csv only where series were recorded,
+/// fixture-calibration.json only of a finished calibration of the fixture.
 [[nodiscard]] bool applies(const Export& what, const record::RunRecord& record);
 
 /// The bytes of one export.
