@@ -89,7 +89,7 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   verb->add_option("--operator", arguments.operator_name, "Who measures");
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
       ->check(check_seed);
-  add_formats(*verb, arguments.formats, "html,json,csv (default: as the plan says)");
+  add_formats(*verb, arguments.formats, "html,json,csv,qif,dmis,junit (default: as the plan says)");
   verb->add_option("--archive", arguments.archive,
                    "Where the results are kept besides: a file, postgresql://... or none\n"
                    "(default: as the plan says, else archive.db beside the run directory)");
@@ -294,7 +294,7 @@ void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
 void add_report(CLI::App& app, ReportArguments& arguments) {
   auto* verb = app.add_subcommand("report", "Writes the reports of a run again, from its journal");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
-  add_formats(*verb, arguments.formats, "html,json,csv (default: all)");
+  add_formats(*verb, arguments.formats, "html,json,csv,qif,dmis,junit (default: all)");
   verb->footer("\nExample: rondure report runs/01_spool_simulated-20261121T023302Z --format html");
 }
 
@@ -363,6 +363,16 @@ void add_history(CLI::App& app, HistoryArguments& arguments) {
       "Columns, statistics and PostgreSQL: docs/archive.md");
 }
 
+void add_devices(CLI::App& app, DevicesArguments& arguments) {
+  auto* verb =
+      app.add_subcommand("devices", "Fixtures, indicators and serial lines that are plugged in");
+  verb->add_flag("--json", arguments.json, "JSON instead of text");
+  verb->footer(
+      "\nExample: rondure devices\n"
+      "Nothing is claimed and nothing moves. Wiring, permissions: docs/fixtures.md, "
+      "docs/indicators.md");
+}
+
 /// Help and version go to standard output, everything else is a mistake in the arguments.
 int explain(const CLI::App& app, const CLI::ParseError& error,
             const std::vector<std::string>& words) {
@@ -407,6 +417,7 @@ int main_of(int argc, char** argv) {
   SelfTestArguments selftest_arguments;
   SpindleArguments spindle_arguments;
   DesignArguments design_arguments;
+  DevicesArguments devices_arguments;
   WheelArguments wheel_arguments;
   ContourArguments contour_arguments;
   ReportArguments report_arguments;
@@ -428,6 +439,7 @@ int main_of(int argc, char** argv) {
   add_history(app, history_arguments);
   add_sign(app, sign_arguments);
   add_design_probes(app, design_arguments);
+  add_devices(app, devices_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -447,6 +459,7 @@ int main_of(int argc, char** argv) {
   if (app.got_subcommand("history")) return history(history_arguments);
   if (app.got_subcommand("design-probes")) return design_probes(design_arguments);
   if (app.got_subcommand("sign")) return sign(sign_arguments);
+  if (app.got_subcommand("devices")) return devices(devices_arguments);
   return verify(verify_arguments);
 }
 

@@ -180,4 +180,9 @@ struct SelfTestArguments {
 };
 [[nodiscard]] int selftest_filters(const SelfTestArguments& arguments);
 
+struct DevicesArguments {
+  bool json = false;
+};
+[[nodiscard]] int devices(const DevicesArguments& arguments);
+
 }  // namespace rondure::app

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace rondure::cmm {
 
@@ -45,6 +47,37 @@ struct GeometricErrors {
   /// rotations of the z axis.
   Eigen::Vector3d tip_offset_mm = Eigen::Vector3d::Zero();
 };
+
+/// Where the tip really is minus where the scales say, at a reading: the 21 parametric errors of a
+/// bridge machine whose y axis carries x, which carries z, which carries the probe. Rigid bodies,
+/// small angles:
+///   e = sum over the axes k of  t_k + r_k x L_k  +  squareness,
+///   q = reading - tip offset (positions of the axes),
+///   L_z = tip offset, L_x = L_z + (0, 0, q_z), L_y = L_x + (q_x, 0, 0).
+/// With axes that are not square, x the reference:
+///   (-xy q_y - xz q_z,  -yz q_z,  0).
+/// Sources: ISO 230-1:2012 (names and signs); G. Zhang et al., "Error compensation of coordinate
+/// measuring machines", CIRP Annals 34(1), 1985; H. Schwenk et al., "Geometric error measurement
+/// and compensation of machines - an update", CIRP Annals 57(2), 2008.
+[[nodiscard]] inline Eigen::Vector3d geometric_error_mm(const GeometricErrors& errors,
+                                                        const Eigen::Vector3d& reading_W_mm) {
+  const auto values = [](const std::array<ErrorCurve, 3>& curves, double p_mm) {
+    return Eigen::Vector3d(curves[0].at(p_mm), curves[1].at(p_mm), curves[2].at(p_mm));
+  };
+  const Eigen::Vector3d q = reading_W_mm - errors.tip_offset_mm;
+  const Eigen::Vector3d lever_z = errors.tip_offset_mm;
+  const Eigen::Vector3d lever_x = lever_z + Eigen::Vector3d(0.0, 0.0, q.z());
+  const Eigen::Vector3d lever_y = lever_x + Eigen::Vector3d(q.x(), 0.0, 0.0);
+  const std::array<Eigen::Vector3d, 3> levers = {lever_x, lever_y, lever_z};
+  Eigen::Vector3d e(-errors.squareness_xy_rad * q.y() - errors.squareness_xz_rad * q.z(),
+                    -errors.squareness_yz_rad * q.z(), 0.0);
+  for (int k = 0; k < 3; ++k) {
+    const AxisErrors& axis = errors.axes[static_cast<std::size_t>(k)];
+    e += values(axis.translation, q[k]) +
+         values(axis.rotation, q[k]).cross(levers[static_cast<std::size_t>(k)]);
+  }
+  return e;
+}
 
 /// One harmonic of the pre-travel: amplitude cos(order phi + phase), phi the azimuth of the
 /// approach.

@@ -9,10 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d values(const std::array<ErrorCurve, 3>& curves, double p_mm) {
-  return {curves[0].at(p_mm), curves[1].at(p_mm), curves[2].at(p_mm)};
-}
-
 Vector3d drift_at(const MachineErrors& errors, double time_s) {
   return -std::expm1(-time_s / errors.drift_time_s) * errors.drift_mm;
 }
@@ -39,22 +35,6 @@ double scale_stretch(const MachineErrors& errors) {
 }
 
 }  // namespace
-
-Vector3d geometric_error_mm(const GeometricErrors& errors, const Vector3d& reading_W_mm) {
-  const Vector3d q = reading_W_mm - errors.tip_offset_mm;
-  const Vector3d lever_z = errors.tip_offset_mm;
-  const Vector3d lever_x = lever_z + Vector3d(0.0, 0.0, q.z());
-  const Vector3d lever_y = lever_x + Vector3d(q.x(), 0.0, 0.0);
-  const std::array<Vector3d, 3> levers = {lever_x, lever_y, lever_z};
-  Vector3d e(-errors.squareness_xy_rad * q.y() - errors.squareness_xz_rad * q.z(),
-             -errors.squareness_yz_rad * q.z(), 0.0);
-  for (int k = 0; k < 3; ++k) {
-    const AxisErrors& axis = errors.axes[static_cast<std::size_t>(k)];
-    e += values(axis.translation, q[k]) +
-         values(axis.rotation, q[k]).cross(levers[static_cast<std::size_t>(k)]);
-  }
-  return e;
-}
 
 Vector3d true_position(const MachineErrors& errors, const Vector3d& reading_W_mm, double time_s) {
   return reading_W_mm + geometric_error_mm(errors.geometry, reading_W_mm) +

@@ -79,6 +79,10 @@ class Cell {
                                                                        double /*angle_rad*/) const {
     return std::nullopt;
   }
+  /// Where the body frame really is, where the world is simulated in this program.
+  [[nodiscard]] virtual std::optional<Eigen::Isometry3d> true_body_to_machine() const {
+    return std::nullopt;
+  }
 
  protected:
   /// @param plan  Has `fixture`.

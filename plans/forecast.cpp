@@ -10,6 +10,7 @@
 #include "plans/feature_planner.h"
 #include "plans/fixture_calibration.h"
 #include "plans/fixture_datum.h"
+#include "plans/merged_reach.h"
 #include "plans/plan_reach.h"
 #include "plans/pose_search.h"
 #include "plans/qualification.h"
@@ -86,8 +87,20 @@ class NominalSession final : public PoseSession {
         planner_(plan, feature_),
         geometry_(path_geometry(plan, feature_, plan.part.location_uncertainty_mm)) {}
 
+  core::Result<Cloud> measure_reachable(const core::Pose& commanded) override {
+    const auto all = sampling_targets(feature_);
+    if (!all) return core::fail(all.error());
+    reachable_ =
+        planner_.reachable(*all, geometry_, body_at(commanded), nominal_seat(*plan_.fixture));
+    if (reachable_.size() < kLeastTargets) {
+      return core::fail(core::Code::kUnreachable, too_few_targets(commanded, reachable_.size()));
+    }
+    return measure(commanded);
+  }
+  core::Result<void> end_merged() override { return {}; }
+
   core::Result<Cloud> measure(const core::Pose& commanded) override {
-    const auto targets = sampling_targets(feature_);
+    const auto targets = measured_targets();
     if (!targets) return core::fail(targets.error());
     const std::vector<Target> stops = stops_of(*targets);
     if (auto turned = turn(commanded, stops); !turned) return core::fail(turned.error());
@@ -98,7 +111,7 @@ class NominalSession final : public PoseSession {
 
   core::Result<void> repeat(int times) override {
     if (times < 1) return {};
-    const auto targets = sampling_targets(feature_);
+    const auto targets = measured_targets();
     if (!targets) return core::fail(targets.error());
     const auto path = lay(stops_of(*targets), reached_);
     if (!path) return core::fail(path.error());
@@ -141,6 +154,12 @@ class NominalSession final : public PoseSession {
   void show(double) override {}
 
  private:
+  /// All, or those that can be reached in a pose of several.
+  [[nodiscard]] core::Result<std::vector<Target>> measured_targets() const {
+    if (!reachable_.empty()) return reachable_;
+    return sampling_targets(feature_);
+  }
+
   [[nodiscard]] bool scans() const { return feature_.sampling.method == "scan"; }
 
   /// Where the tip goes down to the surface: every target, or the start of each scanned layer.
@@ -215,6 +234,7 @@ class NominalSession final : public PoseSession {
   fixture::SimulatedFixture fixture_;
   FeaturePlanner planner_;
   PathGeometry geometry_;
+  std::vector<Target> reachable_;  ///< In the present pose of several; otherwise empty.
   core::Pose reached_;
 };
 

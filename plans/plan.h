@@ -13,6 +13,7 @@
 #include "plans/machine_errors_plan.h"
 #include "plans/rotary_plan.h"
 #include "plans/spindle_plan.h"
+#include "plans/uncertainty_plan.h"
 #include "plans/wheel_plan.h"
 
 namespace rondure::plans {
@@ -102,6 +103,9 @@ struct FixturePlan {
   double ring_diameter_mm = 0.0;     ///< Outside of the clamping ring; 0: nothing passes it.
   double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
   double table_height_mm = -1000.0;  ///< Machine z.
+  double pose_shift_uncertainty_um =
+      25.0;  ///< Standard uncertainty of a pose, where the axes meet.
+  double pose_turn_uncertainty_deg = 0.01;
   std::optional<DatumPlan> datum;
   std::optional<CalibrationPlan> calibration;  ///< None: the fixture is taken as nominal.
 };
@@ -144,8 +148,16 @@ struct SamplingPlan {
   std::string method = "touch";  ///< "touch" or "scan".
 };
 
+/// A pose in which part of a feature is measured.
+struct MeasuringPosePlan {
+  double alpha_deg = 0.0;
+  double beta_deg = 0.0;
+};
+
 struct PoseSearchPlan {
   std::string strategy = "guided";
+  std::vector<MeasuringPosePlan> poses;  ///< Of "merged": at least two.
+  std::string merge = "joint";           ///< Of "merged": or "kinematics".
   double start_alpha_deg = 0.0;
   double start_beta_deg = 0.0;
   std::vector<double> steps_deg = {5.0, 2.0};
@@ -195,10 +207,6 @@ struct FeaturePlan {
   std::optional<RotaryPlan> rotary_axes;  ///< The same.
   std::optional<SourcePlan> source;
   std::vector<CharacteristicPlan> characteristics;
-};
-
-struct DecisionRulePlan {
-  std::string rule = "simple-acceptance";
 };
 
 struct LobePlan {
@@ -278,6 +286,7 @@ struct Plan {
   EnvironmentPlan environment;
   std::vector<FeaturePlan> features;
   DecisionRulePlan decision_rule;
+  std::optional<UncertaintyPlan> uncertainty;
   std::optional<SimulationPlan> simulation;
   ReportsPlan reports;
 

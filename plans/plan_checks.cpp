@@ -294,6 +294,7 @@ void check_feature(const Plan& plan, std::size_t index, Findings& findings) {
 void check_plan(const Plan& plan, Findings& findings) {
   check_equipment(plan, findings);
   check_archive(plan, findings);
+  check_uncertainty(plan, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     check_feature(plan, i, findings);
     if (is_touched(plan, i, findings)) {

@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "plans/feature_planner.h"
+#include "plans/merged_reach.h"
 #include "plans/reach_advice.h"
 #include "plans/run_head.h"
 
@@ -122,6 +123,11 @@ core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_
   if (auto fits = check_fits(geometry); !fits) return core::fail(fits.error().at(where));
   if (auto clamp = check_clamp(*targets, geometry, *plan.fixture); !clamp) {
     return core::fail(clamp.error().at(where));
+  }
+  if (feature.pose_search.strategy == "merged") {
+    if (auto reached = check_merged_reach(plan, index); !reached)
+      return core::fail(reached.error());
+    return targets;
   }
   const std::vector<Unreachable> missed = unreachable_targets(plan, feature, start_pose(feature));
   if (missed.empty()) return targets;

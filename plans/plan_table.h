@@ -7,6 +7,7 @@
 #include "plans/rotary_table.h"
 #include "plans/simulation_table.h"
 #include "plans/spindle_table.h"
+#include "plans/uncertainty_table.h"
 #include "plans/wheel_table.h"
 
 // The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
@@ -254,6 +255,13 @@ void describe(Visitor& v, FixturePlan& p) {
       diameter("Outer diameter of the bowl, about axis_point_mm; 0: unknown, then the tip goes "
                "nowhere below rim_height_mm."));
   v.number("table_height_mm", p.table_height_mm, place("Height of the table, machine z."));
+  v.number("pose_shift_uncertainty_um", p.pose_shift_uncertainty_um,
+           {.at_least = 0.0,
+            .at_most = 10'000.0,
+            .meaning = "Standard uncertainty of where a pose puts the part: shift along x, y, z at "
+                       "axis_point_mm. Of merged poses."});
+  v.number("pose_turn_uncertainty_deg", p.pose_turn_uncertainty_deg,
+           {.at_least = 0.0, .at_most = 1.0, .meaning = "The same of its turn about x, y, z."});
   v.object("datum", p.datum,
            {.meaning = "Reference spheres on the base of the fixture, touched before a run: then "
                        "axis_point_mm is in the base frame they show."});
@@ -386,16 +394,36 @@ void describe(Visitor& v, SamplingPlan& p) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, MeasuringPosePlan& p) {
+  const NumberSpec angle = {.at_least = -90.0,
+                            .at_most = 90.0,
+                            .required = true,
+                            .code = core::Code::kPoseRange,
+                            .meaning = "Angle of the fixture."};
+  v.number("alpha_deg", p.alpha_deg, angle);
+  v.number("beta_deg", p.beta_deg, angle);
+}
+
+template <class Visitor>
 void describe(Visitor& v, PoseSearchPlan& p) {
   const NumberSpec start = {.at_least = -90.0,
                             .at_most = 90.0,
                             .code = core::Code::kPoseRange,
                             .meaning = "Angle of the fixture before the first touch."};
   v.text("strategy", p.strategy,
-         {.one_of = {"guided", "refined", "as-published", "virtual"},
+         {.one_of = {"guided", "refined", "as-published", "virtual", "merged"},
           .meaning = "How the levelling pose is found. guided: solves each cloud and steps to the "
                      "pose it predicts. as-published: grid of steps_deg. refined: that grid, then "
-                     "halved steps. virtual: one cloud, turned in software."});
+                     "halved steps. virtual: one cloud, turned in software. merged: no search; the "
+                     "part is measured in each of `poses`, where it can be reached, and the "
+                     "clouds are one (docs/several-poses.md)."});
+  v.list("poses", p.poses,
+         {.meaning = "merged: the poses, at least two; every target must be reached in one of "
+                     "them, and should be in several."});
+  v.text("merge", p.merge,
+         {.one_of = {"joint", "kinematics"},
+          .meaning = "merged: how clouds come together. joint: the errors of the poses are solved "
+                     "together with the part. kinematics: the fixture is believed."});
   v.number("start_alpha_deg", p.start_alpha_deg, start);
   v.number("start_beta_deg", p.start_beta_deg, start);
   v.numbers(
@@ -535,19 +563,12 @@ void describe(Visitor& v, FeaturePlan& p) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, DecisionRulePlan& p) {
-  v.text("rule", p.rule,
-         {.one_of = {"simple-acceptance"},
-          .meaning = "simple-acceptance: the value is compared with the tolerance, no uncertainty "
-                     "is taken into account."});
-}
-
-template <class Visitor>
 void describe(Visitor& v, ReportsPlan& p) {
   v.texts("formats", p.formats,
-          {.one_of = {"html", "json", "csv"},
+          {.one_of = {"html", "json", "csv", "qif", "dmis", "junit"},
            .empty_allowed = false,
-           .meaning = "Reports that a run writes."});
+           .meaning = "Reports that a run writes: a page, all numbers, tables, QIF 3.0 results, a "
+                      "DMIS output block, a JUnit summary for pipelines."});
   v.text("archive", p.archive,
          {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "
                      "relative to the plan; postgresql://user@host/database without a password; "
@@ -571,6 +592,9 @@ void describe(Visitor& v, Plan& p) {
          {.required = true, .empty_allowed = false, .meaning = "What is measured, in this order."});
   v.object("decision_rule", p.decision_rule,
            {.meaning = "How a value and its tolerance make a verdict."});
+  v.object("uncertainty", p.uncertainty,
+           {.meaning = "What is declared about the measurement, for the intervals of touched "
+                       "features and points of a file. Left out: none are stated."});
   v.object("simulation", p.simulation,
            {.meaning = "The hidden truth of a simulation; no evaluation reads it. Needed with "
                        "simulated drivers."});

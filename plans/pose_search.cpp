@@ -157,12 +157,29 @@ core::Result<void> single(PoseSession& session, const FeaturePlan& feature) {
   return finish(session, feature);
 }
 
+/// What can be reached in each of the plan's poses, with its repeats; together one cloud.
+core::Result<void> merged(PoseSession& session, const FeaturePlan& feature) {
+  const int targets = feature.sampling.layers * feature.sampling.points_per_layer;
+  for (const MeasuringPosePlan& at : feature.pose_search.poses) {
+    const core::Pose pose{at.alpha_deg * core::kDegree, at.beta_deg * core::kDegree};
+    const auto cloud = session.measure_reachable(pose);
+    if (!cloud) return core::fail(cloud.error());
+    session.show(f_of(*cloud, false));
+    const std::string text = fmt::format("pose {}: {} of {} targets can be reached", degrees(pose),
+                                         cloud->tips_W_mm.size(), targets);
+    if (auto noted = session.note(text); !noted) return noted;
+    if (auto done = finish(session, feature); !done) return done;
+  }
+  return session.end_merged();
+}
+
 }  // namespace
 
 core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature) {
   const std::string& strategy = feature.pose_search.strategy;
   core::Pose pose = start_pose(session, feature);
-  if (session.must_locate()) {
+  // No pose of a part that is reached in several shows enough of it to locate it.
+  if (session.must_locate() && strategy != "merged") {
     const auto axis = session.locate(pose);
     if (!axis) return core::fail(axis.error());
     const core::Pose level = session.levelling(axis->direction);
@@ -174,6 +191,7 @@ core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature)
       pose = level;
   }
   if (feature.type == "circle" || strategy == "virtual") return single(session, feature);
+  if (strategy == "merged") return merged(session, feature);
   if (strategy == "guided") return guided(session, feature, pose);
   return grid(session, feature, strategy == "as-published");
 }

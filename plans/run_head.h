@@ -28,6 +28,8 @@ namespace rondure::plans {
 /// How a touched feature is sampled and brought to 20 degC, where the evaluation needs it.
 [[nodiscard]] std::vector<record::Setting> settings_of(const Plan& plan,
                                                        const FeaturePlan& feature);
+/// What belongs to the whole run: the decision rule and the declared uncertainty, by their keys.
+[[nodiscard]] std::vector<record::Setting> settings_of(const Plan& plan);
 /// The head without the descriptions of machine and fixture.
 /// @param seed  Of the simulation; kept when anything is simulated.
 [[nodiscard]] record::Header header_of(const Plan& plan, const RunOptions& options,

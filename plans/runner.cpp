@@ -27,6 +27,8 @@ std::size_t expected_touches(const FeaturePlan& feature, std::size_t targets) {
   switch (strategy_of(feature)) {
     case record::Strategy::kGuided:
       return targets * (feature.type == "circle" ? repeats : 2 + repeats);
+    case record::Strategy::kMerged:
+      return targets * repeats * feature.pose_search.poses.size();
     case record::Strategy::kVirtual:
       return targets * repeats;
     case record::Strategy::kAsPublished:
@@ -265,7 +267,10 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
     if (analysis_kind(plan.features[i].type) == nullptr)
       features.back().settings = settings_of(plan, plan.features[i]);
   }
-  const auto settings = fixture_settings(plan, known->calibration);
+  std::vector<record::Setting> settings = settings_of(plan);
+  for (record::Setting& setting : fixture_settings(plan, known->calibration)) {
+    settings.push_back(std::move(setting));
+  }
   auto journal =
       record::Journal::create(options.directory, header, artefact_of(plan), features, settings);
   if (!journal) return core::fail(journal.error());

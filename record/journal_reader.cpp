@@ -165,7 +165,7 @@ void read_features(soci::session& sql, RunRecord& record) {
     row.strategy =
         named("feature.strategy", strategy,
               {Strategy::kGuided, Strategy::kRefined, Strategy::kAsPublished, Strategy::kVirtual,
-               Strategy::kPointsFile, Strategy::kSeries, Strategy::kStations});
+               Strategy::kPointsFile, Strategy::kSeries, Strategy::kMerged, Strategy::kStations});
     row.tip_radius_mm = tip_given == soci::i_ok ? std::optional(tip_radius_mm) : std::nullopt;
     record.features.push_back(row);
   }

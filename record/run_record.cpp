@@ -91,6 +91,8 @@ std::string_view name_of(Strategy strategy) {
       return "refined";
     case Strategy::kAsPublished:
       return "as-published";
+    case Strategy::kMerged:
+      return "merged";
     case Strategy::kVirtual:
       return "virtual";
     case Strategy::kPointsFile:

@@ -37,7 +37,17 @@ enum class Form {
   kFixtureResidualRms,  ///< The root mean square of these distances.
 };
 enum class Reference { kLeastSquares, kMinimumZone, kMinimumCircumscribed, kMaximumInscribed };
-enum class Strategy { kGuided, kRefined, kAsPublished, kVirtual, kPointsFile, kSeries, kStations };
+/// kMerged: no search, one cloud out of several poses. kStations: balls of a calibration.
+enum class Strategy {
+  kGuided,
+  kRefined,
+  kAsPublished,
+  kVirtual,
+  kPointsFile,
+  kSeries,
+  kMerged,
+  kStations,
+};
 
 /// Whether a shape is an analysis: evaluated by its own rules, not as a surface.
 [[nodiscard]] bool is_analysis(Shape shape);

@@ -10,6 +10,8 @@
 #include "core/result.h"
 #include "fit/probe_tip.h"
 #include "record/run_record.h"
+#include "reports/decision.h"
+#include "reports/stated_value.h"
 
 namespace rondure::reports {
 
@@ -42,7 +44,7 @@ class AnalysisResult {
   [[nodiscard]] virtual core::Result<AnalysisValue> value_of(
       const record::Characteristic& characteristic) const = 0;
   /// How that value came about: "LSCI; gaussian low pass 50 UPR; ...".
-  [[nodiscard]] virtual std::string operator_text(
+  [[nodiscard]] virtual ValueOperator operator_of(
       const record::Characteristic& characteristic) const = 0;
   /// The filter, and what was recorded, as the archive keeps them.
   [[nodiscard]] virtual std::string filter_text() const = 0;
@@ -64,9 +66,11 @@ class AnalysisResult {
 [[nodiscard]] FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
                                               const std::optional<fit::ProbeTip>& probe);
 
-/// Fills the characteristics of such a feature under the rule `simple acceptance`. Void without a
-/// result, without the value, where the value proves nothing, or when the run did not finish.
-void decide_analysis(const record::RunRecord& record, FeatureResult& result);
+/// Fills the characteristics of such a feature under the rule. Void without a result, without the
+/// value, where the value proves nothing, when the run did not finish, or when the rule needs an
+/// interval: of series none is computed yet.
+void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
+                     FeatureResult& result);
 
 /// The evaluations themselves, a file each. They set `analysis` and `warnings`, or `failure`.
 void evaluate_spindle(const record::RunRecord& record, int index, FeatureResult& result);

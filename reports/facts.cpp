@@ -221,6 +221,15 @@ std::vector<std::string> missing_parts(const record::RunRecord& record,
   return parts;
 }
 
+std::string rule_sentence(const Evaluation& evaluation) {
+  if (!evaluation.rule) return evaluation.rule.error().what;
+  const DecisionRule& rule = *evaluation.rule;
+  if (!rule.needs_interval()) {
+    return "simple acceptance; no measurement uncertainty taken into account";
+  }
+  return fmt::format("{}; the value {} decides", in_words(rule), name_of(rule.measurand));
+}
+
 std::string rule_in_words(const record::Header& header) {
   std::string words = header.decision_rule.empty() ? "simple-acceptance" : header.decision_rule;
   std::replace(words.begin(), words.end(), '-', ' ');

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <asio.hpp>
 
+#include "wire/byte_lines.h"
+
 namespace rondure::wire {
 namespace {
 
@@ -13,7 +15,6 @@ using std::chrono::milliseconds;
 using Tcp = asio::ip::tcp;
 
 constexpr std::size_t kChunk_bytes = 16'384;
-constexpr std::size_t kShown_bytes = 100;
 
 tl::unexpected<core::Error> fault(std::string what) {
   return core::fail(core::Code::kMachine, std::move(what));
@@ -35,10 +36,10 @@ bool run_within(asio::io_context& io, milliseconds limit, Cancel cancel) {
   return false;
 }
 
-class TcpLine final : public LineTransport {
+class TcpStream final : public ByteStream {
  public:
-  TcpLine(std::unique_ptr<asio::io_context> io, Tcp::socket socket, const TcpOptions& options)
-      : io_(std::move(io)), socket_(std::move(socket)), options_(options) {
+  TcpStream(std::unique_ptr<asio::io_context> io, Tcp::socket socket, const TcpOptions& options)
+      : io_(std::move(io)), socket_(std::move(socket)), write_limit_(options.write_limit) {
     asio::error_code ignored;  // a line without these options still works
     socket_.set_option(Tcp::no_delay(true), ignored);
     socket_.set_option(asio::socket_base::keep_alive(true), ignored);
@@ -46,38 +47,36 @@ class TcpLine final : public LineTransport {
     const auto end = socket_.remote_endpoint(unknown);
     peer_ = unknown ? "a peer that has gone" : place(end.address().to_string(), end.port());
   }
-  ~TcpLine() override { close(); }
+  ~TcpStream() override { close(); }
 
-  [[nodiscard]] core::Result<void> write_line(std::string_view text) override {
+  [[nodiscard]] core::Result<void> write(std::string_view bytes) override {
     if (!open_) return core::fail(failure_);
-    const std::string bytes = fmt::format("{}\r\n", text);
     asio::error_code result;
     asio::async_write(socket_, asio::buffer(bytes),
                       [&](const asio::error_code& error, std::size_t) { result = error; });
-    if (!run_within(*io_, options_.write_limit, [&] { cancel(); }) && result) {
+    if (!run_within(*io_, write_limit_, [&] { cancel(); }) && result) {
       return lose(fmt::format("{} takes no data for {:g} s; the connection was closed", peer_,
-                              seconds(options_.write_limit)));
+                              static_cast<double>(write_limit_.count()) / 1000.0));
     }
     if (result) return lose(fmt::format("the connection to {} broke: {}", peer_, result.message()));
     return {};
   }
 
-  [[nodiscard]] core::Result<std::optional<Line>> read_line(milliseconds time_limit) override {
+  [[nodiscard]] core::Result<std::string> read_some(milliseconds time_limit) override {
     if (!open_) return core::fail(failure_);
-    const auto deadline = std::chrono::steady_clock::now() + time_limit;
-    for (;;) {
-      if (auto line = take_line()) return line;
-      if (received_.size() > options_.max_line_bytes) {
-        return lose(fmt::format("{} sent a line of more than {} bytes; the connection was closed",
-                                peer_, options_.max_line_bytes));
-      }
-      const auto left = std::chrono::duration_cast<milliseconds>(
-          deadline - std::chrono::steady_clock::now() + milliseconds(1));
-      if (auto more = receive(std::max(milliseconds(0), left)); !more)
-        return core::fail(more.error());
-      else if (!*more)
-        return std::optional<Line>{};
+    asio::error_code result;
+    std::size_t count = 0;
+    socket_.async_read_some(asio::buffer(chunk_),
+                            [&](const asio::error_code& error, std::size_t n) {
+                              result = error;
+                              count = n;
+                            });
+    (void)run_within(*io_, time_limit, [&] { cancel(); });
+    if (!result || result == asio::error::operation_aborted || count > 0) {
+      return std::string(chunk_.data(), count);
     }
+    if (result == asio::error::eof) return lose(fmt::format("{} closed the connection", peer_));
+    return lose(fmt::format("the connection to {} broke: {}", peer_, result.message()));
   }
 
   void close() override {
@@ -90,54 +89,12 @@ class TcpLine final : public LineTransport {
   }
 
   [[nodiscard]] bool is_open() const override { return open_; }
-  [[nodiscard]] std::string unfinished() const override {
-    return received_.find('\n') == std::string::npos ? received_.substr(0, kShown_bytes) : "";
-  }
   [[nodiscard]] std::string peer() const override { return peer_; }
 
  private:
-  static double seconds(milliseconds t) { return static_cast<double>(t.count()) / 1000.0; }
-
   void cancel() {
     asio::error_code ignored;
     socket_.cancel(ignored);
-  }
-
-  /// Waits for bytes; false when none came in time.
-  core::Result<bool> receive(milliseconds limit) {
-    asio::error_code result;
-    std::size_t count = 0;
-    socket_.async_read_some(asio::buffer(chunk_),
-                            [&](const asio::error_code& error, std::size_t n) {
-                              result = error;
-                              count = n;
-                            });
-    (void)run_within(*io_, limit, [&] { cancel(); });
-    received_.append(chunk_.data(), count);
-    if (result == asio::error::operation_aborted) return count > 0;
-    if (!result) return true;
-    if (result != asio::error::eof) {
-      return lose(fmt::format("the connection to {} broke: {}", peer_, result.message()));
-    }
-    if (received_.empty()) return lose(fmt::format("{} closed the connection", peer_));
-    return lose(
-        fmt::format("{} closed the connection in the middle of a line, after {} bytes of it", peer_,
-                    received_.size()));
-  }
-
-  /// The first whole line of what was received.
-  std::optional<Line> take_line() {
-    const auto end = received_.find('\n', searched_);
-    if (end == std::string::npos || end > options_.max_line_bytes) {
-      searched_ = received_.size();
-      return std::nullopt;
-    }
-    Line line{received_.substr(0, end), false};
-    received_.erase(0, end + 1);
-    searched_ = 0;
-    line.crlf = !line.text.empty() && line.text.back() == '\r';
-    if (line.crlf) line.text.pop_back();
-    return line;
   }
 
   tl::unexpected<core::Error> lose(std::string what) {
@@ -148,14 +105,18 @@ class TcpLine final : public LineTransport {
 
   std::unique_ptr<asio::io_context> io_;  // outlives the socket
   Tcp::socket socket_;
-  TcpOptions options_;
+  milliseconds write_limit_;
   std::string peer_;
   std::array<char, kChunk_bytes> chunk_ = {};
-  std::string received_;
-  std::size_t searched_ = 0;  ///< So many received bytes hold no line end.
   bool open_ = true;
   core::Error failure_;
 };
+
+std::unique_ptr<LineTransport> lines_of(std::unique_ptr<asio::io_context> io, Tcp::socket socket,
+                                        const TcpOptions& options) {
+  return lines_over(std::make_unique<TcpStream>(std::move(io), std::move(socket), options),
+                    {.max_line_bytes = options.max_line_bytes, .clock = nullptr});
+}
 
 }  // namespace
 
@@ -196,7 +157,7 @@ core::Result<std::unique_ptr<LineTransport>> connect_tcp(const std::string& host
                     "port {}",
                     where, result.message(), port));
   }
-  return std::make_unique<TcpLine>(std::move(io), std::move(socket), options);
+  return lines_of(std::move(io), std::move(socket), options);
 }
 
 struct TcpListener::Socket {
@@ -246,7 +207,7 @@ core::Result<std::unique_ptr<LineTransport>> TcpListener::accept(milliseconds ti
   });
   if (result == asio::error::operation_aborted) return std::unique_ptr<LineTransport>{};
   if (result) return fault(fmt::format("no client could be accepted: {}", result.message()));
-  return std::make_unique<TcpLine>(std::move(io), std::move(client), socket_->options);
+  return lines_of(std::move(io), std::move(client), socket_->options);
 }
 
 }  // namespace rondure::wire

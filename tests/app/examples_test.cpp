@@ -64,7 +64,8 @@ TEST(Examples, RunConformVerifyAndWriteTheirReports) {
     const std::string verdict = report.at("verdict");
     EXPECT_EQ(ran.status, verdict == "conforms" || verdict == "not toleranced" ? 0 : 1) << ran.err;
     EXPECT_THAT(ran.err, IsEmpty());
-    std::vector<std::string> files = {"SHA256SUMS", "journal.db", "report.html", "report.json"};
+    std::vector<std::string> files = {"SHA256SUMS", "journal.db", "report.html", "report.json",
+                                      "results.csv"};
     const json asked = json::parse(read(plan));
     if (calibrates(asked)) files.insert(files.begin() + 1, "fixture-calibration.json");
     if (is_analysis(asked) && !calibrates(asked)) files.emplace_back("series.csv");

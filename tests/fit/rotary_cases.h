@@ -1,0 +1,118 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/noise.h"
+#include "core/units.h"
+#include "fit/rotary_axes.h"
+
+// Rotary axes with known errors, and the worked example of the method specification.
+
+namespace rondure::fit::testing {
+
+inline constexpr double kUm = core::kMicrometre;
+inline constexpr double kUrad = 1e-6;
+
+inline bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
+
+/// True (t; w) at an angle from the reference; zero at 0.
+using TrueErrors = std::function<Vector6(double)>;
+
+/// Balls of setups (L, H) of a hanging head.
+inline std::vector<Eigen::Vector3d> hanging(const std::vector<std::array<double, 2>>& setups) {
+  std::vector<Eigen::Vector3d> out;
+  for (const auto& [l, h] : setups) out.emplace_back(0.0, h, -l);
+  return out;
+}
+
+/// n angles from first to last, both included.
+inline std::vector<double> angles_deg(double first, double last, int n) {
+  std::vector<double> out;
+  for (int i = 0; i < n; ++i) out.push_back((first + (last - first) * i / (n - 1)) * core::kDegree);
+  return out;
+}
+
+/// What an axis is measured with.
+struct Probing {
+  double u_mm = 0.5e-3;
+  std::uint64_t seed = 1;
+  bool noisy = true;
+  int references = 3;  ///< 0: the places in the reference pose are given exactly.
+};
+
+/// Balls named "a", "b", ... at all stations.
+/// @param p0_mm  In the reference pose, relative to the origin of the axis.
+inline RotaryMeasurement measured(const RotaryAxis& axis, const std::vector<Eigen::Vector3d>& p0_mm,
+                                  const std::vector<double>& stations_rad, const TrueErrors& truth,
+                                  const Probing& probing) {
+  core::KeyedNoise noise(probing.seed, {5});
+  const double size = probing.noisy ? probing.u_mm : 0.0;
+  const auto ball = [&](std::size_t i, const Eigen::Vector3d& place, double sigma, double u) {
+    const double x = sigma * noise.normal();
+    const double y = sigma * noise.normal();
+    const double z = sigma * noise.normal();
+    return BallCentre{std::string(1, static_cast<char>('a' + i)),
+                      axis.origin_mm + place + Eigen::Vector3d(x, y, z),
+                      Eigen::Vector3d::Constant(u)};
+  };
+  RotaryMeasurement out;
+  out.axis = axis;
+  for (int r = 0; r < std::max(1, probing.references); ++r) {
+    out.references.emplace_back();
+    for (std::size_t i = 0; i < p0_mm.size(); ++i) {
+      const bool exact = probing.references == 0;
+      out.references.back().push_back(
+          ball(i, p0_mm[i], exact ? 0.0 : size, exact ? 0.0 : probing.u_mm));
+    }
+  }
+  for (const double angle : stations_rad) {
+    RotaryPose pose;
+    pose.angle_rad = angle;
+    const Vector6 x = truth(angle);
+    const Eigen::Isometry3d motion = error_motion(x.head<3>(), x.tail<3>());
+    for (std::size_t i = 0; i < p0_mm.size(); ++i)
+      pose.balls.push_back(ball(i, motion * (axis.turn(angle) * p0_mm[i]), size, probing.u_mm));
+    out.stations.push_back(std::move(pose));
+  }
+  return out;
+}
+
+/// a (cos(k phi - q) - cos q).
+inline double wave(double phi, double a, int k, double q) {
+  return a * (std::cos(k * phi - q) - std::cos(q));
+}
+
+/// Section 10: offset (12, -20) um, tilt (60, -35) urad and motion errors of the C axis.
+inline Vector6 example_errors(double c) {
+  const Eigen::Vector3d d(12.0, -20.0, 0.0);
+  const Eigen::Vector3d e(60.0, -35.0, 0.0);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(c, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  Vector6 out;
+  out << d - turn * d, e - turn * e;
+  out(0) += wave(c, 1.5, 2, 0.3);
+  out(1) += wave(c, 1.2, 2, 1.9) + wave(c, 0.4, 3, 0.0);
+  out(2) += wave(c, 2.0, 1, 0.7);
+  out(3) += wave(c, 5.0, 2, 0.2);
+  out(4) += wave(c, 4.0, 2, -1.0);
+  out(5) += wave(c, 20.0, 1, 0.5) + wave(c, 6.0, 2, 1.1);
+  out.head<3>() *= kUm;
+  out.tail<3>() *= kUrad;
+  return out;
+}
+
+inline std::vector<Eigen::Vector3d> example_balls() {
+  return hanging({{150, 50}, {150, 150}, {250, 50}});
+}
+
+inline std::vector<double> circle_of(int n) { return angles_deg(0.0, 360.0 * (n - 1) / n, n); }
+
+}  // namespace rondure::fit::testing

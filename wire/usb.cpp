@@ -1,0 +1,274 @@
+#include "wire/usb.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <libusb.h>
+
+#include "wire/usb_context.h"
+
+namespace rondure::wire {
+namespace {
+
+using Kind = UsbFault::Kind;
+
+unsigned int milliseconds_of(UsbDevice::Limit limit) {
+  return static_cast<unsigned int>(std::max<UsbDevice::Limit::rep>(1, limit.count()));
+}
+
+UsbEndpoint endpoint_of(const libusb_endpoint_descriptor& text) {
+  constexpr unsigned kPacketBits = 0x7ff;  // the others tell of several packets a microframe
+  constexpr unsigned kKindBits = 0x3;
+  return {text.bEndpointAddress, static_cast<UsbEndpoint::Kind>(text.bmAttributes & kKindBits),
+          text.wMaxPacketSize & kPacketBits};
+}
+
+std::vector<UsbInterface> interfaces_of(libusb_device& device) {
+  libusb_config_descriptor* text = nullptr;
+  if (libusb_get_active_config_descriptor(&device, &text) != LIBUSB_SUCCESS) return {};
+  std::vector<UsbInterface> out;
+  for (int i = 0; i < text->bNumInterfaces; ++i) {
+    if (text->interface[i].num_altsetting < 1) continue;
+    const libusb_interface_descriptor& first = text->interface[i].altsetting[0];
+    UsbInterface one = {first.bInterfaceNumber,
+                        first.bInterfaceClass,
+                        first.bInterfaceSubClass,
+                        first.bInterfaceProtocol,
+                        {}};
+    for (int k = 0; k < first.bNumEndpoints; ++k) {
+      one.endpoints.push_back(endpoint_of(first.endpoint[k]));
+    }
+    out.push_back(std::move(one));
+  }
+  libusb_free_config_descriptor(text);
+  return out;
+}
+
+class OpenDevice final : public UsbDevice {
+ public:
+  OpenDevice(usb::Context context, usb::Handle handle, UsbDeviceInfo info)
+      : context_(std::move(context)),
+        handle_(std::move(handle)),
+        info_(std::move(info)),
+        interfaces_(interfaces_of(*libusb_get_device(handle_.get()))) {
+    libusb_set_auto_detach_kernel_driver(handle_.get(), 1);  // an error shows when claiming
+  }
+  ~OpenDevice() override { close(); }
+
+  [[nodiscard]] const UsbDeviceInfo& info() const override { return info_; }
+  [[nodiscard]] const std::vector<UsbInterface>& interfaces() const override { return interfaces_; }
+
+  [[nodiscard]] UsbResult<void> configure(int configuration) override {
+    if (auto open = check_open(); !open) return open;
+    int active = 0;
+    int code = libusb_get_configuration(handle_.get(), &active);
+    if (code == LIBUSB_SUCCESS && active != configuration) {
+      code = libusb_set_configuration(handle_.get(), configuration);
+      interfaces_ = interfaces_of(*libusb_get_device(handle_.get()));
+    }
+    return outcome(code, "choosing its configuration");
+  }
+
+  [[nodiscard]] UsbResult<void> reset() override {
+    if (auto open = check_open(); !open) return open;
+    release_all();
+    return outcome(libusb_reset_device(handle_.get()), "being reset");
+  }
+
+  [[nodiscard]] UsbResult<void> claim(int interface) override {
+    if (auto open = check_open(); !open) return open;
+    const int code = libusb_claim_interface(handle_.get(), interface);
+    if (code == LIBUSB_ERROR_NOT_FOUND) {
+      return tl::unexpected(
+          UsbFault{Kind::kOther,
+                   fmt::format("the USB device {} has no interface {}", info_.place(), interface)});
+    }
+    if (code == LIBUSB_ERROR_BUSY) {
+      return tl::unexpected(UsbFault{
+          Kind::kBusy,
+          fmt::format("the USB device {} is in use by {}; end it and start again", info_.place(),
+                      usb::holder_of(*libusb_get_device(handle_.get()), info_, interface))});
+    }
+    if (code == LIBUSB_SUCCESS) claimed_.push_back(interface);
+    return outcome(code, fmt::format("claiming interface {}", interface));
+  }
+
+  [[nodiscard]] UsbResult<void> clear_halt(std::uint8_t endpoint) override {
+    if (auto open = check_open(); !open) return open;
+    return outcome(libusb_clear_halt(handle_.get(), endpoint), "ending a stall");
+  }
+
+  [[nodiscard]] UsbResult<void> control_out(const UsbSetup& setup, std::string_view bytes,
+                                            Limit limit) override {
+    std::string copy(bytes);  // libusb takes no const data
+    const auto count = control(setup, copy, limit);
+    if (!count) return tl::unexpected(count.error());
+    if (*count == bytes.size()) return {};
+    return tl::unexpected(usb::fault_of(LIBUSB_ERROR_TIMEOUT, info_, request_name(setup)));
+  }
+
+  [[nodiscard]] UsbResult<std::string> control_in(const UsbSetup& setup, std::size_t most,
+                                                  Limit limit) override {
+    std::string bytes(most, '\0');
+    const auto count = control(setup, bytes, limit);
+    if (!count) return tl::unexpected(count.error());
+    bytes.resize(*count);
+    return bytes;
+  }
+
+  [[nodiscard]] UsbResult<void> bulk_out(std::uint8_t endpoint, std::string_view bytes,
+                                         Limit limit) override {
+    if (auto open = check_open(); !open) return open;
+    std::string copy(bytes);
+    int sent = 0;
+    int code = libusb_bulk_transfer(handle_.get(), endpoint, data(copy),
+                                    static_cast<int>(copy.size()), &sent, milliseconds_of(limit));
+    if (code == LIBUSB_SUCCESS && static_cast<std::size_t>(sent) < bytes.size()) {
+      code = LIBUSB_ERROR_TIMEOUT;
+    }
+    return outcome(code, fmt::format("taking {} bytes", bytes.size()));
+  }
+
+  [[nodiscard]] UsbResult<std::string> bulk_in(std::uint8_t endpoint, std::size_t most,
+                                               Limit limit) override {
+    return in_transfer(libusb_bulk_transfer, endpoint, most, limit);
+  }
+
+  [[nodiscard]] UsbResult<std::string> interrupt_in(std::uint8_t endpoint, std::size_t most,
+                                                    Limit limit) override {
+    return in_transfer(libusb_interrupt_transfer, endpoint, most, limit);
+  }
+
+  void close() override {
+    if (!handle_) return;
+    release_all();
+    handle_.reset();
+  }
+
+ private:
+  static unsigned char* data(std::string& bytes) {
+    return reinterpret_cast<unsigned char*>(bytes.data());
+  }
+  static std::string request_name(const UsbSetup& setup) {
+    return fmt::format("the request {:#04x} {:#04x}", setup.request_type, setup.request);
+  }
+
+  [[nodiscard]] UsbResult<void> check_open() const {
+    if (handle_) return {};
+    return tl::unexpected(
+        UsbFault{Kind::kOther, fmt::format("the USB device {} is closed", info_.place())});
+  }
+
+  [[nodiscard]] UsbResult<void> outcome(int code, const std::string& doing) const {
+    if (code == LIBUSB_SUCCESS) return {};
+    return tl::unexpected(usb::fault_of(code, info_, doing));
+  }
+
+  void release_all() {
+    for (const int interface : claimed_) libusb_release_interface(handle_.get(), interface);
+    claimed_.clear();
+  }
+
+  UsbResult<std::size_t> control(const UsbSetup& setup, std::string& bytes, Limit limit) {
+    if (auto open = check_open(); !open) return tl::unexpected(open.error());
+    const int count = libusb_control_transfer(
+        handle_.get(), setup.request_type, setup.request, setup.value, setup.index, data(bytes),
+        static_cast<std::uint16_t>(bytes.size()), milliseconds_of(limit));
+    if (count < 0) return tl::unexpected(usb::fault_of(count, info_, request_name(setup)));
+    return static_cast<std::size_t>(count);
+  }
+
+  template <class Transfer>
+  UsbResult<std::string> in_transfer(Transfer transfer, std::uint8_t endpoint, std::size_t most,
+                                     Limit limit) {
+    if (auto open = check_open(); !open) return tl::unexpected(open.error());
+    std::string bytes(most, '\0');
+    int count = 0;
+    const int code = transfer(handle_.get(), endpoint, data(bytes), static_cast<int>(most), &count,
+                              milliseconds_of(limit));
+    if (code != LIBUSB_SUCCESS && code != LIBUSB_ERROR_TIMEOUT) {
+      return tl::unexpected(
+          usb::fault_of(code, info_, fmt::format("sending on endpoint {:#04x}", endpoint)));
+    }
+    bytes.resize(static_cast<std::size_t>(count));  // at a timeout: what came until then
+    return bytes;
+  }
+
+  usb::Context context_;  // outlives the handle
+  usb::Handle handle_;
+  UsbDeviceInfo info_;
+  std::vector<UsbInterface> interfaces_;
+  std::vector<int> claimed_;
+};
+
+bool is_meant(const UsbSelector& selector, const UsbDeviceInfo& info) {
+  const auto& products = selector.products;
+  return info.vendor == selector.vendor &&
+         (products.empty() ||
+          std::find(products.begin(), products.end(), info.product) != products.end());
+}
+
+/// A device that fits, open.
+struct Candidate {
+  usb::Handle handle;
+  UsbDeviceInfo info;
+};
+
+UsbFault not_found(const UsbSelector& selector, const std::string& others) {
+  const std::string serial =
+      selector.serial.empty() ? "" : fmt::format(" with the serial number {}", selector.serial);
+  const std::string found =
+      others.empty() ? "" : fmt::format("; plugged in are those with the numbers {}", others);
+  return {Kind::kNotFound,
+          fmt::format("no {}{} (USB vendor {:04x}) is plugged in{}; check cable and supply",
+                      selector.name, serial, selector.vendor, found)};
+}
+
+UsbFault ambiguous(const UsbSelector& selector, const std::string& serials) {
+  return {Kind::kAmbiguous, fmt::format("several of the kind {} are plugged in; say which by its "
+                                        "serial number, one of {}",
+                                        selector.name, serials)};
+}
+
+std::string serials_of(const std::vector<Candidate>& candidates) {
+  std::string out;
+  for (const Candidate& c : candidates) {
+    out += fmt::format("{}{}", out.empty() ? "" : ", ",
+                       c.info.serial.empty() ? "(none)" : c.info.serial);
+  }
+  return out;
+}
+
+}  // namespace
+
+UsbResult<std::unique_ptr<UsbDevice>> open_usb(const UsbSelector& selector) {
+  auto context = usb::new_context();
+  if (!context) return tl::unexpected(context.error());
+  auto list = usb::all_devices(**context);
+  if (!list) return tl::unexpected(list.error());
+  std::vector<Candidate> fitting;
+  std::optional<UsbFault> refused;
+  for (libusb_device** device = list->get(); *device != nullptr; ++device) {
+    auto info = usb::identity(**device);
+    if (!info || !is_meant(selector, *info)) continue;
+    auto handle = usb::open_device(**device, *info);
+    if (!handle) {
+      refused = handle.error();
+      continue;
+    }
+    usb::ask_strings(**handle, *info);
+    fitting.push_back({*std::move(handle), *std::move(info)});
+  }
+  const std::string serials = serials_of(fitting);
+  if (!selector.serial.empty()) {
+    std::erase_if(fitting, [&](const Candidate& c) { return c.info.serial != selector.serial; });
+  }
+  if (fitting.size() > 1) return tl::unexpected(ambiguous(selector, serials));
+  if (fitting.empty() && refused) return tl::unexpected(*refused);
+  if (fitting.empty()) return tl::unexpected(not_found(selector, serials));
+  return std::make_unique<OpenDevice>(*std::move(context), std::move(fitting.front().handle),
+                                      std::move(fitting.front().info));
+}
+
+}  // namespace rondure::wire
