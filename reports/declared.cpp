@@ -128,16 +128,6 @@ std::optional<ThermalInfluences> thermal_influences(const record::RunRecord& rec
   return out;
 }
 
-std::optional<FixtureInfluences> fixture_influences(const record::RunRecord& record) {
-  if (!declares(record, "fixture")) return std::nullopt;
-  const Section said(record, "fixture/");
-  FixtureInfluences out;
-  out.angle_rad = said.number("angle_deg") * core::kDegree;
-  out.position_mm = said.number("position_um") * core::kMicrometre;
-  out.creep_rad = said.number("creep_deg") * core::kDegree;
-  return out;
-}
-
 std::optional<FormSpectrum> spectrum_of(const record::RunRecord& record) {
   if (!declares(record, "form_spectrum")) return std::nullopt;
   const Section said(record, "form_spectrum/");
@@ -167,6 +157,16 @@ UncertaintyOptions options_of(const Section& said) {
 }
 
 }  // namespace
+
+std::optional<FixtureInfluences> fixture_influences(const record::RunRecord& record) {
+  if (!declares(record, "fixture")) return std::nullopt;
+  const Section said(record, "fixture/");
+  FixtureInfluences out;
+  out.angle_rad = said.number("angle_deg") * core::kDegree;
+  out.position_mm = said.number("position_um") * core::kMicrometre;
+  out.creep_rad = said.number("creep_deg") * core::kDegree;
+  return out;
+}
 
 std::optional<Declared> declared_for(const record::RunRecord& record, const FeatureResult& result,
                                      const std::optional<fit::ProbeTip>& probe) {
