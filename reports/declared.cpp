@@ -128,13 +128,23 @@ std::optional<ThermalInfluences> thermal_influences(const record::RunRecord& rec
   return out;
 }
 
+/// "declared in the plan: 2 UPR 1.5 um, 0 UPR of degree 1 0.5 um; only their ratios count".
+std::string source_text(const FormSpectrum& spectrum) {
+  std::string out = "declared in the plan:";
+  for (const FormTerm& term : spectrum.terms) {
+    out += fmt::format("{} {} UPR{} {:g} um", out.back() == ':' ? "" : ",", term.undulations,
+                       term.degree > 0 ? fmt::format(" of degree {}", term.degree) : "",
+                       term.amplitude_mm / core::kMicrometre);
+  }
+  return out + (spectrum.absolute ? "; as they are" : "; only their ratios count");
+}
+
 std::optional<FormSpectrum> spectrum_of(const record::RunRecord& record) {
   if (!declares(record, "form_spectrum")) return std::nullopt;
   const Section said(record, "form_spectrum/");
   FormSpectrum out;
   const auto amplitudes = said.words("amplitudes");
   out.absolute = !amplitudes.empty() && amplitudes.front() == "absolute";
-  out.source = "declared in the plan";
   const auto undulations = said.numbers("terms/undulations");
   const auto degrees = said.numbers("terms/degree");
   const auto amplitudes_um = said.numbers("terms/amplitude_um");
@@ -142,6 +152,7 @@ std::optional<FormSpectrum> spectrum_of(const record::RunRecord& record) {
     out.terms.push_back({static_cast<int>(undulations[i]), static_cast<int>(at(degrees, i)),
                          at(amplitudes_um, i) * core::kMicrometre});
   }
+  out.source = source_text(out);
   return out;
 }
 

@@ -67,13 +67,14 @@ std::string characteristic_block(const CharacteristicResult& result, const std::
   const char* word = tolerance_word(asked);
   const bool decided =
       result.verdict == Verdict::kConforms || result.verdict == Verdict::kDoesNotConform;
-  if (word == nullptr || !decided || !result.value_mm || !asked.tolerance_mm) {
-    if (result.value_mm) text += comment(label, fmt::format("value {} um", um(*result.value_mm)));
+  if (word == nullptr || !decided || !result.value || !asked.tolerance_mm) {
+    if (result.value) text += comment(label, result.value->sentence());
     return text + comment(label, "no block in DMIS; " + result.reason);
   }
+  text += comment(label, result.value->sentence());
   text += fmt::format("T({})=TOL/{},{}\n", label, word, decimal(*asked.tolerance_mm));
   text += fmt::format("OUTPUT/FA({}),TA({})\n", feature, label);
-  text += fmt::format("TA({})=TOL/{},{},{}\n", label, word, decimal(*result.value_mm),
+  text += fmt::format("TA({})=TOL/{},{},{}\n", label, word, decimal(result.value->value_mm()),
                       result.verdict == Verdict::kConforms ? "INTOL" : "OUTOL");
   return text;
 }

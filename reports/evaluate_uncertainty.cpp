@@ -127,7 +127,14 @@ UncertaintyStatus uncertainty_of(const record::RunRecord& record, const FeatureR
   if (asked.reference != record::Reference::kMinimumZone) {
     return UncertaintyStatus::none("intervals are computed of minimum zones only");
   }
-  const auto cloud = cloud_of(record, result, rows_of(result, asked));
+  const Rows rows = rows_of(result, asked);
+  constexpr std::size_t kMostPoints = 20'000;  // some 10 s of trials; verify does them again
+  if (rows.rows.size() > kMostPoints) {
+    return UncertaintyStatus::none(
+        fmt::format("{} points are more than {}, the limit of the trials; give every n-th point",
+                    rows.rows.size(), kMostPoints));
+  }
+  const auto cloud = cloud_of(record, result, rows);
   if (!cloud) return UncertaintyStatus::none(cloud.error().what);
   const auto spectrum = spectrum_on(*cloud, *declared, result.feature);
   if (!spectrum) return UncertaintyStatus::none(spectrum.error().what);

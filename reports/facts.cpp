@@ -223,7 +223,7 @@ std::string rule_sentence(const Evaluation& evaluation) {
   if (!rule.needs_interval()) {
     return "simple acceptance; no measurement uncertainty taken into account";
   }
-  return fmt::format("{}; said {}", in_words(rule), name_of(rule.measurand));
+  return fmt::format("{}; the value {} decides", in_words(rule), name_of(rule.measurand));
 }
 
 std::string rule_in_words(const record::Header& header) {

@@ -13,7 +13,9 @@ namespace {
 /// What the letters of the formula stand for.
 constexpr const char* kLetters =
     "T: the tolerance; y: the value corrected for noise (and, of the whole surface, for sparse "
-    "sampling); [lo, hi]: its coverage interval; U: half its width.";
+    "sampling); [lo, hi]: its coverage interval; U: half its width. In the bars above: the line is "
+    "T, "
+    "the shaded band about it the guard bands, the whisker the interval.";
 
 std::string statements(const DecisionRule& rule) {
   std::string html;
@@ -82,13 +84,15 @@ std::string value_part(const CharacteristicResult& result) {
   html += statement_entry("At the sampled points, free of noise", u.sampled, status.coverage_1());
   if (u.whole) {
     html += statement_entry("Of the whole surface", *u.whole, status.coverage_1());
-    html += entry("Form spectrum of it", isolated(u.spectrum_source));
+    html += entry("Form spectrum of it", in_sentence(u.spectrum_source), "wide-key");
   }
   html += bias_entries(u) + "</dl>";
   if (const std::string bars = budget_bars(u.budget); !bars.empty()) {
     html += fmt::format(
         R"(<figure><div class="scroll">{}</div><figcaption>Budget: what each influence does alone, )"
-        "ranked; standard uncertainty, share of the sum of squares, mean shift of the value. "
+        "ranked: standard uncertainty, share of the sum of squares, mean shift of the value. Blue: "
+        "at "
+        "the sampled points, shares among themselves; orange: of the whole surface, share of all."
         "</figcaption></figure>",
         bars);
   }

@@ -94,13 +94,14 @@ std::string value_cell(const StatedValue& value) {
   return html;
 }
 
-std::string percent(double share_1) {
-  if (share_1 > 0.0 && share_1 < 1e-4) return "below 0.01 %";
-  if (share_1 < 1.0 && share_1 > 0.9999) return "above 99.99 %";
+/// A probability that was counted in trials: none of n is less than one of n.
+std::string percent(double share_1, double trials) {
+  if (share_1 * trials < 0.5) return fmt::format("below {:.2g} %", 100.0 / trials);
+  if ((1.0 - share_1) * trials < 0.5) return fmt::format("above {:.6g} %", 100.0 - 100.0 / trials);
   return fmt::format("{:.4g} %", 100.0 * share_1);
 }
 
-/// "; it conforms with a probability of 99.3 %, ...".
+/// Probability of conformance and risks; empty without an interval.
 std::string risks_in_words(const CharacteristicResult& result) {
   std::string html;
   if (result.outcome->conformance_1) {
@@ -110,13 +111,14 @@ std::string risks_in_words(const CharacteristicResult& result) {
   if (const auto risk = result.outcome->specific_risk_1()) {
     html += fmt::format(" Specific {} risk of this verdict: {}.",
                         result.verdict == Verdict::kConforms ? "consumer's" : "producer's",
-                        percent(*risk));
+                        percent(*risk, trials));
   }
   if (result.risks) {
     html += fmt::format(
         " Over the parts of the stated prior: {} conform not and are accepted (global consumer's "
         "risk), {} conform and are rejected (global producer's risk).",
-        percent(result.risks->false_acceptance_1), percent(result.risks->false_rejection_1));
+        percent(result.risks->false_acceptance_1, trials),
+        percent(result.risks->false_rejection_1, trials));
   }
   return html;
 }
@@ -137,7 +139,7 @@ std::string row(const FeatureResult& feature, const CharacteristicResult& result
   html += asked.drawing_zone.empty()
               ? std::string("<td></td></tr>")
               : fmt::format(R"(<td data-l="Zone">{}</td></tr>)", isolated(asked.drawing_zone));
-  std::string words = in_sentence(result.reason);
+  std::string words = in_sentence(capitalised(result.reason));
   if (result.outcome) words += risks_in_words(result);
   if (result.value)
     words +=

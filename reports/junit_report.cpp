@@ -36,14 +36,11 @@ void add_outcome(pugi::xml_node node, const char* element, const std::string& ty
   set(outcome, "message", message);
 }
 
-/// "CYLt MZCY 8.300 um, tolerance 10.000 um; MZCY; unfiltered; ...".
+/// "CYLt = 8.31 um [7.60, 9.40] (MZCY; unfiltered; ...), tolerance 10.000 um".
 std::string value_in_words(const CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
-  const std::string reference = reference_of(asked);
-  std::string text = symbol_of(asked) + (reference.empty() ? "" : " " + reference);
-  text += result.value_mm ? fmt::format(" {} um", um(*result.value_mm)) : " no value";
+  std::string text = result.value ? result.value->sentence() : symbol_of(asked) + ": no value";
   if (asked.tolerance_mm) text += fmt::format(", tolerance {} um", um(*asked.tolerance_mm));
-  if (!result.operator_text.empty()) text += "; " + result.operator_text;
   return text;
 }
 

@@ -133,7 +133,7 @@ void add_radii(pugi::xml_node parent, double inner_mm, double outer_mm) {
 /// Whether the value is the width of this zone, and not a corrected one.
 bool is_width(const CharacteristicResult& result, double width_mm) {
   constexpr double kSame_mm = 1e-12;
-  return result.value_mm && std::abs(*result.value_mm - width_mm) <= kSame_mm;
+  return result.value && std::abs(result.value->value_mm() - width_mm) <= kSame_mm;
 }
 
 /// ZoneRadii and ZoneAxis: the minimum zone itself.
@@ -171,15 +171,17 @@ void add_measured(QifDraft& draft, const Placed& placed) {
       add(draft.lists.measured_characteristics, element(placed.family, "Measurement").c_str());
   node.append_attribute("id").set_value(draft.ids.next());
   add_attributes(node, {{"verdict", std::string(name_of(result.verdict))},
-                        {"verification_operator", result.operator_text}});
+                        {"verification_operator",
+                         result.value ? result.value->operator_text() : std::string()},
+                        {"stated", result.value ? result.value->sentence() : std::string()}});
   if (!result.reason.empty()) add(node, "Description", result.reason);
   add(add(node, "Status"), "CharacteristicStatusEnum", status_of(result.verdict));
   add(node, "CharacteristicItemId", placed.item);
   add_references(node, "FeatureMeasurementIds", measured_shapes(placed));
   if (has_reference(asked)) add_algorithm(node, asked.reference);
   if (draft.device) add_references(node, "MeasurementDeviceIds", {*draft.device});
-  if (!result.value_mm || !std::isfinite(*result.value_mm)) return;
-  add(node, "Value", decimal(*result.value_mm));
+  if (!result.value || !std::isfinite(result.value->value_mm())) return;
+  add(node, "Value", decimal(result.value->value_mm()));
   if (asked.reference != Reference::kMinimumZone) return;
   if (placed.family == Family::kCylindricity) add_cylinder_zone(node, placed);
   if (placed.family == Family::kCircularity) add_circle_zone(node, placed);

@@ -26,15 +26,18 @@ std::string write_results_csv(const record::RunRecord& record, const Evaluation&
                   csv_field(header.part_id), csv_field(header.serial));
   std::string text =
       "run,started_utc,part,serial,feature,characteristic,symbol,reference,value_um,tolerance_um,"
-      "verdict,reason,verification_operator\n";
+      "verdict,reason,verification_operator,low_um,high_um\n";
   for (const FeatureResult& feature : evaluation.features) {
     for (const CharacteristicResult& result : feature.characteristics) {
       const record::Characteristic& asked = result.characteristic;
-      text +=
-          fmt::format("{},{},{},{},{},{},{},{},{},{}\n", head, csv_field(feature.feature.id),
-                      csv_field(asked.id), symbol_of(asked), reference_of(asked),
-                      in_um(result.value_mm), in_um(asked.tolerance_mm), name_of(result.verdict),
-                      csv_field(result.reason), csv_field(result.operator_text));
+      const UncertaintyStatement* known = result.value ? result.value->statement() : nullptr;
+      const std::string interval =
+          known == nullptr ? "," : in_um(known->low_mm) + "," + in_um(known->high_mm);
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", head, csv_field(feature.feature.id),
+                          csv_field(asked.id), symbol_of(asked), reference_of(asked),
+                          in_um(result.value_mm()), in_um(asked.tolerance_mm),
+                          name_of(result.verdict), csv_field(result.reason),
+                          csv_field(result.value ? result.value->operator_text() : ""), interval);
     }
   }
   return text;

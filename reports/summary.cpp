@@ -77,9 +77,12 @@ void add_uncertainty(std::string& out, const StatedValue& value) {
   std::string bias = fmt::format("noise {} um", signed_um(u.noise_inflation_mm));
   if (u.sampling_loss_mm)
     bias += fmt::format(", sparse sampling {} um", signed_um(*u.sampling_loss_mm));
-  if (!u.budget.empty()) {
-    bias += fmt::format("; most of the spread: {} ({:.0f} %)", u.budget.front().name,
-                        100.0 * u.budget.front().share_1);
+  const auto most = std::find_if(u.budget.begin(), u.budget.end(), [&](const BudgetLine& line) {
+    return line.measurand == value.measurand();
+  });
+  if (most != u.budget.end() && most->share_1 > 0.0) {
+    bias += fmt::format("; most of the spread {}: {} ({:.0f} %)", name_of(most->measurand),
+                        most->name, 100.0 * most->share_1);
   }
   add_wrapped(out, "    bias", bias);
 }

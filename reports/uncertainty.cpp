@@ -244,4 +244,24 @@ core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
   return out;
 }
 
+core::Result<FormCloud> simulated_cloud(const FormCloud& nominal, const Influences& influences,
+                                        const FormSpectrum& spectrum, std::uint64_t seed) {
+  FormCloud cloud = nominal;
+  for (FormPoint& point : cloud.points) point.deviation_mm = 0.0;
+  if (const auto good = check_all(cloud, influences, spectrum, {}); !good) {
+    return core::fail(good.error());
+  }
+  const Eigen::MatrixXd columns = spectrum_columns(spectrum, cloud.points);
+  core::KeyedNoise noise(seed, {0});
+  Eigen::VectorXd deviations;
+  ErrorModel(cloud, influences).draw(noise, std::nullopt, deviations);
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) deviations += noise.normal() * columns.col(k);
+  const Eigen::MatrixXd rigid = rigid_basis(cloud);
+  deviations -= rigid * (rigid.transpose() * deviations);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    cloud.points[i].deviation_mm = deviations[static_cast<Eigen::Index>(i)];
+  }
+  return cloud;
+}
+
 }  // namespace rondure::reports

@@ -99,4 +99,16 @@ struct UncertaintyResult {
     const std::optional<FormSpectrum>& spectrum = std::nullopt,
     const UncertaintyOptions& options = {});
 
+/// What one inspection of a part of a form spectrum would read: for a prediction before the first
+/// touch, whose measurement_uncertainty() is then that of such an inspection.
+///
+/// @param nominal   Places; their deviations are not looked at.
+/// @param spectrum  Its amplitudes are taken as they are.
+/// @param seed      Another seed, another part and another inspection.
+/// @return  The cloud with deviations, about its axis; as measurement_uncertainty() otherwise.
+[[nodiscard]] core::Result<FormCloud> simulated_cloud(const FormCloud& nominal,
+                                                      const Influences& influences,
+                                                      const FormSpectrum& spectrum,
+                                                      std::uint64_t seed);
+
 }  // namespace rondure::reports

@@ -345,8 +345,11 @@ TEST(Coverage, FallsShortOfTheWholeSurfaceWhenTheDeclaredSpectrumIsTooShort) {
   for (const Scenario& now : scenarios()) {
     const Tally tally = tally_whole(now, short_spectrum());
     tally.print(now.name);
-    // Where the errors are large they hide it: then the interval is wide for another reason.
-    EXPECT_LT(tally.coverage(), now.name == "quiet" ? 0.85 : 0.95) << now.name;
+    if (now.name == "quiet") {
+      EXPECT_LT(tally.coverage(), 0.85);
+    }
+    if (!full()) continue;  // large errors hide most of it: some tens do not show the rest
+    EXPECT_LT(tally.coverage(), 0.93) << now.name;
     EXPECT_GT(tally.above, tally.below) << "a short spectrum makes a part look too good";
   }
 }
