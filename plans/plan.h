@@ -103,9 +103,6 @@ struct FixturePlan {
   double ring_diameter_mm = 0.0;     ///< Outside of the clamping ring; 0: nothing passes it.
   double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
   double table_height_mm = -1000.0;  ///< Machine z.
-  double pose_shift_uncertainty_um =
-      25.0;  ///< Standard uncertainty of a pose, where the axes meet.
-  double pose_turn_uncertainty_deg = 0.01;
   std::optional<DatumPlan> datum;
   std::optional<CalibrationPlan> calibration;  ///< None: the fixture is taken as nominal.
 };

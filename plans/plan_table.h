@@ -255,13 +255,6 @@ void describe(Visitor& v, FixturePlan& p) {
       diameter("Outer diameter of the bowl, about axis_point_mm; 0: unknown, then the tip goes "
                "nowhere below rim_height_mm."));
   v.number("table_height_mm", p.table_height_mm, place("Height of the table, machine z."));
-  v.number("pose_shift_uncertainty_um", p.pose_shift_uncertainty_um,
-           {.at_least = 0.0,
-            .at_most = 10'000.0,
-            .meaning = "Standard uncertainty of where a pose puts the part: shift along x, y, z at "
-                       "axis_point_mm. Of merged poses."});
-  v.number("pose_turn_uncertainty_deg", p.pose_turn_uncertainty_deg,
-           {.at_least = 0.0, .at_most = 1.0, .meaning = "The same of its turn about x, y, z."});
   v.object("datum", p.datum,
            {.meaning = "Reference spheres on the base of the fixture, touched before a run: then "
                        "axis_point_mm is in the base frame they show."});

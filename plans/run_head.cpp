@@ -54,8 +54,6 @@ void add_merged_settings(const FixturePlan& fixture, const FeaturePlan& feature,
   out.push_back({"merged_poses", static_cast<double>(feature.pose_search.poses.size()), ""});
   for (const double v : fixture.axis_point_mm) out.push_back({"axis_point_mm", v, ""});
   for (const double v : fixture.axis_offset_mm) out.push_back({"axis_offset_mm", v, ""});
-  out.push_back({"pose_shift_uncertainty_um", fixture.pose_shift_uncertainty_um, ""});
-  out.push_back({"pose_turn_uncertainty_deg", fixture.pose_turn_uncertainty_deg, ""});
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
+#include "reports/declared.h"
 #include "reports/fixture_use.h"
 
 namespace rondure::reports {
@@ -95,9 +96,9 @@ double touch_uncertainty_mm(const MergedCloud& cloud, const std::optional<fit::P
 std::vector<fit::JointPose> take_poses(const RunRecord& record, const record::Feature& feature,
                                        const std::vector<const record::PoseVisit*>& visits,
                                        MergedCloud& out) {
-  const double shift_mm =
-      feature.number("pose_shift_uncertainty_um").value_or(0.0) * core::kMicrometre;
-  const double turn_rad = feature.number("pose_turn_uncertainty_deg").value_or(0.0) * core::kDegree;
+  const FixtureInfluences fixture = fixture_influences(record).value_or(FixtureInfluences{});
+  const double shift_mm = fixture.position_mm;
+  const double turn_rad = fixture.angle_rad;
   const fixture::Kinematics kinematics = kinematics_of(record, feature);
   std::vector<fit::JointPose> poses;
   double squares = 0.0;
@@ -145,6 +146,14 @@ core::Result<MergedCloud> merged_cloud(const RunRecord& record, int index,
   out.temperatures = temperatures_of(record, visits);
   out.merged.joint = feature.word("merge") != "kinematics";
   out.merged.touch_mm = touch_uncertainty_mm(out, probe);
+  if (poses.front().prior[0] == 0.0 && poses.front().prior[3] == 0.0) {
+    out.merged.refusal = core::Error{core::Code::kMissingKey,
+                                     "the plan does not state the uncertainty of the fixture "
+                                     "(uncertainty.fixture), so what it adds to CYLt is not known",
+                                     {}};
+    if (out.merged.joint) return core::fail(*out.merged.refusal);
+    return out;
+  }
   fit::PoseJointOptions options;
   options.touch_mm = out.merged.touch_mm;
   auto solved = fit::pose_joint(poses, options);
