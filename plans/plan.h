@@ -13,6 +13,7 @@
 #include "plans/machine_errors_plan.h"
 #include "plans/spindle_plan.h"
 #include "plans/wheel_plan.h"
+#include "plans/zaber_plan.h"
 
 namespace rondure::plans {
 
@@ -101,6 +102,7 @@ struct FixturePlan {
   double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
   double table_height_mm = -1000.0;  ///< Machine z.
   std::optional<DatumPlan> datum;
+  std::optional<ZaberPlan> zaber;  ///< Used by the driver of that name only.
 };
 
 struct QualificationPlan {

@@ -7,6 +7,7 @@
 #include "plans/simulation_table.h"
 #include "plans/spindle_table.h"
 #include "plans/wheel_table.h"
+#include "plans/zaber_table.h"
 
 // The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
 // meaning, once. Defaults are the member initialisers of plan.h. A visitor walks it: TableReader
@@ -214,9 +215,10 @@ void describe(Visitor& v, FixturePlan& p) {
         .at_least = -90.0, .at_most = 90.0, .code = core::Code::kPoseRange, .meaning = meaning};
   };
   v.text("driver", p.driver,
-         {.one_of = {"simulated", "ippdme"},
-          .meaning = "Which fixture carries the part: a simulation in this program, or two rotary "
-                     "axes of the machine behind I++ DME (AlignPart)."});
+         {.one_of = {"simulated", "ippdme", "zaber"},
+          .meaning = "Which fixture carries the part: a simulation in this program, two rotary "
+                     "axes of the machine behind I++ DME (AlignPart), or two rotary stages on a "
+                     "Zaber controller. Stages may also turn the part of a simulated machine."});
   v.numbers("axis_point_mm", p.axis_point_mm,
             place("A point of the base-fixed axis (alpha): x, y, z in the machine frame."));
   v.numbers("axis_offset_mm", p.axis_offset_mm,
@@ -254,6 +256,7 @@ void describe(Visitor& v, FixturePlan& p) {
   v.object("datum", p.datum,
            {.meaning = "Reference spheres on the base of the fixture, touched before a run: then "
                        "axis_point_mm is in the base frame they show."});
+  v.object("zaber", p.zaber, {.meaning = "Connection and stages of the driver zaber."});
 }
 
 template <class Visitor>
