@@ -11,6 +11,7 @@
 #include "core/result.h"
 #include "plans/contour_plan.h"
 #include "plans/machine_errors_plan.h"
+#include "plans/rotary_plan.h"
 #include "plans/spindle_plan.h"
 #include "plans/uncertainty_plan.h"
 #include "plans/wheel_plan.h"
@@ -86,6 +87,7 @@ struct DatumPlan {
 };
 
 struct FixturePlan {
+  std::string id;
   std::string driver = "simulated";
   std::array<double, 3> axis_point_mm = {0.0, 0.0, 0.0};     ///< A, machine frame.
   std::array<double, 3> axis_offset_mm = {0.0, 0.0, 0.0};    ///< d, hoop frame.
@@ -102,6 +104,7 @@ struct FixturePlan {
   double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
   double table_height_mm = -1000.0;  ///< Machine z.
   std::optional<DatumPlan> datum;
+  std::optional<CalibrationPlan> calibration;  ///< None: the fixture is taken as nominal.
 };
 
 struct QualificationPlan {
@@ -195,9 +198,10 @@ struct FeaturePlan {
   NominalPlan nominal;
   SamplingPlan sampling;
   PoseSearchPlan pose_search;
-  std::optional<SpindlePlan> spindle;  ///< Needed by, and only by, the type of that name.
-  std::optional<WheelPlan> wheel;      ///< The same.
-  std::optional<ContourPlan> contour;  ///< The same.
+  std::optional<SpindlePlan> spindle;     ///< Needed by, and only by, the type of that name.
+  std::optional<WheelPlan> wheel;         ///< The same.
+  std::optional<ContourPlan> contour;     ///< The same.
+  std::optional<RotaryPlan> rotary_axes;  ///< The same.
   std::optional<SourcePlan> source;
   std::vector<CharacteristicPlan> characteristics;
 };
@@ -241,6 +245,7 @@ struct SimulatedFixturePlan {
   double zero_beta_deg = 0.0;
   double squareness_deg = 0.0;
   double repeatability_deg = 0.0;
+  std::optional<SimulatedMotionPlan> motion;  ///< None: the axes turn truly.
 };
 
 /// What interrupts a simulated run, once: a resumed run meets none of it.

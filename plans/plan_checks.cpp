@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "plans/analysis.h"
+#include "plans/calibration_use.h"
 #include "plans/json_text.h"
 #include "record/archive_place.h"
 
@@ -234,6 +235,7 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
   refuse("/spindle", "the feature is touched, not probed by three probes");
   refuse("/wheel", "the feature is no wheel");
   refuse("/contour", "the feature is touched, not ground after axis traces");
+  refuse("/rotary_axes", "the feature is a surface, not the fixture");
   refuse("/source/columns", "points have the columns x,y or x,y,z");
   if (findings.is_given(where + "/source")) {
     refuse("/sampling", "the points come from a file");
@@ -264,8 +266,11 @@ void check_equipment(const Plan& plan, Findings& findings) {
   if (plan.probe) check_stylus(*plan.probe, findings);
   check_sections(plan.part, findings);
   if (plan.fixture) check_datum(*plan.fixture, findings);
+  check_calibration_use(plan, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (is_touched(plan, i, findings)) return check_needs(plan, i, findings);
+    if (is_touched(plan, i, findings) || measures_by_touch(plan.features[i])) {
+      return check_needs(plan, i, findings);
+    }
   }
 }
 

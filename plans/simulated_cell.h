@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -52,6 +53,10 @@ class SimulatedCell final : public Cell {
   [[nodiscard]] std::vector<Eigen::Vector3d> true_scan_W_mm() const override {
     return machine_.true_tips_W_mm();
   }
+  [[nodiscard]] std::optional<fixture::AxisErrors> true_errors(bool carried,
+                                                               double angle_rad) const override {
+    return fixture_.true_errors(carried, angle_rad);
+  }
 
  private:
   void place_part();
@@ -61,6 +66,8 @@ class SimulatedCell final : public Cell {
   fixture::SimulatedFixture fixture_;
   cmm::SimulatedMachine machine_;
   std::optional<cmm::PartSurface> surface_;
+  std::vector<cmm::ReferenceSphere> table_spheres_;  ///< On the table, machine frame.
+  std::vector<cmm::ReferenceSphere> balls_;          ///< Carried by the ring, part frame.
   Eigen::Isometry3d true_X_WF_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d true_X_BP_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d shift_mm_ = Eigen::Vector3d::Zero();  ///< Of the part, while interrupted.
