@@ -96,9 +96,9 @@ double touch_uncertainty_mm(const MergedCloud& cloud, const std::optional<fit::P
 std::vector<fit::JointPose> take_poses(const RunRecord& record, const record::Feature& feature,
                                        const std::vector<const record::PoseVisit*>& visits,
                                        MergedCloud& out) {
-  const FixtureInfluences fixture = fixture_influences(record).value_or(FixtureInfluences{});
-  const double shift_mm = fixture.position_mm;
-  const double turn_rad = fixture.angle_rad;
+  const FixtureInfluences stated = fixture_influences(record).value_or(FixtureInfluences{});
+  const double shift_mm = stated.position_mm;
+  const double turn_rad = stated.angle_rad;
   const fixture::Kinematics kinematics = kinematics_of(record, feature);
   std::vector<fit::JointPose> poses;
   double squares = 0.0;
