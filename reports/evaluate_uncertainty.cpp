@@ -127,6 +127,11 @@ UncertaintyStatus uncertainty_of(const record::RunRecord& record, const FeatureR
   if (asked.reference != record::Reference::kMinimumZone) {
     return UncertaintyStatus::none("intervals are computed of minimum zones only");
   }
+  // The influences act in the machine frame; a merged cloud stands in the frame of the part.
+  if (result.merged) {
+    return UncertaintyStatus::none(
+        "intervals of clouds merged from several poses are not computed");
+  }
   const Rows rows = rows_of(result, asked);
   constexpr std::size_t kMostPoints = 20'000;  // some 10 s of trials; verify does them again
   if (rows.rows.size() > kMostPoints) {
