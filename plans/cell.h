@@ -107,7 +107,7 @@ struct CellOptions {
                                                  const cmm::Capabilities& machine);
 
 /// Opens the cell of a plan that has `machine`, `fixture` and `probe`, with the drivers it names.
-/// Nothing moves. kMachine when a machine cannot be reached, or lacks an ability
+/// Nothing moves. kMachine when a machine or a fixture cannot be reached, or lacks an ability
 /// (check_abilities()).
 [[nodiscard]] core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan,
                                                             const CellOptions& options);

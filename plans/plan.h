@@ -15,6 +15,7 @@
 #include "plans/spindle_plan.h"
 #include "plans/uncertainty_plan.h"
 #include "plans/wheel_plan.h"
+#include "plans/zaber_plan.h"
 
 namespace rondure::plans {
 
@@ -105,6 +106,7 @@ struct FixturePlan {
   double table_height_mm = -1000.0;  ///< Machine z.
   std::optional<DatumPlan> datum;
   std::optional<CalibrationPlan> calibration;  ///< None: the fixture is taken as nominal.
+  std::optional<ZaberPlan> zaber;  ///< Used by the driver of that name only.
 };
 
 struct QualificationPlan {

@@ -158,6 +158,29 @@ void check_mask(const CharacteristicPlan& c, const std::string& where, Findings&
   }
 }
 
+/// What the driver "zaber" needs, and that nothing is said to another driver that it ignores.
+void check_zaber(const FixturePlan& fixture, Findings& findings) {
+  constexpr std::string_view kWhere = "/fixture/zaber";
+  const bool is_zaber = fixture.driver == "zaber";
+  if (!is_zaber && findings.is_given(std::string(kWhere))) {
+    findings.meaning(Code::kMeaning, std::string(kWhere),
+                     fmt::format("has no effect: the driver is \"{}\"; remove it", fixture.driver));
+  }
+  if (!is_zaber || !findings.sound(kWhere)) return;
+  const ZaberPlan stages = fixture.zaber.value_or(ZaberPlan{});
+  if (stages.connection == "serial" && stages.device.empty()) {
+    findings.meaning(Code::kMissingKey, "/fixture/zaber/device",
+                     "this key is missing: the connection is \"serial\"; give its device, e.g. "
+                     "\"/dev/ttyUSB0\"");
+  }
+  const int alpha = stages.alpha.axis == 0 ? 1 : stages.alpha.axis;
+  const int beta = stages.beta.axis == 0 ? 2 : stages.beta.axis;
+  if (alpha == beta) {
+    findings.meaning(Code::kMeaning, "/fixture/zaber/beta/axis",
+                     fmt::format("axis {} turns alpha already; give beta another one", beta));
+  }
+}
+
 /// A part that is simulated here does not stand in front of a machine elsewhere, nor the reverse.
 void check_drivers(const Plan& plan, Findings& findings) {
   if (!plan.machine || !plan.fixture || !findings.sound("/machine/driver") ||
@@ -166,10 +189,8 @@ void check_drivers(const Plan& plan, Findings& findings) {
   }
   const std::string& machine = plan.machine->driver;
   const std::string& fixture = plan.fixture->driver;
-  if ((machine == "simulated") == (fixture == "simulated") &&
-      (fixture != "ippdme" || machine == "ippdme")) {
-    return;
-  }
+  check_zaber(*plan.fixture, findings);
+  if (fixture == "zaber" || machine == fixture) return;
   findings.meaning(Code::kMeaning, "/fixture/driver",
                    fmt::format("a fixture \"{}\" cannot carry a part in front of a machine \"{}\"; "
                                "give both the same driver",

@@ -9,6 +9,7 @@
 #include "plans/spindle_table.h"
 #include "plans/uncertainty_table.h"
 #include "plans/wheel_table.h"
+#include "plans/zaber_table.h"
 
 // The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
 // meaning, once. Defaults are the member initialisers of plan.h. A visitor walks it: TableReader
@@ -218,9 +219,10 @@ void describe(Visitor& v, FixturePlan& p) {
   v.text("id", p.id,
          {.meaning = "What this fixture is called, as on its label: a calibration belongs to it."});
   v.text("driver", p.driver,
-         {.one_of = {"simulated", "ippdme"},
-          .meaning = "Which fixture carries the part: a simulation in this program, or two rotary "
-                     "axes of the machine behind I++ DME (AlignPart)."});
+         {.one_of = {"simulated", "ippdme", "zaber"},
+          .meaning = "Which fixture carries the part: a simulation in this program, two rotary "
+                     "axes of the machine behind I++ DME (AlignPart), or two rotary stages on a "
+                     "Zaber controller. Stages may also turn the part of a simulated machine."});
   v.numbers("axis_point_mm", p.axis_point_mm,
             place("A point of the base-fixed axis (alpha): x, y, z in the machine frame."));
   v.numbers("axis_offset_mm", p.axis_offset_mm,
@@ -262,6 +264,7 @@ void describe(Visitor& v, FixturePlan& p) {
            {.meaning = "Errors of the fixture, found by a feature of the type rotary_axes: the run "
                        "reckons with them (docs/fixture-calibration.md). Left out: the fixture is "
                        "taken as nominal."});
+  v.object("zaber", p.zaber, {.meaning = "Connection and stages of the driver zaber."});
 }
 
 template <class Visitor>
