@@ -49,7 +49,14 @@ void SimulatedMachine::remove_part() {
   warm_part_.reset();
 }
 
-void SimulatedMachine::place_sphere(const ReferenceSphere& sphere) { spheres_.push_back(sphere); }
+std::size_t SimulatedMachine::place_sphere(const ReferenceSphere& sphere) {
+  spheres_.push_back(sphere);
+  return spheres_.size() - 1;
+}
+
+void SimulatedMachine::move_sphere(std::size_t number, const Eigen::Vector3d& center_W_mm) {
+  spheres_.at(number).center_W_mm = center_W_mm;
+}
 
 std::string SimulatedMachine::description() const {
   return fmt::format("simulated machine, tip diameter {:.7g} mm, touch speed {:.7g} mm/s",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -57,7 +58,10 @@ class SimulatedMachine final : public Machine {
   void place_part(const PartSurface& surface, const Eigen::Isometry3d& X_WP);
   void remove_part();
   /// Puts one more sphere on the table.
-  void place_sphere(const ReferenceSphere& sphere);
+  /// @return Its number, from 0.
+  std::size_t place_sphere(const ReferenceSphere& sphere);
+  /// Moves a sphere that was placed.
+  void move_sphere(std::size_t number, const Eigen::Vector3d& center_W_mm);
 
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] Capabilities capabilities() const override;

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "plans/contour_table.h"
+#include "plans/fixture_drivers_table.h"
 #include "plans/key_spec.h"
 #include "plans/plan.h"
 #include "plans/simulation_table.h"
@@ -214,9 +215,11 @@ void describe(Visitor& v, FixturePlan& p) {
         .at_least = -90.0, .at_most = 90.0, .code = core::Code::kPoseRange, .meaning = meaning};
   };
   v.text("driver", p.driver,
-         {.one_of = {"simulated", "ippdme"},
-          .meaning = "Which fixture carries the part: a simulation in this program, or two rotary "
-                     "axes of the machine behind I++ DME (AlignPart)."});
+         {.one_of = {"simulated", "ippdme", "thorlabs", "manual"},
+          .meaning = "Which fixture carries the part: a simulation in this program; two rotary "
+                     "axes of the machine behind I++ DME (AlignPart); two Thorlabs APT units on "
+                     "USB; or a fixture that a hand sets and friction holds, whose pose the "
+                     "machine then measures."});
   v.numbers("axis_point_mm", p.axis_point_mm,
             place("A point of the base-fixed axis (alpha): x, y, z in the machine frame."));
   v.numbers("axis_offset_mm", p.axis_offset_mm,
@@ -254,6 +257,10 @@ void describe(Visitor& v, FixturePlan& p) {
   v.object("datum", p.datum,
            {.meaning = "Reference spheres on the base of the fixture, touched before a run: then "
                        "axis_point_mm is in the base frame they show."});
+  v.object("thorlabs", p.thorlabs, {.meaning = "thorlabs: the units of the two axes."});
+  v.object("reached_pose", p.reached_pose,
+           {.meaning = "manual: reference spheres that turn with the part, touched in every pose, "
+                       "from which the pose is taken that was reached."});
 }
 
 template <class Visitor>

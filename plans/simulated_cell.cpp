@@ -1,14 +1,19 @@
 #include "plans/simulated_cell.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/units.h"
+#include "fixture/pose_range.h"
+#include "plans/fixture_driver.h"
 #include "plans/hidden_errors.h"
 #include "plans/plan_reach.h"
 #include "plans/pose_grid.h"
 
 namespace rondure::plans {
 namespace {
+
+constexpr double kAnyTurn_rad = core::kTwoPi;
 
 fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t seed,
                                                  bool resumed) {
@@ -26,6 +31,9 @@ fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t
   out.seed = seed;
   const int stall = plan.simulation->faults.fixture_stalls_at_move;
   if (!resumed) out.stalls_at_move = static_cast<std::uint64_t>(stall);
+  if (drives_fixture(plan)) {  // it follows a real one, which has its own limits and steps
+    out.limits = {-kAnyTurn_rad, kAnyTurn_rad, -kAnyTurn_rad, kAnyTurn_rad, 0.0};
+  }
   return out;
 }
 
@@ -71,9 +79,11 @@ Eigen::Isometry3d true_base(const SimulatedFixturePlan& hidden) {
 
 }  // namespace
 
-SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed)
+SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
+                             std::unique_ptr<fixture::Fixture> driven)
     : Cell(plan),
       simulation_(*plan.simulation),
+      driven_(std::move(driven)),
       fixture_(fixture_options(plan, seed, resumed)),
       machine_(machine_options(plan, seed, resumed)),
       true_X_WF_(true_base(plan.simulation->fixture)) {
@@ -85,6 +95,17 @@ SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed)
   }
   machine_.place_sphere({vector3(plan.probe->qualification.sphere_center_mm),
                          0.5 * plan.probe->qualification.sphere_diameter_mm});
+  place_carried_spheres(*plan.fixture);
+}
+
+void SimulatedCell::place_carried_spheres(const FixturePlan& fixture) {
+  if (!fixture.reached_pose) return;
+  for (const CarriedSpherePlan& sphere : fixture.reached_pose->spheres) {
+    carried_B_mm_.push_back(vector3(sphere.center_mm));
+    const std::size_t number = machine_.place_sphere(
+        {carried_B_mm_.back(), 0.5 * fixture.reached_pose->sphere_diameter_mm});
+    if (carried_B_mm_.size() == 1) first_carried_ = number;
+  }
 }
 
 void SimulatedCell::mount(const FeaturePlan& feature) {
@@ -94,19 +115,42 @@ void SimulatedCell::mount(const FeaturePlan& feature) {
 }
 
 core::Result<core::Pose> SimulatedCell::home_fixture() {
+  return driven_ ? home_driven() : recall_home();
+}
+
+core::Result<core::Pose> SimulatedCell::turn_to(const core::Pose& commanded) {
+  return driven_ ? turn_driven(commanded) : turn(commanded);
+}
+
+core::Result<core::Pose> SimulatedCell::recall_home() {
   auto reached = fixture_.home();
   turns_ = 0;
   place_part();
   return reached;
 }
 
-core::Result<core::Pose> SimulatedCell::turn_to(const core::Pose& commanded) {
-  return turn(commanded);
+/// The real fixture turns; where it reads to be, there the part is turned.
+core::Result<core::Pose> SimulatedCell::turn_driven(const core::Pose& commanded) {
+  const auto reached = driven_->move_to(on_grid(commanded));
+  if (!reached) return reached;
+  auto shown = turn(*reached);
+  if (shown) last_turn_ = commanded;
+  return shown;
 }
 
-core::Result<core::Pose> SimulatedCell::recall_home() { return home_fixture(); }
+core::Result<core::Pose> SimulatedCell::home_driven() {
+  const auto reached = driven_->home();
+  if (!reached) return reached;
+  if (auto shown = recall_home(); !shown) return shown;
+  return on_grid(*reached);
+}
 
 core::Result<core::Pose> SimulatedCell::recall_turn(const core::Pose& commanded) {
+  if (driven_) {
+    if (auto within = fixture::check_pose_range(driven_->limits(), commanded); !within) {
+      return core::fail(within.error());
+    }
+  }
   return turn(commanded);
 }
 
@@ -130,6 +174,16 @@ core::Result<core::Pose> SimulatedCell::home_again() {
   shift_mm_.x() = simulation_.faults.part_moved_um * core::kMicrometre;
   fixture_.stop_beside(simulation_.faults.fixture_off_deg * core::kDegree);
   if (auto homed = machine_.home(); !homed) return core::fail(homed.error());
+  if (driven_) {
+    const core::Pose last = last_turn_;
+    const std::uint64_t turns = turns_;
+    auto home = home_driven();
+    if (!home || turns == 0) return home;
+    fixture_.continue_after(turns - 1);
+    auto back = turn_driven(last);
+    turns_ = turns;
+    return back;
+  }
   auto reached = fixture_.home();
   if (reached && turns_ > 0) {
     fixture_.continue_after(turns_ - 1);
@@ -141,9 +195,12 @@ core::Result<core::Pose> SimulatedCell::home_again() {
 }
 
 void SimulatedCell::place_part() {
+  const Eigen::Isometry3d X_WB = true_X_WF_ * fixture_.true_body_to_machine();
+  for (std::size_t i = 0; i < carried_B_mm_.size(); ++i) {
+    machine_.move_sphere(first_carried_ + i, X_WB * carried_B_mm_[i]);
+  }
   if (!surface_) return;
-  machine_.place_part(*surface_, true_X_WF_ * fixture_.true_body_to_machine() *
-                                     Eigen::Translation3d(shift_mm_) * true_X_BP_);
+  machine_.place_part(*surface_, X_WB * Eigen::Translation3d(shift_mm_) * true_X_BP_);
 }
 
 }  // namespace rondure::plans
