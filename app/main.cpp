@@ -9,6 +9,7 @@
 
 #include "app/analysis_verbs.h"
 #include "app/indicators.h"
+#include "app/rotary_axes_command.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "app/wheel_command.h"
@@ -90,7 +91,7 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   verb->add_option("--operator", arguments.operator_name, "Who measures");
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
       ->check(check_seed);
-  add_formats(*verb, arguments.formats, "html,json,csv (default: as the plan says)");
+  add_formats(*verb, arguments.formats, "html,json,csv,qif,dmis,junit (default: as the plan says)");
   verb->add_option("--archive", arguments.archive,
                    "Where the results are kept besides: a file, postgresql://... or none\n"
                    "(default: as the plan says, else archive.db beside the run directory)");
@@ -295,7 +296,7 @@ void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
 void add_report(CLI::App& app, ReportArguments& arguments) {
   auto* verb = app.add_subcommand("report", "Writes the reports of a run again, from its journal");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
-  add_formats(*verb, arguments.formats, "html,json,csv (default: all)");
+  add_formats(*verb, arguments.formats, "html,json,csv,qif,dmis,junit (default: all)");
   verb->footer("\nExample: rondure report runs/01_spool_simulated-20261121T023302Z --format html");
 }
 
@@ -450,6 +451,7 @@ int main_of(int argc, char** argv) {
   RecordArguments record_arguments;
   WheelArguments wheel_arguments;
   ContourArguments contour_arguments;
+  RotaryAxesArguments rotary_arguments;
   ReportArguments report_arguments;
   SignArguments sign_arguments;
   VerifyArguments verify_arguments;
@@ -464,6 +466,7 @@ int main_of(int argc, char** argv) {
   add_contour(*fit_verb, contour_arguments);
   add_selftest(*fit_verb, selftest_arguments);
   add_wheel(*fit_verb, wheel_arguments);
+  add_rotary_axes(*fit_verb, rotary_arguments);
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
   add_history(app, history_arguments);
@@ -485,6 +488,7 @@ int main_of(int argc, char** argv) {
   if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
   if (fit_verb->got_subcommand("wheel")) return wheel(wheel_arguments);
   if (fit_verb->got_subcommand("contour")) return contour(contour_arguments);
+  if (fit_verb->got_subcommand("rotary-axes")) return rotary_axes(rotary_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
   if (app.got_subcommand("history")) return history(history_arguments);

@@ -7,6 +7,7 @@
 #include "app/archive_step.h"
 #include "app/processor.h"
 #include "app/resumption.h"
+#include "app/sketch_style.h"
 #include "app/terminal.h"
 #include "record/files.h"
 #include "record/journal.h"
@@ -102,7 +103,7 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
     return kRunFailed;
   }
   if (!arguments.quiet) {
-    say(reports::write_summary(told->record, evaluation));
+    say(reports::write_summary(told->record, evaluation, sketch_style()));
     for (const fs::path& file : *written) say(file.string() + "\n");
   }
   if (!failed) (void)archive_run(archive, directory, told->record, evaluation);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/processor.h"
+#include "app/sketch_style.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "record/checksums.h"
@@ -53,7 +54,7 @@ int report(const ReportArguments& arguments) {
   if (signed_sums != signed_checksums(arguments.directory)) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }
-  say(reports::write_summary(read->record, *evaluation));
+  say(reports::write_summary(read->record, *evaluation, sketch_style()));
   for (const auto& file : *written) say(file.string() + "\n");
   const bool well = evaluation->verdict == reports::Verdict::kConforms ||
                     evaluation->verdict == reports::Verdict::kNotToleranced;

@@ -49,13 +49,10 @@ void SimulatedMachine::remove_part() {
   warm_part_.reset();
 }
 
-std::size_t SimulatedMachine::place_sphere(const ReferenceSphere& sphere) {
-  spheres_.push_back(sphere);
-  return spheres_.size() - 1;
-}
+void SimulatedMachine::place_sphere(const ReferenceSphere& sphere) { spheres_.push_back(sphere); }
 
-void SimulatedMachine::move_sphere(std::size_t number, const Eigen::Vector3d& center_W_mm) {
-  spheres_.at(number).center_W_mm = center_W_mm;
+void SimulatedMachine::place_spheres(std::vector<ReferenceSphere> spheres) {
+  spheres_ = std::move(spheres);
 }
 
 std::string SimulatedMachine::description() const {

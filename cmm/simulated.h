@@ -58,10 +58,9 @@ class SimulatedMachine final : public Machine {
   void place_part(const PartSurface& surface, const Eigen::Isometry3d& X_WP);
   void remove_part();
   /// Puts one more sphere on the table.
-  /// @return Its number, from 0.
-  std::size_t place_sphere(const ReferenceSphere& sphere);
-  /// Moves a sphere that was placed.
-  void move_sphere(std::size_t number, const Eigen::Vector3d& center_W_mm);
+  void place_sphere(const ReferenceSphere& sphere);
+  /// These are all the spheres on the table, in place of those that were there.
+  void place_spheres(std::vector<ReferenceSphere> spheres);
 
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] Capabilities capabilities() const override;

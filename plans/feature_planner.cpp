@@ -1,5 +1,7 @@
 #include "plans/feature_planner.h"
 
+#include <numeric>
+
 #include <fmt/format.h>
 
 #include "core/units.h"
@@ -28,6 +30,23 @@ core::Result<CloudPath> FeaturePlanner::lay(const std::vector<Target>& targets,
     return core::fail(core::Code::kUnreachable, in_words(path.unreachable().front()));
   }
   return path;
+}
+
+std::vector<Target> FeaturePlanner::reachable(const std::vector<Target>& targets,
+                                              const PathGeometry& geometry,
+                                              const Eigen::Isometry3d& X_WB,
+                                              const Eigen::Isometry3d& X_BP) const {
+  std::vector<Target> out;
+  for (const Target& target : targets) {
+    if (check_clamp({target}, geometry, *plan_.fixture)) out.push_back(target);
+  }
+  if (out.empty()) return out;
+  std::vector<std::size_t> own(out.size());
+  std::iota(own.begin(), own.end(), std::size_t{0});
+  const Placement placement = {X_WB * X_BP, X_WB * nominal_seat(*plan_.fixture)};
+  const CloudPath path(scene_, placement, geometry, plan_.machine->park_mm[2], out, own);
+  for (const Unreachable& missed : path.unreachable()) std::erase(out, missed.target);
+  return out;
 }
 
 std::string in_words(const Unreachable& unreachable) {

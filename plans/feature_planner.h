@@ -22,6 +22,12 @@ class FeaturePlanner {
                                             const Eigen::Isometry3d& X_WB,
                                             const Eigen::Isometry3d& X_BP);
 
+  /// Those of the targets that the tool can reach, in their order.
+  [[nodiscard]] std::vector<Target> reachable(const std::vector<Target>& targets,
+                                              const PathGeometry& geometry,
+                                              const Eigen::Isometry3d& X_WB,
+                                              const Eigen::Isometry3d& X_BP) const;
+
  private:
   const Plan& plan_;
   const FeaturePlan& feature_;

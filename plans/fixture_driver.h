@@ -9,9 +9,9 @@
 
 namespace rondure::plans {
 
-/// Whether the fixture of a plan stands here and is driven by this program, or by a person that it
-/// asks: neither simulated nor part of a machine behind I++ DME. A simulated machine has a
-/// simulated person.
+/// Whether the fixture of a plan stands here and is driven by this program, or by a person whom it
+/// asks: neither simulated nor part of a machine behind I++ DME. In front of a simulated machine
+/// the person is simulated, too.
 [[nodiscard]] bool drives_fixture(const Plan& plan);
 
 /// Opens the driver of such a fixture; nothing turns.

@@ -6,11 +6,15 @@
 
 #include "core/units.h"
 #include "fixture/simulated.h"
+#include "plans/analysis.h"
 #include "plans/feature_planner.h"
+#include "plans/fixture_calibration.h"
 #include "plans/fixture_datum.h"
+#include "plans/merged_reach.h"
 #include "plans/plan_reach.h"
 #include "plans/pose_search.h"
 #include "plans/qualification.h"
+#include "plans/rotary_poses.h"
 #include "plans/run_head.h"
 
 namespace rondure::plans {
@@ -83,8 +87,20 @@ class NominalSession final : public PoseSession {
         planner_(plan, feature_),
         geometry_(path_geometry(plan, feature_, plan.part.location_uncertainty_mm)) {}
 
+  core::Result<Cloud> measure_reachable(const core::Pose& commanded) override {
+    const auto all = sampling_targets(feature_);
+    if (!all) return core::fail(all.error());
+    reachable_ =
+        planner_.reachable(*all, geometry_, body_at(commanded), nominal_seat(*plan_.fixture));
+    if (reachable_.size() < kLeastTargets) {
+      return core::fail(core::Code::kUnreachable, too_few_targets(commanded, reachable_.size()));
+    }
+    return measure(commanded);
+  }
+  core::Result<void> end_merged() override { return {}; }
+
   core::Result<Cloud> measure(const core::Pose& commanded) override {
-    const auto targets = sampling_targets(feature_);
+    const auto targets = measured_targets();
     if (!targets) return core::fail(targets.error());
     const std::vector<Target> stops = stops_of(*targets);
     if (auto turned = turn(commanded, stops); !turned) return core::fail(turned.error());
@@ -95,7 +111,7 @@ class NominalSession final : public PoseSession {
 
   core::Result<void> repeat(int times) override {
     if (times < 1) return {};
-    const auto targets = sampling_targets(feature_);
+    const auto targets = measured_targets();
     if (!targets) return core::fail(targets.error());
     const auto path = lay(stops_of(*targets), reached_);
     if (!path) return core::fail(path.error());
@@ -138,6 +154,12 @@ class NominalSession final : public PoseSession {
   void show(double) override {}
 
  private:
+  /// All, or those that can be reached in a pose of several.
+  [[nodiscard]] core::Result<std::vector<Target>> measured_targets() const {
+    if (!reachable_.empty()) return reachable_;
+    return sampling_targets(feature_);
+  }
+
   [[nodiscard]] bool scans() const { return feature_.sampling.method == "scan"; }
 
   /// Where the tip goes down to the surface: every target, or the start of each scanned layer.
@@ -212,6 +234,7 @@ class NominalSession final : public PoseSession {
   fixture::SimulatedFixture fixture_;
   FeaturePlanner planner_;
   PathGeometry geometry_;
+  std::vector<Target> reachable_;  ///< In the present pose of several; otherwise empty.
   core::Pose reached_;
 };
 
@@ -231,6 +254,32 @@ core::Result<void> add_spheres(const core::Result<std::vector<TouchStep>>& steps
   return {};
 }
 
+/// The poses of a calibration of the fixture, a stage each.
+core::Result<void> add_calibration(const Plan& plan, std::size_t feature, Tally& tally) {
+  const auto visits = rotary_visits(plan, feature);
+  if (!visits) return core::fail(visits.error());
+  for (const RotaryVisit& visit : *visits) {
+    const Eigen::Isometry3d X_WB =
+        fixture::body_to_machine(nominal_kinematics(*plan.fixture), visit.pose);
+    ForecastStage stage;
+    stage.feature = static_cast<int>(feature);
+    stage.pose = visit.pose;
+    for (const std::size_t ball : visit.balls) {
+      const auto steps = ball_steps(plan, feature, X_WB, ball);
+      if (!steps) return core::fail(steps.error());
+      tally.rise(stage);
+      for (const TouchStep& step : *steps) {
+        tally.move(stage, step.way_W);
+        tally.touch(stage, step.command.expected_tip_W_mm, step.command.approach_mm);
+      }
+    }
+    tally.rise(stage);
+    tally.add(std::move(stage));
+    ++tally.forecast().poses;
+  }
+  return {};
+}
+
 }  // namespace
 
 core::Result<Forecast> forecast(const Plan& plan) {
@@ -245,6 +294,9 @@ core::Result<Forecast> forecast(const Plan& plan) {
     return core::fail(added.error());
   }
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (measures_by_touch(plan.features[i])) {
+      if (auto added = add_calibration(plan, i, tally); !added) return core::fail(added.error());
+    }
     if (!is_touched(plan.features[i])) continue;
     NominalSession session(plan, static_cast<int>(i), tally);
     if (auto searched = search_pose(session, plan.features[i]); !searched) {

@@ -51,6 +51,13 @@ tl::unexpected<core::Error> FeatureSession::fault_at(const Target& target,
                               target.point + 1, error.what, advice));
 }
 
+core::Pose FeatureSession::commanded_for(const core::Pose& wanted) const {
+  core::Pose out = fixture::commanded_for(context_.cell->kinematics(), wanted);
+  out.alpha_rad = std::clamp(out.alpha_rad, limits().min_alpha_rad, limits().max_alpha_rad);
+  out.beta_rad = std::clamp(out.beta_rad, limits().min_beta_rad, limits().max_beta_rad);
+  return out;
+}
+
 bool FeatureSession::must_locate() const {
   return context_.plan.part.location_uncertainty_mm > 0.0;
 }
@@ -130,7 +137,7 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::turn_and_touch(
     if (auto turned = turn(commanded, reach_targets()); !turned) return core::fail(turned.error());
     truth_.clear();
     auto tips = measure_cloud();
-    if (tips || !context_.relocation_due) return tips;
+    if (tips || !context_.relocation_due || merging()) return tips;
     if (auto located = locate_again(); !located) return core::fail(located.error());
   }
 }
@@ -146,7 +153,7 @@ core::Result<void> FeatureSession::repeat(int times) {
     ++repeat_;
     const auto tips = measure_cloud();
     if (tips) continue;
-    if (!context_.relocation_due) return core::fail(tips.error());
+    if (!context_.relocation_due || merging()) return core::fail(tips.error());
     // The whole final cloud anew: touches of two placements are never merged.
     if (auto located = locate_again(); !located) return located;
     if (const auto anew = turn_and_touch(commanded_); !anew) return core::fail(anew.error());
@@ -160,6 +167,10 @@ core::Result<void> FeatureSession::keep_as_final() {
   const record::PoseVisit* known = context_.past.pose(pose_id_);
   if (known == nullptr || !known->final_cloud) {
     if (auto marked = context_.journal.mark_final(pose_id_); !marked) return marked;
+  }
+  if (merging()) {
+    keep_merged_truth();
+    return {};
   }
   if (truth_.empty() || context_.past.knows_truth(index_)) return {};
   // Only a comparison for simulations: a truth that cannot be evaluated must not end the run.

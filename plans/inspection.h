@@ -110,9 +110,12 @@ class FeatureSession final : public PoseSession {
   FeatureSession(RunContext& context, int feature_index, std::vector<Target> targets);
 
   [[nodiscard]] core::Result<Cloud> measure(const core::Pose& commanded) override;
+  [[nodiscard]] core::Result<Cloud> measure_reachable(const core::Pose& commanded) override;
+  [[nodiscard]] core::Result<void> end_merged() override;
   [[nodiscard]] core::Result<void> repeat(int times) override;
   [[nodiscard]] core::Result<void> keep_as_final() override;
   [[nodiscard]] core::Result<fit::Axis> locate(const core::Pose& commanded) override;
+  [[nodiscard]] core::Pose commanded_for(const core::Pose& wanted) const override;
   [[nodiscard]] bool must_locate() const override;
   [[nodiscard]] Eigen::Vector3d expected_axis() const override;
   [[nodiscard]] core::Pose levelling(const Eigen::Vector3d& direction_W) const override;
@@ -121,6 +124,10 @@ class FeatureSession final : public PoseSession {
   void show(double f_mm) override;
 
  private:
+  /// Whether several poses make the cloud: it cannot begin anew in one of them.
+  [[nodiscard]] bool merging() const { return !all_targets_.empty(); }
+  /// Keeps the truth of this part of such a cloud.
+  void keep_merged_truth();
   /// Turns to a pose and touches one cloud, once more after each relocation that becomes due.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> turn_and_touch(
       const core::Pose& commanded);
@@ -176,6 +183,8 @@ class FeatureSession final : public PoseSession {
   int repeat_ = 0;
   int visits_ = 0;
   std::vector<Eigen::Vector3d> truth_;  ///< Noise-free tips of the last first cloud of a pose.
+  std::vector<Target> all_targets_;     ///< Of a cloud that several poses make; otherwise empty.
+  std::vector<Eigen::Vector3d> merged_truth_B_;  ///< Its noise-free tips, in the true body frame.
 };
 
 }  // namespace rondure::plans

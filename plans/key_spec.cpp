@@ -19,6 +19,7 @@ constexpr std::array kSuffixes = {
     Suffix{"_um_m", "um/m"},
     Suffix{"_urad", "urad"},
     Suffix{"_per_K", "1/K"},
+    Suffix{"_percent", "%"},
     Suffix{"_GPa", "GPa"},
     Suffix{"_N", "N"},
     Suffix{"_mm_s", "mm/s"},

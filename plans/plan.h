@@ -12,8 +12,11 @@
 #include "plans/contour_plan.h"
 #include "plans/fixture_drivers_plan.h"
 #include "plans/machine_errors_plan.h"
+#include "plans/rotary_plan.h"
 #include "plans/spindle_plan.h"
+#include "plans/uncertainty_plan.h"
 #include "plans/wheel_plan.h"
+#include "plans/zaber_plan.h"
 
 namespace rondure::plans {
 
@@ -86,6 +89,7 @@ struct DatumPlan {
 };
 
 struct FixturePlan {
+  std::string id;
   std::string driver = "simulated";
   std::array<double, 3> axis_point_mm = {0.0, 0.0, 0.0};     ///< A, machine frame.
   std::array<double, 3> axis_offset_mm = {0.0, 0.0, 0.0};    ///< d, hoop frame.
@@ -102,6 +106,8 @@ struct FixturePlan {
   double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
   double table_height_mm = -1000.0;  ///< Machine z.
   std::optional<DatumPlan> datum;
+  std::optional<CalibrationPlan> calibration;   ///< None: the fixture is taken as nominal.
+  std::optional<ZaberPlan> zaber;               ///< Used by the driver of that name only.
   std::optional<ThorlabsPlan> thorlabs;         ///< Needed by, and only by, the driver.
   std::optional<ReachedPosePlan> reached_pose;  ///< The same of "manual".
 };
@@ -144,8 +150,16 @@ struct SamplingPlan {
   std::string method = "touch";  ///< "touch" or "scan".
 };
 
+/// A pose in which part of a feature is measured.
+struct MeasuringPosePlan {
+  double alpha_deg = 0.0;
+  double beta_deg = 0.0;
+};
+
 struct PoseSearchPlan {
   std::string strategy = "guided";
+  std::vector<MeasuringPosePlan> poses;  ///< Of "merged": at least two.
+  std::string merge = "joint";           ///< Of "merged": or "kinematics".
   double start_alpha_deg = 0.0;
   double start_beta_deg = 0.0;
   std::vector<double> steps_deg = {5.0, 2.0};
@@ -189,15 +203,12 @@ struct FeaturePlan {
   NominalPlan nominal;
   SamplingPlan sampling;
   PoseSearchPlan pose_search;
-  std::optional<SpindlePlan> spindle;  ///< Needed by, and only by, the type of that name.
-  std::optional<WheelPlan> wheel;      ///< The same.
-  std::optional<ContourPlan> contour;  ///< The same.
+  std::optional<SpindlePlan> spindle;     ///< Needed by, and only by, the type of that name.
+  std::optional<WheelPlan> wheel;         ///< The same.
+  std::optional<ContourPlan> contour;     ///< The same.
+  std::optional<RotaryPlan> rotary_axes;  ///< The same.
   std::optional<SourcePlan> source;
   std::vector<CharacteristicPlan> characteristics;
-};
-
-struct DecisionRulePlan {
-  std::string rule = "simple-acceptance";
 };
 
 struct LobePlan {
@@ -239,6 +250,7 @@ struct SimulatedFixturePlan {
   double zero_beta_deg = 0.0;
   double squareness_deg = 0.0;
   double repeatability_deg = 0.0;
+  std::optional<SimulatedMotionPlan> motion;  ///< None: the axes turn truly.
 };
 
 /// What interrupts a simulated run, once: a resumed run meets none of it.
@@ -276,6 +288,7 @@ struct Plan {
   EnvironmentPlan environment;
   std::vector<FeaturePlan> features;
   DecisionRulePlan decision_rule;
+  std::optional<UncertaintyPlan> uncertainty;
   std::optional<SimulationPlan> simulation;
   ReportsPlan reports;
 

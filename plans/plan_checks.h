@@ -28,6 +28,9 @@ void check_pose_search(const Plan& plan, std::size_t index, Findings& findings);
 /// The points file of a feature that has one: opened, read, counted.
 void check_points_file(const Plan& plan, std::size_t index, Findings& findings);
 
+/// Parameters and statements of the decision rule, and that the uncertainty gives what it needs.
+void check_uncertainty(const Plan& plan, Findings& findings);
+
 /// The pointer of a feature: "/features/2".
 [[nodiscard]] std::string feature_pointer(std::size_t index);
 

@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "plans/feature_planner.h"
+#include "plans/merged_reach.h"
 #include "plans/reach_advice.h"
 #include "plans/run_head.h"
 
@@ -123,6 +124,11 @@ core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_
   if (auto clamp = check_clamp(*targets, geometry, *plan.fixture); !clamp) {
     return core::fail(clamp.error().at(where));
   }
+  if (feature.pose_search.strategy == "merged") {
+    if (auto reached = check_merged_reach(plan, index); !reached)
+      return core::fail(reached.error());
+    return targets;
+  }
   const std::vector<Unreachable> missed = unreachable_targets(plan, feature, start_pose(feature));
   if (missed.empty()) return targets;
   return core::fail(core::Code::kUnreachable,
@@ -140,6 +146,12 @@ core::Result<void> check_room(const Plan& plan) {
     const double height =
         std::max(std::abs(feature.nominal.from_mm), std::abs(feature.nominal.to_mm));
     reach_mm = std::max(reach_mm, std::hypot(0.5 * feature.nominal.diameter_mm, height));
+    if (!feature.rotary_axes) continue;
+    for (const BallPlan& ball : feature.rotary_axes->balls) {
+      reach_mm = std::max(reach_mm, vector3(ball.center_mm).norm() +
+                                        0.5 * feature.rotary_axes->ball_diameter_mm +
+                                        feature.rotary_axes->uncertainty_mm);
+    }
   }
   reach_mm += vector3(fixture.axis_offset_mm).norm() + vector3(fixture.part_position_mm).norm() +
               plan.part.location_uncertainty_mm;

@@ -5,9 +5,12 @@
 #include "plans/fixture_drivers_table.h"
 #include "plans/key_spec.h"
 #include "plans/plan.h"
+#include "plans/rotary_table.h"
 #include "plans/simulation_table.h"
 #include "plans/spindle_table.h"
+#include "plans/uncertainty_table.h"
 #include "plans/wheel_table.h"
+#include "plans/zaber_table.h"
 
 // The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
 // meaning, once. Defaults are the member initialisers of plan.h. A visitor walks it: TableReader
@@ -214,12 +217,15 @@ void describe(Visitor& v, FixturePlan& p) {
     return NumberSpec{
         .at_least = -90.0, .at_most = 90.0, .code = core::Code::kPoseRange, .meaning = meaning};
   };
+  v.text("id", p.id,
+         {.meaning = "What this fixture is called, as on its label: a calibration belongs to it."});
   v.text("driver", p.driver,
-         {.one_of = {"simulated", "ippdme", "thorlabs", "manual"},
-          .meaning = "Which fixture carries the part: a simulation in this program; two rotary "
-                     "axes of the machine behind I++ DME (AlignPart); two Thorlabs APT units on "
-                     "USB; or a fixture that a hand sets and friction holds, whose pose the "
-                     "machine then measures."});
+         {.one_of = {"simulated", "ippdme", "zaber", "thorlabs", "manual"},
+          .meaning = "Which fixture carries the part: a simulation in this program, two rotary "
+                     "axes of the machine behind I++ DME (AlignPart), two rotary stages on a "
+                     "Zaber controller or on Thorlabs APT units, or a fixture that a hand sets and "
+                     "friction holds, whose pose the machine then measures. Stages may also turn "
+                     "the part of a simulated machine."});
   v.numbers("axis_point_mm", p.axis_point_mm,
             place("A point of the base-fixed axis (alpha): x, y, z in the machine frame."));
   v.numbers("axis_offset_mm", p.axis_offset_mm,
@@ -257,6 +263,11 @@ void describe(Visitor& v, FixturePlan& p) {
   v.object("datum", p.datum,
            {.meaning = "Reference spheres on the base of the fixture, touched before a run: then "
                        "axis_point_mm is in the base frame they show."});
+  v.object("calibration", p.calibration,
+           {.meaning = "Errors of the fixture, found by a feature of the type rotary_axes: the run "
+                       "reckons with them (docs/fixture-calibration.md). Left out: the fixture is "
+                       "taken as nominal."});
+  v.object("zaber", p.zaber, {.meaning = "Connection and stages of the driver zaber."});
   v.object("thorlabs", p.thorlabs, {.meaning = "thorlabs: the units of the two axes."});
   v.object("reached_pose", p.reached_pose,
            {.meaning = "manual: reference spheres that turn with the part, touched in every pose, "
@@ -386,16 +397,36 @@ void describe(Visitor& v, SamplingPlan& p) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, MeasuringPosePlan& p) {
+  const NumberSpec angle = {.at_least = -90.0,
+                            .at_most = 90.0,
+                            .required = true,
+                            .code = core::Code::kPoseRange,
+                            .meaning = "Angle of the fixture."};
+  v.number("alpha_deg", p.alpha_deg, angle);
+  v.number("beta_deg", p.beta_deg, angle);
+}
+
+template <class Visitor>
 void describe(Visitor& v, PoseSearchPlan& p) {
   const NumberSpec start = {.at_least = -90.0,
                             .at_most = 90.0,
                             .code = core::Code::kPoseRange,
                             .meaning = "Angle of the fixture before the first touch."};
   v.text("strategy", p.strategy,
-         {.one_of = {"guided", "refined", "as-published", "virtual"},
+         {.one_of = {"guided", "refined", "as-published", "virtual", "merged"},
           .meaning = "How the levelling pose is found. guided: solves each cloud and steps to the "
                      "pose it predicts. as-published: grid of steps_deg. refined: that grid, then "
-                     "halved steps. virtual: one cloud, turned in software."});
+                     "halved steps. virtual: one cloud, turned in software. merged: no search; the "
+                     "part is measured in each of `poses`, where it can be reached, and the "
+                     "clouds are one (docs/several-poses.md)."});
+  v.list("poses", p.poses,
+         {.meaning = "merged: the poses, at least two; every target must be reached in one of "
+                     "them, and should be in several."});
+  v.text("merge", p.merge,
+         {.one_of = {"joint", "kinematics"},
+          .meaning = "merged: how clouds come together. joint: the errors of the poses are solved "
+                     "together with the part. kinematics: the fixture is believed."});
   v.number("start_alpha_deg", p.start_alpha_deg, start);
   v.number("start_beta_deg", p.start_beta_deg, start);
   v.numbers(
@@ -446,7 +477,8 @@ void describe(Visitor& v, CharacteristicPlan& p) {
   v.text("form", p.form,
          {.one_of = {"cylindricity", "roundness", "roundness-rms", "harmonic-limits",
                      "motion-total", "motion-synchronous", "motion-asynchronous", "radius",
-                     "run-out", "contour-deviation", "contour-spread"},
+                     "run-out", "contour-deviation", "contour-spread", "fixture-residual",
+                     "fixture-residual-rms"},
           .required = true,
           .meaning =
               "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
@@ -455,7 +487,9 @@ void describe(Visitor& v, CharacteristicPlan& p) {
               "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
               "roundness of its edge; radius, the departure from nominal; run-out. Of a contour "
               "feature: contour-deviation (peak to valley, the greatest of all parts); "
-              "contour-spread (standard deviation from part to part); harmonic-limits."});
+              "contour-spread (standard deviation from part to part); harmonic-limits. Of "
+              "rotary_axes: fixture-residual, the largest distance of a ball from where the "
+              "calibration has it, and fixture-residual-rms."});
   v.text("reference", p.reference,
          {.one_of = {"mz", "ls", "mc", "mi"},
           .meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
@@ -509,11 +543,12 @@ void describe(Visitor& v, FeaturePlan& p) {
           .empty_allowed = false,
           .meaning = "Name of the feature, unique in the plan."});
   v.text("type", p.type,
-         {.one_of = {"cylinder", "circle", "spindle", "wheel", "contour"},
+         {.one_of = {"cylinder", "circle", "spindle", "wheel", "contour", "rotary_axes"},
           .required = true,
           .meaning = "What the surface is; spindle: form of a part and motion of its axis, from "
                      "three probes; wheel: a grinding wheel, from points of its edge; contour: "
-                     "crank pins in follow grinding, and what of their error follows the axes."});
+                     "crank pins in follow grinding, and what of their error follows the axes; "
+                     "rotary_axes: calibration of the fixture with balls that it carries."});
   v.text("side", p.side,
          {.one_of = {"outside", "inside"}, .meaning = "outside: a shaft; inside: a bore."});
   v.object("nominal", p.nominal, {.meaning = "The surface on the drawing, part frame: axis z."});
@@ -522,6 +557,8 @@ void describe(Visitor& v, FeaturePlan& p) {
   v.object("spindle", p.spindle, {.meaning = "Probes and evaluation of the type spindle."});
   v.object("wheel", p.wheel, {.meaning = "Points and evaluation of the type wheel."});
   v.object("contour", p.contour, {.meaning = "Crank, files and evaluation of the type contour."});
+  v.object("rotary_axes", p.rotary_axes,
+           {.meaning = "Balls, stations and poses of the type rotary_axes."});
   v.object("source", p.source,
            {.meaning = "Points from a file in place of touches; no machine is needed then."});
   v.list("characteristics", p.characteristics,
@@ -529,19 +566,12 @@ void describe(Visitor& v, FeaturePlan& p) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, DecisionRulePlan& p) {
-  v.text("rule", p.rule,
-         {.one_of = {"simple-acceptance"},
-          .meaning = "simple-acceptance: the value is compared with the tolerance, no uncertainty "
-                     "is taken into account."});
-}
-
-template <class Visitor>
 void describe(Visitor& v, ReportsPlan& p) {
   v.texts("formats", p.formats,
-          {.one_of = {"html", "json", "csv"},
+          {.one_of = {"html", "json", "csv", "qif", "dmis", "junit"},
            .empty_allowed = false,
-           .meaning = "Reports that a run writes."});
+           .meaning = "Reports that a run writes: a page, all numbers, tables, QIF 3.0 results, a "
+                      "DMIS output block, a JUnit summary for pipelines."});
   v.text("archive", p.archive,
          {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "
                      "relative to the plan; postgresql://user@host/database without a password; "
@@ -565,6 +595,9 @@ void describe(Visitor& v, Plan& p) {
          {.required = true, .empty_allowed = false, .meaning = "What is measured, in this order."});
   v.object("decision_rule", p.decision_rule,
            {.meaning = "How a value and its tolerance make a verdict."});
+  v.object("uncertainty", p.uncertainty,
+           {.meaning = "What is declared about the measurement, for the intervals of touched "
+                       "features and points of a file. Left out: none are stated."});
   v.object("simulation", p.simulation,
            {.meaning = "The hidden truth of a simulation; no evaluation reads it. Needed with "
                        "simulated drivers."});

@@ -16,9 +16,9 @@ namespace {
 /// An angle no fixture resolves: at 35 mm it moves a point by 1 nm.
 constexpr double kFinestStep = 2e-6 * core::kDegree;
 
-core::Pose start_pose(const FeaturePlan& feature) {
-  return {feature.pose_search.start_alpha_deg * core::kDegree,
-          feature.pose_search.start_beta_deg * core::kDegree};
+core::Pose start_pose(const PoseSession& session, const FeaturePlan& feature) {
+  return session.commanded_for({feature.pose_search.start_alpha_deg * core::kDegree,
+                                feature.pose_search.start_beta_deg * core::kDegree});
 }
 
 bool within(const fixture::FixtureLimits& limits, const core::Pose& pose) {
@@ -88,12 +88,12 @@ core::Result<void> guided(PoseSession& session, const FeaturePlan& feature, core
     const auto cloud = session.measure(pose);
     if (!cloud) {
       // The start pose is asked for by the plan; any other is only wanted.
-      const bool wanted = visit > 1 || !(pose == start_pose(feature));
+      const bool wanted = visit > 1 || !(pose == start_pose(session, feature));
       if (!wanted || cloud.error().code != core::Code::kUnreachable)
         return core::fail(cloud.error());
       if (auto noted = session.note("not level: " + cloud.error().what); !noted) return noted;
       if (visit > 1) break;
-      pose = start_pose(feature);
+      pose = start_pose(session, feature);
       continue;
     }
     session.show(f_of(*cloud, false));
@@ -137,7 +137,7 @@ core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool a
   };
   const auto steps =
       as_published ? plan.steps_deg : fit::halved_steps(plan.steps_deg, plan.min_step_deg);
-  const auto walk = fit::walk_poses(f, start_pose(feature), steps);
+  const auto walk = fit::walk_poses(f, start_pose(session, feature), steps);
   if (!walk) return core::fail(walk.error());
   const fit::PoseStep& best = walk->visited[walk->best];
   const std::string text = fmt::format(
@@ -151,18 +151,35 @@ core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool a
 
 /// One cloud in the start pose: a circle, or the cloud that is turned in software afterwards.
 core::Result<void> single(PoseSession& session, const FeaturePlan& feature) {
-  const auto cloud = session.measure(start_pose(feature));
+  const auto cloud = session.measure(start_pose(session, feature));
   if (!cloud) return core::fail(cloud.error());
   session.show(f_of(*cloud, false));
   return finish(session, feature);
+}
+
+/// What can be reached in each of the plan's poses, with its repeats; together one cloud.
+core::Result<void> merged(PoseSession& session, const FeaturePlan& feature) {
+  const int targets = feature.sampling.layers * feature.sampling.points_per_layer;
+  for (const MeasuringPosePlan& at : feature.pose_search.poses) {
+    const core::Pose pose{at.alpha_deg * core::kDegree, at.beta_deg * core::kDegree};
+    const auto cloud = session.measure_reachable(pose);
+    if (!cloud) return core::fail(cloud.error());
+    session.show(f_of(*cloud, false));
+    const std::string text = fmt::format("pose {}: {} of {} targets can be reached", degrees(pose),
+                                         cloud->tips_W_mm.size(), targets);
+    if (auto noted = session.note(text); !noted) return noted;
+    if (auto done = finish(session, feature); !done) return done;
+  }
+  return session.end_merged();
 }
 
 }  // namespace
 
 core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature) {
   const std::string& strategy = feature.pose_search.strategy;
-  core::Pose pose = start_pose(feature);
-  if (session.must_locate()) {
+  core::Pose pose = start_pose(session, feature);
+  // No pose of a part that is reached in several shows enough of it to locate it.
+  if (session.must_locate() && strategy != "merged") {
     const auto axis = session.locate(pose);
     if (!axis) return core::fail(axis.error());
     const core::Pose level = session.levelling(axis->direction);
@@ -174,6 +191,7 @@ core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature)
       pose = level;
   }
   if (feature.type == "circle" || strategy == "virtual") return single(session, feature);
+  if (strategy == "merged") return merged(session, feature);
   if (strategy == "guided") return guided(session, feature, pose);
   return grid(session, feature, strategy == "as-published");
 }

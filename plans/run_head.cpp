@@ -7,6 +7,8 @@
 #include "core/version.h"
 #include "fit/pose_walk.h"
 #include "plans/analysis.h"
+#include "plans/setting_list.h"
+#include "plans/uncertainty_table.h"
 #include "record/sha256.h"
 
 namespace rondure::plans {
@@ -25,7 +27,8 @@ record::Form form_of(std::string_view name) {
   for (const Form form :
        {Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits, Form::kMotionTotal,
         Form::kMotionSynchronous, Form::kMotionAsynchronous, Form::kRadius, Form::kRunOut,
-        Form::kContourDeviation, Form::kContourSpread}) {
+        Form::kContourDeviation, Form::kContourSpread, Form::kFixtureResidual,
+        Form::kFixtureResidualRms}) {
     if (record::name_of(form) == name) return form;
   }
   return Form::kCylindricity;
@@ -44,14 +47,27 @@ record::Characteristic characteristic_of(const CharacteristicPlan& plan) {
   return out;
 }
 
+/// What the evaluation needs to bring the clouds of several poses together.
+void add_merged_settings(const FixturePlan& fixture, const FeaturePlan& feature,
+                         std::vector<record::Setting>& out) {
+  out.push_back({"merge", std::nullopt, feature.pose_search.merge});
+  out.push_back({"merged_poses", static_cast<double>(feature.pose_search.poses.size()), ""});
+  for (const double v : fixture.axis_point_mm) out.push_back({"axis_point_mm", v, ""});
+  for (const double v : fixture.axis_offset_mm) out.push_back({"axis_offset_mm", v, ""});
+}
+
 }  // namespace
 
 bool is_touched(const FeaturePlan& feature) {
   return !feature.source && analysis_kind(feature.type) == nullptr;
 }
 
+bool needs_machine(const FeaturePlan& feature) {
+  return is_touched(feature) || measures_by_touch(feature);
+}
+
 bool touches_anything(const Plan& plan) {
-  return std::any_of(plan.features.begin(), plan.features.end(), is_touched);
+  return std::any_of(plan.features.begin(), plan.features.end(), needs_machine);
 }
 
 bool simulates_anything(const Plan& plan) {
@@ -62,17 +78,20 @@ bool simulates_anything(const Plan& plan) {
 
 bool simulates_analysis(const Plan& plan) {
   return std::any_of(plan.features.begin(), plan.features.end(), [](const FeaturePlan& feature) {
-    return analysis_kind(feature.type) != nullptr && !has_files(feature);
+    return analysis_kind(feature.type) != nullptr && !has_files(feature) &&
+           !measures_by_touch(feature);
   });
 }
 
 record::Strategy strategy_of(const FeaturePlan& feature) {
+  if (measures_by_touch(feature)) return record::Strategy::kStations;
   if (analysis_kind(feature.type) != nullptr) return record::Strategy::kSeries;
   if (feature.source) return record::Strategy::kPointsFile;
   const std::string& name = feature.pose_search.strategy;
   if (name == "refined") return record::Strategy::kRefined;
   if (name == "as-published") return record::Strategy::kAsPublished;
   if (name == "virtual") return record::Strategy::kVirtual;
+  if (name == "merged") return record::Strategy::kMerged;
   return record::Strategy::kGuided;
 }
 
@@ -114,6 +133,7 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
     out.push_back({std::string(name), number, ""});
   };
   if (feature.sampling.method == "scan") out.push_back({"sampling_method", std::nullopt, "scan"});
+  if (feature.pose_search.strategy == "merged") add_merged_settings(*plan.fixture, feature, out);
   if (plan.part.expansion_per_K) {
     add("part_expansion_per_K", *plan.part.expansion_per_K);
     add("part_expansion_uncertainty_per_K", plan.part.expansion_uncertainty_per_K);
@@ -125,6 +145,28 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
   if (plan.part.expansion_per_K || plan.machine->scale_expansion_per_K) {
     add("temperature_uncertainty_K", plan.environment.temperature_uncertainty_K);
   }
+  return out;
+}
+
+std::vector<record::Setting> settings_of(const Plan& plan) {
+  DecisionRulePlan rule = plan.decision_rule;
+  SettingList list("decision_rule/");
+  describe(list, rule);
+  std::vector<record::Setting> out = list.take();
+  if (!plan.uncertainty) return out;
+  UncertaintyPlan uncertainty = *plan.uncertainty;
+  SettingList declared("uncertainty/");
+  describe(declared, uncertainty);
+  for (record::Setting& setting : declared.take()) out.push_back(std::move(setting));
+  // A group without a key of its own is declared all the same.
+  const auto given = [&](const char* name, bool there) {
+    if (there) out.push_back({"uncertainty/declared", std::nullopt, name});
+  };
+  given("probe", uncertainty.probe.has_value());
+  given("machine", uncertainty.machine.has_value());
+  given("thermal", uncertainty.thermal.has_value());
+  given("fixture", uncertainty.fixture.has_value());
+  given("form_spectrum", uncertainty.form_spectrum.has_value());
   return out;
 }
 

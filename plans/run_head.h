@@ -10,12 +10,15 @@
 
 namespace rondure::plans {
 
-/// Whether a feature is touched by a machine: neither points from a file nor series.
+/// Whether a feature is a surface that is touched by a machine: neither points from a file nor an
+/// analysis.
 [[nodiscard]] bool is_touched(const FeaturePlan& feature);
 /// Whether anything of a plan is simulated.
 [[nodiscard]] bool simulates_anything(const Plan& plan);
 /// Whether the series of a feature are simulated: they are, also in front of a real machine.
 [[nodiscard]] bool simulates_analysis(const Plan& plan);
+/// Whether a feature needs the machine: a surface that is touched, or balls.
+[[nodiscard]] bool needs_machine(const FeaturePlan& feature);
 /// Whether a plan needs a machine.
 [[nodiscard]] bool touches_anything(const Plan& plan);
 
@@ -25,6 +28,8 @@ namespace rondure::plans {
 /// How a touched feature is sampled and brought to 20 degC, where the evaluation needs it.
 [[nodiscard]] std::vector<record::Setting> settings_of(const Plan& plan,
                                                        const FeaturePlan& feature);
+/// What belongs to the whole run: the decision rule and the declared uncertainty, by their keys.
+[[nodiscard]] std::vector<record::Setting> settings_of(const Plan& plan);
 /// The head without the descriptions of machine and fixture.
 /// @param seed  Of the simulation; kept when anything is simulated.
 [[nodiscard]] record::Header header_of(const Plan& plan, const RunOptions& options,

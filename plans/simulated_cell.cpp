@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/units.h"
+#include "fixture/drawn_motion.h"
 #include "fixture/pose_range.h"
 #include "plans/fixture_driver.h"
 #include "plans/hidden_errors.h"
@@ -28,6 +29,15 @@ fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t
   out.errors.zero_beta_rad = hidden.zero_beta_deg * core::kDegree;
   out.errors.squareness_rad = hidden.squareness_deg * core::kDegree;
   out.errors.repeatability_rad = hidden.repeatability_deg * core::kDegree;
+  if (hidden.motion) {
+    constexpr double kMicroradian = 1e-6;
+    const fixture::MotionClass size = {
+        hidden.motion->offset_um * core::kMicrometre, hidden.motion->tilt_urad * kMicroradian,
+        hidden.motion->shift_um * core::kMicrometre, hidden.motion->turn_urad * kMicroradian,
+        hidden.motion->seed};
+    out.errors.alpha_motion = fixture::drawn_motion(size, Eigen::Vector3d::UnitX(), 0);
+    out.errors.beta_motion = fixture::drawn_motion(size, Eigen::Vector3d::UnitY(), 1);
+  }
   out.seed = seed;
   const int stall = plan.simulation->faults.fixture_stalls_at_move;
   if (!resumed) out.stalls_at_move = static_cast<std::uint64_t>(stall);
@@ -89,26 +99,32 @@ SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
       true_X_WF_(true_base(plan.simulation->fixture)) {
   if (const auto& datum = plan.fixture->datum) {
     for (const DatumSpherePlan& sphere : datum->spheres) {
-      machine_.place_sphere(
+      table_spheres_.push_back(
           {true_X_WF_ * vector3(sphere.center_mm), 0.5 * datum->sphere_diameter_mm});
     }
   }
-  machine_.place_sphere({vector3(plan.probe->qualification.sphere_center_mm),
-                         0.5 * plan.probe->qualification.sphere_diameter_mm});
-  place_carried_spheres(*plan.fixture);
-}
-
-void SimulatedCell::place_carried_spheres(const FixturePlan& fixture) {
-  if (!fixture.reached_pose) return;
-  for (const CarriedSpherePlan& sphere : fixture.reached_pose->spheres) {
-    carried_B_mm_.push_back(vector3(sphere.center_mm));
-    const std::size_t number = machine_.place_sphere(
-        {carried_B_mm_.back(), 0.5 * fixture.reached_pose->sphere_diameter_mm});
-    if (carried_B_mm_.size() == 1) first_carried_ = number;
+  table_spheres_.push_back({vector3(plan.probe->qualification.sphere_center_mm),
+                            0.5 * plan.probe->qualification.sphere_diameter_mm});
+  machine_.place_spheres(table_spheres_);
+  if (const auto& reached = plan.fixture->reached_pose) {
+    for (const CarriedSpherePlan& sphere : reached->spheres) {
+      ring_spheres_.push_back({vector3(sphere.center_mm), 0.5 * reached->sphere_diameter_mm});
+    }
   }
 }
 
 void SimulatedCell::mount(const FeaturePlan& feature) {
+  balls_.clear();
+  if (feature.rotary_axes) {
+    surface_.reset();
+    machine_.remove_part();
+    // The artefact sits in the ring as crooked as the part of the simulation would.
+    true_X_BP_ = true_seat(Eigen::Isometry3d::Identity(), simulation_.part, feature);
+    for (const BallPlan& ball : feature.rotary_axes->balls) {
+      balls_.push_back({vector3(ball.center_mm), 0.5 * feature.rotary_axes->ball_diameter_mm});
+    }
+    return place_part();
+  }
   surface_ = simulated_surface(simulation_, feature);
   true_X_BP_ = true_seat(nominal_part(), simulation_.part, feature);
   place_part();
@@ -196,11 +212,16 @@ core::Result<core::Pose> SimulatedCell::home_again() {
 
 void SimulatedCell::place_part() {
   const Eigen::Isometry3d X_WB = true_X_WF_ * fixture_.true_body_to_machine();
-  for (std::size_t i = 0; i < carried_B_mm_.size(); ++i) {
-    machine_.move_sphere(first_carried_ + i, X_WB * carried_B_mm_[i]);
+  const Eigen::Isometry3d X_WP = X_WB * Eigen::Translation3d(shift_mm_) * true_X_BP_;
+  if (surface_) machine_.place_part(*surface_, X_WP);
+  std::vector<cmm::ReferenceSphere> spheres = table_spheres_;
+  for (const cmm::ReferenceSphere& ball : balls_) {
+    spheres.push_back({X_WP * ball.center_W_mm, ball.radius_mm});
   }
-  if (!surface_) return;
-  machine_.place_part(*surface_, X_WB * Eigen::Translation3d(shift_mm_) * true_X_BP_);
+  for (const cmm::ReferenceSphere& sphere : ring_spheres_) {
+    spheres.push_back({X_WB * sphere.center_W_mm, sphere.radius_mm});
+  }
+  machine_.place_spheres(std::move(spheres));
 }
 
 }  // namespace rondure::plans

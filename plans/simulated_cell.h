@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -55,13 +54,19 @@ class SimulatedCell final : public Cell {
   [[nodiscard]] std::optional<Eigen::Vector3d> true_tip_W_mm() const override {
     return machine_.true_tip_W_mm();
   }
+  [[nodiscard]] std::optional<Eigen::Isometry3d> true_body_to_machine() const override {
+    return true_X_WF_ * fixture_.true_body_to_machine();
+  }
   [[nodiscard]] std::vector<Eigen::Vector3d> true_scan_W_mm() const override {
     return machine_.true_tips_W_mm();
+  }
+  [[nodiscard]] std::optional<fixture::AxisErrors> true_errors(bool carried,
+                                                               double angle_rad) const override {
+    return fixture_.true_errors(carried, angle_rad);
   }
 
  private:
   void place_part();
-  void place_carried_spheres(const FixturePlan& fixture);
   core::Result<core::Pose> turn(const core::Pose& commanded);
   core::Result<core::Pose> turn_driven(const core::Pose& commanded);
   core::Result<core::Pose> home_driven();
@@ -71,8 +76,9 @@ class SimulatedCell final : public Cell {
   fixture::SimulatedFixture fixture_;  ///< Turns the part in software.
   cmm::SimulatedMachine machine_;
   std::optional<cmm::PartSurface> surface_;
-  std::vector<Eigen::Vector3d> carried_B_mm_;  ///< Spheres that turn with the part.
-  std::size_t first_carried_ = 0;              ///< Number of the first of them in the machine.
+  std::vector<cmm::ReferenceSphere> table_spheres_;  ///< On the table, machine frame.
+  std::vector<cmm::ReferenceSphere> balls_;          ///< Carried by the ring, part frame.
+  std::vector<cmm::ReferenceSphere> ring_spheres_;   ///< Those that show its pose, body frame.
   Eigen::Isometry3d true_X_WF_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d true_X_BP_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d shift_mm_ = Eigen::Vector3d::Zero();  ///< Of the part, while interrupted.

@@ -1,13 +1,13 @@
 #include "reports/analysis.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/units.h"
+#include "reports/conformance.h"
 #include "reports/evaluation.h"
+#include "reports/facts.h"
 #include "reports/html_sections.h"
 #include "reports/json_parts.h"
 #include "reports/text.h"
@@ -27,8 +27,8 @@ std::optional<double> nominal_limit(const record::Characteristic& asked) {
   return asked.tolerance_mm;
 }
 
-void judge(const record::RunRecord& record, const FeatureResult& result,
-           CharacteristicResult& out) {
+void judge(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
+           const FeatureResult& result, CharacteristicResult& out) {
   record::Characteristic& asked = out.characteristic;
   asked.tolerance_mm = nominal_limit(asked);
   out.verdict = Verdict::kVoid;
@@ -41,24 +41,16 @@ void judge(const record::RunRecord& record, const FeatureResult& result,
     out.reason = value.error().what;
     return;
   }
-  out.value_mm = value->value_mm;
+  out.value.emplace(symbol_of(asked), value->value_mm, result.analysis->operator_of(asked),
+                    UncertaintyStatus::none("intervals are computed of touches and points only"));
   if (value->limit_mm) asked.tolerance_mm = value->limit_mm;
   if (value->void_because) {
     out.reason = *value->void_because;
   } else if (record.ending != "finished") {
     out.reason = "the run did not finish";
-  } else if (!asked.tolerance_mm) {
-    out.verdict = Verdict::kNotToleranced;
-    out.reason = "reported only" + joined(value->detail);
   } else {
-    const double limit = *asked.tolerance_mm;
-    const bool conforms = value->value_mm <= limit;
-    out.verdict = conforms ? Verdict::kConforms : Verdict::kDoesNotConform;
-    out.reason =
-        fmt::format("{:.4g} um is {} the tolerance of {:g} um by {:.4g} um{}",
-                    value->value_mm / core::kMicrometre, conforms ? "within" : "above",
-                    limit / core::kMicrometre,
-                    std::abs(limit - value->value_mm) / core::kMicrometre, joined(value->detail));
+    apply(rule, out);
+    out.reason += joined(value->detail);
   }
 }
 
@@ -78,9 +70,15 @@ std::string truth_box(const record::RunRecord& record, std::size_t index) {
 
 }  // namespace
 
-FeatureResult evaluate_analysis(const record::RunRecord& record, int index) {
+FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
+                                const std::optional<fit::ProbeTip>& probe) {
   FeatureResult result;
   result.feature = record.features[static_cast<std::size_t>(index)];
+  if (result.feature.shape == record::Shape::kRotaryAxes) {  // of touches
+    if (probe) result.tip_radius_mm = probe->radius_mm;
+    evaluate_rotary(record, index, result);
+    return result;
+  }
   const bool recorded =
       std::any_of(record.series.begin(), record.series.end(), [&](const record::Series& series) {
         return series.feature == index && series.role == record::Series::Role::kData;
@@ -109,12 +107,12 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index) {
   return result;
 }
 
-void decide_analysis(const record::RunRecord& record, FeatureResult& result) {
+void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
+                     FeatureResult& result) {
   for (const record::Characteristic& characteristic : result.feature.characteristics) {
     CharacteristicResult out;
     out.characteristic = characteristic;
-    if (result.analysis) out.operator_text = result.analysis->operator_text(characteristic);
-    judge(record, result, out);
+    judge(record, rule, result, out);
     result.characteristics.push_back(std::move(out));
   }
 }
@@ -139,10 +137,13 @@ std::string analysis_section(const record::RunRecord& record, std::size_t index,
                              const FeatureResult& feature) {
   const record::Feature& asked = feature.feature;
   std::string html = fmt::format(
-      R"(<section><h2>Feature {}</h2><p class="note">{}; data {}.</p>)", isolated(asked.id),
-      capitalised(record::name_of(asked.shape)),
-      asked.points_file.empty() ? std::string("simulated")
-                                : fmt::format("from the file {}", isolated(asked.points_file)));
+      R"(<section><h2>Feature {}</h2><p class="note">{}.</p>)", isolated(asked.id),
+      asked.shape == record::Shape::kRotaryAxes
+          ? std::string("Calibration of the fixture with balls that it carried")
+          : fmt::format("{}; data {}", capitalised(record::name_of(asked.shape)),
+                        asked.points_file.empty()
+                            ? std::string("simulated")
+                            : fmt::format("from the file {}", isolated(asked.points_file))));
   html += messages(feature);
   if (feature.analysis) html += feature.analysis->html(record, static_cast<int>(index));
   return html + truth_box(record, index) + "</section>";

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "reports/declared.h"
 #include "reports/facts.h"
 
 namespace rondure::reports {
@@ -94,32 +95,42 @@ core::Result<Deviation> value_of(const FeatureResult& result,
              : cylinder_deviation(result, characteristic.reference);
 }
 
-/// "MZCY; unfiltered; 4 x 7 points; 5 touches a point; r_tip 1.9984 mm; 20.0 degC; at the sampled
-/// points".
-std::string operator_text(const FeatureResult& result,
-                          const record::Characteristic& characteristic) {
-  const bool cylinder = characteristic.form == Form::kCylindricity;
-  std::string text = reference_of(characteristic) + "; unfiltered";
+std::string sampling_words(const FeatureResult& result,
+                           const record::Characteristic& characteristic) {
   const record::Feature& feature = result.feature;
-  text += feature.layers > 0
-              ? fmt::format("; {} x {} points", feature.layers, feature.points_per_layer)
-              : fmt::format("; {} points", result.cloud.size());
+  std::string text = feature.layers > 0
+                         ? fmt::format("{} x {} points", feature.layers, feature.points_per_layer)
+                         : fmt::format("{} points", result.cloud.size());
   if (feature.word("sampling_method") == "scan") text += ", scanned";
-  if (!cylinder && result.layers.size() > 1) text += "; worst layer";
+  if (result.merged) {
+    text += fmt::format(" in {} poses, merged {}", result.merged->poses.size(),
+                        result.merged->joint ? "with their errors solved for" : "by kinematics");
+  }
+  if (characteristic.form != Form::kCylindricity && result.layers.size() > 1)
+    text += "; worst layer";
   if (!result.cloud.empty() && result.cloud.front().repeats > 1) {
     text += fmt::format("; mean of {} touches a point", result.cloud.front().repeats);
   }
-  text += result.tip_radius_mm ? fmt::format("; r_tip {:.4f} mm", *result.tip_radius_mm)
-                               : "; r_tip unknown";
-  if (result.temperatures) {
-    text += fmt::format("; {:.1f} degC", result.temperatures->mean_degC);
-  }
-  if (result.thermal) {
-    text +=
-        fmt::format(" brought to 20 degC, {:.2f} um a metre with U = {:.2f} um (k = 2)",
-                    1e6 * (result.thermal->factor - 1.0), 2e6 * result.thermal->factor_uncertainty);
-  }
-  return text + "; at the sampled points";
+  return text;
+}
+
+std::string temperature_words(const FeatureResult& result) {
+  if (!result.temperatures) return "temperature not recorded";
+  const std::string text = fmt::format("{:.1f} degC", result.temperatures->mean_degC);
+  if (!result.thermal) return text;
+  return fmt::format("{} brought to 20 degC, {:.2f} um a metre with U = {:.2f} um (k = 2)", text,
+                     1e6 * (result.thermal->factor - 1.0),
+                     2e6 * result.thermal->factor_uncertainty);
+}
+
+/// "MZCY; unfiltered; 4 x 7 points; mean of 5 touches a point; r_tip 1.9984 mm; 20.0 degC".
+ValueOperator operator_of(const FeatureResult& result,
+                          const record::Characteristic& characteristic) {
+  return {ReferenceTerm(reference_of(characteristic)), FilterTerm("unfiltered"),
+          SamplingTerm(sampling_words(result, characteristic)),
+          TipTerm(result.tip_radius_mm ? fmt::format("r_tip {:.4f} mm", *result.tip_radius_mm)
+                                       : "r_tip unknown"),
+          TemperatureTerm(temperature_words(result))};
 }
 
 /// Why the probe cannot vouch for a touched feature.
@@ -168,17 +179,38 @@ std::optional<std::string> reason_for_void(const record::RunRecord& record,
   return temperature_fault(record.header, result);
 }
 
-void judge(const record::RunRecord& record, const std::optional<fit::ProbeTip>& probe,
-           const FeatureResult& result, CharacteristicResult& out) {
+/// What stands behind a verdict besides the feature itself.
+struct Circumstances {
+  const record::RunRecord& record;
+  const core::Result<DecisionRule>& rule;
+  const std::optional<fit::ProbeTip>& probe;
+};
+
+void judge(const Circumstances& by, const FeatureResult& result, CharacteristicResult& out) {
   const auto value = value_of(result, out.characteristic);
   out.verdict = Verdict::kVoid;
   if (!value) {
     out.reason = value.error().what;
     return;
   }
-  out.value_mm = value->value_mm;
-  if (const auto missing = reason_for_void(record, probe, result, *value, out.characteristic)) {
+  out.value.emplace(symbol_of(out.characteristic), value->value_mm,
+                    operator_of(result, out.characteristic),
+                    uncertainty_of(by.record, result, by.probe, out.characteristic),
+                    by.rule ? by.rule->measurand : Measurand::kSampledPoints);
+  if (const auto missing =
+          reason_for_void(by.record, by.probe, result, *value, out.characteristic)) {
     out.reason = *missing;
+    return;
+  }
+  apply(by.rule, out);
+}
+
+}  // namespace
+
+void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
+  out.verdict = Verdict::kVoid;
+  if (!rule) {
+    out.reason = rule.error().what;
     return;
   }
   if (!out.characteristic.tolerance_mm) {
@@ -186,23 +218,27 @@ void judge(const record::RunRecord& record, const std::optional<fit::ProbeTip>& 
     out.reason = "reported only";
     return;
   }
-  const double tolerance = *out.characteristic.tolerance_mm;
-  const bool conforms = *out.value_mm <= tolerance;
-  out.verdict = conforms ? Verdict::kConforms : Verdict::kDoesNotConform;
-  out.reason = fmt::format("{:.3f} um is {} the tolerance of {:g} um by {:.3f} um",
-                           um(*out.value_mm), conforms ? "within" : "above", um(tolerance),
-                           um(std::abs(tolerance - *out.value_mm)));
+  const double tolerance_mm = *out.characteristic.tolerance_mm;
+  KnownValue known{out.value->value_mm(), std::nullopt};
+  if (const UncertaintyStatement* statement = out.value->statement()) known.statement = *statement;
+  auto outcome = apply_rule(*rule, known, tolerance_mm);
+  if (!outcome) {
+    const std::string& why = out.value->uncertainty().why();
+    out.reason = outcome.error().what + (why.empty() ? "" : ": " + why);
+    return;
+  }
+  out.verdict = outcome->verdict;
+  out.reason = outcome->sentence;
+  out.risks = global_risks(*rule, known, *outcome, tolerance_mm);
+  out.outcome = *std::move(outcome);
 }
 
-}  // namespace
-
-void decide(const record::RunRecord& record, const std::optional<fit::ProbeTip>& probe,
-            FeatureResult& result) {
+void decide(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
+            const std::optional<fit::ProbeTip>& probe, FeatureResult& result) {
   for (const record::Characteristic& characteristic : result.feature.characteristics) {
     CharacteristicResult out;
     out.characteristic = characteristic;
-    out.operator_text = operator_text(result, characteristic);
-    judge(record, probe, result, out);
+    judge({record, rule, probe}, result, out);
     result.characteristics.push_back(std::move(out));
   }
 }

@@ -8,15 +8,18 @@
 
 namespace rondure::reports {
 
-/// Fills the characteristics of an evaluated feature: value, operator, verdict and its reason,
-/// under the rule `simple acceptance`: conforms when the value is at most the tolerance; no
-/// uncertainty is taken into account. Void when a condition is missing: no result, a
-/// reference that does not exist for the points, no certificate behind it, temperature outside the
-/// limits of the plan, or a run that did not finish.
+/// Fills the characteristics of an evaluated feature: stated value, verdict under the rule and its
+/// reason. Void when a condition is missing: no result, a reference that does not exist for the
+/// points, no certificate behind it, a section that proves nothing, temperature or probe
+/// qualification outside the limits of the plan, a run that did not finish, a rule that is not
+/// known, or one that cannot be applied (apply_rule()).
 ///
 /// @param probe  The qualification of the run; a touched feature without a sound one is void.
-void decide(const record::RunRecord& record, const std::optional<fit::ProbeTip>& probe,
-            FeatureResult& result);
+void decide(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
+            const std::optional<fit::ProbeTip>& probe, FeatureResult& result);
+
+/// Applies the rule to a characteristic whose value is stated and sound.
+void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out);
 
 /// Void when a feature failed; else the worst verdict of all toleranced characteristics, in the
 /// order void, does not conform, undecided, conforms; not toleranced when there is none.

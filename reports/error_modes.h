@@ -34,6 +34,17 @@ struct PointError {
   Eigen::VectorXd sigma_mm;  ///< Standard deviation, one a point.
 };
 
+/// What the declared influences do to each point, along its normal, to first order.
+struct DeclaredModes {
+  std::vector<std::string> names;  ///< Of the influences declared.
+  std::vector<ErrorMode> modes;
+  std::vector<PointError> point_errors;
+  std::vector<Eigen::VectorXd> columns;  ///< Of the modes [mm].
+};
+
+/// Every number declared, as modes; motions of the whole part still in them.
+[[nodiscard]] DeclaredModes declared_modes(const FormCloud& cloud, const Influences& influences);
+
 /// The declared influences as they act on the deviations of a cloud, to first order: along the
 /// normals, without what only moves or resizes the part as a whole.
 class ErrorModel {

@@ -167,16 +167,17 @@ std::string ContourResult::sampling_text() const {
                      facts_.options.samples);
 }
 
-std::string ContourResult::operator_text(const record::Characteristic& asked) const {
+ValueOperator ContourResult::operator_of(const record::Characteristic& asked) const {
   const std::string what = asked.form == Form::kContourSpread
                                ? "standard deviation of the parts about their mean contour"
                            : asked.form == Form::kHarmonicLimits
                                ? "amplitudes of the filtered contours"
                                : "peak to valley, greatest of all parts";
-  return fmt::format(
-      "{}; base circle {}; {}; {}", what,
-      facts_.options.error.base == fit::BaseCircle::kLimacon ? "limacon" : "geometric",
-      filter_text(), sampling_text());
+  const char* base =
+      facts_.options.error.base == fit::BaseCircle::kLimacon ? "limacon" : "geometric";
+  return {ReferenceTerm(fmt::format("{}; base circle {}", what, base)), FilterTerm(filter_text()),
+          SamplingTerm(sampling_text()), TipTerm("readings as given"),
+          TemperatureTerm("temperature not recorded")};
 }
 
 nlohmann::ordered_json ContourResult::json() const {

@@ -5,6 +5,7 @@
 
 #include "core/units.h"
 #include "reports/evaluation.h"
+#include "reports/facts.h"
 #include "reports/text.h"
 #include "reports/wheel_json.h"
 #include "reports/wheel_result.h"
@@ -137,16 +138,19 @@ core::Result<AnalysisValue> WheelResult::value_of(
   return AnalysisValue{m.runout->fim_mm, {}, {}, {}};
 }
 
-std::string WheelResult::operator_text(const record::Characteristic& characteristic) const {
+ValueOperator WheelResult::operator_of(const record::Characteristic& characteristic) const {
   const fit::WheelMeasurement& m = facts_.evaluation.wheel;
   const std::string points = fmt::format("{} of {} points, {} mode", m.points - m.dropped.size(),
                                          m.points, fit::name_of(m.mode));
+  std::string reference = reference_of(characteristic);
   if (characteristic.form == record::Form::kRunOut) {
-    return "full indicator movement about the given axis; " + points;
+    reference = "full indicator movement about the given axis";
+  } else if (characteristic.form != record::Form::kRoundness) {
+    reference = fmt::format("mean distance from the centre ({} mean of {} quadruples)",
+                            fit::name_of(m.mean), m.centers.accepted.size());
   }
-  if (characteristic.form == record::Form::kRoundness) return points;
-  return fmt::format("mean distance from the centre ({} mean of {} quadruples); {}",
-                     fit::name_of(m.mean), m.centers.accepted.size(), points);
+  return {ReferenceTerm(reference), FilterTerm(filter_text()), SamplingTerm(points),
+          TipTerm("points as given"), TemperatureTerm("temperature not recorded")};
 }
 
 std::string WheelResult::filter_text() const {

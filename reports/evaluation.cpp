@@ -14,6 +14,8 @@
 #include "fit/pose_walk.h"
 #include "reports/conformance.h"
 #include "reports/defect.h"
+#include "reports/evaluate_merged.h"
+#include "reports/fixture_use.h"
 #include "reports/invariants.h"
 #include "reports/warnings.h"
 
@@ -269,6 +271,7 @@ void evaluate_cylinder(const std::optional<Eigen::Vector3d>& direction, FeatureR
 
 void evaluate_circle(const Eigen::Vector3d& direction, FeatureResult& result) {
   const fit::Axis up{mean_of(result.cloud), direction};
+  result.section_axis = up;
   result.layers = sections(up, result.cloud);
   LayerResult& section = result.layers.front();
   if (!section.mz || !section.ls) {
@@ -316,10 +319,12 @@ void evaluate_repeats(const std::vector<const Touch*>& touches,
 }
 
 /// The pose that would turn the found axis to machine z, from the pose in which it was found.
-core::Pose levelling(const core::Pose& reached, const Eigen::Vector3d& direction_W) {
-  Eigen::Vector3d t = rotation(reached).transpose() * direction_W;
+core::Pose levelling(const fixture::Kinematics& kinematics, const core::Pose& reached,
+                     const Eigen::Vector3d& direction_W) {
+  Eigen::Vector3d t =
+      fixture::body_to_machine(kinematics, reached).linear().transpose() * direction_W;
   if (t.z() < 0.0) t = -t;
-  return {std::asin(std::clamp(t.y(), -1.0, 1.0)), std::atan2(-t.x(), t.z())};
+  return fixture::levelling_pose(kinematics, t);
 }
 
 void take_temperatures(const std::vector<const Touch*>& touches, FeatureResult& result) {
@@ -332,14 +337,45 @@ void take_temperatures(const std::vector<const Touch*>& touches, FeatureResult& 
   result.temperatures = out;
 }
 
+/// A cylinder that several poses show: in the body frame, whose z its axis is near.
+void evaluate_merged(const RunRecord& record, int index, const std::optional<fit::ProbeTip>& probe,
+                     FeatureResult& result) {
+  auto cloud = merged_cloud(record, index, probe);
+  if (!cloud) {
+    result.failure = cloud.error();
+    return;
+  }
+  result.cloud = std::move(cloud->points);
+  result.repeat_sigma_mm = cloud->sigma_mm;
+  result.temperatures = cloud->temperatures;
+  result.merged = std::make_shared<const MergedPoses>(std::move(cloud->merged));
+  if (result.merged->refusal) result.warnings.push_back(*result.merged->refusal);
+  if (const auto& solved = result.merged->solved; solved && solved->chi2 > solved->chi2_limit) {
+    result.warnings.push_back(
+        {core::Code::kInconsistent,
+         fmt::format(
+             "the errors of the poses are larger than the fixture states: chi2 {:.1f}, limit "
+             "{:.1f}; calibrate it again or state more",
+             solved->chi2, solved->chi2_limit),
+         {}});
+  }
+  evaluate_cylinder(Eigen::Vector3d::UnitZ(), result);
+  if (!result.failure) warn(result);
+}
+
 FeatureResult evaluate_feature(const RunRecord& record, int index,
-                               const std::optional<fit::ProbeTip>& probe) {
+                               const std::optional<fit::ProbeTip>& probe,
+                               const fixture::Kinematics& kinematics) {
   FeatureResult result;
   result.feature = record.features[static_cast<std::size_t>(index)];
   if (result.feature.strategy == record::Strategy::kPointsFile) {
     if (result.feature.tip_radius_mm) result.tip_radius_mm = result.feature.tip_radius_mm;
   } else if (probe) {
     result.tip_radius_mm = probe->radius_mm;
+  }
+  if (result.feature.strategy == record::Strategy::kMerged) {
+    evaluate_merged(record, index, probe, result);
+    return result;
   }
   // A part that was located again while its final cloud was repeated has two: the later one counts.
   const auto last = std::find_if(
@@ -375,7 +411,8 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
   if (result.failure) return result;
   evaluate_repeats(touches, direction, result);
   if (result.mz_cylinder && result.feature.strategy != record::Strategy::kPointsFile) {
-    result.levelling_pose = levelling(last->reached, result.mz_cylinder->axis.direction);
+    result.levelling_pose =
+        levelling(kinematics, last->reached, result.mz_cylinder->axis.direction);
   }
   if (result.feature.strategy == record::Strategy::kVirtual) search_virtual_poses(*last, result);
   warn(result);
@@ -388,18 +425,22 @@ tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& measured) {
   const std::optional<RunRecord> at_20 = compensated(measured);
   const RunRecord& record = at_20 ? *at_20 : measured;
   Evaluation out;
+  out.rule = rule_of(record);
   out.probe = evaluate_probe(record);
+  const FixtureFacts facts = fixture_facts(record);
+  out.fixture = facts.use;
   for (std::size_t i = 0; i < record.features.size(); ++i) {
     if (record::is_analysis(record.features[i].shape)) {
-      auto feature = evaluate_analysis(record, static_cast<int>(i));
-      decide_analysis(record, feature);
+      auto feature = evaluate_analysis(record, static_cast<int>(i), out.probe);
+      decide_analysis(record, out.rule, feature);
       out.features.push_back(std::move(feature));
       continue;
     }
-    auto feature = evaluate_feature(record, static_cast<int>(i), out.probe);
+    auto feature = evaluate_feature(record, static_cast<int>(i), out.probe, facts.kinematics);
     if (auto broken = broken_invariant(feature))
       return tl::unexpected(Defect{*std::move(broken), std::move(feature)});
-    decide(record, out.probe, feature);
+    decide(record, out.rule, out.probe, feature);
+    apply_calibration(out.fixture, feature);
     out.features.push_back(std::move(feature));
   }
   out.verdict = overall(out.features);

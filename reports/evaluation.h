@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/pose.h"
 #include "core/result.h"
+#include "fit/axis.h"
 #include "fit/ls_circle.h"
 #include "fit/ls_cylinder.h"
 #include "fit/min_zone_circle.h"
@@ -20,22 +21,24 @@
 #include "fit/roundness_evaluation.h"
 #include "record/run_record.h"
 #include "reports/analysis.h"
+#include "reports/decision.h"
+#include "reports/merged_poses.h"
+#include "reports/stated_value.h"
 #include "reports/thermal.h"
+#include "reports/verdict.h"
 
 namespace rondure::reports {
-
-enum class Verdict { kConforms, kDoesNotConform, kUndecided, kVoid, kNotToleranced };
-/// "conforms", "does not conform", "undecided", "void", "not toleranced".
-[[nodiscard]] std::string_view name_of(Verdict verdict);
 
 /// One point of the cloud that is evaluated: the mean of its repeated touches.
 struct CloudPoint {
   int layer = 0;
   int point = 0;
   int repeats = 1;
-  Eigen::Vector3d tip_mm = Eigen::Vector3d::Zero();  ///< Mean tip centre, machine frame.
-  double angle_rad = 0.0;                            ///< About the minimum-zone axis, in [0, 2 pi).
-  double height_mm = 0.0;                            ///< Along that axis, from the mean point.
+  int pose = 0;  ///< Of a cloud that several poses make: in which of them.
+  /// Mean tip centre, machine frame; of a cloud that several poses make: body frame.
+  Eigen::Vector3d tip_mm = Eigen::Vector3d::Zero();
+  double angle_rad = 0.0;     ///< About the minimum-zone axis, in [0, 2 pi).
+  double height_mm = 0.0;     ///< Along that axis, from the mean point.
   double deviation_mm = 0.0;  ///< Distance from the axis minus the mean of the two zone radii.
   bool outer_contact = false;
   bool inner_contact = false;
@@ -73,10 +76,16 @@ struct LayerResult {
 /// Verdict on one characteristic.
 struct CharacteristicResult {
   record::Characteristic characteristic;
-  std::optional<double> value_mm;  ///< Nothing when it could not be evaluated.
+  std::optional<StatedValue> value;  ///< Nothing when it could not be evaluated.
   Verdict verdict = Verdict::kVoid;
-  std::string reason;         ///< One sentence behind the verdict.
-  std::string operator_text;  ///< "MZCY; unfiltered; 4 x 7 points; ..."
+  std::string reason;                  ///< One sentence behind the verdict.
+  std::optional<RuleOutcome> outcome;  ///< What the rule made of it; none for void, not toleranced.
+  std::optional<GlobalRisks> risks;    ///< Where the rule has a prior.
+
+  /// The value as measured, without what must be said with it: for computing, not for writing.
+  [[nodiscard]] std::optional<double> value_mm() const {
+    return value ? std::optional(value->value_mm()) : std::nullopt;
+  }
 };
 
 /// Part temperature while the final cloud was touched.
@@ -84,6 +93,19 @@ struct Temperatures {
   double least_degC = 0.0;
   double greatest_degC = 0.0;
   double mean_degC = 0.0;
+};
+
+/// The calibration of the fixture that a run used.
+struct FixtureUse {
+  std::string id;
+  std::string fixture_id;
+  std::string measured_utc;
+  std::string expires_utc;
+  std::optional<double> age_days;      ///< At the start of the run.
+  double residual_rms_mm = 0.0;        ///< Left at its combined poses.
+  double residual_max_mm = 0.0;        ///< The largest of them.
+  double residual_tilt_rad = 0.0;      ///< Largest turn of a pose.
+  std::optional<core::Error> invalid;  ///< Why it does not hold; results are void then.
 };
 
 /// Everything evaluated of one feature.
@@ -95,15 +117,17 @@ struct FeatureResult {
   core::Result<fit::OneSidedCylinder> mc_cylinder = not_fitted();  ///< Where there is none: why.
   core::Result<fit::OneSidedCylinder> mi_cylinder = not_fitted();
   std::vector<LayerResult> layers;
+  fit::Axis section_axis = {};               ///< Of a circle: origin and normal of its plane.
   std::vector<PoseValue> poses;              ///< In the order visited.
   std::optional<double> tip_radius_mm;       ///< rho that was used; none for points of unknown tip.
   std::optional<core::Pose> levelling_pose;  ///< That would turn the found axis to machine z.
   std::optional<double> repeat_sigma_mm;     ///< Pooled standard deviation of a single touch.
   std::optional<double> repeat_zone_mean_mm;  ///< Mean of the zones of the single repeats.
   std::optional<double> repeat_zone_sd_mm;
-  std::optional<Temperatures> temperatures;  ///< Of the final cloud; none for points of a file.
+  std::optional<Temperatures> temperatures;   ///< Of the final cloud; none for points of a file.
+  std::shared_ptr<const MergedPoses> merged;  ///< Of the strategy "merged".
   std::shared_ptr<const AnalysisResult> analysis;  ///< Of a feature whose data are series.
-  std::optional<ThermalCorrection> thermal;  ///< All above is at 20 degC; none: as measured.
+  std::optional<ThermalCorrection> thermal;        ///< All above is at 20 degC; none: as measured.
   std::vector<CharacteristicResult> characteristics;
   std::vector<core::Error> warnings;
   std::optional<core::Error> failure;  ///< Why there is no result.
@@ -112,6 +136,8 @@ struct FeatureResult {
 /// What a record says: a pure function of it.
 struct Evaluation {
   std::optional<fit::ProbeTip> probe;
+  std::optional<FixtureUse> fixture;  ///< None: taken as nominal.
+  core::Result<DecisionRule> rule = DecisionRule();  ///< Of the run, or why it is not known.
   std::vector<FeatureResult> features;
   Verdict verdict = Verdict::kVoid;  ///< The worst of all toleranced characteristics.
 };

@@ -7,6 +7,7 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
+#include "reports/qif_check.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {
@@ -14,14 +15,47 @@ namespace rondure::reports {
 namespace {
 
 constexpr const char* kSeriesFile = "series.csv";
+constexpr const char* kCalibrationFile = "fixture-calibration.json";
+
+/// The calibration of the fixture. Where it failed: a text that no run takes for one.
+std::string calibration_of(const Evaluation& evaluation) {
+  for (const FeatureResult& feature : evaluation.features) {
+    if (feature.analysis) {
+      std::string text = feature.analysis->calibration_file();
+      if (!text.empty()) return text;
+    }
+  }
+  return "{\"format\": \"none\", \"note\": \"the fixture was not calibrated, see report.json\"}\n";
+}
+
+constexpr const char* kResultsFile = "results.csv";
+
+/// "html, json and csv".
+std::string in_words(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
+  }
+  return text;
+}
+
+/// Before it is written: a QIF file whose references dangle would be refused somewhere else, weeks
+/// later.
+core::Result<void> look_through(const Export& what, const std::string& bytes) {
+  if (what.format != "qif") return {};
+  const auto faults = check_qif(bytes);
+  if (faults.empty()) return {};
+  return core::fail(core::Code::kInternal,
+                    fmt::format("{} would not be sound: {}", what.file, faults.front()), what.file);
+}
 
 }  // namespace
 
 const std::vector<Export>& exports() {
-  static const std::vector<Export> all = {{"html", "report.html"},
-                                          {"json", "report.json"},
-                                          {"csv", "touches.csv"},
-                                          {"csv", kSeriesFile}};
+  static const std::vector<Export> all = {
+      {"html", "report.html"}, {"json", "report.json"},       {"csv", "touches.csv"},
+      {"csv", kSeriesFile},    {"csv", kResultsFile},         {"qif", "report.qif"},
+      {"dmis", "report.dmo"},  {"junit", "report.junit.xml"}, {"json", kCalibrationFile}};
   return all;
 }
 
@@ -34,14 +68,28 @@ std::vector<std::string> all_formats() {
 }
 
 bool applies(const Export& what, const record::RunRecord& record) {
-  return what.file != kSeriesFile || !record.series.empty();
+  if (what.file == kSeriesFile) {
+    return std::any_of(record.series.begin(), record.series.end(), [](const auto& series) {
+      return series.role == record::Series::Role::kData;
+    });
+  }
+  if (what.file != kCalibrationFile) return true;
+  return record.ending == "finished" &&
+         std::any_of(record.features.begin(), record.features.end(), [](const auto& feature) {
+           return feature.shape == record::Shape::kRotaryAxes;
+         });
 }
 
 std::string render(const Export& what, const record::RunRecord& record,
                    const Evaluation& evaluation) {
+  if (what.file == kCalibrationFile) return calibration_of(evaluation);
   if (what.format == "html") return write_html(record, evaluation);
   if (what.format == "json") return write_json(record, evaluation);
+  if (what.format == "qif") return write_qif(record, evaluation);
+  if (what.format == "dmis") return write_dmis(record, evaluation);
+  if (what.format == "junit") return write_junit(record, evaluation);
   if (what.file == kSeriesFile) return write_series_csv(record);
+  if (what.file == kResultsFile) return write_results_csv(record, evaluation);
   return write_touches_csv(record);
 }
 
@@ -64,7 +112,7 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
     if (std::find(known.begin(), known.end(), format) == known.end()) {
       return core::fail(
           core::Code::kBadOption,
-          fmt::format("format '{}' is unknown; html, json and csv can be written", format));
+          fmt::format("format '{}' is unknown; {} can be written", format, in_words(known)));
     }
   }
   std::vector<std::filesystem::path> written;
@@ -75,7 +123,8 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) continue;
     const auto path = directory / e.file;
     const std::string bytes = render(e, record, evaluation);
-    done = record::write_file(path, bytes);
+    done = look_through(e, bytes);
+    if (done) done = record::write_file(path, bytes);
     if (!done) break;
     written.push_back(path);
     sums.push_back({e.file, record::sha256_hex(bytes)});

@@ -12,16 +12,16 @@ namespace rondure::reports {
 
 /// One file that is derived from a record.
 struct Export {
-  std::string format;  ///< "html", "json", "csv".
-  std::string file;    ///< Name in the run directory: report.html, report.json, touches.csv,
-                       ///< series.csv.
+  std::string format;  ///< "html", "json", "csv", "qif", "dmis", "junit".
+  std::string file;    ///< Name in the run directory: report.html, touches.csv, ...
 };
 
 /// All exports, in the order in which they are written.
 [[nodiscard]] const std::vector<Export>& exports();
 [[nodiscard]] std::vector<std::string> all_formats();
 
-/// Whether a run has this export: series.csv only where series were recorded.
+/// Whether a run has this export: series.csv only where series were recorded,
+/// fixture-calibration.json only of a finished calibration of the fixture.
 [[nodiscard]] bool applies(const Export& what, const record::RunRecord& record);
 
 /// The bytes of one export.
@@ -36,8 +36,8 @@ struct Export {
 
 /// Writes exports into a run directory, each whole or not at all, and their digests into
 /// SHA256SUMS.
-/// @return The files written; kBadOption for an unknown format, kFile with the system's reason,
-/// kSyntax for a SHA256SUMS that is none.
+/// @return The files written; kBadOption for an unknown format, kInternal when report.qif would
+/// break check_qif(), kFile with the system's reason, kSyntax for a SHA256SUMS that is none.
 [[nodiscard]] core::Result<std::vector<std::filesystem::path>> write_exports(
     const std::filesystem::path& directory, const std::vector<std::string>& formats,
     const record::RunRecord& record, const Evaluation& evaluation);

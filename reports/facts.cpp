@@ -132,6 +132,10 @@ std::string symbol_of(const record::Characteristic& characteristic) {
       return "Contour";
     case record::Form::kContourSpread:
       return "Spread";
+    case record::Form::kFixtureResidual:
+      return "Left max";
+    case record::Form::kFixtureResidualRms:
+      return "Left rms";
   }
   return {};
 }
@@ -215,6 +219,15 @@ std::vector<std::string> missing_parts(const record::RunRecord& record,
   }
   if (parts.empty()) parts.emplace_back("Steps after the last touch on record were not done.");
   return parts;
+}
+
+std::string rule_sentence(const Evaluation& evaluation) {
+  if (!evaluation.rule) return evaluation.rule.error().what;
+  const DecisionRule& rule = *evaluation.rule;
+  if (!rule.needs_interval()) {
+    return "simple acceptance; no measurement uncertainty taken into account";
+  }
+  return fmt::format("{}; the value {} decides", in_words(rule), name_of(rule.measurand));
 }
 
 std::string rule_in_words(const record::Header& header) {

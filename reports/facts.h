@@ -79,7 +79,9 @@ struct OneSided {
 [[nodiscard]] std::vector<std::string> missing_parts(const record::RunRecord& record,
                                                      const Evaluation& evaluation);
 
-/// The decision rule in words: "simple acceptance".
+/// The name of the decision rule in words: "simple acceptance".
 [[nodiscard]] std::string rule_in_words(const record::Header& header);
+/// What the verdict follows: the rule with its formula, and what it is about; or why it is unknown.
+[[nodiscard]] std::string rule_sentence(const Evaluation& evaluation);
 
 }  // namespace rondure::reports

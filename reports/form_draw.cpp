@@ -42,56 +42,123 @@ double form_share(double size2, double noise2) {
   return noise2 == 0.0 ? 1.0 : size2 / (size2 + noise2);
 }
 
+/// The frame in which form, of covariance s^2 * form, and errors are both independent: form has the
+/// variance s^2 there, the errors `noise`.
+struct WhiteFrame {
+  WhiteFrame(const MatrixXd& form, const MatrixXd& errors) {
+    const Eigen::LLT<MatrixXd> cholesky(form);
+    const MatrixXd lower = cholesky.matrixL();
+    const auto solver = lower.triangularView<Eigen::Lower>();
+    const MatrixXd half = solver.solve(errors);
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> split(solver.solve(half.transpose()));
+    noise = split.eigenvalues();
+    const double largest = noise.size() > 0 ? noise.maxCoeff() : 0.0;
+    for (double& value : noise) {
+      if (value < 1e-14 * largest) value = 0.0;  // rounding
+    }
+    whiten = solver.solve(MatrixXd::Identity(form.rows(), form.rows()));
+    whiten = split.eigenvectors().transpose() * whiten;
+    color = lower * split.eigenvectors();
+  }
+
+  VectorXd noise;
+  MatrixXd whiten;
+  MatrixXd color;  ///< Its inverse.
+};
+
+/// Low undulations and degrees, each column one term; together they have the variance 1 at a point,
+/// as much as what is independent from point to point.
+MatrixXd smooth_form(const FormCloud& cloud) {
+  FormSpectrum spectrum;
+  const bool section = cloud.kind == FormKind::kRoundness;
+  spectrum.low_mm = spectrum.high_mm = cloud.points.front().height_mm;
+  for (const FormPoint& p : cloud.points) {
+    spectrum.low_mm = std::min(spectrum.low_mm, p.height_mm);
+    spectrum.high_mm = std::max(spectrum.high_mm, p.height_mm);
+  }
+  if (!section) spectrum.terms = {{0, 1, 0.5}, {0, 2, 0.5}, {1, 2, 0.5}};
+  for (int p = 2; p <= 5; ++p) {
+    for (int degree = 0; degree <= (section ? 0 : 2); ++degree) {
+      spectrum.terms.push_back({p, degree, std::pow(0.5, degree) / std::sqrt(p)});
+    }
+  }
+  const MatrixXd columns = spectrum_columns(spectrum, cloud.points);
+  return columns / std::sqrt(columns.squaredNorm() / static_cast<double>(columns.rows()));
+}
+
 }  // namespace
 
 SampledForm::SampledForm(const FormCloud& cloud, const ErrorModel& errors)
-    : rigid_(rigid_basis(cloud)), size_(0.0) {
-  const auto rows = spread_rows(cloud.points.size(), cloud.points.size());
-  deviations_ = deviations_of(cloud, rows);
-  deviations_ -= rigid_ * (rigid_.transpose() * deviations_);
-  point_variance_ = errors.point_variance_mm2().mean();
-  const MatrixXd& columns = errors.columns();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(columns.transpose() * columns);
-  const double largest = columns.cols() > 0 ? modes.eigenvalues().maxCoeff() : 0.0;
+    : rigid_(rigid_basis(cloud)), point_variance_(errors.point_variance_mm2().mean()), size_(0.0) {
+  MatrixXd smooth = smooth_form(cloud);
+  smooth -= rigid_ * (rigid_.transpose() * smooth);
+  solve(smooth, errors.columns());
+  const VectorXd measured =
+      deviations_of(cloud, spread_rows(cloud.points.size(), cloud.points.size()));
+  deviations_ = whiten_ * measured;
+  rest_ = beside(measured);
   std::vector<NoiseLevel> levels;
-  Index kept = 0;
-  while (kept < columns.cols() &&
-         modes.eigenvalues()[columns.cols() - 1 - kept] > 1e-10 * largest) {
-    ++kept;
+  for (Index k = 0; k < noise_.size(); ++k) {
+    levels.push_back({noise_[k], deviations_[k] * deviations_[k], 1.0});
   }
-  systematic_ = columns * modes.eigenvectors().rightCols(kept);
-  systematic_variance_ = modes.eigenvalues().tail(kept);
-  double square = deviations_.squaredNorm();
-  for (Index k = 0; k < kept; ++k) {
-    systematic_.col(k) /= std::sqrt(systematic_variance_[k]);
-    systematic_variance_[k] += point_variance_;
-    const double along = systematic_.col(k).dot(deviations_);
-    levels.push_back({systematic_variance_[k], along * along, 1.0});
-    square -= along * along;
-  }
-  const Index rest = deviations_.size() - rigid_.cols() - kept;
-  if (rest > 0) {
-    levels.push_back({point_variance_, std::max(0.0, square), static_cast<double>(rest)});
+  const Index beside_them = measured.size() - rigid_.cols() - directions_.cols();
+  has_rest_ = beside_them > 0;
+  if (has_rest_) {
+    levels.push_back({point_variance_, rest_.squaredNorm(), static_cast<double>(beside_them)});
   }
   size_ = FormSize(levels);
 }
 
+void SampledForm::solve(const MatrixXd& smooth, const MatrixXd& systematic) {
+  MatrixXd all(smooth.rows(), smooth.cols() + systematic.cols());
+  all << smooth, systematic;
+  for (Index k = 0; k < all.cols(); ++k) {
+    const double length = all.col(k).norm();
+    if (length > 0.0) all.col(k) /= length;
+  }
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(all);
+  qr.setThreshold(1e-6);
+  const Index most = smooth.rows() - rigid_.cols();
+  const Index rank = std::min(qr.rank(), most);
+  directions_ = qr.householderQ() * MatrixXd::Identity(smooth.rows(), rank);
+  const MatrixXd form = directions_.transpose() * smooth;
+  const MatrixXd errors = directions_.transpose() * systematic;
+  const MatrixXd unit = MatrixXd::Identity(rank, rank);
+  const WhiteFrame frame(form * form.transpose() + unit,
+                         errors * errors.transpose() + point_variance_ * unit);
+  noise_ = frame.noise;
+  whiten_ = frame.whiten * directions_.transpose();
+  color_ = directions_ * frame.color;
+}
+
+/// What values hold beside place, size and the directions.
+VectorXd SampledForm::beside(const VectorXd& values) const {
+  VectorXd out = values - rigid_ * (rigid_.transpose() * values);
+  out -= directions_ * (directions_.transpose() * out);
+  return out;
+}
+
 void SampledForm::draw(core::KeyedNoise& noise, double size, const VectorXd& errors_mm,
                        VectorXd& form_mm) const {
-  form_mm.resize(deviations_.size());
-  normals(noise, form_mm);
-  form_mm *= size;
-  VectorXd miss = -form_mm - errors_mm;
-  miss -= rigid_ * (rigid_.transpose() * miss);
-  miss += deviations_;
-  form_mm -= rigid_ * (rigid_.transpose() * form_mm);
-  const double size2 = size * size;
-  const double share = form_share(size2, point_variance_);
-  VectorXd along = systematic_.transpose() * miss;
-  for (Index k = 0; k < along.size(); ++k) {
-    along[k] *= form_share(size2, systematic_variance_[k]) - share;
+  VectorXd inside(noise_.size());
+  normals(noise, inside);
+  inside *= size;
+  const VectorXd miss = deviations_ - inside - whiten_ * errors_mm;
+  for (Index k = 0; k < inside.size(); ++k) {
+    inside[k] += form_share(size * size, noise_[k]) * miss[k];
   }
-  form_mm += share * miss + systematic_ * along;
+  form_mm = color_ * inside;
+  if (has_rest_) draw_rest(noise, size, errors_mm, form_mm);
+}
+
+void SampledForm::draw_rest(core::KeyedNoise& noise, double size, const VectorXd& errors_mm,
+                            VectorXd& form_mm) const {
+  VectorXd form(rest_.size());
+  normals(noise, form);
+  form *= size;
+  // Of form + share (measured - form - errors), what lies beside the directions.
+  const double share = form_share(size * size, point_variance_);
+  form_mm += beside((1.0 - share) * form - share * errors_mm) + share * rest_;
 }
 
 WholeForm::WholeForm(const FormCloud& cloud, const ErrorModel& errors, const FormSpectrum& spectrum)
@@ -123,27 +190,18 @@ WholeForm::WholeForm(const FormCloud& cloud, const ErrorModel& errors, const For
   size_ = FormSize(levels);
 }
 
-/// Finds the frame in which form (variance 1 for size 1) and errors (noise_) are both independent.
 void WholeForm::solve(const MatrixXd& free, const MatrixXd& sampled, const MatrixXd& errors) {
   const MatrixXd form = free.transpose() * sampled;
+  const MatrixXd error = free.transpose() * errors;
   MatrixXd covariance = form * form.transpose();
   const double rest =
       kRestShare * std::sqrt(covariance.trace() / static_cast<double>(covariance.rows()));
   covariance.diagonal().array() += rest * rest;
-  const Eigen::LLT<MatrixXd> cholesky(covariance);
-  const auto lower = cholesky.matrixL();
-  const MatrixXd noise = lower.solve(MatrixXd(free.transpose() * errors));
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> split(noise * noise.transpose());
-  const MatrixXd turn = split.eigenvectors().transpose();
-  const MatrixXd inverse = lower.solve(MatrixXd::Identity(form.rows(), form.rows()));
-  noise_ = split.eigenvalues().cwiseMax(0.0);
-  const double largest = noise_.size() > 0 ? noise_.maxCoeff() : 0.0;
-  for (double& value : noise_) {
-    if (value < 1e-14 * largest) value = 0.0;  // rounding
-  }
-  whiten_ = turn * inverse * free.transpose();
-  spectrum_ = turn * inverse * form;
-  rest_ = rest * turn * inverse;
+  const WhiteFrame frame(covariance, error * error.transpose());
+  noise_ = frame.noise;
+  whiten_ = frame.whiten * free.transpose();
+  spectrum_ = frame.whiten * form;
+  rest_ = rest * frame.whiten;
   coefficients_ = spectrum_.transpose();
 }
 

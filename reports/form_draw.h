@@ -37,8 +37,10 @@ class FormSize {
   std::vector<double> below_;  ///< Probability of less, from 0 to 1.
 };
 
-/// Forms at the sampled points that may stand behind the deviations. The form of each point is
-/// taken as independent of the others, normal, of a size that the deviations tell.
+/// Forms at the sampled points that may stand behind the deviations. Of the form it is taken that
+/// half its power lies in low undulations and degrees, the other half is independent from point to
+/// point, and that its size is what the deviations tell: no spectrum is needed. (Without the first
+/// half a drift or creep, which is as smooth as most form, would be taken for all of it.)
 class SampledForm {
  public:
   SampledForm(const FormCloud& cloud, const ErrorModel& errors);
@@ -52,11 +54,20 @@ class SampledForm {
   [[nodiscard]] const FormSize& size() const { return size_; }
 
  private:
+  void solve(const Eigen::MatrixXd& smooth, const Eigen::MatrixXd& systematic);
+  void draw_rest(core::KeyedNoise& noise, double size, const Eigen::VectorXd& errors_mm,
+                 Eigen::VectorXd& form_mm) const;
+  [[nodiscard]] Eigen::VectorXd beside(const Eigen::VectorXd& values) const;
+
   Eigen::MatrixXd rigid_;
-  Eigen::MatrixXd systematic_;           ///< Orthonormal directions of the systematic errors.
-  Eigen::VectorXd systematic_variance_;  ///< Of each, point errors included.
-  double point_variance_ = 0.0;          ///< Mean over the points.
-  Eigen::VectorXd deviations_;           ///< Measured, without shift, tilt and radius.
+  Eigen::MatrixXd directions_;   ///< Orthonormal: smooth form and systematic errors.
+  Eigen::MatrixXd whiten_;       ///< Deviations along them to a frame in which all is independent.
+  Eigen::MatrixXd color_;        ///< And back.
+  Eigen::VectorXd noise_;        ///< Variance of the errors in that frame, for size 1.
+  Eigen::VectorXd deviations_;   ///< Measured, in that frame.
+  Eigen::VectorXd rest_;         ///< Measured, beside the directions.
+  double point_variance_ = 0.0;  ///< Mean over the points: of the errors beside the directions.
+  bool has_rest_ = false;        ///< Few points have nothing beside the directions.
   FormSize size_;
 };
 

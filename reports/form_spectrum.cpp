@@ -18,6 +18,8 @@ using Eigen::Index;
 
 constexpr int kMostUndulations = 200;
 constexpr int kMostDegree = 20;
+constexpr int kMostCoefficients = 400;  // with the grid below, 32 MB and 1 ms a trial
+constexpr std::size_t kMostPlaces = 10'000;
 
 /// Legendre polynomial, by its recurrence.
 double legendre(int degree, double q) {
@@ -58,6 +60,27 @@ core::Result<void> check_term(const FormTerm& term, FormKind kind) {
   if (moves_part(term)) return named("this is size, place or tilt, not form");
   if (!(term.amplitude_mm >= 0.0 && std::isfinite(term.amplitude_mm))) {
     return named(fmt::format("amplitude {} mm is not a number >= 0", term.amplitude_mm));
+  }
+  return {};
+}
+
+int coefficients_of(const FormTerm& term) { return term.undulations == 0 ? 1 : 2; }
+
+/// Refuses a spectrum that would take gigabytes.
+core::Result<void> check_size(const FormSpectrum& spectrum, FormKind kind) {
+  int coefficients = 0;
+  for (const FormTerm& term : spectrum.terms) coefficients += coefficients_of(term);
+  if (coefficients > kMostCoefficients) {
+    return core::fail(Code::kBadOption,
+                      fmt::format("{} coefficients of the form spectrum; {} at most", coefficients,
+                                  kMostCoefficients));
+  }
+  const std::size_t places = whole_surface(spectrum, kind).size();
+  if (places > kMostPlaces) {
+    return core::fail(Code::kBadOption,
+                      fmt::format("the form spectrum needs a grid of {} places; {} at most: fewer "
+                                  "undulations or degrees",
+                                  places, kMostPlaces));
   }
   return {};
 }
@@ -123,12 +146,12 @@ core::Result<void> check_spectrum(const FormSpectrum& spectrum, FormKind kind) {
     return core::fail(Code::kBadOption, fmt::format("the surface ends at {} mm and begins at {} mm",
                                                     spectrum.high_mm, spectrum.low_mm));
   }
-  return {};
+  return check_size(spectrum, kind);
 }
 
 Eigen::MatrixXd spectrum_columns(const FormSpectrum& spectrum, std::span<const FormPoint> points) {
   Index width = 0;
-  for (const FormTerm& term : spectrum.terms) width += term.undulations == 0 ? 1 : 2;
+  for (const FormTerm& term : spectrum.terms) width += coefficients_of(term);
   Eigen::MatrixXd columns(static_cast<Index>(points.size()), width);
   for (Index i = 0; i < columns.rows(); ++i) {
     const FormPoint& point = points[static_cast<std::size_t>(i)];
@@ -170,7 +193,11 @@ std::vector<FormPoint> whole_surface(const FormSpectrum& spectrum, FormKind kind
 core::Result<FormSpectrum> own_spectrum(const FormCloud& cloud, double noise_mm) {
   const auto layers = layers_of(cloud);
   const bool section = cloud.kind == FormKind::kRoundness;
-  const int highest = layers.empty() ? 0 : highest_harmonic(cloud, layers);
+  const int degrees =
+      section || layers.empty() ? 0 : static_cast<int>(std::min<std::size_t>(layers.size() - 1, 3));
+  const int highest = layers.empty() ? 0
+                                     : std::min(highest_harmonic(cloud, layers),
+                                                kMostCoefficients / (2 * (degrees + 1)) - 1);
   if (highest < 2 || (!section && layers.size() < 3)) {
     return core::fail(Code::kSampling,
                       fmt::format("{} layers that show {} harmonics do not tell the form between "
@@ -178,7 +205,6 @@ core::Result<FormSpectrum> own_spectrum(const FormCloud& cloud, double noise_mm)
                                   layers.size(), highest));
   }
   FormSpectrum spectrum;
-  const int degrees = section ? 0 : static_cast<int>(std::min<std::size_t>(layers.size() - 1, 3));
   spectrum.terms = all_terms(highest, degrees);
   if (!section) {
     spectrum.low_mm = cloud.points[layers.front().front()].height_mm;
@@ -196,7 +222,7 @@ core::Result<FormSpectrum> own_spectrum(const FormCloud& cloud, double noise_mm)
   const Eigen::VectorXd found = qr.solve(deviations);
   Index column = 0;
   for (FormTerm& term : spectrum.terms) {
-    const Index width = term.undulations == 0 ? 1 : 2;
+    const Index width = coefficients_of(term);
     const double noise = noise_mm * noise_mm * static_cast<double>(width) /
                          form.middleCols(column, width).squaredNorm() * static_cast<double>(width);
     const double power = found.segment(column, width).squaredNorm() - noise;

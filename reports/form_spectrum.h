@@ -31,7 +31,8 @@ struct FormSpectrum {
   std::string source;    ///< "declared in the plan", "own harmonics of 8 x 64 points".
 };
 
-/// kBadOption for what a spectrum must not hold, naming the term.
+/// kBadOption for what a spectrum must not hold, naming the term; or when it has more than 400
+/// coefficients, or undulations and degrees that need a grid of more than 10 000 places.
 [[nodiscard]] core::Result<void> check_spectrum(const FormSpectrum& spectrum, FormKind kind);
 
 /// Values of the terms at points: one row a point, one or two columns a term (cos, sin), each times
@@ -44,7 +45,8 @@ struct FormSpectrum {
 [[nodiscard]] std::vector<FormPoint> whole_surface(const FormSpectrum& spectrum, FormKind kind);
 
 /// The spectrum of a part's own harmonics, for dense sections: every harmonic up to points/7 of the
-/// thinnest layer with degrees up to layers - 1 (3 at most); its power less that of the noise.
+/// thinnest layer (49 of a cylinder, 199 of a section at most) with degrees up to layers - 1 (3 at
+/// most); its power less that of the noise.
 ///
 /// @param noise_mm  Standard deviation of a deviation.
 /// @return kSampling when a layer has fewer than 14 points or a gap of an undulation, or a cylinder

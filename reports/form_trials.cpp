@@ -76,18 +76,28 @@ void FormTrials::run(std::size_t count) {
               });
 }
 
-std::vector<double> FormTrials::changes_by(std::size_t influence, std::size_t count) {
-  std::vector<double> changes(std::min(count, sampled_.size()));
-  in_parallel(static_cast<int>(desks_.size()), changes.size(),
+/// One trial's part of changes().
+void FormTrials::change(std::size_t trial, Desk& desk,
+                        std::vector<std::vector<double>>& changes) const {
+  sampled_form(trial, desk);
+  for (std::size_t influence = 0; influence < changes.size(); ++influence) {
+    if (changes[influence].empty()) continue;
+    core::KeyedNoise noise(seed_, {kOneInfluence, trial, influence});
+    errors_.draw(noise, influence, desk.errors);
+    desk.changed = desk.form + desk.errors;
+    changes[influence][trial] = desk.sampled.of(desk.changed) - sampled_[trial];
+  }
+}
+
+std::vector<std::vector<double>> FormTrials::changes(std::size_t count) {
+  const std::size_t kept = std::min(count, sampled_.size());
+  std::vector<std::vector<double>> changes(errors_.names().size());
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    if (errors_.acts(k)) changes[k].resize(kept);
+  }
+  in_parallel(static_cast<int>(desks_.size()), kept,
               [&](std::size_t thread, std::size_t first, std::size_t last) {
-                Desk& desk = desks_[thread];
-                for (std::size_t t = first; t < last; ++t) {
-                  sampled_form(t, desk);
-                  core::KeyedNoise noise(seed_, {kOneInfluence, t, influence});
-                  errors_.draw(noise, influence, desk.errors);
-                  desk.form += desk.errors;
-                  changes[t] = desk.sampled.of(desk.form) - sampled_[t];
-                }
+                for (std::size_t t = first; t < last; ++t) change(t, desks_[thread], changes);
               });
   return changes;
 }

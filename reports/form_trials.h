@@ -34,9 +34,10 @@ class FormTrials {
   [[nodiscard]] const std::vector<double>& sampled() const { return sampled_; }
   [[nodiscard]] const std::vector<double>& whole() const { return whole_; }
 
-  /// By how much one influence alone changes the value of a form that may stand behind the data, in
-  /// the first `count` trials [mm].
-  [[nodiscard]] std::vector<double> changes_by(std::size_t influence, std::size_t count);
+  /// By how much each influence alone changes the value of a form that may stand behind the data,
+  /// in the first `count` trials [mm]: one list an influence, as ErrorModel::names(); empty for
+  /// those that do not act.
+  [[nodiscard]] std::vector<std::vector<double>> changes(std::size_t count);
 
   /// The value of the deviations as measured [mm].
   [[nodiscard]] double uncorrected_mm() const { return uncorrected_; }
@@ -48,8 +49,10 @@ class FormTrials {
     std::optional<FormValue> whole;
     Eigen::VectorXd errors = {};
     Eigen::VectorXd form = {};
+    Eigen::VectorXd changed = {};
   };
 
+  void change(std::size_t trial, Desk& desk, std::vector<std::vector<double>>& changes) const;
   void sampled_form(std::size_t trial, Desk& desk) const;
   void whole_form(std::size_t trial, Desk& desk) const;
 

@@ -70,12 +70,13 @@ std::string axis_entry(const FeatureResult& feature) {
     const fit::Axis& axis = feature.mz_cylinder->axis;
     const Eigen::Vector3d& d = axis.direction;
     const double tilt = std::atan2(std::hypot(d.x(), d.y()), std::abs(d.z()));
-    return entry("Axis of the zone (machine frame)",
-                 fmt::format("through ({}, {}, {}) mm, direction ({}, {}, {}), {}° off machine z",
-                             fixed(axis.point_mm.x(), 6), fixed(axis.point_mm.y(), 6),
-                             fixed(axis.point_mm.z(), 6), fixed(d.x(), 8), fixed(d.y(), 8),
-                             fixed(d.z(), 8), deg(tilt, 6)),
-                 "wide-key");
+    return entry(
+        feature.merged ? "Axis of the zone (body frame)" : "Axis of the zone (machine frame)",
+        fmt::format("through ({}, {}, {}) mm, direction ({}, {}, {}), {}° off machine z",
+                    fixed(axis.point_mm.x(), 6), fixed(axis.point_mm.y(), 6),
+                    fixed(axis.point_mm.z(), 6), fixed(d.x(), 8), fixed(d.y(), 8), fixed(d.z(), 8),
+                    deg(tilt, 6)),
+        "wide-key");
   }
   if (feature.layers.empty() || !feature.layers.front().mz) return {};
   const Eigen::Vector2d& center = feature.layers.front().mz->center_mm;
@@ -211,7 +212,9 @@ std::string feature_section(const record::RunRecord& record, std::size_t index,
   html += messages(feature);
   html += key_numbers(feature, zone);
   html += truth_box(truth_of(record, index), zone, feature.feature.shape);
+  html += uncertainty_section(feature);
   if (zone) html += polar_plots(feature, *zone) + deviation_map(feature, *zone);
+  if (feature.merged) return html + merged_section(*feature.merged) + "</section>";
   if (feature.poses.empty()) return html + "</section>";
   html +=
       R"(<h3>Search for the pose</h3><p class="note">f is the narrowest zone whose axis is held )"

@@ -66,16 +66,64 @@ std::string form_symbol(record::Form form) {
                      record::name_of(form), lines);
 }
 
-std::string tolerance_bar(double value_mm, double tolerance_mm, Verdict verdict) {
+std::string tolerance_bar(const CharacteristicResult& result, double tolerance_mm) {
   constexpr double kWidth = 150.0;
-  const Scale x{0.0, std::max(1.25 * tolerance_mm, 1.05 * value_mm), 1.0, kWidth - 1.0};
-  Svg svg(kWidth, 26.0, "bar", fmt::format("{} um of {} um", um(value_mm), um(tolerance_mm)));
+  const double value_mm = result.value->value_mm();
+  const UncertaintyStatement* known = result.value->statement();
+  const auto& outcome = result.outcome;
+  double end_mm = std::max(1.25 * tolerance_mm, 1.05 * value_mm);
+  if (known != nullptr) end_mm = std::max(end_mm, 1.05 * known->high_mm);
+  if (outcome) end_mm = std::max(end_mm, 1.05 * outcome->rejection_mm);
+  const Scale x{0.0, end_mm, 1.0, kWidth - 1.0};
+  std::string label = fmt::format("{} of {} um", result.value->value_text(), um(tolerance_mm));
+  if (outcome && outcome->acceptance_mm < tolerance_mm) {
+    label += fmt::format(", accepted up to {} um", um(outcome->acceptance_mm));
+  }
+  Svg svg(kWidth, 26.0, "bar", label);
   svg.rect(x.from, 8.0, x.at(tolerance_mm) - x.from, 10.0, "allowed");
+  if (outcome && outcome->acceptance_mm < outcome->rejection_mm) {
+    const double from = x.at(std::max(outcome->acceptance_mm, 0.0));
+    svg.rect(from, 5.0, x.at(outcome->rejection_mm) - from, 16.0, "guard");
+  }
   svg.rect(x.from, 8.0, x.at(value_mm) - x.from, 10.0,
-           verdict == Verdict::kConforms         ? "good"
-           : verdict == Verdict::kDoesNotConform ? "bad"
-                                                 : "neutral");
+           result.verdict == Verdict::kConforms         ? "good"
+           : result.verdict == Verdict::kDoesNotConform ? "bad"
+                                                        : "neutral");
+  if (known != nullptr) {
+    svg.line(x.at(known->low_mm), 13.0, x.at(known->high_mm), 13.0, "interval");
+    svg.line(x.at(known->low_mm), 9.5, x.at(known->low_mm), 16.5, "interval");
+    svg.line(x.at(known->high_mm), 9.5, x.at(known->high_mm), 16.5, "interval");
+  }
   svg.line(x.at(tolerance_mm), 3.0, x.at(tolerance_mm), 23.0, "limit");
+  return svg.str();
+}
+
+std::string budget_bars(const std::vector<BudgetLine>& budget) {
+  constexpr double kRow = 24.0;
+  constexpr double kFrom = 170.0;
+  double most_mm = 0.0;
+  std::vector<const BudgetLine*> lines;
+  for (const BudgetLine& line : budget) {
+    if (!(line.standard_uncertainty_mm > 0.0)) continue;
+    lines.push_back(&line);
+    most_mm = std::max(most_mm, line.standard_uncertainty_mm);
+  }
+  if (lines.empty()) return {};
+  const Scale x{0.0, most_mm, kFrom, 500.0};
+  Svg svg(760.0, kRow * static_cast<double>(lines.size()) + 8.0, "wide budget",
+          "standard uncertainty by each influence alone");
+  double y = 4.0;
+  for (const BudgetLine* line : lines) {
+    const double end = x.at(line->standard_uncertainty_mm);
+    svg.text(kFrom - 10.0, y + 16.0, "end", "label", line->name);
+    svg.rect(kFrom, y + 4.0, end - kFrom, kRow - 8.0,
+             line->measurand == Measurand::kWholeSurface ? "share surface" : "share");
+    svg.text(
+        end + 8.0, y + 16.0, "start", "label",
+        fmt::format("{} \u00b5m, {} %; mean shift {} \u00b5m", um(line->standard_uncertainty_mm),
+                    fixed(100.0 * line->share_1, 0), signed_um(line->shift_mm)));
+    y += kRow;
+  }
   return svg.str();
 }
 

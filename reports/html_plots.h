@@ -16,8 +16,10 @@ namespace rondure::reports {
 [[nodiscard]] std::string verdict_mark(Verdict verdict, int size_px);
 /// ISO 1101 symbol of cylindricity or roundness.
 [[nodiscard]] std::string form_symbol(record::Form form);
-/// Value against limit.
-[[nodiscard]] std::string tolerance_bar(double value_mm, double tolerance_mm, Verdict verdict);
+/// Value with its interval against limit and guard bands. The characteristic has a value.
+[[nodiscard]] std::string tolerance_bar(const CharacteristicResult& result, double tolerance_mm);
+/// Ranked bars of a budget.
+[[nodiscard]] std::string budget_bars(const std::vector<BudgetLine>& budget);
 
 /// Polar plots of the layers, all at one magnification.
 [[nodiscard]] std::string polar_plots(const FeatureResult& feature, const Zone& zone);

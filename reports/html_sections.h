@@ -15,6 +15,10 @@ namespace rondure::reports {
                                           const Evaluation& evaluation);
 [[nodiscard]] std::string feature_section(const record::RunRecord& record, std::size_t index,
                                           const FeatureResult& feature);
+/// The rule behind the verdicts, in words, with its statements.
+[[nodiscard]] std::string rule_section(const Evaluation& evaluation);
+/// Intervals, bias, budget and declaration of the values of a feature; empty without any.
+[[nodiscard]] std::string uncertainty_section(const FeatureResult& feature);
 /// Table of the poses of a feature; empty when it has none.
 [[nodiscard]] std::string pose_table(const FeatureResult& feature);
 [[nodiscard]] std::string probe_section(const record::RunRecord& record,
@@ -22,6 +26,8 @@ namespace rondure::reports {
 [[nodiscard]] std::string decisions_section(const record::RunRecord& record);
 [[nodiscard]] std::string provenance_section(const record::RunRecord& record);
 
+/// How the clouds of several poses became one, and what the fixture adds.
+[[nodiscard]] std::string merged_section(const MergedPoses& merged);
 /// Why a feature has no result, and its warnings.
 [[nodiscard]] std::string messages(const FeatureResult& feature);
 /// A value with small print below it.

@@ -85,9 +85,15 @@ svg.polar{display:block;width:100%;max-width:340px;margin:0 auto}
 .symbol{fill:none;stroke:var(--ink);stroke-width:1.5}
 .bar .allowed{fill:#e9edf1}.bar .good{fill:var(--good)}.bar .bad{fill:var(--bad)}.bar .neutral{fill:var(--soft)}
 .bar .limit{stroke:var(--ink);stroke-width:2}
+.bar .guard{fill:var(--amber);fill-opacity:.28;stroke:var(--amber);stroke-width:.8;stroke-dasharray:2 2}
+.bar .interval{stroke:var(--ink);stroke-width:1.4}
+.budget .share{fill:var(--blue)}.budget .share.surface{fill:var(--orange)}
+.rule{border:1px solid var(--line);padding:8px 14px;margin:14px 0;font-size:13.5px;border-radius:3px}
+.rule dl{margin:6px 0 0}.rule dt{color:var(--soft);font-size:12.5px}.rule dd{margin:0 0 4px}
 .tick,.frame{stroke:#7c8792;stroke-width:1;fill:none}.grid{stroke:#e6eaee;stroke-width:1}
 .label{fill:#3c4752;font-size:12px}.title{fill:#3c4752;font-size:12.5px}
 .band{fill:#eef2f6;stroke:none}
+.uncertainty{fill:#0072b2;fill-opacity:.16;stroke:none}
 .zone-outer{fill:none;stroke:var(--orange);stroke-width:1.3}.zone-inner{fill:none;stroke:var(--blue);stroke-width:1.3}
 .mean{fill:none;stroke:#8a949e;stroke-width:1;stroke-dasharray:5 4}
 .profile{fill:none;stroke:#16202a;stroke-width:1;stroke-linejoin:round}

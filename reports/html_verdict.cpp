@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/units.h"
 #include "reports/facts.h"
 #include "reports/html_plots.h"
 #include "reports/html_sections.h"
@@ -39,9 +40,9 @@ std::string sentence(const Evaluation& evaluation) {
                        conforming == 1 ? "conforms" : "conform");
   }
   const std::string limit = um(*only->characteristic.tolerance_mm);
-  if (!only->value_mm) return fmt::format("There is no value to hold against {} µm.", limit);
-  return fmt::format("{} {} µm, limit {} µm.", symbol_of(only->characteristic), um(*only->value_mm),
-                     limit);
+  if (!only->value) return fmt::format("There is no value to hold against {} µm.", limit);
+  return fmt::format("{} {}, limit {} µm.", symbol_of(only->characteristic),
+                     in_sentence(only->value->value_text()), limit);
 }
 
 std::string unfinished_banner(const record::RunRecord& record, const Evaluation& evaluation) {
@@ -72,10 +73,54 @@ std::string tolerance_frame(const record::Characteristic& asked) {
 
 std::string bar_cell(const CharacteristicResult& result) {
   const auto& limit = result.characteristic.tolerance_mm;
-  if (!result.value_mm || !limit || !(*limit > 0.0)) return "<td></td>";
+  if (!result.value || !limit || !(*limit > 0.0)) return "<td></td>";
   return fmt::format(R"(<td>{}<div class="note">{} % of the limit</div></td>)",
-                     tolerance_bar(*result.value_mm, *limit, result.verdict),
-                     fixed(100.0 * *result.value_mm / *limit, 0));
+                     tolerance_bar(result, *limit),
+                     fixed(100.0 * result.value->value_mm() / *limit, 0));
+}
+
+/// The value, with its interval below where there is one.
+std::string value_cell(const StatedValue& value) {
+  const UncertaintyStatement* known = value.statement();
+  const int decimals = known == nullptr ? 3 : decimals_for(known->expanded_mm());
+  const auto number = [&](double mm) { return fixed(mm / core::kMicrometre, decimals); };
+  std::string html =
+      fmt::format(R"(<span class="value">{}</span> µm)",
+                  known == nullptr ? um(value.value_mm()) : number(value.value_mm()));
+  if (known != nullptr) {
+    html += fmt::format(R"(<div class="note">[{}, {}]</div>)", number(known->low_mm),
+                        number(known->high_mm));
+  }
+  return html;
+}
+
+/// A probability that was counted in trials: none of n is less than one of n.
+std::string percent(double share_1, double trials) {
+  if (share_1 * trials < 0.5) return fmt::format("below {:.2g} %", 100.0 / trials);
+  if ((1.0 - share_1) * trials < 0.5) return fmt::format("above {:.6g} %", 100.0 - 100.0 / trials);
+  return fmt::format("{:.4g} %", 100.0 * share_1);
+}
+
+/// Probability of conformance and risks; empty without an interval.
+std::string risks_in_words(const CharacteristicResult& result) {
+  std::string html;
+  if (!result.outcome->conformance_1) return html;
+  const double trials = result.value->uncertainty().result()->trials;
+  html += fmt::format("<br>Probability of conformance: {}.",
+                      percent(*result.outcome->conformance_1, trials));
+  if (const auto risk = result.outcome->specific_risk_1()) {
+    html += fmt::format(" Specific {} risk of this verdict: {}.",
+                        result.verdict == Verdict::kConforms ? "consumer's" : "producer's",
+                        percent(*risk, trials));
+  }
+  if (result.risks) {
+    html += fmt::format(
+        " Over the parts of the stated prior: {} conform not and are accepted (global consumer's "
+        "risk), {} conform and are rejected (global producer's risk).",
+        percent(result.risks->false_acceptance_1, trials),
+        percent(result.risks->false_rejection_1, trials));
+  }
+  return html;
 }
 
 std::string row(const FeatureResult& feature, const CharacteristicResult& result) {
@@ -85,9 +130,7 @@ std::string row(const FeatureResult& feature, const CharacteristicResult& result
       tolerance_frame(asked), isolated(asked.id), symbol_of(asked), reference_of(asked),
       isolated(feature.feature.id));
   html += fmt::format(R"(<td class="n" data-l="Value">{}</td>)",
-                      result.value_mm
-                          ? fmt::format(R"(<span class="value">{}</span> µm)", um(*result.value_mm))
-                          : "none");
+                      result.value ? value_cell(*result.value) : "none");
   html += fmt::format(R"(<td class="n" data-l="Limit">{}</td>)",
                       asked.tolerance_mm ? um(*asked.tolerance_mm) + " µm" : "none");
   html += bar_cell(result);
@@ -96,9 +139,11 @@ std::string row(const FeatureResult& feature, const CharacteristicResult& result
   html += asked.drawing_zone.empty()
               ? std::string("<td></td></tr>")
               : fmt::format(R"(<td data-l="Zone">{}</td></tr>)", isolated(asked.drawing_zone));
-  std::string words = in_sentence(result.reason);
-  if (!result.operator_text.empty())
-    words += fmt::format("<br>Verification operator: {}", in_sentence(result.operator_text));
+  std::string words = in_sentence(capitalised(result.reason));
+  if (result.outcome) words += risks_in_words(result);
+  if (result.value)
+    words +=
+        fmt::format("<br>Verification operator: {}", in_sentence(result.value->operator_text()));
   return html + R"(<tr class="words"><td colspan="6">)" + words + "</td></tr>";
 }
 
@@ -148,10 +193,7 @@ std::string verdict_section(const record::RunRecord& record, const Evaluation& e
     html += R"(<div class="banner"><b>Simulated:</b> no real part was measured.</div>)";
   }
   html += results_table(evaluation);
-  html += fmt::format(
-      R"(<p class="note">No measurement uncertainty was taken into account (rule: {}).</p>)",
-      isolated(rule_in_words(record.header)));
-  return html + "</section>";
+  return html + rule_section(evaluation) + "</section>";
 }
 
 }  // namespace rondure::reports

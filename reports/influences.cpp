@@ -127,15 +127,37 @@ void say_probe(const std::optional<ProbeInfluences>& declared, Declaration& out)
                                             kUm * probe.tip_radius_mm));
 }
 
+/// Whether a curve has anything but zeros.
+bool says(const cmm::ErrorCurve& curve) {
+  return curve.linear_1_mm != 0.0 || curve.quadratic_1_mm2 != 0.0 || curve.wave != 0.0;
+}
+
 void say_machine(const std::optional<MachineInfluences>& declared, Declaration& out) {
   const MachineInfluences machine = declared.value_or(MachineInfluences{});
   const std::string terms =
       "standard uncertainty of each coefficient, normal; waves with unknown phase, uniform";
   out.group(declared.has_value());
-  out.line("machine-position", terms + " (EXX, EYY, EZZ)");
-  out.line("machine-straightness", terms + " (EYX ... EYZ)");
-  out.line("machine-rotation", terms + " (EAX ... ECZ)");
-  out.line("machine-squareness", "standard uncertainty of each of three angles, normal");
+  bool position = false;
+  bool straightness = false;
+  bool rotation = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      bool& translation = i == axis ? position : straightness;
+      translation = translation || says(machine.terms.axes[axis].translation[i]);
+      rotation = rotation || says(machine.terms.axes[axis].rotation[i]);
+    }
+  }
+  const auto said = [&](bool any, const char* names) {
+    return any ? terms + names : std::string("declared as nothing");
+  };
+  out.line("machine-position", said(position, " (EXX, EYY, EZZ)"));
+  out.line("machine-straightness", said(straightness, " (EYX ... EYZ)"));
+  out.line("machine-rotation", said(rotation, " (EAX ... ECZ)"));
+  out.line("machine-squareness",
+           fmt::format("standard uncertainty {:.4g}, {:.4g}, {:.4g} urad (xy, xz, yz), normal",
+                       1e6 * std::abs(machine.terms.squareness_xy_rad),
+                       1e6 * std::abs(machine.terms.squareness_xz_rad),
+                       1e6 * std::abs(machine.terms.squareness_yz_rad)));
   out.limit("machine-length-limit", machine.length_limit_mm + machine.length_limit_slope > 0.0,
             fmt::format("ISO 10360-2 {:.4g} um + {:.4g} um/m, rectangular",
                         kUm * machine.length_limit_mm, 1e6 * machine.length_limit_slope));

@@ -47,6 +47,19 @@ Json header_json(const record::RunRecord& record) {
           {"failure", record.failure ? error_json(*record.failure) : Json(nullptr)}};
 }
 
+Json fixture_json(const std::optional<FixtureUse>& use) {
+  if (!use) return nullptr;
+  return {{"id", use->id},
+          {"fixture", use->fixture_id},
+          {"measured_utc", use->measured_utc},
+          {"expires_utc", use->expires_utc},
+          {"age_days", use->age_days ? Json(*use->age_days) : Json(nullptr)},
+          {"residual_rms_um", in_um(use->residual_rms_mm)},
+          {"residual_max_um", in_um(use->residual_max_mm)},
+          {"residual_tilt_urad", use->residual_tilt_rad * 1e6},
+          {"invalid", use->invalid ? error_json(*use->invalid) : Json(nullptr)}};
+}
+
 Json probe_json(const std::optional<fit::ProbeTip>& probe) {
   if (!probe) return nullptr;
   return {{"sphere_center_mm", vector_json(probe->sphere_center_mm)},
@@ -201,6 +214,52 @@ Json point_json(const CloudPoint& point) {
                                             : Json(nullptr)}};
 }
 
+/// Three of the six numbers of a pose, with a factor that brings them to the unit of the key.
+Json three_json(const Eigen::Matrix<double, 6, 1>& values, int first, double factor) {
+  return {factor * values(first), factor * values(first + 1), factor * values(first + 2)};
+}
+
+Json merged_pose_json(const MergedPoses& merged, std::size_t k) {
+  Json json = {{"alpha_deg", in_deg(merged.poses[k].alpha_rad)},
+               {"beta_deg", in_deg(merged.poses[k].beta_rad)},
+               {"points", merged.points[k]}};
+  if (!merged.solved) return json;
+  const fit::PoseErrorFound& found = merged.solved->errors[k];
+  json["shift_um"] = three_json(found.error, 0, 1e3);
+  json["turn_urad"] = three_json(found.error, 3, 1e6);
+  json["u_shift_um"] = three_json(found.u, 0, 1e3);
+  json["u_turn_urad"] = three_json(found.u, 3, 1e6);
+  json["prior_u_shift_um"] = three_json(found.prior_u, 0, 1e3);
+  json["prior_u_turn_urad"] = three_json(found.prior_u, 3, 1e6);
+  json["from_kinematics"] = found.from_kinematics;
+  return json;
+}
+
+Json merged_json(const MergedPoses& merged) {
+  Json json = {{"merge", merged.joint ? "joint" : "kinematics"},
+               {"touch_um", in_um(merged.touch_mm)},
+               {"in_words", share_in_words(merged)}};
+  if (merged.solved) {
+    const fit::PoseJoint& solved = *merged.solved;
+    json["kinematics_cylt_um"] = in_um(solved.naive_mm);
+    json["joint_cylt_um"] = in_um(solved.joint_mm);
+    json["fixture_share_um"] = in_um(solved.share_mm());
+    json["u_joint_um"] = in_um(solved.u_joint_mm);
+    json["u_kinematics_um"] = in_um(solved.u_naive_mm);
+    json["shared_targets"] = solved.shared;
+    json["condition"] = solved.condition;
+    json["chi2"] = solved.chi2;
+    json["chi2_freedom"] = solved.chi2_freedom;
+    json["chi2_limit"] = solved.chi2_limit;
+    json["statements"] = solved.statements;
+  }
+  json["refusal"] = merged.refusal ? error_json(*merged.refusal) : Json(nullptr);
+  json["poses"] = Json::array();
+  for (std::size_t k = 0; k < merged.poses.size(); ++k)
+    json["poses"].push_back(merged_pose_json(merged, k));
+  return json;
+}
+
 Json levelling_json(const std::optional<core::Pose>& pose) {
   if (!pose) return nullptr;
   return {{"alpha_deg", in_deg(pose->alpha_rad)}, {"beta_deg", in_deg(pose->beta_rad)}};
@@ -246,13 +305,16 @@ Json feature_json(const FeatureResult& feature) {
   json["layers"] = list_json(feature.layers,
                              [&](const LayerResult& layer) { return layer_json(layer, feature); });
   json["poses"] = list_json(feature.poses, pose_json);
+  if (feature.merged) json["merged"] = merged_json(*feature.merged);
   json["cloud"] = list_json(feature.cloud, point_json);
+  for (std::size_t i = 0; feature.merged && i < feature.cloud.size(); ++i)
+    json["cloud"][i]["pose"] = feature.cloud[i].pose;
   json["warnings"] = list_json(feature.warnings, error_json);
   json["failure"] = feature.failure ? error_json(*feature.failure) : Json(nullptr);
   return json;
 }
 
-Json decision_json(const record::Decision& decision) {
+Json event_json(const record::Decision& decision) {
   return {{"feature", decision.feature < 0 ? Json(nullptr) : Json(decision.feature)},
           {"time_s", decision.time_s},
           {"text", decision.text}};
@@ -260,6 +322,15 @@ Json decision_json(const record::Decision& decision) {
 
 Json truth_json(const record::SimulationTruth& truth) {
   return {{"feature", truth.feature}, {"cylt_um", in_um(truth.cylt_mm)}};
+}
+
+bool any_interval(const Evaluation& evaluation) {
+  for (const FeatureResult& feature : evaluation.features) {
+    for (const CharacteristicResult& c : feature.characteristics) {
+      if (c.value && c.value->uncertainty().result()) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -270,10 +341,13 @@ nlohmann::ordered_json report_document(const record::RunRecord& record,
   json["schema_version"] = 1;
   json["header"] = header_json(record);
   json["verdict"] = name_of(evaluation.verdict);
-  json["measurement_uncertainty"] = nullptr;
+  json["measurement_uncertainty"] =
+      any_interval(evaluation) ? Json("stated with each characteristic") : Json(nullptr);
+  json["rule"] = rule_json(evaluation);
   json["probe"] = probe_json(evaluation.probe);
+  json["fixture_calibration"] = fixture_json(evaluation.fixture);
   json["features"] = list_json(evaluation.features, feature_json);
-  json["decisions"] = list_json(record.decisions, decision_json);
+  json["decisions"] = list_json(record.decisions, event_json);
   json["simulation"] = list_json(record.truths, truth_json);
   for (const record::TruthValue& truth : record.truth_values) {
     json["simulation"].push_back({{"feature", truth.feature}, {truth.name, truth.value}});

@@ -20,12 +20,18 @@ Json characteristic_json(const CharacteristicResult& result) {
           {"form", record::name_of(asked.form)},
           {"symbol", symbol_of(asked)},
           {"reference", reference_of(asked)},
-          {"value_um", optional_um(result.value_mm)},
+          {"value_um", optional_um(result.value_mm())},
           {"tolerance_um", optional_um(asked.tolerance_mm)},
           {"verdict", name_of(result.verdict)},
           {"reason", result.reason},
-          {"operator", result.operator_text},
-          {"drawing_zone", asked.drawing_zone}};
+          {"operator", result.value ? Json(result.value->operator_text()) : Json(nullptr)},
+          {"drawing_zone", asked.drawing_zone},
+          {"stated", result.value ? Json(result.value->sentence()) : Json(nullptr)},
+          {"uncertainty", uncertainty_json(result)},
+          {"no_uncertainty_because", result.value && !result.value->uncertainty().result()
+                                         ? Json(result.value->uncertainty().why())
+                                         : Json(nullptr)},
+          {"decision", decision_json(result)}};
 }
 
 }  // namespace rondure::reports

@@ -19,6 +19,12 @@ namespace rondure::reports {
 [[nodiscard]] nlohmann::ordered_json optional_um(const std::optional<double>& length_mm);
 [[nodiscard]] nlohmann::ordered_json error_json(const core::Error& error);
 [[nodiscard]] nlohmann::ordered_json characteristic_json(const CharacteristicResult& result);
+/// Intervals, bias, budget and declaration of a value; null without an interval.
+[[nodiscard]] nlohmann::ordered_json uncertainty_json(const CharacteristicResult& result);
+/// What the rule compared, its limits and risks; null where it decided nothing.
+[[nodiscard]] nlohmann::ordered_json decision_json(const CharacteristicResult& result);
+/// The decision rule of a run with its parameters and statements; null when it is not known.
+[[nodiscard]] nlohmann::ordered_json rule_json(const Evaluation& evaluation);
 
 template <class Range, class Convert>
 [[nodiscard]] nlohmann::ordered_json list_json(const Range& range, const Convert& convert) {

@@ -84,11 +84,13 @@ MapView view_of(const FeatureResult& feature, const Zone& zone) {
   MapView view;
   view.half_zone_mm = std::max(0.5 * zone.deviation_mm, 1e-5);
   view.disc = std::clamp(0.46 * disc_pitch(feature, plot, layer_pitch), 1.5, 17.0);
+  if (feature.merged) view.disc = std::min(6.0, 0.6 * view.disc);
   view.labels = view.disc >= 14.0;
   view.cells = feature.cloud.size() > kMostDiscs;
   view.rows_are_layers = feature.layers.size() >= 2 && feature.layers.size() <= kCellRows;
   view.row = view.rows_are_layers ? std::clamp(0.9 * layer_pitch, 2.0, 40.0) : plot / kCellRows;
-  const double margin = (view.cells ? 0.5 * view.row : view.disc) + 8.0;
+  const double label = feature.merged ? 8.0 : 0.0;  // the number of the pose
+  const double margin = (view.cells ? 0.5 * view.row : view.disc) + 8.0 + label;
   view.bottom = kTop + plot + 2.0 * margin;
   view.x = {0.0, 360.0, kLeft + kSideMargin, kRight - kSideMargin};
   view.y = {low, low + span, view.bottom - margin, kTop + margin};
@@ -142,10 +144,20 @@ std::string disc_label(double deviation_mm) {
   return fmt::format("{}{}", value > 0.0 ? "+" : "", fixed(value, decimals));
 }
 
+/// Where a point is drawn: one that several poses touched stands beside itself.
+double disc_x(const CloudPoint& point, const FeatureResult& feature, const MapView& view) {
+  const double x = view.x.at(point.angle_rad / core::kDegree);
+  if (!feature.merged) return x;
+  const double middle = 0.5 * (static_cast<double>(feature.merged->poses.size()) - 1.0);
+  return x + 2.0 * view.disc * (point.pose - middle);
+}
+
 void draw_discs(Svg& svg, const FeatureResult& feature, const MapView& view) {
   for (const CloudPoint& point : feature.cloud) {
-    const double x = view.x.at(point.angle_rad / core::kDegree);
+    const double x = disc_x(point, feature, view);
     const double y = view.y.at(point.height_mm);
+    if (feature.merged)
+      svg.text(x, y - view.disc - 1.0, "middle", "label", std::to_string(point.pose + 1));
     const bool contact = point.outer_contact || point.inner_contact;
     svg.circle(x, y, view.disc, contact ? "disc contact" : "disc", view.colour(point.deviation_mm));
     if (!view.labels) continue;
@@ -188,7 +200,7 @@ void draw_contacts(Svg& svg, const FeatureResult& feature, const MapView& view) 
   const double shift = view.labels && !view.cells ? view.disc - 1.0 : 0.0;
   const double size = view.labels && !view.cells ? 4.0 : 5.0;
   for (const CloudPoint& point : feature.cloud) {
-    const double x = view.x.at(point.angle_rad / core::kDegree) + 0.8 * shift;
+    const double x = disc_x(point, feature, view) + 0.8 * shift;
     const double y = view.y.at(point.height_mm) - 0.8 * shift;
     if (point.outer_contact) svg.triangle(x, y, size, "outer");
     if (point.inner_contact) svg.square(x, y, size, "inner");
@@ -215,10 +227,11 @@ std::string deviation_map(const FeatureResult& feature, const Zone& zone) {
   return fmt::format(
       R"(<h3>Unrolled surface</h3><figure><div class="scroll">{}</div><figcaption>{} )"
       "Orange: farther from the axis; blue: nearer. Triangles touch the outer, squares the inner "
-      "cylinder of the zone.</figcaption></figure>",
+      "cylinder of the zone.{}</figcaption></figure>",
       svg.str(),
       view.cells ? "Mean deviation from the middle of the zone, in cells of 3°."
-                 : "Deviation of each point from the middle of the zone in µm.");
+                 : "Deviation of each point from the middle of the zone in µm.",
+      feature.merged ? " The number above a point is its pose." : "");
 }
 
 }  // namespace rondure::reports

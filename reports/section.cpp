@@ -82,4 +82,22 @@ std::vector<Section> sections_of(const FeatureResult& feature) {
   return sections;
 }
 
+fit::Axis section_axis(const FeatureResult& feature, const LayerResult& layer,
+                       const Eigen::Vector2d& center_mm) {
+  fit::Axis frame = feature.section_axis;
+  if (feature.mz_cylinder) {
+    frame = feature.mz_cylinder->axis;
+    frame.point_mm += layer.height_mm * frame.direction;
+  }
+  return {frame.point_mm + fit::across(frame.direction) * center_mm, frame.direction};
+}
+
+std::pair<double, double> heights_of(const FeatureResult& feature) {
+  if (feature.cloud.empty()) return {0.0, 0.0};
+  const auto [low, high] = std::minmax_element(
+      feature.cloud.begin(), feature.cloud.end(),
+      [](const CloudPoint& a, const CloudPoint& b) { return a.height_mm < b.height_mm; });
+  return {low->height_mm, high->height_mm};
+}
+
 }  // namespace rondure::reports

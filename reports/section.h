@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "fit/axis.h"
 #include "reports/evaluation.h"
 
 namespace rondure::reports {
@@ -35,5 +37,13 @@ inline constexpr std::size_t kSectors = 720;
 
 /// The sections of a feature: its layers, or all points in one when its layers are unknown.
 [[nodiscard]] std::vector<Section> sections_of(const FeatureResult& feature);
+
+/// The axis through a centre of a section: the centre in the frame of the cloud, and the normal of
+/// the plane. `center_mm` is one of those in `layer`.
+[[nodiscard]] fit::Axis section_axis(const FeatureResult& feature, const LayerResult& layer,
+                                     const Eigen::Vector2d& center_mm);
+
+/// Least and greatest height of the cloud along its axis, from its mean point [mm].
+[[nodiscard]] std::pair<double, double> heights_of(const FeatureResult& feature);
 
 }  // namespace rondure::reports

@@ -137,18 +137,25 @@ std::string SpindleResult::sampling_text() const {
                      facts_.separation.profile.r_mm.size());
 }
 
-std::string SpindleResult::operator_text(const record::Characteristic& asked) const {
+ValueOperator SpindleResult::operator_of(const record::Characteristic& asked) const {
   const bool part = asked.form == Form::kRoundness || asked.form == Form::kRoundnessRms;
   const fit::ThreeProbeResult& s = facts_.separation;
   const auto angles = s.layout.angles_rad();
   const std::string how = fmt::format(
       "three probes at 0, {:.4f}, {:.4f} deg; {}; harmonics 2 to {}", angles[1] / core::kDegree,
       angles[2] / core::kDegree, sampling_text(), s.harmonics.back().order);
-  if (part) return fmt::format("{}; {}; {}", reference_of(asked), filter_text(), how);
-  if (asked.form == Form::kHarmonicLimits)
-    return fmt::format("amplitudes before the filter; {}", how);
-  return fmt::format(
-      "ISO 230-7, fixed direction, about the least-squares centre of the mean revolution; {}", how);
+  const bool unfiltered = asked.form == Form::kHarmonicLimits;
+  const std::string reference =
+      part         ? reference_of(asked)
+      : unfiltered ? "amplitudes"
+                   : "ISO 230-7, fixed direction, about the least-squares centre of the mean "
+                     "revolution";
+  return {ReferenceTerm(reference),
+          FilterTerm(part         ? filter_text()
+                     : unfiltered ? "before the filter"
+                                  : "unfiltered"),
+          SamplingTerm(how), TipTerm("displacement probes"),
+          TemperatureTerm("temperature not recorded")};
 }
 
 std::vector<SummaryLine> SpindleResult::summary() const {

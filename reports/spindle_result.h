@@ -26,7 +26,7 @@ class SpindleResult final : public AnalysisResult {
 
   [[nodiscard]] core::Result<AnalysisValue> value_of(
       const record::Characteristic& characteristic) const override;
-  [[nodiscard]] std::string operator_text(
+  [[nodiscard]] ValueOperator operator_of(
       const record::Characteristic& characteristic) const override;
   [[nodiscard]] std::string filter_text() const override;
   [[nodiscard]] std::string sampling_text() const override;

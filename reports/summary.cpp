@@ -45,8 +45,7 @@ std::string upper(std::string_view text) {
 void add_head(std::string& out, const record::RunRecord& record, const Evaluation& evaluation) {
   const record::Header& header = record.header;
   out += upper(name_of(evaluation.verdict)) + "\n";
-  add_wrapped(out, "rule",
-              rule_in_words(header) + "; no measurement uncertainty taken into account");
+  add_wrapped(out, "rule", rule_sentence(evaluation));
   std::string part = header.part_id;
   for (const std::string& more : {header.part_name, header.drawing}) {
     if (!more.empty()) part += ", " + more;
@@ -64,18 +63,66 @@ void add_head(std::string& out, const record::RunRecord& record, const Evaluatio
   }
 }
 
+/// Bias of a value and the influence that matters most.
+void add_uncertainty(std::string& out, const StatedValue& value) {
+  const UncertaintyResult& u = *value.uncertainty().result();
+  const auto line = [&](const char* name, const UncertaintyStatement& s) {
+    add_wrapped(out, name,
+                fmt::format("{} um, {:g} % within [{}, {}] um {}", um(s.estimate_mm),
+                            100.0 * value.uncertainty().coverage_1(), um(s.low_mm), um(s.high_mm),
+                            name_of(s.measurand)));
+  };
+  line("    corrected", u.sampled);
+  if (u.whole) line("", *u.whole);
+  std::string bias = fmt::format("noise {} um", signed_um(u.noise_inflation_mm));
+  if (u.sampling_loss_mm)
+    bias += fmt::format(", sparse sampling {} um", signed_um(*u.sampling_loss_mm));
+  const auto most = std::find_if(u.budget.begin(), u.budget.end(), [&](const BudgetLine& one) {
+    return one.measurand == value.measurand();
+  });
+  if (most != u.budget.end() && most->share_1 > 0.0) {
+    bias += fmt::format("; most of the spread {}: {} ({:.0f} %)", name_of(most->measurand),
+                        most->name, 100.0 * most->share_1);
+  }
+  add_wrapped(out, "    bias", bias);
+}
+
 /// "  CYLt MZCY     8.300 um   limit 10.000 um   conforms   id".
 void add_characteristic(std::string& out, const CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
-  const std::string value = result.value_mm ? um(*result.value_mm) + " um" : "no value";
+  const std::string value = result.value ? um(result.value->value_mm()) + " um" : "no value";
   const std::string limit =
       asked.tolerance_mm ? fmt::format("limit {} um", um(*asked.tolerance_mm)) : "no limit";
   std::string line = fmt::format("  {} {}{:>14}   {:<19} {:<16}  ", symbol_of(asked),
                                  reference_of(asked), value, limit, name_of(result.verdict));
   line += shortened(printable(asked.id), kColumns - columns(line));
   out += line + "\n";
-  if (result.verdict == Verdict::kVoid || result.verdict == Verdict::kUndecided) {
+  const bool simple = result.value && !result.value->uncertainty().result();
+  if (result.verdict == Verdict::kVoid || result.verdict == Verdict::kUndecided ||
+      (!simple && result.outcome)) {
     add_wrapped(out, "    because", result.reason);
+  }
+  if (result.value) add_wrapped(out, "    stated", result.value->sentence());
+  if (!simple && result.value) add_uncertainty(out, *result.value);
+}
+
+/// The sketch with its legend beside it.
+void add_sketch(std::string& out, const FeatureResult& feature, SketchStyle style) {
+  const auto sketch = polar_sketch(feature, style);
+  const auto zone = zone_of(feature);
+  if (!sketch || !zone) return;
+  const bool braille = style == SketchStyle::kBraille;
+  std::vector<std::string> legend(sketch->rows.size());
+  legend[3] = sketch->sections > 1 ? fmt::format("{} of {}, the one that departs most",
+                                                 sketch->title, sketch->sections)
+                                   : sketch->title;
+  legend[4] = fmt::format("the circles are {} um apart", um(zone->deviation_mm));
+  legend[6] = fmt::format("{} contact outside", braille ? "\u25CF" : "O");
+  legend[7] = fmt::format("{} contact inside", braille ? "\u25CB" : "I");
+  for (std::size_t i = 0; i < sketch->rows.size(); ++i) {
+    std::string line = fmt::format("{:{}}{}   {}", "", kLabel, sketch->rows[i], legend[i]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += line + "\n";
   }
 }
 
@@ -150,7 +197,8 @@ void add_analysis(std::string& out, const record::RunRecord& record, std::size_t
 
 }  // namespace
 
-std::string write_summary(const record::RunRecord& record, const Evaluation& evaluation) {
+std::string write_summary(const record::RunRecord& record, const Evaluation& evaluation,
+                          SketchStyle sketch) {
   std::string out;
   add_head(out, record, evaluation);
   for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
@@ -161,6 +209,7 @@ std::string write_summary(const record::RunRecord& record, const Evaluation& eva
       add_characteristic(out, result);
     }
     if (feature.failure) add_wrapped(out, "  no result", core::to_line(*feature.failure));
+    add_sketch(out, feature, sketch);
     add_analysis(out, record, i, feature);
     add_zone(out, feature);
     add_one_sided(out, feature);

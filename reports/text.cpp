@@ -1,6 +1,7 @@
 #include "reports/text.h"
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 
@@ -110,6 +111,28 @@ std::string well_formed(std::string_view text) {
     text.remove_prefix(c.bytes);
   }
   return result;
+}
+
+std::string clean(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  while (!text.empty()) {
+    const Character c = next_character(text);
+    const bool refused = (is_control(c.code) && c.code != '\n' && c.code != '\t') ||
+                         c.code == 0xFFFE || c.code == 0xFFFF;
+    result += c.valid && !refused ? text.substr(0, c.bytes) : kReplacement;
+    text.remove_prefix(c.bytes);
+  }
+  return result;
+}
+
+std::string decimal(double value) {
+  std::array<char, 1100> digits{};  // the longest double has 1 + 309 or 1 + 1 + 1074 of them
+  const auto [end, problem] =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed);
+  if (problem != std::errc()) return "0";
+  const std::string text(digits.data(), end);
+  return text == "-0" ? "0" : text;
 }
 
 std::string escaped(std::string_view text) {

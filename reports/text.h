@@ -29,6 +29,14 @@ namespace rondure::reports {
 /// The text as well-formed UTF-8 without NUL; what is neither becomes U+FFFD.
 [[nodiscard]] std::string well_formed(std::string_view text);
 
+/// Text that any file format can hold: well-formed UTF-8 without control characters (line feed and
+/// tab stay) and without the codes that XML 1.0 refuses; what is none of these becomes U+FFFD.
+[[nodiscard]] std::string clean(std::string_view text);
+
+/// The shortest decimal text, without an exponent, that reads back to the same double
+/// ("0.0000001"). `value` must be finite.
+[[nodiscard]] std::string decimal(double value);
+
 /// Text that stays text in HTML, in elements and in quoted attributes: & < > " ' become entities,
 /// control characters the replacement character.
 [[nodiscard]] std::string escaped(std::string_view text);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -39,6 +40,7 @@ UncertaintyStatement statement_of(std::span<const double> trials, double coverag
   const std::size_t low = std::max<std::size_t>(below, 1) - 1;
   out.low_mm = sorted[low];
   out.high_mm = sorted[std::min(low + inside, sorted.size() - 1)];
+  out.values_mm = std::move(sorted);
   return out;
 }
 
@@ -106,7 +108,9 @@ core::Result<void> check_options(const UncertaintyOptions& options) {
   if (options.most_trials < options.least_trials || options.most_trials > 10'000'000) {
     return bad("most_trials", options.most_trials, "in least_trials..10000000");
   }
-  if (options.budget_trials < 0) return bad("budget_trials", options.budget_trials, ">= 0");
+  if (options.budget_trials < 0 || options.budget_trials == 1) {
+    return bad("budget_trials", options.budget_trials, "0 or >= 2");
+  }
   if (!(options.coverage >= 0.5 && options.coverage <= 0.999)) {
     return bad("coverage", options.coverage, "in 0.5..0.999");
   }
@@ -202,14 +206,14 @@ std::vector<BudgetLine> budget_of(FormTrials& trials, const ErrorModel& errors,
                                   const std::optional<FormSpectrum>& spectrum,
                                   const UncertaintyOptions& options) {
   std::vector<BudgetLine> budget;
-  if (options.budget_trials < 2) return budget;
-  for (std::size_t k = 0; k < errors.names().size(); ++k) {
+  if (options.budget_trials == 0) return budget;
+  const auto changes = trials.changes(static_cast<std::size_t>(options.budget_trials));
+  for (std::size_t k = 0; k < changes.size(); ++k) {
     BudgetLine line;
     line.name = errors.names()[k];
-    if (errors.acts(k)) {
-      const auto changes = trials.changes_by(k, static_cast<std::size_t>(options.budget_trials));
-      line.shift_mm = mean_of(changes);
-      line.standard_uncertainty_mm = spread_of(changes, line.shift_mm);
+    if (!changes[k].empty()) {
+      line.shift_mm = mean_of(changes[k]);
+      line.standard_uncertainty_mm = spread_of(changes[k], line.shift_mm);
     }
     budget.push_back(line);
   }
@@ -238,6 +242,26 @@ core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
   out.declaration = influence_statements(influences);
   if (spectrum) out.spectrum_source = spectrum->source;
   return out;
+}
+
+core::Result<FormCloud> simulated_cloud(const FormCloud& nominal, const Influences& influences,
+                                        const FormSpectrum& spectrum, std::uint64_t seed) {
+  FormCloud cloud = nominal;
+  for (FormPoint& point : cloud.points) point.deviation_mm = 0.0;
+  if (const auto good = check_all(cloud, influences, spectrum, {}); !good) {
+    return core::fail(good.error());
+  }
+  const Eigen::MatrixXd columns = spectrum_columns(spectrum, cloud.points);
+  core::KeyedNoise noise(seed, {0});
+  Eigen::VectorXd deviations;
+  ErrorModel(cloud, influences).draw(noise, std::nullopt, deviations);
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) deviations += noise.normal() * columns.col(k);
+  const Eigen::MatrixXd rigid = rigid_basis(cloud);
+  deviations -= rigid * (rigid.transpose() * deviations);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    cloud.points[i].deviation_mm = deviations[static_cast<Eigen::Index>(i)];
+  }
+  return cloud;
 }
 
 }  // namespace rondure::reports

@@ -21,7 +21,7 @@ struct UncertaintyOptions {
   int block_trials = 1000;   ///< Trials between two looks at the tolerance; >= 100.
   int least_trials = 2000;   ///< At least two blocks, so that they can be compared.
   int most_trials = 10000;   ///< >= least_trials, <= 10 000 000.
-  int budget_trials = 1000;  ///< Of each influence alone; 0: no budget.
+  int budget_trials = 1000;  ///< Of each influence alone, >= 2; 0: no budget.
   double coverage = 0.95;    ///< Probability of the interval, 0.5..0.999.
   std::uint64_t seed = 1;    ///< Same seed, same numbers, at any number of threads.
   int threads = 0;           ///< 0: as many as the processor has.
@@ -45,6 +45,7 @@ struct UncertaintyStatement {
   /// Twice the standard deviation of the mean of the blocks, the largest of estimate, standard
   /// uncertainty, low and high [mm]: what the number of trials leaves open.
   double numerical_tolerance_mm = 0.0;
+  std::vector<double> values_mm;  ///< Of the trials, ascending: the whole distribution.
 
   /// U: half the width of the interval, which need not lie evenly about the estimate.
   [[nodiscard]] double expanded_mm() const { return 0.5 * (high_mm - low_mm); }
@@ -97,5 +98,17 @@ struct UncertaintyResult {
     const FormCloud& cloud, const Influences& influences,
     const std::optional<FormSpectrum>& spectrum = std::nullopt,
     const UncertaintyOptions& options = {});
+
+/// What one inspection of a part of a form spectrum would read: for a prediction before the first
+/// touch, whose measurement_uncertainty() is then that of such an inspection.
+///
+/// @param nominal   Places; their deviations are not looked at.
+/// @param spectrum  Its amplitudes are taken as they are.
+/// @param seed      Another seed, another part and another inspection.
+/// @return  The cloud with deviations, about its axis; as measurement_uncertainty() otherwise.
+[[nodiscard]] core::Result<FormCloud> simulated_cloud(const FormCloud& nominal,
+                                                      const Influences& influences,
+                                                      const FormSpectrum& spectrum,
+                                                      std::uint64_t seed);
 
 }  // namespace rondure::reports

@@ -1,4 +1,4 @@
-#include "reports/evaluation.h"
+#include "reports/verdict.h"
 
 namespace rondure::reports {
 

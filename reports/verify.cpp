@@ -52,6 +52,14 @@ std::string in_words(const Export& what, const std::optional<std::string>& diffe
   return fmt::format("{}: {}{}", what.file, *difference, note);
 }
 
+/// Whether an export that is not there was once: the list names it. Without a list, those that a
+/// plan asks for unless it says otherwise.
+bool was_written(const Export& what, const record::RunRecord& record, const ListedFiles& listed) {
+  if (listed.list_found) return listed.state_of(what.file).has_value();
+  const bool usual = what.format == "html" || what.format == "json" || what.format == "csv";
+  return usual && applies(what, record);
+}
+
 /// Compares each export that exists; gives their names.
 core::Result<std::string> compare_exports(const fs::path& directory,
                                           const record::RunRecord& record,
@@ -61,7 +69,7 @@ core::Result<std::string> compare_exports(const fs::path& directory,
   std::string absent;
   for (const Export& e : exports()) {
     if (!stands_there(directory / e.file)) {
-      if (!applies(e, record)) continue;
+      if (!was_written(e, record, listed)) continue;
       absent += (absent.empty() ? "; not there: " : ", ") + e.file;
       continue;
     }

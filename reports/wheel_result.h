@@ -25,7 +25,7 @@ class WheelResult final : public AnalysisResult {
 
   [[nodiscard]] core::Result<AnalysisValue> value_of(
       const record::Characteristic& characteristic) const override;
-  [[nodiscard]] std::string operator_text(
+  [[nodiscard]] ValueOperator operator_of(
       const record::Characteristic& characteristic) const override;
   [[nodiscard]] std::string filter_text() const override;
   [[nodiscard]] std::string sampling_text() const override;

@@ -4,6 +4,7 @@
 
 #include "record/run_record.h"
 #include "reports/evaluation.h"
+#include "reports/polar_sketch.h"
 
 namespace rondure::reports {
 
@@ -20,8 +21,26 @@ namespace rondure::reports {
 /// series.csv: a line a number: feature, series, row, column, value; hidden truth is left out.
 [[nodiscard]] std::string write_series_csv(const record::RunRecord& record);
 
-/// A few lines for the terminal: verdict, each characteristic, the zone, warnings.
+/// results.csv: a row a characteristic: value, tolerance, verdict, how it came about.
+[[nodiscard]] std::string write_results_csv(const record::RunRecord& record,
+                                            const Evaluation& evaluation);
+
+/// report.qif: a results document of QIF 3.0 (ISO 23952): features, characteristics, points, what
+/// measured. Lengths in mm. Valid against its schema; check_qif() checks what the schema does not.
+[[nodiscard]] std::string write_qif(const record::RunRecord& record, const Evaluation& evaluation);
+
+/// report.dmo: actual features and tolerances as a DMIS (ISO 22093) output block. ASCII, mm.
+[[nodiscard]] std::string write_dmis(const record::RunRecord& record, const Evaluation& evaluation);
+
+/// report.junit.xml: a test case a characteristic, for pipelines. What does not conform and what is
+/// undecided fail, void is an error, what has no tolerance is skipped.
+[[nodiscard]] std::string write_junit(const record::RunRecord& record,
+                                      const Evaluation& evaluation);
+
+/// A few lines for the terminal: verdict, each characteristic, the zone, warnings; with a small
+/// drawing of the worst section of each feature where the terminal can show one.
 [[nodiscard]] std::string write_summary(const record::RunRecord& record,
-                                        const Evaluation& evaluation);
+                                        const Evaluation& evaluation,
+                                        SketchStyle sketch = SketchStyle::kNone);
 
 }  // namespace rondure::reports

@@ -68,7 +68,8 @@ TEST(Arguments, ThePlanMayFollowTheFormats) {
                                    example("09_axle_points_file.json")});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(names_in(folder / "run"),
-              ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.html", "touches.csv"));
+              ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.html", "results.csv",
+                                     "touches.csv"));
 }
 
 TEST(Arguments, WhatIsNoPlanIsRefusedInOneSentence) {

@@ -142,15 +142,17 @@ TEST_F(DamagedRun, HalfWrittenIsNotEqual) {
 }
 
 TEST_F(DamagedRun, WithoutReportsIsEqualAndSaysSo) {
-  for (const char* name : {"report.html", "report.json", "touches.csv"}) fs::remove(run_ / name);
+  for (const char* name : {"report.html", "report.json", "touches.csv", "results.csv"}) {
+    fs::remove(run_ / name);
+  }
   const Outcome outcome = verify();
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(outcome.out, HasSubstr("exports compared: none; not there: report.html, "
-                                     "report.json, touches.csv"));
+                                     "report.json, touches.csv, results.csv"));
   fs::remove(run_ / "SHA256SUMS");
   const Outcome bare = verify();
   EXPECT_EQ(bare.status, 0);
-  EXPECT_THAT(bare.out, HasSubstr("touches.csv, SHA256SUMS"));
+  EXPECT_THAT(bare.out, HasSubstr("results.csv, SHA256SUMS"));
 }
 
 TEST_F(DamagedRun, AChangedListOfDigestsIsTold) {

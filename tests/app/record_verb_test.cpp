@@ -1,6 +1,9 @@
 // rondure record and rondure devices, with instruments on pseudo-terminals.
 
+#include <fcntl.h>
+#include <poll.h>
 #include <termios.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cstdio>

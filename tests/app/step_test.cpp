@@ -1,8 +1,7 @@
 // A first run in single steps, driven through a terminal of its own.
 
-#include <unistd.h>
-
 #include <csignal>
+#include <cstdlib>
 #include <string>
 #include <vector>
 

@@ -231,7 +231,7 @@ TEST(ArchiveEntry, HoldsEveryCharacteristic) {
   EXPECT_EQ(run.results[0].symbol, "CYLt");
   EXPECT_EQ(run.results[0].reference, "MZCY");
   EXPECT_THAT(run.results[0].sampling, HasSubstr("4 x 7 points"));
-  EXPECT_EQ(run.results[0].value, sample.evaluation.features[0].characteristics[0].value_mm);
+  EXPECT_EQ(run.results[0].value, sample.evaluation.features[0].characteristics[0].value_mm());
 }
 
 TEST(WellFormed, LeavesOnlyWhatADatabaseTakes) {

@@ -49,15 +49,18 @@ TEST(References, ACylinderIsJudgedAboutAllFour) {
   const auto mc = fit::min_circumscribed_cylinder(points, axis);
   const auto mi = fit::max_inscribed_cylinder(points, axis);
   ASSERT_TRUE(mc && mi);
-  EXPECT_EQ(found["cylindricity mc"].value_mm, mc->deviation_mm);
-  EXPECT_EQ(found["cylindricity mi"].value_mm, mi->deviation_mm);
-  EXPECT_THAT(found["cylindricity mc"].operator_text, StartsWith("MCCY; unfiltered; 4 x 15"));
-  EXPECT_THAT(found["cylindricity mi"].operator_text, StartsWith("MICY; unfiltered; 4 x 15"));
-  EXPECT_THAT(found["roundness mc"].operator_text, StartsWith("MCCI; "));
-  EXPECT_THAT(found["roundness mi"].operator_text, StartsWith("MICI; "));
+  EXPECT_EQ(found["cylindricity mc"].value_mm(), mc->deviation_mm);
+  EXPECT_EQ(found["cylindricity mi"].value_mm(), mi->deviation_mm);
+  EXPECT_THAT(found["cylindricity mc"].value->operator_text(),
+              StartsWith("MCCY; unfiltered; 4 x 15"));
+  EXPECT_THAT(found["cylindricity mi"].value->operator_text(),
+              StartsWith("MICY; unfiltered; 4 x 15"));
+  EXPECT_THAT(found["roundness mc"].value->operator_text(), StartsWith("MCCI; "));
+  EXPECT_THAT(found["roundness mi"].value->operator_text(), StartsWith("MICI; "));
   for (const auto& [id, c] : found) {
     EXPECT_EQ(c.verdict, Verdict::kConforms) << id << ": " << c.reason;
-    EXPECT_LE(*found["cylindricity mz"].value_mm, id[0] == 'c' ? *c.value_mm + 1e-12 : 1.0) << id;
+    EXPECT_LE(*found["cylindricity mz"].value_mm(), id[0] == 'c' ? *c.value_mm() + 1e-12 : 1.0)
+        << id;
   }
   double worst_mi = 0.0;
   for (const LayerResult& layer : feature.layers) {
@@ -65,7 +68,7 @@ TEST(References, ACylinderIsJudgedAboutAllFour) {
     ASSERT_TRUE(circle.has_value());
     worst_mi = std::max(worst_mi, circle->deviation_mm);
   }
-  EXPECT_EQ(found["roundness mi"].value_mm, worst_mi);
+  EXPECT_EQ(found["roundness mi"].value_mm(), worst_mi);
 }
 
 TEST(References, ReportedRadiiAreThoseOfTheSurface) {
@@ -135,7 +138,7 @@ TEST(References, OneThatDoesNotExistIsNullWithAWarningAndVoid) {
     auto found = by_id(feature);
     const CharacteristicResult& round = found["roundness mi"];
     EXPECT_EQ(round.verdict, Verdict::kVoid);
-    EXPECT_FALSE(round.value_mm.has_value());
+    EXPECT_FALSE(round.value_mm().has_value());
     EXPECT_THAT(round.reason, HasSubstr("layer 1: "));
     EXPECT_EQ(found["roundness mz"].verdict, Verdict::kConforms);
     EXPECT_EQ(evaluation.verdict, Verdict::kVoid);

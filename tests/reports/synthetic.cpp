@@ -7,6 +7,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
+#include "reports/facts.h"
 
 namespace rondure::reports {
 namespace {
@@ -156,6 +157,16 @@ record::Feature land(int layers, int points) {
   return feature;
 }
 
+/// A value with its operator and without an interval.
+StatedValue stated(const record::Characteristic& asked, double value_mm,
+                   const std::string& sampling) {
+  return {symbol_of(asked), value_mm,
+          ValueOperator(ReferenceTerm(reference_of(asked)), FilterTerm("unfiltered"),
+                        SamplingTerm(sampling), TipTerm("r_tip 1.4986 mm"),
+                        TemperatureTerm("20.12 degC")),
+          UncertaintyStatus::none("the plan declares no uncertainty")};
+}
+
 }  // namespace
 
 Case cylinder_case(int layers, int points_per_layer, int poses) {
@@ -193,11 +204,13 @@ Case cylinder_case(int layers, int points_per_layer, int poses) {
   feature.repeat_zone_sd_mm = 0.00014;
   feature.temperatures = Temperatures{20.1, 20.14, 20.12};
   feature.characteristics.push_back(
-      {feature.feature.characteristics.front(), 2.0 * kHalfZone, Verdict::kConforms,
+      {feature.feature.characteristics.front(),
+       stated(feature.feature.characteristics.front(), 2.0 * kHalfZone,
+              fmt::format("{} x {} points, 3 touches each", layers, points_per_layer)),
+       Verdict::kConforms,
        "8.300 um is not above the limit of 10.000 um.",
-       fmt::format(
-           "MZCY; unfiltered; {} x {} points, 3 touches each; tip radius 1.4986 mm; 20.12 degC",
-           layers, points_per_layer)});
+       {},
+       {}});
   add_touches(made.record, feature);
   made.evaluation.features.push_back(std::move(feature));
   made.evaluation.probe = fit::ProbeTip{{100.0, 0.0, 0.0}, kTip, 0.00011, 0.0009};
@@ -214,13 +227,20 @@ Case failing_case() {
   result.reason = "8.300 um is 2.300 um above the limit of 6.000 um.";
   record::Characteristic round{"round-A", record::Form::kRoundness,
                                record::Reference::kLeastSquares, 0.012, ""};
-  feature.characteristics.push_back({round, 0.0071, Verdict::kConforms,
+  feature.characteristics.push_back({round,
+                                     stated(round, 0.0071, "worst of 4 layers"),
+                                     Verdict::kConforms,
                                      "7.100 um in layer 3 is not above the limit of 12.000 um.",
-                                     "LSCI; unfiltered; worst of 4 layers"});
+                                     {},
+                                     {}});
   record::Characteristic reported{
       "cyl-LS", record::Form::kCylindricity, record::Reference::kLeastSquares, {}, ""};
-  feature.characteristics.push_back(
-      {reported, 0.00912, Verdict::kNotToleranced, "Reported only.", "LSCY; unfiltered"});
+  feature.characteristics.push_back({reported,
+                                     stated(reported, 0.00912, "4 x 7 points"),
+                                     Verdict::kNotToleranced,
+                                     "Reported only.",
+                                     {},
+                                     {}});
   feature.warnings.push_back({core::Code::kSparse,
                               "7 points a layer do not show lobes above the third; 15 or more do.",
                               "/features/0/sampling"});
@@ -256,8 +276,12 @@ Case circle_case(int points) {
   section.ls = fit::LsCircle{{0.012, -0.006}, kRadius, 0.00871, 0.0019};
   feature.layers.push_back(section);
   feature.characteristics.push_back(
-      {asked.characteristics.front(), 2.0 * kHalfZone, Verdict::kConforms,
-       "8.300 um is not above the limit of 12.000 um.", "MZCI; unfiltered; points as given"});
+      {asked.characteristics.front(),
+       stated(asked.characteristics.front(), 2.0 * kHalfZone, "points as given"),
+       Verdict::kConforms,
+       "8.300 um is not above the limit of 12.000 um.",
+       {},
+       {}});
   add_touches(made.record, feature);
   made.evaluation.features.push_back(std::move(feature));
   made.evaluation.verdict = Verdict::kConforms;
@@ -304,7 +328,7 @@ Case unfinished_case() {
   feature.failure =
       core::Error{core::Code::kNoPoints, "No cloud of a final pose is on record.", ""};
   feature.characteristics.push_back(
-      {second.characteristics.front(), {}, Verdict::kVoid, "There is no value.", ""});
+      {second.characteristics.front(), {}, Verdict::kVoid, "There is no value.", {}, {}});
   made.evaluation.features.push_back(feature);
   made.evaluation.verdict = Verdict::kVoid;
   return made;
@@ -334,7 +358,10 @@ Case hostile_case(const std::string& text) {
     result.characteristic.id = text;
     result.characteristic.drawing_zone = text;
     result.reason = text;
-    result.operator_text = text;
+    result.value.emplace(text, 0.0083,
+                         ValueOperator(ReferenceTerm(text), FilterTerm(text), SamplingTerm(text),
+                                       TipTerm(text), TemperatureTerm(text)),
+                         UncertaintyStatus::none(text));
   }
   return made;
 }

@@ -69,11 +69,11 @@ TEST(WheelReport, JudgesRadiusRunOutAndRoundnessOfWorkedExample1) {
   ASSERT_TRUE(evaluation) << evaluation.error().what;
   const auto& results = evaluation->features.at(0).characteristics;
   ASSERT_EQ(results.size(), 3U);
-  EXPECT_NEAR(results[0].value_mm.value() * 1e3, 10.0, 1.1e-3);
+  EXPECT_NEAR(results[0].value_mm().value() * 1e3, 10.0, 1.1e-3);
   EXPECT_EQ(results[0].verdict, Verdict::kConforms);
-  EXPECT_NEAR(results[1].value_mm.value() * 1e3, 35.393, 1.6e-3);
+  EXPECT_NEAR(results[1].value_mm().value() * 1e3, 35.393, 1.6e-3);
   EXPECT_EQ(results[1].verdict, Verdict::kDoesNotConform);
-  EXPECT_LT(results[2].value_mm.value() * 1e3, 4.535);
+  EXPECT_LT(results[2].value_mm().value() * 1e3, 4.535);
   EXPECT_EQ(results[2].verdict, Verdict::kConforms);
 }
 

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "core/pose.h"
+#include "core/result.h"
+#include "plans/plan.h"
+
+namespace rondure::plans {
+
+/// A pose of a merged cloud must reach so many targets: a cylinder shows four parameters of it.
+inline constexpr std::size_t kLeastTargets = 4;
+
+/// "pose (60, 0) deg: 2 targets can be reached, at least 4 are needed".
+[[nodiscard]] std::string too_few_targets(const core::Pose& pose, std::size_t reached);
+
+/// Checks of a feature of the strategy "merged", with the part where the plan says it is: every
+/// pose reaches kLeastTargets, and every target is reached in one of the poses.
+/// @return kUnreachable with the pointer of what to change, and with what is missing. Nothing
+///         moves.
+[[nodiscard]] core::Result<void> check_merged_reach(const Plan& plan, std::size_t index);
+
+}  // namespace rondure::plans

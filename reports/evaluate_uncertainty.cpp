@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "reports/declared.h"
+
+namespace rondure::reports {
+namespace {
+
+/// Rows of the cloud behind a characteristic.
+struct Rows {
+  FormKind kind = FormKind::kCylindricity;
+  std::vector<std::size_t> rows;
+};
+
+const LayerResult* worst_layer(const FeatureResult& result) {
+  const LayerResult* worst = nullptr;
+  for (const LayerResult& layer : result.layers) {
+    if (!layer.mz) continue;
+    if (worst == nullptr || layer.mz->width_mm() > worst->mz->width_mm()) worst = &layer;
+  }
+  return worst;
+}
+
+Rows rows_of(const FeatureResult& result, const record::Characteristic& asked) {
+  Rows out;
+  if (asked.form == record::Form::kRoundness) {
+    out.kind = FormKind::kRoundness;
+    if (const LayerResult* layer = worst_layer(result)) out.rows = layer->rows;
+    return out;
+  }
+  for (std::size_t i = 0; i < result.cloud.size(); ++i) out.rows.push_back(i);
+  return out;
+}
+
+/// Mean time of the touches of each target of the final cloud, from 0 to 1.
+std::map<std::pair<int, int>, double> times_of(const record::RunRecord& record,
+                                               const std::string& feature) {
+  std::map<std::pair<int, int>, double> sums;
+  std::map<std::pair<int, int>, int> counts;
+  for (const record::PoseVisit& pose : record.poses) {
+    const auto owner = static_cast<std::size_t>(pose.feature);
+    if (!pose.final_cloud || record.features[owner].id != feature) continue;
+    sums.clear();  // a part located again while its cloud was repeated has two; the later counts
+    counts.clear();
+    for (const record::Touch& touch : record.touches) {
+      if (touch.purpose != record::Touch::Purpose::kMeasure || touch.pose != pose.id) continue;
+      sums[{touch.layer, touch.point}] += touch.time_s;
+      ++counts[{touch.layer, touch.point}];
+    }
+  }
+  if (sums.empty()) return sums;
+  double first = sums.begin()->second / counts.begin()->second;
+  double last = first;
+  for (auto& [target, time] : sums) {
+    time /= counts[target];
+    first = std::min(first, time);
+    last = std::max(last, time);
+  }
+  for (auto& [target, time] : sums) time = last > first ? (time - first) / (last - first) : 0.0;
+  return sums;
+}
+
+core::Result<FormCloud> cloud_of(const record::RunRecord& record, const FeatureResult& result,
+                                 const Rows& rows) {
+  std::vector<Eigen::Vector3d> tips;
+  for (const std::size_t row : rows.rows) tips.push_back(result.cloud[row].tip_mm);
+  std::optional<Eigen::Vector3d> direction;
+  if (result.mz_cylinder) direction = result.mz_cylinder->axis.direction;
+  auto cloud = form_cloud(rows.kind, tips, direction);
+  if (!cloud) return cloud;
+  cloud->outside = result.feature.side == record::Side::kOutside;
+  const bool touched = result.feature.strategy != record::Strategy::kPointsFile;
+  const auto times =
+      touched ? times_of(record, result.feature.id) : std::map<std::pair<int, int>, double>();
+  for (std::size_t i = 0; i < rows.rows.size(); ++i) {
+    const CloudPoint& point = result.cloud[rows.rows[i]];
+    cloud->points[i].repeats = point.repeats;
+    const auto time = times.find({point.layer, point.point});
+    if (time != times.end()) cloud->points[i].time_1 = time->second;
+  }
+  return cloud;
+}
+
+/// The declared spectrum on this surface, or the part's own.
+core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
+                                                      const Declared& declared,
+                                                      const record::Feature& feature) {
+  if (!declared.spectrum) return std::optional<FormSpectrum>();
+  FormSpectrum out = *declared.spectrum;
+  if (out.terms.empty()) {
+    const double noise_mm =
+        declared.influences.probe ? declared.influences.probe->repeatability_mm : 0.0;
+    auto own = own_spectrum(cloud, noise_mm);
+    if (!own) return core::fail(own.error());
+    return std::optional<FormSpectrum>(*std::move(own));
+  }
+  if (cloud.kind == FormKind::kRoundness) {
+    std::erase_if(out.terms, [](const FormTerm& term) { return term.degree > 0; });
+    if (out.terms.empty()) return std::optional<FormSpectrum>();
+    return std::optional<FormSpectrum>(std::move(out));
+  }
+  const auto [low, high] = std::minmax_element(
+      cloud.points.begin(), cloud.points.end(),
+      [](const FormPoint& a, const FormPoint& b) { return a.height_mm < b.height_mm; });
+  const double margin_mm = feature.number("margin_mm").value_or(0.0);
+  out.low_mm = low->height_mm - margin_mm;
+  out.high_mm = high->height_mm + margin_mm;
+  return std::optional<FormSpectrum>(std::move(out));
+}
+
+}  // namespace
+
+UncertaintyStatus uncertainty_of(const record::RunRecord& record, const FeatureResult& result,
+                                 const std::optional<fit::ProbeTip>& probe,
+                                 const record::Characteristic& asked) {
+  const auto declared = declared_for(record, result, probe);
+  if (!declared) return UncertaintyStatus::none("the plan declares no uncertainty");
+  if (result.merged) {
+    return UncertaintyStatus::none(
+        "the value is of a cloud of several poses: what the fixture leaves in it is told beside "
+        "it, "
+        "the interval does not hold that yet");
+  }
+  if (asked.reference != record::Reference::kMinimumZone) {
+    return UncertaintyStatus::none("intervals are computed of minimum zones only");
+  }
+  const Rows rows = rows_of(result, asked);
+  constexpr std::size_t kMostPoints = 20'000;  // some 10 s of trials; verify does them again
+  if (rows.rows.size() > kMostPoints) {
+    return UncertaintyStatus::none(
+        fmt::format("{} points are more than {}, the limit of the trials; give every n-th point",
+                    rows.rows.size(), kMostPoints));
+  }
+  const auto cloud = cloud_of(record, result, rows);
+  if (!cloud) return UncertaintyStatus::none(cloud.error().what);
+  const auto spectrum = spectrum_on(*cloud, *declared, result.feature);
+  if (!spectrum) return UncertaintyStatus::none(spectrum.error().what);
+  auto found = measurement_uncertainty(*cloud, declared->influences, *spectrum, declared->options);
+  if (!found) return UncertaintyStatus::none(found.error().what);
+  return UncertaintyStatus::stated(*std::move(found), declared->options.coverage);
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,80 @@
+#include "reports/stated_value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+std::string in_um(double length_mm, int decimals) {
+  return fixed(length_mm / core::kMicrometre, decimals);
+}
+
+}  // namespace
+
+ValueOperator::ValueOperator(ReferenceTerm reference, FilterTerm filter, SamplingTerm sampling,
+                             TipTerm tip, TemperatureTerm temperature)
+    : words_(fmt::format("{}; {}; {}; {}; {}", reference.words(), filter.words(), sampling.words(),
+                         tip.words(), temperature.words())) {}
+
+UncertaintyStatus UncertaintyStatus::none(std::string why) {
+  UncertaintyStatus out;
+  out.why_ = std::move(why);
+  return out;
+}
+
+UncertaintyStatus UncertaintyStatus::stated(UncertaintyResult result, double coverage_1) {
+  UncertaintyStatus out;
+  out.result_ = std::move(result);
+  out.coverage_1_ = coverage_1;
+  return out;
+}
+
+const UncertaintyStatement* UncertaintyStatus::about(Measurand measurand) const {
+  if (!result_) return nullptr;
+  if (measurand == Measurand::kSampledPoints) return &result_->sampled;
+  return result_->whole ? &*result_->whole : nullptr;
+}
+
+StatedValue::StatedValue(std::string symbol, double value_mm, ValueOperator value_operator,
+                         UncertaintyStatus uncertainty, Measurand measurand)
+    : symbol_(std::move(symbol)),
+      value_mm_(value_mm),
+      operator_(std::move(value_operator)),
+      uncertainty_(std::move(uncertainty)),
+      measurand_(measurand) {}
+
+std::string StatedValue::value_text() const {
+  const UncertaintyStatement* known = statement();
+  if (known == nullptr) return um(value_mm_) + " um";
+  const int decimals = decimals_for(known->expanded_mm());
+  return fmt::format("{} um [{}, {}]", in_um(value_mm_, decimals), in_um(known->low_mm, decimals),
+                     in_um(known->high_mm, decimals));
+}
+
+std::string StatedValue::operator_text() const {
+  // Without an interval a value says nothing but what was found at the points.
+  if (statement() == nullptr) {
+    return fmt::format("{}; {}; no uncertainty stated", operator_.words(),
+                       name_of(Measurand::kSampledPoints));
+  }
+  return fmt::format("{}; {}", operator_.words(), name_of(measurand_));
+}
+
+std::string StatedValue::sentence() const {
+  return fmt::format("{} = {} ({})", symbol_, value_text(), operator_text());
+}
+
+int decimals_for(double expanded_mm) {
+  const double u = expanded_mm / core::kMicrometre;
+  if (!(u > 0.0)) return 3;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(u))), 1, 4);
+}
+
+}  // namespace rondure::reports

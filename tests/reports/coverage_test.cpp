@@ -1,0 +1,358 @@
+// How often the interval of measurement_uncertainty() holds the truth, on simulated inspections
+// whose surfaces and errors are made here, by other code. 1 000 inspections a scenario with
+// RONDURE_FULL=1 (./test.sh --full), some tens else, of fewer trials.
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "core/noise.h"
+#include "core/units.h"
+#include "fit/zone_fit.h"
+#include "reports/uncertainty.h"
+
+namespace rondure::reports {
+namespace {
+
+using Eigen::Vector3d;
+
+bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
+
+/// Of a scenario. The sanitizers take few.
+int inspections(int few) {
+  if (full()) return 1000;
+#ifdef __SANITIZE_ADDRESS__
+  return few / 4;
+#else
+  return few;
+#endif
+}
+
+constexpr double kRadius = 25.0;
+constexpr double kHalf = 40.0;
+constexpr std::uint64_t kSeed = 20261122;
+
+double legendre(int degree, double q) {
+  if (degree == 0) return 1.0;
+  if (degree == 1) return q;
+  return degree == 2 ? 1.5 * q * q - 0.5 : 2.5 * q * q * q - 1.5 * q;
+}
+
+/// Form of a simulated part [mm].
+class Form {
+ public:
+  virtual ~Form() = default;
+  [[nodiscard]] virtual double at(double angle, double z) const = 0;
+};
+
+/// The random surfaces of the method specification, cylindricity section 12.1.
+class SpecifiedForm final : public Form {
+ public:
+  explicit SpecifiedForm(core::KeyedNoise noise) {
+    for (std::size_t k = 0; k < kLobes.size(); ++k) {
+      amplitude_[k] = noise.normal() / std::sqrt(static_cast<double>(kLobes[k]));
+      phase_[k] = core::kTwoPi * noise.uniform();
+      twist_[k] = 2.0 * noise.uniform() - 1.0;
+    }
+    taper_ = 0.5 * noise.normal();
+    barrel_ = 0.5 * noise.normal();
+    bend_ = 0.5 * noise.normal();
+    bend_phase_ = core::kTwoPi * noise.uniform();
+  }
+  [[nodiscard]] double at(double angle, double z) const override {
+    const double q = z / kHalf;
+    double sum =
+        taper_ * q + (q * q - 1.0 / 3.0) * (barrel_ + bend_ * std::cos(angle + bend_phase_));
+    for (std::size_t k = 0; k < kLobes.size(); ++k) {
+      sum += amplitude_[k] * std::cos(kLobes[k] * angle + phase_[k] + twist_[k] * q);
+    }
+    return scale * sum;
+  }
+  double scale = 1.0;
+
+ private:
+  static constexpr std::array<int, 5> kLobes = {2, 3, 4, 5, 7};
+  std::array<double, 5> amplitude_{};
+  std::array<double, 5> phase_{};
+  std::array<double, 5> twist_{};
+  double taper_ = 0.0;
+  double barrel_ = 0.0;
+  double bend_ = 0.0;
+  double bend_phase_ = 0.0;
+};
+
+/// A surface drawn from a spectrum.
+class SpectralForm final : public Form {
+ public:
+  SpectralForm(const FormSpectrum& spectrum, core::KeyedNoise noise) : spectrum_(spectrum) {
+    for (std::size_t k = 0; k < 2 * spectrum.terms.size(); ++k) draws_.push_back(noise.normal());
+  }
+  [[nodiscard]] double at(double angle, double z) const override {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < spectrum_.terms.size(); ++k) {
+      const FormTerm& term = spectrum_.terms[k];
+      sum += term.amplitude_mm * legendre(term.degree, z / kHalf) *
+             (draws_[2 * k] * std::cos(term.undulations * angle) +
+              draws_[2 * k + 1] * std::sin(term.undulations * angle));
+    }
+    return sum;
+  }
+
+ private:
+  FormSpectrum spectrum_;
+  std::vector<double> draws_;
+};
+
+Vector3d surface_point(const Form& form, double angle, double z) {
+  const double r = kRadius + form.at(angle, z);
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+double zone_of(const std::vector<Vector3d>& points) {
+  fit::CylinderZoneFitter fitter;
+  return fitter.fit_from(points, fit::Axis{}).width_mm();
+}
+
+double whole_zone(const Form& form) {
+  std::vector<Vector3d> points;
+  for (int j = 0; j < 21; ++j) {
+    for (int i = 0; i < 60; ++i) {
+      points.push_back(surface_point(form, core::kTwoPi * i / 60.0, kHalf * (j / 10.0 - 1.0)));
+    }
+  }
+  return zone_of(points);
+}
+
+/// 4 layers of 7 points, 5 mm from the ends, as they are touched: layer by layer.
+std::vector<Vector3d> sampled_points(const Form& form) {
+  std::vector<Vector3d> points;
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 7; ++i) {
+      const double angle = core::kTwoPi * (i / 7.0 + j / 28.0);
+      points.push_back(surface_point(form, angle, -35.0 + 70.0 * j / 3.0));
+    }
+  }
+  return points;
+}
+
+/// The errors of one inspection, made by moving the points in space.
+std::vector<Vector3d> inspected(std::vector<Vector3d> points, const Influences& influences,
+                                core::KeyedNoise noise) {
+  const ProbeInfluences& probe = *influences.probe;
+  cmm::GeometricErrors machine;
+  const cmm::GeometricErrors& spread = influences.machine->terms;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      cmm::ErrorCurve& curve = machine.axes[k].translation[c];
+      curve = spread.axes[k].translation[c];
+      curve.linear_1_mm *= noise.normal();
+      curve.phase_rad = core::kTwoPi * noise.uniform();
+    }
+  }
+  machine.squareness_xz_rad = spread.squareness_xz_rad * noise.normal();
+  std::vector<double> lobe_phases;
+  for (std::size_t k = 0; k < probe.lobes.size(); ++k) {
+    lobe_phases.push_back(core::kTwoPi * noise.uniform());
+  }
+  const auto rectangular = [&] { return 2.0 * noise.uniform() - 1.0; };
+  const Vector3d creep =
+      influences.fixture->creep_rad * Vector3d(rectangular(), rectangular(), rectangular());
+  const Vector3d drift = influences.thermal->machine_drift_mm.cwiseProduct(
+      Vector3d(rectangular(), rectangular(), rectangular()));
+  const double last = static_cast<double>(points.size()) - 1.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Vector3d& p = points[i];
+    const double time = static_cast<double>(i) / last;
+    const double azimuth = std::atan2(p.y(), p.x());
+    double along = probe.repeatability_mm * noise.normal();
+    for (std::size_t k = 0; k < lobe_phases.size(); ++k) {
+      along +=
+          probe.lobes[k].amplitude_mm * std::cos(probe.lobes[k].order * azimuth + lobe_phases[k]);
+    }
+    const Vector3d normal(std::cos(azimuth), std::sin(azimuth), 0.0);
+    const Vector3d moved = p + time * (creep.cross(p - *influences.fixture->pivot_mm) + drift);
+    p = moved - cmm::geometric_error_mm(machine, moved) + along * normal;
+  }
+  return points;
+}
+
+struct Scenario {
+  std::string name;
+  Influences influences;
+};
+
+Scenario scenario(std::string name, double noise_mm, double lobe_mm, double wave_mm,
+                  double creep_rad, double drift_mm) {
+  Scenario out{std::move(name), {}};
+  ProbeInfluences probe;
+  probe.repeatability_mm = noise_mm;
+  probe.lobes = {{3, lobe_mm, 0.0}};
+  MachineInfluences machine;
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      cmm::ErrorCurve& curve = machine.terms.axes[k].translation[c];
+      curve.wave = wave_mm;
+      curve.period_mm = 60.0 + 20.0 * static_cast<double>(k);
+      if (k == c) curve.linear_1_mm = 3e-6;
+    }
+  }
+  machine.terms.squareness_xz_rad = 4e-6;
+  ThermalInfluences thermal;
+  thermal.machine_drift_mm = Vector3d::Constant(drift_mm);
+  FixtureInfluences fixture;
+  fixture.creep_rad = creep_rad;
+  fixture.pivot_mm = Vector3d(0.0, 0.0, -60.0);
+  out.influences = {probe, machine, thermal, fixture};
+  return out;
+}
+
+std::vector<Scenario> scenarios() {
+  return {scenario("quiet", 0.2e-3, 0.1e-3, 0.05e-3, 1e-6, 0.1e-3),
+          scenario("noisy probe", 1.5e-3, 0.4e-3, 0.05e-3, 1e-6, 0.1e-3),
+          scenario("bad fixture and machine", 0.3e-3, 0.2e-3, 0.8e-3, 3e-5, 1e-3)};
+}
+
+struct Tally {
+  int count = 0;
+  int inside = 0;
+  int below = 0;  ///< The truth lies below the interval.
+  int above = 0;
+  double truth_um = 0.0;
+  double uncorrected_um = 0.0;
+  double estimate_um = 0.0;
+  double expanded_um = 0.0;
+
+  void add(double truth_mm, double uncorrected_mm, const UncertaintyStatement& stated) {
+    const double share = 1e3 / count;
+    below += truth_mm < stated.low_mm ? 1 : 0;
+    above += truth_mm > stated.high_mm ? 1 : 0;
+    inside += truth_mm >= stated.low_mm && truth_mm <= stated.high_mm ? 1 : 0;
+    truth_um += share * truth_mm;
+    uncorrected_um += share * uncorrected_mm;
+    estimate_um += share * stated.estimate_mm;
+    expanded_um += share * stated.expanded_mm();
+  }
+  [[nodiscard]] double coverage() const { return static_cast<double>(inside) / count; }
+  void print(const std::string& name) const {
+    std::printf("| %s | %.2f | %.2f | %.2f | %.2f | %.1f %% | %.1f / %.1f %% |\n", name.c_str(),
+                truth_um, uncorrected_um, estimate_um, expanded_um, 100.0 * coverage(),
+                100.0 * below / count, 100.0 * above / count);
+  }
+};
+
+constexpr const char* kHead =
+    "| scenario | truth um | uncorrected um | estimate um | U um | inside | truth below / above "
+    "|\n";
+
+UncertaintyOptions few_trials() {
+  UncertaintyOptions options;
+  options.block_trials = 100;
+  options.least_trials = 200;
+  options.most_trials = full() ? 1000 : 200;
+  options.budget_trials = 0;
+  options.threads = 2;
+  return options;
+}
+
+/// 93 to 97 % of 1 000; of fewer, within 3.3 standard deviations of 95 %.
+void expect_covered(const Tally& tally, const std::string& name) {
+  const double width = full() ? 0.02 : 3.3 * std::sqrt(0.95 * 0.05 / tally.count);
+  EXPECT_NEAR(tally.coverage(), 0.95, width) << name;
+}
+
+TEST(Coverage, HoldsTheValueAtTheSampledPointsInNinetyFiveOfAHundredInspections) {
+  std::printf("%s", kHead);
+  for (const Scenario& now : scenarios()) {
+    Tally tally;
+    tally.count = inspections(60);
+    for (int k = 0; k < tally.count; ++k) {
+      const auto key = static_cast<std::uint64_t>(k);
+      SpecifiedForm form(core::KeyedNoise(kSeed, {1, key}));
+      form.scale = 1e-3;
+      form.scale *= 10e-3 / whole_zone(form);
+      const auto truth = sampled_points(form);
+      const auto cloud = form_cloud(
+          FormKind::kCylindricity,
+          inspected(truth, now.influences, core::KeyedNoise(kSeed, {2, key})), Vector3d::UnitZ());
+      ASSERT_TRUE(cloud.has_value());
+      UncertaintyOptions options = few_trials();
+      options.seed = key;
+      const auto result = measurement_uncertainty(*cloud, now.influences, std::nullopt, options);
+      ASSERT_TRUE(result.has_value()) << result.error().what;
+      tally.add(zone_of(truth), result->uncorrected_mm, result->sampled);
+    }
+    tally.print(now.name);
+    expect_covered(tally, now.name);
+  }
+}
+
+/// A ground shaft: lobes that fall with the undulations, taper, barrel, bend.
+FormSpectrum true_spectrum() {
+  FormSpectrum spectrum;
+  spectrum.low_mm = -kHalf;
+  spectrum.high_mm = kHalf;
+  spectrum.source = "declared";
+  spectrum.terms = {{0, 1, 0.8e-3}, {0, 2, 0.6e-3}, {1, 2, 0.6e-3}};
+  for (int p = 2; p <= 9; ++p) {
+    for (int degree = 0; degree <= 2; ++degree) {
+      spectrum.terms.push_back({p, degree, 2.0e-3 / p * std::pow(0.4, degree)});
+    }
+  }
+  return spectrum;
+}
+
+/// What somebody declares who believes in ovals and three lobes only.
+FormSpectrum short_spectrum() {
+  FormSpectrum spectrum = true_spectrum();
+  std::erase_if(spectrum.terms, [](const FormTerm& term) { return term.undulations > 3; });
+  return spectrum;
+}
+
+Tally tally_whole(const Scenario& now, const FormSpectrum& declared) {
+  Tally tally;
+  tally.count = inspections(24);
+  for (int k = 0; k < tally.count; ++k) {
+    const auto key = static_cast<std::uint64_t>(k);
+    const SpectralForm form(true_spectrum(), core::KeyedNoise(kSeed, {3, key}));
+    const auto cloud = form_cloud(
+        FormKind::kCylindricity,
+        inspected(sampled_points(form), now.influences, core::KeyedNoise(kSeed, {4, key})),
+        Vector3d::UnitZ());
+    UncertaintyOptions options = few_trials();
+    options.seed = key;
+    const auto result = measurement_uncertainty(*cloud, now.influences, declared, options);
+    tally.add(whole_zone(form), result->uncorrected_mm, *result->whole);
+  }
+  return tally;
+}
+
+TEST(Coverage, HoldsTheWholeSurfaceWhenTheDeclaredSpectrumIsTheTrueOne) {
+  std::printf("%s", kHead);
+  for (const Scenario& now : scenarios()) {
+    const Tally tally = tally_whole(now, true_spectrum());
+    tally.print(now.name);
+    expect_covered(tally, now.name);
+  }
+}
+
+TEST(Coverage, FallsShortOfTheWholeSurfaceWhenTheDeclaredSpectrumIsTooShort) {
+  std::printf("%s", kHead);
+  for (const Scenario& now : scenarios()) {
+    const Tally tally = tally_whole(now, short_spectrum());
+    tally.print(now.name);
+    if (now.name == "quiet") {
+      EXPECT_LT(tally.coverage(), 0.85);
+    }
+    if (!full()) continue;  // large errors hide most of it: some tens do not show the rest
+    EXPECT_LT(tally.coverage(), 0.93) << now.name;
+    EXPECT_GT(tally.above, tally.below) << "a short spectrum makes a part look too good";
+  }
+}
+
+}  // namespace
+}  // namespace rondure::reports

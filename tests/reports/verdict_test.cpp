@@ -1,0 +1,299 @@
+// Every path to a void verdict, and what stands with a value.
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <type_traits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "reports/conformance.h"
+#include "reports/declared.h"
+#include "reports/writers.h"
+#include "tests/reports/points_run.h"
+
+namespace rondure::reports {
+namespace {
+
+using record::RunRecord;
+using ::testing::HasSubstr;
+
+// A value cannot be made without its terms, nor with one in the place of another.
+static_assert(!std::is_default_constructible_v<StatedValue>);
+static_assert(!std::is_default_constructible_v<ValueOperator>);
+static_assert(!std::is_default_constructible_v<UncertaintyStatus>);
+static_assert(!std::is_constructible_v<StatedValue, std::string, double>);
+static_assert(!std::is_constructible_v<StatedValue, std::string, double, ValueOperator>);
+static_assert(
+    !std::is_constructible_v<ValueOperator, ReferenceTerm, FilterTerm, SamplingTerm, TipTerm>);
+static_assert(!std::is_constructible_v<ValueOperator, FilterTerm, ReferenceTerm, SamplingTerm,
+                                       TipTerm, TemperatureTerm>);
+static_assert(!std::is_constructible_v<ValueOperator, std::string, std::string, std::string,
+                                       std::string, std::string>);
+
+/// 13 touches of a reference sphere of radius 12.5 mm with a tip of 2 mm.
+void add_qualification(RunRecord& run) {
+  run.artefact = {12.5, 2.0, 0.1, 0.005};
+  for (int i = 0; i < 13; ++i) {
+    const double up = i / 12.0;
+    const double turn = 2.4 * i;
+    const double across = std::sqrt(1.0 - up * up);
+    record::Touch touch;
+    touch.id = 1000 + i;
+    touch.purpose = record::Touch::Purpose::kQualification;
+    touch.tip_mm = {300.0 + 14.5 * across * std::cos(turn), 14.5 * across * std::sin(turn),
+                    100.0 + 14.5 * up};
+    run.touches.push_back(touch);
+  }
+}
+
+/// 4 x 7 points of a part of some 10 um, touched at 20 degC, judged by `rule` against 20 um.
+RunRecord touched_run(const std::string& rule) {
+  RunRecord run = points_run(rough_part(3, 4, 7, 2.0 * std::numbers::pi), 4);
+  run.features[0].strategy = record::Strategy::kGuided;
+  run.features[0].characteristics = {
+      {"CYLt", record::Form::kCylindricity, record::Reference::kMinimumZone, 20e-3, ""}};
+  run.header.temperature_min_degC = 18.0;
+  run.header.temperature_max_degC = 22.0;
+  run.header.decision_rule = rule;
+  run.settings = {{"uncertainty/coverage_percent", 95.0, ""},
+                  {"uncertainty/least_trials", 2000.0, ""},
+                  {"uncertainty/most_trials", 2000.0, ""},
+                  {"uncertainty/budget_trials", 100.0, ""},
+                  {"uncertainty/seed", 1.0, ""},
+                  {"uncertainty/probe/repeatability_um", 0.5, ""},
+                  {"uncertainty/declared", std::nullopt, "probe"}};
+  add_qualification(run);
+  return run;
+}
+
+CharacteristicResult result_of(const RunRecord& run) {
+  const auto evaluation = evaluate(run);
+  EXPECT_TRUE(evaluation) << evaluation.error().what;
+  EXPECT_EQ(evaluation->verdict, evaluation->features[0].characteristics[0].verdict);
+  return evaluation->features[0].characteristics[0];
+}
+
+TEST(Verdict, OfASoundRunFollowsTheRuleAndTheValueCarriesItsInterval) {
+  for (const char* rule :
+       {"simple-acceptance", "iso-14253-1", "jcgm-106", "n-to-1", "guard-band"}) {
+    SCOPED_TRACE(rule);
+    const CharacteristicResult result = result_of(touched_run(rule));
+    EXPECT_EQ(result.verdict, Verdict::kConforms) << result.reason;
+    ASSERT_TRUE(result.value);
+    const UncertaintyStatement* known = result.value->statement();
+    ASSERT_NE(known, nullptr);
+    EXPECT_LT(known->low_mm, known->estimate_mm);
+    EXPECT_LT(known->estimate_mm, known->high_mm);
+    EXPECT_LT(known->estimate_mm, result.value->value_mm()) << "noise inflates";
+    EXPECT_NEAR(result.value->uncertainty().result()->uncorrected_mm, result.value->value_mm(),
+                1e-6);
+    ASSERT_TRUE(result.outcome);
+    EXPECT_EQ(*result.outcome->conformance_1, 1.0);
+    EXPECT_THAT(result.value->sentence(), HasSubstr("(MZCY; unfiltered; 4 x 7 points; r_tip 2.0000 "
+                                                    "mm; 20.0 degC; at the sampled points)"));
+  }
+}
+
+struct VoidPath {
+  const char* name;
+  std::function<void(RunRecord&)> spoil;
+  const char* reason;
+};
+
+void set_tips(RunRecord& run, double scale_mm) {
+  for (record::Touch& touch : run.touches) {
+    if (touch.purpose != record::Touch::Purpose::kQualification) continue;
+    const Eigen::Vector3d center(300.0, 0.0, 100.0);
+    touch.tip_mm = center + (touch.tip_mm - center).normalized() * (14.5 + scale_mm);
+  }
+}
+
+std::vector<VoidPath> void_paths() {
+  const auto setting = [](const char* name, double number) {
+    return [=](RunRecord& run) { run.settings.push_back({name, number, ""}); };
+  };
+  return {
+      {"not finished", [](RunRecord& r) { r.ending = "stopped"; }, "the run did not finish"},
+      {"no qualification",
+       [](RunRecord& r) {
+         std::erase_if(r.touches, [](const record::Touch& t) { return t.pose < 0; });
+       },
+       "the probe was not qualified"},
+      {"tip radius", [](RunRecord& r) { set_tips(r, 0.2); }, "the effective tip radius 2.2"},
+      {"probing form",
+       [](RunRecord& r) {
+         for (record::Touch& t : r.touches) {
+           if (t.id == 1005) t.tip_mm += Eigen::Vector3d(0.0, 0.0, 0.02);
+         }
+       },
+       "the probing form"},
+      {"too warm",
+       [](RunRecord& r) {
+         for (record::Touch& t : r.touches) t.temperature_degC = 22.5;
+       },
+       "temperature 22.50 degC is outside 18..22 degC"},
+      {"unknown rule", [](RunRecord& r) { r.header.decision_rule = "coin"; },
+       "does not know the decision rule"},
+      {"no interval", [](RunRecord& r) { r.settings.clear(); },
+       "needs the interval at the sampled points, which was not computed: the plan declares no "
+       "uncertainty"},
+      {"interval of another reference",
+       [](RunRecord& r) {
+         r.features[0].characteristics[0].reference = record::Reference::kLeastSquares;
+       },
+       "intervals are computed of minimum zones only"},
+      {"interval of the whole surface",
+       [](RunRecord& r) {
+         r.settings.push_back({"decision_rule/measurand", std::nullopt, "whole-surface"});
+       },
+       "needs the interval of the whole surface"},
+      {"interval refused", setting("uncertainty/probe/form_limit_um", -1.0),
+       "which was not computed: "},
+      {"no reference",
+       [](RunRecord& r) {
+         r.header.decision_rule = "simple-acceptance";
+         r.features[0].characteristics[0].form = record::Form::kRoundness;
+         r.features[0].characteristics[0].reference = record::Reference::kMaximumInscribed;
+         for (record::Touch& t : r.touches) {
+           if (t.pose >= 0) t.tip_mm = rough_part(3, 4, 7, 2.0)[static_cast<std::size_t>(t.id)];
+         }
+       },
+       "layer 1: "},
+      {"n:1 does not apply",
+       [](RunRecord& r) {
+         r.header.decision_rule = "n-to-1";
+         r.settings.push_back({"decision_rule/ratio", 90.0, ""});
+       },
+       "the rule 90:1 does not apply"},
+      {"prior of other parts",
+       [](RunRecord& r) {
+         r.header.decision_rule = "jcgm-106";
+         r.settings.push_back({"decision_rule/prior/distribution", std::nullopt, "normal"});
+         r.settings.push_back({"decision_rule/prior/mean_um", 1.0, ""});
+         r.settings.push_back({"decision_rule/prior/standard_deviation_um", 0.01, ""});
+       },
+       "the stated prior leaves the measured value no weight"},
+  };
+}
+
+TEST(Verdict, IsVoidWithItsReasonOnEveryPath) {
+  for (const VoidPath& path : void_paths()) {
+    SCOPED_TRACE(path.name);
+    RunRecord run = touched_run("iso-14253-1");
+    path.spoil(run);
+    const CharacteristicResult result = result_of(run);
+    EXPECT_EQ(result.verdict, Verdict::kVoid);
+    EXPECT_THAT(result.reason, HasSubstr(path.reason));
+    EXPECT_FALSE(result.outcome);
+    const auto evaluation = evaluate(run);
+    EXPECT_THAT(write_summary(run, *evaluation), HasSubstr("VOID\n"));
+    EXPECT_THAT(write_html(run, *evaluation), HasSubstr("is-void"));
+  }
+}
+
+// What data alone do not bring about: the parts of an evaluation are taken away.
+TEST(Verdict, IsVoidWithoutCertificateOrTemperature) {
+  const RunRecord run = touched_run("simple-acceptance");
+  const auto sound = evaluate(run);
+  ASSERT_TRUE(sound);
+  const auto decided = [&](const std::function<void(FeatureResult&)>& spoil) {
+    FeatureResult feature = sound->features[0];
+    feature.characteristics.clear();
+    spoil(feature);
+    decide(run, sound->rule, sound->probe, feature);
+    EXPECT_EQ(feature.characteristics[0].verdict, Verdict::kVoid);
+    return feature.characteristics[0].reason;
+  };
+  EXPECT_THAT(decided([](FeatureResult& f) {
+                f.mz_cylinder->certificate.kind = fit::Certificate::Kind::kNone;
+              }),
+              HasSubstr("no certificate stands behind the minimum zone"));
+  EXPECT_THAT(decided([](FeatureResult& f) { f.temperatures.reset(); }),
+              HasSubstr("the temperature is not known"));
+  EXPECT_THAT(decided([](FeatureResult& f) {
+                f.failure = core::Error{core::Code::kNoPoints, "nothing was touched", {}};
+              }),
+              HasSubstr("nothing was touched"));
+}
+
+TEST(StatedValue, SaysWhatItIsAboutWithTheDigitsThatItsIntervalAllows) {
+  const ValueOperator how(ReferenceTerm("MZCY"), FilterTerm("unfiltered"),
+                          SamplingTerm("4 x 7 layers"), TipTerm("r_tip 1.998"),
+                          TemperatureTerm("20.3 degC"));
+  UncertaintyResult result;
+  result.sampled.estimate_mm = 8.1e-3;
+  result.sampled.low_mm = 7.6e-3;
+  result.sampled.high_mm = 9.4e-3;
+  const StatedValue value("CYLt", 8.31e-3, how, UncertaintyStatus::stated(result, 0.95));
+  EXPECT_EQ(value.sentence(),
+            "CYLt = 8.31 um [7.60, 9.40] (MZCY; unfiltered; 4 x 7 layers; r_tip 1.998; 20.3 degC; "
+            "at the sampled points)");
+  result.whole = result.sampled;
+  result.whole->high_mm = 12.0e-3;
+  const StatedValue whole("CYLt", 8.31e-3, how, UncertaintyStatus::stated(result, 0.95),
+                          Measurand::kWholeSurface);
+  EXPECT_THAT(whole.sentence(), HasSubstr("8.3 um [7.6, 12.0]"));
+  EXPECT_THAT(whole.sentence(), HasSubstr("; of the whole surface)"));
+  const StatedValue bare("CYLt", 8.31e-3, how, UncertaintyStatus::none("none declared"));
+  EXPECT_THAT(bare.sentence(), HasSubstr("CYLt = 8.310 um (MZCY"));
+  EXPECT_THAT(bare.sentence(), HasSubstr("at the sampled points; no uncertainty stated)"));
+  EXPECT_EQ(TipTerm("").words(), "not known");
+}
+
+TEST(Declared, InfluencesComeFromThePlanAndFromTheRunItself) {
+  RunRecord run = touched_run("simple-acceptance");
+  std::erase_if(run.settings, [](const record::Setting& s) {
+    return s.name == "uncertainty/probe/repeatability_um";
+  });
+  for (const auto& [key, number] :
+       std::vector<std::pair<const char*, double>>{{"probe/lobes/order", 3.0},
+                                                   {"probe/lobes/amplitude_um", 0.4},
+                                                   {"machine/length_limit_um", 1.5},
+                                                   {"machine/length_limit_um_m", 3.0},
+                                                   {"machine/squareness_xz_urad", 4.0},
+                                                   {"machine/translations/linear_um_m", 2.0},
+                                                   {"machine/translations/wave_um", 0.3},
+                                                   {"machine/translations/wave_period_mm", 40.0},
+                                                   {"machine/rotations/linear_urad_m", 5.0},
+                                                   {"thermal/drift_K", 0.2},
+                                                   {"fixture/creep_deg", 0.001},
+                                                   {"form_spectrum/terms/undulations", 2.0},
+                                                   {"form_spectrum/terms/degree", 1.0},
+                                                   {"form_spectrum/terms/amplitude_um", 1.25}}) {
+    run.settings.push_back({std::string("uncertainty/") + key, number, ""});
+  }
+  run.settings.push_back({"uncertainty/machine/translations/error", std::nullopt, "EYX"});
+  run.settings.push_back({"uncertainty/machine/rotations/error", std::nullopt, "ECZ"});
+  for (const char* group : {"machine", "thermal", "fixture", "form_spectrum"})
+    run.settings.push_back({"uncertainty/declared", std::nullopt, group});
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  FeatureResult feature = evaluation->features[0];
+  feature.repeat_sigma_mm = 0.7e-3;
+  const auto said = declared_for(run, feature, evaluation->probe);
+  ASSERT_TRUE(said);
+  const Influences& in = said->influences;
+  EXPECT_EQ(in.probe->repeatability_mm, 0.7e-3);
+  EXPECT_EQ(in.probe->tip_radius_mm, evaluation->probe->radius_sigma_mm);
+  ASSERT_EQ(in.probe->lobes.size(), 1U);
+  EXPECT_NEAR(in.probe->lobes[0].amplitude_mm, 0.4e-3, 1e-15);
+  EXPECT_NEAR(in.machine->length_limit_mm, 1.5e-3, 1e-15);
+  EXPECT_NEAR(in.machine->length_limit_slope, 3e-6, 1e-18);
+  EXPECT_NEAR(in.machine->terms.squareness_xz_rad, 4e-6, 1e-18);
+  const cmm::ErrorCurve& eyx = in.machine->terms.axes[0].translation[1];
+  EXPECT_NEAR(eyx.linear_1_mm, 2e-6, 1e-18);
+  EXPECT_NEAR(eyx.wave, 0.3e-3, 1e-15);
+  EXPECT_EQ(eyx.period_mm, 40.0);
+  EXPECT_NEAR(in.machine->terms.axes[2].rotation[2].linear_1_mm, 5e-9, 1e-20);
+  EXPECT_EQ(in.thermal->drift_K, 0.2);
+  EXPECT_NEAR(in.fixture->creep_rad, 0.001 * std::numbers::pi / 180.0, 1e-15);
+  ASSERT_TRUE(said->spectrum);
+  ASSERT_EQ(said->spectrum->terms.size(), 1U);
+  EXPECT_EQ(said->spectrum->terms[0].degree, 1);
+  EXPECT_NEAR(said->spectrum->terms[0].amplitude_mm, 1.25e-3, 1e-15);
+  EXPECT_FALSE(declared_for(points_run(rough_part(3, 4, 7, 6.0), 4), feature, std::nullopt));
+}
+
+}  // namespace
+}  // namespace rondure::reports
