@@ -32,7 +32,7 @@ core::Result<void> check_abilities(const Plan& plan, const cmm::Capabilities& ma
 
 core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan, const CellOptions& options) {
   std::unique_ptr<fixture::Fixture> driven;
-  if (drives_fixture(*plan.fixture)) {
+  if (drives_fixture(plan)) {
     auto opened = open_fixture(*plan.fixture, options);
     if (!opened) return core::fail(opened.error());
     driven = *std::move(opened);

@@ -15,6 +15,7 @@
 #include "fixture/calibration.h"
 #include "fixture/fixture.h"
 #include "fixture/kinematics.h"
+#include "fixture/manual.h"
 #include "plans/plan.h"
 
 namespace rondure::plans {
@@ -99,6 +100,7 @@ struct CellOptions {
   bool resumed = false;                 ///< The faults of the simulation lie in the past.
   std::filesystem::path wire_log = {};  ///< Of what goes to a machine and comes; "": none.
   std::function<bool()> stop_requested = {};  ///< Asked while a machine moves: it stops at once.
+  fixture::SetByHand set_by_hand = {};        ///< Of a fixture "manual" in front of a real machine.
 };
 
 /// Whether a machine can do what the plan asks of it. kMachine, at the feature, when it is to scan

@@ -2,12 +2,14 @@
 
 #include <chrono>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "core/units.h"
 #include "fixture/zaber.h"
 #include "fixture/zaber_connection.h"
 #include "plans/plan_reach.h"
+#include "plans/thorlabs_driver.h"
 
 namespace rondure::plans {
 namespace {
@@ -47,12 +49,29 @@ core::Result<std::unique_ptr<fixture::Fixture>> open_zaber(const FixturePlan& fi
   return *std::move(opened);
 }
 
+core::Result<std::unique_ptr<fixture::Fixture>> open_manual(const FixturePlan& plan,
+                                                            const CellOptions& cell) {
+  if (cell.set_by_hand) {
+    return std::make_unique<fixture::ManualFixture>(limits_of(plan), cell.set_by_hand);
+  }
+  return core::fail(core::Code::kBadOption,
+                    "the fixture is set by hand, and there is nobody to ask; run it from a "
+                    "terminal",
+                    "/fixture/driver");
+}
+
 }  // namespace
 
-bool drives_fixture(const FixturePlan& fixture) { return fixture.driver == "zaber"; }
+bool drives_fixture(const Plan& plan) {
+  const std::string& driver = plan.fixture->driver;
+  if (driver == "manual") return plan.machine->driver != "simulated";
+  return driver == "zaber" || driver == "thorlabs";
+}
 
 core::Result<std::unique_ptr<fixture::Fixture>> open_fixture(const FixturePlan& plan,
                                                              const CellOptions& options) {
+  if (plan.driver == "thorlabs") return open_thorlabs(plan);
+  if (plan.driver == "manual") return open_manual(plan, options);
   return open_zaber(plan, options);
 }
 

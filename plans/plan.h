@@ -10,6 +10,7 @@
 
 #include "core/result.h"
 #include "plans/contour_plan.h"
+#include "plans/fixture_drivers_plan.h"
 #include "plans/machine_errors_plan.h"
 #include "plans/rotary_plan.h"
 #include "plans/spindle_plan.h"
@@ -105,8 +106,10 @@ struct FixturePlan {
   double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
   double table_height_mm = -1000.0;  ///< Machine z.
   std::optional<DatumPlan> datum;
-  std::optional<CalibrationPlan> calibration;  ///< None: the fixture is taken as nominal.
-  std::optional<ZaberPlan> zaber;  ///< Used by the driver of that name only.
+  std::optional<CalibrationPlan> calibration;   ///< None: the fixture is taken as nominal.
+  std::optional<ZaberPlan> zaber;               ///< Used by the driver of that name only.
+  std::optional<ThorlabsPlan> thorlabs;         ///< Needed by, and only by, the driver.
+  std::optional<ReachedPosePlan> reached_pose;  ///< The same of "manual".
 };
 
 struct QualificationPlan {

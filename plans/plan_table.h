@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "plans/contour_table.h"
+#include "plans/fixture_drivers_table.h"
 #include "plans/key_spec.h"
 #include "plans/plan.h"
 #include "plans/rotary_table.h"
@@ -219,10 +220,12 @@ void describe(Visitor& v, FixturePlan& p) {
   v.text("id", p.id,
          {.meaning = "What this fixture is called, as on its label: a calibration belongs to it."});
   v.text("driver", p.driver,
-         {.one_of = {"simulated", "ippdme", "zaber"},
+         {.one_of = {"simulated", "ippdme", "zaber", "thorlabs", "manual"},
           .meaning = "Which fixture carries the part: a simulation in this program, two rotary "
-                     "axes of the machine behind I++ DME (AlignPart), or two rotary stages on a "
-                     "Zaber controller. Stages may also turn the part of a simulated machine."});
+                     "axes of the machine behind I++ DME (AlignPart), two rotary stages on a "
+                     "Zaber controller or on Thorlabs APT units, or a fixture that a hand sets and "
+                     "friction holds, whose pose the machine then measures. Stages may also turn "
+                     "the part of a simulated machine."});
   v.numbers("axis_point_mm", p.axis_point_mm,
             place("A point of the base-fixed axis (alpha): x, y, z in the machine frame."));
   v.numbers("axis_offset_mm", p.axis_offset_mm,
@@ -265,6 +268,10 @@ void describe(Visitor& v, FixturePlan& p) {
                        "reckons with them (docs/fixture-calibration.md). Left out: the fixture is "
                        "taken as nominal."});
   v.object("zaber", p.zaber, {.meaning = "Connection and stages of the driver zaber."});
+  v.object("thorlabs", p.thorlabs, {.meaning = "thorlabs: the units of the two axes."});
+  v.object("reached_pose", p.reached_pose,
+           {.meaning = "manual: reference spheres that turn with the part, touched in every pose, "
+                       "from which the pose is taken that was reached."});
 }
 
 template <class Visitor>

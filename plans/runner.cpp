@@ -251,8 +251,8 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   std::unique_ptr<Cell> cell;
   record::Header header = header_of(plan, options, known->seed);
   if (touches_anything(plan)) {
-    auto opened = open_cell(driven(plan, options),
-                            {known->seed, false, options.wire_log, options.stop_requested});
+    auto opened = open_cell(driven(plan, options), {known->seed, false, options.wire_log,
+                                                    options.stop_requested, options.set_by_hand});
     if (!opened) return core::fail(opened.error());
     cell = std::move(*opened);
     header.simulated = cell->is_simulated() || simulates_analysis(plan);
@@ -305,8 +305,8 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
   if (!changes.empty()) return tl::unexpected(std::move(changes));
   std::unique_ptr<Cell> cell;
   if (touches_anything(plan)) {
-    auto opened = open_cell(driven(plan, options),
-                            {known->seed, true, options.wire_log, options.stop_requested});
+    auto opened = open_cell(driven(plan, options), {known->seed, true, options.wire_log,
+                                                    options.stop_requested, options.set_by_hand});
     if (!opened) return refuse(opened.error());
     cell = std::move(*opened);
   }

@@ -41,7 +41,7 @@ fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t
   out.seed = seed;
   const int stall = plan.simulation->faults.fixture_stalls_at_move;
   if (!resumed) out.stalls_at_move = static_cast<std::uint64_t>(stall);
-  if (drives_fixture(fixture)) {  // it follows a real one, which has its own limits and steps
+  if (drives_fixture(plan)) {  // it follows a real one, which has its own limits and steps
     out.limits = {-kAnyTurn_rad, kAnyTurn_rad, -kAnyTurn_rad, kAnyTurn_rad, 0.0};
   }
   return out;
@@ -106,6 +106,11 @@ SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
   table_spheres_.push_back({vector3(plan.probe->qualification.sphere_center_mm),
                             0.5 * plan.probe->qualification.sphere_diameter_mm});
   machine_.place_spheres(table_spheres_);
+  if (const auto& reached = plan.fixture->reached_pose) {
+    for (const CarriedSpherePlan& sphere : reached->spheres) {
+      ring_spheres_.push_back({vector3(sphere.center_mm), 0.5 * reached->sphere_diameter_mm});
+    }
+  }
 }
 
 void SimulatedCell::mount(const FeaturePlan& feature) {
@@ -206,12 +211,15 @@ core::Result<core::Pose> SimulatedCell::home_again() {
 }
 
 void SimulatedCell::place_part() {
-  const Eigen::Isometry3d X_WP =
-      true_X_WF_ * fixture_.true_body_to_machine() * Eigen::Translation3d(shift_mm_) * true_X_BP_;
+  const Eigen::Isometry3d X_WB = true_X_WF_ * fixture_.true_body_to_machine();
+  const Eigen::Isometry3d X_WP = X_WB * Eigen::Translation3d(shift_mm_) * true_X_BP_;
   if (surface_) machine_.place_part(*surface_, X_WP);
   std::vector<cmm::ReferenceSphere> spheres = table_spheres_;
   for (const cmm::ReferenceSphere& ball : balls_) {
     spheres.push_back({X_WP * ball.center_W_mm, ball.radius_mm});
+  }
+  for (const cmm::ReferenceSphere& sphere : ring_spheres_) {
+    spheres.push_back({X_WB * sphere.center_W_mm, sphere.radius_mm});
   }
   machine_.place_spheres(std::move(spheres));
 }

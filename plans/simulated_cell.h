@@ -78,6 +78,7 @@ class SimulatedCell final : public Cell {
   std::optional<cmm::PartSurface> surface_;
   std::vector<cmm::ReferenceSphere> table_spheres_;  ///< On the table, machine frame.
   std::vector<cmm::ReferenceSphere> balls_;          ///< Carried by the ring, part frame.
+  std::vector<cmm::ReferenceSphere> ring_spheres_;   ///< Those that show its pose, body frame.
   Eigen::Isometry3d true_X_WF_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d true_X_BP_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d shift_mm_ = Eigen::Vector3d::Zero();  ///< Of the part, while interrupted.

@@ -161,7 +161,8 @@ struct PoseVisit {
 /// One touch of the probe (or one row of a points file).
 struct Touch {
   /// kLocate: finds where the part sits before the first measuring touch, or, without a pose, where
-  /// the base of the fixture stands (`layer` counts its spheres); enters no result.
+  /// the base of the fixture stands (`layer` counts its spheres), or in which pose it was set (the
+  /// spheres on its ring count on from there); enters no result.
   /// kCheck: repeats an earlier touch before an interrupted run goes on; enters no result.
   enum class Purpose { kQualification, kLocate, kMeasure, kCheck };
   std::int64_t id = 0;  ///< 0-based, counts through the whole run; checks count from -1 downward.
