@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/analysis_verbs.h"
+#include "app/rotary_axes_command.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "app/wheel_command.h"
@@ -420,6 +421,7 @@ int main_of(int argc, char** argv) {
   DevicesArguments devices_arguments;
   WheelArguments wheel_arguments;
   ContourArguments contour_arguments;
+  RotaryAxesArguments rotary_arguments;
   ReportArguments report_arguments;
   SignArguments sign_arguments;
   VerifyArguments verify_arguments;
@@ -434,6 +436,7 @@ int main_of(int argc, char** argv) {
   add_contour(*fit_verb, contour_arguments);
   add_selftest(*fit_verb, selftest_arguments);
   add_wheel(*fit_verb, wheel_arguments);
+  add_rotary_axes(*fit_verb, rotary_arguments);
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
   add_history(app, history_arguments);
@@ -454,6 +457,7 @@ int main_of(int argc, char** argv) {
   if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
   if (fit_verb->got_subcommand("wheel")) return wheel(wheel_arguments);
   if (fit_verb->got_subcommand("contour")) return contour(contour_arguments);
+  if (fit_verb->got_subcommand("rotary-axes")) return rotary_axes(rotary_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
   if (app.got_subcommand("history")) return history(history_arguments);

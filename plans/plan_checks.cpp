@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "plans/analysis.h"
+#include "plans/calibration_use.h"
 #include "plans/json_text.h"
 #include "record/archive_place.h"
 
@@ -157,6 +158,29 @@ void check_mask(const CharacteristicPlan& c, const std::string& where, Findings&
   }
 }
 
+/// What the driver "zaber" needs, and that nothing is said to another driver that it ignores.
+void check_zaber(const FixturePlan& fixture, Findings& findings) {
+  constexpr std::string_view kWhere = "/fixture/zaber";
+  const bool is_zaber = fixture.driver == "zaber";
+  if (!is_zaber && findings.is_given(std::string(kWhere))) {
+    findings.meaning(Code::kMeaning, std::string(kWhere),
+                     fmt::format("has no effect: the driver is \"{}\"; remove it", fixture.driver));
+  }
+  if (!is_zaber || !findings.sound(kWhere)) return;
+  const ZaberPlan stages = fixture.zaber.value_or(ZaberPlan{});
+  if (stages.connection == "serial" && stages.device.empty()) {
+    findings.meaning(Code::kMissingKey, "/fixture/zaber/device",
+                     "this key is missing: the connection is \"serial\"; give its device, e.g. "
+                     "\"/dev/ttyUSB0\"");
+  }
+  const int alpha = stages.alpha.axis == 0 ? 1 : stages.alpha.axis;
+  const int beta = stages.beta.axis == 0 ? 2 : stages.beta.axis;
+  if (alpha == beta) {
+    findings.meaning(Code::kMeaning, "/fixture/zaber/beta/axis",
+                     fmt::format("axis {} turns alpha already; give beta another one", beta));
+  }
+}
+
 /// A part that is simulated here does not stand in front of a machine elsewhere, nor the reverse.
 void check_drivers(const Plan& plan, Findings& findings) {
   if (!plan.machine || !plan.fixture || !findings.sound("/machine/driver") ||
@@ -165,10 +189,8 @@ void check_drivers(const Plan& plan, Findings& findings) {
   }
   const std::string& machine = plan.machine->driver;
   const std::string& fixture = plan.fixture->driver;
-  if ((machine == "simulated") == (fixture == "simulated") &&
-      (fixture != "ippdme" || machine == "ippdme")) {
-    return;
-  }
+  check_zaber(*plan.fixture, findings);
+  if (fixture == "zaber" || machine == fixture) return;
   findings.meaning(Code::kMeaning, "/fixture/driver",
                    fmt::format("a fixture \"{}\" cannot carry a part in front of a machine \"{}\"; "
                                "give both the same driver",
@@ -234,6 +256,7 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
   refuse("/spindle", "the feature is touched, not probed by three probes");
   refuse("/wheel", "the feature is no wheel");
   refuse("/contour", "the feature is touched, not ground after axis traces");
+  refuse("/rotary_axes", "the feature is a surface, not the fixture");
   refuse("/source/columns", "points have the columns x,y or x,y,z");
   if (findings.is_given(where + "/source")) {
     refuse("/sampling", "the points come from a file");
@@ -264,8 +287,11 @@ void check_equipment(const Plan& plan, Findings& findings) {
   if (plan.probe) check_stylus(*plan.probe, findings);
   check_sections(plan.part, findings);
   if (plan.fixture) check_datum(*plan.fixture, findings);
+  check_calibration_use(plan, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (is_touched(plan, i, findings)) return check_needs(plan, i, findings);
+    if (is_touched(plan, i, findings) || measures_by_touch(plan.features[i])) {
+      return check_needs(plan, i, findings);
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "plans/analysis.h"
 
 namespace rondure::plans {
 namespace {
@@ -148,6 +149,11 @@ tl::unexpected<core::Error> RunContext::part_has_moved(const core::Error& error)
     return core::fail(error.code, error.what +
                                       "; it cannot be located again, the plan states no "
                                       "location_uncertainty_mm");
+  }
+  const record::PoseVisit* visit = past.pose(last_steps.back().row.pose);
+  if (visit != nullptr &&
+      measures_by_touch(plan.features[static_cast<std::size_t>(visit->feature)])) {
+    return core::fail(error.code, error.what + "; balls cannot be located again");
   }
   if (past.goes_on_untouched(next_pose)) {
     return core::fail(error.code, error.what +

@@ -104,10 +104,10 @@ std::string percent(double share_1, double trials) {
 /// Probability of conformance and risks; empty without an interval.
 std::string risks_in_words(const CharacteristicResult& result) {
   std::string html;
-  if (result.outcome->conformance_1) {
-    html +=
-        fmt::format("<br>Probability of conformance: {}.", percent(*result.outcome->conformance_1));
-  }
+  if (!result.outcome->conformance_1) return html;
+  const double trials = result.value->uncertainty().result()->trials;
+  html += fmt::format("<br>Probability of conformance: {}.",
+                      percent(*result.outcome->conformance_1, trials));
   if (const auto risk = result.outcome->specific_risk_1()) {
     html += fmt::format(" Specific {} risk of this verdict: {}.",
                         result.verdict == Verdict::kConforms ? "consumer's" : "producer's",

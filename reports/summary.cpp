@@ -77,8 +77,8 @@ void add_uncertainty(std::string& out, const StatedValue& value) {
   std::string bias = fmt::format("noise {} um", signed_um(u.noise_inflation_mm));
   if (u.sampling_loss_mm)
     bias += fmt::format(", sparse sampling {} um", signed_um(*u.sampling_loss_mm));
-  const auto most = std::find_if(u.budget.begin(), u.budget.end(), [&](const BudgetLine& line) {
-    return line.measurand == value.measurand();
+  const auto most = std::find_if(u.budget.begin(), u.budget.end(), [&](const BudgetLine& one) {
+    return one.measurand == value.measurand();
   });
   if (most != u.budget.end() && most->share_1 > 0.0) {
     bias += fmt::format("; most of the spread {}: {} ({:.0f} %)", name_of(most->measurand),

@@ -45,7 +45,10 @@ std::string touches_of(const fs::path& run) {
   return text.substr(text.find('\n') + 1);
 }
 
-/// Whether the data are series, not touches.
+/// Whether the fixture is calibrated: by touches, and with a file for other runs.
+bool calibrates(const json& plan) { return plan.at("features").at(0).at("type") == "rotary_axes"; }
+
+/// Whether it is no surface: the data are series, or balls.
 bool is_analysis(const json& plan) {
   const std::string type = plan.at("features").at(0).at("type");
   return type != "cylinder" && type != "circle";
@@ -102,13 +105,17 @@ TEST(Examples, RunConformVerifyAndWriteTheirReports) {
     std::vector<std::string> files = {"SHA256SUMS",  "journal.db",  "report.dmo",
                                       "report.html", "report.json", "report.junit.xml",
                                       "report.qif",  "results.csv"};
-    if (is_analysis(json::parse(read(plan)))) files.emplace_back("series.csv");
+    const json asked = json::parse(read(plan));
+    if (calibrates(asked)) files.insert(files.begin() + 1, "fixture-calibration.json");
+    if (is_analysis(asked) && !calibrates(asked)) files.emplace_back("series.csv");
     files.emplace_back("touches.csv");
     EXPECT_THAT(names_in(run), ::testing::ElementsAreArray(files));
     const Outcome verified = rondure({"verify", run});
     EXPECT_EQ(verified.status, 0);
     EXPECT_THAT(verified.out, HasSubstr("equal: "));
-    EXPECT_THAT(verified.out, HasSubstr("report.html, report.json, touches.csv"));
+    for (const char* file : {"report.html", "report.json", "touches.csv"}) {
+      EXPECT_THAT(verified.out, HasSubstr(file));
+    }
   }
   run_until_a_fault(folder.path());
   EXPECT_EQ(reports_fault(folder.path()), "");
