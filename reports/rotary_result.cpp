@@ -23,11 +23,17 @@ core::Result<AnalysisValue> RotaryResult::value_of(
   return out;
 }
 
-std::string RotaryResult::operator_text(const record::Characteristic& characteristic) const {
+ValueOperator RotaryResult::operator_of(const record::Characteristic& characteristic) const {
   const fixture::Verification& v = facts_.calibration.verification;
-  return fmt::format("{} distance of {} balls in {} combined poses that the fit did not use",
-                     characteristic.form == record::Form::kFixtureResidualRms ? "rms" : "largest",
-                     v.points, v.poses);
+  const bool rms = characteristic.form == record::Form::kFixtureResidualRms;
+  return {ReferenceTerm(fmt::format("{} distance of balls in combined poses from where the "
+                                    "calibration puts them",
+                                    rms ? "rms" : "largest")),
+          FilterTerm(filter_text()),
+          SamplingTerm(fmt::format("{} ball centres in {} poses that the fit did not use", v.points,
+                                   v.poses)),
+          TipTerm("sphere fits with the certified radius"),
+          TemperatureTerm(fmt::format("{:.1f} degC", facts_.calibration.temperature_degC))};
 }
 
 std::string RotaryResult::filter_text() const { return "unfiltered"; }

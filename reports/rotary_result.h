@@ -42,7 +42,7 @@ class RotaryResult final : public AnalysisResult {
 
   [[nodiscard]] core::Result<AnalysisValue> value_of(
       const record::Characteristic& characteristic) const override;
-  [[nodiscard]] std::string operator_text(
+  [[nodiscard]] ValueOperator operator_of(
       const record::Characteristic& characteristic) const override;
   [[nodiscard]] std::string filter_text() const override;
   [[nodiscard]] std::string sampling_text() const override;
