@@ -8,6 +8,8 @@
 #include <CLI/CLI.hpp>
 
 #include "app/analysis_verbs.h"
+#include "app/indicators.h"
+#include "app/rotary_axes_command.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "app/wheel_command.h"
@@ -363,6 +365,34 @@ void add_history(CLI::App& app, HistoryArguments& arguments) {
       "Columns, statistics and PostgreSQL: docs/archive.md");
 }
 
+void add_record(CLI::App& app, RecordArguments& arguments) {
+  auto* verb = app.add_subcommand(
+      "record", "Reads indicators at stopped angles of a part, into a file for fit spindle");
+  verb->add_option("--probe", arguments.probes,
+                   "An indicator: " + indicator_words() + "; three times for fit spindle")
+      ->required()
+      ->expected(1, 8)
+      ->type_name("WORD");
+  verb->add_option("--from-deg", arguments.from_deg, "First angle (default: 0)")
+      ->check(CLI::Range(-3600.0, 3600.0));
+  verb->add_option("--step-deg", arguments.step_deg, "Between two angles (default: 10)")
+      ->check(CLI::Range(-360.0, 360.0));
+  verb->add_option("--count", arguments.count, "Angles (default: 36)")
+      ->check(CLI::Range(1, 10'000));
+  verb->add_option("--out", arguments.out, "The file; a recording that it holds goes on")
+      ->required()
+      ->type_name("FILE.csv");
+  verb->add_flag("--inches", arguments.inches, "The indicators show inches");
+  verb->add_option("--rate-hz", arguments.rate_Hz,
+                   "Readings a second of a turning part: refused, indicators cannot follow it")
+      ->check(CLI::Range(1e-3, 1e6));
+  verb->footer(
+      "\nExample: rondure record --probe itn:0012 --probe itn:0013 --probe itn:0014\n"
+      "             --step-deg 5 --count 72 --out shaft.csv\n"
+      "Every row is on disk before the next angle is asked for; the same command goes on behind "
+      "it.\nWiring, kinds: docs/indicators.md");
+}
+
 void add_devices(CLI::App& app, DevicesArguments& arguments) {
   auto* verb =
       app.add_subcommand("devices", "Fixtures, indicators and serial lines that are plugged in");
@@ -418,8 +448,10 @@ int main_of(int argc, char** argv) {
   SpindleArguments spindle_arguments;
   DesignArguments design_arguments;
   DevicesArguments devices_arguments;
+  RecordArguments record_arguments;
   WheelArguments wheel_arguments;
   ContourArguments contour_arguments;
+  RotaryAxesArguments rotary_arguments;
   ReportArguments report_arguments;
   SignArguments sign_arguments;
   VerifyArguments verify_arguments;
@@ -434,12 +466,14 @@ int main_of(int argc, char** argv) {
   add_contour(*fit_verb, contour_arguments);
   add_selftest(*fit_verb, selftest_arguments);
   add_wheel(*fit_verb, wheel_arguments);
+  add_rotary_axes(*fit_verb, rotary_arguments);
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
   add_history(app, history_arguments);
   add_sign(app, sign_arguments);
   add_design_probes(app, design_arguments);
   add_devices(app, devices_arguments);
+  add_record(app, record_arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -454,12 +488,14 @@ int main_of(int argc, char** argv) {
   if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
   if (fit_verb->got_subcommand("wheel")) return wheel(wheel_arguments);
   if (fit_verb->got_subcommand("contour")) return contour(contour_arguments);
+  if (fit_verb->got_subcommand("rotary-axes")) return rotary_axes(rotary_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
   if (app.got_subcommand("history")) return history(history_arguments);
   if (app.got_subcommand("design-probes")) return design_probes(design_arguments);
   if (app.got_subcommand("sign")) return sign(sign_arguments);
   if (app.got_subcommand("devices")) return devices(devices_arguments);
+  if (app.got_subcommand("record")) return record_readings(record_arguments);
   return verify(verify_arguments);
 }
 

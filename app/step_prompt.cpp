@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/terminal.h"
+#include "core/units.h"
 
 namespace rondure::app {
 namespace {
@@ -35,11 +36,10 @@ std::string answer() {
 
 }  // namespace
 
-core::Result<void> StepPrompt::check_terminal() {
+core::Result<void> StepPrompt::check_terminal(std::string_view what) {
   if (::isatty(STDIN_FILENO) == 1) return {};
   return core::fail(core::Code::kBadOption,
-                    "--step asks before each move, but standard input is no terminal; run it from "
-                    "one, or without --step");
+                    fmt::format("{}, but standard input is no terminal", what));
 }
 
 core::Result<void> StepPrompt::ask(const plans::NextMove& move) {
@@ -53,6 +53,23 @@ core::Result<void> StepPrompt::ask(const plans::NextMove& move) {
   }
   return core::fail(core::Code::kStopped,
                     fmt::format("stopped by the operator before: {}", line_of(move)));
+}
+
+core::Result<void> ask_to_do(const std::string& what) {
+  while (!stop_requested()) {
+    tell(what + "\n  [Enter] done  [q] stop: ");
+    const std::string word = answer();
+    if (word.empty()) return {};
+    if (word == "q") break;
+  }
+  return core::fail(core::Code::kStopped, fmt::format("stopped by the operator before: {}", what));
+}
+
+core::Result<void> ask_to_set(const core::Pose& pose) {
+  return ask_to_do(fmt::format(
+      "set the fixture by hand: alpha to {:.4f} deg and beta to {:.4f} deg (leave it if it stands "
+      "there), clamp it and step back; the pose reached is measured",
+      pose.alpha_rad / core::kDegree, pose.beta_rad / core::kDegree));
 }
 
 }  // namespace rondure::app

@@ -55,6 +55,7 @@ plans::RunOptions options_of(const RunArguments& arguments) {
   options.wire_log = arguments.wire_log;
   options.stop_requested = stop_requested;
   options.relocate = arguments.relocate;
+  options.set_by_hand = ask_to_set;
   return options;
 }
 
@@ -101,6 +102,17 @@ int status_of(const std::vector<core::Error>& reasons) {
   return reasons.front().code == core::Code::kMachine ? kRunFailed : kBadInput;
 }
 
+/// A fixture in front of a real machine that a hand must set needs somebody to ask.
+core::Result<void> check_hand(const plans::Plan& plan) {
+  const bool by_hand = plan.fixture && plan.fixture->driver == "manual" && plan.machine &&
+                       plan.machine->driver != "simulated";
+  if (!by_hand) return {};
+  auto terminal = StepPrompt::check_terminal(
+      "the fixture \"manual\" is set by a person, who is asked for each pose");
+  if (!terminal) return core::fail(terminal.error().at("/fixture/driver"));
+  return {};
+}
+
 /// The state of the run that is resumed; a run that is not resumed begins.
 core::Result<Resumption> look(const RunArguments& arguments) {
   return arguments.resume ? find_resumption(arguments) : Resumption{};
@@ -110,7 +122,7 @@ core::Result<Resumption> look(const RunArguments& arguments) {
 
 int run(const RunArguments& arguments) {
   if (arguments.step) {
-    if (auto terminal = StepPrompt::check_terminal(); !terminal) {
+    if (auto terminal = StepPrompt::check_terminal("--step asks before each move"); !terminal) {
       complain(terminal.error());
       return kBadInput;
     }
@@ -123,6 +135,10 @@ int run(const RunArguments& arguments) {
   const auto plan = plan_of(arguments, *resumption);
   if (!plan) {
     complain(plan.error());
+    return kBadInput;
+  }
+  if (auto hand = check_hand(*plan); !hand) {
+    complain(hand.error());
     return kBadInput;
   }
   plans::RunOptions options = options_of(arguments);

@@ -180,6 +180,17 @@ struct SelfTestArguments {
 };
 [[nodiscard]] int selftest_filters(const SelfTestArguments& arguments);
 
+struct RecordArguments {
+  std::vector<std::string> probes;  ///< As open_indicator() takes them.
+  double from_deg = 0.0;
+  double step_deg = 10.0;
+  int count = 36;
+  std::string out;
+  bool inches = false;
+  std::optional<double> rate_Hz;  ///< Refused, with the reason.
+};
+[[nodiscard]] int record_readings(const RecordArguments& arguments);
+
 struct DevicesArguments {
   bool json = false;
 };

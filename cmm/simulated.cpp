@@ -51,6 +51,10 @@ void SimulatedMachine::remove_part() {
 
 void SimulatedMachine::place_sphere(const ReferenceSphere& sphere) { spheres_.push_back(sphere); }
 
+void SimulatedMachine::place_spheres(std::vector<ReferenceSphere> spheres) {
+  spheres_ = std::move(spheres);
+}
+
 std::string SimulatedMachine::description() const {
   return fmt::format("simulated machine, tip diameter {:.7g} mm, touch speed {:.7g} mm/s",
                      2.0 * options_.nominal_tip_radius_mm, options_.speeds.touch_mm_s);

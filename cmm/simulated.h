@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -58,6 +59,8 @@ class SimulatedMachine final : public Machine {
   void remove_part();
   /// Puts one more sphere on the table.
   void place_sphere(const ReferenceSphere& sphere);
+  /// These are all the spheres on the table, in place of those that were there.
+  void place_spheres(std::vector<ReferenceSphere> spheres);
 
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] Capabilities capabilities() const override;

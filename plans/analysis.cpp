@@ -15,8 +15,8 @@ namespace {
 
 using core::Code;
 
-std::array<const AnalysisKind*, 3> kinds() {
-  return {&spindle_kind(), &wheel_kind(), &contour_kind()};
+std::array<const AnalysisKind*, 4> kinds() {
+  return {&spindle_kind(), &wheel_kind(), &contour_kind(), &rotary_kind()};
 }
 
 core::Result<AnalysisData> read_files(const Plan& plan, std::size_t index,
@@ -72,13 +72,17 @@ void check_sections(const AnalysisKind& kind, const std::string& where, Findings
   for (const std::string_view key :
        {"/nominal", "/sampling", "/pose_search", "/source/tip_diameter_mm"}) {
     if (!findings.is_given(where + std::string(key))) continue;
-    findings.meaning(Code::kMeaning, where + std::string(key),
-                     fmt::format("has no effect: a {} is not touched; remove it", kind.type));
+    findings.meaning(
+        Code::kMeaning, where + std::string(key),
+        fmt::format("has no effect: {}; remove it",
+                    kind.check_cell != nullptr ? std::string("balls are touched, no surface")
+                                               : fmt::format("a {} is not touched", kind.type)));
   }
 }
 
 void check_data(const Plan& plan, std::size_t index, const AnalysisKind& kind, Findings& findings) {
   const std::string where = feature_pointer(index);
+  if (kind.check_cell != nullptr) return kind.check_cell(plan, index, findings);
   if (has_files(plan.features[index])) {
     if (!findings.sound(where + "/source")) return;
     if (const auto data = read_files(plan, index, kind); !data) {
@@ -100,6 +104,11 @@ void check_data(const Plan& plan, std::size_t index, const AnalysisKind& kind, F
 bool has_files(const FeaturePlan& feature) {
   const AnalysisKind* const kind = analysis_kind(feature.type);
   return kind != nullptr && !kind->files(feature).empty();
+}
+
+bool measures_by_touch(const FeaturePlan& feature) {
+  const AnalysisKind* const kind = analysis_kind(feature.type);
+  return kind != nullptr && kind->check_cell != nullptr;
 }
 
 const AnalysisKind* analysis_kind(std::string_view type) {

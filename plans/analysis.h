@@ -46,6 +46,9 @@ struct AnalysisKind {
   void (*check)(const FeaturePlan& feature, const std::string& where, Findings& findings);
   /// @param seed  Of all noise. The data are a function of plan and seed.
   core::Result<AnalysisData> (*simulate)(const Plan& plan, std::size_t index, std::uint64_t seed);
+  /// Of an analysis whose data are touches of the machine: what concerns its cell. Null: series;
+  /// where it is given, is_simulated and simulate are null.
+  void (*check_cell)(const Plan& plan, std::size_t index, Findings& findings) = nullptr;
 };
 
 /// Whether the data of an analysis come from files: as its source says, or its own section.
@@ -54,7 +57,10 @@ struct AnalysisKind {
 /// The kind of a feature's type, or nullptr for one that is touched.
 [[nodiscard]] const AnalysisKind* analysis_kind(std::string_view type);
 
-/// The data of feature `index`: from its files, or simulated.
+/// Whether a feature is an analysis of touches: it needs the machine, though not as a surface.
+[[nodiscard]] bool measures_by_touch(const FeaturePlan& feature);
+
+/// The data of feature `index`, an analysis of series: from its files, or simulated.
 /// @return  Errors of files and tables with their place.
 [[nodiscard]] core::Result<AnalysisData> analysis_data(const Plan& plan, std::size_t index,
                                                        std::uint64_t seed);
@@ -67,5 +73,6 @@ void check_analysis(const Plan& plan, std::size_t index, Findings& findings);
 [[nodiscard]] const AnalysisKind& spindle_kind();
 [[nodiscard]] const AnalysisKind& wheel_kind();
 [[nodiscard]] const AnalysisKind& contour_kind();
+[[nodiscard]] const AnalysisKind& rotary_kind();
 
 }  // namespace rondure::plans

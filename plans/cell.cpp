@@ -1,7 +1,10 @@
 #include "plans/cell.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
+#include "plans/fixture_driver.h"
 #include "plans/ipp_cell.h"
 #include "plans/plan_reach.h"
 #include "plans/run_head.h"
@@ -28,10 +31,16 @@ core::Result<void> check_abilities(const Plan& plan, const cmm::Capabilities& ma
 }
 
 core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan, const CellOptions& options) {
-  if (plan.machine->driver != "ippdme") {
-    return std::make_unique<SimulatedCell>(plan, options.seed, options.resumed);
+  std::unique_ptr<fixture::Fixture> driven;
+  if (drives_fixture(plan)) {
+    auto opened = open_fixture(*plan.fixture, options);
+    if (!opened) return core::fail(opened.error());
+    driven = *std::move(opened);
   }
-  auto cell = IppCell::open(plan, options);
+  if (plan.machine->driver != "ippdme") {
+    return std::make_unique<SimulatedCell>(plan, options.seed, options.resumed, std::move(driven));
+  }
+  auto cell = IppCell::open(plan, options, std::move(driven));
   if (!cell) return cell;
   if (auto able = check_abilities(plan, (*cell)->machine().capabilities()); !able) {
     return core::fail(able.error());

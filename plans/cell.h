@@ -12,8 +12,10 @@
 #include "cmm/machine.h"
 #include "core/pose.h"
 #include "core/result.h"
+#include "fixture/calibration.h"
 #include "fixture/fixture.h"
 #include "fixture/kinematics.h"
+#include "fixture/manual.h"
 #include "plans/plan.h"
 
 namespace rondure::plans {
@@ -30,10 +32,15 @@ class Cell {
   [[nodiscard]] virtual cmm::Machine& machine() = 0;
   /// Whether the part exists in software only, here or behind a simulated server.
   [[nodiscard]] virtual bool is_simulated() const = 0;
-  /// Nominal axes, on the base as found: all that the program may assume.
+  /// Nominal axes, on the base as found, with the errors that are known: all that the program may
+  /// assume.
   [[nodiscard]] const fixture::Kinematics& kinematics() const { return kinematics_; }
   /// The base of the fixture was found there.
   void set_base(const Eigen::Isometry3d& X_WF) { kinematics_.X_WF = X_WF; }
+  /// From now on the errors of this calibration are reckoned with.
+  void use(const fixture::Calibration& calibration) {
+    kinematics_ = fixture::compensated(kinematics_, calibration);
+  }
   /// Nominal part frame in the body frame: X_BP.
   [[nodiscard]] const Eigen::Isometry3d& nominal_part() const { return X_BP_; }
 
@@ -67,6 +74,12 @@ class Cell {
   [[nodiscard]] virtual std::optional<Eigen::Vector3d> true_tip_W_mm() const = 0;
   /// The same for all points of the last scan; empty where the world is real.
   [[nodiscard]] virtual std::vector<Eigen::Vector3d> true_scan_W_mm() const { return {}; }
+  /// The true errors of an axis of the fixture, where it is simulated in this program; see
+  /// SimulatedFixture::true_errors().
+  [[nodiscard]] virtual std::optional<fixture::AxisErrors> true_errors(bool /*carried*/,
+                                                                       double /*angle_rad*/) const {
+    return std::nullopt;
+  }
   /// Where the body frame really is, where the world is simulated in this program.
   [[nodiscard]] virtual std::optional<Eigen::Isometry3d> true_body_to_machine() const {
     return std::nullopt;
@@ -87,6 +100,7 @@ struct CellOptions {
   bool resumed = false;                 ///< The faults of the simulation lie in the past.
   std::filesystem::path wire_log = {};  ///< Of what goes to a machine and comes; "": none.
   std::function<bool()> stop_requested = {};  ///< Asked while a machine moves: it stops at once.
+  fixture::SetByHand set_by_hand = {};        ///< Of a fixture "manual" in front of a real machine.
 };
 
 /// Whether a machine can do what the plan asks of it. kMachine, at the feature, when it is to scan
@@ -95,7 +109,7 @@ struct CellOptions {
                                                  const cmm::Capabilities& machine);
 
 /// Opens the cell of a plan that has `machine`, `fixture` and `probe`, with the drivers it names.
-/// Nothing moves. kMachine when a machine cannot be reached, or lacks an ability
+/// Nothing moves. kMachine when a machine or a fixture cannot be reached, or lacks an ability
 /// (check_abilities()).
 [[nodiscard]] core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan,
                                                             const CellOptions& options);

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/ls_sphere.h"
 #include "plans/qualification.h"
 
 namespace rondure::plans {
@@ -27,49 +26,20 @@ std::string in_words(const fit::Registration& base) {
       base.largest_residual_mm / core::kMicrometre);
 }
 
-core::Result<Vector3d> sphere_center(const Plan& plan, std::size_t sphere,
-                                     const std::vector<Vector3d>& tips) {
+core::Result<Vector3d> center_near_nominal(const Plan& plan, std::size_t sphere,
+                                           const std::vector<Vector3d>& tips) {
   const DatumPlan& datum = *plan.fixture->datum;
-  const auto found = fit::ls_sphere(tips);
-  if (!found) return core::fail(found.error().at(kWhere));
-  const double limit_um = plan.probe->qualification.form_limit_um;
-  if (found->deviation_mm > limit_um * core::kMicrometre) {
-    return core::fail(
-        core::Code::kCalibration,
-        fmt::format("sphere {} of the fixture has a form of {:.3f} um, the limit is {:g} um "
-                    "(form_limit_um); clean it and check that it is tight",
-                    sphere + 1, found->deviation_mm / core::kMicrometre, limit_um),
-        kWhere);
-  }
-  const double off_mm = (found->center_mm - vector3(datum.spheres[sphere].center_mm)).norm();
-  if (off_mm > datum.uncertainty_mm) {
-    return core::fail(
-        core::Code::kLocation,
-        fmt::format("sphere {} of the fixture stands {:.3f} mm from its nominal "
-                    "place, the plan allows {:g} mm (uncertainty_mm); check where the "
-                    "fixture is bolted",
-                    sphere + 1, off_mm, datum.uncertainty_mm),
-        kWhere);
-  }
-  return found->center_mm;
-}
-
-/// Touches all spheres; tip centres, one list a sphere.
-core::Result<std::vector<std::vector<Vector3d>>> touch_spheres(RunContext& context,
-                                                               std::vector<TouchStep> steps) {
-  std::vector<std::vector<Vector3d>> tips(context.plan.fixture->datum->spheres.size());
-  std::vector<TouchStep> of_one;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const int sphere = steps[i].row.layer;
-    of_one.push_back(std::move(steps[i]));
-    if (i + 1 < steps.size() && steps[i + 1].row.layer == sphere) continue;
-    auto touched =
-        touch_sphere_steps(context, of_one, fmt::format("sphere {} of the fixture", sphere + 1));
-    if (!touched) return core::fail(touched.error());
-    tips[static_cast<std::size_t>(sphere)] = std::move(*touched);
-    of_one.clear();
-  }
-  return tips;
+  const auto center =
+      sphere_center(plan, tips, fmt::format("sphere {} of the fixture", sphere + 1));
+  if (!center) return core::fail(center.error().at(kWhere));
+  const double off_mm = (*center - vector3(datum.spheres[sphere].center_mm)).norm();
+  if (off_mm <= datum.uncertainty_mm) return *center;
+  return core::fail(core::Code::kLocation,
+                    fmt::format("sphere {} of the fixture stands {:.3f} mm from its nominal "
+                                "place, the plan allows {:g} mm (uncertainty_mm); check where the "
+                                "fixture is bolted",
+                                sphere + 1, off_mm, datum.uncertainty_mm),
+                    kWhere);
 }
 
 }  // namespace
@@ -99,7 +69,7 @@ core::Result<fit::Registration> fixture_base(const Plan& plan,
   std::vector<Vector3d> nominal;
   std::vector<Vector3d> found;
   for (std::size_t i = 0; i < tips_W_mm.size(); ++i) {
-    const auto center = sphere_center(plan, i, tips_W_mm[i]);
+    const auto center = center_near_nominal(plan, i, tips_W_mm[i]);
     if (!center) return core::fail(center.error());
     nominal.push_back(vector3(datum.spheres[i].center_mm));
     found.push_back(*center);
@@ -123,7 +93,7 @@ core::Result<void> find_fixture_base(RunContext& context) {
   auto steps = datum_steps(context.plan);
   if (!steps) return core::fail(steps.error());
   if (steps->empty()) return {};
-  const auto tips = touch_spheres(context, std::move(*steps));
+  const auto tips = touch_spheres(context, *steps, "sphere of the fixture");
   if (!tips) return core::fail(tips.error());
   const auto base = fixture_base(context.plan, *tips);
   if (!base) return core::fail(base.error());

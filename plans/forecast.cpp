@@ -6,12 +6,15 @@
 
 #include "core/units.h"
 #include "fixture/simulated.h"
+#include "plans/analysis.h"
 #include "plans/feature_planner.h"
+#include "plans/fixture_calibration.h"
 #include "plans/fixture_datum.h"
 #include "plans/merged_reach.h"
 #include "plans/plan_reach.h"
 #include "plans/pose_search.h"
 #include "plans/qualification.h"
+#include "plans/rotary_poses.h"
 #include "plans/run_head.h"
 
 namespace rondure::plans {
@@ -251,6 +254,32 @@ core::Result<void> add_spheres(const core::Result<std::vector<TouchStep>>& steps
   return {};
 }
 
+/// The poses of a calibration of the fixture, a stage each.
+core::Result<void> add_calibration(const Plan& plan, std::size_t feature, Tally& tally) {
+  const auto visits = rotary_visits(plan, feature);
+  if (!visits) return core::fail(visits.error());
+  for (const RotaryVisit& visit : *visits) {
+    const Eigen::Isometry3d X_WB =
+        fixture::body_to_machine(nominal_kinematics(*plan.fixture), visit.pose);
+    ForecastStage stage;
+    stage.feature = static_cast<int>(feature);
+    stage.pose = visit.pose;
+    for (const std::size_t ball : visit.balls) {
+      const auto steps = ball_steps(plan, feature, X_WB, ball);
+      if (!steps) return core::fail(steps.error());
+      tally.rise(stage);
+      for (const TouchStep& step : *steps) {
+        tally.move(stage, step.way_W);
+        tally.touch(stage, step.command.expected_tip_W_mm, step.command.approach_mm);
+      }
+    }
+    tally.rise(stage);
+    tally.add(std::move(stage));
+    ++tally.forecast().poses;
+  }
+  return {};
+}
+
 }  // namespace
 
 core::Result<Forecast> forecast(const Plan& plan) {
@@ -265,6 +294,9 @@ core::Result<Forecast> forecast(const Plan& plan) {
     return core::fail(added.error());
   }
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (measures_by_touch(plan.features[i])) {
+      if (auto added = add_calibration(plan, i, tally); !added) return core::fail(added.error());
+    }
     if (!is_touched(plan.features[i])) continue;
     NominalSession session(plan, static_cast<int>(i), tally);
     if (auto searched = search_pose(session, plan.features[i]); !searched) {

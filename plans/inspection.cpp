@@ -51,6 +51,13 @@ tl::unexpected<core::Error> FeatureSession::fault_at(const Target& target,
                               target.point + 1, error.what, advice));
 }
 
+core::Pose FeatureSession::commanded_for(const core::Pose& wanted) const {
+  core::Pose out = fixture::commanded_for(context_.cell->kinematics(), wanted);
+  out.alpha_rad = std::clamp(out.alpha_rad, limits().min_alpha_rad, limits().max_alpha_rad);
+  out.beta_rad = std::clamp(out.beta_rad, limits().min_beta_rad, limits().max_beta_rad);
+  return out;
+}
+
 bool FeatureSession::must_locate() const {
   return context_.plan.part.location_uncertainty_mm > 0.0;
 }

@@ -115,6 +115,7 @@ class FeatureSession final : public PoseSession {
   [[nodiscard]] core::Result<void> repeat(int times) override;
   [[nodiscard]] core::Result<void> keep_as_final() override;
   [[nodiscard]] core::Result<fit::Axis> locate(const core::Pose& commanded) override;
+  [[nodiscard]] core::Pose commanded_for(const core::Pose& wanted) const override;
   [[nodiscard]] bool must_locate() const override;
   [[nodiscard]] Eigen::Vector3d expected_axis() const override;
   [[nodiscard]] core::Pose levelling(const Eigen::Vector3d& direction_W) const override;

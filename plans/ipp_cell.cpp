@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "fixture/kinematics.h"
+#include "fixture/pose_range.h"
 #include "plans/plan_reach.h"
 #include "plans/pose_grid.h"
 #include "wire/tcp_line.h"
@@ -16,8 +17,6 @@
 
 namespace rondure::plans {
 namespace {
-
-constexpr double kRoundOff_rad = 1e-12;
 
 std::chrono::milliseconds milliseconds_of(double time_s) {
   return std::chrono::milliseconds(std::llround(1000.0 * time_s));
@@ -80,39 +79,34 @@ std::string IppFixture::description() const {
                      limits_.resolution_rad / core::kDegree);
 }
 
-core::Result<void> IppFixture::check_range(const core::Pose& pose) const {
-  const auto check = [](const char* axis, double angle_rad, double min_rad, double max_rad) {
-    if (angle_rad >= min_rad - kRoundOff_rad && angle_rad <= max_rad + kRoundOff_rad) {
-      return core::Result<void>{};
-    }
-    return core::Result<void>(core::fail(
-        core::Code::kPoseRange,
-        fmt::format("{} {:.7g} deg is outside {:.7g}..{:.7g} deg of the fixture; nothing has moved",
-                    axis, angle_rad / core::kDegree, min_rad / core::kDegree,
-                    max_rad / core::kDegree)));
-  };
-  auto within = check("alpha", pose.alpha_rad, limits_.min_alpha_rad, limits_.max_alpha_rad);
-  if (within) within = check("beta", pose.beta_rad, limits_.min_beta_rad, limits_.max_beta_rad);
-  return within;
-}
-
 core::Result<core::Pose> IppFixture::move_to(const core::Pose& commanded) {
-  if (auto within = check_range(commanded); !within) return core::fail(within.error());
+  if (auto within = fixture::check_pose_range(limits_, commanded); !within) {
+    return core::fail(within.error());
+  }
   const auto reached = machine_.align_part(alignment_of(on_grid(commanded)));
   if (!reached) return core::fail(reached.error());
   return on_grid(pose_of(*reached));
 }
 
-IppCell::IppCell(const Plan& plan, std::unique_ptr<cmm::IppMachine> machine)
-    : Cell(plan), machine_(std::move(machine)), fixture_(*machine_, limits_of(*plan.fixture)) {
+IppCell::IppCell(const Plan& plan, std::unique_ptr<cmm::IppMachine> machine,
+                 std::unique_ptr<fixture::Fixture> driven)
+    : Cell(plan), machine_(std::move(machine)), fixture_(std::move(driven)) {
+  if (!fixture_) fixture_ = std::make_unique<IppFixture>(*machine_, limits_of(*plan.fixture));
   for (const FeaturePlan& feature : plan.features) features_.push_back(feature.id);
 }
 
-core::Result<std::unique_ptr<Cell>> IppCell::open(const Plan& plan, const CellOptions& options) {
+core::Result<std::unique_ptr<Cell>> IppCell::open(const Plan& plan, const CellOptions& options,
+                                                  std::unique_ptr<fixture::Fixture> driven) {
   auto machine = cmm::IppMachine::open(connector(*plan.machine, options.wire_log),
                                        machine_options(plan, options));
   if (!machine) return core::fail(machine.error());
-  if (!(*machine)->has_rotary_table()) {
+  if (driven && (*machine)->is_simulated()) {
+    return core::fail(core::Code::kMachine,
+                      "the machine is a simulation: a fixture that stands here does not turn its "
+                      "part; give the fixture the driver \"ippdme\"",
+                      "/fixture/driver");
+  }
+  if (!driven && !(*machine)->has_rotary_table()) {
     return core::fail(
         core::Code::kMachine,
         fmt::format("the machine calls itself {}: it has no rotary axes that could turn the part; "
@@ -120,7 +114,7 @@ core::Result<std::unique_ptr<Cell>> IppCell::open(const Plan& plan, const CellOp
                     (*machine)->identity().machine_class),
         "/fixture/driver");
   }
-  return std::unique_ptr<Cell>(new IppCell(plan, std::move(*machine)));
+  return std::unique_ptr<Cell>(new IppCell(plan, std::move(*machine), std::move(driven)));
 }
 
 void IppCell::mount(const FeaturePlan& feature) {
@@ -141,7 +135,7 @@ void IppCell::note_turn(const core::Pose& commanded) {
 
 core::Result<core::Pose> IppCell::home_fixture() {
   if (auto told = tell_feature(); !told) return core::fail(told.error());
-  auto reached = fixture_.home();
+  auto reached = fixture_->home();
   if (!reached) return reached;
   turns_ = 0;
   if (auto told = machine_->tell_simulation("Simulation.NextTurn", 1); !told) {
@@ -152,9 +146,10 @@ core::Result<core::Pose> IppCell::home_fixture() {
 
 core::Result<core::Pose> IppCell::turn_to(const core::Pose& commanded) {
   if (auto told = tell_feature(); !told) return core::fail(told.error());
-  auto reached = fixture_.move_to(commanded);
-  if (reached) note_turn(commanded);
-  return reached;
+  auto reached = fixture_->move_to(on_grid(commanded));
+  if (!reached) return reached;
+  note_turn(commanded);
+  return on_grid(*reached);
 }
 
 core::Result<core::Pose> IppCell::recall_home() {
@@ -163,7 +158,9 @@ core::Result<core::Pose> IppCell::recall_home() {
 }
 
 core::Result<core::Pose> IppCell::recall_turn(const core::Pose& commanded) {
-  if (auto within = fixture_.check_range(commanded); !within) return core::fail(within.error());
+  if (auto within = fixture::check_pose_range(fixture_->limits(), commanded); !within) {
+    return core::fail(within.error());
+  }
   note_turn(commanded);
   return commanded;
 }
@@ -171,13 +168,13 @@ core::Result<core::Pose> IppCell::recall_turn(const core::Pose& commanded) {
 core::Result<core::Pose> IppCell::home_again() {
   if (auto homed = machine_->home(); !homed) return core::fail(homed.error());
   if (auto told = tell_feature(); !told) return core::fail(told.error());
-  auto reached = fixture_.home();
+  auto reached = fixture_->home();
   if (!reached) return reached;
   const std::int64_t next_turn = std::max<std::int64_t>(1, turns_);
   if (auto told = machine_->tell_simulation("Simulation.NextTurn", next_turn); !told) {
     return core::fail(told.error());
   }
-  return turns_ == 0 ? reached : fixture_.move_to(last_turn_);
+  return turns_ == 0 ? reached : fixture_->move_to(on_grid(last_turn_));
 }
 
 }  // namespace rondure::plans

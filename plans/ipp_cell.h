@@ -24,8 +24,6 @@ class IppFixture final : public fixture::Fixture {
   [[nodiscard]] const fixture::FixtureLimits& limits() const override { return limits_; }
   [[nodiscard]] core::Result<core::Pose> home() override { return move_to({}); }
   [[nodiscard]] core::Result<core::Pose> move_to(const core::Pose& commanded) override;
-  /// kPoseRange for a pose beyond the limits.
-  [[nodiscard]] core::Result<void> check_range(const core::Pose& pose) const;
 
  private:
   cmm::IppMachine& machine_;
@@ -35,14 +33,18 @@ class IppFixture final : public fixture::Fixture {
 /// Machine and fixture behind I++ DME, with a real part on them, or with the world of
 /// rondure simulate-cmm. A real part keeps no state that depends on the past; the simulator is told
 /// which feature is measured, and which turn of the fixture comes next, so that a run that was
-/// interrupted meets the noise it would have met.
+/// interrupted meets the noise it would have met. The fixture is the rotary axes of the machine, or
+/// a real one that this program drives.
 class IppCell final : public Cell {
  public:
-  /// Connects. Nothing moves. kMachine when nobody answers, or when the machine has no rotary axes.
-  [[nodiscard]] static core::Result<std::unique_ptr<Cell>> open(const Plan& plan,
-                                                                const CellOptions& options);
+  /// Connects. Nothing moves. kMachine when nobody answers, when the machine has no rotary axes, or
+  /// is a simulation whose part a real fixture does not turn.
+  /// @param driven  A real fixture; nullptr: the rotary axes of the machine.
+  [[nodiscard]] static core::Result<std::unique_ptr<Cell>> open(
+      const Plan& plan, const CellOptions& options,
+      std::unique_ptr<fixture::Fixture> driven = nullptr);
 
-  [[nodiscard]] fixture::Fixture& fixture() override { return fixture_; }
+  [[nodiscard]] fixture::Fixture& fixture() override { return *fixture_; }
   [[nodiscard]] cmm::Machine& machine() override { return *machine_; }
   [[nodiscard]] bool is_simulated() const override { return machine_->is_simulated(); }
 
@@ -61,13 +63,14 @@ class IppCell final : public Cell {
   [[nodiscard]] std::optional<Eigen::Vector3d> true_tip_W_mm() const override { return {}; }
 
  private:
-  IppCell(const Plan& plan, std::unique_ptr<cmm::IppMachine> machine);
+  IppCell(const Plan& plan, std::unique_ptr<cmm::IppMachine> machine,
+          std::unique_ptr<fixture::Fixture> driven);
   /// Tells a simulator what was not told yet.
   [[nodiscard]] core::Result<void> tell_feature();
   void note_turn(const core::Pose& commanded);
 
   std::unique_ptr<cmm::IppMachine> machine_;
-  IppFixture fixture_;
+  std::unique_ptr<fixture::Fixture> fixture_;
   std::vector<std::string> features_;  ///< Their ids, in the order of the plan.
   std::int64_t feature_ = 0;           ///< That is measured.
   std::int64_t told_feature_ = -1;     ///< That the simulator knows of.

@@ -10,10 +10,13 @@
 
 #include "core/result.h"
 #include "plans/contour_plan.h"
+#include "plans/fixture_drivers_plan.h"
 #include "plans/machine_errors_plan.h"
+#include "plans/rotary_plan.h"
 #include "plans/spindle_plan.h"
 #include "plans/uncertainty_plan.h"
 #include "plans/wheel_plan.h"
+#include "plans/zaber_plan.h"
 
 namespace rondure::plans {
 
@@ -86,6 +89,7 @@ struct DatumPlan {
 };
 
 struct FixturePlan {
+  std::string id;
   std::string driver = "simulated";
   std::array<double, 3> axis_point_mm = {0.0, 0.0, 0.0};     ///< A, machine frame.
   std::array<double, 3> axis_offset_mm = {0.0, 0.0, 0.0};    ///< d, hoop frame.
@@ -101,10 +105,11 @@ struct FixturePlan {
   double ring_diameter_mm = 0.0;     ///< Outside of the clamping ring; 0: nothing passes it.
   double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
   double table_height_mm = -1000.0;  ///< Machine z.
-  double pose_shift_uncertainty_um =
-      25.0;  ///< Standard uncertainty of a pose, where the axes meet.
-  double pose_turn_uncertainty_deg = 0.01;
   std::optional<DatumPlan> datum;
+  std::optional<CalibrationPlan> calibration;   ///< None: the fixture is taken as nominal.
+  std::optional<ZaberPlan> zaber;               ///< Used by the driver of that name only.
+  std::optional<ThorlabsPlan> thorlabs;         ///< Needed by, and only by, the driver.
+  std::optional<ReachedPosePlan> reached_pose;  ///< The same of "manual".
 };
 
 struct QualificationPlan {
@@ -198,9 +203,10 @@ struct FeaturePlan {
   NominalPlan nominal;
   SamplingPlan sampling;
   PoseSearchPlan pose_search;
-  std::optional<SpindlePlan> spindle;  ///< Needed by, and only by, the type of that name.
-  std::optional<WheelPlan> wheel;      ///< The same.
-  std::optional<ContourPlan> contour;  ///< The same.
+  std::optional<SpindlePlan> spindle;     ///< Needed by, and only by, the type of that name.
+  std::optional<WheelPlan> wheel;         ///< The same.
+  std::optional<ContourPlan> contour;     ///< The same.
+  std::optional<RotaryPlan> rotary_axes;  ///< The same.
   std::optional<SourcePlan> source;
   std::vector<CharacteristicPlan> characteristics;
 };
@@ -244,6 +250,7 @@ struct SimulatedFixturePlan {
   double zero_beta_deg = 0.0;
   double squareness_deg = 0.0;
   double repeatability_deg = 0.0;
+  std::optional<SimulatedMotionPlan> motion;  ///< None: the axes turn truly.
 };
 
 /// What interrupts a simulated run, once: a resumed run meets none of it.

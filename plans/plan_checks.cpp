@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "plans/analysis.h"
+#include "plans/calibration_use.h"
 #include "plans/json_text.h"
 #include "record/archive_place.h"
 
@@ -157,7 +158,31 @@ void check_mask(const CharacteristicPlan& c, const std::string& where, Findings&
   }
 }
 
+/// What the driver "zaber" needs, and that nothing is said to another driver that it ignores.
+void check_zaber(const FixturePlan& fixture, Findings& findings) {
+  constexpr std::string_view kWhere = "/fixture/zaber";
+  const bool is_zaber = fixture.driver == "zaber";
+  if (!is_zaber && findings.is_given(std::string(kWhere))) {
+    findings.meaning(Code::kMeaning, std::string(kWhere),
+                     fmt::format("has no effect: the driver is \"{}\"; remove it", fixture.driver));
+  }
+  if (!is_zaber || !findings.sound(kWhere)) return;
+  const ZaberPlan stages = fixture.zaber.value_or(ZaberPlan{});
+  if (stages.connection == "serial" && stages.device.empty()) {
+    findings.meaning(Code::kMissingKey, "/fixture/zaber/device",
+                     "this key is missing: the connection is \"serial\"; give its device, e.g. "
+                     "\"/dev/ttyUSB0\"");
+  }
+  const int alpha = stages.alpha.axis == 0 ? 1 : stages.alpha.axis;
+  const int beta = stages.beta.axis == 0 ? 2 : stages.beta.axis;
+  if (alpha == beta) {
+    findings.meaning(Code::kMeaning, "/fixture/zaber/beta/axis",
+                     fmt::format("axis {} turns alpha already; give beta another one", beta));
+  }
+}
+
 /// A part that is simulated here does not stand in front of a machine elsewhere, nor the reverse.
+/// A device of its own turns either, as a hand does.
 void check_drivers(const Plan& plan, Findings& findings) {
   if (!plan.machine || !plan.fixture || !findings.sound("/machine/driver") ||
       !findings.sound("/fixture/driver")) {
@@ -165,14 +190,68 @@ void check_drivers(const Plan& plan, Findings& findings) {
   }
   const std::string& machine = plan.machine->driver;
   const std::string& fixture = plan.fixture->driver;
-  if ((machine == "simulated") == (fixture == "simulated") &&
-      (fixture != "ippdme" || machine == "ippdme")) {
+  check_zaber(*plan.fixture, findings);
+  if (fixture == "manual" || fixture == "thorlabs" || fixture == "zaber" || machine == fixture) {
     return;
   }
   findings.meaning(Code::kMeaning, "/fixture/driver",
                    fmt::format("a fixture \"{}\" cannot carry a part in front of a machine \"{}\"; "
                                "give both the same driver",
                                fixture, machine));
+}
+
+/// A section that one driver needs and no other reads.
+void check_driver_section(const FixturePlan& fixture, std::string_view driver, std::string_view key,
+                          bool given, std::string_view what, Findings& findings) {
+  const std::string where = fmt::format("/fixture/{}", key);
+  if (fixture.driver == driver && !given && !findings.is_given(where)) {
+    findings.meaning(
+        Code::kMissingKey, where,
+        fmt::format("this key is missing: the driver is \"{}\"; say {}", driver, what));
+  }
+  if (fixture.driver != driver && given) {
+    findings.meaning(Code::kMeaning, where,
+                     fmt::format("has no effect: the driver is not \"{}\"; remove it", driver));
+  }
+}
+
+void check_thorlabs_axis(const ThorlabsAxisPlan& axis, const std::string& where,
+                         Findings& findings) {
+  if (!findings.sound(where)) return;
+  const bool complete =
+      axis.counts_per_deg && axis.velocity_per_deg_s && axis.acceleration_per_deg_s2;
+  if (axis.stage == "other" && !complete) {
+    findings.meaning(Code::kMissingKey, where + "/counts_per_deg",
+                     "this key is missing: of the stage \"other\" counts_per_deg, "
+                     "velocity_per_deg_s and acceleration_per_deg_s2 must be given");
+  }
+  if (axis.stage != "other" && findings.is_given(where + "/motor")) {
+    findings.meaning(Code::kMeaning, where + "/motor",
+                     "has no effect: the stage is not \"other\"; remove it");
+  }
+}
+
+/// What only single drivers need.
+void check_driver_sections(const FixturePlan& fixture, Findings& findings) {
+  if (!findings.sound("/fixture/driver")) return;
+  check_driver_section(fixture, "thorlabs", "thorlabs", fixture.thorlabs.has_value(),
+                       "which unit turns which axis", findings);
+  check_driver_section(fixture, "manual", "reached_pose", fixture.reached_pose.has_value(),
+                       "on which spheres the pose is measured", findings);
+  if (fixture.thorlabs) {
+    check_thorlabs_axis(fixture.thorlabs->alpha, "/fixture/thorlabs/alpha", findings);
+    check_thorlabs_axis(fixture.thorlabs->beta, "/fixture/thorlabs/beta", findings);
+    if (!fixture.thorlabs->alpha.serial.empty() &&
+        fixture.thorlabs->alpha.serial == fixture.thorlabs->beta.serial) {
+      findings.meaning(Code::kMeaning, "/fixture/thorlabs/beta/serial",
+                       "one unit cannot turn both axes; give the serial number of the other one");
+    }
+  }
+  if (fixture.reached_pose && findings.sound("/fixture/reached_pose") &&
+      fixture.reached_pose->spheres.size() < 2) {
+    findings.meaning(Code::kTooFewPoints, "/fixture/reached_pose/spheres",
+                     "1 sphere does not tell two angles; at least 2 are needed, 3 are better");
+  }
 }
 
 void check_characteristic(const FeaturePlan& feature, std::size_t index,
@@ -234,6 +313,7 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
   refuse("/spindle", "the feature is touched, not probed by three probes");
   refuse("/wheel", "the feature is no wheel");
   refuse("/contour", "the feature is touched, not ground after axis traces");
+  refuse("/rotary_axes", "the feature is a surface, not the fixture");
   refuse("/source/columns", "points have the columns x,y or x,y,z");
   if (findings.is_given(where + "/source")) {
     refuse("/sampling", "the points come from a file");
@@ -264,8 +344,12 @@ void check_equipment(const Plan& plan, Findings& findings) {
   if (plan.probe) check_stylus(*plan.probe, findings);
   check_sections(plan.part, findings);
   if (plan.fixture) check_datum(*plan.fixture, findings);
+  if (plan.fixture) check_driver_sections(*plan.fixture, findings);
+  check_calibration_use(plan, findings);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (is_touched(plan, i, findings)) return check_needs(plan, i, findings);
+    if (is_touched(plan, i, findings) || measures_by_touch(plan.features[i])) {
+      return check_needs(plan, i, findings);
+    }
   }
 }
 

@@ -5,12 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "plans/analysis.h"
 #include "plans/findings.h"
 #include "plans/json_text.h"
 #include "plans/plan.h"
 #include "plans/plan_checks.h"
 #include "plans/plan_reach.h"
 #include "plans/plan_table.h"
+#include "plans/rotary_poses.h"
 #include "plans/run_head.h"
 #include "plans/table_reader.h"
 #include "record/points_csv.h"
@@ -58,6 +60,9 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
     // What stands in the way of the whole part would be found again at every feature.
     const bool room = problems.empty();
     for (std::size_t i = 0; room && i < plan.features.size(); ++i) {
+      if (measures_by_touch(plan.features[i])) {
+        if (auto visits = rotary_visits(plan, i); !visits) problems.push_back(visits.error());
+      }
       if (!is_touched(plan, i, findings)) continue;
       if (auto targets = reachable_targets(plan, i); !targets) problems.push_back(targets.error());
     }

@@ -2,12 +2,15 @@
 
 #include "core/error.h"
 #include "plans/contour_table.h"
+#include "plans/fixture_drivers_table.h"
 #include "plans/key_spec.h"
 #include "plans/plan.h"
+#include "plans/rotary_table.h"
 #include "plans/simulation_table.h"
 #include "plans/spindle_table.h"
 #include "plans/uncertainty_table.h"
 #include "plans/wheel_table.h"
+#include "plans/zaber_table.h"
 
 // The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
 // meaning, once. Defaults are the member initialisers of plan.h. A visitor walks it: TableReader
@@ -214,10 +217,15 @@ void describe(Visitor& v, FixturePlan& p) {
     return NumberSpec{
         .at_least = -90.0, .at_most = 90.0, .code = core::Code::kPoseRange, .meaning = meaning};
   };
+  v.text("id", p.id,
+         {.meaning = "What this fixture is called, as on its label: a calibration belongs to it."});
   v.text("driver", p.driver,
-         {.one_of = {"simulated", "ippdme"},
-          .meaning = "Which fixture carries the part: a simulation in this program, or two rotary "
-                     "axes of the machine behind I++ DME (AlignPart)."});
+         {.one_of = {"simulated", "ippdme", "zaber", "thorlabs", "manual"},
+          .meaning = "Which fixture carries the part: a simulation in this program, two rotary "
+                     "axes of the machine behind I++ DME (AlignPart), two rotary stages on a "
+                     "Zaber controller or on Thorlabs APT units, or a fixture that a hand sets and "
+                     "friction holds, whose pose the machine then measures. Stages may also turn "
+                     "the part of a simulated machine."});
   v.numbers("axis_point_mm", p.axis_point_mm,
             place("A point of the base-fixed axis (alpha): x, y, z in the machine frame."));
   v.numbers("axis_offset_mm", p.axis_offset_mm,
@@ -252,16 +260,18 @@ void describe(Visitor& v, FixturePlan& p) {
       diameter("Outer diameter of the bowl, about axis_point_mm; 0: unknown, then the tip goes "
                "nowhere below rim_height_mm."));
   v.number("table_height_mm", p.table_height_mm, place("Height of the table, machine z."));
-  v.number("pose_shift_uncertainty_um", p.pose_shift_uncertainty_um,
-           {.at_least = 0.0,
-            .at_most = 10'000.0,
-            .meaning = "Standard uncertainty of where a pose puts the part: shift along x, y, z at "
-                       "axis_point_mm. Of merged poses."});
-  v.number("pose_turn_uncertainty_deg", p.pose_turn_uncertainty_deg,
-           {.at_least = 0.0, .at_most = 1.0, .meaning = "The same of its turn about x, y, z."});
   v.object("datum", p.datum,
            {.meaning = "Reference spheres on the base of the fixture, touched before a run: then "
                        "axis_point_mm is in the base frame they show."});
+  v.object("calibration", p.calibration,
+           {.meaning = "Errors of the fixture, found by a feature of the type rotary_axes: the run "
+                       "reckons with them (docs/fixture-calibration.md). Left out: the fixture is "
+                       "taken as nominal."});
+  v.object("zaber", p.zaber, {.meaning = "Connection and stages of the driver zaber."});
+  v.object("thorlabs", p.thorlabs, {.meaning = "thorlabs: the units of the two axes."});
+  v.object("reached_pose", p.reached_pose,
+           {.meaning = "manual: reference spheres that turn with the part, touched in every pose, "
+                       "from which the pose is taken that was reached."});
 }
 
 template <class Visitor>
@@ -467,7 +477,8 @@ void describe(Visitor& v, CharacteristicPlan& p) {
   v.text("form", p.form,
          {.one_of = {"cylindricity", "roundness", "roundness-rms", "harmonic-limits",
                      "motion-total", "motion-synchronous", "motion-asynchronous", "radius",
-                     "run-out", "contour-deviation", "contour-spread"},
+                     "run-out", "contour-deviation", "contour-spread", "fixture-residual",
+                     "fixture-residual-rms"},
           .required = true,
           .meaning =
               "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
@@ -476,7 +487,9 @@ void describe(Visitor& v, CharacteristicPlan& p) {
               "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
               "roundness of its edge; radius, the departure from nominal; run-out. Of a contour "
               "feature: contour-deviation (peak to valley, the greatest of all parts); "
-              "contour-spread (standard deviation from part to part); harmonic-limits."});
+              "contour-spread (standard deviation from part to part); harmonic-limits. Of "
+              "rotary_axes: fixture-residual, the largest distance of a ball from where the "
+              "calibration has it, and fixture-residual-rms."});
   v.text("reference", p.reference,
          {.one_of = {"mz", "ls", "mc", "mi"},
           .meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
@@ -530,11 +543,12 @@ void describe(Visitor& v, FeaturePlan& p) {
           .empty_allowed = false,
           .meaning = "Name of the feature, unique in the plan."});
   v.text("type", p.type,
-         {.one_of = {"cylinder", "circle", "spindle", "wheel", "contour"},
+         {.one_of = {"cylinder", "circle", "spindle", "wheel", "contour", "rotary_axes"},
           .required = true,
           .meaning = "What the surface is; spindle: form of a part and motion of its axis, from "
                      "three probes; wheel: a grinding wheel, from points of its edge; contour: "
-                     "crank pins in follow grinding, and what of their error follows the axes."});
+                     "crank pins in follow grinding, and what of their error follows the axes; "
+                     "rotary_axes: calibration of the fixture with balls that it carries."});
   v.text("side", p.side,
          {.one_of = {"outside", "inside"}, .meaning = "outside: a shaft; inside: a bore."});
   v.object("nominal", p.nominal, {.meaning = "The surface on the drawing, part frame: axis z."});
@@ -543,6 +557,8 @@ void describe(Visitor& v, FeaturePlan& p) {
   v.object("spindle", p.spindle, {.meaning = "Probes and evaluation of the type spindle."});
   v.object("wheel", p.wheel, {.meaning = "Points and evaluation of the type wheel."});
   v.object("contour", p.contour, {.meaning = "Crank, files and evaluation of the type contour."});
+  v.object("rotary_axes", p.rotary_axes,
+           {.meaning = "Balls, stations and poses of the type rotary_axes."});
   v.object("source", p.source,
            {.meaning = "Points from a file in place of touches; no machine is needed then."});
   v.list("characteristics", p.characteristics,

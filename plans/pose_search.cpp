@@ -16,9 +16,9 @@ namespace {
 /// An angle no fixture resolves: at 35 mm it moves a point by 1 nm.
 constexpr double kFinestStep = 2e-6 * core::kDegree;
 
-core::Pose start_pose(const FeaturePlan& feature) {
-  return {feature.pose_search.start_alpha_deg * core::kDegree,
-          feature.pose_search.start_beta_deg * core::kDegree};
+core::Pose start_pose(const PoseSession& session, const FeaturePlan& feature) {
+  return session.commanded_for({feature.pose_search.start_alpha_deg * core::kDegree,
+                                feature.pose_search.start_beta_deg * core::kDegree});
 }
 
 bool within(const fixture::FixtureLimits& limits, const core::Pose& pose) {
@@ -88,12 +88,12 @@ core::Result<void> guided(PoseSession& session, const FeaturePlan& feature, core
     const auto cloud = session.measure(pose);
     if (!cloud) {
       // The start pose is asked for by the plan; any other is only wanted.
-      const bool wanted = visit > 1 || !(pose == start_pose(feature));
+      const bool wanted = visit > 1 || !(pose == start_pose(session, feature));
       if (!wanted || cloud.error().code != core::Code::kUnreachable)
         return core::fail(cloud.error());
       if (auto noted = session.note("not level: " + cloud.error().what); !noted) return noted;
       if (visit > 1) break;
-      pose = start_pose(feature);
+      pose = start_pose(session, feature);
       continue;
     }
     session.show(f_of(*cloud, false));
@@ -137,7 +137,7 @@ core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool a
   };
   const auto steps =
       as_published ? plan.steps_deg : fit::halved_steps(plan.steps_deg, plan.min_step_deg);
-  const auto walk = fit::walk_poses(f, start_pose(feature), steps);
+  const auto walk = fit::walk_poses(f, start_pose(session, feature), steps);
   if (!walk) return core::fail(walk.error());
   const fit::PoseStep& best = walk->visited[walk->best];
   const std::string text = fmt::format(
@@ -151,7 +151,7 @@ core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool a
 
 /// One cloud in the start pose: a circle, or the cloud that is turned in software afterwards.
 core::Result<void> single(PoseSession& session, const FeaturePlan& feature) {
-  const auto cloud = session.measure(start_pose(feature));
+  const auto cloud = session.measure(start_pose(session, feature));
   if (!cloud) return core::fail(cloud.error());
   session.show(f_of(*cloud, false));
   return finish(session, feature);
@@ -177,7 +177,7 @@ core::Result<void> merged(PoseSession& session, const FeaturePlan& feature) {
 
 core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature) {
   const std::string& strategy = feature.pose_search.strategy;
-  core::Pose pose = start_pose(feature);
+  core::Pose pose = start_pose(session, feature);
   // No pose of a part that is reached in several shows enough of it to locate it.
   if (session.must_locate() && strategy != "merged") {
     const auto axis = session.locate(pose);

@@ -39,6 +39,9 @@ class PoseSession {
   /// Finds where the part sits, with a few touches in a pose that enter no result; from then on
   /// targets follow the axis found. Gives it, in the machine frame.
   [[nodiscard]] virtual core::Result<fit::Axis> locate(const core::Pose& commanded) = 0;
+  /// What to command so that the part turns by a pose of the plan, as far as the errors of the
+  /// fixture are known and its limits allow. Levelling poses allow for them already.
+  [[nodiscard]] virtual core::Pose commanded_for(const core::Pose& wanted) const { return wanted; }
   /// Whether the plan leaves open where the part sits.
   [[nodiscard]] virtual bool must_locate() const = 0;
   /// Where the axis should point in the present pose: nominal, or as located. Fits start there.

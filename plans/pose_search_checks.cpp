@@ -59,6 +59,14 @@ void check_merged(const Plan& plan, const FeaturePlan& feature, const std::strin
     check_start(poses[k].beta_deg, fixture.min_beta_deg, fixture.max_beta_deg, place + "/beta_deg",
                 findings, "angle");
   }
+  const bool stated = plan.uncertainty && plan.uncertainty->fixture &&
+                      plan.uncertainty->fixture->position_um > 0.0 &&
+                      plan.uncertainty->fixture->angle_deg > 0.0;
+  if (feature.pose_search.merge == "joint" && !stated) {
+    findings.meaning(Code::kMissingKey, "/uncertainty/fixture",
+                     "poses are solved jointly against what the fixture is believed to do: give "
+                     "position_um and angle_deg, both above 0, or merge by \"kinematics\"");
+  }
   if (fixture.datum) {
     refuse("/fixture/datum",
            "merged poses are evaluated with axis_point_mm in the machine frame; leave the spheres "

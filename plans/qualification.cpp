@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "fit/ls_sphere.h"
 
 namespace rondure::plans {
 namespace {
@@ -71,6 +72,34 @@ core::Result<std::vector<Eigen::Vector3d>> touch_sphere_steps(RunContext& contex
     return core::fail(moved.error());
   }
   return tips;
+}
+
+core::Result<std::vector<std::vector<Eigen::Vector3d>>> touch_spheres(
+    RunContext& context, const std::vector<TouchStep>& steps, const std::string& name) {
+  std::vector<std::vector<Eigen::Vector3d>> tips;
+  std::vector<TouchStep> of_one;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    of_one.push_back(steps[i]);
+    if (i + 1 < steps.size() && steps[i + 1].row.layer == steps[i].row.layer) continue;
+    auto touched = touch_sphere_steps(context, of_one, fmt::format("{} {}", name, tips.size() + 1));
+    if (!touched) return core::fail(touched.error());
+    tips.push_back(std::move(*touched));
+    of_one.clear();
+  }
+  return tips;
+}
+
+core::Result<Eigen::Vector3d> sphere_center(const Plan& plan,
+                                            const std::vector<Eigen::Vector3d>& tips,
+                                            const std::string& name) {
+  const auto found = fit::ls_sphere(tips);
+  if (!found) return core::fail(found.error());
+  const double limit_um = plan.probe->qualification.form_limit_um;
+  if (found->deviation_mm <= limit_um * core::kMicrometre) return found->center_mm;
+  return core::fail(core::Code::kCalibration,
+                    fmt::format("{} has a form of {:.3f} um, the limit is {:g} um "
+                                "(form_limit_um); clean it and check that it is tight",
+                                name, found->deviation_mm / core::kMicrometre, limit_um));
 }
 
 core::Result<std::vector<TouchStep>> sphere_steps(const Plan& plan, const SphereToTouch& sphere) {

@@ -27,6 +27,19 @@ struct SphereToTouch {
 [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> touch_sphere_steps(
     RunContext& context, const std::vector<TouchStep>& steps, const std::string& name);
 
+/// Touches several spheres, one after the other: the steps of one have one `row.layer`. Tip
+/// centres, one list a sphere, in the order of the steps.
+/// @param name  Of the spheres, for messages: "sphere of the fixture".
+[[nodiscard]] core::Result<std::vector<std::vector<Eigen::Vector3d>>> touch_spheres(
+    RunContext& context, const std::vector<TouchStep>& steps, const std::string& name);
+
+/// The centre of a sphere from its tip centres. kCalibration when it has more form than probing
+/// allows (probe.qualification.form_limit_um).
+/// @param name  Of the sphere, for messages.
+[[nodiscard]] core::Result<Eigen::Vector3d> sphere_center(const Plan& plan,
+                                                          const std::vector<Eigen::Vector3d>& tips,
+                                                          const std::string& name);
+
 /// How the reference sphere of the plan is touched.
 [[nodiscard]] core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan);
 

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "plans/analysis.h"
+#include "plans/reached_pose.h"
 
 namespace rondure::plans {
 namespace {
@@ -114,7 +116,10 @@ core::Result<void> RunContext::come_back() {
   doing = "repeating the last touches";
   const auto reads = cell->home_again();
   if (!reads) return core::fail(reads.error());
-  if (const record::PoseVisit* known = past.pose(last_steps.back().row.pose)) {
+  // A pose that was measured stands in the repeated touches themselves.
+  const bool has_encoders = !plan.fixture->reached_pose;
+  if (const record::PoseVisit* known = past.pose(last_steps.back().row.pose);
+      known != nullptr && has_encoders) {
     if (auto same = check_reading(*known, *reads, resolution_rad()); !same) return same;
   }
   double largest_mm = 0.0;
@@ -148,6 +153,11 @@ tl::unexpected<core::Error> RunContext::part_has_moved(const core::Error& error)
     return core::fail(error.code, error.what +
                                       "; it cannot be located again, the plan states no "
                                       "location_uncertainty_mm");
+  }
+  const record::PoseVisit* visit = past.pose(last_steps.back().row.pose);
+  if (visit != nullptr &&
+      measures_by_touch(plan.features[static_cast<std::size_t>(visit->feature)])) {
+    return core::fail(error.code, error.what + "; balls cannot be located again");
   }
   if (past.goes_on_untouched(next_pose)) {
     return core::fail(error.code, error.what +
@@ -241,12 +251,15 @@ core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& 
                     commanded.beta_rad / core::kDegree);
     if (auto go = ask({NextMove::Kind::kTurn, what, {}, {}}); !go) return core::fail(go.error());
   }
-  const auto reached = recalling() ? cell->recall_turn(commanded) : cell->turn_to(commanded);
+  const auto steps = reached_pose_steps(*this, feature, commanded);  // before anybody turns it
+  if (!steps) return core::fail(steps.error());
+  auto reached = recalling() ? cell->recall_turn(commanded) : cell->turn_to(commanded);
+  if (reached && !steps->empty()) reached = measure_reached_pose(*this, *steps, commanded);
   if (!reached) return core::fail(reached.error());
   if (const record::PoseVisit* known = past.pose(next_pose)) {
     if (auto same = check_same_step(*known, feature, commanded); !same)
       return core::fail(same.error());
-    if (!recalling()) {
+    if (!recalling() && steps->empty()) {
       if (auto same = check_reading(*known, *reached, resolution_rad()); !same)
         return core::fail(same.error());
     }

@@ -27,7 +27,8 @@ record::Form form_of(std::string_view name) {
   for (const Form form :
        {Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits, Form::kMotionTotal,
         Form::kMotionSynchronous, Form::kMotionAsynchronous, Form::kRadius, Form::kRunOut,
-        Form::kContourDeviation, Form::kContourSpread}) {
+        Form::kContourDeviation, Form::kContourSpread, Form::kFixtureResidual,
+        Form::kFixtureResidualRms}) {
     if (record::name_of(form) == name) return form;
   }
   return Form::kCylindricity;
@@ -53,8 +54,6 @@ void add_merged_settings(const FixturePlan& fixture, const FeaturePlan& feature,
   out.push_back({"merged_poses", static_cast<double>(feature.pose_search.poses.size()), ""});
   for (const double v : fixture.axis_point_mm) out.push_back({"axis_point_mm", v, ""});
   for (const double v : fixture.axis_offset_mm) out.push_back({"axis_offset_mm", v, ""});
-  out.push_back({"pose_shift_uncertainty_um", fixture.pose_shift_uncertainty_um, ""});
-  out.push_back({"pose_turn_uncertainty_deg", fixture.pose_turn_uncertainty_deg, ""});
 }
 
 }  // namespace
@@ -63,8 +62,12 @@ bool is_touched(const FeaturePlan& feature) {
   return !feature.source && analysis_kind(feature.type) == nullptr;
 }
 
+bool needs_machine(const FeaturePlan& feature) {
+  return is_touched(feature) || measures_by_touch(feature);
+}
+
 bool touches_anything(const Plan& plan) {
-  return std::any_of(plan.features.begin(), plan.features.end(), is_touched);
+  return std::any_of(plan.features.begin(), plan.features.end(), needs_machine);
 }
 
 bool simulates_anything(const Plan& plan) {
@@ -75,11 +78,13 @@ bool simulates_anything(const Plan& plan) {
 
 bool simulates_analysis(const Plan& plan) {
   return std::any_of(plan.features.begin(), plan.features.end(), [](const FeaturePlan& feature) {
-    return analysis_kind(feature.type) != nullptr && !has_files(feature);
+    return analysis_kind(feature.type) != nullptr && !has_files(feature) &&
+           !measures_by_touch(feature);
   });
 }
 
 record::Strategy strategy_of(const FeaturePlan& feature) {
+  if (measures_by_touch(feature)) return record::Strategy::kStations;
   if (analysis_kind(feature.type) != nullptr) return record::Strategy::kSeries;
   if (feature.source) return record::Strategy::kPointsFile;
   const std::string& name = feature.pose_search.strategy;

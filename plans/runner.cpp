@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "plans/analysis.h"
+#include "plans/calibration_use.h"
+#include "plans/fixture_calibration.h"
 #include "plans/fixture_datum.h"
 #include "plans/inspection.h"
 #include "plans/plan_changes.h"
@@ -67,7 +69,7 @@ core::Result<FeatureData> read_points_file(const Plan& plan, std::size_t index) 
 core::Result<std::vector<FeatureData>> read_data(const Plan& plan, std::uint64_t seed) {
   std::vector<FeatureData> out(plan.features.size());
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (is_touched(plan.features[i])) continue;
+    if (needs_machine(plan.features[i])) continue;
     if (analysis_kind(plan.features[i].type) != nullptr) {
       auto data = analysis_data(plan, i, seed);
       if (!data) return core::fail(data.error());
@@ -115,7 +117,7 @@ core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Ta
   for (std::size_t i = 0; i < context.plan.features.size(); ++i) {
     const FeaturePlan& feature = context.plan.features[i];
     const auto index = static_cast<int>(i);
-    if (!is_touched(feature)) {
+    if (!needs_machine(feature)) {
       auto taken = analysis_kind(feature.type) != nullptr
                        ? take_series(context, index, data[i].series)
                        : take_points(context, index, data[i].points);
@@ -123,6 +125,10 @@ core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Ta
       continue;
     }
     context.cell->mount(feature);
+    if (measures_by_touch(feature)) {
+      if (auto calibrated = calibrate_fixture(context, index); !calibrated) return calibrated;
+      continue;
+    }
     FeatureSession session(context, index, targets[i]);
     if (auto searched = search_pose(session, feature); !searched) {
       return core::fail(searched.error().at(fmt::format("/features/{}", i)));
@@ -134,8 +140,8 @@ core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Ta
 /// References machine and fixture and qualifies the probe.
 core::Result<void> prepare(RunContext& context) {
   // The part is in the ring from the start: whatever moves must keep clear of it.
-  const auto first = std::find_if(context.plan.features.begin(), context.plan.features.end(),
-                                  [](const FeaturePlan& feature) { return is_touched(feature); });
+  const auto first =
+      std::find_if(context.plan.features.begin(), context.plan.features.end(), needs_machine);
   context.cell->mount(*first);
   if (context.recalling()) {
     if (auto homed = context.cell->recall_home(); !homed) return core::fail(homed.error());
@@ -174,15 +180,20 @@ struct Preparation {
   std::vector<std::vector<Target>> targets;
   std::vector<FeatureData> data;
   std::uint64_t seed = 0;
+  std::optional<UsedCalibration> calibration;
 };
 
-core::Result<Preparation> prepare_plan(const Plan& plan, const RunOptions& options) {
+/// @param run_utc  When the run began.
+core::Result<Preparation> prepare_plan(const Plan& plan, const RunOptions& options,
+                                       std::string_view run_utc) {
   auto targets = plan_targets(plan);
   if (!targets) return core::fail(targets.error());
   const std::uint64_t seed = options.seed.value_or(plan.simulation ? plan.simulation->seed : 0);
   auto data = read_data(plan, seed);
   if (!data) return core::fail(data.error());
-  return Preparation{std::move(*targets), std::move(*data), seed};
+  auto calibration = used_calibration(plan, run_utc);
+  if (!calibration) return core::fail(calibration.error());
+  return Preparation{std::move(*targets), std::move(*data), seed, *std::move(calibration)};
 }
 
 /// Goes through the plan and writes how the run ended.
@@ -190,9 +201,12 @@ void execute(const Plan& plan, const RunOptions& options, const Preparation& kno
              record::RunRecord past, Run& run) {
   RunContext context{plan, options, cell, run.journal};
   context.past = Past(std::move(past));
+  if (cell != nullptr && known.calibration) cell->use(known.calibration->calibration);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     context.progress.touches_expected +=
-        expected_touches(plan.features[i], known.targets[i].size());
+        measures_by_touch(plan.features[i])
+            ? calibration_touches(plan, i)
+            : expected_touches(plan.features[i], known.targets[i].size());
   }
   const bool touching = cell != nullptr;
   if (touching)
@@ -232,13 +246,13 @@ bool is_resumable(const core::Error& failure) {
 }
 
 core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
-  const auto known = prepare_plan(plan, options);
+  const auto known = prepare_plan(plan, options, options.started_utc);
   if (!known) return core::fail(known.error());
   std::unique_ptr<Cell> cell;
   record::Header header = header_of(plan, options, known->seed);
   if (touches_anything(plan)) {
-    auto opened = open_cell(driven(plan, options),
-                            {known->seed, false, options.wire_log, options.stop_requested});
+    auto opened = open_cell(driven(plan, options), {known->seed, false, options.wire_log,
+                                                    options.stop_requested, options.set_by_hand});
     if (!opened) return core::fail(opened.error());
     cell = std::move(*opened);
     header.simulated = cell->is_simulated() || simulates_analysis(plan);
@@ -253,8 +267,12 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
     if (analysis_kind(plan.features[i].type) == nullptr)
       features.back().settings = settings_of(plan, plan.features[i]);
   }
-  auto journal = record::Journal::create(options.directory, header, artefact_of(plan), features,
-                                         settings_of(plan));
+  std::vector<record::Setting> settings = settings_of(plan);
+  for (record::Setting& setting : fixture_settings(plan, known->calibration)) {
+    settings.push_back(std::move(setting));
+  }
+  auto journal =
+      record::Journal::create(options.directory, header, artefact_of(plan), features, settings);
   if (!journal) return core::fail(journal.error());
   Run run{std::move(*journal), std::nullopt};
   execute(plan, options, *known, cell.get(), {}, run);
@@ -269,7 +287,7 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
   if (!found) return refuse(found.error());
   RunOptions same = options;
   if (!same.seed) same.seed = found->record.header.seed;
-  const auto known = prepare_plan(plan, same);
+  const auto known = prepare_plan(plan, same, found->record.header.started_utc);
   if (!known) return refuse(known.error());
   auto changes = changes_since(found->record, plan, same);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
@@ -277,11 +295,18 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
       changes.push_back(points_changed(i, found->record.features[i], known->data[i].sha256));
     }
   }
+  if (changes.empty() && known->calibration &&
+      record::word_in(found->record.settings, "fixture/calibration") != known->calibration->text) {
+    changes.push_back({core::Code::kMeaning,
+                       "the calibration of the fixture is not the one the run began with; put its "
+                       "file back, or start a new run",
+                       "/fixture/calibration/file"});
+  }
   if (!changes.empty()) return tl::unexpected(std::move(changes));
   std::unique_ptr<Cell> cell;
   if (touches_anything(plan)) {
-    auto opened = open_cell(driven(plan, options),
-                            {known->seed, true, options.wire_log, options.stop_requested});
+    auto opened = open_cell(driven(plan, options), {known->seed, true, options.wire_log,
+                                                    options.stop_requested, options.set_by_hand});
     if (!opened) return refuse(opened.error());
     cell = std::move(*opened);
   }

@@ -53,6 +53,8 @@ struct RunOptions {
   /// Asked before each motion; an error (kStopped) ends the run: the tip goes back on the way it
   /// came, without asking, and up. Not asked for motions that a fault makes necessary.
   std::function<core::Result<void>(const NextMove&)> before_move;
+  /// Asks a person to set a pose of a fixture "manual" in front of a real machine.
+  std::function<core::Result<void>(const core::Pose&)> set_by_hand;
   bool relocate = false;     ///< Of a run to resume: a part that has moved is located again.
   bool single_step = false;  ///< A first run: travels at the plan's step_speed_mm_s at most.
 };

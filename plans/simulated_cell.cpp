@@ -1,14 +1,20 @@
 #include "plans/simulated_cell.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/units.h"
+#include "fixture/drawn_motion.h"
+#include "fixture/pose_range.h"
+#include "plans/fixture_driver.h"
 #include "plans/hidden_errors.h"
 #include "plans/plan_reach.h"
 #include "plans/pose_grid.h"
 
 namespace rondure::plans {
 namespace {
+
+constexpr double kAnyTurn_rad = core::kTwoPi;
 
 fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t seed,
                                                  bool resumed) {
@@ -23,9 +29,21 @@ fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t
   out.errors.zero_beta_rad = hidden.zero_beta_deg * core::kDegree;
   out.errors.squareness_rad = hidden.squareness_deg * core::kDegree;
   out.errors.repeatability_rad = hidden.repeatability_deg * core::kDegree;
+  if (hidden.motion) {
+    constexpr double kMicroradian = 1e-6;
+    const fixture::MotionClass size = {
+        hidden.motion->offset_um * core::kMicrometre, hidden.motion->tilt_urad * kMicroradian,
+        hidden.motion->shift_um * core::kMicrometre, hidden.motion->turn_urad * kMicroradian,
+        hidden.motion->seed};
+    out.errors.alpha_motion = fixture::drawn_motion(size, Eigen::Vector3d::UnitX(), 0);
+    out.errors.beta_motion = fixture::drawn_motion(size, Eigen::Vector3d::UnitY(), 1);
+  }
   out.seed = seed;
   const int stall = plan.simulation->faults.fixture_stalls_at_move;
   if (!resumed) out.stalls_at_move = static_cast<std::uint64_t>(stall);
+  if (drives_fixture(plan)) {  // it follows a real one, which has its own limits and steps
+    out.limits = {-kAnyTurn_rad, kAnyTurn_rad, -kAnyTurn_rad, kAnyTurn_rad, 0.0};
+  }
   return out;
 }
 
@@ -71,42 +89,84 @@ Eigen::Isometry3d true_base(const SimulatedFixturePlan& hidden) {
 
 }  // namespace
 
-SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed)
+SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
+                             std::unique_ptr<fixture::Fixture> driven)
     : Cell(plan),
       simulation_(*plan.simulation),
+      driven_(std::move(driven)),
       fixture_(fixture_options(plan, seed, resumed)),
       machine_(machine_options(plan, seed, resumed)),
       true_X_WF_(true_base(plan.simulation->fixture)) {
   if (const auto& datum = plan.fixture->datum) {
     for (const DatumSpherePlan& sphere : datum->spheres) {
-      machine_.place_sphere(
+      table_spheres_.push_back(
           {true_X_WF_ * vector3(sphere.center_mm), 0.5 * datum->sphere_diameter_mm});
     }
   }
-  machine_.place_sphere({vector3(plan.probe->qualification.sphere_center_mm),
-                         0.5 * plan.probe->qualification.sphere_diameter_mm});
+  table_spheres_.push_back({vector3(plan.probe->qualification.sphere_center_mm),
+                            0.5 * plan.probe->qualification.sphere_diameter_mm});
+  machine_.place_spheres(table_spheres_);
+  if (const auto& reached = plan.fixture->reached_pose) {
+    for (const CarriedSpherePlan& sphere : reached->spheres) {
+      ring_spheres_.push_back({vector3(sphere.center_mm), 0.5 * reached->sphere_diameter_mm});
+    }
+  }
 }
 
 void SimulatedCell::mount(const FeaturePlan& feature) {
+  balls_.clear();
+  if (feature.rotary_axes) {
+    surface_.reset();
+    machine_.remove_part();
+    // The artefact sits in the ring as crooked as the part of the simulation would.
+    true_X_BP_ = true_seat(Eigen::Isometry3d::Identity(), simulation_.part, feature);
+    for (const BallPlan& ball : feature.rotary_axes->balls) {
+      balls_.push_back({vector3(ball.center_mm), 0.5 * feature.rotary_axes->ball_diameter_mm});
+    }
+    return place_part();
+  }
   surface_ = simulated_surface(simulation_, feature);
   true_X_BP_ = true_seat(nominal_part(), simulation_.part, feature);
   place_part();
 }
 
 core::Result<core::Pose> SimulatedCell::home_fixture() {
+  return driven_ ? home_driven() : recall_home();
+}
+
+core::Result<core::Pose> SimulatedCell::turn_to(const core::Pose& commanded) {
+  return driven_ ? turn_driven(commanded) : turn(commanded);
+}
+
+core::Result<core::Pose> SimulatedCell::recall_home() {
   auto reached = fixture_.home();
   turns_ = 0;
   place_part();
   return reached;
 }
 
-core::Result<core::Pose> SimulatedCell::turn_to(const core::Pose& commanded) {
-  return turn(commanded);
+/// The real fixture turns; where it reads to be, there the part is turned.
+core::Result<core::Pose> SimulatedCell::turn_driven(const core::Pose& commanded) {
+  const auto reached = driven_->move_to(on_grid(commanded));
+  if (!reached) return reached;
+  auto shown = turn(*reached);
+  if (shown) last_turn_ = commanded;
+  return shown;
 }
 
-core::Result<core::Pose> SimulatedCell::recall_home() { return home_fixture(); }
+core::Result<core::Pose> SimulatedCell::home_driven() {
+  const auto reached = driven_->home();
+  if (!reached) return reached;
+  if (auto shown = recall_home(); !shown) return shown;
+  return on_grid(*reached);
+}
 
 core::Result<core::Pose> SimulatedCell::recall_turn(const core::Pose& commanded) {
+  if (driven_) {
+    if (auto within = fixture::check_pose_range(driven_->limits(), commanded); !within) {
+      return core::fail(within.error());
+    }
+  }
   return turn(commanded);
 }
 
@@ -130,6 +190,16 @@ core::Result<core::Pose> SimulatedCell::home_again() {
   shift_mm_.x() = simulation_.faults.part_moved_um * core::kMicrometre;
   fixture_.stop_beside(simulation_.faults.fixture_off_deg * core::kDegree);
   if (auto homed = machine_.home(); !homed) return core::fail(homed.error());
+  if (driven_) {
+    const core::Pose last = last_turn_;
+    const std::uint64_t turns = turns_;
+    auto home = home_driven();
+    if (!home || turns == 0) return home;
+    fixture_.continue_after(turns - 1);
+    auto back = turn_driven(last);
+    turns_ = turns;
+    return back;
+  }
   auto reached = fixture_.home();
   if (reached && turns_ > 0) {
     fixture_.continue_after(turns_ - 1);
@@ -141,9 +211,17 @@ core::Result<core::Pose> SimulatedCell::home_again() {
 }
 
 void SimulatedCell::place_part() {
-  if (!surface_) return;
-  machine_.place_part(*surface_, true_X_WF_ * fixture_.true_body_to_machine() *
-                                     Eigen::Translation3d(shift_mm_) * true_X_BP_);
+  const Eigen::Isometry3d X_WB = true_X_WF_ * fixture_.true_body_to_machine();
+  const Eigen::Isometry3d X_WP = X_WB * Eigen::Translation3d(shift_mm_) * true_X_BP_;
+  if (surface_) machine_.place_part(*surface_, X_WP);
+  std::vector<cmm::ReferenceSphere> spheres = table_spheres_;
+  for (const cmm::ReferenceSphere& ball : balls_) {
+    spheres.push_back({X_WP * ball.center_W_mm, ball.radius_mm});
+  }
+  for (const cmm::ReferenceSphere& sphere : ring_spheres_) {
+    spheres.push_back({X_WB * sphere.center_W_mm, sphere.radius_mm});
+  }
+  machine_.place_spheres(std::move(spheres));
 }
 
 }  // namespace rondure::plans

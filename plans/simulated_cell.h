@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -11,16 +13,22 @@
 
 namespace rondure::plans {
 
-/// Fixture, machine and part in software. The simulated machine cannot know how the fixture moved
-/// the part; the cell tells it after every turn.
+/// Machine and part in software, and the fixture too, or a real one. The simulated machine cannot
+/// know how the fixture moved the part; the cell tells it after every turn. A real fixture turns
+/// nothing but itself; the part in software then follows what it reads, with the errors that the
+/// plan simulates.
 class SimulatedCell final : public Cell {
  public:
   /// Opens the simulated cell of a plan that has `machine`, `fixture`, `probe` and `simulation`.
   /// @param seed     Of all noise; takes the place of the plan's.
   /// @param resumed  The faults of the simulation lie in the past.
-  SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed);
+  /// @param driven   A real fixture; nullptr: a simulated one.
+  SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
+                std::unique_ptr<fixture::Fixture> driven = nullptr);
 
-  [[nodiscard]] fixture::Fixture& fixture() override { return fixture_; }
+  [[nodiscard]] fixture::Fixture& fixture() override {
+    return driven_ ? *driven_ : static_cast<fixture::Fixture&>(fixture_);
+  }
   [[nodiscard]] cmm::Machine& machine() override { return machine_; }
 
   [[nodiscard]] bool is_simulated() const override { return true; }
@@ -52,15 +60,25 @@ class SimulatedCell final : public Cell {
   [[nodiscard]] std::vector<Eigen::Vector3d> true_scan_W_mm() const override {
     return machine_.true_tips_W_mm();
   }
+  [[nodiscard]] std::optional<fixture::AxisErrors> true_errors(bool carried,
+                                                               double angle_rad) const override {
+    return fixture_.true_errors(carried, angle_rad);
+  }
 
  private:
   void place_part();
   core::Result<core::Pose> turn(const core::Pose& commanded);
+  core::Result<core::Pose> turn_driven(const core::Pose& commanded);
+  core::Result<core::Pose> home_driven();
 
   SimulationPlan simulation_;
-  fixture::SimulatedFixture fixture_;
+  std::unique_ptr<fixture::Fixture> driven_;
+  fixture::SimulatedFixture fixture_;  ///< Turns the part in software.
   cmm::SimulatedMachine machine_;
   std::optional<cmm::PartSurface> surface_;
+  std::vector<cmm::ReferenceSphere> table_spheres_;  ///< On the table, machine frame.
+  std::vector<cmm::ReferenceSphere> balls_;          ///< Carried by the ring, part frame.
+  std::vector<cmm::ReferenceSphere> ring_spheres_;   ///< Those that show its pose, body frame.
   Eigen::Isometry3d true_X_WF_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d true_X_BP_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d shift_mm_ = Eigen::Vector3d::Zero();  ///< Of the part, while interrupted.

@@ -4,6 +4,7 @@
 #include "plans/key_spec.h"
 #include "plans/machine_errors_table.h"
 #include "plans/plan.h"
+#include "plans/rotary_table.h"
 #include "plans/spindle_table.h"
 #include "plans/wheel_table.h"
 
@@ -95,6 +96,10 @@ void describe(Visitor& v, SimulatedFixturePlan& p) {
            angle(-5.0, "Departure of the two axes from 90 deg."));
   v.number("repeatability_deg", p.repeatability_deg,
            angle(0.0, "Standard deviation of a reached angle."));
+  v.object(
+      "motion", p.motion,
+      {.meaning = "Six smooth errors of each axis, drawn; they are zero in the zero pose. Left "
+                  "out: the axes turn truly."});
 }
 
 template <class Visitor>

@@ -158,14 +158,14 @@ void read_features(soci::session& sql, RunRecord& record) {
     if (id != static_cast<std::int64_t>(record.features.size())) {
       throw Contradiction(fmt::format("feature {} is missing", record.features.size()));
     }
-    row.shape =
-        named("feature.shape", shape,
-              {Shape::kCylinder, Shape::kCircle, Shape::kSpindle, Shape::kWheel, Shape::kContour});
+    row.shape = named("feature.shape", shape,
+                      {Shape::kCylinder, Shape::kCircle, Shape::kSpindle, Shape::kWheel,
+                       Shape::kContour, Shape::kRotaryAxes});
     row.side = named("feature.side", side, {Side::kOutside, Side::kInside});
     row.strategy =
         named("feature.strategy", strategy,
               {Strategy::kGuided, Strategy::kRefined, Strategy::kAsPublished, Strategy::kVirtual,
-               Strategy::kPointsFile, Strategy::kSeries, Strategy::kMerged});
+               Strategy::kPointsFile, Strategy::kSeries, Strategy::kMerged, Strategy::kStations});
     row.tip_radius_mm = tip_given == soci::i_ok ? std::optional(tip_radius_mm) : std::nullopt;
     record.features.push_back(row);
   }
@@ -202,7 +202,8 @@ void read_characteristics(soci::session& sql, RunRecord& record) {
         named("characteristic.form", form,
               {Form::kCylindricity, Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits,
                Form::kMotionTotal, Form::kMotionSynchronous, Form::kMotionAsynchronous,
-               Form::kRadius, Form::kRunOut, Form::kContourDeviation, Form::kContourSpread});
+               Form::kRadius, Form::kRunOut, Form::kContourDeviation, Form::kContourSpread,
+               Form::kFixtureResidual, Form::kFixtureResidualRms});
     row.reference = named("characteristic.reference", reference,
                           {Reference::kLeastSquares, Reference::kMinimumZone,
                            Reference::kMinimumCircumscribed, Reference::kMaximumInscribed});

@@ -16,12 +16,15 @@ std::string_view name_of(Shape shape) {
       return "wheel";
     case Shape::kContour:
       return "contour";
+    case Shape::kRotaryAxes:
+      return "rotary_axes";
   }
   return "";
 }
 
 bool is_analysis(Shape shape) {
-  return shape == Shape::kSpindle || shape == Shape::kWheel || shape == Shape::kContour;
+  return shape == Shape::kSpindle || shape == Shape::kWheel || shape == Shape::kContour ||
+         shape == Shape::kRotaryAxes;
 }
 
 std::string_view name_of(Side side) {
@@ -58,6 +61,10 @@ std::string_view name_of(Form form) {
       return "contour-deviation";
     case Form::kContourSpread:
       return "contour-spread";
+    case Form::kFixtureResidual:
+      return "fixture-residual";
+    case Form::kFixtureResidualRms:
+      return "fixture-residual-rms";
   }
   return "";
 }
@@ -92,6 +99,8 @@ std::string_view name_of(Strategy strategy) {
       return "points-file";
     case Strategy::kSeries:
       return "series";
+    case Strategy::kStations:
+      return "stations";
   }
   return "";
 }

@@ -16,8 +16,9 @@ namespace rondure::record {
 
 /// What the plan asks of a feature. Stands in the journal, so that a run can be evaluated without
 /// the code that reads plans.
-/// kSpindle, kWheel and kContour are analyses: their data are series, not touches.
-enum class Shape { kCylinder, kCircle, kSpindle, kWheel, kContour };
+/// kSpindle, kWheel and kContour are analyses: their data are series, not touches. kRotaryAxes, the
+/// calibration of the fixture, is one of touches.
+enum class Shape { kCylinder, kCircle, kSpindle, kWheel, kContour, kRotaryAxes };
 enum class Side { kOutside, kInside };
 /// kCylindricity and kRoundness have a reference; the others do not look at it.
 enum class Form {
@@ -32,9 +33,11 @@ enum class Form {
   kRunOut,              ///< Radial run-out.
   kContourDeviation,    ///< Peak to valley of a contour, the greatest of all parts.
   kContourSpread,       ///< Standard deviation of the parts about their mean contour.
+  kFixtureResidual,     ///< Largest distance of a ball from its place by the calibration.
+  kFixtureResidualRms,  ///< The root mean square of these distances.
 };
 enum class Reference { kLeastSquares, kMinimumZone, kMinimumCircumscribed, kMaximumInscribed };
-/// kMerged: no search, one cloud out of several poses.
+/// kMerged: no search, one cloud out of several poses. kStations: balls of a calibration.
 enum class Strategy {
   kGuided,
   kRefined,
@@ -43,9 +46,10 @@ enum class Strategy {
   kPointsFile,
   kSeries,
   kMerged,
+  kStations,
 };
 
-/// Whether the data of a shape are series.
+/// Whether a shape is an analysis: evaluated by its own rules, not as a surface.
 [[nodiscard]] bool is_analysis(Shape shape);
 
 /// Spelling in plans, journals and JSON: "cylinder", "outside", "cylindricity", "ls", "mz", ...
@@ -157,7 +161,8 @@ struct PoseVisit {
 /// One touch of the probe (or one row of a points file).
 struct Touch {
   /// kLocate: finds where the part sits before the first measuring touch, or, without a pose, where
-  /// the base of the fixture stands (`layer` counts its spheres); enters no result.
+  /// the base of the fixture stands (`layer` counts its spheres), or in which pose it was set (the
+  /// spheres on its ring count on from there); enters no result.
   /// kCheck: repeats an earlier touch before an interrupted run goes on; enters no result.
   enum class Purpose { kQualification, kLocate, kMeasure, kCheck };
   std::int64_t id = 0;  ///< 0-based, counts through the whole run; checks count from -1 downward.

@@ -70,9 +70,15 @@ std::string truth_box(const record::RunRecord& record, std::size_t index) {
 
 }  // namespace
 
-FeatureResult evaluate_analysis(const record::RunRecord& record, int index) {
+FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
+                                const std::optional<fit::ProbeTip>& probe) {
   FeatureResult result;
   result.feature = record.features[static_cast<std::size_t>(index)];
+  if (result.feature.shape == record::Shape::kRotaryAxes) {  // of touches
+    if (probe) result.tip_radius_mm = probe->radius_mm;
+    evaluate_rotary(record, index, result);
+    return result;
+  }
   const bool recorded =
       std::any_of(record.series.begin(), record.series.end(), [&](const record::Series& series) {
         return series.feature == index && series.role == record::Series::Role::kData;
@@ -131,10 +137,13 @@ std::string analysis_section(const record::RunRecord& record, std::size_t index,
                              const FeatureResult& feature) {
   const record::Feature& asked = feature.feature;
   std::string html = fmt::format(
-      R"(<section><h2>Feature {}</h2><p class="note">{}; data {}.</p>)", isolated(asked.id),
-      capitalised(record::name_of(asked.shape)),
-      asked.points_file.empty() ? std::string("simulated")
-                                : fmt::format("from the file {}", isolated(asked.points_file)));
+      R"(<section><h2>Feature {}</h2><p class="note">{}.</p>)", isolated(asked.id),
+      asked.shape == record::Shape::kRotaryAxes
+          ? std::string("Calibration of the fixture with balls that it carried")
+          : fmt::format("{}; data {}", capitalised(record::name_of(asked.shape)),
+                        asked.points_file.empty()
+                            ? std::string("simulated")
+                            : fmt::format("from the file {}", isolated(asked.points_file))));
   html += messages(feature);
   if (feature.analysis) html += feature.analysis->html(record, static_cast<int>(index));
   return html + truth_box(record, index) + "</section>";

@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/result.h"
+#include "fit/probe_tip.h"
 #include "record/run_record.h"
 #include "reports/decision.h"
 #include "reports/stated_value.h"
@@ -30,8 +31,8 @@ struct SummaryLine {
   std::string text;
 };
 
-/// What one analysis of series (spindle, wheel, contour) found of a feature, and what each report
-/// says of it. Immutable; every function is pure. README.md says how to add one.
+/// What one analysis (spindle, wheel, contour, calibration of the fixture) found of a feature, and
+/// what each report says of it. Immutable; every function is pure. README.md says how to add one.
 class AnalysisResult {
  public:
   AnalysisResult() = default;
@@ -55,11 +56,15 @@ class AnalysisResult {
   /// truth of a simulation.
   [[nodiscard]] virtual std::string html(const record::RunRecord& record, int feature) const = 0;
   [[nodiscard]] virtual std::vector<SummaryLine> summary() const = 0;
+  /// fixture-calibration.json, of a calibration of the fixture; empty for everything else.
+  [[nodiscard]] virtual std::string calibration_file() const { return {}; }
 };
 
 /// Evaluates a feature whose shape is an analysis, by the file of its shape. Same record, same
 /// bits.
-[[nodiscard]] FeatureResult evaluate_analysis(const record::RunRecord& record, int index);
+/// @param probe  The qualification of the run, for an analysis of touches.
+[[nodiscard]] FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
+                                              const std::optional<fit::ProbeTip>& probe);
 
 /// Fills the characteristics of such a feature under the rule. Void without a result, without the
 /// value, where the value proves nothing, when the run did not finish, or when the rule needs an
@@ -71,6 +76,7 @@ void decide_analysis(const record::RunRecord& record, const core::Result<Decisio
 void evaluate_spindle(const record::RunRecord& record, int index, FeatureResult& result);
 void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& result);
 void evaluate_contour(const record::RunRecord& record, int index, FeatureResult& result);
+void evaluate_rotary(const record::RunRecord& record, int index, FeatureResult& result);
 
 /// The parts of the reports that all analyses share: entries of report.json, the section of the
 /// page.

@@ -128,16 +128,6 @@ std::optional<ThermalInfluences> thermal_influences(const record::RunRecord& rec
   return out;
 }
 
-std::optional<FixtureInfluences> fixture_influences(const record::RunRecord& record) {
-  if (!declares(record, "fixture")) return std::nullopt;
-  const Section said(record, "fixture/");
-  FixtureInfluences out;
-  out.angle_rad = said.number("angle_deg") * core::kDegree;
-  out.position_mm = said.number("position_um") * core::kMicrometre;
-  out.creep_rad = said.number("creep_deg") * core::kDegree;
-  return out;
-}
-
 /// "declared in the plan: 2 UPR 1.5 um, 0 UPR of degree 1 0.5 um; only their ratios count".
 std::string source_text(const FormSpectrum& spectrum) {
   std::string out = "declared in the plan:";
@@ -178,6 +168,16 @@ UncertaintyOptions options_of(const Section& said) {
 }
 
 }  // namespace
+
+std::optional<FixtureInfluences> fixture_influences(const record::RunRecord& record) {
+  if (!declares(record, "fixture")) return std::nullopt;
+  const Section said(record, "fixture/");
+  FixtureInfluences out;
+  out.angle_rad = said.number("angle_deg") * core::kDegree;
+  out.position_mm = said.number("position_um") * core::kMicrometre;
+  out.creep_rad = said.number("creep_deg") * core::kDegree;
+  return out;
+}
 
 std::optional<Declared> declared_for(const record::RunRecord& record, const FeatureResult& result,
                                      const std::optional<fit::ProbeTip>& probe) {

@@ -18,6 +18,9 @@ struct Declared {
   std::optional<FormSpectrum> spectrum;
 };
 
+/// What the plan declared about the fixture; nothing when it did not.
+[[nodiscard]] std::optional<FixtureInfluences> fixture_influences(const record::RunRecord& record);
+
 /// Nothing when the plan asked for no uncertainty.
 [[nodiscard]] std::optional<Declared> declared_for(const record::RunRecord& record,
                                                    const FeatureResult& result,

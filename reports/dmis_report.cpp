@@ -87,7 +87,8 @@ std::string feature_block(const FeatureResult& feature, std::size_t number) {
   const auto actual =
       record::is_analysis(feature.feature.shape) ? std::nullopt : actual_feature(feature);
   if (actual) {
-    text += comment(label, "least squares; machine frame, final pose");
+    text += comment(label, feature.merged ? "least squares; body frame, of several poses"
+                                          : "least squares; machine frame, final pose");
     text += fmt::format("FA({})=FEAT/{}\n", label, *actual);
   }
   for (std::size_t i = 0; i < feature.characteristics.size(); ++i) {

@@ -9,6 +9,8 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
+#include "reports/declared.h"
+#include "reports/fixture_use.h"
 
 namespace rondure::reports {
 namespace {
@@ -27,14 +29,12 @@ Eigen::Vector3d vector_of(const record::Feature& feature, std::string_view name)
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// Body to machine of the nominal fixture in a pose.
-Eigen::Isometry3d motion_of(const record::Feature& feature, const core::Pose& pose) {
-  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
-  X_WB.translate(vector_of(feature, "axis_point_mm"));
-  X_WB.rotate(Eigen::AngleAxisd(pose.alpha_rad, Eigen::Vector3d::UnitX()));
-  X_WB.translate(vector_of(feature, "axis_offset_mm"));
-  X_WB.rotate(Eigen::AngleAxisd(pose.beta_rad, Eigen::Vector3d::UnitY()));
-  return X_WB;
+/// How the fixture moved the part: its nominal axes, with the errors of its calibration.
+fixture::Kinematics kinematics_of(const RunRecord& record, const record::Feature& feature) {
+  fixture::Kinematics out = fixture_facts(record).kinematics;
+  out.axis_point_W_mm = vector_of(feature, "axis_point_mm");
+  out.axis_offset_mm = vector_of(feature, "axis_offset_mm");
+  return out;
 }
 
 /// The mean touches of one pose, with the sum of squares about them along the approach.
@@ -96,9 +96,10 @@ double touch_uncertainty_mm(const MergedCloud& cloud, const std::optional<fit::P
 std::vector<fit::JointPose> take_poses(const RunRecord& record, const record::Feature& feature,
                                        const std::vector<const record::PoseVisit*>& visits,
                                        MergedCloud& out) {
-  const double shift_mm =
-      feature.number("pose_shift_uncertainty_um").value_or(0.0) * core::kMicrometre;
-  const double turn_rad = feature.number("pose_turn_uncertainty_deg").value_or(0.0) * core::kDegree;
+  const FixtureInfluences stated = fixture_influences(record).value_or(FixtureInfluences{});
+  const double shift_mm = stated.position_mm;
+  const double turn_rad = stated.angle_rad;
+  const fixture::Kinematics kinematics = kinematics_of(record, feature);
   std::vector<fit::JointPose> poses;
   double squares = 0.0;
   int freedom = 0;
@@ -107,7 +108,7 @@ std::vector<fit::JointPose> take_poses(const RunRecord& record, const record::Fe
     squares += means.squares;
     freedom += means.freedom;
     fit::JointPose pose;
-    pose.X_WB = motion_of(feature, visit->reached);
+    pose.X_WB = fixture::body_to_machine(kinematics, visit->reached);
     pose.prior = {shift_mm, shift_mm, shift_mm, turn_rad, turn_rad, turn_rad};
     pose.pivot_W_mm = vector_of(feature, "axis_point_mm");
     for (auto [key, point] : means.targets) {
@@ -145,6 +146,14 @@ core::Result<MergedCloud> merged_cloud(const RunRecord& record, int index,
   out.temperatures = temperatures_of(record, visits);
   out.merged.joint = feature.word("merge") != "kinematics";
   out.merged.touch_mm = touch_uncertainty_mm(out, probe);
+  if (poses.front().prior[0] == 0.0 && poses.front().prior[3] == 0.0) {
+    out.merged.refusal = core::Error{core::Code::kMissingKey,
+                                     "the plan does not state the uncertainty of the fixture "
+                                     "(uncertainty.fixture), so what it adds to CYLt is not known",
+                                     {}};
+    if (out.merged.joint) return core::fail(*out.merged.refusal);
+    return out;
+  }
   fit::PoseJointOptions options;
   options.touch_mm = out.merged.touch_mm;
   auto solved = fit::pose_joint(poses, options);

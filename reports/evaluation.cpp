@@ -15,6 +15,7 @@
 #include "reports/conformance.h"
 #include "reports/defect.h"
 #include "reports/evaluate_merged.h"
+#include "reports/fixture_use.h"
 #include "reports/invariants.h"
 #include "reports/warnings.h"
 
@@ -318,10 +319,12 @@ void evaluate_repeats(const std::vector<const Touch*>& touches,
 }
 
 /// The pose that would turn the found axis to machine z, from the pose in which it was found.
-core::Pose levelling(const core::Pose& reached, const Eigen::Vector3d& direction_W) {
-  Eigen::Vector3d t = rotation(reached).transpose() * direction_W;
+core::Pose levelling(const fixture::Kinematics& kinematics, const core::Pose& reached,
+                     const Eigen::Vector3d& direction_W) {
+  Eigen::Vector3d t =
+      fixture::body_to_machine(kinematics, reached).linear().transpose() * direction_W;
   if (t.z() < 0.0) t = -t;
-  return {std::asin(std::clamp(t.y(), -1.0, 1.0)), std::atan2(-t.x(), t.z())};
+  return fixture::levelling_pose(kinematics, t);
 }
 
 void take_temperatures(const std::vector<const Touch*>& touches, FeatureResult& result) {
@@ -361,7 +364,8 @@ void evaluate_merged(const RunRecord& record, int index, const std::optional<fit
 }
 
 FeatureResult evaluate_feature(const RunRecord& record, int index,
-                               const std::optional<fit::ProbeTip>& probe) {
+                               const std::optional<fit::ProbeTip>& probe,
+                               const fixture::Kinematics& kinematics) {
   FeatureResult result;
   result.feature = record.features[static_cast<std::size_t>(index)];
   if (result.feature.strategy == record::Strategy::kPointsFile) {
@@ -407,7 +411,8 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
   if (result.failure) return result;
   evaluate_repeats(touches, direction, result);
   if (result.mz_cylinder && result.feature.strategy != record::Strategy::kPointsFile) {
-    result.levelling_pose = levelling(last->reached, result.mz_cylinder->axis.direction);
+    result.levelling_pose =
+        levelling(kinematics, last->reached, result.mz_cylinder->axis.direction);
   }
   if (result.feature.strategy == record::Strategy::kVirtual) search_virtual_poses(*last, result);
   warn(result);
@@ -422,17 +427,20 @@ tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& measured) {
   Evaluation out;
   out.rule = rule_of(record);
   out.probe = evaluate_probe(record);
+  const FixtureFacts facts = fixture_facts(record);
+  out.fixture = facts.use;
   for (std::size_t i = 0; i < record.features.size(); ++i) {
     if (record::is_analysis(record.features[i].shape)) {
-      auto feature = evaluate_analysis(record, static_cast<int>(i));
+      auto feature = evaluate_analysis(record, static_cast<int>(i), out.probe);
       decide_analysis(record, out.rule, feature);
       out.features.push_back(std::move(feature));
       continue;
     }
-    auto feature = evaluate_feature(record, static_cast<int>(i), out.probe);
+    auto feature = evaluate_feature(record, static_cast<int>(i), out.probe, facts.kinematics);
     if (auto broken = broken_invariant(feature))
       return tl::unexpected(Defect{*std::move(broken), std::move(feature)});
     decide(record, out.rule, out.probe, feature);
+    apply_calibration(out.fixture, feature);
     out.features.push_back(std::move(feature));
   }
   out.verdict = overall(out.features);

@@ -95,6 +95,19 @@ struct Temperatures {
   double mean_degC = 0.0;
 };
 
+/// The calibration of the fixture that a run used.
+struct FixtureUse {
+  std::string id;
+  std::string fixture_id;
+  std::string measured_utc;
+  std::string expires_utc;
+  std::optional<double> age_days;      ///< At the start of the run.
+  double residual_rms_mm = 0.0;        ///< Left at its combined poses.
+  double residual_max_mm = 0.0;        ///< The largest of them.
+  double residual_tilt_rad = 0.0;      ///< Largest turn of a pose.
+  std::optional<core::Error> invalid;  ///< Why it does not hold; results are void then.
+};
+
 /// Everything evaluated of one feature.
 struct FeatureResult {
   record::Feature feature;
@@ -123,6 +136,7 @@ struct FeatureResult {
 /// What a record says: a pure function of it.
 struct Evaluation {
   std::optional<fit::ProbeTip> probe;
+  std::optional<FixtureUse> fixture;  ///< None: taken as nominal.
   core::Result<DecisionRule> rule = DecisionRule();  ///< Of the run, or why it is not known.
   std::vector<FeatureResult> features;
   Verdict verdict = Verdict::kVoid;  ///< The worst of all toleranced characteristics.

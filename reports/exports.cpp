@@ -15,6 +15,19 @@ namespace rondure::reports {
 namespace {
 
 constexpr const char* kSeriesFile = "series.csv";
+constexpr const char* kCalibrationFile = "fixture-calibration.json";
+
+/// The calibration of the fixture. Where it failed: a text that no run takes for one.
+std::string calibration_of(const Evaluation& evaluation) {
+  for (const FeatureResult& feature : evaluation.features) {
+    if (feature.analysis) {
+      std::string text = feature.analysis->calibration_file();
+      if (!text.empty()) return text;
+    }
+  }
+  return "{\"format\": \"none\", \"note\": \"the fixture was not calibrated, see report.json\"}\n";
+}
+
 constexpr const char* kResultsFile = "results.csv";
 
 /// "html, json and csv".
@@ -39,10 +52,10 @@ core::Result<void> look_through(const Export& what, const std::string& bytes) {
 }  // namespace
 
 const std::vector<Export>& exports() {
-  static const std::vector<Export> all = {{"html", "report.html"}, {"json", "report.json"},
-                                          {"csv", "touches.csv"},  {"csv", kSeriesFile},
-                                          {"csv", kResultsFile},   {"qif", "report.qif"},
-                                          {"dmis", "report.dmo"},  {"junit", "report.junit.xml"}};
+  static const std::vector<Export> all = {
+      {"html", "report.html"}, {"json", "report.json"},       {"csv", "touches.csv"},
+      {"csv", kSeriesFile},    {"csv", kResultsFile},         {"qif", "report.qif"},
+      {"dmis", "report.dmo"},  {"junit", "report.junit.xml"}, {"json", kCalibrationFile}};
   return all;
 }
 
@@ -55,11 +68,21 @@ std::vector<std::string> all_formats() {
 }
 
 bool applies(const Export& what, const record::RunRecord& record) {
-  return what.file != kSeriesFile || !record.series.empty();
+  if (what.file == kSeriesFile) {
+    return std::any_of(record.series.begin(), record.series.end(), [](const auto& series) {
+      return series.role == record::Series::Role::kData;
+    });
+  }
+  if (what.file != kCalibrationFile) return true;
+  return record.ending == "finished" &&
+         std::any_of(record.features.begin(), record.features.end(), [](const auto& feature) {
+           return feature.shape == record::Shape::kRotaryAxes;
+         });
 }
 
 std::string render(const Export& what, const record::RunRecord& record,
                    const Evaluation& evaluation) {
+  if (what.file == kCalibrationFile) return calibration_of(evaluation);
   if (what.format == "html") return write_html(record, evaluation);
   if (what.format == "json") return write_json(record, evaluation);
   if (what.format == "qif") return write_qif(record, evaluation);

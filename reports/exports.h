@@ -20,7 +20,8 @@ struct Export {
 [[nodiscard]] const std::vector<Export>& exports();
 [[nodiscard]] std::vector<std::string> all_formats();
 
-/// Whether a run has this export: series.csv only where series were recorded.
+/// Whether a run has this export: series.csv only where series were recorded,
+/// fixture-calibration.json only of a finished calibration of the fixture.
 [[nodiscard]] bool applies(const Export& what, const record::RunRecord& record);
 
 /// The bytes of one export.

@@ -132,6 +132,10 @@ std::string symbol_of(const record::Characteristic& characteristic) {
       return "Contour";
     case record::Form::kContourSpread:
       return "Spread";
+    case record::Form::kFixtureResidual:
+      return "Left max";
+    case record::Form::kFixtureResidualRms:
+      return "Left rms";
   }
   return {};
 }

@@ -33,7 +33,7 @@ std::string pose_row(const MergedPoses& merged, std::size_t k) {
 
 std::string merged_section(const MergedPoses& merged) {
   std::string html = fmt::format(R"(<h3>Several poses, one part</h3><p>{}.</p>)",
-                                 in_sentence(share_in_words(merged)));
+                                 in_sentence(capitalised(share_in_words(merged))));
   html +=
       R"(<div class="scroll"><table class="short"><thead><tr><th class="n">Pose</th><th class="n">)"
       R"(alpha / °</th><th class="n">beta / °</th><th class="n">Points</th>)";
@@ -55,7 +55,7 @@ std::string merged_section(const MergedPoses& merged) {
       merged.solved->chi2_freedom, fixed(merged.solved->chi2_limit, 1));
   html += R"(<ul class="warnings">)";
   for (const std::string& statement : merged.solved->statements)
-    html += fmt::format("<li>{}.</li>", in_sentence(statement));
+    html += fmt::format("<li>{}.</li>", in_sentence(capitalised(statement)));
   return html + "</ul>";
 }
 

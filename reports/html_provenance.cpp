@@ -46,12 +46,25 @@ std::string qualification_rows(const record::RunRecord& record, const fit::Probe
                          fixed(tip.sphere_center_mm.z(), 6)));
 }
 
+std::string calibration_row(const std::optional<FixtureUse>& use) {
+  if (!use) return {};
+  std::string text = fmt::format(
+      "{}, measured {}, valid until {}{}; left at combined poses {} µm rms, {} µm at most, {} µrad",
+      isolated(use->id), escaped(use->measured_utc), escaped(use->expires_utc),
+      use->age_days ? fmt::format(", {} days old at the start of the run", fixed(*use->age_days, 1))
+                    : std::string(),
+      um(use->residual_rms_mm), um(use->residual_max_mm), fixed(use->residual_tilt_rad * 1e6, 1));
+  if (use->invalid) text += "; <b>it does not hold:</b> " + in_sentence(use->invalid->what);
+  return property("Calibration of the fixture", text);
+}
+
 }  // namespace
 
 std::string probe_section(const record::RunRecord& record, const Evaluation& evaluation) {
   const record::Header& header = record.header;
   std::string rows = property("Machine", text_or_dash(header.machine)) +
-                     property("Fixture", text_or_dash(header.fixture));
+                     property("Fixture", text_or_dash(header.fixture)) +
+                     calibration_row(evaluation.fixture);
   if (header.temperature_max_degC > header.temperature_min_degC) {
     rows += property("Temperature limits", fmt::format("{} to {} °C; outside them a result is void",
                                                        fixed(header.temperature_min_degC, 1),

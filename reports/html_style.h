@@ -93,6 +93,7 @@ svg.polar{display:block;width:100%;max-width:340px;margin:0 auto}
 .tick,.frame{stroke:#7c8792;stroke-width:1;fill:none}.grid{stroke:#e6eaee;stroke-width:1}
 .label{fill:#3c4752;font-size:12px}.title{fill:#3c4752;font-size:12.5px}
 .band{fill:#eef2f6;stroke:none}
+.uncertainty{fill:#0072b2;fill-opacity:.16;stroke:none}
 .zone-outer{fill:none;stroke:var(--orange);stroke-width:1.3}.zone-inner{fill:none;stroke:var(--blue);stroke-width:1.3}
 .mean{fill:none;stroke:#8a949e;stroke-width:1;stroke-dasharray:5 4}
 .profile{fill:none;stroke:#16202a;stroke-width:1;stroke-linejoin:round}

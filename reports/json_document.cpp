@@ -47,6 +47,19 @@ Json header_json(const record::RunRecord& record) {
           {"failure", record.failure ? error_json(*record.failure) : Json(nullptr)}};
 }
 
+Json fixture_json(const std::optional<FixtureUse>& use) {
+  if (!use) return nullptr;
+  return {{"id", use->id},
+          {"fixture", use->fixture_id},
+          {"measured_utc", use->measured_utc},
+          {"expires_utc", use->expires_utc},
+          {"age_days", use->age_days ? Json(*use->age_days) : Json(nullptr)},
+          {"residual_rms_um", in_um(use->residual_rms_mm)},
+          {"residual_max_um", in_um(use->residual_max_mm)},
+          {"residual_tilt_urad", use->residual_tilt_rad * 1e6},
+          {"invalid", use->invalid ? error_json(*use->invalid) : Json(nullptr)}};
+}
+
 Json probe_json(const std::optional<fit::ProbeTip>& probe) {
   if (!probe) return nullptr;
   return {{"sphere_center_mm", vector_json(probe->sphere_center_mm)},
@@ -332,6 +345,7 @@ nlohmann::ordered_json report_document(const record::RunRecord& record,
       any_interval(evaluation) ? Json("stated with each characteristic") : Json(nullptr);
   json["rule"] = rule_json(evaluation);
   json["probe"] = probe_json(evaluation.probe);
+  json["fixture_calibration"] = fixture_json(evaluation.fixture);
   json["features"] = list_json(evaluation.features, feature_json);
   json["decisions"] = list_json(record.decisions, event_json);
   json["simulation"] = list_json(record.truths, truth_json);

@@ -51,8 +51,10 @@ std::string legend_of(const std::vector<Curve>& curves) {
     if (curve.name.empty()) continue;
     out += fmt::format(
         R"({}<svg class="key" viewBox="0 0 22 8" width="22" height="8"><path class="{}" )"
-        R"(d="M1 4h20"/></svg> {})",
-        out.empty() ? "" : " · ", curve.css_class, escaped(curve.name));
+        R"(d="{}"/></svg> {})",
+        out.empty() ? "" : " · ", curve.css_class,
+        curve.marks_only ? "M13.6 4a2.6 2.6 0 1 0-5.2 0a2.6 2.6 0 1 0 5.2 0" : "M1 4h20",
+        escaped(curve.name));
   }
   return out;
 }
@@ -127,6 +129,18 @@ void draw_axes(Svg& svg, const Axes& axes, std::string_view x_title, std::string
   svg.upward_text(14.0, 0.5 * (kTop + kHeight - kBottom), "title", y_title);
 }
 
+/// The band of a curve, as one closed shape: along its upper edge and back along the lower.
+void draw_band(Svg& svg, const Axes& axes, const Curve& curve) {
+  std::string d;
+  const std::size_t n = curve.x.size();
+  for (std::size_t k = 0; k < 2 * n; ++k) {
+    const std::size_t i = k < n ? k : 2 * n - 1 - k;
+    const double y = curve.y[i] + (k < n ? curve.band[i] : -curve.band[i]);
+    d += fmt::format("{}{:.1f} {:.1f}", k == 0 ? 'M' : 'L', axes.x.at(curve.x[i]), axes.y.at(y));
+  }
+  svg.path(d + "Z", "uncertainty");
+}
+
 }  // namespace
 
 std::string polar_chart(std::string_view title, const std::vector<Curve>& curves, bool closed) {
@@ -152,17 +166,28 @@ std::string line_chart(std::string_view title, std::string_view x_title, std::st
   for (const Curve& curve : curves) {
     if (curve.x.empty()) continue;
     const auto [x0, x1] = std::minmax_element(curve.x.begin(), curve.x.end());
+    const double band =
+        curve.band.empty() ? 0.0 : *std::max_element(curve.band.begin(), curve.band.end());
     const auto [y0, y1] = std::minmax_element(curve.y.begin(), curve.y.end());
     x_low = any ? std::min(x_low, *x0) : *x0;
     x_high = any ? std::max(x_high, *x1) : *x1;
-    y_low = any ? std::min(y_low, *y0) : *y0;
-    y_high = any ? std::max(y_high, *y1) : *y1;
+    y_low = any ? std::min(y_low, *y0 - band) : *y0 - band;
+    y_high = any ? std::max(y_high, *y1 + band) : *y1 + band;
     any = true;
   }
   const Axes axes = axes_over(x_low, x_high, y_low, y_high);
   Svg svg(kWidth, kHeight, "wide", std::string(title));
   draw_axes(svg, axes, x_title, y_title);
   for (const Curve& curve : curves) {
+    if (!curve.band.empty()) draw_band(svg, axes, curve);
+  }
+  for (const Curve& curve : curves) {
+    if (curve.marks_only) {
+      for (std::size_t i = 0; i < curve.x.size(); ++i) {
+        svg.circle(axes.x.at(curve.x[i]), axes.y.at(curve.y[i]), 2.6, "profile", "#fff");
+      }
+      continue;
+    }
     std::string d;
     for (const std::size_t i : drawn_points(curve.y)) {
       d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? 'M' : 'L', axes.x.at(curve.x[i]),

@@ -11,8 +11,10 @@ namespace rondure::reports {
 struct Curve {
   std::string name;
   std::string css_class = "profile";
-  std::vector<double> x;  ///< Polar: angles [rad]; else in the unit of the axis.
-  std::vector<double> y;  ///< Polar: deviations [um]; else in the unit of the axis.
+  std::vector<double> x;          ///< Polar: angles [rad]; else in the unit of the axis.
+  std::vector<double> y;          ///< Polar: deviations [um]; else in the unit of the axis.
+  std::vector<double> band = {};  ///< Of a chart: half width of a band about y; as many, or none.
+  bool marks_only = false;        ///< Of a chart: points without a line.
 };
 
 /// A polar plot of closed curves about a mean circle, all at one magnification, with a scale bar

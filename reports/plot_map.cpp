@@ -89,7 +89,8 @@ MapView view_of(const FeatureResult& feature, const Zone& zone) {
   view.cells = feature.cloud.size() > kMostDiscs;
   view.rows_are_layers = feature.layers.size() >= 2 && feature.layers.size() <= kCellRows;
   view.row = view.rows_are_layers ? std::clamp(0.9 * layer_pitch, 2.0, 40.0) : plot / kCellRows;
-  const double margin = (view.cells ? 0.5 * view.row : view.disc) + 8.0;
+  const double label = feature.merged ? 8.0 : 0.0;  // the number of the pose
+  const double margin = (view.cells ? 0.5 * view.row : view.disc) + 8.0 + label;
   view.bottom = kTop + plot + 2.0 * margin;
   view.x = {0.0, 360.0, kLeft + kSideMargin, kRight - kSideMargin};
   view.y = {low, low + span, view.bottom - margin, kTop + margin};
@@ -148,7 +149,7 @@ double disc_x(const CloudPoint& point, const FeatureResult& feature, const MapVi
   const double x = view.x.at(point.angle_rad / core::kDegree);
   if (!feature.merged) return x;
   const double middle = 0.5 * (static_cast<double>(feature.merged->poses.size()) - 1.0);
-  return x + 0.9 * view.disc * (point.pose - middle);
+  return x + 2.0 * view.disc * (point.pose - middle);
 }
 
 void draw_discs(Svg& svg, const FeatureResult& feature, const MapView& view) {

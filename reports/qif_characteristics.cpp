@@ -164,6 +164,15 @@ void add_circle_zone(pugi::xml_node node, const Placed& placed) {
   }
 }
 
+/// What the attribute of that name is, which QIF leaves open; empty without one.
+std::string uncertainty_words(const CharacteristicResult& result) {
+  const UncertaintyStatement* known = result.value ? result.value->statement() : nullptr;
+  if (known == nullptr) return {};
+  return fmt::format("standard uncertainty in mm (k = 1), {}; {:g} % lie within {} and {} mm",
+                     name_of(known->measurand), 100.0 * result.value->uncertainty().coverage_1(),
+                     decimal(known->low_mm), decimal(known->high_mm));
+}
+
 void add_measured(QifDraft& draft, const Placed& placed) {
   const CharacteristicResult& result = placed.result;
   const record::Characteristic& asked = result.characteristic;
@@ -173,7 +182,8 @@ void add_measured(QifDraft& draft, const Placed& placed) {
   add_attributes(node, {{"verdict", std::string(name_of(result.verdict))},
                         {"verification_operator",
                          result.value ? result.value->operator_text() : std::string()},
-                        {"stated", result.value ? result.value->sentence() : std::string()}});
+                        {"stated", result.value ? result.value->sentence() : std::string()},
+                        {"combinedUncertainty", uncertainty_words(result)}});
   if (!result.reason.empty()) add(node, "Description", result.reason);
   add(add(node, "Status"), "CharacteristicStatusEnum", status_of(result.verdict));
   add(node, "CharacteristicItemId", placed.item);
@@ -181,7 +191,10 @@ void add_measured(QifDraft& draft, const Placed& placed) {
   if (has_reference(asked)) add_algorithm(node, asked.reference);
   if (draft.device) add_references(node, "MeasurementDeviceIds", {*draft.device});
   if (!result.value || !std::isfinite(result.value->value_mm())) return;
-  add(node, "Value", decimal(result.value->value_mm()));
+  pugi::xml_node value = add(node, "Value", decimal(result.value->value_mm()));
+  if (const UncertaintyStatement* known = result.value->statement()) {
+    set(value, "combinedUncertainty", decimal(known->standard_uncertainty_mm));
+  }
   if (asked.reference != Reference::kMinimumZone) return;
   if (placed.family == Family::kCylindricity) add_cylinder_zone(node, placed);
   if (placed.family == Family::kCircularity) add_circle_zone(node, placed);

@@ -126,7 +126,7 @@ void add_measurement(QifDraft& draft, QifShape& shape, const Associated& found,
   const int id = draft.ids.next();
   shape.measured[static_cast<std::size_t>(found.reference)] = id;
   node.append_attribute("id").set_value(id);
-  add_attributes(node, {{"frame", "machine, final pose"},
+  add_attributes(node, {{"frame", draft.frame},
                         {"reference",
                          reference_of(found.reference, shape.circle ? record::Shape::kCircle
                                                                     : record::Shape::kCylinder)}});
@@ -159,6 +159,7 @@ QifFeature add_qif_feature(QifDraft& draft, const FeatureResult& feature) {
   const record::Feature& asked = feature.feature;
   QifFeature out;
   if (record::is_analysis(asked.shape)) return out;
+  draft.frame = feature.merged ? "body, of several poses" : "machine, final pose";
   const bool circle = asked.shape == record::Shape::kCircle;
   const std::optional<int> set = add_qif_points(draft, feature);
   out.whole = add_shape(draft, asked, circle, 0.0, asked.id);

@@ -44,6 +44,7 @@ struct QifDraft {
   QifLists lists = {};
   int software = 0;
   std::optional<int> device = {};  ///< None where points came from a file.
+  std::string frame = {};          ///< Of the feature that is written: where its points lie.
 };
 
 /// References in the order of record::Reference.

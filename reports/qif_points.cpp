@@ -46,7 +46,7 @@ std::optional<int> add_qif_points(QifDraft& draft, const FeatureResult& feature)
   const int id = draft.ids.next();
   node.append_attribute("count").set_value(static_cast<unsigned long long>(feature.cloud.size()));
   node.append_attribute("id").set_value(id);
-  add_attributes(node, {{"frame", "machine, final pose"},
+  add_attributes(node, {{"frame", draft.frame},
                         {"points", feature.tip_radius_mm ? "tip centres; means of repeated touches"
                                                          : "as given; the tip is not known"},
                         {"temperature", feature.thermal ? "brought to 20 degC" : "as measured"}});

@@ -232,11 +232,13 @@ UsbFault ambiguous(const UsbSelector& selector, const std::string& serials) {
 }
 
 std::string serials_of(const std::vector<Candidate>& candidates) {
-  std::string out;
+  std::vector<std::string> serials;
   for (const Candidate& c : candidates) {
-    out += fmt::format("{}{}", out.empty() ? "" : ", ",
-                       c.info.serial.empty() ? "(none)" : c.info.serial);
+    serials.push_back(c.info.serial.empty() ? "(none)" : c.info.serial);
   }
+  std::sort(serials.begin(), serials.end());
+  std::string out;
+  for (const std::string& serial : serials) out += (out.empty() ? "" : ", ") + serial;
   return out;
 }
 

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <cstdlib>
+#include <iostream>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -43,34 +45,81 @@ std::string touches_of(const fs::path& run) {
   return text.substr(text.find('\n') + 1);
 }
 
-/// Whether the data are series, not touches.
+/// Whether the fixture is calibrated: by touches, and with a file for other runs.
+bool calibrates(const json& plan) { return plan.at("features").at(0).at("type") == "rotary_axes"; }
+
+/// Whether it is no surface: the data are series, or balls.
 bool is_analysis(const json& plan) {
   const std::string type = plan.at("features").at(0).at("type");
   return type != "cylinder" && type != "circle";
 }
 
+/// What an independent validator says of the reports in the runs of a folder; "" when all are
+/// valid.
+std::string reports_fault(const fs::path& folder) {
+  const std::string command = "cd '" + folder.string() + "' && /usr/bin/python3 '" +
+                              (source_dir() / "tests/app/reports_are_valid.py").string() + "' '" +
+                              (source_dir() / "docs/report.schema.json").string() +
+                              "' */ >said 2>&1";
+  return std::system(command.c_str()) == 0 ? std::string() : read(folder / "said");
+}
+
+/// The same of their QIF files, by the schemas beside the project; without those, says so.
+std::string qif_fault(const fs::path& folder) {
+  const fs::path schemas = source_dir() / "../shared/qif";
+  if (!fs::exists(schemas / "catalog.xml")) {
+    std::cout << "QIF not held against its schema, which is not there: " << schemas.string()
+              << "\n";
+    return {};
+  }
+  const std::string command =
+      "cd '" + folder.string() + "' && XML_CATALOG_FILES='" + (schemas / "catalog.xml").string() +
+      "' xmllint --nonet --noout --schema '" +
+      (schemas / "QIFApplications/QIFDocument.xsd").string() + "' */report.qif >said 2>&1";
+  return std::system(command.c_str()) == 0 ? std::string() : read(folder / "said");
+}
+
+/// A run that stops at a fault, with all reports: void results, a QIF file nevertheless.
+void run_until_a_fault(const fs::path& folder) {
+  write_plan(folder / "fault.json", {{"/simulation/faults", {{"connection_lost_at_touch", 60}}}});
+  EXPECT_EQ(rondure({"run", folder / "fault.json", "--out", folder / "fault", "--format",
+                     "html,json,csv,qif,dmis,junit"})
+                .status,
+            3);
+}
+
 TEST(Examples, RunConformVerifyAndWriteTheirReports) {
   const auto plans = plans_in(example(""));
   EXPECT_GE(plans.size(), 7U);
+  const TemporaryFolder folder;
   for (const fs::path& plan : plans) {
     if (needs_server(plan)) continue;  // ipp_run_test.cpp
     SCOPED_TRACE(plan.filename().string());
-    const TemporaryFolder folder;
-    const Outcome ran = rondure({"run", plan, "--out", folder / "run"});
-    const json report = json::parse(read(folder / "run" / "report.json"));
+    const fs::path run = folder / plan.stem().string();
+    const Outcome ran =
+        rondure({"run", plan, "--out", run, "--format", "html,json,csv,qif,dmis,junit"});
+    const json report = json::parse(read(run / "report.json"));
     const std::string verdict = report.at("verdict");
     EXPECT_EQ(ran.status, verdict == "conforms" || verdict == "not toleranced" ? 0 : 1) << ran.err;
     EXPECT_THAT(ran.err, IsEmpty());
-    std::vector<std::string> files = {"SHA256SUMS", "journal.db", "report.html", "report.json",
-                                      "results.csv"};
-    if (is_analysis(json::parse(read(plan)))) files.emplace_back("series.csv");
+    std::vector<std::string> files = {"SHA256SUMS",  "journal.db",  "report.dmo",
+                                      "report.html", "report.json", "report.junit.xml",
+                                      "report.qif",  "results.csv"};
+    const json asked = json::parse(read(plan));
+    if (calibrates(asked)) files.insert(files.begin() + 1, "fixture-calibration.json");
+    if (is_analysis(asked) && !calibrates(asked)) files.emplace_back("series.csv");
     files.emplace_back("touches.csv");
-    EXPECT_THAT(names_in(folder / "run"), ::testing::ElementsAreArray(files));
-    const Outcome verified = rondure({"verify", folder / "run"});
+    EXPECT_THAT(names_in(run), ::testing::ElementsAreArray(files));
+    const Outcome verified = rondure({"verify", run});
     EXPECT_EQ(verified.status, 0);
     EXPECT_THAT(verified.out, HasSubstr("equal: "));
-    EXPECT_THAT(verified.out, HasSubstr("report.html, report.json, touches.csv"));
+    for (const char* file : {"report.html", "report.json", "touches.csv"}) {
+      EXPECT_THAT(verified.out, HasSubstr(file));
+    }
   }
+  run_until_a_fault(folder.path());
+  EXPECT_EQ(reports_fault(folder.path()), "");
+  EXPECT_EQ(qif_fault(folder.path()), "");
 }
 
 TEST(Examples, TheReportedCyltAgreesWithTheHiddenTruthWithinTheNoise) {

@@ -1,10 +1,5 @@
 // A first run in single steps, driven through a terminal of its own.
 
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <csignal>
 #include <cstdlib>
 #include <string>
@@ -14,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/app/files.h"
+#include "tests/app/on_terminal.h"
 #include "tests/app/program.h"
 
 namespace rondure::app::testing {
@@ -21,75 +17,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-/// The program with a terminal as its standard input and outputs.
-class OnTerminal {
- public:
-  explicit OnTerminal(const std::vector<std::string>& arguments) {
-    master_ = ::posix_openpt(O_RDWR | O_NOCTTY);
-    if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0) return;
-    const std::string name = ::ptsname(master_);
-    std::vector<std::string> words = {RONDURE_BINARY};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    pid_ = ::fork();
-    if (pid_ != 0) return;
-    ::setsid();
-    const int slave = ::open(name.c_str(), O_RDWR);
-    for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(slave, fd);
-    ::close(master_);
-    ::execv(RONDURE_BINARY, argv.data());
-    ::_exit(127);
-  }
-  ~OnTerminal() {
-    if (pid_ > 0) {
-      ::kill(pid_, SIGKILL);
-      ::waitpid(pid_, nullptr, 0);
-    }
-    ::close(master_);
-  }
-  OnTerminal(const OnTerminal&) = delete;
-  OnTerminal& operator=(const OnTerminal&) = delete;
-
-  void type(const std::string& keys) const {
-    EXPECT_EQ(::write(master_, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
-  }
-  /// Reads until `text` was shown once more; false at the end of the program or after 20 s.
-  bool wait_for(const std::string& text) {
-    const std::size_t from = shown_.size();
-    while (shown_.find(text, from) == std::string::npos) {
-      if (!read_some()) return false;
-    }
-    return true;
-  }
-  /// Everything shown, and the exit status.
-  int finish() {
-    while (read_some()) {
-    }
-    int state = 0;
-    ::waitpid(pid_, &state, 0);
-    pid_ = -1;
-    return WIFEXITED(state) ? WEXITSTATUS(state) : -1;
-  }
-  [[nodiscard]] const std::string& shown() const { return shown_; }
-
- private:
-  bool read_some() {
-    pollfd ready = {master_, POLLIN, 0};
-    if (::poll(&ready, 1, 20'000) != 1) return false;
-    char bytes[4096];
-    const ssize_t got = ::read(master_, bytes, sizeof bytes);
-    if (got <= 0) return false;  // EIO: the program closed its end
-    shown_.append(bytes, static_cast<std::size_t>(got));
-    return true;
-  }
-
-  int master_ = -1;
-  pid_t pid_ = -1;
-  std::string shown_;
-};
 
 std::vector<std::string> stepwise(const TemporaryFolder& folder) {
   return {"run",    example("13_pose_search_virtual.json"),

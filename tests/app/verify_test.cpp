@@ -120,7 +120,7 @@ TEST_F(FinishedRun, VerifiesInAnotherPlaceAndChangesNothing) {
   const std::string before = read(other / "journal.db");
   EXPECT_EQ(rondure({"verify", other}).status, 0);
   EXPECT_EQ(read(other / "journal.db"), before);
-  EXPECT_EQ(names_in(other).size(), 5U);
+  EXPECT_EQ(names_in(other).size(), 6U);
 }
 
 TEST_F(FinishedRun, WithoutItsJournalIsUnreadable) {

@@ -683,6 +683,36 @@ double interpolation_error(int k, const std::vector<double>& stations, bool circ
   return 100.0 * out;
 }
 
+/// The same of a natural spline, solved densely: what is not used here, and why.
+double natural_error(int k, const std::vector<double>& x) {
+  const auto n = static_cast<Eigen::Index>(x.size());
+  const double h = x[1] - x[0];
+  double out = 0.0;
+  for (int phase = 0; phase < 48; ++phase) {
+    const auto value = [&](double at) { return std::cos(k * at - phase * core::kTwoPi / 48.0); };
+    Eigen::MatrixXd m = Eigen::MatrixXd::Identity(n, n);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
+    for (Eigen::Index i = 1; i + 1 < n; ++i) {
+      m.block<1, 3>(i, i - 1) << h / 6.0, 2.0 * h / 3.0, h / 6.0;
+      const double at = x[static_cast<std::size_t>(i)];
+      right(i) = (value(at + h) - 2.0 * value(at) + value(at - h)) / h;
+    }
+    const Eigen::VectorXd second = m.partialPivLu().solve(right);
+    for (int i = 0; i < 400; ++i) {
+      const double b = i * static_cast<double>(n - 1) / 400.0;
+      const auto j = static_cast<Eigen::Index>(b);
+      const double v = b - static_cast<double>(j);
+      const double u = 1.0 - v;
+      const double left = x[static_cast<std::size_t>(j)];
+      const double spline =
+          u * value(left) + v * value(left + h) +
+          ((u * u * u - u) * second(j) + (v * v * v - v) * second(j + 1)) * h * h / 6.0;
+      out = std::max(out, std::abs(spline - value(left + v * h)));
+    }
+  }
+  return 100.0 * out;
+}
+
 TEST(RotaryModel, InterpolatesAsWellAsTheSpecificationSays) {
   const auto circle = circle_of(24);
   EXPECT_NEAR(interpolation_error(1, circle, true), 0.001, 0.0005);
@@ -692,6 +722,9 @@ TEST(RotaryModel, InterpolatesAsWellAsTheSpecificationSays) {
   EXPECT_NEAR(interpolation_error(1, arc, false), 0.013, 0.001);
   EXPECT_NEAR(interpolation_error(2, arc, false), 0.21, 0.01);
   EXPECT_NEAR(interpolation_error(3, arc, false), 1.1, 0.05);
+  EXPECT_NEAR(natural_error(1, arc), 0.34, 0.02);
+  EXPECT_NEAR(natural_error(2, arc), 1.4, 0.05);
+  EXPECT_NEAR(natural_error(3, arc), 3.3, 0.15);
 }
 
 TEST(RotaryModel, PassesThroughTheStationsAndRefusesToExtrapolate) {

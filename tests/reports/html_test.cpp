@@ -16,6 +16,7 @@
 namespace rondure::reports {
 namespace {
 
+using testing::first_unbalanced_tag;
 using testing::shows_nan;
 
 std::string page_of(const Case& made) { return write_html(made.record, made.evaluation); }
@@ -31,35 +32,6 @@ std::size_t occurrences(std::string_view text, std::string_view part) {
     ++number;
   }
   return number;
-}
-
-bool is_void_element(std::string_view name) {
-  return name == "meta" || name == "br" || name == "!DOCTYPE";
-}
-
-/// The first tag that closes nothing, or stays open; empty for a balanced page. Quoted attribute
-/// values may hold anything but quotes.
-std::string first_unbalanced_tag(std::string_view page) {
-  std::vector<std::string> open;
-  for (std::size_t at = page.find('<'); at != std::string_view::npos; at = page.find('<', at)) {
-    const bool closes = page[at + 1] == '/';
-    const std::size_t from = at + (closes ? 2 : 1);
-    const std::size_t end_of_name = page.find_first_of(" />\n", from);
-    const std::string name(page.substr(from, end_of_name - from));
-    bool quoted = false;
-    for (at = end_of_name; at < page.size() && (quoted || page[at] != '>'); ++at) {
-      if (page[at] == '"') quoted = !quoted;
-      if (page[at] == '<') return "< inside " + name;
-    }
-    if (at >= page.size()) return "unended " + name;
-    if (closes) {
-      if (open.empty() || open.back() != name) return "/" + name;
-      open.pop_back();
-    } else if (page[at - 1] != '/' && !is_void_element(name)) {
-      open.push_back(name);
-    }
-  }
-  return open.empty() ? std::string() : open.back();
 }
 
 /// Set RONDURE_KEEP to a folder to look at the pages.

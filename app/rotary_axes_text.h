@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "fit/rotary_axes.h"
+#include "fit/rotary_model.h"
+
+namespace rondure::app {
+
+/// What `rondure fit rotary-axes` found of one axis.
+struct RotaryFacts {
+  std::string name;
+  std::string method;
+  fit::RotaryStudy study;
+  std::optional<fit::RotaryModel> model;  ///< Absent with too few stations; a warning says so.
+  Eigen::Vector3d place_mm = Eigen::Vector3d::Zero();  ///< Whose point uncertainty is stated.
+};
+
+/// As JSON (docs/rotary-axes.md), and for a person within 80 columns; one line feed at the end.
+[[nodiscard]] std::string rotary_axes_json(std::span<const RotaryFacts> axes);
+[[nodiscard]] std::string rotary_axes_table(std::span<const RotaryFacts> axes);
+
+}  // namespace rondure::app

@@ -1,0 +1,124 @@
+// Every format of one run: written, listed, verified; the sketch on a terminal.
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "reports/text.h"
+#include "tests/app/files.h"
+#include "tests/app/on_terminal.h"
+#include "tests/app/program.h"
+
+namespace rondure::app::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* kAll = "html,json,csv,qif,dmis,junit";
+
+class Formats : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(rondure({"run", example("13_pose_search_virtual.json"), "--out", run_, "--archive",
+                       "none", "--format", kAll, "--quiet"})
+                  .status,
+              0);
+  }
+  TemporaryFolder folder_;
+  const std::filesystem::path run_ = folder_ / "run";
+};
+
+TEST_F(Formats, AreListedVerifiedAndWrittenAgainByteForByte) {
+  const std::vector<std::string> files = {"report.qif", "report.dmo", "report.junit.xml",
+                                          "results.csv"};
+  std::vector<std::string> bytes;
+  for (const std::string& file : files) {
+    bytes.push_back(read(run_ / file));
+    EXPECT_GT(bytes.back().size(), 100U);
+    EXPECT_THAT(read(run_ / "SHA256SUMS"), HasSubstr("  " + file + "\n"));
+  }
+  EXPECT_THAT(rondure({"verify", run_}).out,
+              AllOf(HasSubstr("results.csv, report.qif, report.dmo, report.junit.xml"),
+                    Not(HasSubstr("not there"))));
+  for (const std::string& file : files) std::filesystem::remove(run_ / file);
+  EXPECT_EQ(rondure({"report", run_, "--format", kAll}).status, 0);
+  for (std::size_t i = 0; i < files.size(); ++i) EXPECT_EQ(read(run_ / files[i]), bytes[i]);
+}
+
+TEST_F(Formats, AChangedDigitIsFoundInEach) {
+  for (const char* file : {"report.qif", "report.dmo", "report.junit.xml", "results.csv"}) {
+    SCOPED_TRACE(file);
+    const std::string bytes = read(run_ / file);
+    std::string changed = bytes;
+    const std::size_t digit = changed.find_last_of("123456789");
+    ASSERT_NE(digit, std::string::npos);
+    changed[digit] = changed[digit] == '1' ? '2' : '1';
+    write(run_ / file, changed);
+    const Outcome outcome = rondure({"verify", run_});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.out, HasSubstr(std::string("not equal: ") + file));
+    write(run_ / file, bytes);
+  }
+}
+
+TEST_F(Formats, ThatWereNotAskedForAreNotMissed) {
+  ASSERT_EQ(rondure({"run", example("13_pose_search_virtual.json"), "--out", folder_ / "json",
+                     "--archive", "none", "--format", "json", "--quiet"})
+                .status,
+            0);
+  EXPECT_THAT(rondure({"verify", folder_ / "json"}).out,
+              AllOf(HasSubstr("exports compared: report.json"), Not(HasSubstr("not there"))));
+}
+
+TEST_F(Formats, ThePlanMayAskForThem) {
+  write_plan(folder_ / "plan.json", {{"/reports/formats", {"qif", "junit"}}});
+  ASSERT_LE(
+      rondure({"run", folder_ / "plan.json", "--out", folder_ / "two", "--archive", "none"}).status,
+      1);
+  EXPECT_THAT(names_in(folder_ / "two"),
+              ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.junit.xml", "report.qif"));
+}
+
+/// Lines of a terminal, without what ends them.
+std::vector<std::string> lines_of(const std::string& shown) {
+  std::istringstream stream(shown);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) {
+    line.erase(std::min(line.find('\r'), line.size()));
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+TEST_F(Formats, ATerminalIsShownASketchAsItsLocaleCanDrawIt) {
+  struct Case {
+    const char* locale;
+    const char* has;
+    const char* lacks;
+  };
+  for (const Case& c : {Case{"C.UTF-8", "\u25CF contact outside", "O contact outside"},
+                        Case{"C", "O contact outside", "\u25CF"}}) {
+    SCOPED_TRACE(c.locale);
+    OnTerminal program({"report", run_, "--format", "json"}, c.locale);
+    EXPECT_EQ(program.finish(), 0) << program.shown();
+    EXPECT_THAT(program.shown(), AllOf(HasSubstr(c.has), Not(HasSubstr(c.lacks))));
+    for (const std::string& line : lines_of(program.shown())) {
+      if (line.find(run_.string()) == std::string::npos) {
+        EXPECT_LE(reports::columns(line), 80U) << line;
+      }
+    }
+  }
+}
+
+TEST_F(Formats, APipeIsShownNoSketch) {
+  EXPECT_THAT(rondure({"report", run_}).out,
+              AllOf(HasSubstr("CYLt"), Not(HasSubstr("contact outside"))));
+}
+
+}  // namespace
+}  // namespace rondure::app::testing

@@ -1,0 +1,171 @@
+#include "reports/exports.h"
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pugixml.hpp>
+
+#include "core/numbers.h"
+#include "reports/text.h"
+#include "reports/writers.h"
+#include "synthetic.h"
+
+namespace rondure::reports {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Exports, AnUnknownFormatIsRefusedWithThoseThatAreKnown) {
+  const Case made = cylinder_case(4, 7, 3);
+  const auto written = write_exports("/nowhere", {"docx"}, made.record, made.evaluation);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().what,
+            "format 'docx' is unknown; html, json, csv, qif, dmis and junit can be written");
+}
+
+TEST(Decimal, ReadsBackToTheSameDoubleWithoutAnExponent) {
+  EXPECT_EQ(decimal(0.0083), "0.0083");
+  EXPECT_EQ(decimal(-0.0), "0");
+  EXPECT_EQ(decimal(40.0), "40");
+  for (const double value : {1e-9, 1.0 / 3.0, 123456789.125, 1e22, 5e-324, 1.7e308, -2.5e-7}) {
+    const std::string text = decimal(value);
+    EXPECT_EQ(text.find_first_not_of("-0123456789."), std::string::npos) << text;
+    EXPECT_EQ(core::parse_number(text), value) << text;
+  }
+}
+
+/// The cases of a JUnit file: "name: outcome".
+std::vector<std::string> cases_of(const Case& made) {
+  const std::string bytes = write_junit(made.record, made.evaluation);
+  pugi::xml_document xml;
+  EXPECT_TRUE(xml.load_buffer(bytes.data(), bytes.size()));
+  std::vector<std::string> out;
+  int failed = 0;
+  for (const auto& node : xml.select_nodes("/testsuites/testsuite/testcase")) {
+    const pugi::xml_node first = node.node().first_child();
+    const std::string outcome = std::string(first.name()) == "system-out" ? "passed" : first.name();
+    failed += outcome == "failure" || outcome == "error" ? 1 : 0;
+    out.push_back(std::string(node.node().attribute("name").value()) + ": " + outcome);
+  }
+  const pugi::xml_node suites = xml.document_element();
+  EXPECT_EQ(suites.attribute("tests").as_int(), static_cast<int>(out.size()));
+  EXPECT_EQ(suites.attribute("failures").as_int() + suites.attribute("errors").as_int(), failed);
+  return out;
+}
+
+TEST(Junit, EachVerdictIsAnOutcomeThatAPipelineKnows) {
+  EXPECT_THAT(cases_of(cylinder_case(4, 7, 3)), ElementsAre("cyl-A: passed"));
+  Case made = failing_case();
+  EXPECT_THAT(cases_of(made), ElementsAre("cyl-A: failure", "round-A: passed", "cyl-LS: skipped"));
+  made.evaluation.features[0].characteristics[1].verdict = Verdict::kUndecided;
+  EXPECT_THAT(cases_of(made), ElementsAre("cyl-A: failure", "round-A: failure", "cyl-LS: skipped"));
+}
+
+TEST(Junit, ARunThatDidNotFinishIsAnError) {
+  EXPECT_THAT(cases_of(unfinished_case()), ElementsAre("finished: error", "cyl-A: passed",
+                                                       "has a result: error", "cyl-A: error"));
+}
+
+TEST(Dmis, SaysThatItIsOutputAndGivesFeatureAndTolerance) {
+  const Case made = failing_case();
+  const std::string text = write_dmis(made.record, made.evaluation);
+  EXPECT_THAT(text,
+              ::testing::StartsWith("FILNAM/'OUTPUT',05.2\n$$ Output block, written by rondure;"));
+  EXPECT_THAT(text, HasSubstr("UNITS/MM,ANGDEC\n"));
+  EXPECT_THAT(text, HasSubstr("FA(F1)=FEAT/CYLNDR,OUTER,CART,0.012,-0.0065,40,"));
+  EXPECT_THAT(text,
+              HasSubstr("T(F1T1)=TOL/CYLCTY,0.006\nOUTPUT/FA(F1),TA(F1T1)\nTA(F1T1)=TOL/CYLCTY,"));
+  EXPECT_THAT(text, HasSubstr(",OUTOL\n"));
+  EXPECT_THAT(text, HasSubstr("TA(F1T2)=TOL/CIRLTY,0.0071,INTOL\n"));
+  EXPECT_THAT(text, Not(HasSubstr("TA(F1T3)=")));  // it has no tolerance
+  EXPECT_THAT(text, ::testing::EndsWith("ENDFIL\n"));
+}
+
+TEST(Dmis, WhatIsVoidOrUndecidedIsNeitherInNorOutOfTolerance) {
+  Case made = unfinished_case();
+  made.evaluation.features[0].characteristics[0].verdict = Verdict::kUndecided;
+  const std::string text = write_dmis(made.record, made.evaluation);
+  EXPECT_THAT(text, Not(HasSubstr("TOL/")));
+  EXPECT_THAT(text, HasSubstr("$$ F1T1: no block in DMIS; "));
+  EXPECT_THAT(text, HasSubstr("$$ F2: no result; No cloud of a final pose is on record.\n"));
+  EXPECT_THAT(text, HasSubstr("$$ not finished: "));
+}
+
+TEST(ResultsCsv, HasARowACharacteristic) {
+  const Case made = failing_case();
+  std::istringstream lines(write_results_csv(made.record, made.evaluation));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line,
+            "run,started_utc,part,serial,feature,characteristic,symbol,reference,value_um,"
+            "tolerance_um,verdict,reason,verification_operator,low_um,high_um");
+  std::getline(lines, line);
+  EXPECT_THAT(line,
+              ::testing::StartsWith("01_spool_simulated-20261121T023302Z,2026-11-21T02:33:02Z,"
+                                    "VS-1180,0042,land-A,cyl-A,CYLt,MZCY,8.3,6,does not "
+                                    "conform,"));
+  std::getline(lines, line);
+  std::getline(lines, line);
+  EXPECT_THAT(line, HasSubstr(",cyl-LS,CYLt,LSCY,9.12,,not toleranced,"));
+  EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST(PolarSketch, FillsItsFieldAndMarksEveryContact) {
+  for (const SketchStyle style : {SketchStyle::kAscii, SketchStyle::kBraille}) {
+    for (const Case& made : {cylinder_case(4, 7, 3), circle_case(500), spiral_case(150)}) {
+      const auto sketch = polar_sketch(made.evaluation.features[0], style);
+      ASSERT_TRUE(sketch);
+      ASSERT_EQ(sketch->rows.size(), static_cast<std::size_t>(kSketchRows));
+      std::string all;
+      for (const std::string& row : sketch->rows) {
+        EXPECT_EQ(columns(row), static_cast<std::size_t>(kSketchColumns)) << row;
+        all += row;
+      }
+      const bool ascii = style == SketchStyle::kAscii;
+      EXPECT_THAT(all, HasSubstr(ascii ? "O" : "\u25CF"));
+      EXPECT_THAT(all, HasSubstr(ascii ? "I" : "\u25CB"));
+      if (ascii) {
+        EXPECT_TRUE(
+            std::all_of(all.begin(), all.end(), [](char c) { return c >= ' ' && c <= '~'; }));
+      }
+    }
+  }
+}
+
+TEST(PolarSketch, IsAbsentWhereThereIsNothingToDraw) {
+  const Case made = cylinder_case(4, 7, 3);
+  const FeatureResult& feature = made.evaluation.features[0];
+  EXPECT_FALSE(polar_sketch(feature, SketchStyle::kNone));
+  EXPECT_FALSE(polar_sketch(unfinished_case().evaluation.features[1], SketchStyle::kAscii));
+  FeatureResult flat = feature;
+  flat.mz_cylinder->outer_radius_mm = flat.mz_cylinder->inner_radius_mm;
+  EXPECT_FALSE(polar_sketch(flat, SketchStyle::kBraille));
+}
+
+TEST(PolarSketch, ARoundSectionIsDrawnRound) {
+  // A profile in the middle of the zone is a circle: each row is the mirror of the one opposite.
+  Case made = cylinder_case(1, 720, 1);
+  FeatureResult& feature = made.evaluation.features[0];
+  for (CloudPoint& point : feature.cloud) {
+    point.deviation_mm = 0.0;
+    point.outer_contact = point.inner_contact = false;
+  }
+  const auto sketch = polar_sketch(feature, SketchStyle::kAscii);
+  ASSERT_TRUE(sketch);
+  int left = 0;
+  int right = 0;
+  for (const std::string& row : sketch->rows) {
+    left += static_cast<int>(std::count(row.begin(), row.begin() + 11, '*'));
+    right += static_cast<int>(std::count(row.begin() + 11, row.end(), '*'));
+  }
+  EXPECT_GT(left, 10);
+  EXPECT_NEAR(left, right, 3);
+}
+
+}  // namespace
+}  // namespace rondure::reports
