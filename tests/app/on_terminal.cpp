@@ -45,10 +45,11 @@ void OnTerminal::type(const std::string& keys) const {
 }
 
 bool OnTerminal::wait_for(const std::string& text) {
-  const std::size_t from = shown_.size();
-  while (shown_.find(text, from) == std::string::npos) {
+  std::size_t at = 0;
+  while ((at = shown_.find(text, waited_)) == std::string::npos) {
     if (!read_some()) return false;
   }
+  waited_ = at + text.size();
   return true;
 }
 

@@ -17,7 +17,8 @@ class OnTerminal {
   OnTerminal& operator=(const OnTerminal&) = delete;
 
   void type(const std::string& keys) const;
-  /// Reads until `text` was shown once more; false at the end of the program or after 20 s.
+  /// Reads until `text` was shown behind what was waited for last; false at the end of the program
+  /// or after 20 s.
   [[nodiscard]] bool wait_for(const std::string& text);
   /// Reads to the end; the exit status, -1 when a signal ended the program.
   int finish();
@@ -30,6 +31,7 @@ class OnTerminal {
   int master_ = -1;
   pid_t pid_ = -1;
   std::string shown_;
+  std::size_t waited_ = 0;  ///< Behind the last text that was waited for.
 };
 
 }  // namespace rondure::app::testing

@@ -103,8 +103,10 @@ TEST(ReachedPose, OfAnInterruptedRunIsTheSameToTheLastBit) {
     SCOPED_TRACE(touch);
     plan.simulation->faults.connection_lost_at_touch = touch;
     const auto directory = scratch / ("cut" + std::to_string(touch));
-    const auto cut = run_plan(plan, options_for(directory));
-    ASSERT_TRUE(cut && cut->failure);
+    {
+      const auto cut = run_plan(plan, options_for(directory));  // holds the journal while it lives
+      ASSERT_TRUE(cut && cut->failure);
+    }
     const auto on = resume_plan(plan, options_for(directory));
     ASSERT_TRUE(on) << on.error().front().what;
     ASSERT_FALSE(on->failure) << on->failure->what;
