@@ -68,8 +68,8 @@ TEST(Json, KeysKeepTheirPublishedOrder) {
   std::string keys;
   for (const auto& item : document.items()) keys += item.key() + " ";
   EXPECT_EQ(keys,
-            "schema_version header verdict measurement_uncertainty rule probe features "
-            "decisions simulation ");
+            "schema_version header verdict measurement_uncertainty rule probe "
+            "fixture_calibration features decisions simulation ");
 }
 
 TEST(Json, NumbersReadBackToTheSameDouble) {
