@@ -118,19 +118,14 @@ UncertaintyStatus uncertainty_of(const record::RunRecord& record, const FeatureR
                                  const record::Characteristic& asked) {
   const auto declared = declared_for(record, result, probe);
   if (!declared) return UncertaintyStatus::none("the plan declares no uncertainty");
-  if (result.merged) {
-    return UncertaintyStatus::none(
-        "the value is of a cloud of several poses: what the fixture leaves in it is told beside "
-        "it, "
-        "the interval does not hold that yet");
-  }
   if (asked.reference != record::Reference::kMinimumZone) {
     return UncertaintyStatus::none("intervals are computed of minimum zones only");
   }
   // The influences act in the machine frame; a merged cloud stands in the frame of the part.
   if (result.merged) {
     return UncertaintyStatus::none(
-        "intervals of clouds merged from several poses are not computed");
+        "intervals of clouds merged from several poses are not computed; what the fixture leaves "
+        "in the value is told beside it");
   }
   const Rows rows = rows_of(result, asked);
   constexpr std::size_t kMostPoints = 20'000;  // some 10 s of trials; verify does them again
