@@ -53,8 +53,8 @@ class DamagedRun : public ::testing::Test {
   /// A run that was killed after `touches` of this run's touches, in a directory of its own.
   [[nodiscard]] fs::path killed_after(std::size_t touches) const {
     const record::RunRecord whole = journal_of(run_);
-    auto journal =
-        record::Journal::create(folder_ / "open", whole.header, whole.artefact, whole.features);
+    auto journal = record::Journal::create(folder_ / "open", whole.header, whole.artefact,
+                                           whole.features, whole.settings);
     EXPECT_TRUE(journal);
     for (const record::PoseVisit& pose : whole.poses) EXPECT_TRUE(journal->add(pose));
     for (std::size_t i = 0; i < touches; ++i) EXPECT_TRUE(journal->add(whole.touches[i]));

@@ -59,8 +59,8 @@ record::RunRecord whole_run(const Plan& plan) {
 /// Leaves file and log of a run that was killed behind the series of its first features.
 void leave_killed(const record::RunRecord& whole, int features, const fs::path& directory) {
   const record::Scratch live;
-  auto journal =
-      record::Journal::create(live / "run", whole.header, whole.artefact, whole.features);
+  auto journal = record::Journal::create(live / "run", whole.header, whole.artefact, whole.features,
+                                         whole.settings);
   ASSERT_TRUE(journal);
   for (int i = 0; i < features; ++i) {
     std::vector<record::Series> series = whole.series;

@@ -400,7 +400,8 @@ TEST(ResumeRefuses, AnotherVersionOfTheProgram) {
   record::RunRecord old = journal_of(scratch / "run");
   old.header.version = "0.0.9";
   {
-    auto journal = record::Journal::create(scratch / "old", old.header, old.artefact, old.features);
+    auto journal = record::Journal::create(scratch / "old", old.header, old.artefact, old.features,
+                                           old.settings);
     ASSERT_TRUE(journal);
     ASSERT_TRUE(journal->add(old.touches));
   }

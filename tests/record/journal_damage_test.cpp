@@ -235,7 +235,8 @@ TEST_F(JournalDamage, ADirectoryThatIsNoRunIsNamed) {
 }
 
 TEST_F(JournalDamage, OfTheLogCostsTheTouchesBehindItAndNothingElse) {
-  auto journal = Journal::create(scratch / "open", run.header, run.artefact, run.features);
+  auto journal =
+      Journal::create(scratch / "open", run.header, run.artefact, run.features, run.settings);
   ASSERT_TRUE(journal);
   for (std::int64_t id = 0; id < 50; ++id) ASSERT_TRUE(journal->add(touch_number(id)));
   const std::string log = *read_file(scratch / "open/journal.db-wal");

@@ -80,7 +80,8 @@ TEST(JournalSeries, ThatContradictThemselvesCannotBeRead) {
 TEST(JournalSeries, ThatAreNoneAreRefusedWhole) {
   const Scratch scratch;
   const RunRecord run = sample_run(5, 2);
-  auto journal = Journal::create(scratch / "run", run.header, run.artefact, run.features);
+  auto journal =
+      Journal::create(scratch / "run", run.header, run.artefact, run.features, run.settings);
   ASSERT_TRUE(journal);
   Series good{0, "data", Series::Role::kData, {{"a_um", "um"}, {"b_um", "um"}}, {1.0, 2.0}};
   Series bad = good;

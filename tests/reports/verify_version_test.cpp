@@ -33,7 +33,8 @@ class RunOfAnotherVersion : public ::testing::Test {
     record::RunRecord& run = stored->record;
     run.header.version = version;
     run.header.processor = kProcessor;
-    auto journal = record::Journal::create(directory, run.header, run.artefact, run.features);
+    auto journal =
+        record::Journal::create(directory, run.header, run.artefact, run.features, run.settings);
     ASSERT_TRUE(journal) << journal.error().what;
     for (const auto& pose : run.poses) ASSERT_TRUE(journal->add(pose));
     ASSERT_TRUE(journal->add(run.touches));
