@@ -67,6 +67,8 @@ void apply_calibration(const std::optional<FixtureUse>& use, FeatureResult& resu
   for (CharacteristicResult& characteristic : result.characteristics) {
     characteristic.verdict = Verdict::kVoid;
     characteristic.reason = use->invalid->what;
+    characteristic.outcome.reset();
+    characteristic.risks.reset();
   }
 }
 
