@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -69,6 +70,7 @@ core::Result<FormCloud> cloud_of(const record::RunRecord& record, const FeatureR
   for (const std::size_t row : rows.rows) tips.push_back(result.cloud[row].tip_mm);
   std::optional<Eigen::Vector3d> direction;
   if (result.mz_cylinder) direction = result.mz_cylinder->axis.direction;
+  if (result.feature.shape == record::Shape::kCircle) direction = result.section_axis.direction;
   auto cloud = form_cloud(rows.kind, tips, direction);
   if (!cloud) return cloud;
   cloud->outside = result.feature.side == record::Side::kOutside;
@@ -91,10 +93,16 @@ core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
   if (!declared.spectrum) return std::optional<FormSpectrum>();
   FormSpectrum out = *declared.spectrum;
   if (out.terms.empty()) {
-    const double noise_mm =
+    int repeats = cloud.points.front().repeats;
+    for (const FormPoint& point : cloud.points) repeats = std::min(repeats, point.repeats);
+    const double touch_mm =
         declared.influences.probe ? declared.influences.probe->repeatability_mm : 0.0;
-    auto own = own_spectrum(cloud, noise_mm);
+    auto own = own_spectrum(cloud, touch_mm / std::sqrt(static_cast<double>(repeats)));
     if (!own) return core::fail(own.error());
+    const bool shows_form =
+        std::any_of(own->terms.begin(), own->terms.end(),
+                    [](const FormTerm& term) { return term.amplitude_mm > 0.0; });
+    if (!shows_form) return std::optional<FormSpectrum>();  // all of it may be noise
     return std::optional<FormSpectrum>(*std::move(own));
   }
   if (cloud.kind == FormKind::kRoundness) {
