@@ -84,9 +84,9 @@ TEST_F(ProgramOnUsb, InspectsAPartOnRealStages) {
 TEST_F(ProgramOnUsb, IsNotMisledByABadLine) {
   controller.faults.alert = 0.2;
   controller.faults.split = 0.2;
-  controller.faults.late_reply = 0.01;
-  controller.faults.wrong_checksum = 0.03;
-  controller.faults.wrong_id = 0.03;
+  controller.faults.late_reply = 0.01;  // each costs half a second
+  controller.faults.wrong_checksum = 0.01;
+  controller.faults.wrong_id = 0.01;
   device.packet_bytes = 5;
   bed.plug_in(device);
   const Outcome ran = rondure(command());
