@@ -62,6 +62,16 @@ termios with_settings(termios line, const SerialSettings& settings, speed_t spee
   return line;
 }
 
+/// The settings that a device can take. A pseudo-terminal has no wire: it carries whole bytes, and
+/// the C library reports 7 bits or parity there as refused.
+SerialSettings on(const std::filesystem::path& device, SerialSettings settings) {
+  if (device.string().starts_with("/dev/pts/")) {
+    settings.data_bits = 8;
+    settings.parity = SerialSettings::Parity::kNone;
+  }
+  return settings;
+}
+
 /// A file descriptor that closes itself.
 class Descriptor {
  public:
@@ -210,7 +220,7 @@ core::Result<std::unique_ptr<ByteStream>> open_serial(const std::filesystem::pat
     return fault(fmt::format("{} is no serial device", device.string()));
   }
   (void)::ioctl(file.number(), TIOCEXCL);
-  const termios wanted = with_settings(line, settings, *speed);
+  const termios wanted = with_settings(line, on(device, settings), *speed);
   if (::tcsetattr(file.number(), TCSANOW, &wanted) != 0) {
     return fault(fmt::format("{} refuses {} baud, {} data bits: {}", device.string(), settings.baud,
                              settings.data_bits, std::strerror(errno)));

@@ -118,7 +118,7 @@ TEST(Record, GoesOnBehindTheLastRowOfAnInterruptedRecording) {
   }
   EXPECT_EQ(rows_of(recording.file), "alpha_deg,H1_um,H2_um\n0,500,-1250\n");
   OnTerminal other_angles(recording.words("90"));
-  ASSERT_TRUE(other_angles.wait_for("2 of 3: turn the part to 90 deg"));
+  ASSERT_TRUE(other_angles.wait_for("2 of 3: turn the part to 90 deg")) << other_angles.shown();
   other_angles.type("q\n");  // the first angle is the same: it may go on with other steps
   EXPECT_EQ(other_angles.finish(), 3);
   OnTerminal program(recording.words());
