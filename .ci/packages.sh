@@ -37,9 +37,10 @@ ensure_packages() {
   }
 }
 
-# build PRESET TESTING TARGET: configures when needed, builds quietly, shows the log when it fails.
+# build PRESET TESTING TARGET...: configures when needed, builds quietly, shows the log when it fails.
 build() {
-  local preset=$1 testing=$2 target=$3
+  local preset=$1 testing=$2
+  shift 2
   if [ ! -f "build/$preset/build.ninja" ] ||
     { [ "$testing" = ON ] && ! grep -q '^BUILD_TESTING:BOOL=ON' "build/$preset/CMakeCache.txt"; }; then
     cmake --preset "$preset" -DBUILD_TESTING="$testing" >"/tmp/rondure-configure.$$" 2>&1 || {
@@ -48,5 +49,5 @@ build() {
     }
     rm -f "/tmp/rondure-configure.$$"
   fi
-  cmake --build --preset "$preset" --target "$target"
+  cmake --build --preset "$preset" --target "$@"
 }
