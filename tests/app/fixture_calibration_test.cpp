@@ -88,7 +88,7 @@ TEST_F(CalibratedFixture, CarriesAnInspectionWhoseReportNamesIt) {
   EXPECT_GT(used.at("residual_max_um"), 0.0);
   EXPECT_EQ(rondure({"verify", folder / "run"}).status, 0);
   EXPECT_THAT(read(folder / "run" / "report.html"), HasSubstr("Calibration of the fixture"));
-  // Two poses agree on where the part stands better than the errors of the fixture are large.
+  // Evaluation needs no other file.
   const record::RunRecord journal = journal_of(folder / "run");
   EXPECT_TRUE(record::word_in(journal.settings, "fixture/calibration"));
 }
