@@ -2,11 +2,9 @@
 // before and after compensation. From ball centres on; tests/app/fixture_calibration_test.cpp goes
 // through the virtual cell.
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
-#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -112,15 +110,10 @@ struct Row {
   }
 };
 
-constexpr int kTabled = 3;  // as many as the table of the method has
-constexpr double kFigure_mm = 0.9 * kMicrometre;
-
-int fixtures() { return std::getenv("RONDURE_FULL") != nullptr ? 100 : kTabled; }
+int fixtures() { return std::getenv("RONDURE_FULL") != nullptr ? 100 : 3; }
 
 TEST(FixtureCompensation, LeavesLessThanAMicrometreOfFixturesOfTheClassesOfTheMethod) {
   std::cout << "fixture  before rms  max um  after rms  max um  angle before  after urad\n";
-  std::vector<double> left;
-  Spread pooled;
   for (int seed = 1; seed <= fixtures(); ++seed) {
     SCOPED_TRACE(seed);
     const auto key = static_cast<std::uint64_t>(seed);
@@ -135,6 +128,7 @@ TEST(FixtureCompensation, LeavesLessThanAMicrometreOfFixturesOfTheClassesOfTheMe
     for (int i = 0; i < 400; ++i) {
       const core::Pose pose{(180.0 * draw.uniform() - 90.0) * kDegree,
                             (180.0 * draw.uniform() - 90.0) * kDegree};
+      // The body frame is that of the balls at the zero pose: their noise belongs to the error.
       before.add(body_to_machine(real, pose), body_to_machine(nominal_fixture(), pose));
       after.add(body_to_machine(real, pose), body_to_machine(model, pose));
     }
@@ -144,19 +138,9 @@ TEST(FixtureCompensation, LeavesLessThanAMicrometreOfFixturesOfTheClassesOfTheMe
         after.point_mm.rms() / kMicrometre, after.point_mm.largest / kMicrometre,
         before.angle_rad.rms() / kMicroradian, after.angle_rad.rms() / kMicroradian);
     EXPECT_GT(before.point_mm.rms(), 10.0 * kMicrometre);
-    left.push_back(after.point_mm.rms());
-    pooled.add(after.point_mm.rms());
-    if (seed > kTabled) continue;
-    EXPECT_LE(after.point_mm.rms(), kFigure_mm);
+    EXPECT_LE(after.point_mm.rms(), 0.9 * kMicrometre);
     EXPECT_LE(after.angle_rad.rms(), 12.0 * kMicroradian);
   }
-  // The noise of the balls decides how near a single fixture comes: of many, most are below.
-  const auto below =
-      std::count_if(left.begin(), left.end(), [](double rms_mm) { return rms_mm <= kFigure_mm; });
-  std::cout << fmt::format("{} of {} fixtures at most 0.9 um; all together {:.2f} um rms\n", below,
-                           left.size(), pooled.rms() / kMicrometre);
-  EXPECT_LE(pooled.rms(), kFigure_mm);
-  EXPECT_GE(static_cast<double>(below), 0.95 * static_cast<double>(left.size()));
 }
 
 TEST(FixtureCompensation, TheSplineOfTheFixtureIsThatOfTheFit) {
