@@ -70,8 +70,7 @@ void add_plan(CLI::App& app, PlanArguments& arguments) {
                    "Feature to draw (default: the first that is touched)")
       ->type_name("ID");
   verb->add_option("--target-U", arguments.target_expanded,
-                   "Proposes the cheapest sampling whose expanded uncertainty is at most this, "
-                   "e.g. 1um, 500nm")
+                   "Cheapest sampling with U of at most this, as 1um, 500nm")
       ->type_name("LENGTH");
   verb->footer(
       "\nExample: rondure plan plans/examples/01_spool_simulated.json --svg path.svg\n"

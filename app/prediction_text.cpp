@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -78,26 +79,32 @@ std::string rows_without(const plans::Plan& plan,
   return out;
 }
 
-/// What was assumed, each thing once.
+/// What was assumed, each thing once; of forms that differ, for what.
 std::string assumptions(const std::vector<PredictedCharacteristic>& predicted) {
-  std::vector<std::string> said;
-  const auto once = [&](const std::string& what) {
-    if (std::find(said.begin(), said.end(), what) == said.end()) said.push_back(what);
-  };
+  std::vector<std::pair<std::string, std::string>> forms;  // words, characteristics
+  std::string repeatability;
   for (const PredictedCharacteristic& of : predicted) {
     const reports::Prediction& p = of.prediction;
     if (!p.why.empty()) continue;
-    once(fmt::format("Form of the parts: {}.", p.form));
-    if (!p.repeatability.empty()) {
-      once(
-          fmt::format("Repeatability of a touch: {}. uncertainty.probe.repeatability_um states "
-                      "it.",
-                      p.repeatability));
+    if (!p.repeatability.empty()) repeatability = p.repeatability;
+    const auto same = std::find_if(forms.begin(), forms.end(),
+                                   [&](const auto& form) { return form.first == p.form; });
+    if (same == forms.end()) {
+      forms.emplace_back(p.form, of.characteristic.id);
+    } else {
+      same->second += ", " + of.characteristic.id;
     }
   }
   std::string out;
-  for (const std::string& line : said) out += wrapped(line, "  ", "    ");
-  return out;
+  for (const auto& [words, characteristics] : forms) {
+    const std::string whose = forms.size() > 1 ? fmt::format(" for {}", characteristics) : "";
+    out += wrapped(fmt::format("Form of the parts{}: {}.", whose, words), "  ", "    ");
+  }
+  if (repeatability.empty()) return out;
+  return out + wrapped(fmt::format("Repeatability of a touch: {}. "
+                                   "uncertainty.probe.repeatability_um states it.",
+                                   repeatability),
+                       "  ", "    ");
 }
 
 bool states_any(const std::vector<PredictedCharacteristic>& predicted) {

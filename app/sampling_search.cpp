@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/prediction.h"
-#include "plans/expected_record.h"
-#include "plans/forecast.h"
+#include "app/sampling_layout.h"
 #include "plans/run_head.h"
 
 namespace rondure::app {
@@ -17,23 +16,11 @@ namespace {
 
 using reports::Measurand;
 
-constexpr std::array kRepeats = {1, 2, 3, 4, 5, 6, 8, 10, 13, 16, 20, 25, 32, 40, 50};
+constexpr std::array kRepeats = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 25, 32, 40, 50};
 
 Sampling sampling_of(const plans::FeaturePlan& feature) {
   const int layers = feature.type == "circle" ? 1 : feature.sampling.layers;
   return {layers, feature.sampling.points_per_layer, feature.pose_search.repeats};
-}
-
-void apply(const Sampling& sampling, plans::FeaturePlan& feature) {
-  feature.sampling.layers = sampling.layers;
-  feature.sampling.points_per_layer = sampling.points_per_layer;
-  feature.pose_search.repeats = sampling.repeats;
-}
-
-/// A run finds the repeatability by its repeats, where the plan does not declare it.
-int least_repeats(const plans::Plan& plan) {
-  const bool declares = plan.uncertainty && plan.uncertainty->probe;
-  return declares && !plan.uncertainty->probe->repeatability_um ? 2 : 1;
 }
 
 /// Layers and points to try, the plan's own among them.
@@ -75,92 +62,6 @@ reports::PredictionOptions all_parts() {
   return options;
 }
 
-/// One layout of one feature: its way is laid once, its repeats are varied.
-class Layout {
- public:
-  Layout(plans::Plan plan, std::size_t feature, const Sampling& sampling)
-      : plan_(std::move(plan)), feature_(feature), sampling_(sampling) {
-    sampling_.repeats = least_repeats(plan_);
-    apply(sampling_, plan_.features[feature_]);
-    forecast_ = plans::forecast(plan_);
-  }
-
-  [[nodiscard]] const core::Result<plans::Forecast>& forecast() const { return forecast_; }
-
-  /// Without its U.
-  [[nodiscard]] SamplingCandidate candidate(int repeats) const {
-    SamplingCandidate out;
-    out.sampling = sampling_;
-    out.sampling.repeats = repeats;
-    if (!forecast_) {
-      out.out_of_reach = forecast_.error().what;
-      return out;
-    }
-    const plans::Forecast changed = repeated(repeats);
-    out.touches = changed.touches;
-    out.time_s = changed.time_s;
-    return out;
-  }
-
-  /// Predicts the U of a candidate; returns the prediction with the largest.
-  core::Result<reports::Prediction> predict(Measurand measurand,
-                                            const reports::PredictionOptions& options,
-                                            SamplingCandidate& candidate) const {
-    plans::Plan plan = plan_;
-    plan.features[feature_].pose_search.repeats = candidate.sampling.repeats;
-    const auto expected = plans::expected_record(plan, repeated(candidate.sampling.repeats));
-    reports::Prediction worst;
-    candidate.expanded_mm = candidate.nine_of_ten_expanded_mm = 0.0;
-    for (const record::Characteristic& asked : expected.features[feature_].characteristics) {
-      auto found = reports::predict(expected, static_cast<int>(feature_), asked, options);
-      if (!found) return found;
-      const auto& said = found->about(measurand);
-      if (!said) {
-        if (worst.why.empty() && !worst.sampled) worst.why = found->why;
-        continue;
-      }
-      candidate.expanded_mm = std::max(candidate.expanded_mm, said->expanded_mm());
-      if (said->nine_of_ten_expanded_mm() >= candidate.nine_of_ten_expanded_mm) {
-        candidate.nine_of_ten_expanded_mm = said->nine_of_ten_expanded_mm();
-        worst = *std::move(found);
-      }
-    }
-    return worst;
-  }
-
- private:
-  /// The forecast with another number of repeats: the same way, so often.
-  [[nodiscard]] plans::Forecast repeated(int repeats) const {
-    plans::Forecast out = *forecast_;
-    for (plans::ForecastStage& stage : out.stages) {
-      if (!stage.final_cloud || stage.feature != static_cast<int>(feature_)) continue;
-      const int more = repeats - stage.times;
-      out.touches += more * stage.touches;
-      // The first time comes from the park place or the last cloud, the others all alike.
-      out.time_s += more * again_s(stage);
-      stage.time_s += more * again_s(stage);
-      stage.times = repeats;
-    }
-    return out;
-  }
-
-  /// Time of the cloud once more.
-  [[nodiscard]] double again_s(const plans::ForecastStage& stage) const {
-    if (again_s_ >= 0.0) return again_s_;
-    plans::Plan twice = plan_;
-    twice.features[feature_].pose_search.repeats = stage.times + 1;
-    const auto longer = plans::forecast(twice);
-    again_s_ = longer ? longer->time_s - forecast_->time_s : stage.time_s / stage.times;
-    return again_s_;
-  }
-
-  plans::Plan plan_;
-  std::size_t feature_;
-  Sampling sampling_;
-  core::Result<plans::Forecast> forecast_;
-  mutable double again_s_ = -1.0;
-};
-
 /// The search of one feature.
 class Search {
  public:
@@ -173,12 +74,12 @@ class Search {
   }
 
   core::Result<SamplingSearch> run() {
-    const Layout planned(plan_, out_.feature, out_.planned);
+    const SamplingLayout planned(plan_, out_.feature, out_.planned);
     if (!planned.forecast()) return core::fail(planned.forecast().error());
     if (auto there = look_at_plan(planned); !there) return core::fail(there.error());
     if (!out_.why.empty()) return out_;
     for (const Sampling& sampling : layouts_of(plan_.features[out_.feature], out_.measurand)) {
-      const Layout layout(plan_, out_.feature, sampling);
+      const SamplingLayout layout(plan_, out_.feature, sampling);
       if (auto tried = try_layout(layout); !tried) return core::fail(tried.error());
     }
     if (auto confirmed = confirm_cheapest(); !confirmed) return core::fail(confirmed.error());
@@ -188,7 +89,7 @@ class Search {
 
  private:
   /// The plan as it stands: the first candidate, or why there is none.
-  core::Result<void> look_at_plan(const Layout& planned) {
+  core::Result<void> look_at_plan(const SamplingLayout& planned) {
     SamplingCandidate as_planned = planned.candidate(out_.planned.repeats);
     const auto found = planned.predict(out_.measurand, all_parts(), as_planned);
     if (!found) return core::fail(found.error());
@@ -198,7 +99,8 @@ class Search {
                      : fmt::format("nothing is stated {}", reports::name_of(out_.measurand));
       return {};
     }
-    keep(as_planned, *found, true);
+    // With one touch a point and no declared repeatability U would be small for want of noise.
+    if (out_.planned.repeats >= least_repeats(plan_)) keep(as_planned, *found, true);
     return {};
   }
 
@@ -225,7 +127,7 @@ class Search {
                         [&](const SamplingCandidate& c) { return c.meets && c.time_s <= time_s; });
   }
 
-  core::Result<bool> meets(const Layout& layout, int repeats) {
+  core::Result<bool> meets(const SamplingLayout& layout, int repeats) {
     SamplingCandidate candidate = layout.candidate(repeats);
     const auto found = layout.predict(out_.measurand, few_parts(out_.measurand), candidate);
     if (!found) return core::fail(found.error());
@@ -234,7 +136,7 @@ class Search {
   }
 
   /// The fewest repeats of a layout that meet the target, among those that are worth trying.
-  core::Result<void> try_layout(const Layout& layout) {
+  core::Result<void> try_layout(const SamplingLayout& layout) {
     if (!layout.forecast()) {
       out_.candidates.push_back(layout.candidate(least_repeats(plan_)));
       return {};
@@ -265,7 +167,7 @@ class Search {
       const SamplingCandidate* cheapest = cheapest_that_meets();
       if (cheapest == nullptr || cheapest->confirmed) break;
       SamplingCandidate candidate = *cheapest;
-      const Layout layout(plan_, out_.feature, candidate.sampling);
+      const SamplingLayout layout(plan_, out_.feature, candidate.sampling);
       const auto found = layout.predict(out_.measurand, all_parts(), candidate);
       if (!found) return core::fail(found.error());
       keep(candidate, *found, true);
@@ -288,7 +190,7 @@ class Search {
     }
     if (smallest == nullptr || smallest->confirmed) return {};
     SamplingCandidate candidate = *smallest;
-    const Layout layout(plan_, out_.feature, candidate.sampling);
+    const SamplingLayout layout(plan_, out_.feature, candidate.sampling);
     const auto found = layout.predict(out_.measurand, all_parts(), candidate);
     if (!found) return core::fail(found.error());
     smallest_mm_ = -1.0;  // what limits this one is told

@@ -4,32 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "app/sampling_layout.h"
 #include "core/result.h"
 #include "plans/plan.h"
-#include "reports/predict.h"
+#include "reports/uncertainty.h"
 
 namespace rondure::app {
-
-/// A sampling of a feature, as its plan spells it.
-struct Sampling {
-  int layers = 0;
-  int points_per_layer = 0;
-  int repeats = 0;  ///< Touches of every point of the final cloud.
-
-  friend bool operator==(const Sampling&, const Sampling&) = default;
-};
-
-/// A sampling that was tried.
-struct SamplingCandidate {
-  Sampling sampling;
-  int touches = 0;                       ///< Of the whole run.
-  double time_s = 0.0;                   ///< Of the whole run, as forecast() predicts it.
-  double expanded_mm = 0.0;              ///< Predicted U, the largest of its characteristics.
-  double nine_of_ten_expanded_mm = 0.0;  ///< U that nine of ten parts stay below.
-  bool meets = false;                    ///< That U is not above the target.
-  bool confirmed = false;                ///< Predicted with the full number of simulated parts.
-  std::string out_of_reach;              ///< Not empty: why it cannot be touched; no numbers then.
-};
 
 /// What was found for one feature.
 struct SamplingSearch {
