@@ -91,14 +91,15 @@ void Press::note_missing(const std::string& text) {
   if (ascii) return;
   Words words(*this);
   words.add(text, {});
-  (void)words.set(Align::kLeft);
+  words.set(Align::kLeft)->lay(1000.0);
 }
 
 /// A paragraph as Pango lays it out.
 class TextBox final : public Box {
  public:
   TextBox(Words&& words, Align align, bool one_line)
-      : layout_(pango_layout_new(words.press_.context())),
+      : press_(words.press_),
+        layout_(pango_layout_new(words.press_.context())),
         insets_(std::move(words.insets_)),
         frames_(std::move(words.frames_)) {
     pango_layout_set_text(layout_.get(), words.text_.data(), static_cast<int>(words.text_.size()));
@@ -121,12 +122,17 @@ class TextBox final : public Box {
     }
     insert(list.get(), pango_attr_insert_hyphens_new(FALSE), 0, words.text_.size());
     pango_layout_set_attributes(layout_.get(), list.get());
-    words.press_.note_missing(layout_.get());
   }
 
   [[nodiscard]] Widths widths() const override {
     constexpr double kSpare = 0.5;  // for what Pango rounds
+    constexpr int kLongText = 1500;
+    constexpr double kWideEnough = 4000.0;  // as good as endless: laying it out twice more costs
+    if (pango_layout_get_character_count(layout_.get()) > kLongText) {
+      return {kLongestWord, kWideEnough};
+    }
     PangoRectangle room;
+    laid_ = -1.0;
     pango_layout_set_wrap(layout_.get(), PANGO_WRAP_WORD);
     pango_layout_set_width(layout_.get(), 0);
     pango_layout_get_extents(layout_.get(), nullptr, &room);
@@ -139,7 +145,8 @@ class TextBox final : public Box {
   }
 
   void lay(double width) override {
-    width_ = width;
+    if (width == laid_) return;
+    width_ = laid_ = width;
     // Text that widths() found to fit is laid out already.
     const bool fits = wanted_ > 0.0 && wanted_ <= width &&
                       pango_layout_get_alignment(layout_.get()) == PANGO_ALIGN_LEFT;
@@ -147,6 +154,7 @@ class TextBox final : public Box {
     PangoRectangle room;
     pango_layout_get_extents(layout_.get(), nullptr, &room);
     height_ = points(room.height);
+    press_.note_missing(layout_.get());
   }
 
   void draw(cairo_t* cairo, double x, double y, const Slice& slice) const override {
@@ -215,10 +223,12 @@ class TextBox final : public Box {
     }
   }
 
+  Press& press_;
   LayoutPtr layout_;
   std::vector<Words::Inset> insets_;
   std::vector<Span> frames_;
   mutable double wanted_ = 0.0;  ///< Of widths(), once asked.
+  mutable double laid_ = -1.0;   ///< Width for which it is laid out now.
 };
 
 void Words::put(std::string_view text, const TextStyle& style) {

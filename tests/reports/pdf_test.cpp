@@ -289,7 +289,6 @@ TEST(Pdf, HostileTextsStayTextOnEveryPage) {
     EXPECT_THAT(lacking(pdf, html), ::testing::IsEmpty());
     EXPECT_THAT(pages_of(pdf).back(), HasSubstr(fmt::format("Page {0} of {0}\n", pdf.pages)));
     expect_uncut(pdf);
-    EXPECT_EQ(pdf.bytes, pdf_of(made.record, html).bytes);
     const auto same = pdf_difference(pdf.bytes, pdf.bytes + " ", true);
     EXPECT_FALSE(same) << *same;
   }
