@@ -312,6 +312,18 @@ void add_verify(CLI::App& app, VerifyArguments& arguments) {
       "digests. With the key of who signed (rondure sign) it finds forgery, too.");
 }
 
+void add_compare(CLI::App& app, CompareArguments& arguments) {
+  auto* verb = app.add_subcommand(
+      "compare",
+      "Why another program prints another number: reference x filter x outliers x sampling");
+  verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
+  verb->add_flag("--all", arguments.all, "Every combination, not only one change at a time");
+  verb->add_flag("--json", arguments.json, "JSON instead of text, with every combination");
+  verb->footer(
+      "\nExample: rondure compare runs/01_spool_simulated-20261121T023302Z\n"
+      "Levels, rules and how shares are computed: docs/compare.md");
+}
+
 void add_sign(CLI::App& app, SignArguments& arguments) {
   auto* verb = app.add_subcommand("sign", "Signs a finished run that verifies (Ed25519)");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
@@ -455,6 +467,7 @@ int main_of(int argc, char** argv) {
   ReportArguments report_arguments;
   SignArguments sign_arguments;
   VerifyArguments verify_arguments;
+  CompareArguments compare_arguments;
   HistoryArguments history_arguments;
   add_validate(app, validate_arguments);
   add_plan(app, plan_arguments);
@@ -469,6 +482,7 @@ int main_of(int argc, char** argv) {
   add_rotary_axes(*fit_verb, rotary_arguments);
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
+  add_compare(app, compare_arguments);
   add_history(app, history_arguments);
   add_sign(app, sign_arguments);
   add_design_probes(app, design_arguments);
@@ -491,6 +505,7 @@ int main_of(int argc, char** argv) {
   if (fit_verb->got_subcommand("rotary-axes")) return rotary_axes(rotary_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
+  if (app.got_subcommand("compare")) return compare(compare_arguments);
   if (app.got_subcommand("history")) return history(history_arguments);
   if (app.got_subcommand("design-probes")) return design_probes(design_arguments);
   if (app.got_subcommand("sign")) return sign(sign_arguments);
