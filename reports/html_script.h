@@ -30,7 +30,7 @@ inline constexpr std::string_view kScript = R"js(//<![CDATA[
     if (box.scrollWidth > box.clientWidth + 1) {
       const named = box.querySelector('caption, [aria-label]');
       box.tabIndex = 0;
-      box.setAttribute('role', 'region');
+      box.setAttribute('role', 'group');
       if (named) box.setAttribute('aria-label', named.getAttribute('aria-label') || named.textContent);
     } else {
       for (const name of ['tabindex', 'role', 'aria-label']) box.removeAttribute(name);

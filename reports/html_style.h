@@ -144,12 +144,12 @@ table.results tr:not(.words){padding-top:14px}
 table.results td,table.results td.n{min-width:0!important;padding:2px 0;text-align:left;white-space:normal}
 table.results td[data-l]:not(:empty):before{content:attr(data-l) " ";color:var(--soft);font-size:12.5px;font-weight:400}
 }
-@page{size:A4;margin:16mm 15mm 18mm}
+@page{margin:16mm 15mm 18mm;@bottom-right{content:counter(page) " / " counter(pages);font:8pt system-ui,sans-serif;color:#55616d}}
 @media print{
 .screen-only{display:none!important}.print-only{display:block}
 body{font-size:9.5pt}table{font-size:9pt}th,.note{font-size:8.5pt}table.results td:first-child{min-width:140px}
 table.results .bar{width:120px}table.results .value{font-size:13pt}th.n,td.n{padding-right:16px}.verdict .word{font-size:34px}main{max-width:none;padding:0}.scroll{overflow:visible}
-figure,tr,.verdict,.banner,.truth,.keys>div,.warnings li{break-inside:avoid;page-break-inside:avoid}
+figure,tr,.verdict,.banner,.rule,.truth,.keys>div,.warnings li{break-inside:avoid;page-break-inside:avoid}
 table.short{break-inside:avoid;page-break-inside:avoid}
 h2,h3{break-after:avoid;page-break-after:avoid}h2{margin-top:22px;padding-top:12px}section:last-of-type tr{line-height:1.35}h3+p{break-after:avoid;page-break-after:avoid}
 thead{display:table-header-group}
