@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <new>
 #include <string>
@@ -75,6 +76,27 @@ void add_plan(CLI::App& app, PlanArguments& arguments) {
       "would\nhelp; then the exit status is 2. More: docs/planning.md");
 }
 
+/// A port, or nothing said: any free one.
+std::string check_port(const std::string& text) {
+  const auto port = core::parse_number(text);
+  const bool whole = port && *port >= 1.0 && *port <= 65535.0 && *port == std::floor(*port);
+  return text == "auto" || whole ? std::string()
+                                 : fmt::format("{} is no port from 1 to 65535", text);
+}
+
+void add_watching(CLI::App& verb, RunArguments& arguments) {
+  auto* watch = verb.add_flag("--watch{auto}", arguments.watch,
+                              "Serves a page on this computer that shows the run while it is\n"
+                              "measured, and prints its address; --watch=PORT chooses the port");
+  watch->check(check_port);
+  verb.add_flag("--control", arguments.control, "With --watch: the page has a stop button")
+      ->needs(watch);
+  verb.add_option("--speed", arguments.speed,
+                  "Of a simulated machine: seconds of its clock in one second (default: no\n"
+                  "waiting), to watch a simulated run; the result is the same")
+      ->check(CLI::Range(1e-3, 1e6));
+}
+
 void add_run(CLI::App& app, RunArguments& arguments) {
   auto* verb = app.add_subcommand("run", "Executes a plan and writes its reports");
   verb->add_option("PLAN", arguments.plan, "Plan file (JSON); with --resume also a run directory")
@@ -101,12 +123,17 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   verb->add_flag("--step", arguments.step,
                  "First run: slow, each move confirmed on the terminal (Enter go, c continue\n"
                  "without asking, q stop in order)");
+  add_watching(*verb, arguments);
   verb->footer(
       std::string("\nExample: rondure run plans/examples/01_spool_simulated.json --serial "
                   "0042 --operator mk\n"
                   "Ctrl-C stops after the present touch and retracts; a second one ends the "
                   "program at once.\n"
                   "What was measured is kept in every case, also when the power fails.\n"
+                  "\nTo watch it in a browser: rondure run plan.json --watch (docs/live.md); a "
+                  "simulated run:\n"
+                  "  rondure run plans/examples/01_spool_simulated.json --watch --control --speed "
+                  "20\n"
                   "\nTo go on with a run that was interrupted, stopped or failed:\n"
                   "  rondure run runs/01_spool_simulated-20261121T023302Z --resume\n"
                   "or with its plan, which must not have changed:\n"
