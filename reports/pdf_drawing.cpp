@@ -95,9 +95,12 @@ class Drawing final : public Box {
   bool centred_ = false;
 };
 
-/// The style of drawings, with the fonts of the report.
+/// The style of drawings, with the fonts of the report and what its rules for print say.
 std::string style_of(const Source& page) {
-  return page.drawing_style + fmt::format("svg{{font-family:{}}}", kFamilies);
+  return page.drawing_style +
+         fmt::format(
+             "svg{{font-family:{}}}.print-only{{display:inline}}.screen-only{{display:none}}",
+             kFamilies);
 }
 
 Handle read(Press& press, const std::string& document) {
