@@ -17,6 +17,7 @@
 #include "core/version.h"
 #include "plans/simulation_table.h"
 #include "reports/exports.h"
+#include "reports/language.h"
 
 namespace rondure::app {
 namespace {
@@ -35,6 +36,12 @@ void add_formats(CLI::App& verb, std::vector<std::string>& formats, const char* 
       ->allow_extra_args(false)
       ->check(CLI::IsMember(reports::all_formats()))
       ->type_name("LIST");
+}
+
+void add_language(CLI::App& verb, std::string& language) {
+  verb.add_option("--lang", language, "Language of page and summary: en or zh (default: en)")
+      ->check(CLI::IsMember(reports::language_names()))
+      ->type_name("LANG");
 }
 
 /// Whole numbers that every reader of JSON keeps, as in a plan.
@@ -92,6 +99,7 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
       ->check(check_seed);
   add_formats(*verb, arguments.formats, "html,json,csv,qif,dmis,junit (default: as the plan says)");
+  add_language(*verb, arguments.language);
   verb->add_option("--archive", arguments.archive,
                    "Where the results are kept besides: a file, postgresql://... or none\n"
                    "(default: as the plan says, else archive.db beside the run directory)");
@@ -297,6 +305,7 @@ void add_report(CLI::App& app, ReportArguments& arguments) {
   auto* verb = app.add_subcommand("report", "Writes the reports of a run again, from its journal");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
   add_formats(*verb, arguments.formats, "html,json,csv,qif,dmis,junit (default: all)");
+  add_language(*verb, arguments.language);
   verb->footer("\nExample: rondure report runs/01_spool_simulated-20261121T023302Z --format html");
 }
 

@@ -81,9 +81,9 @@ bool applies(const Export& what, const record::RunRecord& record) {
 }
 
 std::string render(const Export& what, const record::RunRecord& record,
-                   const Evaluation& evaluation) {
+                   const Evaluation& evaluation, Language language) {
   if (what.file == kCalibrationFile) return calibration_of(evaluation);
-  if (what.format == "html") return write_html(record, evaluation);
+  if (what.format == "html") return write_html(record, evaluation, language);
   if (what.format == "json") return write_json(record, evaluation);
   if (what.format == "qif") return write_qif(record, evaluation);
   if (what.format == "dmis") return write_dmis(record, evaluation);
@@ -93,20 +93,24 @@ std::string render(const Export& what, const record::RunRecord& record,
   return write_touches_csv(record);
 }
 
+Language language_of(const Export& what, std::string_view bytes) {
+  return what.format == "html" ? language_of_page(bytes) : Language::kEnglish;
+}
+
 bool exports_are_current(const std::filesystem::path& directory,
                          const std::vector<std::string>& formats, const record::RunRecord& record,
-                         const Evaluation& evaluation) {
+                         const Evaluation& evaluation, Language language) {
   return std::all_of(exports().begin(), exports().end(), [&](const Export& e) {
     if (!applies(e, record)) return true;
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) return true;
     const auto bytes = record::read_file(directory / e.file);
-    return bytes && *bytes == render(e, record, evaluation);
+    return bytes && *bytes == render(e, record, evaluation, language);
   });
 }
 
 core::Result<std::vector<std::filesystem::path>> write_exports(
     const std::filesystem::path& directory, const std::vector<std::string>& formats,
-    const record::RunRecord& record, const Evaluation& evaluation) {
+    const record::RunRecord& record, const Evaluation& evaluation, Language language) {
   for (const std::string& format : formats) {
     const auto known = all_formats();
     if (std::find(known.begin(), known.end(), format) == known.end()) {
@@ -122,7 +126,7 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
     if (!applies(e, record)) continue;
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) continue;
     const auto path = directory / e.file;
-    const std::string bytes = render(e, record, evaluation);
+    const std::string bytes = render(e, record, evaluation, language);
     done = look_through(e, bytes);
     if (done) done = record::write_file(path, bytes);
     if (!done) break;

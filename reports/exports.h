@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
 #include "record/run_record.h"
 #include "reports/evaluation.h"
+#include "reports/language.h"
 
 namespace rondure::reports {
 
@@ -24,15 +26,20 @@ struct Export {
 /// fixture-calibration.json only of a finished calibration of the fixture.
 [[nodiscard]] bool applies(const Export& what, const record::RunRecord& record);
 
-/// The bytes of one export.
+/// The bytes of one export. What people read is in `language`; what programs read is English.
 [[nodiscard]] std::string render(const Export& what, const record::RunRecord& record,
-                                 const Evaluation& evaluation);
+                                 const Evaluation& evaluation,
+                                 Language language = Language::kEnglish);
+
+/// The language that a file of a run was written in, as the file itself states it.
+[[nodiscard]] Language language_of(const Export& what, std::string_view bytes);
 
 /// Whether a run directory holds these exports with the bytes that they would have now.
 [[nodiscard]] bool exports_are_current(const std::filesystem::path& directory,
                                        const std::vector<std::string>& formats,
                                        const record::RunRecord& record,
-                                       const Evaluation& evaluation);
+                                       const Evaluation& evaluation,
+                                       Language language = Language::kEnglish);
 
 /// Writes exports into a run directory, each whole or not at all, and their digests into
 /// SHA256SUMS.
@@ -40,6 +47,7 @@ struct Export {
 /// break check_qif(), kFile with the system's reason, kSyntax for a SHA256SUMS that is none.
 [[nodiscard]] core::Result<std::vector<std::filesystem::path>> write_exports(
     const std::filesystem::path& directory, const std::vector<std::string>& formats,
-    const record::RunRecord& record, const Evaluation& evaluation);
+    const record::RunRecord& record, const Evaluation& evaluation,
+    Language language = Language::kEnglish);
 
 }  // namespace rondure::reports

@@ -76,7 +76,8 @@ core::Result<std::string> compare_exports(const fs::path& directory,
     const auto bytes = record::read_file(directory / e.file);
     if (!bytes) return core::fail(bytes.error());
     names += (names.empty() ? "" : ", ") + e.file;
-    const auto difference = compare_export(e, render(e, record, evaluation), *bytes, exactness);
+    const std::string expected = render(e, record, evaluation, language_of(e, *bytes));
+    const auto difference = compare_export(e, expected, *bytes, exactness);
     const auto state = listed.state_of(e.file);
     if (difference || state == State::kChanged) {
       out.differences.push_back(in_words(e, difference, state));
