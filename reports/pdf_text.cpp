@@ -63,11 +63,10 @@ Press::Press(cairo_t* cairo, const Source& page)
 Press::~Press() { g_object_unref(context_); }
 
 bool Press::has_fonts() const {
-  PangoFontFamily** families = nullptr;
-  int number = 0;
-  pango_context_list_families(context_, &families, &number);
-  g_free(static_cast<gpointer>(families));
-  return number > 0;
+  // Pango lists families that fontconfig only promises, so letters are asked for.
+  const LayoutPtr letters(pango_layout_new(context_));
+  pango_layout_set_text(letters.get(), "Page 1", -1);
+  return pango_layout_get_unknown_glyphs_count(letters.get()) == 0;
 }
 
 void Press::note_missing(PangoLayout* layout) {
