@@ -7,9 +7,12 @@
 #include <pango/pangocairo.h>
 
 #ifdef __SANITIZE_ADDRESS__
-/// Patterns that fontconfig hands to Pango live until the program ends; read when a leak is found.
+// Patterns that fontconfig hands to Pango live until the program ends. Nothing is printed of it:
+// the tests read what the program says.
 extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
+extern "C" const char* __lsan_default_options();  // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
 #endif
 
 namespace rondure::reports::pdf {
