@@ -178,6 +178,7 @@ void Flow::heading(const pugi::xml_node& node, const Setting& setting, std::vect
   for (const auto& piece : node.select_nodes(".//text()")) brick.heading += piece.node().value();
   brick.level = node.name()[1] - '0';
   brick.keep_with_next = true;
+  brick.may_be_cut = true;
   brick.box = text.set(setting.align);
   if (brick.level == 2) {
     Border line;
