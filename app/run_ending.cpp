@@ -74,10 +74,11 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
 }  // namespace
 
 int conclude(const RunToFinish& ending, plans::Run* run) {
-  const auto& [arguments, plan, archive, directory] = ending;
+  const auto& [arguments, plan, archive, directory, live] = ending;
   const auto told = read_and_evaluate(directory);
   if (!told) {
     complain(told.error());
+    if (live != nullptr) live->show_failure(core::to_line(told.error()));
     return kRunFailed;
   }
   const reports::Evaluation& evaluation = told->evaluation;
@@ -102,16 +103,20 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
     }
     return kRunFailed;
   }
+  for (const std::string& warning : written->warnings) tell(fmt::format("rondure: {}\n", warning));
+  if (live != nullptr) {
+    live->show_result(told->record, evaluation, fs::absolute(directory).string());
+  }
   if (!arguments.quiet) {
     say(reports::write_summary(told->record, evaluation, sketch_style()));
-    for (const fs::path& file : *written) say(file.string() + "\n");
+    for (const fs::path& file : written->files) say(file.string() + "\n");
   }
   if (!failed) (void)archive_run(archive, directory, told->record, evaluation);
   return exit_status(failed, evaluation.verdict);
 }
 
 int finish_sealed(const RunToFinish& ending) {
-  const auto& [arguments, plan, archive, directory] = ending;
+  const auto& [arguments, plan, archive, directory, live] = ending;
   const auto lock = record::RunLock::take(directory);
   if (!lock) {
     complain(lock.error());

@@ -46,4 +46,14 @@ inline std::string first_unbalanced_tag(std::string_view page) {
   return open.empty() ? std::string() : open.back();
 }
 
+/// Lines of a terminal as one: every run of blanks and line ends is one blank.
+inline std::string one_line(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool blank = c == ' ' || c == '\n';
+    if (!blank || (!out.empty() && out.back() != ' ')) out += blank ? ' ' : c;
+  }
+  return out;
+}
+
 }  // namespace rondure::reports::testing
