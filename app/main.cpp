@@ -113,7 +113,8 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   verb->add_option("--operator", arguments.operator_name, "Who measures");
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
       ->check(check_seed);
-  add_formats(*verb, arguments.formats, "html,json,csv,qif,dmis,junit (default: as the plan says)");
+  add_formats(*verb, arguments.formats,
+              "html,pdf,json,csv,qif,dmis,junit (default: as the plan says)");
   verb->add_option("--archive", arguments.archive,
                    "Where the results are kept besides: a file, postgresql://... or none\n"
                    "(default: as the plan says, else archive.db beside the run directory)");
@@ -323,7 +324,7 @@ void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
 void add_report(CLI::App& app, ReportArguments& arguments) {
   auto* verb = app.add_subcommand("report", "Writes the reports of a run again, from its journal");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
-  add_formats(*verb, arguments.formats, "html,json,csv,qif,dmis,junit (default: all)");
+  add_formats(*verb, arguments.formats, "html,pdf,json,csv,qif,dmis,junit (default: all)");
   verb->footer("\nExample: rondure report runs/01_spool_simulated-20261121T023302Z --format html");
 }
 
@@ -337,6 +338,18 @@ void add_verify(CLI::App& app, VerifyArguments& arguments) {
       "Without --key this finds accidents: whoever can write into the directory can also forge "
       "its\n"
       "digests. With the key of who signed (rondure sign) it finds forgery, too.");
+}
+
+void add_compare(CLI::App& app, CompareArguments& arguments) {
+  auto* verb = app.add_subcommand(
+      "compare",
+      "Why another program prints another number: reference x filter x outliers x sampling");
+  verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
+  verb->add_flag("--all", arguments.all, "Every combination, not only one change at a time");
+  verb->add_flag("--json", arguments.json, "JSON instead of text, with every combination");
+  verb->footer(
+      "\nExample: rondure compare runs/01_spool_simulated-20261121T023302Z\n"
+      "Levels, rules and how shares are computed: docs/compare.md");
 }
 
 void add_sign(CLI::App& app, SignArguments& arguments) {
@@ -482,6 +495,7 @@ int main_of(int argc, char** argv) {
   ReportArguments report_arguments;
   SignArguments sign_arguments;
   VerifyArguments verify_arguments;
+  CompareArguments compare_arguments;
   HistoryArguments history_arguments;
   add_validate(app, validate_arguments);
   add_plan(app, plan_arguments);
@@ -496,6 +510,7 @@ int main_of(int argc, char** argv) {
   add_rotary_axes(*fit_verb, rotary_arguments);
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
+  add_compare(app, compare_arguments);
   add_history(app, history_arguments);
   add_sign(app, sign_arguments);
   add_design_probes(app, design_arguments);
@@ -518,6 +533,7 @@ int main_of(int argc, char** argv) {
   if (fit_verb->got_subcommand("rotary-axes")) return rotary_axes(rotary_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
+  if (app.got_subcommand("compare")) return compare(compare_arguments);
   if (app.got_subcommand("history")) return history(history_arguments);
   if (app.got_subcommand("design-probes")) return design_probes(design_arguments);
   if (app.got_subcommand("sign")) return sign(sign_arguments);

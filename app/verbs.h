@@ -75,6 +75,13 @@ struct VerifyArguments {
 };
 [[nodiscard]] int verify(const VerifyArguments& arguments);
 
+struct CompareArguments {
+  std::string directory;
+  bool all = false;  ///< Text with every combination.
+  bool json = false;
+};
+[[nodiscard]] int compare(const CompareArguments& arguments);
+
 struct HistoryArguments {
   std::string archive = "runs/archive.db";
   bool archive_given = false;

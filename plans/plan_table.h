@@ -568,10 +568,11 @@ void describe(Visitor& v, FeaturePlan& p) {
 template <class Visitor>
 void describe(Visitor& v, ReportsPlan& p) {
   v.texts("formats", p.formats,
-          {.one_of = {"html", "json", "csv", "qif", "dmis", "junit"},
+          {.one_of = {"html", "pdf", "json", "csv", "qif", "dmis", "junit"},
            .empty_allowed = false,
-           .meaning = "Reports that a run writes: a page, all numbers, tables, QIF 3.0 results, a "
-                      "DMIS output block, a JUnit summary for pipelines."});
+           .meaning =
+               "Reports that a run writes: a page, the same on paper (PDF), all numbers, tables, "
+               "QIF 3.0 results, a DMIS output block, a JUnit summary for pipelines."});
   v.text("archive", p.archive,
          {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "
                      "relative to the plan; postgresql://user@host/database without a password; "

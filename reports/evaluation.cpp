@@ -351,12 +351,25 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
   return result;
 }
 
+/// What is left of a feature whose result broke an invariant: what was asked and how it was
+/// measured. None of its numbers can be trusted.
+FeatureResult without_values(const Defect& defect) {
+  FeatureResult out;
+  out.feature = defect.result.feature;
+  out.tip_radius_mm = defect.result.tip_radius_mm;
+  out.temperatures = defect.result.temperatures;
+  out.thermal = defect.result.thermal;
+  out.failure = error_of(defect);
+  return out;
+}
+
 }  // namespace
 
-tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& measured) {
+CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantCheck& check) {
   const std::optional<RunRecord> at_20 = compensated(measured);
   const RunRecord& record = at_20 ? *at_20 : measured;
-  Evaluation out;
+  CheckedEvaluation checked;
+  Evaluation& out = checked.evaluation;
   out.rule = rule_of(record);
   out.probe = evaluate_probe(record);
   const FixtureFacts facts = fixture_facts(record);
@@ -369,20 +382,20 @@ tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& measured) {
       continue;
     }
     auto feature = evaluate_feature(record, static_cast<int>(i), out.probe, facts.kinematics);
-    if (auto broken = broken_invariant(feature))
-      return tl::unexpected(Defect{*std::move(broken), std::move(feature)});
+    if (auto broken = check(feature)) {
+      checked.defects.push_back({*std::move(broken), std::move(feature)});
+      feature = without_values(checked.defects.back());
+    }
     decide(record, out.rule, out.probe, feature);
     apply_calibration(out.fixture, feature);
     out.features.push_back(std::move(feature));
   }
   out.verdict = overall(out.features);
-  return out;
+  return checked;
 }
 
 core::Result<Evaluation> evaluate(const RunRecord& record) {
-  auto evaluation = evaluate_or_defect(record);
-  if (evaluation) return *std::move(evaluation);
-  return core::fail(error_of(evaluation.error(), "the run's journal.db"));
+  return evaluate_checked(record).evaluation;
 }
 
 }  // namespace rondure::reports

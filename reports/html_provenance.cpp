@@ -112,7 +112,7 @@ std::string provenance_section(const record::RunRecord& record) {
   for (const record::Feature& feature : record.features) {
     if (feature.points_file.empty()) continue;
     rows += property("Points file",
-                     isolated(feature.points_file) + "<br>" + mono(feature.points_sha256));
+                     isolated(feature.points_file) + "<br/>" + mono(feature.points_sha256));
   }
   if (header.simulated) rows += property("Seed of the simulation", std::to_string(header.seed));
   rows += property("Decision rule", isolated(rule_in_words(header)));

@@ -19,7 +19,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr const char* kAll = "html,json,csv,qif,dmis,junit";
+constexpr const char* kAll = "html,pdf,json,csv,qif,dmis,junit";
 
 class Formats : public ::testing::Test {
  protected:
