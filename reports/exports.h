@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
 #include "record/run_record.h"
 #include "reports/evaluation.h"
+#include "reports/language.h"
 
 namespace rondure::reports {
 
@@ -30,16 +32,21 @@ struct Rendered {
   std::string warning;  ///< What a reader must be told besides, in a sentence; usually empty.
 };
 
-/// The bytes of one export.
+/// The bytes of one export. What people read is in `language`; what programs read is English.
 /// @return  Those, or why this machine cannot make them; only report.pdf fails, see write_pdf().
 [[nodiscard]] core::Result<Rendered> render(const Export& what, const record::RunRecord& record,
-                                            const Evaluation& evaluation);
+                                            const Evaluation& evaluation,
+                                            Language language = Language::kEnglish);
+
+/// The language that a file of a run was written in, as the file itself states it.
+[[nodiscard]] Language language_of(const Export& what, std::string_view bytes);
 
 /// Whether a run directory holds these exports with the bytes that they would have now.
 [[nodiscard]] bool exports_are_current(const std::filesystem::path& directory,
                                        const std::vector<std::string>& formats,
                                        const record::RunRecord& record,
-                                       const Evaluation& evaluation);
+                                       const Evaluation& evaluation,
+                                       Language language = Language::kEnglish);
 
 /// What write_exports() did.
 struct WrittenExports {
@@ -55,6 +62,7 @@ struct WrittenExports {
 [[nodiscard]] core::Result<WrittenExports> write_exports(const std::filesystem::path& directory,
                                                          const std::vector<std::string>& formats,
                                                          const record::RunRecord& record,
-                                                         const Evaluation& evaluation);
+                                                         const Evaluation& evaluation,
+                                                         Language language = Language::kEnglish);
 
 }  // namespace rondure::reports
