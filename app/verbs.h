@@ -43,10 +43,14 @@ struct RunArguments {
   std::string operator_name;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> formats;  ///< Empty: as the plan says.
+  std::string language = "en";       ///< Of page and summary: "en" or "zh".
   std::string archive;               ///< Empty: as the plan says.
   std::string wire_log;              ///< Empty: none.
   bool quiet = false;
-  bool step = false;  ///< Each move confirmed on the terminal, at reduced speed.
+  bool step = false;            ///< Each move confirmed on the terminal, at reduced speed.
+  std::string watch;            ///< Port of the live page; "auto": any free one; empty: no page.
+  bool control = false;         ///< With `watch`: a button that stops the run.
+  std::optional<double> speed;  ///< Simulated seconds in a second; none: no waiting.
 };
 [[nodiscard]] int run(const RunArguments& arguments);
 
@@ -64,6 +68,7 @@ struct SimulateCmmArguments {
 struct ReportArguments {
   std::string directory;
   std::vector<std::string> formats;
+  std::string language = "en";  ///< Of page and summary: "en" or "zh".
 };
 [[nodiscard]] int report(const ReportArguments& arguments);
 
@@ -72,6 +77,13 @@ struct VerifyArguments {
   std::string key;  ///< Public key file; empty: the signature is not checked.
 };
 [[nodiscard]] int verify(const VerifyArguments& arguments);
+
+struct CompareArguments {
+  std::string directory;
+  bool all = false;  ///< Text with every combination.
+  bool json = false;
+};
+[[nodiscard]] int compare(const CompareArguments& arguments);
 
 struct HistoryArguments {
   std::string archive = "runs/archive.db";

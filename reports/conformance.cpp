@@ -3,88 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
 #include "reports/declared.h"
+#include "reports/deviation.h"
 #include "reports/facts.h"
+#include "reports/harmonic_mask.h"
 
 namespace rondure::reports {
 namespace {
 
 using record::Form;
-using record::Reference;
 
 double um(double mm) { return mm / core::kMicrometre; }
-
-/// A deviation, and what stands against it.
-struct Deviation {
-  double value_mm = 0.0;
-  bool certified = true;   ///< A certificate stands behind the reference; least squares needs none.
-  bool exact_fit = false;  ///< 0 by construction.
-};
-
-template <class Fit>
-Deviation certified_deviation(double value_mm, const Fit& fit) {
-  return {value_mm, fit.certificate.kind != fit::Certificate::Kind::kNone, false};
-}
-
-template <class Fit>
-core::Result<Deviation> one_sided_deviation(const core::Result<Fit>& fit) {
-  if (!fit) return core::fail(fit.error());
-  return certified_deviation(fit->deviation_mm, *fit);
-}
-
-/// The deviation about one reference; without that reference, why there is none.
-core::Result<Deviation> section_deviation(const LayerResult& layer, Reference reference) {
-  if (!layer.mz) return core::fail(layer.mz.error());
-  if (!layer.ls) return core::fail(layer.ls.error());
-  switch (reference) {
-    case Reference::kLeastSquares:
-      return Deviation{layer.ls->deviation_mm};
-    case Reference::kMinimumZone:
-      return certified_deviation(layer.mz->width_mm(), *layer.mz);
-    case Reference::kMinimumCircumscribed:
-      return one_sided_deviation(layer.mc);
-    case Reference::kMaximumInscribed:
-      return one_sided_deviation(layer.mi);
-  }
-  return not_fitted();
-}
-
-core::Result<Deviation> cylinder_deviation(const FeatureResult& result, Reference reference) {
-  if (!result.mz_cylinder || !result.ls_cylinder) return not_fitted();
-  switch (reference) {
-    case Reference::kLeastSquares:
-      return Deviation{result.ls_cylinder->deviation_mm};
-    case Reference::kMinimumZone:
-      return certified_deviation(result.mz_cylinder->width_mm(), *result.mz_cylinder);
-    case Reference::kMinimumCircumscribed:
-      return one_sided_deviation(result.mc_cylinder);
-    case Reference::kMaximumInscribed:
-      return one_sided_deviation(result.mi_cylinder);
-  }
-  return not_fitted();
-}
-
-/// The largest deviation of a section; one that lacks the reference leaves none.
-core::Result<Deviation> worst_section(const FeatureResult& result, Reference reference) {
-  if (result.layers.empty())
-    return core::fail(core::Code::kNoPoints, "this feature has no sections");
-  Deviation out;
-  for (const LayerResult& layer : result.layers) {
-    const auto section = section_deviation(layer, reference);
-    if (!section) {
-      return core::fail(section.error().code,
-                        fmt::format("layer {}: {}", layer.layer + 1, section.error().what));
-    }
-    out.value_mm = std::max(out.value_mm, section->value_mm);
-    if (layer.mz->exact_fit) out.exact_fit = true;
-    if (!section->certified) out.certified = false;
-  }
-  return out;
-}
 
 /// The value of a characteristic and whether what proves it is there.
 core::Result<Deviation> value_of(const FeatureResult& result,
@@ -123,13 +57,16 @@ std::string temperature_words(const FeatureResult& result) {
                      2e6 * result.thermal->factor_uncertainty);
 }
 
+std::string tip_words(const FeatureResult& result) {
+  return result.tip_radius_mm ? fmt::format("r_tip {:.4f} mm", *result.tip_radius_mm)
+                              : "r_tip unknown";
+}
+
 /// "MZCY; unfiltered; 4 x 7 points; mean of 5 touches a point; r_tip 1.9984 mm; 20.0 degC".
 ValueOperator operator_of(const FeatureResult& result,
                           const record::Characteristic& characteristic) {
   return {ReferenceTerm(reference_of(characteristic)), FilterTerm("unfiltered"),
-          SamplingTerm(sampling_words(result, characteristic)),
-          TipTerm(result.tip_radius_mm ? fmt::format("r_tip {:.4f} mm", *result.tip_radius_mm)
-                                       : "r_tip unknown"),
+          SamplingTerm(sampling_words(result, characteristic)), TipTerm(tip_words(result)),
           TemperatureTerm(temperature_words(result))};
 }
 
@@ -186,7 +123,38 @@ struct Circumstances {
   const std::optional<fit::ProbeTip>& probe;
 };
 
+/// Against a mask the harmonic decides that comes nearest to its limit; that limit is the
+/// tolerance. Certificates play no part.
+void judge_harmonics(const Circumstances& by, const FeatureResult& result,
+                     CharacteristicResult& out) {
+  record::Characteristic& asked = out.characteristic;
+  if (!asked.harmonic_limits.empty())
+    asked.tolerance_mm = asked.harmonic_limits.front().amplitude_mm;
+  out.verdict = Verdict::kVoid;
+  const auto nearest = result.failure ? core::Result<MaskedHarmonic>(core::fail(*result.failure))
+                                      : nearest_to_mask(result, asked);
+  if (!nearest) {
+    out.reason = nearest.error().what;
+    return;
+  }
+  asked.tolerance_mm = nearest->limit_mm;
+  const std::string where = fmt::format("harmonic {} of layer {} is nearest to its limit",
+                                        nearest->harmonic.number, nearest->harmonic.layer + 1);
+  ValueOperator how(ReferenceTerm("amplitudes"), FilterTerm("before the filter"),
+                    SamplingTerm(sampling_words(result, asked)), TipTerm(tip_words(result)),
+                    TemperatureTerm(temperature_words(result)));
+  out.value.emplace(symbol_of(asked), nearest->harmonic.amplitude_mm, std::move(how),
+                    UncertaintyStatus::none("intervals are computed of form deviations only"));
+  if (const auto missing = reason_for_void(by.record, by.probe, result, {}, asked)) {
+    out.reason = *missing;
+    return;
+  }
+  apply(by.rule, out);
+  out.reason += fmt::format(" ({})", where);
+}
+
 void judge(const Circumstances& by, const FeatureResult& result, CharacteristicResult& out) {
+  if (out.characteristic.form == Form::kHarmonicLimits) return judge_harmonics(by, result, out);
   const auto value = value_of(result, out.characteristic);
   out.verdict = Verdict::kVoid;
   if (!value) {

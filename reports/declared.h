@@ -47,10 +47,9 @@ struct UncertaintyQuestion {
                                                                     const Declared& declared,
                                                                     const record::Feature& feature);
 
-/// Why no interval is computed of a characteristic, whatever its touches say; nothing where one is.
+/// Why no interval is computed of a feature, whatever its touches say; nothing where one is.
 [[nodiscard]] std::optional<std::string> why_no_interval(const record::RunRecord& record,
-                                                         const record::Feature& feature,
-                                                         const record::Characteristic& asked);
+                                                         const record::Feature& feature);
 
 /// The question behind uncertainty_of(), or why there is none: one sentence.
 [[nodiscard]] tl::expected<UncertaintyQuestion, std::string> uncertainty_question(

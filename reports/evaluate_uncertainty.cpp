@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "reports/declared.h"
+#include "reports/deviation.h"
 
 namespace rondure::reports {
 namespace {
@@ -16,20 +17,12 @@ struct Rows {
   std::vector<std::size_t> rows;
 };
 
-const LayerResult* worst_layer(const FeatureResult& result) {
-  const LayerResult* worst = nullptr;
-  for (const LayerResult& layer : result.layers) {
-    if (!layer.mz) continue;
-    if (worst == nullptr || layer.mz->width_mm() > worst->mz->width_mm()) worst = &layer;
-  }
-  return worst;
-}
-
 Rows rows_of(const FeatureResult& result, const record::Characteristic& asked) {
   Rows out;
   if (asked.form == record::Form::kRoundness) {
     out.kind = FormKind::kRoundness;
-    if (const LayerResult* layer = worst_layer(result)) out.rows = layer->rows;
+    const auto worst = worst_section(result, asked.reference);
+    if (worst) out.rows = worst->layer->rows;
     return out;
   }
   for (std::size_t i = 0; i < result.cloud.size(); ++i) out.rows.push_back(i);
@@ -129,13 +122,9 @@ core::Result<FormCloud> surface_cloud(const record::RunRecord& record,
 }
 
 std::optional<std::string> why_no_interval(const record::RunRecord& record,
-                                           const record::Feature& feature,
-                                           const record::Characteristic& asked) {
+                                           const record::Feature& feature) {
   if (!record::number_in(record.settings, "uncertainty/coverage_percent")) {
     return "the plan declares no uncertainty";
-  }
-  if (asked.reference != record::Reference::kMinimumZone) {
-    return "intervals are computed of minimum zones only";
   }
   // The influences act in the machine frame; a merged cloud stands in the frame of the part.
   if (feature.strategy == record::Strategy::kMerged) {
@@ -149,7 +138,7 @@ tl::expected<UncertaintyQuestion, std::string> uncertainty_question(
     const record::RunRecord& record, const FeatureResult& result,
     const std::optional<fit::ProbeTip>& probe, const record::Characteristic& asked) {
   const auto none = [](std::string why) { return tl::unexpected(std::move(why)); };
-  if (auto why = why_no_interval(record, result.feature, asked)) return none(*std::move(why));
+  if (auto why = why_no_interval(record, result.feature)) return none(*std::move(why));
   const auto declared = declared_for(record, result, probe);
   const Rows rows = rows_of(result, asked);
   constexpr std::size_t kMostPoints = 20'000;  // some 10 s of trials; verify does them again
@@ -160,6 +149,7 @@ tl::expected<UncertaintyQuestion, std::string> uncertainty_question(
   }
   auto cloud = cloud_of(record, result, rows);
   if (!cloud) return none(cloud.error().what);
+  cloud->reference = asked.reference;
   auto spectrum = spectrum_on(*cloud, *declared, result.feature);
   if (!spectrum) return none(spectrum.error().what);
   return UncertaintyQuestion{*std::move(cloud), declared->influences, *std::move(spectrum),

@@ -222,7 +222,7 @@ core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
   if (of.strategy == record::Strategy::kPointsFile) {
     return none("its points come from a file: a run states the interval at once");
   }
-  if (auto why = why_no_interval(expected, of, asked)) return none(*std::move(why));
+  if (auto why = why_no_interval(expected, of)) return none(*std::move(why));
   auto rehearsal = Rehearsal::of(expected, feature);
   if (!rehearsal) return none(rehearsal.error().what);
   std::string repeatability = assume_repeatability(expected, *rehearsal);

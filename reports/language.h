@@ -1,0 +1,72 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace rondure::reports {
+
+/// Languages of the reports that people read: the page and the terminal's summary. What programs
+/// read (JSON, CSV, QIF, DMIS, JUnit) is English always.
+enum class Language { kEnglish, kChinese };
+
+/// "en" or "zh"; nothing for any other name.
+[[nodiscard]] std::optional<Language> language_named(std::string_view name);
+/// Every name that language_named() knows.
+[[nodiscard]] std::vector<std::string> language_names();
+/// "en", "zh-Hans": the tag of BCP 47, as <html lang="..."> states it.
+[[nodiscard]] std::string_view tag_of(Language language);
+
+/// The language of the report that is being written, for as long as this object lives.
+///
+/// Set by the entry point of a writer from its argument, and by nothing else: a writer stays a pure
+/// function of record and language. The language is kept for the thread and not handed through the
+/// signatures of a hundred helpers (drawings, captions, words for a reference) that need it for one
+/// label each. Writers on several threads do not meet. Outside a writer everything is English:
+/// evaluation, journal and the formats for programs.
+class LanguageScope {
+ public:
+  explicit LanguageScope(Language language);
+  LanguageScope(const LanguageScope&) = delete;
+  LanguageScope& operator=(const LanguageScope&) = delete;
+  ~LanguageScope();
+
+ private:
+  Language before_;
+};
+
+/// The language of the report that this thread is writing.
+[[nodiscard]] Language language();
+
+/// Marks a text of a table as one that tr() will be asked for; gives it unchanged.
+[[nodiscard]] constexpr const char* translatable(const char* english) { return english; }
+
+/// The text in the language of the report; English where the table has none. The English text is
+/// the key: one table, language_zh.h. A test holds that each literal here has its line there.
+[[nodiscard]] std::string tr(std::string_view english);
+
+/// The same of a format text, with its arguments. The Chinese text may name them in another order:
+/// trf("{} of {} layers", 2, 5) has "{1} 层中的 {0} 层". The compiler checks the English format, a
+/// test the Chinese one against it.
+template <class... Args>
+[[nodiscard]] std::string trf(fmt::format_string<Args...> english, Args&&... args) {
+  const fmt::string_view key = english;
+  return fmt::vformat(tr(std::string_view(key.data(), key.size())), fmt::make_format_args(args...));
+}
+
+/// A sentence that evaluation made in English ("8.3 um is within the tolerance of 10 um by 1.7
+/// um"), in the language of the report: recognised by the formats of the table, and so are its
+/// parts. In English the sentence itself. Nothing where it is not known or not whole: the report
+/// then shows the English one and says that it is English.
+[[nodiscard]] std::optional<std::string> told(std::string_view english);
+
+/// What a code means, as the title of an error or a warning: "点太少". Empty in English, where the
+/// sentence says it.
+[[nodiscard]] std::string title_of(core::Code code);
+
+}  // namespace rondure::reports
