@@ -189,11 +189,11 @@ struct Found {
   }
 };
 
-/// Runs until the mean width of each measurand is known to 8 %, or to 4 % with RONDURE_FULL=1.
+/// Runs until the mean width of each measurand is known to 10 %, or to 4 % with RONDURE_FULL=1.
 std::map<Measurand, Found> run_many(const Drawn& drawn, double cloud_s, std::uint64_t seed) {
-  constexpr int kLeast = 8;
+  const int least = full() ? 8 : 6;
   const int most = full() ? 200 : 40;
-  const double enough_1 = full() ? 0.04 : 0.08;
+  const double enough_1 = full() ? 0.04 : 0.10;
   std::map<Measurand, Found> out;
   for (int k = 0; k < most; ++k) {
     const auto run =
@@ -210,7 +210,7 @@ std::map<Measurand, Found> run_many(const Drawn& drawn, double cloud_s, std::uin
     }
     const bool known = std::all_of(out.begin(), out.end(),
                                    [&](const auto& of) { return of.second.open_1() < enough_1; });
-    if (k + 1 >= kLeast && known) break;
+    if (k + 1 >= least && known) break;
   }
   return out;
 }
