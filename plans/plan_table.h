@@ -482,7 +482,8 @@ void describe(Visitor& v, CharacteristicPlan& p) {
           .required = true,
           .meaning =
               "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
-              "layer of a cylinder or of a spindle feature. Of a spindle feature also: "
+              "layer of a cylinder or of a spindle feature; harmonic-limits, a mask on the "
+              "amplitudes of every layer of at least 350 points. Of a spindle feature also: "
               "roundness-rms (RONq); harmonic-limits; motion-total, motion-synchronous, "
               "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
               "roundness of its edge; radius, the departure from nominal; run-out. Of a contour "
