@@ -22,6 +22,8 @@ case "${1:-}" in
   *) echo "usage: ./test.sh [--full|--sanitizers]" >&2; exit 2 ;;
 esac
 
+# Everything else is tested also where there is no Chromium.
+(ensure_packages $rondure_browser_packages) || echo "Without these packages the browser tests are skipped." >&2
 build release ON all
 ctest --preset release
 if [ -z "${RONDURE_FULL:-}" ]; then

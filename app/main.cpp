@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <new>
 #include <string>
@@ -82,6 +83,27 @@ void add_plan(CLI::App& app, PlanArguments& arguments) {
       "would\nhelp; then the exit status is 2. More: docs/planning.md");
 }
 
+/// A port, or nothing said: any free one.
+std::string check_port(const std::string& text) {
+  const auto port = core::parse_number(text);
+  const bool whole = port && *port >= 1.0 && *port <= 65535.0 && *port == std::floor(*port);
+  return text == "auto" || whole ? std::string()
+                                 : fmt::format("{} is no port from 1 to 65535", text);
+}
+
+void add_watching(CLI::App& verb, RunArguments& arguments) {
+  auto* watch = verb.add_flag("--watch{auto}", arguments.watch,
+                              "Serves a page on this computer that shows the run while it is\n"
+                              "measured, and prints its address; --watch=PORT chooses the port");
+  watch->check(check_port);
+  verb.add_flag("--control", arguments.control, "With --watch: the page has a stop button")
+      ->needs(watch);
+  verb.add_option("--speed", arguments.speed,
+                  "Of a simulated machine: seconds of its clock in one second (default: no\n"
+                  "waiting), to watch a simulated run; the result is the same")
+      ->check(CLI::Range(1e-3, 1e6));
+}
+
 void add_run(CLI::App& app, RunArguments& arguments) {
   auto* verb = app.add_subcommand("run", "Executes a plan and writes its reports");
   verb->add_option("PLAN", arguments.plan, "Plan file (JSON); with --resume also a run directory")
@@ -109,12 +131,17 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   verb->add_flag("--step", arguments.step,
                  "First run: slow, each move confirmed on the terminal (Enter go, c continue\n"
                  "without asking, q stop in order)");
+  add_watching(*verb, arguments);
   verb->footer(
       std::string("\nExample: rondure run plans/examples/01_spool_simulated.json --serial "
                   "0042 --operator mk\n"
                   "Ctrl-C stops after the present touch and retracts; a second one ends the "
                   "program at once.\n"
                   "What was measured is kept in every case, also when the power fails.\n"
+                  "\nTo watch it in a browser: rondure run plan.json --watch (docs/live.md); a "
+                  "simulated run:\n"
+                  "  rondure run plans/examples/01_spool_simulated.json --watch --control --speed "
+                  "20\n"
                   "\nTo go on with a run that was interrupted, stopped or failed:\n"
                   "  rondure run runs/01_spool_simulated-20261121T023302Z --resume\n"
                   "or with its plan, which must not have changed:\n"
@@ -321,6 +348,18 @@ void add_verify(CLI::App& app, VerifyArguments& arguments) {
       "digests. With the key of who signed (rondure sign) it finds forgery, too.");
 }
 
+void add_compare(CLI::App& app, CompareArguments& arguments) {
+  auto* verb = app.add_subcommand(
+      "compare",
+      "Why another program prints another number: reference x filter x outliers x sampling");
+  verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
+  verb->add_flag("--all", arguments.all, "Every combination, not only one change at a time");
+  verb->add_flag("--json", arguments.json, "JSON instead of text, with every combination");
+  verb->footer(
+      "\nExample: rondure compare runs/01_spool_simulated-20261121T023302Z\n"
+      "Levels, rules and how shares are computed: docs/compare.md");
+}
+
 void add_sign(CLI::App& app, SignArguments& arguments) {
   auto* verb = app.add_subcommand("sign", "Signs a finished run that verifies (Ed25519)");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
@@ -464,6 +503,7 @@ int main_of(int argc, char** argv) {
   ReportArguments report_arguments;
   SignArguments sign_arguments;
   VerifyArguments verify_arguments;
+  CompareArguments compare_arguments;
   HistoryArguments history_arguments;
   add_validate(app, validate_arguments);
   add_plan(app, plan_arguments);
@@ -478,6 +518,7 @@ int main_of(int argc, char** argv) {
   add_rotary_axes(*fit_verb, rotary_arguments);
   add_report(app, report_arguments);
   add_verify(app, verify_arguments);
+  add_compare(app, compare_arguments);
   add_history(app, history_arguments);
   add_sign(app, sign_arguments);
   add_design_probes(app, design_arguments);
@@ -500,6 +541,7 @@ int main_of(int argc, char** argv) {
   if (fit_verb->got_subcommand("rotary-axes")) return rotary_axes(rotary_arguments);
   if (app.got_subcommand("fit")) return fit(fit_arguments);
   if (app.got_subcommand("report")) return report(report_arguments);
+  if (app.got_subcommand("compare")) return compare(compare_arguments);
   if (app.got_subcommand("history")) return history(history_arguments);
   if (app.got_subcommand("design-probes")) return design_probes(design_arguments);
   if (app.got_subcommand("sign")) return sign(sign_arguments);

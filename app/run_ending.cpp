@@ -79,10 +79,11 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
 }  // namespace
 
 int conclude(const RunToFinish& ending, plans::Run* run) {
-  const auto& [arguments, plan, archive, directory] = ending;
+  const auto& [arguments, plan, archive, directory, live] = ending;
   const auto told = read_and_evaluate(directory);
   if (!told) {
     complain(told.error());
+    if (live != nullptr) live->show_failure(core::to_line(told.error()));
     return kRunFailed;
   }
   const reports::Evaluation& evaluation = told->evaluation;
@@ -109,6 +110,9 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
     }
     return kRunFailed;
   }
+  if (live != nullptr) {
+    live->show_result(told->record, evaluation, fs::absolute(directory).string());
+  }
   if (!arguments.quiet) {
     say(reports::write_summary(told->record, evaluation, sketch_style(), language));
     for (const fs::path& file : *written) say(file.string() + "\n");
@@ -118,7 +122,7 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
 }
 
 int finish_sealed(const RunToFinish& ending) {
-  const auto& [arguments, plan, archive, directory] = ending;
+  const auto& [arguments, plan, archive, directory, live] = ending;
   const auto lock = record::RunLock::take(directory);
   if (!lock) {
     complain(lock.error());

@@ -6,6 +6,7 @@
 #include "plans/plan.h"
 #include "plans/runner.h"
 #include "record/archive.h"
+#include "reports/live_view.h"
 
 namespace rondure::app {
 
@@ -15,6 +16,7 @@ struct RunToFinish {
   const plans::Plan& plan;
   const record::ArchivePlace& archive;
   std::filesystem::path directory;
+  reports::LiveView* live = nullptr;  ///< Who watches is shown the result; or none.
 };
 
 /// Evaluates what is on disk, not what is in memory; seals a finished run; writes the reports;

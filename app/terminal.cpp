@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -17,15 +18,14 @@
 namespace rondure::app {
 namespace {
 
-volatile std::sig_atomic_t g_stop = 0;
+std::atomic<int> g_stop = 0;  ///< Set by signals, and by threads.
+static_assert(std::atomic<int>::is_always_lock_free);
 int g_output_error = 0;  ///< Of the system, for the first write to standard output that failed.
 
 extern "C" void on_stop(int signal) {
-  if (g_stop != 0) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
-  g_stop = 1;
+  if (g_stop.exchange(1) == 0) return;
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
 }
 
 std::string line_of(const plans::Progress& progress, double elapsed_s) {
@@ -114,5 +114,7 @@ void listen_for_stop() {
 }
 
 bool stop_requested() { return g_stop != 0; }
+
+void request_stop() { g_stop = 1; }
 
 }  // namespace rondure::app

@@ -50,5 +50,7 @@ class ProgressLine {
 /// whose reader went away does not end the program.
 void listen_for_stop();
 [[nodiscard]] bool stop_requested();
+/// Asks for the same from within the program, in any thread.
+void request_stop();
 
 }  // namespace rondure::app

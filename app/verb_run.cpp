@@ -1,9 +1,13 @@
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "app/archive_step.h"
+#include "app/live_run.h"
+#include "app/pace.h"
 #include "app/processor.h"
 #include "app/resumption.h"
 #include "app/run_ending.h"
@@ -68,7 +72,12 @@ plans::RunOrRefusals measure(const plans::Plan& plan, plans::RunOptions options,
     options.single_step = true;
     options.before_move = [&prompt](const plans::NextMove& move) { return prompt.ask(move); };
   }
-  options.progress = [&line](const plans::Progress& progress) { line.show(progress); };
+  std::optional<Pace> pace;
+  if (arguments.speed) pace.emplace(*arguments.speed, stop_requested);
+  options.progress = [&line, &pace](const plans::Progress& progress) {
+    line.show(progress);
+    if (pace) pace->keep(progress.time_s);
+  };
   if (resume) return plans::resume_plan(plan, options);
   auto run = plans::run_plan(plan, options);
   if (!run) return tl::unexpected(std::vector<core::Error>{run.error()});
@@ -137,8 +146,9 @@ int run(const RunArguments& arguments) {
     complain(plan.error());
     return kBadInput;
   }
-  if (auto hand = check_hand(*plan); !hand) {
-    complain(hand.error());
+  for (const auto& allowed : {check_hand(*plan), check_speed(arguments, *plan)}) {
+    if (allowed) continue;
+    complain(allowed.error());
     return kBadInput;
   }
   plans::RunOptions options = options_of(arguments);
@@ -151,15 +161,22 @@ int run(const RunArguments& arguments) {
     complain(archive.error());
     return kBadInput;
   }
-  const RunToFinish ending{arguments, *plan, *archive, options.directory};
+  RunToFinish ending{arguments, *plan, *archive, options.directory};
   listen_for_stop();
   if (resumption->state == Resumption::State::kFinished) return finish_sealed(ending);
   const bool resume = resumption->state == Resumption::State::kGoesOn;
   if (arguments.resume && !resume && !arguments.quiet) {
     tell(fmt::format("rondure: {} holds no run yet; it begins\n", options.directory.string()));
   }
+  const auto live = open_live(arguments, *plan, options);
+  if (!live) {
+    complain(live.error());
+    return kBadInput;
+  }
+  ending.live = live->get();
   auto run = measure(*plan, options, resume, arguments);
   if (!run) {
+    if (ending.live != nullptr) ending.live->show_failure(core::to_line(run.error().front()));
     refuse(run.error(), resume, options.directory);
     if (!arguments.resume) tell_about_resume(ending);
     return status_of(run.error());

@@ -46,7 +46,10 @@ struct RunArguments {
   std::string archive;               ///< Empty: as the plan says.
   std::string wire_log;              ///< Empty: none.
   bool quiet = false;
-  bool step = false;  ///< Each move confirmed on the terminal, at reduced speed.
+  bool step = false;            ///< Each move confirmed on the terminal, at reduced speed.
+  std::string watch;            ///< Port of the live page; "auto": any free one; empty: no page.
+  bool control = false;         ///< With `watch`: a button that stops the run.
+  std::optional<double> speed;  ///< Simulated seconds in a second; none: no waiting.
 };
 [[nodiscard]] int run(const RunArguments& arguments);
 
@@ -73,6 +76,13 @@ struct VerifyArguments {
   std::string key;  ///< Public key file; empty: the signature is not checked.
 };
 [[nodiscard]] int verify(const VerifyArguments& arguments);
+
+struct CompareArguments {
+  std::string directory;
+  bool all = false;  ///< Text with every combination.
+  bool json = false;
+};
+[[nodiscard]] int compare(const CompareArguments& arguments);
 
 struct HistoryArguments {
   std::string archive = "runs/archive.db";

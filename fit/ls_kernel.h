@@ -10,6 +10,7 @@
 namespace rondure::fit::ls_kernel {
 
 inline constexpr std::size_t kLanes = 8;
+inline constexpr std::size_t kAhead = 192;   ///< Numbers that memory is asked for ahead of use.
 inline constexpr std::size_t kBlock = 1024;  ///< Points of one call at most: they stay in L1.
 
 /// Where the sums are taken: q = ((p - origin) . row1 - shift1, (p - origin) . row2 - shift2) is
@@ -84,6 +85,7 @@ inline void add_lanes(const double* points, std::size_t groups, const Spot& spot
   V high = T::template load<V>(range[1] + first);
   const double* at = points + kDimensions * first;
   for (std::size_t i = 0; i < groups; ++i, at += kDimensions * kLanes) {
+    for (int line = 0; line < kDimensions; ++line) __builtin_prefetch(at + kAhead + 8 * line);
     V x, y, z;
     V q1, q2, s;
     if constexpr (kDimensions == 3) {

@@ -122,6 +122,10 @@ RONDURE_AVX2 __m256d four_squares(const double* p, const Eigen::Vector2d& center
   return _mm256_hadd_pd(_mm256_mul_pd(first, first), _mm256_mul_pd(second, second));
 }
 
+/// How far ahead of the arithmetic memory is asked for: 2 KiB. The processor's own guess stops at
+/// each page, which costs an eighth of a pass over points that no cache holds.
+constexpr std::size_t kAhead = 256;
+
 /// Two independent chains, so that the latencies of min, max and sum overlap.
 template <class View>
 RONDURE_AVX2 Running scan_wide(const double* p, std::size_t count, const View& view) {
@@ -132,6 +136,7 @@ RONDURE_AVX2 Running scan_wide(const double* p, std::size_t count, const View& v
   __m256d sum[2] = {_mm256_setzero_pd(), _mm256_setzero_pd()};
   std::size_t i = 0;
   for (; i + 8 <= count; i += 8, p += 2 * kStep) {
+    for (std::size_t line = 0; line < 2 * kStep; line += 8) __builtin_prefetch(p + kAhead + line);
     const __m256d s0 = four_squares(p, view);
     const __m256d s1 = four_squares(p + kStep, view);
     low[0] = _mm256_min_pd(s0, low[0]);

@@ -76,6 +76,7 @@ core::Result<record::Touch> RunContext::touch(TouchStep step) {
   if (auto kept = journal.add(row); !kept) return core::fail(kept.error());
   ++next_touch;
   progress.touches = static_cast<std::size_t>(next_touch);
+  progress.time_s = row.time_s;
   show();
   return row;
 }

@@ -175,6 +175,25 @@ core::Result<void> note_single_steps(RunContext& context) {
                   context.plan.machine->step_speed_mm_s)});
 }
 
+/// Whoever watches sees what is on record, and from then on each row.
+void follow(const RunOptions& options, record::RunRecord on_record, record::Journal& journal) {
+  if (!options.followed_by) return;
+  options.followed_by->begin(std::move(on_record));
+  journal.follow(options.followed_by);
+}
+
+/// The record of a run whose journal was just made.
+record::RunRecord head_of(const record::Header& header, const record::Artefact& artefact,
+                          const std::vector<record::Feature>& features,
+                          const std::vector<record::Setting>& settings) {
+  record::RunRecord out;
+  out.header = header;
+  out.artefact = artefact;
+  out.features = features;
+  out.settings = settings;
+  return out;
+}
+
 /// What is known before the first touch.
 struct Preparation {
   std::vector<std::vector<Target>> targets;
@@ -275,6 +294,7 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
       record::Journal::create(options.directory, header, artefact_of(plan), features, settings);
   if (!journal) return core::fail(journal.error());
   Run run{std::move(*journal), std::nullopt};
+  follow(options, head_of(header, artefact_of(plan), features, settings), run.journal);
   execute(plan, options, *known, cell.get(), {}, run);
   return run;
 }
@@ -315,6 +335,7 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
   auto past = record::read_journal(options.directory);  // again, now that no one else can write
   if (!past) return refuse(past.error());
   Run run{std::move(*journal), std::nullopt};
+  follow(options, past->record, run.journal);
   past->record.ending = found->record.ending;  // reopening took it out
   execute(plan, options, *known, cell.get(), std::move(past->record), run);
   return run;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/pose.h"
 #include "core/result.h"
 #include "plans/plan.h"
+#include "record/growing_record.h"
 #include "record/journal.h"
 
 namespace rondure::plans {
@@ -23,6 +25,7 @@ struct Progress {
   core::Pose pose;                   ///< As the fixture reads it.
   std::size_t touches = 0;           ///< Done, in the whole run.
   std::size_t touches_expected = 0;  ///< Estimate for the whole run.
+  double time_s = 0.0;               ///< Machine clock at the last touch.
   std::optional<double> f_mm;        ///< Least zone of the last complete cloud in its pose.
 };
 
@@ -50,6 +53,7 @@ struct RunOptions {
   std::filesystem::path wire_log;        ///< Of what goes to a machine and comes; "": none.
   std::function<bool()> stop_requested;  ///< Asked before every touch, and while a machine moves.
   std::function<void(const Progress&)> progress;
+  std::shared_ptr<record::GrowingRecord> followed_by;  ///< Gets what the journal holds; or none.
   /// Asked before each motion; an error (kStopped) ends the run: the tip goes back on the way it
   /// came, without asking, and up. Not asked for motions that a fault makes necessary.
   std::function<core::Result<void>(const NextMove&)> before_move;

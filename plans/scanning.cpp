@@ -55,6 +55,7 @@ core::Result<std::vector<record::Touch>> RunContext::scan(ScanStep step) {
   if (auto kept = journal.add(rows); !kept) return core::fail(kept.error());
   next_touch += static_cast<std::int64_t>(rows.size());
   progress.touches = static_cast<std::size_t>(next_touch);
+  if (!rows.empty()) progress.time_s = rows.back().time_s;
   show();
   return rows;
 }

@@ -3,10 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <soci/sqlite3/soci-sqlite3.h>
@@ -81,13 +79,13 @@ core::Result<void> check_file(const ArchivePlace& place, Archive::Access access)
     return not_ours(place, "does not exist; rondure run makes it, or name another archive");
   }
   if (!fs::is_regular_file(status)) return not_ours(place, "is no file; name an archive");
-  std::array<char, 16> head{};
-  std::ifstream file(place.address, std::ios::binary);
-  file.read(head.data(), head.size());
-  constexpr std::string_view kMagic("SQLite format 3\0", 16);
-  if (file.gcount() == 0) return {};  // empty, or not readable: SQLite tells
-  if (std::string_view(head.data(), head.size()) == kMagic) return {};
-  return not_ours(place, "is not a database; name an archive, or another file for a new one");
+  return {};
+}
+
+/// Asked of SQLite, which reads under its lock: another program may be writing the first page.
+bool is_no_database(const std::exception& exception) {
+  const auto* error = dynamic_cast<const soci::sqlite3_soci_error*>(&exception);
+  return error != nullptr && (error->result() & 0xff) == SQLITE_NOTADB;
 }
 
 /// Waits are bounded: for an answer 5 s, for a cut cable 15 s.
@@ -129,7 +127,8 @@ bool has_archive(ArchiveSession& session) {
   return found > 0;
 }
 
-bool is_foreign(ArchiveSession& session) {
+/// Whether there is any table. All of an archive appear at once.
+bool has_tables(ArchiveSession& session) {
   if (session.place.kind != ArchivePlace::Kind::kFile) return false;  // a server serves many
   int tables = 0;
   session.sql << "select count(*) from sqlite_master", soci::into(tables);
@@ -148,8 +147,10 @@ void make_tables(ArchiveSession& session) {
 }
 
 core::Result<void> check_tables(ArchiveSession& session, Archive::Access access) {
+  // Asked first: tables that another program makes between the two questions are then an archive's.
+  const bool holds_tables = has_tables(session);
   if (!has_archive(session)) {
-    if (is_foreign(session)) {
+    if (holds_tables) {
       return not_ours(session.place, "holds the tables of another program; name another file");
     }
     if (access == Archive::Access::kRead) {
@@ -184,6 +185,9 @@ core::Result<std::unique_ptr<ArchiveSession>> open_archive_session(const Archive
     if (auto sound = check_tables(*session, access); !sound) return core::fail(sound.error());
     return session;
   } catch (const std::exception& exception) {
+    if (is_no_database(exception)) {
+      return not_ours(place, "is not a database; name an archive, or another file for a new one");
+    }
     return archive_failure(place, "opened", exception, &session->sql);
   }
 }

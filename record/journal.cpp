@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "record/growing_record.h"
 #include "record/journal_impl.h"
 #include "record/journal_series.h"
 
@@ -15,12 +16,15 @@ Journal::Journal(Journal&&) noexcept = default;
 Journal& Journal::operator=(Journal&&) noexcept = default;
 Journal::~Journal() = default;
 
+void Journal::follow(std::shared_ptr<GrowingRecord> copy) { impl_->follower = std::move(copy); }
+
 core::Result<void> Journal::add(const Touch& touch) {
   const bool check = touch.purpose == Touch::Purpose::kCheck;
   const std::string subject =
       check ? std::string("a repeated touch") : fmt::format("touch {}", touch.id);
   auto written = impl_->write(subject, [&] { impl_->insert(touch); });
   if (written) impl_->keep(touch);
+  if (written && impl_->follower) impl_->follower->add(std::span(&touch, 1));
   return written;
 }
 
@@ -33,25 +37,30 @@ core::Result<void> Journal::add(std::span<const Touch> touches) {
   });
   if (written) {
     for (const Touch& touch : touches) impl_->keep(touch);
+    if (impl_->follower) impl_->follower->add(touches);
   }
   return written;
 }
 
 core::Result<void> Journal::add(const PoseVisit& pose) {
-  return impl_->write(fmt::format("pose {}", pose.id), [&] {
+  auto written = impl_->write(fmt::format("pose {}", pose.id), [&] {
     impl_->statements->pose = pose;
     impl_->statements->final_cloud = pose.final_cloud ? 1 : 0;
     impl_->statements->insert_pose.execute(true);
     impl_->chain->append("pose", pose.id);
   });
+  if (written && impl_->follower) impl_->follower->add(pose);
+  return written;
 }
 
 core::Result<void> Journal::add(const Decision& decision) {
-  return impl_->write("a decision", [&] {
+  auto written = impl_->write("a decision", [&] {
     impl_->statements->decision = decision;
     impl_->statements->insert_decision.execute(true);
     impl_->chain->append_inserted("decision");
   });
+  if (written && impl_->follower) impl_->follower->add(decision);
+  return written;
 }
 
 core::Result<void> Journal::add(const SimulationTruth& truth) {
@@ -72,7 +81,7 @@ core::Result<void> Journal::add(std::span<const Series> series,
 }
 
 core::Result<void> Journal::mark_final(int pose_id) {
-  return impl_->write(fmt::format("the mark of the final pose {}", pose_id), [&] {
+  auto written = impl_->write(fmt::format("the mark of the final pose {}", pose_id), [&] {
     impl_->statements->marked_pose = pose_id;
     impl_->statements->update_final.execute(true);
     if (impl_->statements->update_final.get_affected_rows() == 0) {
@@ -80,6 +89,8 @@ core::Result<void> Journal::mark_final(int pose_id) {
     }
     impl_->chain->append("pose", pose_id);
   });
+  if (written && impl_->follower) impl_->follower->mark_final(pose_id);
+  return written;
 }
 
 core::Result<void> Journal::end(const std::string& ending, const core::Error* failure) {
@@ -95,6 +106,7 @@ core::Result<void> Journal::end(const std::string& ending, const core::Error* fa
     impl_->chain->append("header", 0);
   });
   impl_->ended = impl_->ended || written.has_value();
+  if (written && impl_->follower) impl_->follower->end(ending, failure);
   return written;
 }
 

@@ -12,6 +12,8 @@
 
 namespace rondure::record {
 
+class GrowingRecord;
+
 /// Name of the journal in a run directory.
 inline constexpr const char* kJournalName = "journal.db";
 
@@ -42,6 +44,10 @@ class Journal {
   Journal(Journal&&) noexcept;
   Journal& operator=(Journal&&) noexcept;
   ~Journal();
+
+  /// From now on touches, poses, decisions and the end are added there as well, each after it is on
+  /// disk. Whoever calls gives the copy what stands in the journal already (GrowingRecord::begin).
+  void follow(std::shared_ptr<GrowingRecord> copy);
 
   [[nodiscard]] core::Result<void> add(const Touch& touch);
   /// Many touches in one transaction: rows of a points file.

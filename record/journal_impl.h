@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,6 +35,7 @@ struct Journal::Impl {
   std::optional<std::int64_t> last_touch;
   bool ended = false;
   State state = State::kOpen;
+  std::shared_ptr<GrowingRecord> follower;  ///< Or none.
 
   Impl(RunLock taken, std::filesystem::path path, const std::string& connection)
       : lock(std::move(taken)), file(std::move(path)), sql(soci::sqlite3, connection) {}

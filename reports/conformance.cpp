@@ -8,83 +8,15 @@
 
 #include "core/units.h"
 #include "reports/declared.h"
+#include "reports/deviation.h"
 #include "reports/facts.h"
 
 namespace rondure::reports {
 namespace {
 
 using record::Form;
-using record::Reference;
 
 double um(double mm) { return mm / core::kMicrometre; }
-
-/// A deviation, and what stands against it.
-struct Deviation {
-  double value_mm = 0.0;
-  bool certified = true;   ///< A certificate stands behind the reference; least squares needs none.
-  bool exact_fit = false;  ///< 0 by construction.
-};
-
-template <class Fit>
-Deviation certified_deviation(double value_mm, const Fit& fit) {
-  return {value_mm, fit.certificate.kind != fit::Certificate::Kind::kNone, false};
-}
-
-template <class Fit>
-core::Result<Deviation> one_sided_deviation(const core::Result<Fit>& fit) {
-  if (!fit) return core::fail(fit.error());
-  return certified_deviation(fit->deviation_mm, *fit);
-}
-
-/// The deviation about one reference; without that reference, why there is none.
-core::Result<Deviation> section_deviation(const LayerResult& layer, Reference reference) {
-  if (!layer.mz) return core::fail(layer.mz.error());
-  if (!layer.ls) return core::fail(layer.ls.error());
-  switch (reference) {
-    case Reference::kLeastSquares:
-      return Deviation{layer.ls->deviation_mm};
-    case Reference::kMinimumZone:
-      return certified_deviation(layer.mz->width_mm(), *layer.mz);
-    case Reference::kMinimumCircumscribed:
-      return one_sided_deviation(layer.mc);
-    case Reference::kMaximumInscribed:
-      return one_sided_deviation(layer.mi);
-  }
-  return not_fitted();
-}
-
-core::Result<Deviation> cylinder_deviation(const FeatureResult& result, Reference reference) {
-  if (!result.mz_cylinder || !result.ls_cylinder) return not_fitted();
-  switch (reference) {
-    case Reference::kLeastSquares:
-      return Deviation{result.ls_cylinder->deviation_mm};
-    case Reference::kMinimumZone:
-      return certified_deviation(result.mz_cylinder->width_mm(), *result.mz_cylinder);
-    case Reference::kMinimumCircumscribed:
-      return one_sided_deviation(result.mc_cylinder);
-    case Reference::kMaximumInscribed:
-      return one_sided_deviation(result.mi_cylinder);
-  }
-  return not_fitted();
-}
-
-/// The largest deviation of a section; one that lacks the reference leaves none.
-core::Result<Deviation> worst_section(const FeatureResult& result, Reference reference) {
-  if (result.layers.empty())
-    return core::fail(core::Code::kNoPoints, "this feature has no sections");
-  Deviation out;
-  for (const LayerResult& layer : result.layers) {
-    const auto section = section_deviation(layer, reference);
-    if (!section) {
-      return core::fail(section.error().code,
-                        fmt::format("layer {}: {}", layer.layer + 1, section.error().what));
-    }
-    out.value_mm = std::max(out.value_mm, section->value_mm);
-    if (layer.mz->exact_fit) out.exact_fit = true;
-    if (!section->certified) out.certified = false;
-  }
-  return out;
-}
 
 /// The value of a characteristic and whether what proves it is there.
 core::Result<Deviation> value_of(const FeatureResult& result,

@@ -117,12 +117,13 @@ void add_section(Lines& out, const LayerResult& layer) {
 
 }  // namespace
 
-core::Error error_of(const Defect& defect, const std::string& evidence) {
+core::Error error_of(const Defect& defect) {
   return {
       core::Code::kInternal,
       fmt::format("invariant \"{}\" does not hold for {} points: {}; this is a defect of the "
-                  "program, please report it with {}",
-                  defect.broken.rule, defect.result.cloud.size(), defect.broken.found, evidence),
+                  "program: no value is given, please report it with {} or the journal.db of "
+                  "the run",
+                  defect.broken.rule, defect.result.cloud.size(), defect.broken.found, kDefectFile),
       defect.result.feature.id};
 }
 
@@ -149,21 +150,29 @@ std::string dump_of(const Defect& defect, const record::Header& header,
   return out.take();
 }
 
-core::Error keep_defect(const Defect& defect, const record::Header& header,
-                        const std::filesystem::path& directory, const std::string& processor) {
+core::Result<void> keep_defects(const std::vector<Defect>& defects, const record::Header& header,
+                                const std::filesystem::path& directory,
+                                const std::string& processor) {
+  if (defects.empty()) return {};
+  std::string text;
+  for (const Defect& defect : defects) text += dump_of(defect, header, processor);
   const auto file = directory / kDefectFile;
-  const auto written = record::write_file(file, dump_of(defect, header, processor));
-  if (written) return error_of(defect, fmt::format("the file {}", file.string()));
-  return error_of(defect, fmt::format("the run's journal.db ({} could not be written: {})",
-                                      file.string(), written.error().what));
+  const auto written = record::write_file(file, text);
+  if (written) return {};
+  const core::Error first = error_of(defects.front());
+  return core::fail(core::Error{first.code,
+                                fmt::format("{}; {} could not be written: {}", first.what,
+                                            file.string(), written.error().what),
+                                first.where});
 }
 
 core::Result<Evaluation> evaluate_run(const record::RunRecord& record,
                                       const std::filesystem::path& directory,
                                       const std::string& processor) {
-  auto evaluation = evaluate_or_defect(record);
-  if (evaluation) return *std::move(evaluation);
-  return core::fail(keep_defect(evaluation.error(), record.header, directory, processor));
+  CheckedEvaluation checked = evaluate_checked(record);
+  if (auto kept = keep_defects(checked.defects, record.header, directory, processor); !kept)
+    return core::fail(kept.error());
+  return std::move(checked.evaluation);
 }
 
 }  // namespace rondure::reports

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "reports/declared.h"
+#include "reports/deviation.h"
 
 namespace rondure::reports {
 namespace {
@@ -16,20 +17,12 @@ struct Rows {
   std::vector<std::size_t> rows;
 };
 
-const LayerResult* worst_layer(const FeatureResult& result) {
-  const LayerResult* worst = nullptr;
-  for (const LayerResult& layer : result.layers) {
-    if (!layer.mz) continue;
-    if (worst == nullptr || layer.mz->width_mm() > worst->mz->width_mm()) worst = &layer;
-  }
-  return worst;
-}
-
 Rows rows_of(const FeatureResult& result, const record::Characteristic& asked) {
   Rows out;
   if (asked.form == record::Form::kRoundness) {
     out.kind = FormKind::kRoundness;
-    if (const LayerResult* layer = worst_layer(result)) out.rows = layer->rows;
+    const auto worst = worst_section(result, asked.reference);
+    if (worst) out.rows = worst->layer->rows;
     return out;
   }
   for (std::size_t i = 0; i < result.cloud.size(); ++i) out.rows.push_back(i);
@@ -126,9 +119,6 @@ UncertaintyStatus uncertainty_of(const record::RunRecord& record, const FeatureR
                                  const record::Characteristic& asked) {
   const auto declared = declared_for(record, result, probe);
   if (!declared) return UncertaintyStatus::none("the plan declares no uncertainty");
-  if (asked.reference != record::Reference::kMinimumZone) {
-    return UncertaintyStatus::none("intervals are computed of minimum zones only");
-  }
   // The influences act in the machine frame; a merged cloud stands in the frame of the part.
   if (result.merged) {
     return UncertaintyStatus::none(
@@ -142,8 +132,9 @@ UncertaintyStatus uncertainty_of(const record::RunRecord& record, const FeatureR
         fmt::format("{} points are more than {}, the limit of the trials; give every n-th point",
                     rows.rows.size(), kMostPoints));
   }
-  const auto cloud = cloud_of(record, result, rows);
+  auto cloud = cloud_of(record, result, rows);
   if (!cloud) return UncertaintyStatus::none(cloud.error().what);
+  cloud->reference = asked.reference;
   const auto spectrum = spectrum_on(*cloud, *declared, result.feature);
   if (!spectrum) return UncertaintyStatus::none(spectrum.error().what);
   auto found = measurement_uncertainty(*cloud, declared->influences, *spectrum, declared->options);

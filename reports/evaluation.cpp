@@ -10,13 +10,13 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "fit/center_search.h"
 #include "fit/pose_walk.h"
 #include "reports/conformance.h"
 #include "reports/defect.h"
 #include "reports/evaluate_merged.h"
 #include "reports/fixture_use.h"
 #include "reports/invariants.h"
+#include "reports/measured_cloud.h"
 #include "reports/warnings.h"
 
 namespace rondure::reports {
@@ -36,81 +36,13 @@ std::optional<fit::ProbeTip> evaluate_probe(const RunRecord& record) {
   return *tip;
 }
 
-std::vector<const Touch*> touches_of(const RunRecord& record, int pose) {
-  std::vector<const Touch*> out;
-  for (const Touch& touch : record.touches) {
-    if (touch.purpose == Touch::Purpose::kMeasure && touch.pose == pose) out.push_back(&touch);
-  }
-  return out;
-}
-
-/// Mean tip centre of every target, in the order of layer and point.
-std::vector<CloudPoint> averaged(const std::vector<const Touch*>& touches) {
-  std::map<std::pair<int, int>, CloudPoint> targets;
-  for (const Touch* touch : touches) {
-    auto [found, fresh] = targets.try_emplace({touch->layer, touch->point});
-    CloudPoint& point = found->second;
-    point.layer = touch->layer;
-    point.point = touch->point;
-    point.repeats = fresh ? 1 : point.repeats + 1;
-    // Running mean: keeps the digits of coordinates far from the origin.
-    point.tip_mm += (touch->tip_mm - point.tip_mm) / point.repeats;
-  }
-  std::vector<CloudPoint> out;
-  out.reserve(targets.size());
-  for (const auto& [key, point] : targets) out.push_back(point);
-  return out;
-}
-
-std::vector<Eigen::Vector3d> tips_of(const std::vector<CloudPoint>& cloud) {
-  std::vector<Eigen::Vector3d> out;
-  out.reserve(cloud.size());
-  for (const CloudPoint& point : cloud) out.push_back(point.tip_mm);
-  return out;
-}
-
-std::vector<Eigen::Vector2d> projected(const std::vector<Eigen::Vector3d>& points,
-                                       const Eigen::Matrix3d& turn) {
-  std::vector<Eigen::Vector2d> out;
-  out.reserve(points.size());
-  for (const Eigen::Vector3d& p : points) out.emplace_back((turn * p).head<2>());
-  return out;
-}
-
-Eigen::Matrix3d rotation(const core::Pose& pose) {
-  return (Eigen::AngleAxisd(pose.alpha_rad, Eigen::Vector3d::UnitX()) *
-          Eigen::AngleAxisd(pose.beta_rad, Eigen::Vector3d::UnitY()))
-      .toRotationMatrix();
-}
-
-/// f by the centre search the strategy names.
-PoseValue pose_value(const std::vector<Eigen::Vector2d>& section, record::Strategy strategy) {
-  PoseValue out;
-  const auto search = strategy == record::Strategy::kAsPublished
-                          ? fit::center_search_as_published(section)
-                          : fit::center_search(section);
-  if (!search) {
-    out.ending = search.error().what;
-    return out;
-  }
-  out.f_mm = search->width_mm();
-  out.ending = std::string(fit::name_of(search->ending));
-  out.valid = true;
-  return out;
-}
-
 /// f of every pose that was measured, from its own touches.
 void evaluate_poses(const RunRecord& record, int index, FeatureResult& result) {
   if (result.feature.strategy == record::Strategy::kPointsFile) return;
   for (const record::PoseVisit& visit : record.poses) {
     if (visit.feature != index) continue;
-    const auto cloud = averaged(touches_of(record, visit.id));
-    if (cloud.empty()) continue;
-    PoseValue value =
-        pose_value(projected(tips_of(cloud), Eigen::Matrix3d::Identity()), result.feature.strategy);
-    value.pose = visit.reached;
-    value.final_pose = visit.final_cloud;
-    result.poses.push_back(value);
+    const auto value = value_of_pose(record, visit, result.feature.strategy);
+    if (value) result.poses.push_back(*value);
   }
 }
 
@@ -419,12 +351,25 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
   return result;
 }
 
+/// What is left of a feature whose result broke an invariant: what was asked and how it was
+/// measured. None of its numbers can be trusted.
+FeatureResult without_values(const Defect& defect) {
+  FeatureResult out;
+  out.feature = defect.result.feature;
+  out.tip_radius_mm = defect.result.tip_radius_mm;
+  out.temperatures = defect.result.temperatures;
+  out.thermal = defect.result.thermal;
+  out.failure = error_of(defect);
+  return out;
+}
+
 }  // namespace
 
-tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& measured) {
+CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantCheck& check) {
   const std::optional<RunRecord> at_20 = compensated(measured);
   const RunRecord& record = at_20 ? *at_20 : measured;
-  Evaluation out;
+  CheckedEvaluation checked;
+  Evaluation& out = checked.evaluation;
   out.rule = rule_of(record);
   out.probe = evaluate_probe(record);
   const FixtureFacts facts = fixture_facts(record);
@@ -437,20 +382,20 @@ tl::expected<Evaluation, Defect> evaluate_or_defect(const RunRecord& measured) {
       continue;
     }
     auto feature = evaluate_feature(record, static_cast<int>(i), out.probe, facts.kinematics);
-    if (auto broken = broken_invariant(feature))
-      return tl::unexpected(Defect{*std::move(broken), std::move(feature)});
+    if (auto broken = check(feature)) {
+      checked.defects.push_back({*std::move(broken), std::move(feature)});
+      feature = without_values(checked.defects.back());
+    }
     decide(record, out.rule, out.probe, feature);
     apply_calibration(out.fixture, feature);
     out.features.push_back(std::move(feature));
   }
   out.verdict = overall(out.features);
-  return out;
+  return checked;
 }
 
 core::Result<Evaluation> evaluate(const RunRecord& record) {
-  auto evaluation = evaluate_or_defect(record);
-  if (evaluation) return *std::move(evaluation);
-  return core::fail(error_of(evaluation.error(), "the run's journal.db"));
+  return evaluate_checked(record).evaluation;
 }
 
 }  // namespace rondure::reports

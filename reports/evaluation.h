@@ -145,9 +145,9 @@ struct Evaluation {
 /// Evaluates a record: averages repeated touches of the final pose, fits, checks the invariants,
 /// decides. No machine, no clock, no files; same record, same bits.
 ///
-/// @return kInternal when an invariant of the results is broken (a defect of the program;
-///         evaluate_run() of defect.h keeps its numbers); every fault of the data stands in the
-///         feature.
+/// @return Always an evaluation: every fault of the data stands in the feature, and so does a
+///         broken invariant (a defect of the program; no value, all void; evaluate_run() of
+///         defect.h keeps its numbers).
 [[nodiscard]] core::Result<Evaluation> evaluate(const record::RunRecord& record);
 
 /// The numbers of an evaluation by their JSON pointer in report.json, for the journal's seal.

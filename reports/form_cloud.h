@@ -8,13 +8,14 @@
 
 #include "core/result.h"
 #include "fit/axis.h"
+#include "record/run_record.h"
 
 namespace rondure::reports {
 
 /// Which value a cloud is measured for.
 enum class FormKind {
-  kCylindricity,  ///< CYLt: minimum zone of all points.
-  kRoundness,     ///< RONt: minimum zone of one section.
+  kCylindricity,  ///< CYLt of all points.
+  kRoundness,     ///< RONt of one section.
 };
 
 /// A sampled point in the frame of its cylinder.
@@ -32,6 +33,7 @@ struct FormPoint {
 /// them: measured (form_cloud()) or nominal (before the first touch).
 struct FormCloud {
   FormKind kind = FormKind::kCylindricity;
+  record::Reference reference = record::Reference::kMinimumZone;  ///< That the value is about.
   fit::Axis axis;          ///< Machine frame; angles count from the first vector of fit::across().
   double radius_mm = 0.0;  ///< Of the tip centres, > 0.
   bool outside = true;     ///< A shaft, touched towards the axis; else a bore.

@@ -33,8 +33,8 @@ FormTrials::FormTrials(const FormCloud& cloud, const ErrorModel& errors,
     : errors_(errors), sampled_form_(cloud, errors), seed_(seed) {
   if (spectrum) whole_form_.emplace(cloud, errors, *spectrum);
   for (int k = 0; k < std::max(1, threads); ++k) {
-    Desk desk{FormValue(cloud.kind, cloud.radius_mm, cloud.points), std::nullopt};
-    if (whole_form_) desk.whole.emplace(cloud.kind, cloud.radius_mm, whole_form_->places());
+    Desk desk{FormValue(cloud, cloud.points), std::nullopt};
+    if (whole_form_) desk.whole.emplace(cloud, whole_form_->places());
     desks_.push_back(std::move(desk));
   }
   Eigen::VectorXd deviations(static_cast<Eigen::Index>(cloud.points.size()));

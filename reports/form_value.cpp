@@ -1,11 +1,28 @@
 #include "reports/form_value.h"
 
 #include <cmath>
+#include <limits>
+
+#include "fit/ls_circle.h"
+#include "fit/ls_cylinder.h"
 
 namespace rondure::reports {
+namespace {
 
-FormValue::FormValue(FormKind kind, double radius_mm, std::span<const FormPoint> places)
-    : kind_(kind), radius_(radius_mm) {
+using record::Reference;
+
+/// Of a one-sided reference.
+fit::ZoneWeights weights_of(Reference reference) {
+  return reference == Reference::kMinimumCircumscribed ? fit::kMinimumCircumscribed
+                                                       : fit::kMaximumInscribed;
+}
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+FormValue::FormValue(const FormCloud& cloud, std::span<const FormPoint> places)
+    : kind_(cloud.kind), reference_(cloud.reference), radius_(cloud.radius_mm) {
   for (const FormPoint& place : places) {
     directions_.emplace_back(std::cos(place.angle_rad), std::sin(place.angle_rad), place.height_mm);
   }
@@ -23,10 +40,31 @@ double FormValue::of(const Eigen::VectorXd& deviations_mm) {
       space_[i] = {r * d.x(), r * d.y(), d.z()};
     }
   }
-  if (kind_ == FormKind::kRoundness) {
+  return kind_ == FormKind::kRoundness ? of_circle() : of_cylinder();
+}
+
+double FormValue::of_circle() {
+  if (reference_ == Reference::kMinimumZone) {
     return circles_.fit_from(plane_, Eigen::Vector2d::Zero()).width_mm();
   }
-  return cylinders_.fit_from(space_, fit::Axis{}).width_mm();
+  if (reference_ == Reference::kLeastSquares) {
+    const auto circle = fit::ls_circle(plane_);
+    return circle ? circle->deviation_mm : kNone;
+  }
+  const auto circle = circles_.fit(plane_, weights_of(reference_));
+  return circle ? circle->width_mm() : kNone;
+}
+
+double FormValue::of_cylinder() {
+  const fit::Axis axis;
+  if (reference_ == Reference::kMinimumZone) return cylinders_.fit_from(space_, axis).width_mm();
+  if (reference_ == Reference::kLeastSquares) {
+    const auto cylinder = fit::ls_cylinder(space_, axis.direction);
+    return cylinder ? cylinder->deviation_mm : kNone;
+  }
+  // From several starts, as the reported value: few points have other minima close by.
+  const auto cylinder = cylinders_.fit(space_, axis.direction, weights_of(reference_));
+  return cylinder ? cylinder->width_mm() : kNone;
 }
 
 }  // namespace rondure::reports

@@ -6,22 +6,29 @@
 #include <Eigen/Core>
 
 #include "fit/zone_fit.h"
+#include "record/run_record.h"
 #include "reports/form_cloud.h"
 
 namespace rondure::reports {
 
-/// The minimum zone of given places with varying deviations, without proof and, after the first
-/// call, without memory: for loops. Starts at the axis the angles count about.
+/// The form value of given places with varying deviations, about the reference of a cloud, without
+/// proof: for loops. Minimum zones take no memory after the first call. Searches start at the axis
+/// the angles count about.
 class FormValue {
  public:
-  /// @param radius_mm  > 0.
-  FormValue(FormKind kind, double radius_mm, std::span<const FormPoint> places);
+  /// @param cloud   Kind, reference and radius are taken of it, the places are not.
+  FormValue(const FormCloud& cloud, std::span<const FormPoint> places);
 
-  /// The zone [mm] of radius + deviation at each place.
+  /// The value [mm] of radius + deviation at each place: radial peak to valley about the reference;
+  /// NaN where there is no such reference.
   [[nodiscard]] double of(const Eigen::VectorXd& deviations_mm);
 
  private:
+  [[nodiscard]] double of_circle();
+  [[nodiscard]] double of_cylinder();
+
   FormKind kind_;
+  record::Reference reference_;
   double radius_;
   std::vector<Eigen::Vector3d> directions_;  ///< cos, sin, height.
   std::vector<Eigen::Vector2d> plane_;

@@ -25,6 +25,9 @@ namespace rondure::reports {
 [[nodiscard]] std::string polar_plots(const FeatureResult& feature, const Zone& zone);
 /// The lateral surface unrolled; for a single section its profile.
 [[nodiscard]] std::string deviation_map(const FeatureResult& feature, const Zone& zone);
+/// The cylinder with its zone and its points in three dimensions: complete as it stands, turned by
+/// the script of the page (html_script.h). Empty for a single section.
+[[nodiscard]] std::string solid_view(const FeatureResult& feature, const Zone& zone);
 /// Deviation of one section against the angle.
 [[nodiscard]] std::string section_profile(const FeatureResult& feature, const Zone& zone);
 /// f against the visit, and where the poses lie.

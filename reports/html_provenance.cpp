@@ -119,7 +119,7 @@ std::string provenance_section(const record::RunRecord& record) {
   for (const record::Feature& feature : record.features) {
     if (feature.points_file.empty()) continue;
     rows += property(tr("Points file"),
-                     isolated(feature.points_file) + "<br>" + mono(feature.points_sha256));
+                     isolated(feature.points_file) + "<br/>" + mono(feature.points_sha256));
   }
   if (header.simulated) rows += property(tr("Seed of the simulation"), std::to_string(header.seed));
   rows += property(tr("Decision rule"), isolated(rule_in_words(header)));

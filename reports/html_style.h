@@ -5,17 +5,33 @@
 namespace rondure::reports {
 
 /// Style of the page. Colours (Okabe and Ito's, darkened to read as text) stay apart for
-/// colour-blind eyes and in grey print; nothing is told by colour alone.
+/// colour-blind eyes and in grey print; nothing is told by colour alone. Colours that follow the
+/// theme are variables; those of data (diverging_colour()) are the same on light and dark.
 inline constexpr std::string_view kStyle = R"css(
-:root{--ink:#16202a;--soft:#55616d;--line:#d8dee4;--pale:#f4f6f8;--blue:#0b5e9e;--orange:#c24e00;
---good:#00715a;--bad:#b93c00;--amber:#8a6100;color-scheme:light}
+:root{--paper:#fff;--ink:#16202a;--soft:#55616d;--line:#d8dee4;--pale:#f4f6f8;--blue:#0b5e9e;
+--orange:#c24e00;--good:#00715a;--bad:#b93c00;--amber:#8a6100;--warn:#d99a00;--alarm:#fdf3ec;
+--tick:#7c8792;--grid:#e6eaee;--label:#3c4752;--band:#eef2f6;--allowed:#e9edf1;--mean:#8a949e;
+--guide:#6b7681;--trail:#9aa5af;--edge:#59636d;--solid:#dfe6ec;--cap:#edf1f5;--focus:#0b5e9e;
+color-scheme:light}
 *{box-sizing:border-box}
 html{-webkit-text-size-adjust:100%;text-size-adjust:100%}
-body{margin:0;background:#fff;color:var(--ink);font:15px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,
+body{margin:0;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,
 "Noto Sans","Noto Sans CJK SC","PingFang SC","Microsoft YaHei",Arial,sans-serif;
 font-variant-numeric:tabular-nums;overflow-wrap:anywhere;-webkit-print-color-adjust:exact;
 print-color-adjust:exact}
-main{max-width:920px;margin:0 auto;padding:36px 28px 72px}
+main{max-width:920px;margin:0 auto;padding:22px 28px 40px}
+.skip{position:absolute;left:-999px;top:0;background:var(--paper);color:var(--ink);padding:8px 14px;z-index:1}
+.skip:focus{left:8px;top:8px}
+a{color:var(--blue)}
+:focus-visible{outline:3px solid var(--focus);outline-offset:2px;border-radius:2px}
+.top{max-width:920px;margin:0 auto;padding:18px 28px 0;display:flex;flex-wrap:wrap;justify-content:space-between;
+align-items:center;gap:8px 20px;font-size:13px}
+.top nav ul{display:flex;flex-wrap:wrap;gap:4px 18px;margin:0;padding:0;list-style:none}
+button{font:inherit;font-size:13px;color:var(--ink);background:var(--pale);border:1px solid var(--tick);border-radius:4px;
+padding:3px 11px;min-height:28px;min-width:28px;cursor:pointer}
+button[aria-pressed=true]{background:var(--ink);color:var(--paper)}
+button[hidden],.tools[hidden]{display:none}
+.print-only{display:none}
 .brand{display:flex;justify-content:space-between;gap:16px;color:var(--soft);font-size:13px;
 border-bottom:1px solid var(--line);padding-bottom:10px;flex-wrap:wrap}
 .brand b{color:var(--ink);letter-spacing:.04em}
@@ -29,7 +45,7 @@ p{margin:6px 0}
 .note{color:var(--soft);font-size:13px}
 .banner{border:1px solid var(--line);border-left:5px solid var(--blue);background:var(--pale);
 padding:10px 16px;margin:20px 0 0;border-radius:3px}
-.banner.alarm{border-left-color:var(--bad);background:#fdf3ec}
+.banner.alarm{border-left-color:var(--bad);background:var(--alarm)}
 .banner ul{margin:4px 0 0;padding-left:20px}
 .verdict{display:flex;align-items:center;gap:22px;margin:28px 0 6px}
 .verdict .mark{flex:none}
@@ -64,7 +80,7 @@ margin-right:8px}
 .keys .wide-key{grid-column:1/-1}.keys .wide-key dd{font-weight:400;font-size:14px}
 .truth{border:1px dashed var(--soft);padding:8px 14px;margin:16px 0;font-size:13.5px;border-radius:3px}
 .warnings{margin:14px 0;padding:0;list-style:none}
-.warnings li{border-left:4px solid #d99a00;padding:3px 12px;margin:6px 0;font-size:13.5px}
+.warnings li{border-left:4px solid var(--warn);padding:3px 12px;margin:6px 0;font-size:13.5px}
 .code{font:12px ui-monospace,"DejaVu Sans Mono",Menlo,Consolas,monospace;color:var(--soft)}
 .mono{font:12.5px ui-monospace,"DejaVu Sans Mono",Menlo,Consolas,monospace}
 figure{margin:10px 0 18px}
@@ -79,35 +95,45 @@ svg.polar{display:block;width:100%;max-width:340px;margin:0 auto}
 .multiples figure{margin:6px 0;text-align:center}.multiples figcaption b{color:var(--ink)}
 .key{vertical-align:-1px}
 .mark .good{fill:var(--good)}.mark .bad{fill:var(--bad)}
-.mark .stroke{fill:none;stroke:#fff;stroke-width:7;stroke-linecap:round;stroke-linejoin:round}
-.mark .hollow{fill:#fff;stroke:var(--soft);stroke-width:5}.mark .open{fill:#fff;stroke:var(--amber);stroke-width:4}
+.mark .stroke{fill:none;stroke:var(--paper);stroke-width:7;stroke-linecap:round;stroke-linejoin:round}
+.mark .hollow{fill:var(--paper);stroke:var(--soft);stroke-width:5}.mark .open{fill:var(--paper);stroke:var(--amber);stroke-width:4}
 .mark .pen{fill:none;stroke:var(--soft);stroke-width:5;stroke-linecap:round}
 .symbol{fill:none;stroke:var(--ink);stroke-width:1.5}
-.bar .allowed{fill:#e9edf1}.bar .good{fill:var(--good)}.bar .bad{fill:var(--bad)}.bar .neutral{fill:var(--soft)}
+.bar .allowed{fill:var(--allowed)}.bar .good{fill:var(--good)}.bar .bad{fill:var(--bad)}.bar .neutral{fill:var(--soft)}
 .bar .limit{stroke:var(--ink);stroke-width:2}
 .bar .guard{fill:var(--amber);fill-opacity:.28;stroke:var(--amber);stroke-width:.8;stroke-dasharray:2 2}
 .bar .interval{stroke:var(--ink);stroke-width:1.4}
 .budget .share{fill:var(--blue)}.budget .share.surface{fill:var(--orange)}
 .rule{border:1px solid var(--line);padding:8px 14px;margin:14px 0;font-size:13.5px;border-radius:3px}
 .rule dl{margin:6px 0 0}.rule dt{color:var(--soft);font-size:12.5px}.rule dd{margin:0 0 4px}
-.tick,.frame{stroke:#7c8792;stroke-width:1;fill:none}.grid{stroke:#e6eaee;stroke-width:1}
-.label{fill:#3c4752;font-size:12px}.title{fill:#3c4752;font-size:12.5px}
-.band{fill:#eef2f6;stroke:none}
-.uncertainty{fill:#0072b2;fill-opacity:.16;stroke:none}
+.tick,.frame{stroke:var(--tick);stroke-width:1;fill:none}.grid{stroke:var(--grid);stroke-width:1}
+.label{fill:var(--label);font-size:12px}.title{fill:var(--label);font-size:12.5px}
+.band{fill:var(--band);stroke:none}
+.uncertainty{fill:var(--blue);fill-opacity:.16;stroke:none}
 .zone-outer{fill:none;stroke:var(--orange);stroke-width:1.3}.zone-inner{fill:none;stroke:var(--blue);stroke-width:1.3}
-.mean{fill:none;stroke:#8a949e;stroke-width:1;stroke-dasharray:5 4}
-.profile{fill:none;stroke:#16202a;stroke-width:1;stroke-linejoin:round}
-.guide{fill:none;stroke:#6b7681;stroke-width:1;stroke-dasharray:2 3}
-.point{fill:#16202a}.outer{fill:var(--orange);stroke:#fff;stroke-width:.8}.inner{fill:var(--blue);stroke:#fff;stroke-width:.8}
+.mean{fill:none;stroke:var(--mean);stroke-width:1;stroke-dasharray:5 4}
+.profile{fill:none;stroke:var(--ink);stroke-width:1;stroke-linejoin:round}
+.guide{fill:none;stroke:var(--guide);stroke-width:1;stroke-dasharray:2 3}
+.point{fill:var(--ink)}.outer{fill:var(--orange);stroke:var(--paper);stroke-width:.8}.inner{fill:var(--blue);stroke:var(--paper);stroke-width:.8}
 .scale{fill:none;stroke:var(--ink);stroke-width:1.5}
-.disc{stroke:#59636d;stroke-width:.6}.disc.contact{stroke:#000;stroke-width:1.8}
+.disc{stroke:var(--edge);stroke-width:.6}.disc.contact{stroke:var(--ink);stroke-width:1.8}
 .value{fill:#16202a;font-size:10px}.value.light{fill:#fff}
-.trail{fill:none;stroke:#9aa5af;stroke-width:1}.pose{fill:#16202a}.pose.virtual{fill:#fff;stroke:#16202a;stroke-width:1.2}
-.final{fill:var(--orange);stroke:#fff;stroke-width:1}.no-value{fill:none;stroke:var(--soft);stroke-width:1.5}
+.trail{fill:none;stroke:var(--trail);stroke-width:1}.pose{fill:var(--ink)}.pose.virtual{fill:var(--paper);stroke:var(--ink);stroke-width:1.2}
+.final{fill:var(--orange);stroke:var(--paper);stroke-width:1}.no-value{fill:none;stroke:var(--soft);stroke-width:1.5}
 .reference{stroke:var(--blue);stroke-width:1.3;stroke-dasharray:7 4}
-footer{margin-top:48px;padding-top:12px;border-top:1px solid var(--line);color:var(--soft);font-size:12.5px}
+.solid-glass{fill:var(--orange);fill-opacity:.05;stroke:var(--orange);stroke-width:1.2}
+.solid-body{fill:var(--solid);fill-opacity:.8;stroke:var(--blue);stroke-width:1.2}
+.solid-cap{fill:var(--cap);fill-opacity:.75;stroke:var(--blue);stroke-width:1}
+.solid-axis{stroke:var(--soft);stroke-width:1;stroke-dasharray:9 3 2 3;fill:none}
+.ring{fill:none;stroke-width:1}.ring.outside{stroke:var(--orange)}.ring.section{stroke:var(--guide);stroke-dasharray:2 3}
+.ring.section.dense{stroke:var(--ink);stroke-dasharray:none}
+path.away{opacity:.4}.far circle,.far path:not(.ring){opacity:.75}
+.turn{touch-action:pan-y;cursor:grab;display:block}.turn:active{cursor:grabbing}
+.tools{display:flex;flex-wrap:wrap;gap:6px;align-items:center;justify-content:center;margin:4px 0;font-size:12.5px;color:var(--soft)}
+.tools output{min-width:16em;text-align:center}
+footer{max-width:864px;margin:0 auto 48px;padding:12px 0 0;border-top:1px solid var(--line);color:var(--soft);font-size:12.5px}
 @media screen and (max-width:640px){
-main{padding:20px 16px 48px}.verdict{gap:14px}.verdict .word{font-size:30px}.verdict .mark{width:52px}
+main{padding:14px 16px 32px}.top{padding:12px 16px 0}footer{margin:0 16px 40px}.verdict{gap:14px}.verdict .word{font-size:30px}.verdict .mark{width:52px}
 h1{font-size:21px}
 table.props th{width:104px}.scroll table{min-width:560px}
 .scroll svg.wide{width:600px;max-width:none}.multiples.single{grid-template-columns:minmax(0,360px);justify-content:center}
@@ -118,11 +144,12 @@ table.results tr:not(.words){padding-top:14px}
 table.results td,table.results td.n{min-width:0!important;padding:2px 0;text-align:left;white-space:normal}
 table.results td[data-l]:not(:empty):before{content:attr(data-l) " ";color:var(--soft);font-size:12.5px;font-weight:400}
 }
-@page{size:A4;margin:16mm 15mm 18mm}
+@page{margin:16mm 15mm 18mm;@bottom-right{content:counter(page) " / " counter(pages);font:8pt system-ui,sans-serif;color:#55616d}}
 @media print{
+.screen-only{display:none!important}.print-only{display:block}
 body{font-size:9.5pt}table{font-size:9pt}th,.note{font-size:8.5pt}table.results td:first-child{min-width:140px}
 table.results .bar{width:120px}table.results .value{font-size:13pt}th.n,td.n{padding-right:16px}.verdict .word{font-size:34px}main{max-width:none;padding:0}.scroll{overflow:visible}
-figure,tr,.verdict,.banner,.truth,.keys>div,.warnings li{break-inside:avoid;page-break-inside:avoid}
+figure,tr,.verdict,.banner,.rule,.truth,.keys>div,.warnings li{break-inside:avoid;page-break-inside:avoid}
 table.short{break-inside:avoid;page-break-inside:avoid}
 h2,h3{break-after:avoid;page-break-after:avoid}h2{margin-top:22px;padding-top:12px}section:last-of-type tr{line-height:1.35}h3+p{break-after:avoid;page-break-after:avoid}
 thead{display:table-header-group}
@@ -132,5 +159,14 @@ td{padding-top:3px;padding-bottom:3px}footer{margin-top:6px;padding-top:0;border
 .keys{gap:10px 20px}.facts,.note,figcaption{font-size:8.5pt}
 }
 )css";
+
+/// The colours of the dark theme: every text and every mark keeps the contrast that WCAG 2.1 AA
+/// asks for (4.5, and 3 for what is not text). Print never uses them.
+inline constexpr std::string_view kDarkColours =
+    "--paper:#12181f;--ink:#e8edf2;--soft:#a6b2be;--line:#2e3944;--pale:#1b232c;--blue:#62b0ea;"
+    "--orange:#f0954b;--good:#2fc296;--bad:#ff8b5e;--amber:#e2b23e;--warn:#d99a00;--alarm:#2b1d16;"
+    "--tick:#7f8c98;--grid:#27313b;--label:#bac5cf;--band:#1d2731;--allowed:#2b3641;--mean:#76838f;"
+    "--guide:#94a1ad;--trail:#66737f;--edge:#a9b8c5;--solid:#2b3742;--cap:#36434f;--focus:#8fc8f2;"
+    "color-scheme:dark";
 
 }  // namespace rondure::reports

@@ -47,6 +47,10 @@ std::string Svg::document(std::string_view style) const {
       body_.substr(kTag.size(), inside - kTag.size()), style, body_.substr(inside));
 }
 
+void Svg::describe(std::string_view text) {
+  body_ += fmt::format("<desc>{}</desc>", escaped(text));
+}
+
 void Svg::line(double x1, double y1, double x2, double y2, std::string_view css_class) {
   body_ += fmt::format(R"(<line class="{}" x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)",
                        css_class, x1, y1, x2, y2);

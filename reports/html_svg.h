@@ -28,6 +28,11 @@ class Svg {
   void diamond(double x, double y, double r, std::string_view css_class);
   void cross(double x, double y, double r, std::string_view css_class);
 
+  /// What a screen reader says after the label.
+  void describe(std::string_view text);
+  /// Markup that was made elsewhere.
+  void add(std::string_view markup) { body_ += markup; }
+
   [[nodiscard]] std::string str() const { return body_ + "</svg>"; }
   /// The drawing as a file of its own, with its style.
   [[nodiscard]] std::string document(std::string_view style) const;

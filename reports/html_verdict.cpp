@@ -108,7 +108,7 @@ std::string risks_in_words(const CharacteristicResult& result) {
   std::string html;
   if (!result.outcome->conformance_1) return html;
   const double trials = result.value->uncertainty().result()->trials;
-  html += "<br>" +
+  html += "<br/>" +
           trf("Probability of conformance: {}.", percent(*result.outcome->conformance_1, trials));
   if (const auto risk = result.outcome->specific_risk_1()) {
     html += result.verdict == Verdict::kConforms
@@ -145,7 +145,7 @@ std::string row(const FeatureResult& feature, const CharacteristicResult& result
   std::string words = opening_sentence(result.reason);
   if (result.outcome) words += risks_in_words(result);
   if (result.value)
-    words += "<br>" + trf("Verification operator: {}", in_sentence(result.value->operator_text()));
+    words += "<br/>" + trf("Verification operator: {}", in_sentence(result.value->operator_text()));
   return html + R"(<tr class="words"><td colspan="6">)" + words + "</td></tr>";
 }
 
@@ -189,7 +189,7 @@ std::string verdict_section(const record::RunRecord& record, const Evaluation& e
   std::string html = "<section>";
   html += unfinished_banner(record, evaluation);
   html += fmt::format(
-      R"(<div class="verdict">{}<div><div class="word {}">{}</div><div class="why">{}</div>)"
+      R"(<div class="verdict">{}<div><div class="word {}" role="heading" aria-level="2">{}</div><div class="why">{}</div>)"
       "</div></div>",
       verdict_mark(verdict, 76), css_name(verdict), capitalised(tr(name_of(verdict))),
       sentence(evaluation));

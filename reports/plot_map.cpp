@@ -10,6 +10,7 @@
 #include "reports/html_plots.h"
 #include "reports/html_svg.h"
 #include "reports/language.h"
+#include "reports/plot_scale.h"
 #include "reports/section.h"
 #include "reports/text.h"
 
@@ -115,28 +116,6 @@ void draw_axes(Svg& svg, const MapView& view) {
   svg.upward_text(14.0, 0.5 * (kTop + view.bottom), "title", tr("height / mm"));
 }
 
-void draw_colour_bar(Svg& svg, const MapView& view) {
-  constexpr int kSteps = 41;
-  const double x = kRight + 22.0;
-  const double height = (view.bottom - kTop - 18.0) / kSteps;
-  for (int i = 0; i < kSteps; ++i) {
-    const double ratio = 1.0 - 2.0 * i / (kSteps - 1.0);
-    svg.rect(x, kTop + 18.0 + i * height, 14.0, height + 0.4, "swatch", diverging_colour(ratio));
-  }
-  svg.rect(x, kTop + 18.0, 14.0, kSteps * height, "frame");
-  svg.text(x, kTop + 6.0, "start", "title", "µm");
-  const Scale y{-view.half_zone_mm, view.half_zone_mm, kTop + 18.0 + kSteps * height, kTop + 18.0};
-  for (const int part : {-2, -1, 0, 1, 2}) {
-    const double value = 0.5 * part * view.half_zone_mm;
-    svg.line(x + 14.0, y.at(value), x + 18.0, y.at(value), "tick");
-    svg.text(x + 21.0,
-             y.at(value) + (part == 2    ? 7.0
-                            : part == -2 ? 1.0
-                                         : 4.0),
-             "start", "label", part == 0 ? "0" : signed_um(value));
-  }
-}
-
 /// Three digits with their sign, short enough for a disc.
 std::string disc_label(double deviation_mm) {
   const double value = deviation_mm / core::kMicrometre;
@@ -224,15 +203,14 @@ std::string deviation_map(const FeatureResult& feature, const Zone& zone) {
     draw_discs(svg, feature, view);
   }
   draw_contacts(svg, feature, view);
-  draw_colour_bar(svg, view);
+  deviation_scale(svg, kRight + 22.0, kTop, view.bottom, view.half_zone_mm);
   return fmt::format(
       R"(<h3>{}</h3><figure><div class="scroll">{}</div><figcaption>{} {}{}</figcaption></figure>)",
       tr("Unrolled surface"), svg.str(),
       view.cells ? tr("Mean deviation from the middle of the zone, in cells of 3°.")
                  : tr("Deviation of each point from the middle of the zone in µm."),
       tr("Orange: farther from the axis; blue: nearer. Triangles touch the outer, squares the "
-         "inner "
-         "cylinder of the zone."),
+         "inner cylinder of the zone."),
       feature.merged ? tr(" The number above a point is its pose.") : std::string());
 }
 

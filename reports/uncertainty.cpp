@@ -136,8 +136,20 @@ int threads_of(const UncertaintyOptions& options) {
   return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 256);
 }
 
+/// A reference that exists for the points as measured may not exist for all that they may be.
+core::Result<void> check_values(const FormTrials& trials) {
+  const auto lost = [](const std::vector<double>& values) {
+    return std::count_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
+  };
+  const auto count = lost(trials.sampled()) + lost(trials.whole());
+  if (count == 0) return {};
+  return core::fail(Code::kReferenceAbsent,
+                    fmt::format("in {} of {} trials the points have no such reference", count,
+                                trials.sampled().size() + trials.whole().size()));
+}
+
 /// Runs blocks until the numbers stand still. Source: JCGM 101 section 7.9.
-UncertaintyResult run_trials(FormTrials& trials, const UncertaintyOptions& options) {
+core::Result<UncertaintyResult> run_trials(FormTrials& trials, const UncertaintyOptions& options) {
   UncertaintyResult out;
   const auto block = static_cast<std::size_t>(options.block_trials);
   const auto least = static_cast<std::size_t>(options.least_trials);
@@ -146,12 +158,14 @@ UncertaintyResult run_trials(FormTrials& trials, const UncertaintyOptions& optio
     return tolerance_reached(values, block, options.coverage);
   };
   trials.run(options.tolerance_mm > 0.0 ? least : most);
+  if (const auto good = check_values(trials); !good) return core::fail(good.error());
   while (options.tolerance_mm > 0.0) {
     const double worst =
         std::max(open(trials.sampled()), trials.whole().empty() ? 0.0 : open(trials.whole()));
     out.tolerance_reached = worst <= options.tolerance_mm;
     if (out.tolerance_reached || trials.sampled().size() >= most) break;
     trials.run(std::min(block, most - trials.sampled().size()));
+    if (const auto good = check_values(trials); !good) return core::fail(good.error());
   }
   out.uncorrected_mm = trials.uncorrected_mm();
   out.sampled = statement_of(trials.sampled(), options.coverage);
@@ -237,11 +251,13 @@ core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
   }
   const ErrorModel errors(cloud, influences);
   FormTrials trials(cloud, errors, spectrum, options.seed, threads_of(options));
-  UncertaintyResult out = run_trials(trials, options);
+  auto found = run_trials(trials, options);
+  if (!found) return found;
+  UncertaintyResult& out = *found;
   out.budget = budget_of(trials, errors, cloud, spectrum, options);
   out.declaration = influence_statements(influences);
   if (spectrum) out.spectrum_source = spectrum->source;
-  return out;
+  return found;
 }
 
 core::Result<FormCloud> simulated_cloud(const FormCloud& nominal, const Influences& influences,

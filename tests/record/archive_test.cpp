@@ -55,7 +55,10 @@ TEST_P(EitherArchive, HoldsARunOnceHoweverOftenItIsPushed) {
 /// In a child: pushes `runs` runs from `first` on, and those of the other writer's that both have.
 int push_runs(const ArchivePlace& place, int first, int runs) {
   auto archive = Archive::open(place, Archive::Access::kWrite);
-  if (!archive) return 1;
+  if (!archive) {
+    fmt::print(stderr, "{}\n", archive.error().what);
+    return 1;
+  }
   for (int number = first; number < first + runs; ++number) {
     if (!archive->push(archive_run(number))) return 2;
     if (!archive->push(archive_run(1'000 + number % 10))) return 3;
@@ -63,13 +66,13 @@ int push_runs(const ArchivePlace& place, int first, int runs) {
   return 0;
 }
 
-TEST_P(EitherArchive, LosesNothingWhenTwoProgramsWriteAtOnce) {
-  constexpr int kRuns = 60;
+/// `writers` children that all open one place, make its tables and push `runs` runs each.
+void push_from_children(const ArchivePlace& place, int writers, int runs) {
   std::vector<pid_t> children;
-  for (int writer = 0; writer < 2; ++writer) {  // both also make the tables
+  for (int writer = 0; writer < writers; ++writer) {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
-    if (child == 0) ::_exit(push_runs(place_, writer * kRuns, kRuns));
+    if (child == 0) ::_exit(push_runs(place, writer * runs, runs));
     children.push_back(child);
   }
   for (const pid_t child : children) {
@@ -77,8 +80,21 @@ TEST_P(EitherArchive, LosesNothingWhenTwoProgramsWriteAtOnce) {
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     EXPECT_EQ(status, 0) << "status " << WEXITSTATUS(status);
   }
+}
+
+TEST_P(EitherArchive, LosesNothingWhenTwoProgramsWriteAtOnce) {
+  constexpr int kRuns = 60;
+  push_from_children(place_, 2, kRuns);
   Archive archive = open_archive(place_);
   EXPECT_EQ(all_of(archive).size(), 2U * (2U * kRuns + 10U));
+}
+
+TEST(Archive, IsMadeByManyProgramsAtOnce) {
+  const Scratch scratch;
+  for (int round = 0; round < 40; ++round) {
+    SCOPED_TRACE(round);
+    push_from_children(place_of(scratch / fmt::format("{}.db", round)), 4, 1);
+  }
 }
 
 TEST_P(EitherArchive, FiltersByEveryQuestion) {

@@ -109,13 +109,15 @@ TEST_F(DefectFile, HoldsTheRuleAllNumbersAndThePoints) {
   result.layers[2].mi = core::fail(core::Code::kReferenceAbsent, "a reason");
   const Defect defect{*broken_invariant(result), result};
   const auto header = points_run({}, 1).header;
-  const core::Error error = keep_defect(defect, header, folder, "this processor");
+  ASSERT_TRUE(keep_defects({defect, defect}, header, folder, "this processor"));
+  const core::Error error = error_of(defect);
   EXPECT_EQ(error.code, core::Code::kInternal);
   EXPECT_EQ(error.where, "land");
   EXPECT_THAT(error.what, HasSubstr("certificate of MICY"));
-  EXPECT_THAT(error.what, HasSubstr((folder / "defect.txt").string()));
+  EXPECT_THAT(error.what, HasSubstr("report it with defect.txt"));
   const std::string text = *record::read_file(folder / "defect.txt");
-  EXPECT_EQ(text, dump_of(defect, header, "this processor"));
+  const std::string dump = dump_of(defect, header, "this processor");
+  EXPECT_EQ(text, dump + dump);
   for (const std::string& line :
        {fmt::format("version = {}", core::kVersion), std::string("processor = this processor"),
         std::string("measured_by_version = 0.0.7"), std::string("feature = land"),
@@ -137,11 +139,12 @@ TEST_F(DefectFile, ThatCannotBeWrittenLeavesTheJournalAsEvidence) {
   FeatureResult result = sound_result();
   result.ls_cylinder->deviation_mm = 0.0;
   const Defect defect{*broken_invariant(result), result};
-  const core::Error error =
-      keep_defect(defect, {}, folder / "nowhere" / "at all", "this processor");
-  EXPECT_EQ(error.code, core::Code::kInternal);
-  EXPECT_THAT(error.what, HasSubstr("journal.db"));
-  EXPECT_THAT(error.what, HasSubstr("MZCY <= LSCY"));
+  const auto kept = keep_defects({defect}, {}, folder / "nowhere" / "at all", "this processor");
+  ASSERT_FALSE(kept);
+  EXPECT_EQ(kept.error().code, core::Code::kInternal);
+  EXPECT_THAT(kept.error().what, HasSubstr("journal.db"));
+  EXPECT_THAT(kept.error().what, HasSubstr("could not be written"));
+  EXPECT_THAT(kept.error().what, HasSubstr("MZCY <= LSCY"));
 }
 
 TEST_F(DefectFile, IsNotWrittenForASoundRun) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,12 +18,10 @@ inline bool shows_nan(std::string_view page) {
   return false;
 }
 
-inline bool is_void_element(std::string_view name) {
-  return name == "meta" || name == "br" || name == "!DOCTYPE";
-}
+inline bool is_void_element(std::string_view name) { return name == "br" || name == "!DOCTYPE"; }
 
 /// The first tag that closes nothing, or stays open; empty for a balanced page. Quoted attribute
-/// values may hold anything but quotes.
+/// values may hold anything but quotes; what stands in a script is not markup.
 inline std::string first_unbalanced_tag(std::string_view page) {
   std::vector<std::string> open;
   for (std::size_t at = page.find('<'); at != std::string_view::npos; at = page.find('<', at)) {
@@ -41,9 +40,20 @@ inline std::string first_unbalanced_tag(std::string_view page) {
       open.pop_back();
     } else if (page[at - 1] != '/' && !is_void_element(name)) {
       open.push_back(name);
+      if (name == "script") at = std::min(page.find("</script>", at), page.size());
     }
   }
   return open.empty() ? std::string() : open.back();
+}
+
+/// Lines of a terminal as one: every run of blanks and line ends is one blank.
+inline std::string one_line(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool blank = c == ' ' || c == '\n';
+    if (!blank || (!out.empty() && out.back() != ' ')) out += blank ? ' ' : c;
+  }
+  return out;
 }
 
 }  // namespace rondure::reports::testing

@@ -15,6 +15,8 @@
 
 #include "core/noise.h"
 #include "core/units.h"
+#include "fit/ls_cylinder.h"
+#include "fit/one_sided_cylinder.h"
 #include "fit/zone_fit.h"
 
 namespace rondure::reports {
@@ -296,6 +298,48 @@ TEST(Uncertainty, AgreesWithTheMultipliersOfTheContactsWhereErrorsAreSmall) {
   const auto result = found(cloud, repeatability(sigma), trials(20000));
   EXPECT_NEAR(result.sampled.standard_uncertainty_mm, sigma * std::sqrt(square), 0.02 * sigma);
   EXPECT_NEAR(result.sampled.estimate_mm, zone.width_mm(), 0.05 * sigma);
+}
+
+/// Radial peak to valley about a reference, by the fits that report it.
+double reported_mm(const FormCloud& cloud) {
+  std::vector<Vector3d> points;
+  for (const FormPoint& p : cloud.points) points.push_back(position_mm(cloud, p));
+  if (cloud.reference == record::Reference::kLeastSquares) {
+    return fit::ls_cylinder(points, Vector3d::UnitZ())->deviation_mm;
+  }
+  const auto fit = cloud.reference == record::Reference::kMinimumCircumscribed
+                       ? fit::min_circumscribed_cylinder(points, Vector3d::UnitZ())
+                       : fit::max_inscribed_cylinder(points, Vector3d::UnitZ());
+  return fit->deviation_mm;
+}
+
+TEST(Uncertainty, AgreesWithTheSlopesOfEveryReferenceWhereErrorsAreSmall) {
+  const double sigma = 1e-6;
+  for (const auto reference :
+       {record::Reference::kLeastSquares, record::Reference::kMinimumCircumscribed,
+        record::Reference::kMaximumInscribed}) {
+    SCOPED_TRACE(static_cast<int>(reference));
+    FormCloud cloud = shaft(4, 7);
+    cloud.reference = reference;
+    double square = 0.0;
+    for (FormPoint& point : cloud.points) {
+      const double middle = point.deviation_mm;
+      point.deviation_mm = middle + sigma;
+      const double above = reported_mm(cloud);
+      point.deviation_mm = middle - sigma;
+      square += std::pow((above - reported_mm(cloud)) / (2.0 * sigma), 2);
+      point.deviation_mm = middle;
+    }
+    constexpr int kTrials = 4000;
+    const auto result = found(cloud, repeatability(sigma), trials(kTrials));
+    const double spread = sigma * std::sqrt(square);
+    EXPECT_NEAR(result.uncorrected_mm, reported_mm(cloud), 1e-9);
+    // 3.3 standard deviations of a standard deviation and of a mean of so many trials.
+    EXPECT_NEAR(result.sampled.standard_uncertainty_mm, spread,
+                3.3 * spread / std::sqrt(2.0 * kTrials));
+    EXPECT_NEAR(result.sampled.estimate_mm, result.uncorrected_mm,
+                3.3 * spread / std::sqrt(1.0 * kTrials));
+  }
 }
 
 /// P(|z| < v) of the four-point section below, by quadrature.

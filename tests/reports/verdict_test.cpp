@@ -1,15 +1,20 @@
 // Every path to a void verdict, and what stands with a value.
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <type_traits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fixture/calibration.h"
 #include "reports/conformance.h"
 #include "reports/declared.h"
+#include "reports/defect.h"
+#include "reports/text.h"
 #include "reports/writers.h"
+#include "tests/reports/page_text.h"
 #include "tests/reports/points_run.h"
 
 namespace rondure::reports {
@@ -95,6 +100,64 @@ TEST(Verdict, OfASoundRunFollowsTheRuleAndTheValueCarriesItsInterval) {
   }
 }
 
+TEST(Verdict, EveryReferenceHasItsInterval) {
+  for (const auto form : {record::Form::kCylindricity, record::Form::kRoundness}) {
+    for (const auto reference :
+         {record::Reference::kLeastSquares, record::Reference::kMinimumCircumscribed,
+          record::Reference::kMaximumInscribed}) {
+      SCOPED_TRACE(static_cast<int>(reference));
+      RunRecord run = touched_run("iso-14253-1");
+      run.features[0].characteristics[0].form = form;
+      run.features[0].characteristics[0].reference = reference;
+      const CharacteristicResult result = result_of(run);
+      EXPECT_EQ(result.verdict, Verdict::kConforms) << result.reason;
+      ASSERT_TRUE(result.value && result.value->statement());
+      EXPECT_NEAR(result.value->uncertainty().result()->uncorrected_mm, result.value->value_mm(),
+                  1e-6);
+    }
+  }
+}
+
+/// Errors that are zero, at stations that hold for +-90 deg.
+std::shared_ptr<const fixture::StationMotion> stations() {
+  std::vector<fixture::AxisStation> out;
+  for (const double angle : {-1.6, -0.6, 0.6, 1.6})
+    out.push_back({angle, {}, fixture::ErrorCovariance::Zero()});
+  return *fixture::StationMotion::through(std::move(out));
+}
+
+/// The run uses a calibration that holds: its fixture, its time, its travel.
+void add_calibration(RunRecord& run, const std::function<void(fixture::Calibration&)>& change) {
+  run.header.started_utc = "2026-11-21T10:00:00Z";
+  fixture::Calibration calibration;
+  calibration.id = "calibration-1";
+  calibration.fixture_id = "F-01";
+  calibration.measured_utc = "2026-11-01T08:00:00Z";
+  calibration.expires_utc = "2027-11-01T08:00:00Z";
+  calibration.alpha = stations();
+  calibration.beta = stations();
+  calibration.verification = {6, 30, 0.6e-3, 1.4e-3, 9e-6, 0.5e-3, 42e-3, 90e-3};
+  change(calibration);
+  run.settings.push_back({"fixture/id", std::nullopt, "F-01"});
+  run.settings.push_back({"fixture/max_residual_um", 5.0, ""});
+  run.settings.push_back(
+      {"fixture/calibration", std::nullopt, fixture::calibration_text(calibration)});
+}
+
+/// Every report names the verdict and gives the whole reason.
+void expect_told(const RunRecord& run, const Evaluation& evaluation) {
+  const CharacteristicResult& result = evaluation.features.at(0).characteristics.at(0);
+  EXPECT_EQ(result.verdict, Verdict::kVoid);
+  EXPECT_FALSE(result.outcome);
+  EXPECT_NE(result.reason, "");
+  const std::string summary = write_summary(run, evaluation);
+  EXPECT_THAT(summary, ::testing::StartsWith("VOID\n"));
+  EXPECT_THAT(testing::one_line(summary), HasSubstr("because " + printable(result.reason)));
+  const std::string page = write_html(run, evaluation);
+  EXPECT_THAT(page, HasSubstr("is-void"));
+  EXPECT_THAT(page, HasSubstr(in_sentence(capitalised(result.reason))));
+}
+
 struct VoidPath {
   const char* name;
   std::function<void(RunRecord&)> spoil;
@@ -135,14 +198,60 @@ std::vector<VoidPath> void_paths() {
        "temperature 22.50 degC is outside 18..22 degC"},
       {"unknown rule", [](RunRecord& r) { r.header.decision_rule = "coin"; },
        "does not know the decision rule"},
+      {"no final cloud",
+       [](RunRecord& r) {
+         r.poses[0].final_cloud = false;
+         r.ending = "stopped";
+       },
+       "the run ended before the final cloud was measured"},
+      {"no fit",
+       [](RunRecord& r) {
+         for (record::Touch& t : r.touches) {
+           if (t.pose >= 0) t.tip_mm.z() = 0.0;
+         }
+       },
+       "tilt"},
+      {"no sections",
+       [](RunRecord& r) {
+         r.features[0].layers = 0;
+         r.features[0].characteristics[0].form = record::Form::kRoundness;
+       },
+       "this feature has no sections"},
+      {"three points a section",
+       [](RunRecord& r) {
+         std::erase_if(r.touches,
+                       [](const record::Touch& t) { return t.pose >= 0 && t.point % 2 == 1; });
+         std::erase_if(r.touches, [](const record::Touch& t) { return t.point == 6; });
+         r.features[0].characteristics[0].form = record::Form::kRoundness;
+       },
+       "a section of three different points has no roundness"},
+      {"no cylinder reference",
+       [](RunRecord& r) {
+         r.features[0].characteristics[0].reference = record::Reference::kMaximumInscribed;
+         for (record::Touch& t : r.touches) {
+           if (t.pose >= 0) t.tip_mm = rough_part(3, 4, 7, 2.0)[static_cast<std::size_t>(t.id)];
+         }
+       },
+       "there is no"},
+      {"calibration expired",
+       [](RunRecord& r) {
+         add_calibration(r, [](auto& c) { c.expires_utc = "2026-11-20T00:00:00Z"; });
+       },
+       "expired on"},
+      {"calibration of another fixture",
+       [](RunRecord& r) { add_calibration(r, [](auto& c) { c.fixture_id = "F-07"; }); },
+       "that of the fixture \"F-07\""},
+      {"calibration with too much left",
+       [](RunRecord& r) { add_calibration(r, [](auto& c) { c.verification.max_mm = 6e-3; }); },
+       "the plan allows 5 um"},
+      {"calibration that cannot be read",
+       [](RunRecord& r) {
+         r.settings.push_back({"fixture/calibration", std::nullopt, "{"});
+       },
+       "the text is no JSON"},
       {"no interval", [](RunRecord& r) { r.settings.clear(); },
        "needs the interval at the sampled points, which was not computed: the plan declares no "
        "uncertainty"},
-      {"interval of another reference",
-       [](RunRecord& r) {
-         r.features[0].characteristics[0].reference = record::Reference::kLeastSquares;
-       },
-       "intervals are computed of minimum zones only"},
       {"interval of the whole surface",
        [](RunRecord& r) {
          r.settings.push_back({"decision_rule/measurand", std::nullopt, "whole-surface"});
@@ -182,39 +291,108 @@ TEST(Verdict, IsVoidWithItsReasonOnEveryPath) {
     SCOPED_TRACE(path.name);
     RunRecord run = touched_run("iso-14253-1");
     path.spoil(run);
-    const CharacteristicResult result = result_of(run);
-    EXPECT_EQ(result.verdict, Verdict::kVoid);
-    EXPECT_THAT(result.reason, HasSubstr(path.reason));
-    EXPECT_FALSE(result.outcome);
     const auto evaluation = evaluate(run);
-    EXPECT_THAT(write_summary(run, *evaluation), HasSubstr("VOID\n"));
-    EXPECT_THAT(write_html(run, *evaluation), HasSubstr("is-void"));
+    ASSERT_TRUE(evaluation);
+    EXPECT_EQ(evaluation->verdict, Verdict::kVoid);
+    EXPECT_THAT(evaluation->features[0].characteristics[0].reason, HasSubstr(path.reason));
+    expect_told(run, *evaluation);
   }
 }
 
+TEST(Verdict, ACalibrationThatHoldsVoidsNothingAndOneThatDoesNotLeavesPointsOfFilesAlone) {
+  RunRecord run = touched_run("iso-14253-1");
+  add_calibration(run, [](auto&) {});
+  EXPECT_EQ(result_of(run).verdict, Verdict::kConforms) << result_of(run).reason;
+  run = touched_run("simple-acceptance");
+  add_calibration(run, [](auto& c) { c.fixture_id = "F-07"; });
+  run.features[0].strategy = record::Strategy::kPointsFile;
+  EXPECT_EQ(result_of(run).verdict, Verdict::kConforms) << result_of(run).reason;
+}
+
+// No data bring this about: the check is told to find it.
+TEST(Verdict, OfAFeatureThatBreaksAnInvariantIsVoidWithoutAValueAndTheOthersStay) {
+  RunRecord run = touched_run("iso-14253-1");
+  run.features.push_back(run.features[0]);
+  run.features[1].id = "sound";
+  run.poses.push_back({1, 1, {}, {}, true, 0.0});
+  const std::vector<record::Touch> touches = run.touches;
+  for (record::Touch touch : touches) {
+    if (touch.pose < 0) continue;
+    touch.pose = 1;
+    touch.id += 5000;
+    run.touches.push_back(touch);
+  }
+  const auto check = [](const FeatureResult& f) -> std::optional<BrokenInvariant> {
+    if (f.feature.id == "sound") return std::nullopt;
+    return BrokenInvariant{"MZCY <= LSCY", "0.0061 mm > 0.0052 mm"};
+  };
+  const CheckedEvaluation checked = evaluate_checked(run, check);
+  const FeatureResult& broken = checked.evaluation.features.at(0);
+  ASSERT_EQ(checked.defects.size(), 1U);
+  EXPECT_TRUE(checked.defects[0].result.mz_cylinder) << "the dump needs everything";
+  EXPECT_EQ(checked.evaluation.verdict, Verdict::kVoid);
+  EXPECT_FALSE(broken.mz_cylinder || broken.ls_cylinder || broken.mc_cylinder);
+  EXPECT_TRUE(broken.cloud.empty() && broken.layers.empty());
+  ASSERT_EQ(broken.characteristics.size(), 1U);
+  EXPECT_FALSE(broken.characteristics[0].value);
+  EXPECT_THAT(
+      broken.characteristics[0].reason,
+      HasSubstr("invariant \"MZCY <= LSCY\" does not hold for 28 points: 0.0061 mm > 0.0052 "
+                "mm; this is a defect of the program"));
+  expect_told(run, checked.evaluation);
+  EXPECT_THAT(write_summary(run, checked.evaluation), HasSubstr("[internal]"));
+  const CharacteristicResult& sound = checked.evaluation.features.at(1).characteristics.at(0);
+  EXPECT_EQ(sound.verdict, Verdict::kConforms);
+  EXPECT_EQ(sound.value_mm(), evaluate(run)->features[1].characteristics[0].value_mm());
+  for (const auto& stored : stored_results(checked.evaluation))
+    EXPECT_THAT(stored.name, ::testing::Not(HasSubstr("/features/0/mz"))) << "no value is kept";
+}
+
+TEST(Verdict, OfARunIsVoidWhenAFeatureFailedThatHasNoTolerance) {
+  FeatureResult failed;
+  failed.failure = core::Error{core::Code::kNoPoints, "nothing was touched", {}};
+  EXPECT_EQ(overall({failed}), Verdict::kVoid);
+  EXPECT_EQ(overall({FeatureResult{}}), Verdict::kNotToleranced);
+}
+
 // What data alone do not bring about: the parts of an evaluation are taken away.
-TEST(Verdict, IsVoidWithoutCertificateOrTemperature) {
-  const RunRecord run = touched_run("simple-acceptance");
+TEST(Verdict, IsVoidWithoutCertificateOrTemperatureOrWithoutTheIntervalOfWhatWasEvaluated) {
+  const RunRecord run = touched_run("iso-14253-1");
   const auto sound = evaluate(run);
   ASSERT_TRUE(sound);
-  const auto decided = [&](const std::function<void(FeatureResult&)>& spoil) {
+  struct Path {
+    const char* reason;
+    std::function<void(FeatureResult&)> spoil;
+  };
+  const std::vector<Path> paths = {
+      {"no certificate stands behind the minimum zone",
+       [](FeatureResult& f) { f.mz_cylinder->certificate.kind = fit::Certificate::Kind::kNone; }},
+      {"the temperature is not known", [](FeatureResult& f) { f.temperatures.reset(); }},
+      {"nothing was touched",
+       [](FeatureResult& f) {
+         f.failure = core::Error{core::Code::kNoPoints, "nothing was touched", {}};
+       }},
+      {"it was not fitted", [](FeatureResult& f) { f.ls_cylinder.reset(); }},
+      {"intervals of clouds merged from several poses are not computed",
+       [](FeatureResult& f) { f.merged = std::make_shared<const MergedPoses>(); }},
+      {"20001 points are more than 20000, the limit of the trials",
+       [](FeatureResult& f) { f.cloud.resize(20'001, f.cloud.front()); }},
+  };
+  for (const Path& path : paths) {
+    SCOPED_TRACE(path.reason);
     FeatureResult feature = sound->features[0];
     feature.characteristics.clear();
-    spoil(feature);
+    path.spoil(feature);
     decide(run, sound->rule, sound->probe, feature);
-    EXPECT_EQ(feature.characteristics[0].verdict, Verdict::kVoid);
-    return feature.characteristics[0].reason;
-  };
-  EXPECT_THAT(decided([](FeatureResult& f) {
-                f.mz_cylinder->certificate.kind = fit::Certificate::Kind::kNone;
-              }),
-              HasSubstr("no certificate stands behind the minimum zone"));
-  EXPECT_THAT(decided([](FeatureResult& f) { f.temperatures.reset(); }),
-              HasSubstr("the temperature is not known"));
-  EXPECT_THAT(decided([](FeatureResult& f) {
-                f.failure = core::Error{core::Code::kNoPoints, "nothing was touched", {}};
-              }),
-              HasSubstr("nothing was touched"));
+    const CharacteristicResult& result = feature.characteristics.at(0);
+    EXPECT_EQ(result.verdict, Verdict::kVoid);
+    EXPECT_THAT(result.reason, HasSubstr(path.reason));
+    // The reports of the sound feature with this verdict: they print what the evaluation says.
+    Evaluation told = *sound;
+    told.features[0].characteristics = feature.characteristics;
+    told.verdict = overall(told.features);
+    expect_told(run, told);
+  }
 }
 
 TEST(StatedValue, SaysWhatItIsAboutWithTheDigitsThatItsIntervalAllows) {

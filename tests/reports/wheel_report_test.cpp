@@ -1,6 +1,8 @@
 // A wheel feature from its series to the reports.
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +10,7 @@
 
 #include "record/run_record.h"
 #include "reports/evaluation.h"
+#include "reports/text.h"
 #include "reports/writers.h"
 #include "tests/fit/wheel_cases.h"
 #include "tests/reports/page_text.h"
@@ -75,6 +78,36 @@ TEST(WheelReport, JudgesRadiusRunOutAndRoundnessOfWorkedExample1) {
   EXPECT_EQ(results[1].verdict, Verdict::kDoesNotConform);
   EXPECT_LT(results[2].value_mm().value() * 1e3, 4.535);
   EXPECT_EQ(results[2].verdict, Verdict::kConforms);
+}
+
+// Every path to void of an analysis of series (analysis.cpp), in the evaluation and in the reports.
+TEST(WheelReport, IsVoidWithItsReasonOnEveryPath) {
+  struct Path {
+    const char* reason;
+    std::function<void(record::RunRecord&)> spoil;
+  };
+  const std::vector<Path> paths = {
+      {"the run ended before its data were kept", [](auto& r) { r.series.clear(); }},
+      {"the run did not finish", [](auto& r) { r.ending = "stopped"; }},
+      {"does not know the decision rule", [](auto& r) { r.header.decision_rule = "coin"; }},
+      {"intervals are computed of touches and points only",
+       [](auto& r) { r.header.decision_rule = "iso-14253-1"; }}};
+  for (const Path& path : paths) {
+    SCOPED_TRACE(path.reason);
+    auto run = wheel_run();
+    path.spoil(run);
+    const auto evaluation = evaluate(run);
+    ASSERT_TRUE(evaluation);
+    EXPECT_EQ(evaluation->verdict, Verdict::kVoid);
+    for (const CharacteristicResult& result : evaluation->features.at(0).characteristics) {
+      EXPECT_EQ(result.verdict, Verdict::kVoid);
+      EXPECT_FALSE(result.outcome);
+      EXPECT_THAT(result.reason, HasSubstr(path.reason));
+      EXPECT_THAT(testing::one_line(write_summary(run, *evaluation)),
+                  HasSubstr("because " + printable(result.reason)));
+      EXPECT_THAT(write_html(run, *evaluation), HasSubstr(in_sentence(capitalised(result.reason))));
+    }
+  }
 }
 
 TEST(WheelReport, ShowsEdgePathMarginAndResidual) {

@@ -1,0 +1,38 @@
+#include <fmt/format.h>
+
+#include "app/terminal.h"
+#include "app/verbs.h"
+#include "record/journal.h"
+#include "reports/evaluation.h"
+#include "reports/factor_study.h"
+
+namespace rondure::app {
+
+int compare(const CompareArguments& arguments) {
+  const auto read = record::read_journal(arguments.directory);
+  if (!read) {
+    complain(read.error());
+    return kBadInput;
+  }
+  for (const record::BrokenTable& broken : read->broken) {
+    tell(fmt::format("rondure: {}: table {} of the journal was changed after the run: {}\n",
+                     arguments.directory, broken.table, broken.what));
+  }
+  if (!read->broken.empty()) return kBadInput;
+  const auto evaluation = reports::evaluate(read->record);
+  if (!evaluation) {
+    complain(evaluation.error());
+    return kBadInput;
+  }
+  const auto comparison = reports::compare_run(*evaluation);
+  if (!comparison) {
+    complain(comparison.error().at(arguments.directory));
+    return kBadInput;
+  }
+  const std::string& id = read->record.header.run_id;
+  say(arguments.json ? reports::comparison_json(id, *comparison)
+                     : reports::comparison_text(id, *comparison, arguments.all));
+  return kAllWell;
+}
+
+}  // namespace rondure::app

@@ -1,0 +1,356 @@
+#include "reports/factor_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <Eigen/LU>
+
+#include "core/units.h"
+#include "fit/ls_circle.h"
+#include "fit/ls_cylinder.h"
+#include "fit/min_zone_circle.h"
+#include "fit/min_zone_cylinder.h"
+#include "fit/one_sided_center.h"
+#include "fit/one_sided_cylinder.h"
+#include "fit/roundness_evaluation.h"
+
+namespace rondure::reports {
+namespace {
+
+using record::Form;
+using record::Reference;
+using Points = std::vector<Eigen::Vector3d>;
+
+constexpr double kSigmas = 3.0;
+constexpr double kMedianScales = 5.0;
+constexpr double kLeastScaleMm = 1e-4;
+constexpr double kPointsPerUndulation = 7.0;
+
+std::vector<Eigen::Vector2d> plane_of(const Points& points) {
+  std::vector<Eigen::Vector2d> out;
+  out.reserve(points.size());
+  for (const Eigen::Vector3d& p : points) out.emplace_back(p.head<2>());
+  return out;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+/// Which of the deviations a rule calls outliers.
+/// @param parameters  Of the least-squares fit they come from.
+std::vector<bool> flagged(const std::vector<double>& deviations, OutlierRule rule,
+                          double parameters) {
+  double middle = 0.0;
+  double limit = 0.0;
+  if (rule == OutlierRule::kThreeSigma) {
+    double squares = 0.0;
+    for (const double d : deviations) squares += d * d;
+    const double freedoms = static_cast<double>(deviations.size()) - parameters;
+    limit = freedoms > 0.0 ? kSigmas * std::sqrt(squares / freedoms) : squares + 1.0;
+  } else {
+    middle = median(deviations);
+    std::vector<double> apart;
+    for (const double d : deviations) apart.push_back(std::abs(d - middle));
+    limit = kMedianScales * std::max(1.4826 * median(std::move(apart)), kLeastScaleMm);
+  }
+  std::vector<bool> out;
+  for (const double d : deviations) out.push_back(std::abs(d - middle) > limit);
+  return out;
+}
+
+core::Result<std::size_t> checked_count(const std::vector<bool>& out) {
+  const auto gone = static_cast<std::size_t>(std::count(out.begin(), out.end(), true));
+  if (4 * gone > out.size()) {
+    return core::fail(core::Code::kOutliers,
+                      fmt::format("{} of {} points would be left out, more than a quarter: that "
+                                  "is form",
+                                  gone, out.size()));
+  }
+  return gone;
+}
+
+/// Distances from the least-squares circle of a section.
+core::Result<std::vector<double>> section_deviations(const Points& points) {
+  const auto plane = plane_of(points);
+  const auto circle = fit::ls_circle(plane);
+  if (!circle) return core::fail(circle.error());
+  std::vector<double> out;
+  for (const Eigen::Vector2d& p : plane)
+    out.push_back((p - circle->center_mm).norm() - circle->radius_mm);
+  return out;
+}
+
+core::Result<std::vector<double>> cylinder_deviations(const Points& points) {
+  const auto cylinder = fit::ls_cylinder(points, Eigen::Vector3d::UnitZ());
+  if (!cylinder) return core::fail(cylinder.error());
+  std::vector<double> out;
+  for (const Eigen::Vector3d& p : points)
+    out.push_back(fit::distance_mm(cylinder->axis, p) - cylinder->radius_mm);
+  return out;
+}
+
+/// The flags of every point, layer by layer.
+core::Result<std::vector<bool>> outliers_of(const FactorPoints& points, OutlierRule rule) {
+  if (points.form == Form::kCylindricity) {
+    const auto deviations = cylinder_deviations(points.all_mm());
+    if (!deviations) return core::fail(deviations.error());
+    auto out = flagged(*deviations, rule, 5.0);
+    if (auto checked = checked_count(out); !checked) return core::fail(checked.error());
+    return out;
+  }
+  std::vector<bool> out;
+  for (const Points& layer : points.layers_mm) {
+    const auto deviations = section_deviations(layer);
+    if (!deviations) return core::fail(deviations.error());
+    const auto of_layer = flagged(*deviations, rule, 3.0);
+    if (auto checked = checked_count(of_layer); !checked) return core::fail(checked.error());
+    out.insert(out.end(), of_layer.begin(), of_layer.end());
+  }
+  return out;
+}
+
+/// Height of a layer over its angle, z = a + b cos + c sin: how its plane lies.
+Eigen::Vector3d plane_heights(const Points& points, const Eigen::Vector2d& center) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  const double first = points.front().z();
+  for (const Eigen::Vector3d& p : points) {
+    const Eigen::Vector2d n = (p.head<2>() - center).normalized();
+    const Eigen::Vector3d row(1.0, n.x(), n.y());
+    normal += row * row.transpose();
+    right += row * (p.z() - first);
+  }
+  return normal.inverse() * right + Eigen::Vector3d(first, 0.0, 0.0);
+}
+
+core::Result<Points> filtered_layer(const Points& points, double cutoff_upr) {
+  const auto needed = static_cast<std::size_t>(std::ceil(kPointsPerUndulation * cutoff_upr));
+  if (points.size() < needed) {
+    return core::fail(core::Code::kSampling,
+                      fmt::format("needs {} points a layer, has {}", needed, points.size()));
+  }
+  const auto plane = plane_of(points);
+  const auto circle = fit::ls_circle(plane);
+  if (!circle) return core::fail(circle.error());
+  fit::RoundnessOptions options;
+  options.filter.cutoff_upr = cutoff_upr;
+  options.references = {};
+  options.highest_harmonic = 0;
+  const auto section = fit::evaluate_section(plane, options);
+  if (!section) return core::fail(section.error());
+  const Eigen::Vector3d heights = plane_heights(points, circle->center_mm);
+  Points out;
+  out.reserve(section->r_mm.size());
+  for (std::size_t i = 0; i < section->r_mm.size(); ++i) {
+    const Eigen::Vector2d n(std::cos(section->theta_rad[i]), std::sin(section->theta_rad[i]));
+    const Eigen::Vector2d p = circle->center_mm + (circle->radius_mm + section->r_mm[i]) * n;
+    out.emplace_back(p.x(), p.y(), heights.dot(Eigen::Vector3d(1.0, n.x(), n.y())));
+  }
+  return out;
+}
+
+template <class Fit>
+core::Result<double> one_sided(const core::Result<Fit>& fit) {
+  if (!fit) return core::fail(fit.error());
+  return fit->deviation_mm;
+}
+
+core::Result<double> cylindricity(const Points& points, Reference reference) {
+  if (points.size() < 6) {
+    return core::fail(
+        core::Code::kTooFewPoints,
+        fmt::format("{} points prove nothing: any 5 lie on a cylinder", points.size()));
+  }
+  const Eigen::Vector3d near = Eigen::Vector3d::UnitZ();
+  if (reference == Reference::kLeastSquares) return one_sided(fit::ls_cylinder(points, near));
+  if (reference == Reference::kMinimumCircumscribed)
+    return one_sided(fit::min_circumscribed_cylinder(points, near));
+  if (reference == Reference::kMaximumInscribed)
+    return one_sided(fit::max_inscribed_cylinder(points, near));
+  const auto zone = fit::min_zone_cylinder(points, near);
+  if (!zone) return core::fail(zone.error());
+  return zone->width_mm();
+}
+
+core::Result<double> roundness(const Points& points, Reference reference) {
+  if (points.size() < 4) {
+    return core::fail(
+        core::Code::kTooFewPoints,
+        fmt::format("{} points a layer prove nothing: any 3 lie on a circle", points.size()));
+  }
+  const auto plane = plane_of(points);
+  if (reference == Reference::kLeastSquares) return one_sided(fit::ls_circle(plane));
+  if (reference == Reference::kMinimumCircumscribed)
+    return one_sided(fit::min_circumscribed_circle(plane));
+  if (reference == Reference::kMaximumInscribed) return one_sided(fit::max_inscribed_circle(plane));
+  fit::MinZoneCircleOptions options;
+  options.global = false;
+  const auto zone = fit::min_zone_circle(plane, options);
+  if (!zone) return core::fail(zone.error());
+  return zone->width_mm();
+}
+
+/// A point and where it stands on its layer.
+struct Placed {
+  double angle_rad = 0.0;
+  Eigen::Vector3d place_mm;
+};
+
+/// By angle from the first point on: half a step of room keeps a neighbour that lies just before it
+/// from becoming the last.
+void sort_by_angle(std::vector<Placed>& layer) {
+  const double from =
+      layer.front().angle_rad - 0.5 * core::kTwoPi / static_cast<double>(layer.size());
+  for (Placed& one : layer) {
+    one.angle_rad = std::fmod(one.angle_rad - from, core::kTwoPi);
+    if (one.angle_rad < 0.0) one.angle_rad += core::kTwoPi;
+  }
+  std::stable_sort(layer.begin(), layer.end(),
+                   [](const Placed& a, const Placed& b) { return a.angle_rad < b.angle_rad; });
+}
+
+bool keeps(PointSubset subset, std::size_t layer, std::size_t layers, std::size_t point) {
+  switch (subset) {
+    case PointSubset::kAll:
+      return true;
+    case PointSubset::kEvenPoints:
+      return point % 2 == 0;
+    case PointSubset::kOddPoints:
+      return point % 2 == 1;
+    case PointSubset::kEvenLayers:
+      return layer % 2 == 0;
+    case PointSubset::kOddLayers:
+      return layer % 2 == 1;
+    case PointSubset::kWithoutFirstLayer:
+      return layer != 0;
+    case PointSubset::kWithoutLastLayer:
+      return layer + 1 != layers;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::size_t FactorPoints::count() const {
+  std::size_t out = 0;
+  for (const Points& layer : layers_mm) out += layer.size();
+  return out;
+}
+
+Points FactorPoints::all_mm() const {
+  Points out;
+  out.reserve(count());
+  for (const Points& layer : layers_mm) out.insert(out.end(), layer.begin(), layer.end());
+  return out;
+}
+
+std::string_view name_of(OutlierRule rule) {
+  constexpr std::array<std::string_view, 3> kNames = {"none", "3 sigma", "5 medians"};
+  return kNames[static_cast<std::size_t>(rule)];
+}
+
+std::string_view name_of(PointSubset subset) {
+  constexpr std::array<std::string_view, 7> kNames = {
+      "all points",          "points 1, 3, 5, ...",  "points 2, 4, 6, ...", "layers 1, 3, 5, ...",
+      "layers 2, 4, 6, ...", "first layer left out", "last layer left out"};
+  return kNames[static_cast<std::size_t>(subset)];
+}
+
+core::Result<FactorPoints> factor_points(const FeatureResult& result, Form form) {
+  if (result.failure) return core::fail(*result.failure);
+  FactorPoints out;
+  out.form = form;
+  out.layers_known = !result.layers.empty();
+  if (form == Form::kRoundness && !out.layers_known)
+    return core::fail(core::Code::kNoPoints, "this feature has no sections");
+  const fit::Axis& axis = result.mz_cylinder ? result.mz_cylinder->axis : result.section_axis;
+  const auto frame = fit::across(axis.direction);
+  std::map<int, std::vector<Placed>> layers;
+  for (const CloudPoint& point : result.cloud) {
+    const Eigen::Vector3d v = point.tip_mm - axis.point_mm;
+    const Eigen::Vector2d in_plane = frame.transpose() * v;
+    layers[out.layers_known ? point.layer : 0].push_back(
+        {point.angle_rad, {in_plane.x(), in_plane.y(), axis.direction.dot(v)}});
+  }
+  for (auto& [number, layer] : layers) {
+    if (out.layers_known) sort_by_angle(layer);
+    Points places;
+    places.reserve(layer.size());
+    for (const Placed& one : layer) places.push_back(one.place_mm);
+    out.layers_mm.push_back(std::move(places));
+  }
+  return out;
+}
+
+std::vector<PointSubset> subsets_of(const FactorPoints& points) {
+  std::vector<PointSubset> out = {PointSubset::kAll, PointSubset::kEvenPoints,
+                                  PointSubset::kOddPoints};
+  if (points.layers_mm.size() < 2) return out;
+  out.insert(out.end(), {PointSubset::kEvenLayers, PointSubset::kOddLayers,
+                         PointSubset::kWithoutFirstLayer, PointSubset::kWithoutLastLayer});
+  return out;
+}
+
+FactorPoints chosen(const FactorPoints& points, PointSubset subset) {
+  FactorPoints out{points.form, points.layers_known, {}};
+  const std::size_t layers = points.layers_mm.size();
+  for (std::size_t layer = 0; layer < layers; ++layer) {
+    Points kept;
+    for (std::size_t i = 0; i < points.layers_mm[layer].size(); ++i) {
+      if (keeps(subset, layer, layers, i)) kept.push_back(points.layers_mm[layer][i]);
+    }
+    if (!kept.empty()) out.layers_mm.push_back(std::move(kept));
+  }
+  return out;
+}
+
+core::Result<WithoutOutliers> without_outliers(const FactorPoints& points, OutlierRule rule) {
+  if (rule == OutlierRule::kNone) return WithoutOutliers{points, 0};
+  const auto out_of_all = outliers_of(points, rule);
+  if (!out_of_all) return core::fail(out_of_all.error());
+  WithoutOutliers out{{points.form, points.layers_known, {}}, 0};
+  std::size_t row = 0;
+  for (const Points& layer : points.layers_mm) {
+    Points kept;
+    for (const Eigen::Vector3d& p : layer) {
+      if (!(*out_of_all)[row++]) kept.push_back(p);
+    }
+    out.left_out += layer.size() - kept.size();
+    if (!kept.empty()) out.points.layers_mm.push_back(std::move(kept));
+  }
+  return out;
+}
+
+core::Result<FactorPoints> filtered(const FactorPoints& points, double cutoff_upr) {
+  if (!points.layers_known) {
+    return core::fail(core::Code::kSampling, "the layers of the points are not known");
+  }
+  FactorPoints out{points.form, true, {}};
+  for (const Points& layer : points.layers_mm) {
+    auto of_layer = filtered_layer(layer, cutoff_upr);
+    if (!of_layer) return core::fail(of_layer.error());
+    out.layers_mm.push_back(*std::move(of_layer));
+  }
+  return out;
+}
+
+core::Result<double> deviation_mm(const FactorPoints& points, Reference reference) {
+  if (points.form == Form::kCylindricity) return cylindricity(points.all_mm(), reference);
+  double worst = 0.0;
+  for (const Points& layer : points.layers_mm) {
+    const auto of_layer = roundness(layer, reference);
+    if (!of_layer) return of_layer;
+    worst = std::max(worst, *of_layer);
+  }
+  if (points.layers_mm.empty()) return core::fail(core::Code::kNoPoints, "no points are left");
+  return worst;
+}
+
+}  // namespace rondure::reports

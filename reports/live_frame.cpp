@@ -1,0 +1,174 @@
+#include "reports/live_frame.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "reports/facts.h"
+#include "reports/html_plots.h"
+#include "reports/html_sections.h"
+#include "reports/live_cloud.h"
+#include "reports/live_sections.h"
+#include "reports/measured_cloud.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+/// The strategy by which f of a single pose is found.
+record::Strategy strategy_of(const record::RunRecord& record, const record::PoseVisit& visit) {
+  return record.features[static_cast<std::size_t>(visit.feature)].strategy;
+}
+
+/// A feature with nothing but its poses, for the drawings of the search.
+FeatureResult with_poses(const record::RunRecord& record, const record::PoseVisit& present,
+                         const std::map<int, PoseValue>& values) {
+  FeatureResult out;
+  out.feature = record.features[static_cast<std::size_t>(present.feature)];
+  for (const record::PoseVisit& visit : record.poses) {
+    const auto found = values.find(visit.id);
+    if (visit.feature == present.feature && found != values.end())
+      out.poses.push_back(found->second);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string answer_of(const LiveFrame& frame, std::string_view session, std::uint64_t since) {
+  nlohmann::ordered_json parts = nlohmann::ordered_json::object();
+  for (const LivePart& part : frame.parts) {
+    // A page of another run, with a number of its own, gets everything.
+    if (part.version > since || since > frame.version) parts[part.id] = well_formed(part.html);
+  }
+  const nlohmann::ordered_json out = {{"session", session},
+                                      {"version", frame.version},
+                                      {"ended", frame.ended},
+                                      {"title", well_formed(frame.title)},
+                                      {"parts", std::move(parts)}};
+  return out.dump();
+}
+
+LivePainter::LivePainter(std::shared_ptr<const record::GrowingRecord> source,
+                         std::vector<PredictedStage> stages)
+    : source_(std::move(source)), stages_(std::move(stages)) {}
+
+void LivePainter::put(std::string_view id, std::string html) {
+  const auto found = std::find_if(frame_.parts.begin(), frame_.parts.end(),
+                                  [id](const LivePart& part) { return part.id == id; });
+  if (found != frame_.parts.end() && found->html == html) return;
+  changed_ = true;
+  const std::uint64_t version = frame_.version + 1;
+  if (found == frame_.parts.end()) {
+    frame_.parts.push_back({std::string(id), std::move(html), version});
+  } else {
+    found->html = std::move(html);
+    found->version = version;
+  }
+}
+
+std::shared_ptr<const LiveFrame> LivePainter::frame() {
+  if (changed_) ++frame_.version;
+  changed_ = false;
+  return std::make_shared<const LiveFrame>(frame_);
+}
+
+void LivePainter::look_at_poses(const record::PoseVisit& present) {
+  for (const record::PoseVisit& visit : record_.poses) {
+    if (visit.feature != present.feature) continue;
+    if (visit.id != present.id && poses_.count(visit.id) == 1) continue;
+    const auto value = value_of_pose(record_, visit, strategy_of(record_, visit));
+    if (value) poses_[visit.id] = *value;
+  }
+}
+
+void LivePainter::paint_cloud(const record::PoseVisit& visit) {
+  const bool touched = strategy_of(record_, visit) != record::Strategy::kPointsFile;
+  const auto cloud = evaluate_so_far(record_, visit);
+  zone_mm_.reset();
+  if (cloud) {
+    if (const auto zone = zone_of(cloud->result)) zone_mm_ = zone->deviation_mm;
+  }
+  put("drawing", live_drawings(cloud));
+  if (!touched) return;
+  look_at_poses(visit);
+  const FeatureResult feature = with_poses(record_, visit, poses_);
+  const std::string plots = pose_plots(feature, std::nullopt);
+  put("poses", plots.empty() ? plots : fmt::format("<h2>{}</h2>", "Search for the pose") + plots);
+}
+
+std::shared_ptr<const LiveFrame> LivePainter::paint(double elapsed_s) {
+  const bool fresh = source_->catch_up(record_);
+  if (record_.header.version.empty()) {
+    put("now", live_numbers(record_, {}));
+    return frame();
+  }
+  const record::PoseVisit* present = record_.poses.empty() ? nullptr : &record_.poses.back();
+  const bool cloud =
+      present != nullptr &&
+      !record::is_analysis(record_.features[static_cast<std::size_t>(present->feature)].shape);
+  if (fresh) {
+    put("head", live_head(record_));
+    if (cloud) paint_cloud(*present);
+    put("touches", live_touches(record_));
+    put("decisions", decisions_section(record_));
+  }
+  const int touches = static_cast<int>(record_.touches.size());
+  if (!first_) {
+    first_ = touches;
+    first_s_ = elapsed_s;
+  }
+  LiveNow now;
+  now.pose = present;
+  if (present != nullptr && poses_.count(present->id) == 1) now.f = poses_[present->id];
+  now.zone_mm = zone_mm_;
+  now.expected = static_cast<std::size_t>(predicted_touches(stages_));
+  now.elapsed_s = elapsed_s;
+  if (record_.ending.empty())
+    now.left_s = time_left_s(stages_, *first_, touches, elapsed_s - first_s_);
+  put("now", live_numbers(record_, now));
+  put("announce", live_sentence(record_, now));
+  frame_.title = fmt::format("{} / {} {}", touches,
+                             std::max<std::size_t>(now.expected, record_.touches.size()),
+                             record_.header.part_id);
+  return frame();
+}
+
+std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunRecord& record,
+                                                           const Evaluation& evaluation,
+                                                           std::string_view report) {
+  put("head", live_head(record));
+  put("now", live_over(record, report));
+  put("result", verdict_section(record, evaluation));
+  put("announce", fmt::format("{} {}.", "The run is over. Verdict:", name_of(evaluation.verdict)));
+  put("touches", live_touches(record));
+  put("decisions", decisions_section(record));
+  std::string drawings;
+  std::string searches;
+  for (const FeatureResult& feature : evaluation.features) {
+    const auto zone = zone_of(feature);
+    if (record::is_analysis(feature.feature.shape)) continue;
+    if (zone) drawings += polar_plots(feature, *zone) + deviation_map(feature, *zone);
+    searches += pose_plots(feature, zone);
+  }
+  put("drawing", std::move(drawings));
+  put("poses", std::move(searches));
+  frame_.title = fmt::format("{}: {}", name_of(evaluation.verdict), record.header.part_id);
+  frame_.ended = true;
+  changed_ = true;
+  return frame();
+}
+
+std::shared_ptr<const LiveFrame> LivePainter::paint_failure(std::string_view why) {
+  put("now", fmt::format(R"(<p class="doing">{}</p><div class="banner alarm">{}</div>)",
+                         "No result", isolated(why)));
+  put("announce", fmt::format("{} {}", "No result:", isolated(why)));
+  frame_.title = "No result";
+  frame_.ended = true;
+  changed_ = true;
+  return frame();
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "record/growing_record.h"
+#include "record/run_record.h"
+#include "reports/evaluation.h"
+#include "reports/live_time.h"
+
+// Private to the room: what a live page shows, as HTML by part.
+
+namespace rondure::reports {
+
+/// One part of the page: the element with this id holds this HTML.
+struct LivePart {
+  std::string id;
+  std::string html;
+  std::uint64_t version = 0;  ///< Of the frame in which it changed last.
+};
+
+/// The page at one moment. Never changed once it is handed out.
+struct LiveFrame {
+  std::uint64_t version = 0;
+  bool ended = false;  ///< The run is over and this page is its last.
+  std::string title;   ///< Of the window, plain text.
+  std::vector<LivePart> parts;
+};
+
+/// What a page is sent that has seen version `since` of this session: the parts that changed, as
+/// JSON {"session", "version", "ended", "title", "parts": {id: html}}.
+[[nodiscard]] std::string answer_of(const LiveFrame& frame, std::string_view session,
+                                    std::uint64_t since);
+
+/// Makes the frames of one run, one after the other, with the drawings of the report. Used by one
+/// thread. A frame costs the fits of one cloud; nothing when there is nothing new.
+class LivePainter {
+ public:
+  LivePainter(std::shared_ptr<const record::GrowingRecord> source,
+              std::vector<PredictedStage> stages);
+
+  /// @param elapsed_s  Since this start of the program.
+  [[nodiscard]] std::shared_ptr<const LiveFrame> paint(double elapsed_s);
+  /// The last frame: the result as the report states it.
+  /// @param report  Where the report stands; may be empty.
+  [[nodiscard]] std::shared_ptr<const LiveFrame> paint_result(const record::RunRecord& record,
+                                                              const Evaluation& evaluation,
+                                                              std::string_view report);
+  /// The last frame of a run that has no result.
+  [[nodiscard]] std::shared_ptr<const LiveFrame> paint_failure(std::string_view why);
+
+ private:
+  void put(std::string_view id, std::string html);
+  void paint_cloud(const record::PoseVisit& visit);
+  /// f of the poses of a feature: of those left behind once, of the present one each time.
+  void look_at_poses(const record::PoseVisit& present);
+  [[nodiscard]] std::shared_ptr<const LiveFrame> frame();
+
+  std::shared_ptr<const record::GrowingRecord> source_;
+  std::vector<PredictedStage> stages_;
+  record::RunRecord record_;
+  std::map<int, PoseValue> poses_;  ///< By PoseVisit::id.
+  std::optional<double> zone_mm_;   ///< Of the present cloud.
+  std::optional<int> first_;        ///< Touches on record when this start made its first.
+  double first_s_ = 0.0;            ///< And when that was.
+  LiveFrame frame_;
+  bool changed_ = false;
+};
+
+}  // namespace rondure::reports

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace rondure::reports {
+
+/// A stage of the run as the plan's time model predicts it, in the order of the run.
+struct PredictedStage {
+  int touches = 0;
+  double time_s = 0.0;  ///< By the machine's clock.
+};
+
+/// Touches of all stages.
+[[nodiscard]] int predicted_touches(const std::vector<PredictedStage>& stages);
+
+/// What the model predicts from the beginning to behind touch `touches` [s]: whole stages, and of
+/// the stage it stands in a share of the time as of the touches.
+[[nodiscard]] double predicted_time_s(const std::vector<PredictedStage>& stages, double touches);
+
+/// Time left: what the model predicts for the touches that are still to come, at the pace the run
+/// has had since its first touch of this start (1 on a machine that does as predicted; far less
+/// where a simulation does not wait).
+/// @param first     Touches on record when this start of the program made its first one.
+/// @param elapsed_s Since then.
+/// @return  Nothing without a model, before a pace is known (three touches), and behind the last
+///          touch that was predicted.
+[[nodiscard]] std::optional<double> time_left_s(const std::vector<PredictedStage>& stages,
+                                                int first, int touches, double elapsed_s);
+
+}  // namespace rondure::reports

@@ -1,0 +1,178 @@
+#include "reports/live_view.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "reports/live_frame.h"
+#include "reports/live_server.h"
+
+namespace rondure::reports {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr auto kLeastPause = milliseconds(200);  ///< Five frames a second at most.
+constexpr int kShare = 4;                        ///< The pause is so many times the painting.
+constexpr auto kLooking = milliseconds(3000);    ///< A page that asked so lately is open.
+constexpr auto kLastWord = milliseconds(1500);   ///< For the pages to fetch the last frame.
+constexpr std::size_t kMostClients = 64;
+
+}  // namespace
+
+/// Three kinds of threads meet here: the run (show_...), the painter, the server's.
+class LiveView::Impl {
+ public:
+  Impl(LiveOptions options, std::shared_ptr<const record::GrowingRecord> source)
+      : painter_(std::move(source), std::move(options.stages)),
+        stop_(std::move(options.stop)),
+        session_(random_token()) {}
+
+  core::Result<void> start(std::uint16_t port, bool control) {
+    LiveGate gate;
+    gate.control = control;
+    if (control) gate.token = random_token();
+    if (session_.empty() || (control && gate.token.empty()))
+      return core::fail(core::Code::kFile, "the system gives no random numbers for the live page");
+    auto server = LiveServer::start(
+        port, std::move(gate),
+        {[this](std::uint64_t since, const std::string& client) { return state(since, client); },
+         [this] {
+           if (stop_) stop_();
+         }});
+    if (!server) return core::fail(server.error());
+    server_ = std::move(*server);
+    thread_ = std::thread([this] { paint(); });
+    return {};
+  }
+
+  ~Impl() {
+    {
+      std::unique_lock lock(mutex_);
+      ending_ = true;
+      wake_.notify_all();
+    }
+    if (thread_.joinable()) thread_.join();
+    wait_for_readers();
+  }
+
+  [[nodiscard]] std::string url() const {
+    const LiveGate& gate = server_->gate();
+    const std::string page = fmt::format("http://127.0.0.1:{}/", gate.port);
+    return gate.control ? page + "#token=" + gate.token : page;
+  }
+
+  /// Leaves the painter's thread and paints the last frame in the caller's.
+  template <class Paint>
+  void show_last(const Paint& paint_last) {
+    {
+      const std::lock_guard lock(mutex_);
+      ending_ = true;
+      wake_.notify_all();
+    }
+    if (thread_.joinable()) thread_.join();
+    auto last = paint_last(painter_);
+    const std::lock_guard lock(mutex_);
+    frame_ = std::move(last);
+  }
+
+ private:
+  /// In the server's threads.
+  std::string state(std::uint64_t since, const std::string& client) {
+    std::shared_ptr<const LiveFrame> frame;
+    {
+      const std::lock_guard lock(mutex_);
+      looked_ = Clock::now();
+      if (clients_.size() < kMostClients || clients_.count(client) == 1)
+        clients_[client] = {looked_, frame_->ended};
+      frame = frame_;
+      wake_.notify_all();
+    }
+    return answer_of(*frame, session_, since);
+  }
+
+  /// The painter's thread.
+  void paint() {
+    constexpr int kYield = 10;
+    ::setpriority(PRIO_PROCESS, 0, kYield);  // of this thread
+    std::unique_lock lock(mutex_);
+    while (!ending_) {
+      if (Clock::now() - looked_ > kLooking) {
+        wake_.wait(lock);
+        continue;
+      }
+      lock.unlock();
+      const auto begin = Clock::now();
+      auto frame = painter_.paint(std::chrono::duration<double>(begin - start_).count());
+      const auto pause = std::max<Clock::duration>(kLeastPause, kShare * (Clock::now() - begin));
+      lock.lock();
+      frame_ = std::move(frame);
+      wake_.wait_for(lock, pause, [this] { return ending_; });
+    }
+  }
+
+  /// Until every page that is open has the last frame.
+  void wait_for_readers() {
+    const auto until = Clock::now() + kLastWord;
+    const auto waits = [&] {
+      return std::any_of(clients_.begin(), clients_.end(), [&](const auto& client) {
+        return !client.second.has_last && until - client.second.asked < kLooking;
+      });
+    };
+    std::unique_lock lock(mutex_);
+    while (frame_->ended && waits() && Clock::now() < until) wake_.wait_until(lock, until);
+  }
+
+  struct Client {
+    Clock::time_point asked;
+    bool has_last = false;
+  };
+
+  LivePainter painter_;  ///< Of its thread; of the run's behind the end of that.
+  std::function<void()> stop_;
+  std::string session_;
+  const Clock::time_point start_ = Clock::now();
+  std::mutex mutex_;  ///< Of what follows, to thread_.
+  std::condition_variable wake_;
+  std::shared_ptr<const LiveFrame> frame_ = std::make_shared<const LiveFrame>();
+  Clock::time_point looked_ = start_ - 2 * kLooking;
+  std::map<std::string, Client> clients_;
+  bool ending_ = false;
+  std::thread thread_;
+  std::unique_ptr<LiveServer> server_;  ///< Last: goes first, with its threads.
+};
+
+LiveView::LiveView(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+LiveView::~LiveView() = default;
+
+core::Result<std::unique_ptr<LiveView>> LiveView::start(
+    LiveOptions options, std::shared_ptr<const record::GrowingRecord> source) {
+  const std::uint16_t port = options.port;
+  const bool control = options.control;
+  auto impl = std::make_unique<Impl>(std::move(options), std::move(source));
+  if (auto started = impl->start(port, control); !started) return core::fail(started.error());
+  return std::unique_ptr<LiveView>(new LiveView(std::move(impl)));
+}
+
+std::string LiveView::url() const { return impl_->url(); }
+
+void LiveView::show_result(const record::RunRecord& record, const Evaluation& evaluation,
+                           std::string_view report) {
+  impl_->show_last(
+      [&](LivePainter& painter) { return painter.paint_result(record, evaluation, report); });
+}
+
+void LiveView::show_failure(std::string_view why) {
+  impl_->show_last([&](LivePainter& painter) { return painter.paint_failure(why); });
+}
+
+}  // namespace rondure::reports

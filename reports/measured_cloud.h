@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/pose.h"
+#include "record/run_record.h"
+#include "reports/evaluation.h"
+
+// Private to the room: the touches of a pose as a cloud, and f of it.
+
+namespace rondure::reports {
+
+/// The measuring touches of a pose, in the order of touching.
+[[nodiscard]] std::vector<const record::Touch*> touches_of(const record::RunRecord& record,
+                                                           int pose);
+
+/// Mean tip centre of every target, in the order of layer and point.
+[[nodiscard]] std::vector<CloudPoint> averaged(const std::vector<const record::Touch*>& touches);
+
+[[nodiscard]] std::vector<Eigen::Vector3d> tips_of(const std::vector<CloudPoint>& cloud);
+
+/// x and y of the points, turned.
+[[nodiscard]] std::vector<Eigen::Vector2d> projected(const std::vector<Eigen::Vector3d>& points,
+                                                     const Eigen::Matrix3d& turn);
+
+/// Turns the body by a pose: Rx(alpha) Ry(beta).
+[[nodiscard]] Eigen::Matrix3d rotation(const core::Pose& pose);
+
+/// f of a section by the centre search that the strategy names; pose and marks are not filled in.
+[[nodiscard]] PoseValue pose_value(const std::vector<Eigen::Vector2d>& section,
+                                   record::Strategy strategy);
+
+/// f of a pose from its own touches; nothing when there are none.
+[[nodiscard]] std::optional<PoseValue> value_of_pose(const record::RunRecord& record,
+                                                     const record::PoseVisit& visit,
+                                                     record::Strategy strategy);
+
+}  // namespace rondure::reports

@@ -1,0 +1,74 @@
+// Everybody can read it: axe-core finds nothing serious in light and in dark, headings are in order, the
+// keyboard reaches everything, and a narrow screen needs no scrolling sideways.
+
+import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
+import test from 'node:test';
+
+import {axePath, open} from './support/browser.mjs';
+import {run} from './support/runs.mjs';
+
+const axe = readFileSync(axePath, 'utf8');
+const plans = ['01_spool_simulated', '03_calibrate_fixture', '04_part_in_two_poses', '05_spindle_three_probe',
+               '06_wheel', '07_crank_pin', '08_shaft_scanned'];
+
+/// What axe finds, one line each, of the impacts that are asked for.
+async function findings(page, impacts) {
+  const {violations} = await page.evaluate(() => axe.run({resultTypes: ['violations'], elementRef: false}));
+  return violations.filter((v) => impacts.includes(v.impact))
+    .map((v) => `${v.impact}: ${v.id}: ${v.nodes.length} times, first ${v.nodes[0].html.slice(0, 160)}`);
+}
+
+for (const plan of plans) {
+  test(`axe finds no serious problem in the page of ${plan}, light, dark and narrow`, async () => {
+    const {page} = await open(run(plan).html);
+    await page.evaluate(axe);
+    for (const view of [{scheme: 'light'}, {scheme: 'dark'}, {scheme: 'light', width: 360}]) {
+      await page.setViewportSize({width: view.width ?? 1000, height: 800});
+      await page.emulateMedia({colorScheme: view.scheme});
+      assert.deepEqual(await findings(page, ['critical', 'serious', 'moderate']), [], JSON.stringify(view));
+    }
+    await page.close();
+  });
+
+  test(`headings of ${plan} leave out no level and drawings have names`, async () => {
+    const {page} = await open(run(plan).html);
+    const levels = await page.locator('h1, h2, h3, h4, [role=heading]').evaluateAll((all) => all.map(
+        (h) => Number(h.getAttribute('aria-level') ?? h.tagName[1])));
+    assert.equal(levels[0], 1);
+    levels.slice(1).forEach((level, i) => assert.ok(level >= 2 && level <= levels[i] + 1, `${levels}`));
+    assert.equal(await page.locator('figure:not(:has(figcaption))').count(), 0);
+    assert.equal(await page.locator('svg:not([aria-label]):not([aria-hidden])').count(), 0);
+    await page.close();
+  });
+
+  test(`the page of ${plan} fits 360 px`, async () => {
+    const {page} = await open(run(plan).html, {width: 360, height: 700});
+    const [wide, seen] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+    assert.ok(wide <= seen, `${wide} px wide`);
+    await page.close();
+  });
+}
+
+test('the keyboard passes the contents, reaches the theme, the cylinder and what scrolls', async () => {
+  const {page} = await open(run('01_spool_simulated').html, {width: 360, height: 700});
+  await page.keyboard.press('Tab');
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Skip to the result');
+  assert.ok(await page.evaluate(() => document.activeElement.getBoundingClientRect().left >= 0), 'it is seen');
+  const reached = [];
+  for (let i = 0; i < 60; i++) {
+    await page.keyboard.press('Tab');
+    const here = await page.evaluate(() => {
+      const item = document.activeElement;
+      const outline = getComputedStyle(item).outlineStyle;
+      return item === document.body ? null : {what: `${item.tagName} ${item.className.baseVal ?? item.className}`, outline};
+    });
+    if (!here) break;
+    assert.notEqual(here.outline, 'none', `${here.what} shows no focus`);
+    reached.push(here.what);
+  }
+  for (const what of ['A ', 'BUTTON theme', 'svg wide turn', 'DIV scroll']) {
+    assert.ok(reached.some((one) => one.startsWith(what)), `${what} is not reached: ${reached}`);
+  }
+  await page.close();
+});

@@ -1,0 +1,38 @@
+// The drawings that a report has to show, told from its report.json.
+
+const mostPolarPlots = 12;
+
+function ofCloud(feature) {
+  const oneSection = feature.shape === 'circle' || feature.layers.length === 1;
+  const labels = feature.layers.slice(0, mostPolarPlots).map(() => /deviations about the minimum-zone axis/);
+  labels.push(oneSection ? /^Deviation against the angle/ : /^Deviations on the unrolled surface/);
+  if (!oneSection) labels.push(/^Cylinder and its zone in three dimensions/);
+  if (feature.poses.length > 1) labels.push(/^f of the poses/);
+  if (feature.poses.length > 5) labels.push(/^Poses visited/);
+  return labels;
+}
+
+const ofAnalysis = {
+  spindle: (f) => [/^Part, harmonics recovered/, /^Amplitudes/, /^Noise gain/,
+    ...Object.keys(f.spindle.motion).flatMap((axis) => [RegExp(`^Motion ${axis}`), RegExp(`^Asynchronous ${axis}`)])],
+  wheel: () => [/^Edge of the wheel/, /^Surface, wheel/, /^Wheel radius over/, /^Form left/],
+  contour: (f) => [/^Contour errors t/, /^Main journals/, /^Errors of the C axis/, /^Errors of the X axis/,
+    /^Following parts/, /^Non-following parts/, /^Mean contour/,
+    ...f.contour.curves.map((_, i) => RegExp(`^Part ${i + 1}`))],
+  rotary_axes: () => ['alpha', 'beta'].flatMap((axis) => ['shift', 'tilt'].flatMap((kind) =>
+    ['x', 'y', 'z'].map((along) => RegExp(`^Axis ${axis}: ${kind} .*${along}`)))),
+};
+
+/// Labels (patterns) of the drawings of every feature, and the number of tolerance bars.
+export function expected(report) {
+  const labels = [];
+  let bars = 0;
+  for (const feature of report.features) {
+    labels.push(...(feature.cloud ? ofCloud(feature) : ofAnalysis[feature.shape](feature)));
+    for (const c of feature.characteristics) {
+      if (c.value_um !== null && c.tolerance_um !== null) bars += 1;
+      if (c.uncertainty?.budget?.length > 0) labels.push(/^standard uncertainty by each influence/);
+    }
+  }
+  return {labels, bars};
+}
