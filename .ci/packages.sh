@@ -3,9 +3,10 @@
 # libboost-dev: SOCI's headers include Boost, its package does not depend on it.
 rondure_build_packages="g++ cmake ninja-build libeigen3-dev nlohmann-json3-dev libexpected-dev libcli11-dev libfmt-dev
   libasio-dev libsoci-dev libboost-dev libsqlite3-dev libssl-dev libfftw3-dev libcgal-dev
-  pkg-config libusb-1.0-0-dev libceres-dev libpugixml-dev libcpp-httplib-dev"
+  pkg-config libusb-1.0-0-dev libceres-dev libpugixml-dev libcpp-httplib-dev libcairo2-dev libpango1.0-dev
+  librsvg2-dev fonts-dejavu-core"
 rondure_test_packages="libgtest-dev libgmock-dev python3-jsonschema postgresql openssl libumockdev-dev umockdev
-  libxml2-utils"
+  libxml2-utils poppler-utils fonts-noto-cjk"
 # Debian's npm brings some 390 packages: a Node that is there already is good enough.
 rondure_browser_packages="chromium fonts-dejavu-core poppler-utils"
 command -v node >/dev/null || rondure_browser_packages+=" nodejs"

@@ -120,7 +120,8 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   verb->add_option("--operator", arguments.operator_name, "Who measures");
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
       ->check(check_seed);
-  add_formats(*verb, arguments.formats, "html,json,csv,qif,dmis,junit (default: as the plan says)");
+  add_formats(*verb, arguments.formats,
+              "html,pdf,json,csv,qif,dmis,junit (default: as the plan says)");
   add_language(*verb, arguments.language);
   verb->add_option("--archive", arguments.archive,
                    "Where the results are kept besides: a file, postgresql://... or none\n"
@@ -331,7 +332,7 @@ void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
 void add_report(CLI::App& app, ReportArguments& arguments) {
   auto* verb = app.add_subcommand("report", "Writes the reports of a run again, from its journal");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
-  add_formats(*verb, arguments.formats, "html,json,csv,qif,dmis,junit (default: all)");
+  add_formats(*verb, arguments.formats, "html,pdf,json,csv,qif,dmis,junit (default: all)");
   add_language(*verb, arguments.language);
   verb->footer("\nExample: rondure report runs/01_spool_simulated-20261121T023302Z --format html");
 }

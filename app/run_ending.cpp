@@ -110,12 +110,13 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
     }
     return kRunFailed;
   }
+  for (const std::string& warning : written->warnings) tell(fmt::format("rondure: {}\n", warning));
   if (live != nullptr) {
     live->show_result(told->record, evaluation, fs::absolute(directory).string());
   }
   if (!arguments.quiet) {
     say(reports::write_summary(told->record, evaluation, sketch_style(), language));
-    for (const fs::path& file : *written) say(file.string() + "\n");
+    for (const fs::path& file : written->files) say(file.string() + "\n");
   }
   if (!failed) (void)archive_run(archive, directory, told->record, evaluation);
   return exit_status(failed, evaluation.verdict);

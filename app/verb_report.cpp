@@ -54,11 +54,12 @@ int report(const ReportArguments& arguments) {
     complain(written.error());
     return kBadInput;
   }
+  for (const std::string& warning : written->warnings) tell(fmt::format("rondure: {}\n", warning));
   if (signed_sums != signed_checksums(arguments.directory)) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }
   say(reports::write_summary(read->record, *evaluation, sketch_style(), language));
-  for (const auto& file : *written) say(file.string() + "\n");
+  for (const auto& file : written->files) say(file.string() + "\n");
   const bool well = evaluation->verdict == reports::Verdict::kConforms ||
                     evaluation->verdict == reports::Verdict::kNotToleranced;
   return well ? kAllWell : kNotConforming;

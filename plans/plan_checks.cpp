@@ -158,6 +158,29 @@ void check_mask(const CharacteristicPlan& c, const std::string& where, Findings&
   }
 }
 
+/// Harmonics of touched sections need as many points as reports filter: 7 at 50 undulations.
+void check_dense(const FeaturePlan& feature, const CharacteristicPlan& c,
+                 const std::string& feature_where, const std::string& where, Findings& findings) {
+  constexpr int kDense = 350;
+  constexpr int kHighest = 50;
+  for (std::size_t i = 0; i < c.harmonic_limits.size(); ++i) {
+    if (c.harmonic_limits[i].to <= kHighest) continue;
+    findings.meaning(Code::kMeaning, item_pointer(where + "/harmonic_limits", i),
+                     fmt::format("to {} is above {}, the highest harmonic of a touched section",
+                                 c.harmonic_limits[i].to, kHighest));
+  }
+  if (!findings.is_given(feature_where + "/source")) {
+    if (feature.sampling.points_per_layer >= kDense) return;
+    findings.meaning(Code::kSampling, where + "/form",
+                     fmt::format("{} points a layer are too few: harmonics need at least {}",
+                                 feature.sampling.points_per_layer, kDense));
+  } else if (feature.type == "cylinder") {
+    findings.meaning(Code::kMeaning, where + "/form",
+                     "the points of a file have no layers, so a cylinder from a file has no "
+                     "harmonics; give each section as a \"circle\"");
+  }
+}
+
 /// What the driver "zaber" needs, and that nothing is said to another driver that it ignores.
 void check_zaber(const FixturePlan& fixture, Findings& findings) {
   constexpr std::string_view kWhere = "/fixture/zaber";
@@ -285,12 +308,15 @@ void check_characteristic(const FeaturePlan& feature, std::size_t index,
     }
   }
   const bool analysis = analysis_kind(feature.type) != nullptr;
-  if (!analysis && c.form != "cylindricity" && c.form != "roundness") {
-    findings.meaning(Code::kMeaning, where + "/form",
-                     fmt::format("a {} has no {}; ask for \"roundness\" or, of a cylinder, for "
-                                 "\"cylindricity\"",
-                                 feature.type, c.form));
+  const bool masked = c.form == "harmonic-limits";
+  if (!analysis && !masked && c.form != "cylindricity" && c.form != "roundness") {
+    findings.meaning(
+        Code::kMeaning, where + "/form",
+        fmt::format("a {} has no {}; ask for \"roundness\", \"harmonic-limits\" or, of "
+                    "a cylinder, for \"cylindricity\"",
+                    feature.type, c.form));
   }
+  if (!analysis && masked) check_dense(feature, c, feature_where, where, findings);
   const bool has_reference = c.form == "cylindricity" || c.form == "roundness";
   if (has_reference && c.tolerance_um && !c.reference && !findings.is_given(where + "/reference")) {
     findings.meaning(

@@ -482,7 +482,8 @@ void describe(Visitor& v, CharacteristicPlan& p) {
           .required = true,
           .meaning =
               "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
-              "layer of a cylinder or of a spindle feature. Of a spindle feature also: "
+              "layer of a cylinder or of a spindle feature; harmonic-limits, a mask on the "
+              "amplitudes of every layer of at least 350 points. Of a spindle feature also: "
               "roundness-rms (RONq); harmonic-limits; motion-total, motion-synchronous, "
               "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
               "roundness of its edge; radius, the departure from nominal; run-out. Of a contour "
@@ -568,10 +569,11 @@ void describe(Visitor& v, FeaturePlan& p) {
 template <class Visitor>
 void describe(Visitor& v, ReportsPlan& p) {
   v.texts("formats", p.formats,
-          {.one_of = {"html", "json", "csv", "qif", "dmis", "junit"},
+          {.one_of = {"html", "pdf", "json", "csv", "qif", "dmis", "junit"},
            .empty_allowed = false,
-           .meaning = "Reports that a run writes: a page, all numbers, tables, QIF 3.0 results, a "
-                      "DMIS output block, a JUnit summary for pipelines."});
+           .meaning =
+               "Reports that a run writes: a page, the same on paper (PDF), all numbers, tables, "
+               "QIF 3.0 results, a DMIS output block, a JUnit summary for pipelines."});
   v.text("archive", p.archive,
          {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "
                      "relative to the plan; postgresql://user@host/database without a password; "

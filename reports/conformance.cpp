@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include "reports/declared.h"
 #include "reports/deviation.h"
 #include "reports/facts.h"
+#include "reports/harmonic_mask.h"
 
 namespace rondure::reports {
 namespace {
@@ -55,13 +57,16 @@ std::string temperature_words(const FeatureResult& result) {
                      2e6 * result.thermal->factor_uncertainty);
 }
 
+std::string tip_words(const FeatureResult& result) {
+  return result.tip_radius_mm ? fmt::format("r_tip {:.4f} mm", *result.tip_radius_mm)
+                              : "r_tip unknown";
+}
+
 /// "MZCY; unfiltered; 4 x 7 points; mean of 5 touches a point; r_tip 1.9984 mm; 20.0 degC".
 ValueOperator operator_of(const FeatureResult& result,
                           const record::Characteristic& characteristic) {
   return {ReferenceTerm(reference_of(characteristic)), FilterTerm("unfiltered"),
-          SamplingTerm(sampling_words(result, characteristic)),
-          TipTerm(result.tip_radius_mm ? fmt::format("r_tip {:.4f} mm", *result.tip_radius_mm)
-                                       : "r_tip unknown"),
+          SamplingTerm(sampling_words(result, characteristic)), TipTerm(tip_words(result)),
           TemperatureTerm(temperature_words(result))};
 }
 
@@ -118,7 +123,38 @@ struct Circumstances {
   const std::optional<fit::ProbeTip>& probe;
 };
 
+/// Against a mask the harmonic decides that comes nearest to its limit; that limit is the
+/// tolerance. Certificates play no part.
+void judge_harmonics(const Circumstances& by, const FeatureResult& result,
+                     CharacteristicResult& out) {
+  record::Characteristic& asked = out.characteristic;
+  if (!asked.harmonic_limits.empty())
+    asked.tolerance_mm = asked.harmonic_limits.front().amplitude_mm;
+  out.verdict = Verdict::kVoid;
+  const auto nearest = result.failure ? core::Result<MaskedHarmonic>(core::fail(*result.failure))
+                                      : nearest_to_mask(result, asked);
+  if (!nearest) {
+    out.reason = nearest.error().what;
+    return;
+  }
+  asked.tolerance_mm = nearest->limit_mm;
+  const std::string where = fmt::format("harmonic {} of layer {} is nearest to its limit",
+                                        nearest->harmonic.number, nearest->harmonic.layer + 1);
+  ValueOperator how(ReferenceTerm("amplitudes"), FilterTerm("before the filter"),
+                    SamplingTerm(sampling_words(result, asked)), TipTerm(tip_words(result)),
+                    TemperatureTerm(temperature_words(result)));
+  out.value.emplace(symbol_of(asked), nearest->harmonic.amplitude_mm, std::move(how),
+                    UncertaintyStatus::none("intervals are computed of form deviations only"));
+  if (const auto missing = reason_for_void(by.record, by.probe, result, {}, asked)) {
+    out.reason = *missing;
+    return;
+  }
+  apply(by.rule, out);
+  out.reason += fmt::format(" ({})", where);
+}
+
 void judge(const Circumstances& by, const FeatureResult& result, CharacteristicResult& out) {
+  if (out.characteristic.form == Form::kHarmonicLimits) return judge_harmonics(by, result, out);
   const auto value = value_of(result, out.characteristic);
   out.verdict = Verdict::kVoid;
   if (!value) {

@@ -1,12 +1,14 @@
 #include "reports/exports.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
+#include "reports/pdf_report.h"
 #include "reports/qif_check.h"
 #include "reports/writers.h"
 
@@ -49,13 +51,44 @@ core::Result<void> look_through(const Export& what, const std::string& bytes) {
                     fmt::format("{} would not be sound: {}", what.file, faults.front()), what.file);
 }
 
+std::string text_of(const Export& what, const record::RunRecord& record,
+                    const Evaluation& evaluation, Language language) {
+  if (what.file == kCalibrationFile) return calibration_of(evaluation);
+  if (what.format == "html") return write_html(record, evaluation, language);
+  if (what.format == "json") return write_json(record, evaluation);
+  if (what.format == "qif") return write_qif(record, evaluation);
+  if (what.format == "dmis") return write_dmis(record, evaluation);
+  if (what.format == "junit") return write_junit(record, evaluation);
+  if (what.file == kSeriesFile) return write_series_csv(record);
+  if (what.file == kResultsFile) return write_results_csv(record, evaluation);
+  return write_touches_csv(record);
+}
+
+/// Writes one export whole, when it is sound; gives its digest and what is to be told of it.
+core::Result<record::Checksum> write_one(const Export& what, const std::filesystem::path& directory,
+                                         const record::RunRecord& record,
+                                         const Evaluation& evaluation, Language language,
+                                         WrittenExports& out) {
+  const auto made = render(what, record, evaluation, language);
+  if (!made) return core::fail(made.error());
+  if (auto sound = look_through(what, made->bytes); !sound) return core::fail(sound.error());
+  const auto path = directory / what.file;
+  if (auto done = record::write_file(path, made->bytes); !done) return core::fail(done.error());
+  out.files.push_back(path);
+  if (!made->warning.empty()) {
+    out.warnings.push_back(fmt::format("{}: {}", path.string(), made->warning));
+  }
+  return record::Checksum{what.file, record::sha256_hex(made->bytes)};
+}
+
 }  // namespace
 
 const std::vector<Export>& exports() {
   static const std::vector<Export> all = {
-      {"html", "report.html"}, {"json", "report.json"},       {"csv", "touches.csv"},
-      {"csv", kSeriesFile},    {"csv", kResultsFile},         {"qif", "report.qif"},
-      {"dmis", "report.dmo"},  {"junit", "report.junit.xml"}, {"json", kCalibrationFile}};
+      {"html", "report.html"},   {"pdf", "report.pdf"},  {"json", "report.json"},
+      {"csv", "touches.csv"},    {"csv", kSeriesFile},   {"csv", kResultsFile},
+      {"qif", "report.qif"},     {"dmis", "report.dmo"}, {"junit", "report.junit.xml"},
+      {"json", kCalibrationFile}};
   return all;
 }
 
@@ -80,20 +113,16 @@ bool applies(const Export& what, const record::RunRecord& record) {
          });
 }
 
-std::string render(const Export& what, const record::RunRecord& record,
-                   const Evaluation& evaluation, Language language) {
-  if (what.file == kCalibrationFile) return calibration_of(evaluation);
-  if (what.format == "html") return write_html(record, evaluation, language);
-  if (what.format == "json") return write_json(record, evaluation);
-  if (what.format == "qif") return write_qif(record, evaluation);
-  if (what.format == "dmis") return write_dmis(record, evaluation);
-  if (what.format == "junit") return write_junit(record, evaluation);
-  if (what.file == kSeriesFile) return write_series_csv(record);
-  if (what.file == kResultsFile) return write_results_csv(record, evaluation);
-  return write_touches_csv(record);
+core::Result<Rendered> render(const Export& what, const record::RunRecord& record,
+                              const Evaluation& evaluation, Language language) {
+  if (what.format != "pdf") return Rendered{text_of(what, record, evaluation, language), {}};
+  auto made = write_pdf(record, write_html(record, evaluation, language));
+  if (!made) return core::fail(made.error());
+  return Rendered{std::move(made->bytes), missing_in_words(made->missing)};
 }
 
 Language language_of(const Export& what, std::string_view bytes) {
+  if (what.format == "pdf") return language_of_pdf(bytes);
   return what.format == "html" ? language_of_page(bytes) : Language::kEnglish;
 }
 
@@ -104,13 +133,15 @@ bool exports_are_current(const std::filesystem::path& directory,
     if (!applies(e, record)) return true;
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) return true;
     const auto bytes = record::read_file(directory / e.file);
-    return bytes && *bytes == render(e, record, evaluation, language);
+    const auto made = render(e, record, evaluation, language);
+    return bytes && made && *bytes == made->bytes;
   });
 }
 
-core::Result<std::vector<std::filesystem::path>> write_exports(
-    const std::filesystem::path& directory, const std::vector<std::string>& formats,
-    const record::RunRecord& record, const Evaluation& evaluation, Language language) {
+core::Result<WrittenExports> write_exports(const std::filesystem::path& directory,
+                                           const std::vector<std::string>& formats,
+                                           const record::RunRecord& record,
+                                           const Evaluation& evaluation, Language language) {
   for (const std::string& format : formats) {
     const auto known = all_formats();
     if (std::find(known.begin(), known.end(), format) == known.end()) {
@@ -119,19 +150,18 @@ core::Result<std::vector<std::filesystem::path>> write_exports(
           fmt::format("format '{}' is unknown; {} can be written", format, in_words(known)));
     }
   }
-  std::vector<std::filesystem::path> written;
+  WrittenExports written;
   std::vector<record::Checksum> sums;
   core::Result<void> done;
   for (const Export& e : exports()) {
     if (!applies(e, record)) continue;
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) continue;
-    const auto path = directory / e.file;
-    const std::string bytes = render(e, record, evaluation, language);
-    done = look_through(e, bytes);
-    if (done) done = record::write_file(path, bytes);
-    if (!done) break;
-    written.push_back(path);
-    sums.push_back({e.file, record::sha256_hex(bytes)});
+    auto sum = write_one(e, directory, record, evaluation, language, written);
+    if (!sum) {
+      done = core::fail(sum.error());
+      break;
+    }
+    sums.push_back(std::move(*sum));
   }
   // Also of those written before one failed: a list with an old digest would call them changed.
   const auto listed = record::update_checksums(directory, sums);

@@ -14,7 +14,7 @@ namespace rondure::reports {
 
 /// One file that is derived from a record.
 struct Export {
-  std::string format;  ///< "html", "json", "csv", "qif", "dmis", "junit".
+  std::string format;  ///< "html", "pdf", "json", "csv", "qif", "dmis", "junit".
   std::string file;    ///< Name in the run directory: report.html, touches.csv, ...
 };
 
@@ -26,10 +26,17 @@ struct Export {
 /// fixture-calibration.json only of a finished calibration of the fixture.
 [[nodiscard]] bool applies(const Export& what, const record::RunRecord& record);
 
+/// One export as it would be written now.
+struct Rendered {
+  std::string bytes;
+  std::string warning;  ///< What a reader must be told besides, in a sentence; usually empty.
+};
+
 /// The bytes of one export. What people read is in `language`; what programs read is English.
-[[nodiscard]] std::string render(const Export& what, const record::RunRecord& record,
-                                 const Evaluation& evaluation,
-                                 Language language = Language::kEnglish);
+/// @return  Those, or why this machine cannot make them; only report.pdf fails, see write_pdf().
+[[nodiscard]] core::Result<Rendered> render(const Export& what, const record::RunRecord& record,
+                                            const Evaluation& evaluation,
+                                            Language language = Language::kEnglish);
 
 /// The language that a file of a run was written in, as the file itself states it.
 [[nodiscard]] Language language_of(const Export& what, std::string_view bytes);
@@ -41,13 +48,21 @@ struct Export {
                                        const Evaluation& evaluation,
                                        Language language = Language::kEnglish);
 
+/// What write_exports() did.
+struct WrittenExports {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> warnings;  ///< File first, in sentences.
+};
+
 /// Writes exports into a run directory, each whole or not at all, and their digests into
 /// SHA256SUMS.
 /// @return The files written; kBadOption for an unknown format, kInternal when report.qif would
-/// break check_qif(), kFile with the system's reason, kSyntax for a SHA256SUMS that is none.
-[[nodiscard]] core::Result<std::vector<std::filesystem::path>> write_exports(
-    const std::filesystem::path& directory, const std::vector<std::string>& formats,
-    const record::RunRecord& record, const Evaluation& evaluation,
-    Language language = Language::kEnglish);
+/// break check_qif(), kFile with the system's reason or when there is no font for report.pdf,
+/// kSyntax for a SHA256SUMS that is none.
+[[nodiscard]] core::Result<WrittenExports> write_exports(const std::filesystem::path& directory,
+                                                         const std::vector<std::string>& formats,
+                                                         const record::RunRecord& record,
+                                                         const Evaluation& evaluation,
+                                                         Language language = Language::kEnglish);
 
 }  // namespace rondure::reports

@@ -217,6 +217,7 @@ std::string feature_section(const record::RunRecord& record, std::size_t index,
   html += truth_box(truth_of(record, index), zone, feature.feature.shape);
   html += uncertainty_section(feature);
   if (zone) html += polar_plots(feature, *zone) + deviation_map(feature, *zone) + solid_view(feature, *zone);
+  html += harmonics_section(feature);
   if (feature.merged) return html + merged_section(*feature.merged) + "</section>";
   if (feature.poses.empty()) return html + "</section>";
   html += fmt::format(

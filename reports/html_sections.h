@@ -19,6 +19,9 @@ namespace rondure::reports {
 [[nodiscard]] std::string rule_section(const Evaluation& evaluation);
 /// Intervals, bias, budget and declaration of the values of a feature; empty without any.
 [[nodiscard]] std::string uncertainty_section(const FeatureResult& feature);
+/// Harmonics of dense sections with the limits of a mask, and what goes beyond them; empty for
+/// sparse ones.
+[[nodiscard]] std::string harmonics_section(const FeatureResult& feature);
 /// Table of the poses of a feature; empty when it has none.
 [[nodiscard]] std::string pose_table(const FeatureResult& feature);
 [[nodiscard]] std::string probe_section(const record::RunRecord& record,

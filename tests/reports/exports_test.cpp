@@ -25,7 +25,7 @@ TEST(Exports, AnUnknownFormatIsRefusedWithThoseThatAreKnown) {
   const auto written = write_exports("/nowhere", {"docx"}, made.record, made.evaluation);
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().what,
-            "format 'docx' is unknown; html, json, csv, qif, dmis and junit can be written");
+            "format 'docx' is unknown; html, pdf, json, csv, qif, dmis and junit can be written");
 }
 
 TEST(Decimal, ReadsBackToTheSameDoubleWithoutAnExponent) {
