@@ -80,6 +80,21 @@ constexpr Translation kTexts[] = {
      "touches.csv。"},
     {" Drag it to turn it, or use the arrow keys when it has the focus; Home resets the view.",
      "拖动可旋转，或在获得焦点后用方向键；Home 键恢复视图。"},
+    // Harmonics of the sections
+    {"No harmonic goes beyond the limits of {}.", "没有谐波超出 {} 的限值。"},
+    {"Harmonics beyond the limits of {}", "超出 {} 限值的谐波"},
+    {"Layer", "层"},
+    {"Amplitude / µm", "幅值 / µm"},
+    {"Limit / µm", "限值 / µm"},
+    {"Beyond by / µm", "超出量 / µm"},
+    {"Before the filter, of each undulation in the section where it is largest. The plan gives no "
+     "limits.",
+     "滤波前，各次谐波取其最大的截面。检测方案未给出限值。"},
+    {"Before the filter, of each undulation in the section where it is largest. Lines: the limits "
+     "of the mask.",
+     "滤波前，各次谐波取其最大的截面。横线：谐波限值。"},
+    {"Harmonics of the sections", "截面的谐波"},
+    {"Amplitudes of the harmonics", "谐波幅值"},
 };
 
 }  // namespace

@@ -284,6 +284,9 @@ constexpr Translation kTexts[] = {
     {"Result", "结果"},
     {"Settings", "设置"},
     {"Decisions", "决定"},
+    // Pages of the PDF
+    {"Cylindricity report: {}, revision {}, run {}", "圆柱度检测报告：{}，版本 {}，检测编号 {}"},
+    {"Page {} of {}", "第 {} 页，共 {} 页"},
 };
 
 }  // namespace

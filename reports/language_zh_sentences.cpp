@@ -339,6 +339,13 @@ constexpr Translation kTexts[] = {
      "{1} 次试验中有 {0} 次各点没有此评定基准"},
     {"{} points are more than {}, the limit of the trials; give every n-th point",
      "{} 个点超过试验上限 {}；请每隔 n 点取一点"},
+    // Harmonics of layers
+    {"harmonic {} of layer {} is nearest to its limit", "第 {1} 层的第 {0} 次谐波最接近其限值"},
+    {"intervals are computed of form deviations only", "仅对形状偏差计算区间"},
+    {"the mask reaches to harmonic {}, the points of the sections carry {}; harmonics need full "
+     "sections of at least 350 points",
+     "限值延伸到第 {} 次谐波，而截面上的点只能给出 {} 次；谐波需要至少 350 点的完整截面"},
+    {"the mask names no harmonic", "限值未列出任何谐波"},
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "core/version.h"
 #include "record/sha256.h"
+#include "reports/language.h"
 #include "reports/pdf_flow.h"
 #include "reports/pdf_look.h"
 #include "reports/text.h"
@@ -101,9 +102,8 @@ void Document::describe(std::string_view html) {
   };
   set(CAIRO_PDF_METADATA_TITLE, page_.title);
   set(CAIRO_PDF_METADATA_AUTHOR, header.operator_name);
-  set(CAIRO_PDF_METADATA_SUBJECT,
-      fmt::format("Cylindricity report: {}, revision {}, run {}", header.plan_name,
-                  header.plan_revision, header.run_id));
+  set(CAIRO_PDF_METADATA_SUBJECT, trf("Cylindricity report: {}, revision {}, run {}",
+                                      header.plan_name, header.plan_revision, header.run_id));
   set(CAIRO_PDF_METADATA_KEYWORDS,
       fmt::format("{}, {}, {}, {}", header.part_id, header.serial, header.drawing, header.run_id));
   // Of the page: ASCII, which Cairo writes as it is.
@@ -145,16 +145,16 @@ void Document::draw_head_and_foot(int page, int pages) {
   };
   const std::string part =
       header.serial.empty() ? header.part_id : header.part_id + " / " + header.serial;
-  draw_line(kPdfMargin, kHeadY, 0.40 * kTextWidth, Align::kLeft, field("Part", part), style);
+  draw_line(kPdfMargin, kHeadY, 0.40 * kTextWidth, Align::kLeft, field(tr("Part"), part), style);
   draw_line(kPdfMargin + 0.42 * kTextWidth, kHeadY, 0.16 * kTextWidth, Align::kLeft,
-            field("Revision", header.plan_revision), style);
+            field(tr("Revision"), header.plan_revision), style);
   draw_line(kPdfMargin + 0.60 * kTextWidth, kHeadY, 0.40 * kTextWidth, Align::kRight,
-            field("Run", header.run_id), style);
+            field(tr("Run"), header.run_id), style);
   draw_rule(kHeadY + 13.0);
   draw_line(kPdfMargin, kFootY, 0.5 * kTextWidth, Align::kLeft,
             fmt::format("Rondure {}", core::kVersion), style);
   draw_line(kPdfMargin + 0.5 * kTextWidth, kFootY, 0.5 * kTextWidth, Align::kRight,
-            fmt::format("Page {} of {}", page, pages), style);
+            trf("Page {} of {}", page, pages), style);
 }
 
 /// Headings as bookmarks, each below the last one of a higher level.
@@ -224,6 +224,7 @@ std::string_view digest_in(std::string_view bytes) {
 }  // namespace
 
 core::Result<Pdf> write_pdf(const record::RunRecord& record, std::string_view html) {
+  const LanguageScope scope(language_of_page(html));
   const auto page = read_page(html);
   if (!page) return core::fail(page.error());
   return Document(record, *page).write(html);
