@@ -92,6 +92,7 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
       return kRunFailed;
     }
   }
+  if (!failed) keep_earlier_results(archive, directory, told->record);
   const auto formats = arguments.formats.empty() ? plan.reports.formats : arguments.formats;
   const auto written = reports::write_exports(directory, formats, told->record, evaluation);
   if (!written) {

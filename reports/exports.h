@@ -6,6 +6,7 @@
 
 #include "core/result.h"
 #include "record/run_record.h"
+#include "reports/earlier_results.h"
 #include "reports/evaluation.h"
 
 namespace rondure::reports {
@@ -32,8 +33,10 @@ struct Rendered {
 
 /// The bytes of one export.
 /// @return  Those, or why this machine cannot make them; only report.pdf fails, see write_pdf().
+/// @param earlier  As earlier.json of the run directory holds them.
 [[nodiscard]] core::Result<Rendered> render(const Export& what, const record::RunRecord& record,
-                                            const Evaluation& evaluation);
+                                            const Evaluation& evaluation,
+                                            const EarlierResults& earlier = {});
 
 /// Whether a run directory holds these exports with the bytes that they would have now.
 [[nodiscard]] bool exports_are_current(const std::filesystem::path& directory,

@@ -149,6 +149,23 @@ std::vector<std::string> sentences_of(const RunChart& chart, bool limit_shown) {
 
 }  // namespace
 
+std::string history_drawing(const RunChart& chart) {
+  const std::vector<double> values_mm = values_of(chart);
+  const ChartRange range = range_of(chart);
+  const Axes axes = axes_of(range, values_mm.size());
+  const record::ArchivedResult& newest = chart.results.back();
+  Svg svg(kWidth, kBottom + 50.0, "wide chart",
+          fmt::format("Run chart of {}", printable(newest.result.characteristic)));
+  draw_frame(svg, axes, chart);
+  draw_levels(svg, axes, chart, range.limit_shown);
+  draw_results(svg, axes, chart, values_mm);
+  return svg.str();
+}
+
+std::vector<std::string> history_sentences(const RunChart& chart) {
+  return sentences_of(chart, range_of(chart).limit_shown);
+}
+
 std::string history_svg(const RunChart& chart) {
   const std::vector<double> values_mm = values_of(chart);
   const ChartRange range = range_of(chart);

@@ -72,7 +72,8 @@ std::string top_of(const std::vector<Part>& parts) {
 }
 
 /// The parts of the page in their order; those that a run has nothing for are left out.
-std::vector<Part> parts_of(const record::RunRecord& record, const Evaluation& evaluation) {
+std::vector<Part> parts_of(const record::RunRecord& record, const Evaluation& evaluation,
+                           const EarlierResults& earlier) {
   std::vector<Part> parts;
   const auto add = [&](std::string id, std::string name, std::string html) {
     if (!html.empty()) parts.push_back({std::move(id), std::move(name), std::move(html)});
@@ -83,6 +84,7 @@ std::vector<Part> parts_of(const record::RunRecord& record, const Evaluation& ev
         fmt::format("Feature {}", isolated(evaluation.features[i].feature.id)),
         feature_section(record, i, evaluation.features[i]));
   }
+  add("history", "Earlier runs", history_section(record, evaluation, earlier));
   add("settings", "Settings", probe_section(record, evaluation));
   add("decisions", "Decisions", decisions_section(record));
   add("provenance", "Provenance", provenance_section(record));
@@ -91,8 +93,9 @@ std::vector<Part> parts_of(const record::RunRecord& record, const Evaluation& ev
 
 }  // namespace
 
-std::string write_html(const record::RunRecord& record, const Evaluation& evaluation) {
-  const std::vector<Part> parts = parts_of(record, evaluation);
+std::string write_html(const record::RunRecord& record, const Evaluation& evaluation,
+                       const EarlierResults& earlier) {
+  const std::vector<Part> parts = parts_of(record, evaluation, earlier);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n{}\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"

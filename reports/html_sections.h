@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "record/run_record.h"
+#include "reports/earlier_results.h"
 #include "reports/evaluation.h"
 
 namespace rondure::reports {
@@ -27,6 +28,10 @@ namespace rondure::reports {
 [[nodiscard]] std::string probe_section(const record::RunRecord& record,
                                         const Evaluation& evaluation);
 [[nodiscard]] std::string decisions_section(const record::RunRecord& record);
+/// Run charts with earlier results; empty without any.
+[[nodiscard]] std::string history_section(const record::RunRecord& record,
+                                          const Evaluation& evaluation,
+                                          const EarlierResults& earlier);
 [[nodiscard]] std::string provenance_section(const record::RunRecord& record);
 
 /// How the clouds of several poses became one, and what the fixture adds.

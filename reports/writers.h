@@ -3,6 +3,7 @@
 #include <string>
 
 #include "record/run_record.h"
+#include "reports/earlier_results.h"
 #include "reports/evaluation.h"
 #include "reports/polar_sketch.h"
 
@@ -13,7 +14,9 @@ namespace rondure::reports {
 [[nodiscard]] std::string write_json(const record::RunRecord& record, const Evaluation& evaluation);
 
 /// report.html: one self-contained page (no network, no script needed to read it).
-[[nodiscard]] std::string write_html(const record::RunRecord& record, const Evaluation& evaluation);
+/// @param earlier  Results of earlier runs, for its run charts.
+[[nodiscard]] std::string write_html(const record::RunRecord& record, const Evaluation& evaluation,
+                                     const EarlierResults& earlier = {});
 
 /// touches.csv: a row a touch, as journalled.
 [[nodiscard]] std::string write_touches_csv(const record::RunRecord& record);
