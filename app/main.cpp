@@ -18,6 +18,7 @@
 #include "core/version.h"
 #include "plans/simulation_table.h"
 #include "reports/exports.h"
+#include "reports/language.h"
 
 namespace rondure::app {
 namespace {
@@ -36,6 +37,12 @@ void add_formats(CLI::App& verb, std::vector<std::string>& formats, const char* 
       ->allow_extra_args(false)
       ->check(CLI::IsMember(reports::all_formats()))
       ->type_name("LIST");
+}
+
+void add_language(CLI::App& verb, std::string& language) {
+  verb.add_option("--lang", language, "Language of page and summary: en or zh (default: en)")
+      ->check(CLI::IsMember(reports::language_names()))
+      ->type_name("LANG");
 }
 
 /// Whole numbers that every reader of JSON keeps, as in a plan.
@@ -115,6 +122,7 @@ void add_run(CLI::App& app, RunArguments& arguments) {
       ->check(check_seed);
   add_formats(*verb, arguments.formats,
               "html,pdf,json,csv,qif,dmis,junit (default: as the plan says)");
+  add_language(*verb, arguments.language);
   verb->add_option("--archive", arguments.archive,
                    "Where the results are kept besides: a file, postgresql://... or none\n"
                    "(default: as the plan says, else archive.db beside the run directory)");
@@ -325,6 +333,7 @@ void add_report(CLI::App& app, ReportArguments& arguments) {
   auto* verb = app.add_subcommand("report", "Writes the reports of a run again, from its journal");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
   add_formats(*verb, arguments.formats, "html,pdf,json,csv,qif,dmis,junit (default: all)");
+  add_language(*verb, arguments.language);
   verb->footer("\nExample: rondure report runs/01_spool_simulated-20261121T023302Z --format html");
 }
 

@@ -106,6 +106,7 @@ std::string resume_command(const RunToFinish& run) {
     out += directory;
   }
   out += " --resume";
+  if (arguments.language != "en") out += " --lang " + arguments.language;
   if (!arguments.archive.empty()) out += " --archive " + quoted(run.archive.shown);
   return out;
 }

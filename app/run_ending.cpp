@@ -15,6 +15,7 @@
 #include "reports/defect.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
+#include "reports/language.h"
 #include "reports/writers.h"
 
 namespace rondure::app {
@@ -27,6 +28,10 @@ int exit_status(bool failed, reports::Verdict verdict) {
   const bool well =
       verdict == reports::Verdict::kConforms || verdict == reports::Verdict::kNotToleranced;
   return well ? kAllWell : kNotConforming;
+}
+
+reports::Language language_of(const RunArguments& arguments) {
+  return reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
 }
 
 /// A run as its directory tells it.
@@ -94,7 +99,9 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
   }
   if (!failed) keep_earlier_results(archive, directory, told->record);
   const auto formats = arguments.formats.empty() ? plan.reports.formats : arguments.formats;
-  const auto written = reports::write_exports(directory, formats, told->record, evaluation);
+  const reports::Language language = language_of(arguments);
+  const auto written =
+      reports::write_exports(directory, formats, told->record, evaluation, language);
   if (!written) {
     complain(written.error());
     if (!failed) {
@@ -109,7 +116,7 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
     live->show_result(told->record, evaluation, fs::absolute(directory).string());
   }
   if (!arguments.quiet) {
-    say(reports::write_summary(told->record, evaluation, sketch_style()));
+    say(reports::write_summary(told->record, evaluation, sketch_style(), language));
     for (const fs::path& file : written->files) say(file.string() + "\n");
   }
   if (!failed) (void)archive_run(archive, directory, told->record, evaluation);
@@ -134,7 +141,8 @@ int finish_sealed(const RunToFinish& ending) {
     return kRunFailed;
   }
   const auto formats = arguments.formats.empty() ? plan.reports.formats : arguments.formats;
-  if (reports::exports_are_current(directory, formats, told->record, told->evaluation)) {
+  if (reports::exports_are_current(directory, formats, told->record, told->evaluation,
+                                   language_of(arguments))) {
     return finish_archived(archive, directory, *told);
   }
   tell(fmt::format("rondure: the run in {} is finished and sealed; only its reports are written\n",

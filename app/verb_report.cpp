@@ -14,6 +14,7 @@
 #include "reports/defect.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
+#include "reports/language.h"
 #include "reports/writers.h"
 
 namespace rondure::app {
@@ -45,8 +46,10 @@ int report(const ReportArguments& arguments) {
   }
   const std::string signed_sums = signed_checksums(arguments.directory);
   const auto formats = arguments.formats.empty() ? reports::all_formats() : arguments.formats;
+  const auto language =
+      reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
   const auto written =
-      reports::write_exports(arguments.directory, formats, read->record, *evaluation);
+      reports::write_exports(arguments.directory, formats, read->record, *evaluation, language);
   if (!written) {
     complain(written.error());
     return kBadInput;
@@ -55,7 +58,7 @@ int report(const ReportArguments& arguments) {
   if (signed_sums != signed_checksums(arguments.directory)) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }
-  say(reports::write_summary(read->record, *evaluation, sketch_style()));
+  say(reports::write_summary(read->record, *evaluation, sketch_style(), language));
   for (const auto& file : written->files) say(file.string() + "\n");
   const bool well = evaluation->verdict == reports::Verdict::kConforms ||
                     evaluation->verdict == reports::Verdict::kNotToleranced;

@@ -42,6 +42,7 @@ struct RunArguments {
   std::string operator_name;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> formats;  ///< Empty: as the plan says.
+  std::string language = "en";       ///< Of page and summary: "en" or "zh".
   std::string archive;               ///< Empty: as the plan says.
   std::string wire_log;              ///< Empty: none.
   bool quiet = false;
@@ -66,6 +67,7 @@ struct SimulateCmmArguments {
 struct ReportArguments {
   std::string directory;
   std::vector<std::string> formats;
+  std::string language = "en";  ///< Of page and summary: "en" or "zh".
 };
 [[nodiscard]] int report(const ReportArguments& arguments);
 

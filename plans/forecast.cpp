@@ -213,12 +213,33 @@ class NominalSession final : public PoseSession {
       if (scans() && stage.kind == ForecastStage::Kind::kCloud) {
         tally_.scan(stage, X_WP * contact_P, geometry_.approach_mm,
                     core::kTwoPi * contact_P.head<2>().norm(), feature_.sampling.points_per_layer);
+        keep_scan(path.target(k), stage);
       } else {
         tally_.touch(stage, X_WP * contact_P, geometry_.approach_mm);
+        keep(path.target(k), stage.time_s, stage);
       }
     }
     tally_.move(stage, path.exit_W(path.order().size() - 1));
     tally_.rise(stage);
+  }
+
+  void keep(const Target& target, double time_s, ForecastStage& stage) const {
+    if (stage.times > 1 || stage.kind != ForecastStage::Kind::kCloud) return;
+    stage.measured.push_back({target, part_at(reached_) * contact_tip(geometry_, target), time_s});
+  }
+
+  /// The points of a circle that has just ended.
+  void keep_scan(const Target& start, ForecastStage& stage) const {
+    const auto targets = measured_targets();
+    if (!targets) return;  // its path could not have been laid
+    const double circle_mm = core::kTwoPi * contact_tip(geometry_, start).head<2>().norm();
+    const double circle_s = circle_mm / plan_.machine->scan_speed_mm_s;
+    const int points = feature_.sampling.points_per_layer;
+    for (const Target& target : *targets) {
+      if (target.layer != start.layer) continue;
+      keep(target, stage.time_s - circle_s * (1.0 - static_cast<double>(target.point) / points),
+           stage);
+    }
   }
 
   [[nodiscard]] std::vector<Vector3d> tips(const std::vector<Target>& targets) const {

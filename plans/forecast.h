@@ -3,13 +3,23 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/pose.h"
 #include "core/result.h"
 #include "plans/plan.h"
+#include "plans/sampling.h"
 #include "plans/scene.h"
 #include "plans/travel.h"
 
 namespace rondure::plans {
+
+/// A touch of a cloud, or a point of a scan.
+struct ForecastTouch {
+  Target target;
+  Eigen::Vector3d tip_W_mm = {0.0, 0.0, 0.0};  ///< At the expected contact.
+  double time_s = 0.0;                         ///< From the first move of its stage.
+};
 
 /// One stage of a run: the touches of the reference sphere, of the spheres on the base of the
 /// fixture, or a cloud in a pose.
@@ -25,7 +35,8 @@ struct ForecastStage {
   double time_s = 0.0;       ///< Of all times.
   Polyline moves_W;          ///< Ends of the moves of the first time, in order.
   Polyline contacts_W;       ///< Tip centres at the expected contacts, in the order of touching.
-  Placement placement;       ///< Of a cloud.
+  std::vector<ForecastTouch> measured;  ///< Of a cloud, the first time, in the order of touching.
+  Placement placement;                  ///< Of a cloud.
 };
 
 /// What a run would do, if part, fixture and probe were as the plan says.

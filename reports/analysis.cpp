@@ -10,6 +10,7 @@
 #include "reports/facts.h"
 #include "reports/html_sections.h"
 #include "reports/json_parts.h"
+#include "reports/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -59,13 +60,13 @@ std::string truth_box(const record::RunRecord& record, std::size_t index) {
   std::string text;
   for (const record::TruthValue& truth : record.truth_values) {
     if (static_cast<std::size_t>(truth.feature) != index) continue;
-    text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", escaped(truth.name), truth.value);
+    text +=
+        fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", plain_words(truth.name), truth.value);
   }
   if (text.empty()) return {};
-  return fmt::format(
-      R"(<div class="truth"><b>Hidden truth of the simulation:</b> {}. This is not part of the )"
-      "measurement: evaluation never reads it.</div>",
-      text);
+  return fmt::format(R"(<div class="truth"><b>{}</b> {}{}</div>)",
+                     tr("Hidden truth of the simulation:"), text,
+                     tr(". This is not part of the measurement: evaluation never reads it."));
 }
 
 }  // namespace
@@ -137,13 +138,13 @@ std::string analysis_section(const record::RunRecord& record, std::size_t index,
                              const FeatureResult& feature) {
   const record::Feature& asked = feature.feature;
   std::string html = fmt::format(
-      R"(<section><h2>Feature {}</h2><p class="note">{}.</p>)", isolated(asked.id),
-      asked.shape == record::Shape::kRotaryAxes
-          ? std::string("Calibration of the fixture with balls that it carried")
-          : fmt::format("{}; data {}", capitalised(record::name_of(asked.shape)),
-                        asked.points_file.empty()
-                            ? std::string("simulated")
-                            : fmt::format("from the file {}", isolated(asked.points_file))));
+      R"(<section><h2>{}</h2><p class="note">{}</p>)", trf("Feature {}", isolated(asked.id)),
+      trf("{}.", asked.shape == record::Shape::kRotaryAxes
+                     ? tr("Calibration of the fixture with balls that it carried")
+                     : trf("{}; data {}", capitalised(tr(record::name_of(asked.shape))),
+                           asked.points_file.empty()
+                               ? tr("simulated")
+                               : trf("from the file {}", isolated(asked.points_file)))));
   html += messages(feature);
   if (feature.analysis) html += feature.analysis->html(record, static_cast<int>(index));
   return html + truth_box(record, index) + "</section>";

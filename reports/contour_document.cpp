@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "reports/json_parts.h"
+#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
@@ -139,9 +140,8 @@ std::vector<std::string> contour_verdicts(const fit::ContourStudy& study,
                                           const fit::StabilityLimits& limits) {
   std::vector<std::string> out;
   if (study.parts.size() < 4) {
-    out.push_back(
-        fmt::format("{} part{}: stable and unstable sources are told apart from 4 parts on",
-                    study.parts.size(), study.parts.size() == 1 ? "" : "s"));
+    out.push_back(fmt::format("{}: stable and unstable sources are told apart from 4 parts on",
+                              count(study.parts.size(), "part", "parts")));
     return out;
   }
   const auto say = [&](const char* what, const std::optional<fit::Repeatability>& found) {

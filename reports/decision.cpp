@@ -66,15 +66,19 @@ Limits limits_of(const DecisionRule& rule, const KnownValue& value, double toler
 }
 
 /// "7.958 um is within the tolerance of 12 um by 4.042 um".
-std::string simple_sentence(std::string_view what, const Limits& limits, double tolerance_mm) {
+std::string simple_sentence(const std::string& value, const Limits& limits, double tolerance_mm) {
   const bool within = limits.compared_mm <= tolerance_mm;
-  return fmt::format("{}{:.3f} um is {} the tolerance of {:g} um by {:.3f} um", what,
-                     um(limits.compared_mm), within ? "within" : "above", um(tolerance_mm),
+  return fmt::format("{} is {} the tolerance of {:g} um by {:.3f} um", value,
+                     within ? "within" : "above", um(tolerance_mm),
                      um(std::abs(tolerance_mm - limits.compared_mm)));
 }
 
+std::string corrected_value(const Limits& limits) {
+  return fmt::format("the corrected value {:.3f} um", um(limits.compared_mm));
+}
+
 std::string guarded_sentence(const Limits& limits, double tolerance_mm, Verdict verdict) {
-  const std::string value = fmt::format("the corrected value {:.3f} um", um(limits.compared_mm));
+  const std::string value = corrected_value(limits);
   if (verdict == Verdict::kConforms) {
     return fmt::format(
         "{} is within the acceptance limit of {:.3f} um (tolerance {:g} um, guard "
@@ -132,9 +136,10 @@ std::string sentence_of(const DecisionRule& rule, const Limits& limits, double t
                         const RuleOutcome& outcome) {
   switch (rule.kind) {
     case DecisionRule::Kind::kSimpleAcceptance:
-      return simple_sentence("", limits, tolerance_mm);
+      return simple_sentence(fmt::format("{:.3f} um", um(limits.compared_mm)), limits,
+                             tolerance_mm);
     case DecisionRule::Kind::kNToOne:
-      return simple_sentence("the corrected value ", limits, tolerance_mm);
+      return simple_sentence(corrected_value(limits), limits, tolerance_mm);
     case DecisionRule::Kind::kJcgm106:
       return probability_sentence(rule, *outcome.conformance_1, outcome.verdict);
     case DecisionRule::Kind::kIso14253:

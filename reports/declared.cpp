@@ -132,9 +132,11 @@ std::optional<ThermalInfluences> thermal_influences(const record::RunRecord& rec
 std::string source_text(const FormSpectrum& spectrum) {
   std::string out = "declared in the plan:";
   for (const FormTerm& term : spectrum.terms) {
-    out += fmt::format("{} {} UPR{} {:g} um", out.back() == ':' ? "" : ",", term.undulations,
-                       term.degree > 0 ? fmt::format(" of degree {}", term.degree) : "",
-                       term.amplitude_mm / core::kMicrometre);
+    const double amplitude_um = term.amplitude_mm / core::kMicrometre;
+    out += out.back() == ':' ? " " : ", ";
+    out += term.degree > 0 ? fmt::format("{} UPR of degree {} {:g} um", term.undulations,
+                                         term.degree, amplitude_um)
+                           : fmt::format("{} UPR {:g} um", term.undulations, amplitude_um);
   }
   return out + (spectrum.absolute ? "; as they are" : "; only their ratios count");
 }

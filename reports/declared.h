@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "fit/probe_tip.h"
 #include "record/run_record.h"
@@ -25,6 +26,35 @@ struct Declared {
 [[nodiscard]] std::optional<Declared> declared_for(const record::RunRecord& record,
                                                    const FeatureResult& result,
                                                    const std::optional<fit::ProbeTip>& probe);
+
+/// What the engine of uncertainty.h is asked about a characteristic.
+struct UncertaintyQuestion {
+  FormCloud cloud;
+  Influences influences;
+  std::optional<FormSpectrum> spectrum;
+  UncertaintyOptions options;
+};
+
+/// All points of a cylinder or a circle, as the engine takes them.
+/// @return  The errors of form_cloud().
+[[nodiscard]] core::Result<FormCloud> surface_cloud(const record::RunRecord& record,
+                                                    const FeatureResult& result);
+
+/// The declared spectrum on a cloud, or the part's own; nothing where none was asked for, or where
+/// all that the part shows may be noise.
+/// @return  kSampling of own_spectrum().
+[[nodiscard]] core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
+                                                                    const Declared& declared,
+                                                                    const record::Feature& feature);
+
+/// Why no interval is computed of a feature, whatever its touches say; nothing where one is.
+[[nodiscard]] std::optional<std::string> why_no_interval(const record::RunRecord& record,
+                                                         const record::Feature& feature);
+
+/// The question behind uncertainty_of(), or why there is none: one sentence.
+[[nodiscard]] tl::expected<UncertaintyQuestion, std::string> uncertainty_question(
+    const record::RunRecord& record, const FeatureResult& result,
+    const std::optional<fit::ProbeTip>& probe, const record::Characteristic& asked);
 
 /// The uncertainty of a form value of touches or points: the engine of uncertainty.h on the cloud
 /// that gave it, or why there is no interval. Roundness of several layers is that of the worst one.

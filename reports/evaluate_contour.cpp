@@ -158,8 +158,9 @@ core::Result<AnalysisValue> ContourResult::value_of(const record::Characteristic
 std::string ContourResult::filter_text() const {
   const fit::FilterOptions& filter = facts_.options.error.filter;
   if (filter.filter == fit::ProfileFilter::kNone) return "unfiltered";
-  return fmt::format("gaussian low pass {:g} UPR{}", filter.cutoff_upr,
-                     facts_.options.prefiltered ? " by the gauge" : "");
+  return facts_.options.prefiltered
+             ? fmt::format("gaussian low pass {:g} UPR by the gauge", filter.cutoff_upr)
+             : fmt::format("gaussian low pass {:g} UPR", filter.cutoff_upr);
 }
 
 std::string ContourResult::sampling_text() const {

@@ -79,7 +79,8 @@ core::Result<FormCloud> cloud_of(const record::RunRecord& record, const FeatureR
   return cloud;
 }
 
-/// The declared spectrum on this surface, or the part's own.
+}  // namespace
+
 core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
                                                       const Declared& declared,
                                                       const record::Feature& feature) {
@@ -112,34 +113,58 @@ core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
   return std::optional<FormSpectrum>(std::move(out));
 }
 
-}  // namespace
+core::Result<FormCloud> surface_cloud(const record::RunRecord& record,
+                                      const FeatureResult& result) {
+  Rows all;
+  if (result.feature.shape == record::Shape::kCircle) all.kind = FormKind::kRoundness;
+  for (std::size_t i = 0; i < result.cloud.size(); ++i) all.rows.push_back(i);
+  return cloud_of(record, result, all);
+}
 
-UncertaintyStatus uncertainty_of(const record::RunRecord& record, const FeatureResult& result,
-                                 const std::optional<fit::ProbeTip>& probe,
-                                 const record::Characteristic& asked) {
-  const auto declared = declared_for(record, result, probe);
-  if (!declared) return UncertaintyStatus::none("the plan declares no uncertainty");
-  // The influences act in the machine frame; a merged cloud stands in the frame of the part.
-  if (result.merged) {
-    return UncertaintyStatus::none(
-        "intervals of clouds merged from several poses are not computed; what the fixture leaves "
-        "in the value is told beside it");
+std::optional<std::string> why_no_interval(const record::RunRecord& record,
+                                           const record::Feature& feature) {
+  if (!record::number_in(record.settings, "uncertainty/coverage_percent")) {
+    return "the plan declares no uncertainty";
   }
+  // The influences act in the machine frame; a merged cloud stands in the frame of the part.
+  if (feature.strategy == record::Strategy::kMerged) {
+    return "intervals of clouds merged from several poses are not computed; what the fixture "
+           "leaves in the value is told beside it";
+  }
+  return std::nullopt;
+}
+
+tl::expected<UncertaintyQuestion, std::string> uncertainty_question(
+    const record::RunRecord& record, const FeatureResult& result,
+    const std::optional<fit::ProbeTip>& probe, const record::Characteristic& asked) {
+  const auto none = [](std::string why) { return tl::unexpected(std::move(why)); };
+  if (auto why = why_no_interval(record, result.feature)) return none(*std::move(why));
+  const auto declared = declared_for(record, result, probe);
   const Rows rows = rows_of(result, asked);
   constexpr std::size_t kMostPoints = 20'000;  // some 10 s of trials; verify does them again
   if (rows.rows.size() > kMostPoints) {
-    return UncertaintyStatus::none(
+    return none(
         fmt::format("{} points are more than {}, the limit of the trials; give every n-th point",
                     rows.rows.size(), kMostPoints));
   }
   auto cloud = cloud_of(record, result, rows);
-  if (!cloud) return UncertaintyStatus::none(cloud.error().what);
+  if (!cloud) return none(cloud.error().what);
   cloud->reference = asked.reference;
-  const auto spectrum = spectrum_on(*cloud, *declared, result.feature);
-  if (!spectrum) return UncertaintyStatus::none(spectrum.error().what);
-  auto found = measurement_uncertainty(*cloud, declared->influences, *spectrum, declared->options);
+  auto spectrum = spectrum_on(*cloud, *declared, result.feature);
+  if (!spectrum) return none(spectrum.error().what);
+  return UncertaintyQuestion{*std::move(cloud), declared->influences, *std::move(spectrum),
+                             declared->options};
+}
+
+UncertaintyStatus uncertainty_of(const record::RunRecord& record, const FeatureResult& result,
+                                 const std::optional<fit::ProbeTip>& probe,
+                                 const record::Characteristic& asked) {
+  const auto question = uncertainty_question(record, result, probe, asked);
+  if (!question) return UncertaintyStatus::none(question.error());
+  auto found = measurement_uncertainty(question->cloud, question->influences, question->spectrum,
+                                       question->options);
   if (!found) return UncertaintyStatus::none(found.error().what);
-  return UncertaintyStatus::stated(*std::move(found), declared->options.coverage);
+  return UncertaintyStatus::stated(*std::move(found), question->options.coverage);
 }
 
 }  // namespace rondure::reports

@@ -52,9 +52,10 @@ core::Result<void> look_through(const Export& what, const std::string& bytes) {
 }
 
 std::string text_of(const Export& what, const record::RunRecord& record,
-                    const Evaluation& evaluation, const EarlierResults& earlier) {
+                    const Evaluation& evaluation, Language language,
+                    const EarlierResults& earlier) {
   if (what.file == kCalibrationFile) return calibration_of(evaluation);
-  if (what.format == "html") return write_html(record, evaluation, earlier);
+  if (what.format == "html") return write_html(record, evaluation, language, earlier);
   if (what.format == "json") return write_json(record, evaluation);
   if (what.format == "qif") return write_qif(record, evaluation);
   if (what.format == "dmis") return write_dmis(record, evaluation);
@@ -67,9 +68,9 @@ std::string text_of(const Export& what, const record::RunRecord& record,
 /// Writes one export whole, when it is sound; gives its digest and what is to be told of it.
 core::Result<record::Checksum> write_one(const Export& what, const std::filesystem::path& directory,
                                          const record::RunRecord& record,
-                                         const Evaluation& evaluation,
+                                         const Evaluation& evaluation, Language language,
                                          const EarlierResults& earlier, WrittenExports& out) {
-  const auto made = render(what, record, evaluation, earlier);
+  const auto made = render(what, record, evaluation, language, earlier);
   if (!made) return core::fail(made.error());
   if (auto sound = look_through(what, made->bytes); !sound) return core::fail(sound.error());
   const auto path = directory / what.file;
@@ -114,23 +115,31 @@ bool applies(const Export& what, const record::RunRecord& record) {
 }
 
 core::Result<Rendered> render(const Export& what, const record::RunRecord& record,
-                              const Evaluation& evaluation, const EarlierResults& earlier) {
-  if (what.format != "pdf") return Rendered{text_of(what, record, evaluation, earlier), {}};
-  auto made = write_pdf(record, write_html(record, evaluation, earlier));
+                              const Evaluation& evaluation, Language language,
+                              const EarlierResults& earlier) {
+  if (what.format != "pdf") {
+    return Rendered{text_of(what, record, evaluation, language, earlier), {}};
+  }
+  auto made = write_pdf(record, write_html(record, evaluation, language, earlier));
   if (!made) return core::fail(made.error());
   return Rendered{std::move(made->bytes), missing_in_words(made->missing)};
 }
 
+Language language_of(const Export& what, std::string_view bytes) {
+  if (what.format == "pdf") return language_of_pdf(bytes);
+  return what.format == "html" ? language_of_page(bytes) : Language::kEnglish;
+}
+
 bool exports_are_current(const std::filesystem::path& directory,
                          const std::vector<std::string>& formats, const record::RunRecord& record,
-                         const Evaluation& evaluation) {
+                         const Evaluation& evaluation, Language language) {
   const auto earlier = read_earlier(directory);
   if (!earlier) return false;
   return std::all_of(exports().begin(), exports().end(), [&](const Export& e) {
     if (!applies(e, record)) return true;
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) return true;
     const auto bytes = record::read_file(directory / e.file);
-    const auto made = render(e, record, evaluation, *earlier);
+    const auto made = render(e, record, evaluation, language, *earlier);
     return bytes && made && *bytes == made->bytes;
   });
 }
@@ -138,7 +147,7 @@ bool exports_are_current(const std::filesystem::path& directory,
 core::Result<WrittenExports> write_exports(const std::filesystem::path& directory,
                                            const std::vector<std::string>& formats,
                                            const record::RunRecord& record,
-                                           const Evaluation& evaluation) {
+                                           const Evaluation& evaluation, Language language) {
   for (const std::string& format : formats) {
     const auto known = all_formats();
     if (std::find(known.begin(), known.end(), format) == known.end()) {
@@ -155,7 +164,7 @@ core::Result<WrittenExports> write_exports(const std::filesystem::path& director
   for (const Export& e : exports()) {
     if (!applies(e, record)) continue;
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) continue;
-    auto sum = write_one(e, directory, record, evaluation, *earlier, written);
+    auto sum = write_one(e, directory, record, evaluation, language, *earlier, written);
     if (!sum) {
       done = core::fail(sum.error());
       break;

@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/result.h"
 #include "record/run_record.h"
 #include "reports/earlier_results.h"
 #include "reports/evaluation.h"
+#include "reports/language.h"
 
 namespace rondure::reports {
 
@@ -31,18 +33,23 @@ struct Rendered {
   std::string warning;  ///< What a reader must be told besides, in a sentence; usually empty.
 };
 
-/// The bytes of one export.
+/// The bytes of one export. What people read is in `language`; what programs read is English.
 /// @return  Those, or why this machine cannot make them; only report.pdf fails, see write_pdf().
 /// @param earlier  As earlier.json of the run directory holds them.
 [[nodiscard]] core::Result<Rendered> render(const Export& what, const record::RunRecord& record,
                                             const Evaluation& evaluation,
+                                            Language language = Language::kEnglish,
                                             const EarlierResults& earlier = {});
+
+/// The language that a file of a run was written in, as the file itself states it.
+[[nodiscard]] Language language_of(const Export& what, std::string_view bytes);
 
 /// Whether a run directory holds these exports with the bytes that they would have now.
 [[nodiscard]] bool exports_are_current(const std::filesystem::path& directory,
                                        const std::vector<std::string>& formats,
                                        const record::RunRecord& record,
-                                       const Evaluation& evaluation);
+                                       const Evaluation& evaluation,
+                                       Language language = Language::kEnglish);
 
 /// What write_exports() did.
 struct WrittenExports {
@@ -58,6 +65,7 @@ struct WrittenExports {
 [[nodiscard]] core::Result<WrittenExports> write_exports(const std::filesystem::path& directory,
                                                          const std::vector<std::string>& formats,
                                                          const record::RunRecord& record,
-                                                         const Evaluation& evaluation);
+                                                         const Evaluation& evaluation,
+                                                         Language language = Language::kEnglish);
 
 }  // namespace rondure::reports

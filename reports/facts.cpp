@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "reports/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -90,16 +91,16 @@ core::Result<OneSided> one_sided_of(const FeatureResult& feature, record::Refere
 }
 
 std::string words_of(record::Reference reference, record::Shape shape) {
-  const char* name = shape == record::Shape::kCircle ? "circle" : "cylinder";
+  const bool circle = shape == record::Shape::kCircle;
   switch (reference) {
     case record::Reference::kLeastSquares:
-      return fmt::format("least-squares {}", name);
+      return circle ? tr("least-squares circle") : tr("least-squares cylinder");
     case record::Reference::kMinimumZone:
-      return "minimum zone";
+      return tr("minimum zone");
     case record::Reference::kMinimumCircumscribed:
-      return fmt::format("minimum circumscribed {}", name);
+      return circle ? tr("minimum circumscribed circle") : tr("minimum circumscribed cylinder");
     case record::Reference::kMaximumInscribed:
-      return fmt::format("maximum inscribed {}", name);
+      return circle ? tr("maximum inscribed circle") : tr("maximum inscribed cylinder");
   }
   return {};
 }
@@ -174,7 +175,7 @@ std::string pattern_of(const FeatureResult& feature) {
   const std::size_t points = feature.cloud.size();
   const auto layers = static_cast<std::size_t>(std::max(feature.feature.layers, 0));
   const auto each = static_cast<std::size_t>(std::max(feature.feature.points_per_layer, 0));
-  if (layers > 0 && layers * each == points) return fmt::format("{} x {} points", layers, each);
+  if (layers > 0 && layers * each == points) return trf("{} x {} points", layers, each);
   return count(points, "point", "points");
 }
 
@@ -185,7 +186,7 @@ std::string repeats_of(const FeatureResult& feature) {
       [](const CloudPoint& a, const CloudPoint& b) { return a.repeats < b.repeats; });
   const auto high = static_cast<std::size_t>(most->repeats);
   const std::string text = count(high, "touch a point", "touches a point");
-  return least->repeats == most->repeats ? text : fmt::format("{} to {}", least->repeats, text);
+  return least->repeats == most->repeats ? text : trf("{} to {}", least->repeats, text);
 }
 
 std::string sentence_of(const fit::Certificate& certificate) {
@@ -208,16 +209,16 @@ std::vector<std::string> missing_parts(const record::RunRecord& record,
     const record::Feature& asked = feature.feature;
     const long planned = static_cast<long>(asked.layers) * asked.points_per_layer;
     if (feature.failure) {
-      parts.push_back(fmt::format("Feature {} has no result.", printable(asked.id)));
+      parts.push_back(trf("Feature {} has no result.", printable(asked.id)));
     } else if (planned > static_cast<long>(feature.cloud.size())) {
-      parts.push_back(fmt::format("Feature {} has {} of {} points.", printable(asked.id),
-                                  feature.cloud.size(), planned));
+      parts.push_back(trf("Feature {} has {} of {} points.", printable(asked.id),
+                          feature.cloud.size(), planned));
     }
   }
   for (std::size_t i = evaluation.features.size(); i < record.features.size(); ++i) {
-    parts.push_back(fmt::format("Feature {} was not evaluated.", printable(record.features[i].id)));
+    parts.push_back(trf("Feature {} was not evaluated.", printable(record.features[i].id)));
   }
-  if (parts.empty()) parts.emplace_back("Steps after the last touch on record were not done.");
+  if (parts.empty()) parts.emplace_back(tr("Steps after the last touch on record were not done."));
   return parts;
 }
 
@@ -231,7 +232,8 @@ std::string rule_sentence(const Evaluation& evaluation) {
 }
 
 std::string rule_in_words(const record::Header& header) {
-  std::string words = header.decision_rule.empty() ? "simple-acceptance" : header.decision_rule;
+  std::string words = tr(header.decision_rule.empty() ? "simple-acceptance" : header.decision_rule);
+  if (language() != Language::kEnglish) return words;
   std::replace(words.begin(), words.end(), '-', ' ');
   return words;
 }

@@ -12,6 +12,7 @@
 #include "reports/contour_document.h"
 #include "reports/contour_result.h"
 #include "reports/html_sections.h"
+#include "reports/language.h"
 #include "reports/plot_curve.h"
 #include "reports/text.h"
 
@@ -48,13 +49,13 @@ std::string side_by_side(const ContourFacts& facts, std::string_view title,
     const std::vector<double>* const values = curve(facts.study.parts[i]);
     if (values == nullptr) continue;
     curves.push_back(
-        curve_of(fmt::format("part {}", facts.names[i]), kLines[i % kLines.size()], *values, unit));
+        curve_of(trf("part {}", facts.names[i]), kLines[i % kLines.size()], *values, unit));
   }
   return curves.empty() ? std::string() : line_chart(title, x_title, y_title, curves);
 }
 
-constexpr std::string_view kBeta = "angle β on the pin / °";
-constexpr std::string_view kAlpha = "C position α / °";
+constexpr const char* kBeta = translatable("angle β on the pin / °");
+constexpr const char* kAlpha = translatable("C position α / °");
 
 /// The hidden rest of a simulated part, its harmonics 0 and 1 left in.
 void add_truth(const record::RunRecord& record, int feature, std::size_t part,
@@ -64,27 +65,28 @@ void add_truth(const record::RunRecord& record, int feature, std::size_t part,
   auto beta = truth->column("beta_deg");
   auto rest = truth->column("rest_um");
   if (!beta || !rest) return;
-  curves.push_back({"hidden truth of n", "mean", *std::move(beta), *std::move(rest)});
+  curves.push_back({tr("hidden truth of n"), "mean", *std::move(beta), *std::move(rest)});
 }
 
 std::string separation_plots(const ContourFacts& facts, const record::RunRecord& record,
                              int feature) {
   std::string html =
-      R"(<h3>Separation, part by part</h3><p class="note">t = f + n: the contour as )"
-      "measured, the share that follows from the axis errors, and the rest.</p>";
+      fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)", tr("Separation, part by part"),
+                  tr("t = f + n: the contour as measured, the share that follows "
+                     "from the axis errors, and the rest."));
   for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
     const fit::ContourPartResult& part = facts.study.parts[i];
     std::vector<Curve> curves;
     curves.push_back(
-        curve_of("t, measured", "profile", part.pin.contour.error_mm, core::kMicrometre));
+        curve_of(tr("t, measured"), "profile", part.pin.contour.error_mm, core::kMicrometre));
     curves.push_back(
-        curve_of("f, following", "zone-outer", part.following.error_mm, core::kMicrometre));
+        curve_of(tr("f, following"), "zone-outer", part.following.error_mm, core::kMicrometre));
     curves.push_back(
-        curve_of("n, not following", "zone-inner", part.direct.rest_mm, core::kMicrometre));
+        curve_of(tr("n, not following"), "zone-inner", part.direct.rest_mm, core::kMicrometre));
     add_truth(record, feature, i, curves);
     html +=
         R"(<div class="scroll">)" +
-        line_chart(fmt::format("Part {}", facts.names[i]), kBeta, "contour error / µm", curves) +
+        line_chart(trf("Part {}", facts.names[i]), tr(kBeta), tr("contour error / µm"), curves) +
         "</div>";
   }
   return html;
@@ -93,18 +95,22 @@ std::string separation_plots(const ContourFacts& facts, const record::RunRecord&
 std::string comparison_plots(const ContourFacts& facts) {
   using Part = fit::ContourPartResult;
   const double um_unit = core::kMicrometre;
-  std::string html = R"(<h3>All parts side by side</h3><div class="scroll">)";
-  html += side_by_side(facts, "Contour errors t of the pins", kBeta, "contour error / µm", um_unit,
+  const std::string beta = tr(kBeta);
+  const std::string alpha = tr(kAlpha);
+  const std::string error = tr("contour error / µm");
+  std::string html =
+      fmt::format(R"(<h3>{}</h3><div class="scroll">)", tr("All parts side by side"));
+  html += side_by_side(facts, tr("Contour errors t of the pins"), beta, error, um_unit,
                        [](const Part& p) { return &p.pin.contour.error_mm; });
-  html += side_by_side(facts, "Main journals", kBeta, "contour error / µm", um_unit,
+  html += side_by_side(facts, tr("Main journals"), beta, error, um_unit,
                        [](const Part& p) { return p.main ? &p.main->contour.error_mm : nullptr; });
-  html += side_by_side(facts, "Errors of the C axis", kAlpha, "dα / mdeg", 1e-3 * core::kDegree,
+  html += side_by_side(facts, tr("Errors of the C axis"), alpha, "dα / mdeg", 1e-3 * core::kDegree,
                        [](const Part& p) { return &p.axes.errors.c_rad; });
-  html += side_by_side(facts, "Errors of the X axis", kAlpha, "dd / µm", um_unit,
+  html += side_by_side(facts, tr("Errors of the X axis"), alpha, "dd / µm", um_unit,
                        [](const Part& p) { return &p.axes.errors.x_mm; });
-  html += side_by_side(facts, "Following parts f", kBeta, "contour error / µm", um_unit,
+  html += side_by_side(facts, tr("Following parts f"), beta, error, um_unit,
                        [](const Part& p) { return &p.following.error_mm; });
-  html += side_by_side(facts, "Non-following parts n", kBeta, "contour error / µm", um_unit,
+  html += side_by_side(facts, tr("Non-following parts n"), beta, error, um_unit,
                        [](const Part& p) { return &p.direct.rest_mm; });
   return html + "</div>";
 }
@@ -125,36 +131,35 @@ std::string harmonic_plot(const ContourFacts& facts,
       limits.push_back({line.first, line.last, line.amplitude_mm / core::kMicrometre});
     }
   }
-  return R"(<h3>Harmonics</h3><div class="scroll">)" +
-         bar_chart(several ? "Mean contour t of all parts" : "Contour t",
-                   "undulations per revolution", "amplitude / µm", bars, limits) +
-         "</div>";
+  return fmt::format(
+      R"(<h3>{}</h3><div class="scroll">{}</div>)", tr("Harmonics"),
+      bar_chart(several ? tr("Mean contour t of all parts") : tr("Contour t"),
+                tr("undulations per revolution"), tr("amplitude / µm"), bars, limits));
 }
 
 std::string key_numbers(const ContourFacts& facts) {
   const fit::ContourStudy& study = facts.study;
   std::string html = R"(<dl class="keys">)";
-  const auto add = [&](const char* name, const std::optional<fit::Repeatability>& found) {
+  const auto add = [&](const std::string& name, const std::optional<fit::Repeatability>& found) {
     if (!found) return;
     const auto word = found->word(facts.options.limits);
-    html +=
-        entry(name,
-              with_note(found->index ? fixed(*found->index, 4) : "–",
-                        fmt::format("{}mean curve {} µm rms, spread {} µm",
-                                    word ? fmt::format("{}; ", fit::name_of(*word)) : std::string(),
-                                    um(found->mean_rms), um(found->spread))),
-              "lead");
+    html += entry(name,
+                  with_note(found->index ? fixed(*found->index, 4) : "–",
+                            trf("{}mean curve {} µm rms, spread {} µm",
+                                word ? trf("{}; ", tr(fit::name_of(*word))) : std::string(),
+                                um(found->mean_rms), um(found->spread))),
+                  "lead");
   };
-  add("Stability index of t", study.total);
-  add("Stability index of f", study.following);
-  add("Stability index of n", study.rest);
-  add("Stability index of the mains", study.main);
+  add(tr("Stability index of t"), study.total);
+  add(tr("Stability index of f"), study.following);
+  add(tr("Stability index of n"), study.rest);
+  add(tr("Stability index of the mains"), study.main);
   if (study.amplitude_ratio > 0.0)
     html += entry("rms(f) / rms(n)", fixed(study.amplitude_ratio, 4));
-  html += entry("Correlation would turn f by",
+  html += entry(tr("Correlation would turn f by"),
                 with_note(deg(study.offset.angle_rad, 2) + "°",
-                          "a diagnosis; nothing was turned unless the method is as-published"));
-  html += entry("Method", std::string(fit::name_of(facts.options.method)), "wide-key");
+                          tr("a diagnosis; nothing was turned unless the method is as-published")));
+  html += entry(tr("Method"), tr(fit::name_of(facts.options.method)), "wide-key");
   return html + "</dl>";
 }
 
@@ -170,7 +175,7 @@ std::string part_row(const fit::ContourPartResult& part, const std::string& name
          cell(um(part.pin.contour.peak_to_valley_mm)) + cell(um(part.following.peak_to_valley_mm)) +
          cell(um(fit::peak_to_valley(d.rest_mm))) + cell(square(d.total_mm2)) +
          cell(square(d.following_mm2)) + cell(square(d.rest_mm2)) + cell(square(d.cross_mm2)) +
-         "<td>" + (d.enlarges() ? "enlarges" : "reduces") + "</td>" +
+         "<td>" + (d.enlarges() ? tr("enlarges") : tr("reduces")) + "</td>" +
          cell(part.indirect ? fixed(part.indirect->correlation, 4) : "–") + "</tr>";
 }
 
@@ -179,14 +184,16 @@ std::string part_table(const ContourFacts& facts) {
   for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
     rows += part_row(facts.study.parts[i], facts.names[i]);
   }
-  return R"(<h3>Balance</h3><div class="scroll"><table class="short"><thead><tr><th>Part</th>)"
-         R"(<th class="n">t µm</th><th class="n">f µm</th><th class="n">n µm</th>)"
-         R"(<th class="n">mean t² µm²</th><th class="n">f²</th><th class="n">n²</th>)"
-         R"(<th class="n">2 f n</th><th>n … t</th><th class="n">f from main</th></tr></thead><tbody>)" +
-         rows +
-         R"(</tbody></table></div><p class="note">t, f, n: peak to valley. The squares add up, the )"
-         "cross term included; rms and peak to valley do not. Last column: correlation of f with "
-         "what the main journal leaves of t.</p>";
+  return fmt::format(
+      R"(<h3>{}</h3><div class="scroll"><table class="short">{}<thead><tr><th scope="col">{}</th>)"
+      R"(<th scope="col" class="n">t µm</th><th scope="col" class="n">f µm</th><th scope="col" class="n">n µm</th>)"
+      R"(<th scope="col" class="n">{}</th><th scope="col" class="n">f²</th><th scope="col" class="n">n²</th>)"
+      R"(<th scope="col" class="n">2 f n</th><th scope="col">n … t</th><th scope="col" class="n">{}</th></tr></thead><tbody>{}</tbody>)"
+      R"(</table></div><p class="note">{}</p>)",
+      tr("Balance"), spoken_caption(tr("Balance")), tr("Part"), tr("mean t² µm²"),
+      tr("f from main"), rows,
+      tr("t, f, n: peak to valley. The squares add up, the cross term included; rms and peak to "
+         "valley do not. Last column: correlation of f with what the main journal leaves of t."));
 }
 
 std::string verdict_list(const ContourFacts& facts) {

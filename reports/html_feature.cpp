@@ -7,6 +7,7 @@
 #include "reports/facts.h"
 #include "reports/html_plots.h"
 #include "reports/html_sections.h"
+#include "reports/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -20,36 +21,36 @@ std::string one_sided_entry(const FeatureResult& feature, record::Reference refe
   return entry(fmt::format("{} ({})", capitalised(words_of(reference, shape)),
                            reference_of(reference, shape)),
                with_note(um(found->deviation_mm) + " µm",
-                         fmt::format("radius {} mm, {}, certificate {}", fixed(found->radius_mm, 6),
-                                     count(found->contacts.size(), "contact", "contacts"),
-                                     fit::name_of(found->certificate.kind))));
+                         trf("radius {} mm, {}, certificate {}", fixed(found->radius_mm, 6),
+                             count(found->contacts.size(), "contact", "contacts"),
+                             tr(fit::name_of(found->certificate.kind)))));
 }
 
 std::string zone_entries(const FeatureResult& feature, const Zone& zone) {
   const bool cylinder = feature.feature.shape == record::Shape::kCylinder;
   const std::string kind =
       zone.of_surface
-          ? fmt::format("of the surface, tip radius {} mm {}", fixed(*feature.tip_radius_mm, 6),
-                        feature.feature.side == record::Side::kOutside ? "subtracted" : "added")
-          : "of the points as given; the tip radius is unknown";
-  std::string html = entry(
-      cylinder ? "Minimum zone CYLt (MZCY)" : "Minimum zone RONt (MZCI)",
-      with_note(um(zone.deviation_mm) + " µm", fmt::format("{} outer and {} inner contacts",
-                                                           zone.outer.size(), zone.inner.size())),
-      "lead");
+          ? trf("of the surface, tip radius {} mm {}", fixed(*feature.tip_radius_mm, 6),
+                feature.feature.side == record::Side::kOutside ? tr("subtracted") : tr("added"))
+          : tr("of the points as given; the tip radius is unknown");
+  std::string html =
+      entry(cylinder ? tr("Minimum zone CYLt (MZCY)") : tr("Minimum zone RONt (MZCI)"),
+            with_note(um(zone.deviation_mm) + " µm",
+                      trf("{} outer and {} inner contacts", zone.outer.size(), zone.inner.size())),
+            "lead");
   if (const auto ls = least_squares_of(feature)) {
-    html += entry(
-        cylinder ? "Least squares (LSCY)" : "Least squares (LSCI)",
-        with_note(um(ls->deviation_mm) + " µm",
-                  fmt::format("radius {} mm, rms {} µm", fixed(ls->radius_mm, 6), um(ls->rms_mm))),
-        "lead");
+    html +=
+        entry(cylinder ? tr("Least squares (LSCY)") : tr("Least squares (LSCI)"),
+              with_note(um(ls->deviation_mm) + " µm",
+                        trf("radius {} mm, rms {} µm", fixed(ls->radius_mm, 6), um(ls->rms_mm))),
+              "lead");
   }
   html += one_sided_entry(feature, record::Reference::kMinimumCircumscribed) +
           one_sided_entry(feature, record::Reference::kMaximumInscribed);
-  html +=
-      entry("Inner radius of the zone", with_note(fixed(zone.inner_radius_mm, 6) + " mm", kind));
-  html +=
-      entry("Outer radius of the zone", with_note(fixed(zone.outer_radius_mm, 6) + " mm", kind));
+  html += entry(tr("Inner radius of the zone"),
+                with_note(fixed(zone.inner_radius_mm, 6) + " mm", kind));
+  html += entry(tr("Outer radius of the zone"),
+                with_note(fixed(zone.outer_radius_mm, 6) + " mm", kind));
   return html;
 }
 
@@ -57,12 +58,12 @@ std::string certificate_entry(const Zone& zone) {
   const fit::Certificate& certificate = zone.certificate;
   std::string note;
   if (certificate.kind != fit::Certificate::Kind::kNone) {
-    note = fmt::format("Zone minus proven lower bound: {} µm.", tiny_um(certificate.gap_mm));
+    note = trf("Zone minus proven lower bound: {} µm.", tiny_um(certificate.gap_mm));
   }
   if (!certificate.reason.empty())
-    note += fmt::format(" Why not more: {}", in_sentence(certificate.reason));
-  return entry("Certificate of the minimum zone",
-               with_note(isolated(sentence_of(certificate)), note), "wide-key");
+    note += trf(" Why not more: {}", in_sentence(certificate.reason));
+  return entry(tr("Certificate of the minimum zone"),
+               with_note(in_sentence(sentence_of(certificate)), note), "wide-key");
 }
 
 std::string axis_entry(const FeatureResult& feature) {
@@ -71,16 +72,16 @@ std::string axis_entry(const FeatureResult& feature) {
     const Eigen::Vector3d& d = axis.direction;
     const double tilt = std::atan2(std::hypot(d.x(), d.y()), std::abs(d.z()));
     return entry(
-        feature.merged ? "Axis of the zone (body frame)" : "Axis of the zone (machine frame)",
-        fmt::format("through ({}, {}, {}) mm, direction ({}, {}, {}), {}° off machine z",
-                    fixed(axis.point_mm.x(), 6), fixed(axis.point_mm.y(), 6),
-                    fixed(axis.point_mm.z(), 6), fixed(d.x(), 8), fixed(d.y(), 8), fixed(d.z(), 8),
-                    deg(tilt, 6)),
+        feature.merged ? tr("Axis of the zone (body frame)")
+                       : tr("Axis of the zone (machine frame)"),
+        trf("through ({}, {}, {}) mm, direction ({}, {}, {}), {}° off machine z",
+            fixed(axis.point_mm.x(), 6), fixed(axis.point_mm.y(), 6), fixed(axis.point_mm.z(), 6),
+            fixed(d.x(), 8), fixed(d.y(), 8), fixed(d.z(), 8), deg(tilt, 6)),
         "wide-key");
   }
   if (feature.layers.empty() || !feature.layers.front().mz) return {};
   const Eigen::Vector2d& center = feature.layers.front().mz->center_mm;
-  return entry("Centre of the zone",
+  return entry(tr("Centre of the zone"),
                fmt::format("({}, {}) mm", fixed(center.x(), 6), fixed(center.y(), 6)), "wide-key");
 }
 
@@ -89,14 +90,15 @@ std::string pose_entries(const FeatureResult& feature) {
   if (const PoseValue* pose = final_pose_of(feature)) {
     const std::string angles =
         fmt::format("alpha {}°, beta {}°", deg(pose->pose.alpha_rad), deg(pose->pose.beta_rad));
-    html += entry("f of the final pose", pose->valid ? with_note(f_um(pose->f_mm) + " µm", angles)
-                                                     : with_note("none", isolated(pose->ending)));
+    html +=
+        entry(tr("f of the final pose"), pose->valid ? with_note(f_um(pose->f_mm) + " µm", angles)
+                                                     : with_note(tr("none"), worded(pose->ending)));
   }
   if (feature.levelling_pose) {
-    html += entry("Levelling pose",
+    html += entry(tr("Levelling pose"),
                   with_note(fmt::format("{}°, {}°", deg(feature.levelling_pose->alpha_rad, 6),
                                         deg(feature.levelling_pose->beta_rad, 6)),
-                            "alpha and beta that would turn the axis found to machine z"));
+                            tr("alpha and beta that would turn the axis found to machine z")));
   }
   return html;
 }
@@ -113,40 +115,40 @@ std::string dense_entry(const FeatureResult& feature) {
     }
   }
   if (total_mm < 0.0) return {};
-  return entry("Sections through a Gaussian filter, 50 UPR",
-               with_note(um(total_mm) + " µm, the worst (MZ)",
-                         fmt::format("largest undulation {} UPR, amplitude {} µm", largest.number,
-                                     um(largest.amplitude_mm))));
+  return entry(tr("Sections through a Gaussian filter, 50 UPR"),
+               with_note(trf("{} µm, the worst (MZ)", um(total_mm)),
+                         trf("largest undulation {} UPR, amplitude {} µm", largest.number,
+                             um(largest.amplitude_mm))));
 }
 
 std::string data_entries(const FeatureResult& feature) {
   const bool from_file = feature.feature.strategy == record::Strategy::kPointsFile;
   std::string html = entry(
-      "Points", with_note(pattern_of(feature),
-                          from_file ? fmt::format("file {}", isolated(feature.feature.points_file))
-                                    : repeats_of(feature)));
+      tr("Points"), with_note(pattern_of(feature),
+                              from_file ? trf("file {}", isolated(feature.feature.points_file))
+                                        : repeats_of(feature)));
   if (feature.repeat_sigma_mm) {
-    html += entry("Repeatability of one touch",
-                  with_note(um(*feature.repeat_sigma_mm) + " µm", "pooled standard deviation"));
+    html += entry(tr("Repeatability of one touch"),
+                  with_note(um(*feature.repeat_sigma_mm) + " µm", tr("pooled standard deviation")));
   }
   if (feature.repeat_zone_mean_mm) {
-    html += entry("Zones of the single repeats",
-                  with_note(um(*feature.repeat_zone_mean_mm) + " µm mean",
+    html += entry(tr("Zones of the single repeats"),
+                  with_note(trf("{} µm mean", um(*feature.repeat_zone_mean_mm)),
                             feature.repeat_zone_sd_mm
-                                ? um(*feature.repeat_zone_sd_mm) + " µm standard deviation"
+                                ? trf("{} µm standard deviation", um(*feature.repeat_zone_sd_mm))
                                 : std::string()));
   }
   if (!from_file)
-    html += entry("Mean temperature",
+    html += entry(tr("Mean temperature"),
                   feature.temperatures ? fixed(feature.temperatures->mean_degC, 2) + " °C" : "–");
   html += dense_entry(feature);
   if (feature.thermal) {
-    html += entry("Brought to 20 °C",
-                  with_note(fixed(1e6 * (feature.thermal->factor - 1.0), 2) + " µm a metre",
-                            fmt::format("U = {} µm a metre (k = 2); part {} °C, scales {} °C",
-                                        fixed(2e6 * feature.thermal->factor_uncertainty, 2),
-                                        fixed(feature.thermal->part_degC, 2),
-                                        fixed(feature.thermal->scale_degC, 2))));
+    html += entry(tr("Brought to 20 °C"),
+                  with_note(trf("{} µm a metre", fixed(1e6 * (feature.thermal->factor - 1.0), 2)),
+                            trf("U = {} µm a metre (k = 2); part {} °C, scales {} °C",
+                                fixed(2e6 * feature.thermal->factor_uncertainty, 2),
+                                fixed(feature.thermal->part_degC, 2),
+                                fixed(feature.thermal->scale_degC, 2))));
   }
   return html;
 }
@@ -154,12 +156,11 @@ std::string data_entries(const FeatureResult& feature) {
 std::string truth_box(const record::SimulationTruth* truth, const std::optional<Zone>& zone,
                       record::Shape shape) {
   if (truth == nullptr) return {};
-  std::string text = fmt::format("<b>Hidden truth of the simulation:</b> {} {} µm",
+  std::string text = fmt::format("<b>{}</b> {} {} µm", tr("Hidden truth of the simulation:"),
                                  symbol_of(shape), um(truth->cylt_mm));
-  if (zone)
-    text += fmt::format("; difference {} µm", signed_um(zone->deviation_mm - truth->cylt_mm));
+  if (zone) text += trf("; difference {} µm", signed_um(zone->deviation_mm - truth->cylt_mm));
   return R"(<div class="truth">)" + text +
-         ". This is not part of the measurement: evaluation never reads it.</div>";
+         tr(". This is not part of the measurement: evaluation never reads it.") + "</div>";
 }
 
 std::string key_numbers(const FeatureResult& feature, const std::optional<Zone>& zone) {
@@ -176,20 +177,25 @@ std::string with_note(const std::string& value, const std::string& note) {
   return note.empty() ? value : value + "<small>" + note + "</small>";
 }
 
+std::string spoken_caption(std::string_view html) {
+  return fmt::format(R"(<caption class="spoken screen-only">{}</caption>)", html);
+}
+
 std::string messages(const FeatureResult& feature) {
   std::string html;
   if (feature.failure) {
     html += fmt::format(
-        R"(<div class="banner alarm"><b>No result.</b> {} <span class="code">{}</span></div>)",
-        isolated(feature.failure->what), core::code_name(feature.failure->code));
+        R"(<div class="banner alarm"><b>{}</b> {}{} <span class="code">{}</span></div>)",
+        tr("No result."), titled(feature.failure->code), foreign(feature.failure->what),
+        core::code_name(feature.failure->code));
   }
   if (feature.warnings.empty()) return html;
   html += R"(<ul class="warnings">)";
   for (const core::Error& warning : feature.warnings) {
     html += fmt::format(
-        R"(<li><b>Warning:</b> {} <span class="code">{}</span>{}</li>)", in_sentence(warning.what),
-        core::code_name(warning.code),
-        warning.where.empty() ? std::string() : fmt::format(" {}", isolated(warning.where)));
+        R"(<li><b>{}</b> {}{} <span class="code">{}</span>{}</li>)", tr("Warning:"),
+        titled(warning.code), in_sentence(warning.what), core::code_name(warning.code),
+        warning.where.empty() ? std::string() : fmt::format(" {}", foreign(warning.where)));
   }
   return html + "</ul>";
 }
@@ -201,26 +207,29 @@ std::string feature_section(const record::RunRecord& record, std::size_t index,
   const record::Feature& asked = feature.feature;
   std::string nominal;
   if (asked.nominal_diameter_mm > 0.0) {
-    nominal = fmt::format(", nominal diameter {:.10g} mm", asked.nominal_diameter_mm);
+    nominal = trf(", nominal diameter {:.10g} mm", asked.nominal_diameter_mm);
   }
   std::string html = fmt::format(
-      R"(<section><h2>Feature {}</h2><p class="note">{} {}{}; {}.</p>)", isolated(asked.id),
-      capitalised(record::name_of(asked.side)), record::name_of(asked.shape), nominal,
-      asked.strategy == record::Strategy::kPointsFile
-          ? std::string("points from a file")
-          : fmt::format("pose search: {}", record::name_of(asked.strategy)));
+      R"(<section><h2>{}</h2><p class="note">{}</p>)", trf("Feature {}", isolated(asked.id)),
+      trf("{} {}{}; {}.", capitalised(tr(record::name_of(asked.side))),
+          tr(record::name_of(asked.shape)), nominal,
+          asked.strategy == record::Strategy::kPointsFile
+              ? tr("points from a file")
+              : trf("pose search: {}", tr(record::name_of(asked.strategy)))));
   html += messages(feature);
   html += key_numbers(feature, zone);
   html += truth_box(truth_of(record, index), zone, feature.feature.shape);
   html += uncertainty_section(feature);
-  if (zone) html += polar_plots(feature, *zone) + deviation_map(feature, *zone) + solid_view(feature, *zone);
+  if (zone)
+    html +=
+        polar_plots(feature, *zone) + deviation_map(feature, *zone) + solid_view(feature, *zone);
   html += harmonics_section(feature);
   if (feature.merged) return html + merged_section(*feature.merged) + "</section>";
   if (feature.poses.empty()) return html + "</section>";
-  html +=
-      R"(<h3>Search for the pose</h3><p class="note">f is the narrowest zone whose axis is held )"
-      "parallel to machine z, so it holds the form of the part and its remaining tilt; the minimum "
-      "zone above is free of the tilt.</p>";
+  html += fmt::format(
+      R"(<h3>{}</h3><p class="note">{}</p>)", tr("Search for the pose"),
+      tr("f is the narrowest zone whose axis is held parallel to machine z, so it holds the form "
+         "of the part and its remaining tilt; the minimum zone above is free of the tilt."));
   return html + pose_plots(feature, zone) + pose_table(feature) + "</section>";
 }
 

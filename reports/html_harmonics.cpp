@@ -34,8 +34,8 @@ std::string against_limits(const FeatureResult& feature, const record::Character
   }
   std::string html = fmt::format(R"(<table class="short"><caption>{}</caption><thead><tr>)",
                                  trf("Harmonics beyond the limits of {}", isolated(asked.id)));
-  for (const std::string& name :
-       {tr("UPR"), tr("Layer"), tr("Amplitude / µm"), tr("Limit / µm"), tr("Beyond by / µm")}) {
+  for (const std::string& name : {std::string("UPR"), tr("Layer"), tr("Amplitude / µm"),
+                                  tr("Limit / µm"), tr("Beyond by / µm")}) {
     html += fmt::format(R"(<th scope="col" class="n">{}</th>)", name);
   }
   return html + "</tr></thead><tbody>" + rows + "</tbody></table>";

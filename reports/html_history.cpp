@@ -15,7 +15,7 @@ std::string history_section(const record::RunRecord& record, const Evaluation& e
     const record::ArchiveResult& result = chart.results.back().result;
     html += fmt::format(R"(<h3>{} · {}</h3><figure><div class="scroll">{}</div><figcaption>)",
                         isolated(result.characteristic),
-                        trf("feature {}", isolated(result.feature)), history_drawing(chart));
+                        trf("Feature {}", isolated(result.feature)), history_drawing(chart));
     if (const std::string words = capability_in_words(chart); !words.empty()) {
       html += "<b>" + in_sentence(words) + "</b> ";
     }

@@ -4,6 +4,7 @@
 
 #include "reports/html_plots.h"
 #include "reports/html_svg.h"
+#include "reports/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -63,7 +64,7 @@ std::string form_symbol(record::Form form) {
   const std::string_view lines = symbol_lines(form);
   return fmt::format(R"(<svg class="symbol" viewBox="0 0 20 20" width="18" height="18" role="img" )"
                      R"(aria-label="{}">{}</svg>)",
-                     record::name_of(form), lines);
+                     tr(record::name_of(form)), lines);
 }
 
 std::string tolerance_bar(const CharacteristicResult& result, double tolerance_mm) {
@@ -75,9 +76,9 @@ std::string tolerance_bar(const CharacteristicResult& result, double tolerance_m
   if (known != nullptr) end_mm = std::max(end_mm, 1.05 * known->high_mm);
   if (outcome) end_mm = std::max(end_mm, 1.05 * outcome->rejection_mm);
   const Scale x{0.0, end_mm, 1.0, kWidth - 1.0};
-  std::string label = fmt::format("{} of {} um", result.value->value_text(), um(tolerance_mm));
+  std::string label = trf("{} of {} um", result.value->value_text(), um(tolerance_mm));
   if (outcome && outcome->acceptance_mm < tolerance_mm) {
-    label += fmt::format(", accepted up to {} um", um(outcome->acceptance_mm));
+    label += trf(", accepted up to {} um", um(outcome->acceptance_mm));
   }
   Svg svg(kWidth, 26.0, "bar", label);
   svg.rect(x.from, 8.0, x.at(tolerance_mm) - x.from, 10.0, "allowed");
@@ -111,17 +112,16 @@ std::string budget_bars(const std::vector<BudgetLine>& budget) {
   if (lines.empty()) return {};
   const Scale x{0.0, most_mm, kFrom, 500.0};
   Svg svg(760.0, kRow * static_cast<double>(lines.size()) + 8.0, "wide budget",
-          "standard uncertainty by each influence alone");
+          tr("standard uncertainty by each influence alone"));
   double y = 4.0;
   for (const BudgetLine* line : lines) {
     const double end = x.at(line->standard_uncertainty_mm);
-    svg.text(kFrom - 10.0, y + 16.0, "end", "label", line->name);
+    svg.text(kFrom - 10.0, y + 16.0, "end", "label", tr(line->name));
     svg.rect(kFrom, y + 4.0, end - kFrom, kRow - 8.0,
              line->measurand == Measurand::kWholeSurface ? "share surface" : "share");
-    svg.text(
-        end + 8.0, y + 16.0, "start", "label",
-        fmt::format("{} \u00b5m, {} %; mean shift {} \u00b5m", um(line->standard_uncertainty_mm),
-                    fixed(100.0 * line->share_1, 0), signed_um(line->shift_mm)));
+    svg.text(end + 8.0, y + 16.0, "start", "label",
+             trf("{} \u00b5m, {} %; mean shift {} \u00b5m", um(line->standard_uncertainty_mm),
+                 fixed(100.0 * line->share_1, 0), signed_um(line->shift_mm)));
     y += kRow;
   }
   return svg.str();

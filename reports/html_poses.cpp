@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "reports/html_sections.h"
+#include "reports/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -31,31 +32,32 @@ std::string pose_table(const FeatureResult& feature) {
   const std::vector<PoseValue>& poses = feature.poses;
   if (poses.empty()) return {};
   const std::set<std::size_t> shown = rows_shown(poses);
-  std::string html =
-      fmt::format(R"(<div class="scroll"><table{}><thead><tr><th class="n">Visit</th><th )"
-                  R"(class="n">alpha / °</th><th class="n">beta / °</th><th class="n">f / µm</th>)"
-                  "<th>Search ended</th><th>Pose</th></tr></thead><tbody>",
-                  shown.size() <= 12 ? R"( class="short")" : "");
+  std::string html = fmt::format(
+      R"(<div class="scroll"><table{}>{}<thead><tr><th scope="col" class="n">{}</th><th )"
+      R"(scope="col" class="n">alpha / °</th><th scope="col" class="n">beta / °</th><th scope="col" class="n">f / µm</th>)"
+      "<th scope=" col ">{}</th><th scope=" col ">{}</th></tr></thead><tbody>",
+      shown.size() <= 12 ? R"( class="short")" : "", spoken_caption(tr("Search for the pose")),
+      tr("Visit"), tr("Search ended"), tr("Pose"));
   std::size_t expected = 0;
   for (const std::size_t i : shown) {
     if (i > expected) {
-      html += fmt::format(R"(<tr><td class="n">…</td><td colspan="5">{} left out</td></tr>)",
-                          count(i - expected, "pose", "poses"));
+      html += fmt::format(R"(<tr><td class="n">…</td><td colspan="5">{}</td></tr>)",
+                          trf("{} left out", count(i - expected, "pose", "poses")));
     }
     expected = i + 1;
     const PoseValue& pose = poses[i];
     html += fmt::format(R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td )"
                         R"(class="n">{}</td><td>{}</td><td>{}{}</td></tr>)",
                         i + 1, deg(pose.pose.alpha_rad), deg(pose.pose.beta_rad),
-                        pose.valid ? f_um(pose.f_mm) : "none", isolated(pose.ending),
-                        pose.physical ? "physical" : "software",
-                        pose.final_pose ? ", <b>final</b>" : "");
+                        pose.valid ? f_um(pose.f_mm) : tr("none"), worded(pose.ending),
+                        pose.physical ? tr("physical") : tr("software"),
+                        pose.final_pose ? fmt::format(", <b>{}</b>", tr("final")) : "");
   }
   html += "</tbody></table></div>";
   if (shown.size() < poses.size()) {
-    html += fmt::format(
-        R"(<p class="note">{} of {} poses were left out here; report.json has all of them.</p>)",
-        poses.size() - shown.size(), poses.size());
+    html += fmt::format(R"(<p class="note">{}</p>)",
+                        trf("{} of {} poses were left out here; report.json has all of them.",
+                            poses.size() - shown.size(), poses.size()));
   }
   return html;
 }

@@ -6,6 +6,7 @@
 #include "reports/html_script.h"
 #include "reports/html_sections.h"
 #include "reports/html_style.h"
+#include "reports/language.h"
 #include "reports/text.h"
 #include "reports/writers.h"
 
@@ -68,7 +69,7 @@ std::string top_of(const std::vector<Part>& parts) {
       R"(<a class="skip screen-only" href="#main">{}</a><header class="top screen-only"><nav )"
       R"(aria-label="{}"><ul>{}</ul></nav><button type="button" class="theme" )"
       R"(aria-pressed="false" hidden="hidden">{}</button></header>)",
-      "Skip to the result", "Contents", links, "Dark colours");
+      tr("Skip to the result"), tr("Contents"), links, tr("Dark colours"));
 }
 
 /// The parts of the page in their order; those that a run has nothing for are left out.
@@ -78,41 +79,49 @@ std::vector<Part> parts_of(const record::RunRecord& record, const Evaluation& ev
   const auto add = [&](std::string id, std::string name, std::string html) {
     if (!html.empty()) parts.push_back({std::move(id), std::move(name), std::move(html)});
   };
-  add("result", "Result", verdict_section(record, evaluation));
+  add("result", tr("Result"), verdict_section(record, evaluation));
   for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
     add(fmt::format("feature-{}", i + 1),
-        fmt::format("Feature {}", isolated(evaluation.features[i].feature.id)),
+        trf("Feature {}", isolated(evaluation.features[i].feature.id)),
         feature_section(record, i, evaluation.features[i]));
   }
-  add("history", "Earlier runs", history_section(record, evaluation, earlier));
-  add("settings", "Settings", probe_section(record, evaluation));
-  add("decisions", "Decisions", decisions_section(record));
-  add("provenance", "Provenance", provenance_section(record));
+  add("history", tr("Earlier runs"), history_section(record, evaluation, earlier));
+  add("settings", tr("Settings"), probe_section(record, evaluation));
+  add("decisions", tr("Decisions"), decisions_section(record));
+  add("provenance", tr("Provenance"), provenance_section(record));
   return parts;
 }
 
 }  // namespace
 
 std::string write_html(const record::RunRecord& record, const Evaluation& evaluation,
-                       const EarlierResults& earlier) {
+                       Language language, const EarlierResults& earlier) {
+  const LanguageScope scope(language);
   const std::vector<Part> parts = parts_of(record, evaluation, earlier);
   std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n{}\n"
+      "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\"/>\n{}\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<title>{} {} - {}</title>\n{}\n</head>\n<body>\n{}\n<main id=\"main\">\n{}\n",
-      policy(), escaped(record.header.part_id), escaped(record.header.serial),
-      name_of(evaluation.verdict), style(), top_of(parts), head_section(record));
+      tag_of(language), policy(), escaped(record.header.part_id), escaped(record.header.serial),
+      tr(name_of(evaluation.verdict)), style(), top_of(parts), head_section(record));
   constexpr std::string_view kTag = "<section";
   for (const Part& part : parts) {
     html += fmt::format("{} id=\"{}\"{}\n", kTag, part.id, part.html.substr(kTag.size()));
   }
-  html += fmt::format(
-      "</main>\n<footer>Made by Rondure from the {} on record; the raw data are in journal.db and "
-      "{} beside this page.</footer>\n<script>",
-      record.series.empty() ? "touches" : "data",
-      record.series.empty() ? "touches.csv" : "series.csv");
+  html += fmt::format("</main>\n<footer>{}</footer>\n<script>",
+                      record.series.empty()
+                          ? tr("Made by Rondure from the touches on record; the raw data are in "
+                               "journal.db and touches.csv beside this page.")
+                          : tr("Made by Rondure from the data on record; the raw data are in "
+                               "journal.db and series.csv beside this page."));
   html += kScript;
   return html + "</script>\n</body>\n</html>\n";
+}
+
+Language language_of_page(std::string_view page) {
+  const std::string mark = fmt::format("<html lang=\"{}\">", tag_of(Language::kChinese));
+  return page.substr(0, 200).find(mark) == std::string_view::npos ? Language::kEnglish
+                                                                  : Language::kChinese;
 }
 
 }  // namespace rondure::reports

@@ -6,6 +6,7 @@
 
 #include "core/units.h"
 #include "reports/html_sections.h"
+#include "reports/language.h"
 #include "reports/plot_curve.h"
 #include "reports/rotary_result.h"
 #include "reports/text.h"
@@ -27,12 +28,12 @@ struct ErrorName {
   const char* truth = "";
 };
 
-constexpr std::array<ErrorName, 6> kErrors = {{{0, "shift along x", "shift_x_um"},
-                                               {1, "shift along y", "shift_y_um"},
-                                               {2, "shift along z", "shift_z_um"},
-                                               {3, "tilt about x", "tilt_x_urad"},
-                                               {4, "tilt about y", "tilt_y_urad"},
-                                               {5, "tilt about z", "tilt_z_urad"}}};
+constexpr std::array<ErrorName, 6> kErrors = {{{0, translatable("shift along x"), "shift_x_um"},
+                                               {1, translatable("shift along y"), "shift_y_um"},
+                                               {2, translatable("shift along z"), "shift_z_um"},
+                                               {3, translatable("tilt about x"), "tilt_x_urad"},
+                                               {4, translatable("tilt about y"), "tilt_y_urad"},
+                                               {5, translatable("tilt about z"), "tilt_z_urad"}}};
 
 double unit_of(Eigen::Index index) { return index < 3 ? kMicrometre : kMicroradian; }
 
@@ -47,7 +48,7 @@ double sigma_of(const fixture::ErrorCovariance& covariance, Eigen::Index index) 
 /// The smooth model with its band.
 Curve model_curve(const fixture::StationMotion& motion, Eigen::Index index) {
   Curve out;
-  out.name = "spline, band ±2 u";
+  out.name = tr("spline, band ±2 u");
   out.css_class = "zone-inner";
   for (int i = 0; i < kCurvePoints; ++i) {
     const double angle =
@@ -61,7 +62,7 @@ Curve model_curve(const fixture::StationMotion& motion, Eigen::Index index) {
 
 Curve station_marks(const fixture::StationMotion& motion, Eigen::Index index) {
   Curve out;
-  out.name = "stations";
+  out.name = tr("stations");
   out.marks_only = true;
   for (const fixture::AxisStation& station : motion.stations()) {
     out.x.push_back(station.angle_rad / kDegree);
@@ -78,11 +79,11 @@ std::string axis_charts(const AxisFacts& axis, const record::Series* truth) {
     if (truth != nullptr) {
       const auto x = truth->column("angle_deg");
       const auto y = truth->column(error.truth);
-      if (x && y) curves.push_back({"hidden truth", "mean", *x, *y});
+      if (x && y) curves.push_back({tr("hidden truth"), "mean", *x, *y});
     }
-    html += line_chart(fmt::format("Axis {}: {}", axis.key, error.title),
+    html += line_chart(trf("Axis {}: {}", axis.key, tr(error.title)),
                        fmt::format("phi {} / °", axis.key),
-                       error.index < 3 ? "error / µm" : "error / µrad", curves);
+                       error.index < 3 ? tr("error / µm") : tr("error / µrad"), curves);
   }
   return html + "</div>";
 }
@@ -93,14 +94,16 @@ std::string with_u(double value, double u, int decimals) {
 
 /// Location and orientation of both axes: what does not depend on the angle.
 std::string location_table(const RotaryFacts& facts) {
-  std::string html =
-      R"(<div class="scroll"><table><thead><tr><th>Axis</th><th>d x / µm</th><th>d y / µm</th>)"
-      R"(<th>d z / µm</th><th>e x / µrad</th><th>e y / µrad</th><th>e z / µrad</th></tr></thead>)"
-      "<tbody>";
+  std::string html = fmt::format(
+      R"(<div class="scroll"><table>{}<thead><tr><th scope="col">{}</th><th scope="col">d x / µm</th><th scope="col">d y / µm</th>)"
+      R"(<th scope="col">d z / µm</th><th scope="col">e x / µrad</th><th scope="col">e y / µrad</th><th scope="col">e z / µrad</th></tr></thead>)"
+      "<tbody>",
+      spoken_caption(tr("Location and orientation of the axes")), tr("Axis"));
   for (const AxisFacts& axis : axes_of(facts)) {
     html += fmt::format("<tr><td>{}</td>", axis.key);
     if (!axis.study->offset) {
-      html += R"(<td colspan="6">the stations span less than 45°: not separated</td></tr>)";
+      html += fmt::format(R"(<td colspan="6">{}</td></tr>)",
+                          tr("the stations span less than 45°: not separated"));
       continue;
     }
     const fit::AxisOffset& o = *axis.study->offset;
@@ -118,10 +121,12 @@ std::string location_table(const RotaryFacts& facts) {
 }
 
 std::string combined_table(const RotaryFacts& facts) {
-  std::string html =
-      R"(<div class="scroll"><table><thead><tr><th>alpha</th><th>beta</th><th>balls</th>)"
-      R"(<th>before, rms / µm</th><th>left, rms / µm</th><th>largest / µm</th>)"
-      "<th>tilt / µrad</th></tr></thead><tbody>";
+  std::string html = fmt::format(
+      R"(<div class="scroll"><table>{}<thead><tr><th scope="col">alpha</th><th scope="col">beta</th><th scope="col">{}</th>)"
+      "<th scope=" col ">{}</th><th scope=" col ">{}</th><th scope=" col ">{}</th><th scope=" col
+      ">{}</th></tr></thead><tbody>",
+      spoken_caption(tr("Combined poses")), tr("balls"), tr("before, rms / µm"),
+      tr("left, rms / µm"), tr("largest / µm"), tr("tilt / µrad"));
   for (const CombinedPose& pose : facts.combined) {
     html += fmt::format(
         "<tr><td>{}°</td><td>{}°</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
@@ -136,24 +141,24 @@ std::string key_numbers(const RotaryFacts& facts) {
   const fixture::Calibration& c = facts.calibration;
   const fixture::Verification& v = c.verification;
   std::string html = R"(<dl class="keys">)";
-  html += entry("Left at combined poses",
-                with_note(um(v.rms_mm) + " µm rms",
-                          fmt::format("{} µm at most, {} µrad; {} µm rms expected", um(v.max_mm),
-                                      fixed(v.max_tilt_rad / kMicroradian, 1), um(v.expected_mm))),
+  html += entry(tr("Left at combined poses"),
+                with_note(trf("{} µm rms", um(v.rms_mm)),
+                          trf("{} µm at most, {} µrad; {} µm rms expected", um(v.max_mm),
+                              fixed(v.max_tilt_rad / kMicroradian, 1), um(v.expected_mm))),
                 "lead");
-  html += entry("Before compensation",
-                with_note(um(v.before_rms_mm) + " µm rms", um(v.before_max_mm) + " µm at most"));
-  html += entry("Fixture",
-                with_note(isolated(c.fixture_id), fmt::format("{} to {}", escaped(c.measured_utc),
-                                                              escaped(c.expires_utc))));
-  html += entry("Touches", with_note(fmt::format("{} of {} balls in {} poses", facts.touches,
-                                                 facts.balls.size(), facts.poses),
-                                     fmt::format("scatter {} µm; u of a centre coordinate {} µm",
-                                                 um(facts.touch_sigma_mm), um(facts.center_u_mm))));
-  html += entry("Condition of the balls",
-                with_note(fixed(facts.condition, 2), "1 is best, above 10 is poor"));
-  html += entry("Drift of the zero pose",
-                with_note(um(facts.alpha.drift_mm) + " µm", "largest, of a ball"));
+  html += entry(tr("Before compensation"), with_note(trf("{} µm rms", um(v.before_rms_mm)),
+                                                     trf("{} µm at most", um(v.before_max_mm))));
+  html += entry(tr("Fixture"),
+                with_note(isolated(c.fixture_id),
+                          trf("{} to {}", escaped(c.measured_utc), escaped(c.expires_utc))));
+  html += entry(tr("Touches"), with_note(trf("{} of {} balls in {} poses", facts.touches,
+                                             facts.balls.size(), facts.poses),
+                                         trf("scatter {} µm; u of a centre coordinate {} µm",
+                                             um(facts.touch_sigma_mm), um(facts.center_u_mm))));
+  html += entry(tr("Condition of the balls"),
+                with_note(fixed(facts.condition, 2), tr("1 is best, above 10 is poor")));
+  html += entry(tr("Drift of the zero pose"),
+                with_note(um(facts.alpha.drift_mm) + " µm", tr("largest, of a ball")));
   return html + "</dl>";
 }
 
@@ -161,19 +166,22 @@ std::string key_numbers(const RotaryFacts& facts) {
 
 std::string RotaryResult::html(const record::RunRecord& record, int feature) const {
   std::string html = key_numbers(facts_);
-  html += "<h3>Combined poses</h3>" + combined_table(facts_);
-  html += "<h3>Location and orientation of the axes</h3>" + location_table(facts_);
-  html +=
-      R"(<p class="note">Displacement d and tilt e of the real axis against the stated one, ± 2 u, )"
-      "as far as an axis beside its place explains the errors below. Compensation uses the whole "
-      "errors.</p>";
+  html += fmt::format("<h3>{}</h3>{}", tr("Combined poses"), combined_table(facts_));
+  html += fmt::format("<h3>{}</h3>{}", tr("Location and orientation of the axes"),
+                      location_table(facts_));
+  html += fmt::format(
+      R"(<p class="note">{}</p>)",
+      tr("Displacement d and tilt e of the real axis against the stated one, ± 2 u, as far as an "
+         "axis beside its place explains the errors below. Compensation uses the whole errors."));
   for (const AxisFacts& axis : axes_of(facts_)) {
-    html += fmt::format("<h3>{}</h3>", axis.name);
+    html += fmt::format("<h3>{}</h3>", tr(axis.name));
     html += axis_charts(axis, record.truth_series_of(feature, axis.key));
   }
   return html +
-         R"(<p class="note">Errors relative to the zero pose, at the axis. A dashed line, where there )"
-         "is one, is the hidden truth of the simulation: evaluation never reads it.</p>";
+         fmt::format(
+             R"(<p class="note">{}</p>)",
+             tr("Errors relative to the zero pose, at the axis. A dashed line, where there "
+                "is one, is the hidden truth of the simulation: evaluation never reads it."));
 }
 
 }  // namespace rondure::reports

@@ -41,6 +41,8 @@ namespace rondure::reports {
 /// A value with small print below it.
 [[nodiscard]] std::string with_note(const std::string& value, const std::string& note);
 
+/// The name of a table for those who do not see the heading above it; HTML already.
+[[nodiscard]] std::string spoken_caption(std::string_view html);
 /// "<div><dt>name</dt><dd>html</dd></div>"; both are HTML already.
 [[nodiscard]] std::string entry(std::string_view name, std::string_view html,
                                 std::string_view css_class = {});

@@ -4,6 +4,7 @@
 
 #include "core/units.h"
 #include "reports/html_sections.h"
+#include "reports/language.h"
 #include "reports/plot_curve.h"
 #include "reports/spindle_result.h"
 #include "reports/text.h"
@@ -26,13 +27,11 @@ std::vector<double> profile_angles(const fit::UniformProfile& profile) {
 
 std::string motion_entry(const std::string& direction, const fit::AxisMotion& motion) {
   return entry(
-      "Motion " + direction + ", total",
+      trf("Motion {}, total", direction),
       with_note(um(motion.total_mm) + " µm",
-                fmt::format("synchronous {} µm, {}", um(motion.synchronous_mm),
-                            motion.asynchronous_mm
-                                ? fmt::format("asynchronous {} µm", um(*motion.asynchronous_mm))
-                                : std::string("one revolution shows no asynchronous "
-                                              "part"))));
+                trf("synchronous {} µm, {}", um(motion.synchronous_mm),
+                    motion.asynchronous_mm ? trf("asynchronous {} µm", um(*motion.asynchronous_mm))
+                                           : tr("one revolution shows no asynchronous part"))));
 }
 
 std::string key_numbers(const SpindleFacts& facts) {
@@ -46,33 +45,35 @@ std::string key_numbers(const SpindleFacts& facts) {
                          um(value.parameters->valley_mm), um(value.parameters->rms_mm));
     }
     const std::string name =
-        fmt::format("Part, RONt about {}CI", ls                                             ? "LS"
-                                             : value.reference == fit::CircleReference::kMz ? "MZ"
-                                             : value.reference == fit::CircleReference::kMc ? "MC"
-                                                                                            : "MI");
+        trf("Part, RONt about {}CI", ls                                             ? "LS"
+                                     : value.reference == fit::CircleReference::kMz ? "MZ"
+                                     : value.reference == fit::CircleReference::kMc ? "MC"
+                                                                                    : "MI");
     html += entry(name, with_note(um(value.total_mm) + " µm", note), ls ? "lead" : "");
   }
   html += motion_entry("X", facts.x) + motion_entry("Y", facts.y);
-  html += entry("Eccentricity",
+  html += entry(tr("Eccentricity"),
                 with_note(um(s.eccentricity_mm) + " µm",
-                          fmt::format("toward {}° on the part; taken out of the motion, with any "
-                                      "motion of the same shape",
-                                      deg(s.eccentricity_rad, 2))));
-  html += entry("Noise of a reading",
-                with_note(um(s.noise_mm) + " µm", s.noise_estimated ? "estimated from the readings"
-                                                                    : "as stated in the plan"));
-  html += entry("Profile known to", with_note(um(s.profile_sigma_mm) + " µm",
-                                              "rms, one standard uncertainty from probe noise"));
-  html += entry("Check at one undulation",
+                          trf("toward {}° on the part; taken out of the motion, with any "
+                              "motion of the same shape",
+                              deg(s.eccentricity_rad, 2))));
+  html +=
+      entry(tr("Noise of a reading"),
+            with_note(um(s.noise_mm) + " µm", s.noise_estimated ? tr("estimated from the readings")
+                                                                : tr("as stated in the plan")));
+  html += entry(tr("Profile known to"),
+                with_note(um(s.profile_sigma_mm) + " µm",
+                          tr("rms, one standard uncertainty from probe noise")));
+  html += entry(tr("Check at one undulation"),
                 with_note(um(s.first_harmonic_mm) + " µm",
-                          fmt::format("must vanish; limit {} µm. A pass is no proof of the angles",
-                                      um(s.first_harmonic_limit_mm))));
+                          trf("must vanish; limit {} µm. A pass is no proof of the angles",
+                              um(s.first_harmonic_limit_mm))));
   const auto angles = s.layout.angles_rad();
   html +=
-      entry("Probes",
-            fmt::format("{} with probes at 0°, {}° and {}°; weights 1, {}, {}",
-                        facts.arm.swings() ? "tracking" : "static", deg(angles[1]), deg(angles[2]),
-                        fixed(s.layout.weights()[1], 6), fixed(s.layout.weights()[2], 6)),
+      entry(tr("Probes"),
+            trf("{} with probes at 0°, {}° and {}°; weights 1, {}, {}",
+                facts.arm.swings() ? tr("tracking") : tr("static"), deg(angles[1]), deg(angles[2]),
+                fixed(s.layout.weights()[1], 6), fixed(s.layout.weights()[2], 6)),
             "wide-key");
   return html + "</dl>";
 }
@@ -83,7 +84,7 @@ void add_truth(const record::Series* truth, const char* column, std::vector<Curv
   const auto angles = truth->column("angle_deg");
   auto values = truth->column(column);
   if (!angles || !values) return;
-  Curve curve{"hidden truth", "zone-outer", {}, *std::move(values)};
+  Curve curve{tr("hidden truth"), "zone-outer", {}, *std::move(values)};
   for (const double angle : *angles) curve.x.push_back(angle * core::kDegree);
   curves.push_back(std::move(curve));
 }
@@ -92,23 +93,23 @@ std::string part_plot(const SpindleFacts& facts, const record::Series* truth) {
   std::vector<Curve> curves;
   add_truth(truth, "profile_um", curves);
   const fit::UniformProfile& profile = facts.separation.profile;
-  curves.push_back({"part", "profile", profile_angles(profile), scaled_um(profile.r_mm)});
-  return polar_chart("Part, harmonics recovered", curves);
+  curves.push_back({tr("part"), "profile", profile_angles(profile), scaled_um(profile.r_mm)});
+  return polar_chart(tr("Part, harmonics recovered"), curves);
 }
 
-std::string motion_plot(const char* title, const std::vector<double>& alpha_rad,
+std::string motion_plot(const std::string& title, const std::vector<double>& alpha_rad,
                         const fit::AxisMotion& motion) {
   std::vector<Curve> curves;
   for (std::size_t j = 0; j < motion.turns_mm.size() && motion.turns_mm.size() > 1; ++j) {
-    curves.push_back(
-        {j == 0 ? "revolutions" : "", "guide", alpha_rad, scaled_um(motion.turns_mm[j])});
+    curves.push_back({j == 0 ? tr("revolutions") : std::string(), "guide", alpha_rad,
+                      scaled_um(motion.turns_mm[j])});
   }
-  curves.push_back({"synchronous", "profile", alpha_rad, scaled_um(motion.mean_mm)});
+  curves.push_back({tr("synchronous"), "profile", alpha_rad, scaled_um(motion.mean_mm)});
   return polar_chart(title, curves);
 }
 
 /// What the mean revolution leaves of every revolution.
-std::string asynchronous_plot(const char* title, const std::vector<double>& alpha_rad,
+std::string asynchronous_plot(const std::string& title, const std::vector<double>& alpha_rad,
                               const fit::AxisMotion& motion) {
   if (motion.turns_mm.size() < 2) return {};
   std::vector<Curve> curves;
@@ -134,20 +135,21 @@ std::string harmonic_plots(const SpindleFacts& facts,
     for (const record::HarmonicLimit& line : characteristic.harmonic_limits)
       limits.push_back({line.first, line.last, line.amplitude_mm / core::kMicrometre});
   }
-  std::string html = R"(<h3>Harmonics of the part</h3><div class="scroll">)";
-  html +=
-      bar_chart("Amplitudes before the filter; lines: limits of the mask; crosses: not recovered",
-                "undulations per revolution", "amplitude in µm", amplitudes, limits) +
-      bar_chart("Noise gain: how much the separation amplifies the noise of a probe",
-                "undulations per revolution", "gain", gains);
-  return html + "</div>";
+  const std::string orders = tr("undulations per revolution");
+  return fmt::format(
+      R"(<h3>{}</h3><div class="scroll">{}{}</div>)", tr("Harmonics of the part"),
+      bar_chart(tr("Amplitudes before the filter; lines: limits of the mask; crosses: not "
+                   "recovered"),
+                orders, tr("amplitude in µm"), amplitudes, limits),
+      bar_chart(tr("Noise gain: how much the separation amplifies the noise of a probe"), orders,
+                tr("gain"), gains));
 }
 
 std::string harmonic_row(const fit::RecoveredHarmonic& h) {
   return fmt::format(
       R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td>)"
       R"(<td class="n">{}</td><td class="n">{}</td></tr>)",
-      h.order, h.recovered ? fixed(h.amplitude_mm / core::kMicrometre, 4) : "not recovered",
+      h.order, h.recovered ? fixed(h.amplitude_mm / core::kMicrometre, 4) : tr("not recovered"),
       h.phase_rad ? deg(*h.phase_rad, 2) : "–",
       h.recovered ? fixed(h.sigma_mm / core::kMicrometre, 4) : "–", fixed(h.gain, 2),
       h.attenuation < 1.0 ? fixed(h.attenuation, 4) : "–");
@@ -162,13 +164,13 @@ std::string harmonic_table(const fit::ThreeProbeResult& s) {
   const std::size_t count = std::min(shown.size(), s.unrecovered.size() + 10);
   std::string rows;
   for (std::size_t i = 0; i < count; ++i) rows += harmonic_row(shown[i]);
-  std::string html =
-      R"(<div class="scroll"><table class="short"><thead><tr><th class="n">UPR</th><th class="n">)"
-      R"(Amplitude µm</th><th class="n">Phase °</th><th class="n">u µm</th><th class="n">Gain</th>)"
-      R"(<th class="n">Attenuation</th></tr></thead><tbody>)";
-  return html + rows +
-         R"(</tbody></table></div><p class="note">The ten largest, and those not recovered; all are )"
-         "in report.json.</p>";
+  return fmt::format(
+      R"(<div class="scroll"><table class="short">{}<thead><tr><th scope="col" class="n">UPR</th><th scope="col" class="n">)"
+      R"({}</th><th scope="col" class="n">{}</th><th scope="col" class="n">u µm</th><th scope="col" class="n">{}</th>)"
+      R"(<th scope="col" class="n">{}</th></tr></thead><tbody>{}</tbody></table></div><p class="note">{}</p>)",
+      spoken_caption(tr("Harmonics of the part")), tr("Amplitude µm"), tr("Phase °"), tr("Gain"),
+      tr("Attenuation"), rows,
+      tr("The ten largest, and those not recovered; all are in report.json."));
 }
 
 }  // namespace
@@ -177,16 +179,16 @@ std::string SpindleResult::html(const record::RunRecord& record, int feature) co
   const fit::ThreeProbeResult& s = facts_.separation;
   const record::Series* truth = record.truth_series_of(feature, "truth");
   std::string html = key_numbers(facts_);
-  html +=
-      R"(<h3>Part and motion</h3><p class="note">Deviations against a mean circle; every plot has )"
-      "its own magnification, the bar says which. Motion is shown over the work angle, about the "
-      "least-squares centre of its mean revolution (ISO 230-7, fixed direction).</p>"
-      R"(<div class="multiples">)";
+  html += fmt::format(
+      R"(<h3>{}</h3><p class="note">{}</p><div class="multiples">)", tr("Part and motion"),
+      tr("Deviations against a mean circle; every plot has its own magnification, the bar says "
+         "which. Motion is shown over the work angle, about the least-squares centre of its mean "
+         "revolution (ISO 230-7, fixed direction)."));
   html += part_plot(facts_, truth);
-  html += motion_plot("Motion X", s.alpha_rad, facts_.x);
-  html += motion_plot("Motion Y", s.alpha_rad, facts_.y);
-  html += asynchronous_plot("Asynchronous X", s.alpha_rad, facts_.x);
-  html += asynchronous_plot("Asynchronous Y", s.alpha_rad, facts_.y);
+  html += motion_plot(tr("Motion X"), s.alpha_rad, facts_.x);
+  html += motion_plot(tr("Motion Y"), s.alpha_rad, facts_.y);
+  html += asynchronous_plot(tr("Asynchronous X"), s.alpha_rad, facts_.x);
+  html += asynchronous_plot(tr("Asynchronous Y"), s.alpha_rad, facts_.y);
   html += "</div>";
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
   return html + harmonic_plots(facts_, asked) + harmonic_table(s);

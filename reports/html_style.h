@@ -31,6 +31,8 @@ button{font:inherit;font-size:13px;color:var(--ink);background:var(--pale);borde
 padding:3px 11px;min-height:28px;min-width:28px;cursor:pointer}
 button[aria-pressed=true]{background:var(--ink);color:var(--paper)}
 button[hidden],.tools[hidden]{display:none}
+.spoken{position:absolute;width:1px;height:1px;overflow:hidden;clip-path:inset(50%);white-space:nowrap}
+caption{text-align:left;font-weight:600;font-size:13.5px;padding:4px 0}
 .print-only{display:none}
 .brand{display:flex;justify-content:space-between;gap:16px;color:var(--soft);font-size:13px;
 border-bottom:1px solid var(--line);padding-bottom:10px;flex-wrap:wrap}

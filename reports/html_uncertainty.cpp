@@ -5,57 +5,60 @@
 #include "reports/facts.h"
 #include "reports/html_plots.h"
 #include "reports/html_sections.h"
+#include "reports/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
 
 /// What the letters of the formula stand for.
-constexpr const char* kLetters =
+constexpr const char* kLetters = translatable(
     "T: the tolerance; y: the value corrected for noise (and, of the whole surface, for sparse "
     "sampling); [lo, hi]: its coverage interval; U: half its width. In the bars above: the line is "
     "T, "
-    "the shaded band about it the guard bands, the whisker the interval.";
+    "the shaded band about it the guard bands, the whisker the interval.");
 
 std::string statements(const DecisionRule& rule) {
   std::string html;
-  const auto add = [&](const char* name, const std::string& text) {
+  const auto add = [&](const std::string& name, const std::string& text) {
     if (!text.empty()) html += entry(name, isolated(text));
   };
-  add("Zones", rule.zones);
-  add("Outcomes", rule.outcomes);
-  add("Repeated measurements", rule.repeats);
-  add("Outliers", rule.outliers);
+  add(tr("Zones"), rule.zones);
+  add(tr("Outcomes"), rule.outcomes);
+  add(tr("Repeated measurements"), rule.repeats);
+  add(tr("Outliers"), rule.outliers);
   return html.empty() ? html : "<dl>" + html + "</dl>";
 }
 
-std::string statement_entry(const char* name, const UncertaintyStatement& s, double coverage_1) {
+std::string statement_entry(const std::string& name, const UncertaintyStatement& s,
+                            double coverage_1) {
   const int decimals = decimals_for(s.expanded_mm());
   const auto number = [&](double mm) { return fixed(mm * 1e3, decimals); };
-  return entry(
-      name,
-      with_note(
-          fmt::format("{} µm [{}, {}]", number(s.estimate_mm), number(s.low_mm), number(s.high_mm)),
-          fmt::format("corrected value; {:g} % interval, U = {} µm, standard uncertainty {} "
-                      "µm; numbers stable to {} µm",
-                      100.0 * coverage_1, number(s.expanded_mm()),
-                      fixed(s.standard_uncertainty_mm * 1e3, decimals + 1),
-                      tiny_um(s.numerical_tolerance_mm))),
-      "lead");
+  return entry(name,
+               with_note(fmt::format("{} µm [{}, {}]", number(s.estimate_mm), number(s.low_mm),
+                                     number(s.high_mm)),
+                         trf("corrected value; {:g} % interval, U = {} µm, standard uncertainty {} "
+                             "µm; numbers stable to {} µm",
+                             100.0 * coverage_1, number(s.expanded_mm()),
+                             fixed(s.standard_uncertainty_mm * 1e3, decimals + 1),
+                             tiny_um(s.numerical_tolerance_mm))),
+               "lead");
 }
 
 std::string bias_entries(const UncertaintyResult& u) {
-  std::string html = entry("Bias by noise", with_note(signed_um(u.noise_inflation_mm) + " µm",
-                                                      "expected inflation: measured minus free of "
-                                                      "noise, at the sampled points"));
+  std::string html =
+      entry(tr("Bias by noise"), with_note(signed_um(u.noise_inflation_mm) + " µm",
+                                           tr("expected inflation: measured minus free of noise, "
+                                              "at the sampled points")));
   html += u.sampling_loss_mm
-              ? entry("Bias by sparse sampling",
+              ? entry(tr("Bias by sparse sampling"),
                       with_note(signed_um(*u.sampling_loss_mm) + " µm",
-                                "expected loss: at the sampled points minus of the whole surface"))
-              : entry("Bias by sparse sampling",
-                      with_note("not stated",
-                                "no form spectrum was declared: nothing is said of "
-                                "the surface between the points"));
+                                tr("expected loss: at the sampled points minus of the whole "
+                                   "surface")))
+              : entry(tr("Bias by sparse sampling"),
+                      with_note(tr("not stated"),
+                                tr("no form spectrum was declared: nothing is said of the surface "
+                                   "between the points")));
   return html;
 }
 
@@ -64,37 +67,40 @@ std::string declaration(const std::vector<InfluenceStatement>& influences) {
   for (const bool covered : {true, false}) {
     for (const InfluenceStatement& influence : influences) {
       if (influence.covered != covered) continue;
-      rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>", isolated(influence.name),
-                          covered ? "covered" : "<b>not covered</b>", in_sentence(influence.text));
+      rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>", worded(influence.name),
+                          covered ? tr("covered") : fmt::format("<b>{}</b>", tr("not covered")),
+                          in_sentence(influence.text));
     }
   }
-  return R"(<table class="short"><thead><tr><th>Influence</th><th>In the interval</th>)"
-         "<th>As declared</th></tr></thead><tbody>" +
-         rows + "</tbody></table>";
+  return fmt::format(
+      R"(<table class="short">{}<thead><tr><th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th></tr>)"
+      "</thead><tbody>{}</tbody></table>",
+      spoken_caption(tr("Influence")), tr("Influence"), tr("In the interval"), tr("As declared"),
+      rows);
 }
 
 std::string value_part(const CharacteristicResult& result) {
   const UncertaintyStatus& status = result.value->uncertainty();
   const UncertaintyResult& u = *status.result();
-  std::string html = fmt::format(
-      R"(<h3>Uncertainty of {}</h3><p class="note">{}. Monte Carlo of {} trials (JCGM 101).</p>)",
-      isolated(result.characteristic.id), in_sentence(result.value->sentence()), u.trials);
+  std::string html = fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)",
+                                 trf("Uncertainty of {}", isolated(result.characteristic.id)),
+                                 trf("{}. Monte Carlo of {} trials (JCGM 101).",
+                                     in_sentence(result.value->sentence()), u.trials));
   html += R"(<dl class="keys">)";
-  html += entry("As measured, not corrected", um(u.uncorrected_mm) + " µm");
-  html += statement_entry("At the sampled points, free of noise", u.sampled, status.coverage_1());
+  html += entry(tr("As measured, not corrected"), um(u.uncorrected_mm) + " µm");
+  html +=
+      statement_entry(tr("At the sampled points, free of noise"), u.sampled, status.coverage_1());
   if (u.whole) {
-    html += statement_entry("Of the whole surface", *u.whole, status.coverage_1());
-    html += entry("Form spectrum of it", in_sentence(u.spectrum_source), "wide-key");
+    html += statement_entry(tr("Of the whole surface"), *u.whole, status.coverage_1());
+    html += entry(tr("Form spectrum of it"), in_sentence(u.spectrum_source), "wide-key");
   }
   html += bias_entries(u) + "</dl>";
   if (const std::string bars = budget_bars(u.budget); !bars.empty()) {
     html += fmt::format(
-        R"(<figure><div class="scroll">{}</div><figcaption>Budget: what each influence does alone, )"
-        "ranked: standard uncertainty, share of the sum of squares, mean shift of the value. Blue: "
-        "at "
-        "the sampled points, shares among themselves; orange: of the whole surface, share of all."
-        "</figcaption></figure>",
-        bars);
+        R"(<figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)", bars,
+        tr("Budget: what each influence does alone, ranked: standard uncertainty, share of the sum "
+           "of squares, mean shift of the value. Blue: at the sampled points, shares among "
+           "themselves; orange: of the whole surface, share of all."));
   }
   return html + declaration(u.declaration);
 }
@@ -103,12 +109,12 @@ std::string value_part(const CharacteristicResult& result) {
 
 std::string rule_section(const Evaluation& evaluation) {
   if (!evaluation.rule || !evaluation.rule->needs_interval()) {
-    return fmt::format(R"(<p class="note">Decision rule: {}.</p>)",
-                       in_sentence(rule_sentence(evaluation)));
+    return fmt::format(R"(<p class="note">{}</p>)",
+                       trf("Decision rule: {}.", in_sentence(rule_sentence(evaluation))));
   }
-  return fmt::format(
-      R"(<div class="rule"><b>Decision rule.</b> {}.<div class="note">{}</div>{}</div>)",
-      in_sentence(rule_sentence(evaluation)), kLetters, statements(*evaluation.rule));
+  return fmt::format(R"(<div class="rule"><b>{}</b> {}<div class="note">{}</div>{}</div>)",
+                     tr("Decision rule."), trf("{}.", in_sentence(rule_sentence(evaluation))),
+                     tr(kLetters), statements(*evaluation.rule));
 }
 
 std::string uncertainty_section(const FeatureResult& feature) {

@@ -6,6 +6,7 @@
 #include "reports/facts.h"
 #include "reports/html_plots.h"
 #include "reports/html_sections.h"
+#include "reports/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -34,27 +35,29 @@ std::string sentence(const Evaluation& evaluation) {
       if (result.verdict == Verdict::kConforms) ++conforming;
     }
   }
-  if (toleranced == 0) return "No characteristic has a tolerance.";
+  if (toleranced == 0) return tr("No characteristic has a tolerance.");
   if (toleranced > 1) {
-    return fmt::format("{} of {} toleranced characteristics {}.", conforming, toleranced,
-                       conforming == 1 ? "conforms" : "conform");
+    return conforming == 1
+               ? trf("{} of {} toleranced characteristics conforms.", conforming, toleranced)
+               : trf("{} of {} toleranced characteristics conform.", conforming, toleranced);
   }
   const std::string limit = um(*only->characteristic.tolerance_mm);
-  if (!only->value) return fmt::format("There is no value to hold against {} µm.", limit);
-  return fmt::format("{} {}, limit {} µm.", symbol_of(only->characteristic),
-                     in_sentence(only->value->value_text()), limit);
+  if (!only->value) return trf("There is no value to hold against {} µm.", limit);
+  return trf("{} {}, limit {} µm.", tr(symbol_of(only->characteristic)),
+             in_sentence(only->value->value_text()), limit);
 }
 
 std::string unfinished_banner(const record::RunRecord& record, const Evaluation& evaluation) {
   if (record.ending == "finished") return {};
-  std::string html = R"(<div class="banner alarm"><b>This run did not finish.</b> )";
-  html += record.ending.empty() ? "It has no end on record."
-                                : fmt::format("It ended: {}.", isolated(record.ending));
+  std::string html =
+      fmt::format(R"(<div class="banner alarm"><b>{}</b> )", tr("This run did not finish."));
+  html += record.ending.empty() ? tr("It has no end on record.")
+                                : trf("It ended: {}.", worded(record.ending));
   if (record.failure) {
-    html += fmt::format(R"( Reason: {} <span class="code">{}</span>)",
-                        isolated(record.failure->what), core::code_name(record.failure->code));
-    if (!record.failure->where.empty())
-      html += fmt::format(" at {}", isolated(record.failure->where));
+    html += fmt::format(R"( {} {}{} <span class="code">{}</span>)", tr("Reason:"),
+                        titled(record.failure->code), foreign(record.failure->what),
+                        core::code_name(record.failure->code));
+    if (!record.failure->where.empty()) html += trf(" at {}", foreign(record.failure->where));
   }
   html += "<ul>";
   for (const std::string& part : missing_parts(record, evaluation)) {
@@ -74,9 +77,8 @@ std::string tolerance_frame(const record::Characteristic& asked) {
 std::string bar_cell(const CharacteristicResult& result) {
   const auto& limit = result.characteristic.tolerance_mm;
   if (!result.value || !limit || !(*limit > 0.0)) return "<td></td>";
-  return fmt::format(R"(<td>{}<div class="note">{} % of the limit</div></td>)",
-                     tolerance_bar(result, *limit),
-                     fixed(100.0 * result.value->value_mm() / *limit, 0));
+  return fmt::format(R"(<td>{}<div class="note">{}</div></td>)", tolerance_bar(result, *limit),
+                     trf("{} % of the limit", fixed(100.0 * result.value->value_mm() / *limit, 0)));
 }
 
 /// The value, with its interval below where there is one.
@@ -96,8 +98,8 @@ std::string value_cell(const StatedValue& value) {
 
 /// A probability that was counted in trials: none of n is less than one of n.
 std::string percent(double share_1, double trials) {
-  if (share_1 * trials < 0.5) return fmt::format("below {:.2g} %", 100.0 / trials);
-  if ((1.0 - share_1) * trials < 0.5) return fmt::format("above {:.6g} %", 100.0 - 100.0 / trials);
+  if (share_1 * trials < 0.5) return trf("below {:.2g} %", 100.0 / trials);
+  if ((1.0 - share_1) * trials < 0.5) return trf("above {:.6g} %", 100.0 - 100.0 / trials);
   return fmt::format("{:.4g} %", 100.0 * share_1);
 }
 
@@ -106,15 +108,15 @@ std::string risks_in_words(const CharacteristicResult& result) {
   std::string html;
   if (!result.outcome->conformance_1) return html;
   const double trials = result.value->uncertainty().result()->trials;
-  html += fmt::format("<br/>Probability of conformance: {}.",
-                      percent(*result.outcome->conformance_1, trials));
+  html += "<br/>" +
+          trf("Probability of conformance: {}.", percent(*result.outcome->conformance_1, trials));
   if (const auto risk = result.outcome->specific_risk_1()) {
-    html += fmt::format(" Specific {} risk of this verdict: {}.",
-                        result.verdict == Verdict::kConforms ? "consumer's" : "producer's",
-                        percent(*risk, trials));
+    html += result.verdict == Verdict::kConforms
+                ? trf(" Specific consumer's risk of this verdict: {}.", percent(*risk, trials))
+                : trf(" Specific producer's risk of this verdict: {}.", percent(*risk, trials));
   }
   if (result.risks) {
-    html += fmt::format(
+    html += trf(
         " Over the parts of the stated prior: {} conform not and are accepted (global consumer's "
         "risk), {} conform and are rejected (global producer's risk).",
         percent(result.risks->false_acceptance_1, trials),
@@ -125,25 +127,25 @@ std::string risks_in_words(const CharacteristicResult& result) {
 
 std::string row(const FeatureResult& feature, const CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
-  std::string html = fmt::format(
-      R"(<tr><td>{}<span class="id">{}</span><div class="note">{} {} · feature {}</div></td>)",
-      tolerance_frame(asked), isolated(asked.id), symbol_of(asked), reference_of(asked),
-      isolated(feature.feature.id));
-  html += fmt::format(R"(<td class="n" data-l="Value">{}</td>)",
-                      result.value ? value_cell(*result.value) : "none");
-  html += fmt::format(R"(<td class="n" data-l="Limit">{}</td>)",
-                      asked.tolerance_mm ? um(*asked.tolerance_mm) + " µm" : "none");
+  std::string html =
+      fmt::format(R"(<tr><td>{}<span class="id">{}</span><div class="note">{}</div></td>)",
+                  tolerance_frame(asked), isolated(asked.id),
+                  trf("{} {} · feature {}", tr(symbol_of(asked)), reference_of(asked),
+                      isolated(feature.feature.id)));
+  html += fmt::format(R"(<td class="n" data-l="{}">{}</td>)", tr("Value"),
+                      result.value ? value_cell(*result.value) : tr("none"));
+  html += fmt::format(R"(<td class="n" data-l="{}">{}</td>)", tr("Limit"),
+                      asked.tolerance_mm ? um(*asked.tolerance_mm) + " µm" : tr("none"));
   html += bar_cell(result);
   html += fmt::format(R"(<td class="verdict-word {}">{}{}</td>)", css_name(result.verdict),
-                      verdict_mark(result.verdict, 20), capitalised(name_of(result.verdict)));
-  html += asked.drawing_zone.empty()
-              ? std::string("<td></td></tr>")
-              : fmt::format(R"(<td data-l="Zone">{}</td></tr>)", isolated(asked.drawing_zone));
-  std::string words = in_sentence(capitalised(result.reason));
+                      verdict_mark(result.verdict, 20), capitalised(tr(name_of(result.verdict))));
+  html += asked.drawing_zone.empty() ? std::string("<td></td></tr>")
+                                     : fmt::format(R"(<td data-l="{}">{}</td></tr>)", tr("Zone"),
+                                                   isolated(asked.drawing_zone));
+  std::string words = opening_sentence(result.reason);
   if (result.outcome) words += risks_in_words(result);
   if (result.value)
-    words +=
-        fmt::format("<br/>Verification operator: {}", in_sentence(result.value->operator_text()));
+    words += "<br/>" + trf("Verification operator: {}", in_sentence(result.value->operator_text()));
   return html + R"(<tr class="words"><td colspan="6">)" + words + "</td></tr>";
 }
 
@@ -152,10 +154,12 @@ std::string results_table(const Evaluation& evaluation) {
   for (const FeatureResult& feature : evaluation.features) {
     for (const CharacteristicResult& result : feature.characteristics) rows += row(feature, result);
   }
-  if (rows.empty()) return "<p>No characteristic was asked for.</p>";
-  return R"(<table class="results"><thead><tr><th>Characteristic</th><th class="n">Value</th>)"
-         R"(<th class="n">Limit</th><th>Value against limit</th><th>Verdict</th><th>Zone</th></tr>)"
-         "</thead><tbody>" +
+  if (rows.empty()) return fmt::format("<p>{}</p>", tr("No characteristic was asked for."));
+  return fmt::format(
+             R"(<table class="results">{}<thead><tr><th scope="col">{}</th><th scope="col" class="n">{}</th>)"
+             R"(<th scope="col" class="n">{}</th><th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th></tr></thead><tbody>)",
+             spoken_caption(tr("Result")), tr("Characteristic"), tr("Value"), tr("Limit"),
+             tr("Value against limit"), tr("Verdict"), tr("Zone")) +
          rows + "</tbody></table>";
 }
 
@@ -168,15 +172,15 @@ std::string entry(std::string_view name, std::string_view html, std::string_view
 
 std::string head_section(const record::RunRecord& record) {
   const record::Header& header = record.header;
-  std::string html = fmt::format(R"(<header><div class="brand"><span><b>RONDURE</b> cylindricity )"
-                                 "report</span><span>{}</span></div>",
-                                 isolated(header.started_utc));
+  std::string html = fmt::format(
+      R"(<header><div class="brand"><span><b>RONDURE</b> {}</span><span>{}</span></div>)",
+      tr("cylindricity report"), isolated(header.started_utc));
   html += fmt::format("<h1>{}", isolated(header.part_id));
   if (!header.part_name.empty()) html += fmt::format(" {}", isolated(header.part_name));
   html += R"(</h1><dl class="facts">)";
-  html += fact("Serial", header.serial) + fact("Drawing", header.drawing) +
-          fact("Plan", header.plan_name) + fact("Revision", header.plan_revision) +
-          fact("Operator", header.operator_name) + fact("Run", header.run_id);
+  html += fact(tr("Serial"), header.serial) + fact(tr("Drawing"), header.drawing) +
+          fact(tr("Plan"), header.plan_name) + fact(tr("Revision"), header.plan_revision) +
+          fact(tr("Operator"), header.operator_name) + fact(tr("Run"), header.run_id);
   return html + "</dl></header>";
 }
 
@@ -187,10 +191,11 @@ std::string verdict_section(const record::RunRecord& record, const Evaluation& e
   html += fmt::format(
       R"(<div class="verdict">{}<div><div class="word {}" role="heading" aria-level="2">{}</div><div class="why">{}</div>)"
       "</div></div>",
-      verdict_mark(verdict, 76), css_name(verdict), capitalised(name_of(verdict)),
+      verdict_mark(verdict, 76), css_name(verdict), capitalised(tr(name_of(verdict))),
       sentence(evaluation));
   if (record.header.simulated) {
-    html += R"(<div class="banner"><b>Simulated:</b> no real part was measured.</div>)";
+    html += fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)", tr("Simulated:"),
+                        tr("no real part was measured."));
   }
   html += results_table(evaluation);
   return html + rule_section(evaluation) + "</section>";

@@ -29,16 +29,22 @@ const Table& table() {
   return all;
 }
 
+/// A format in both languages.
+struct TwoFormats {
+  SentenceFormat english;
+  SentenceFormat chinese;
+};
+
 /// The formats of sentences, those with the longest words first: the most particular one counts.
-const std::vector<std::pair<SentenceFormat, std::string_view>>& sentences() {
+const std::vector<TwoFormats>& sentences() {
   static const auto all = [] {
-    std::vector<std::pair<SentenceFormat, std::string_view>> out;
+    std::vector<TwoFormats> out;
     for (const Translation& line : chinese_sentences()) {
-      SentenceFormat format(line.english);
-      if (format.arguments() > 0) out.emplace_back(std::move(format), line.chinese);
+      if (line.english.find('{') == std::string_view::npos) continue;
+      out.push_back({SentenceFormat(line.english), SentenceFormat(line.chinese)});
     }
-    std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
-      return a.first.letters() > b.first.letters();
+    std::stable_sort(out.begin(), out.end(), [](const TwoFormats& a, const TwoFormats& b) {
+      return a.english.letters() > b.english.letters();
     });
     return out;
   }();
@@ -61,16 +67,16 @@ std::optional<std::string> told_list(std::string_view english, std::string_view 
 }
 
 /// One format with its arguments told; nothing where one of them is not known.
-std::optional<std::string> filled(const SentenceFormat& format, std::string_view chinese,
-                                  std::string_view english) {
-  auto arguments = format.arguments_of(english);
+std::optional<std::string> filled(const TwoFormats& format, std::string_view english) {
+  auto arguments = format.english.arguments_of(english);
   if (!arguments) return std::nullopt;
-  for (std::string& argument : *arguments) {
-    auto in_words = told(argument);
+  for (std::size_t i = 0; i < arguments->size(); ++i) {
+    if (format.chinese.stays(i)) continue;
+    auto in_words = told((*arguments)[i]);
     if (!in_words) return std::nullopt;
-    argument = *std::move(in_words);
+    (*arguments)[i] = *std::move(in_words);
   }
-  return with_arguments(chinese, *arguments);
+  return format.chinese.with(*arguments);
 }
 
 }  // namespace
@@ -104,8 +110,8 @@ std::optional<std::string> told(std::string_view english) {
   if (const auto found = table().find(english); found != table().end()) {
     return std::string(found->second);
   }
-  for (const auto& [format, chinese] : sentences()) {
-    if (auto out = filled(format, chinese, english)) return out;
+  for (const TwoFormats& format : sentences()) {
+    if (auto out = filled(format, english)) return out;
   }
   if (english.find("; ") != std::string_view::npos) return told_list(english, "; ", "；");
   if (english.find(", ") != std::string_view::npos) return told_list(english, ", ", "，");

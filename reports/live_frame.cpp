@@ -22,6 +22,13 @@ record::Strategy strategy_of(const record::RunRecord& record, const record::Pose
   return record.features[static_cast<std::size_t>(visit.feature)].strategy;
 }
 
+/// Whether every target of a pose was touched: before, f is of another cloud than in other poses.
+bool is_whole(const record::RunRecord& record, const record::PoseVisit& visit) {
+  const record::Feature& feature = record.features[static_cast<std::size_t>(visit.feature)];
+  const int targets = feature.layers * feature.points_per_layer;
+  return touches_of(record, visit.id).size() >= static_cast<std::size_t>(std::max(targets, 1));
+}
+
 /// A feature with nothing but its poses, for the drawings of the search.
 FeatureResult with_poses(const record::RunRecord& record, const record::PoseVisit& present,
                          const std::map<int, PoseValue>& values) {
@@ -29,8 +36,9 @@ FeatureResult with_poses(const record::RunRecord& record, const record::PoseVisi
   out.feature = record.features[static_cast<std::size_t>(present.feature)];
   for (const record::PoseVisit& visit : record.poses) {
     const auto found = values.find(visit.id);
-    if (visit.feature == present.feature && found != values.end())
-      out.poses.push_back(found->second);
+    if (visit.feature != present.feature || found == values.end()) continue;
+    if (visit.id == present.id && !is_whole(record, visit)) continue;
+    out.poses.push_back(found->second);
   }
   return out;
 }
@@ -145,12 +153,14 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
   put("announce", fmt::format("{} {}.", "The run is over. Verdict:", name_of(evaluation.verdict)));
   put("touches", live_touches(record));
   put("decisions", decisions_section(record));
-  std::string drawings;
+  std::string drawings;  // under a heading that says of which feature
   std::string searches;
   for (const FeatureResult& feature : evaluation.features) {
     const auto zone = zone_of(feature);
     if (record::is_analysis(feature.feature.shape)) continue;
-    if (zone) drawings += polar_plots(feature, *zone) + deviation_map(feature, *zone);
+    const std::string heading =
+        fmt::format("<h2>{} {}</h2>", "Feature", isolated(feature.feature.id));
+    if (zone) drawings += heading + polar_plots(feature, *zone) + deviation_map(feature, *zone);
     searches += pose_plots(feature, zone);
   }
   put("drawing", std::move(drawings));
@@ -162,7 +172,7 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
 }
 
 std::shared_ptr<const LiveFrame> LivePainter::paint_failure(std::string_view why) {
-  put("now", fmt::format(R"(<p class="doing">{}</p><div class="banner alarm">{}</div>)",
+  put("now", fmt::format(R"(<h2 class="doing">{}</h2><div class="banner alarm">{}</div>)",
                          "No result", isolated(why)));
   put("announce", fmt::format("{} {}", "No result:", isolated(why)));
   frame_.title = "No result";

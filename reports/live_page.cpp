@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kLiveStyle = R"css(
 [hidden]{display:none!important}
-.doing{font-size:22px;font-weight:650;margin:24px 0 8px}
+h2.doing{font-size:22px;margin:24px 0 8px;padding:0;border:0}
 progress{display:block;width:100%;max-width:220px;height:10px;margin-top:6px;accent-color:var(--blue)}
 .heard{position:absolute;width:1px;height:1px;overflow:hidden;clip-path:inset(50%);white-space:nowrap}
 #control{margin:18px 0;display:flex;gap:16px;align-items:center;flex-wrap:wrap}

@@ -90,9 +90,7 @@ std::string live_head(const record::RunRecord& record) {
   html += fact("Serial", header.serial) + fact("Drawing", header.drawing) +
           fact("Plan", header.plan_name) + fact("Revision", header.plan_revision) +
           fact("Operator", header.operator_name) + fact("Run", header.run_id) + "</dl></header>";
-  if (!header.simulated) return html;
-  return html + fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)",
-                            "Simulated:", "no real part is measured.");
+  return html;
 }
 
 std::string live_doing(const record::RunRecord& record, const LiveNow& now) {
@@ -106,8 +104,12 @@ std::string live_doing(const record::RunRecord& record, const LiveNow& now) {
 }
 
 std::string live_numbers(const record::RunRecord& record, const LiveNow& now) {
-  std::string html =
-      fmt::format(R"(<p class="doing">{}</p><dl class="keys">)", live_doing(record, now));
+  std::string html;
+  if (record.header.simulated) {
+    html += fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)",
+                        "Simulated:", "no real part is measured.");
+  }
+  html += fmt::format(R"(<h2 class="doing">{}</h2><dl class="keys">)", live_doing(record, now));
   html += touches_entry(record, now) + time_entries(now);
   if (now.pose != nullptr) {
     html += entry("Pose", with_note(std::to_string(number_of(record, *now.pose)),
@@ -134,7 +136,8 @@ std::string live_drawings(const core::Result<LiveCloud>& cloud) {
   }
   const auto zone = zone_of(cloud->result);
   if (!zone) return {};
-  std::string html = polar_plots(cloud->result, *zone) + deviation_map(cloud->result, *zone);
+  std::string html = fmt::format("<h2>{}</h2>", "The present cloud");
+  html += polar_plots(cloud->result, *zone) + deviation_map(cloud->result, *zone);
   if (cloud->every > 1) {
     html += fmt::format(R"(<p class="note">{}</p>)",
                         fmt::format("Every {}th point is drawn while the run is at work; the "
@@ -162,7 +165,7 @@ std::string live_touches(const record::RunRecord& record) {
 }
 
 std::string live_over(const record::RunRecord& record, std::string_view report) {
-  std::string html = fmt::format(R"(<p class="doing">{}</p>)",
+  std::string html = fmt::format(R"(<h2 class="doing">{}</h2>)",
                                  record.ending == "finished" ? "Run finished"
                                  : record.ending == "stopped"
                                      ? "Run stopped; it can go on with rondure run --resume"

@@ -20,6 +20,7 @@ namespace rondure::reports {
 namespace {
 
 constexpr std::size_t kThreads = 8;
+constexpr int kWaiting = 128;  ///< Connections that were not looked at yet.
 constexpr std::size_t kMostBody_bytes = 1024;
 constexpr auto kConnection = std::chrono::milliseconds(2000);  ///< For a request and its answer.
 constexpr const char* kAddress = "127.0.0.1";
@@ -82,7 +83,7 @@ class LiveServer::Http final : public httplib::Server {
         {{"Cache-Control", "no-store"},
          {"Content-Security-Policy",
           "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
-          "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
+          "img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
          {"Cross-Origin-Opener-Policy", "same-origin"},
          {"Cross-Origin-Resource-Policy", "same-origin"},
          {"Referrer-Policy", "no-referrer"},
@@ -112,6 +113,7 @@ class LiveServer::Http final : public httplib::Server {
                                                    : -1;
     if (had <= 0) return false;
     gate_.port = static_cast<std::uint16_t>(had);
+    ::listen(svr_sock_, kWaiting);  // the library's five let a sixth browser wait for a second
     return true;
   }
 

@@ -121,6 +121,8 @@ Handle read(Press& press, const std::string& document) {
 
 }  // namespace
 
+double drawing_width(const pugi::xml_node& svg) { return size_of(svg).first; }
+
 BoxPtr set_drawing(Press& press, const pugi::xml_node& svg, double widest, bool centred) {
   auto [width, height] = size_of(svg);
   if (!(width > 0.0) || !(height > 0.0)) {

@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kIsolate = "\u2068";
 constexpr std::string_view kEndIsolate = "\u2069";
 constexpr double kWidestInGrid = 200.0;
-constexpr int kGridColumns = 2;
+constexpr double kLeastScale = 0.62;  ///< At which the labels of a drawing can still be read.
 
 bool is(const pugi::xml_node& node, std::string_view name) { return node.name() == name; }
 
@@ -178,6 +178,7 @@ void Flow::heading(const pugi::xml_node& node, const Setting& setting, std::vect
   for (const auto& piece : node.select_nodes(".//text()")) brick.heading += piece.node().value();
   brick.level = node.name()[1] - '0';
   brick.keep_with_next = true;
+  brick.may_be_cut = true;
   brick.box = text.set(setting.align);
   if (brick.level == 2) {
     Border line;
@@ -199,13 +200,19 @@ void Flow::figure(const pugi::xml_node& node, const Setting& setting, std::vecto
 
 void Flow::figures(const Nodes& all, const Setting& setting, std::vector<Brick>& out) {
   constexpr double kGap = 14.0;
+  double natural = 0.0;
+  for (const pugi::xml_node& one : all) {
+    natural = std::max(natural, drawing_width(one.select_node(".//svg").node()));
+  }
+  const bool charts = kLeastScale * natural > 0.5 * (setting.width - kGap);
+  const std::size_t columns = charts ? 1 : 2;
   Setting cell = setting;
-  cell.width = (setting.width - (kGridColumns - 1) * kGap) / kGridColumns;
+  cell.width = charts ? setting.width : 0.5 * (setting.width - kGap);
   cell.align = Align::kCentre;
-  cell.widest_drawing = kWidestInGrid;
-  for (std::size_t i = 0; i < all.size(); i += kGridColumns) {
+  cell.widest_drawing = charts ? kLeastScale * natural : kWidestInGrid;
+  for (std::size_t i = 0; i < all.size(); i += columns) {
     auto row = std::make_unique<Beside>();
-    for (std::size_t k = 0; k < kGridColumns && i + k < all.size(); ++k) {
+    for (std::size_t k = 0; k < columns && i + k < all.size(); ++k) {
       const double x = static_cast<double>(k) * (cell.width + kGap);
       row->add(x, cell.width, stack(all[i + k], inside(all[i + k], cell)));
     }

@@ -12,6 +12,7 @@
 #include "reports/pdf_flow.h"
 #include "reports/pdf_look.h"
 #include "reports/text.h"
+#include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {
@@ -22,6 +23,7 @@ constexpr double kTextWidth = kPdfWidth - 2.0 * kPdfMargin;
 constexpr double kTextHeight = kPdfHeight - kPdfTop - kPdfBottom;
 constexpr double kHeadSize = 7.4;
 constexpr std::string_view kDigestMark = "page-sha256-";
+constexpr std::string_view kLanguageMark = ", page-language-";
 
 struct Release {
   void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
@@ -103,9 +105,11 @@ void Document::describe(std::string_view html) {
       fmt::format("Cylindricity report: {}, revision {}, run {}", header.plan_name,
                   header.plan_revision, header.run_id));
   set(CAIRO_PDF_METADATA_KEYWORDS,
-      fmt::format("{}, {}, {}, {}, {}{}", header.part_id, header.serial, header.drawing,
-                  header.run_id, kDigestMark, record::sha256_hex(std::string(html))));
-  set(CAIRO_PDF_METADATA_CREATOR, fmt::format("rondure {}", core::kVersion));
+      fmt::format("{}, {}, {}, {}", header.part_id, header.serial, header.drawing, header.run_id));
+  // Of the page: ASCII, which Cairo writes as it is.
+  set(CAIRO_PDF_METADATA_CREATOR, fmt::format("rondure {}, {}{}{}{}", core::kVersion, kDigestMark,
+                                              record::sha256_hex(std::string(html)), kLanguageMark,
+                                              tag_of(language_of_page(html))));
   set(CAIRO_PDF_METADATA_CREATE_DATE,
       header.started_utc.empty() ? "1970-01-01T00:00:00Z" : header.started_utc);
 }
@@ -209,7 +213,7 @@ core::Result<Pdf> Document::write(std::string_view html) {
   return out;
 }
 
-/// The digest of the page in the keywords of a document; empty without one.
+/// The digest of the page that a document states; empty without one.
 std::string_view digest_in(std::string_view bytes) {
   constexpr std::size_t kDigits = 64;
   const std::size_t at = bytes.find(kDigestMark);
@@ -246,6 +250,11 @@ std::optional<std::string> pdf_difference(std::string_view expected, std::string
   if (!same_page) return "it was set from another page than the journal gives";
   if (as_written) return std::nullopt;
   return "its bytes are not those that are set now from the same page";
+}
+
+Language language_of_pdf(std::string_view bytes) {
+  const std::string mark = fmt::format("{}{}", kLanguageMark, tag_of(Language::kChinese));
+  return bytes.find(mark) == std::string_view::npos ? Language::kEnglish : Language::kChinese;
 }
 
 }  // namespace rondure::reports

@@ -7,6 +7,7 @@
 
 #include "core/result.h"
 #include "record/run_record.h"
+#include "reports/language.h"
 
 namespace rondure::reports {
 
@@ -51,5 +52,8 @@ inline constexpr double kPdfBottom = 54.0;
 /// written (`as_written`) and were set from the same page differ in fonts and libraries alone.
 [[nodiscard]] std::optional<std::string> pdf_difference(std::string_view expected,
                                                         std::string_view found, bool as_written);
+
+/// The language of the page that a PDF was set from, as the PDF states it.
+[[nodiscard]] Language language_of_pdf(std::string_view bytes);
 
 }  // namespace rondure::reports

@@ -7,14 +7,16 @@
 namespace rondure::reports::pdf {
 namespace {
 
-constexpr double kGap = 8.0;      ///< Between columns.
-constexpr double kPad = 2.6;      ///< Above and below the text of a cell.
-constexpr double kShort = 160.0;  ///< A table that is no higher stays on one page.
+constexpr double kGap = 8.0;       ///< Between columns.
+constexpr double kPad = 2.6;       ///< Above and below the text of a cell.
+constexpr double kOneLine = 90.0;  ///< Text that is not to be broken takes no more.
+constexpr double kShort = 160.0;   ///< A table that is no higher stays on one page.
 
 struct Cell {
   BoxPtr box;
   std::size_t column = 0;
   std::size_t span = 1;
+  bool one_line = false;  ///< A number with its unit, a verdict: not broken without need.
 };
 
 struct Row {
@@ -39,7 +41,8 @@ Row row_of(Flow& flow, const pugi::xml_node& tr, const Setting& setting) {
     Setting inner = flow.inside(cell, mine);
     inner.style.bold = inner.style.bold || row.head;
     const auto span = std::max(1U, cell.attribute("colspan").as_uint(1));
-    row.cells.push_back({flow.stack(cell, inner), row.columns, span});
+    const bool one_line = has_class(cell, "n") || has_class(cell, "verdict-word");
+    row.cells.push_back({flow.stack(cell, inner), row.columns, span, one_line});
     row.columns += span;
   }
   return row;
@@ -59,7 +62,8 @@ std::vector<Widths> columns_of(const std::vector<Row>& rows, std::size_t number)
   for (const Row& row : rows) {
     for (const Cell& cell : row.cells) {
       if (cell.span > 1) continue;
-      const Widths widths = cell.box->widths();
+      Widths widths = cell.box->widths();
+      if (cell.one_line) widths.least = std::max(widths.least, std::min(widths.wanted, kOneLine));
       Widths& column = columns[cell.column];
       column.least = std::max(column.least, widths.least);
       column.wanted = std::max(column.wanted, widths.wanted);

@@ -42,7 +42,7 @@ class Press {
 
   [[nodiscard]] const Source& page() const { return page_; }
   [[nodiscard]] _PangoContext* context() const { return context_; }
-  /// Whether there is any font at all; nothing can be set without.
+  /// Whether there is a font with Latin letters; nothing can be set without.
   [[nodiscard]] bool has_fonts() const;
   /// Notes the characters of a layout for which no installed font has a shape.
   void note_missing(_PangoLayout* layout);

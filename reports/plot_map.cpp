@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "reports/html_plots.h"
 #include "reports/html_svg.h"
+#include "reports/language.h"
 #include "reports/plot_scale.h"
 #include "reports/section.h"
 #include "reports/text.h"
@@ -106,13 +107,13 @@ void draw_axes(Svg& svg, const MapView& view) {
     svg.text(x, view.bottom + 18.0, "middle", "label", std::to_string(45 * tick));
   }
   svg.text(0.5 * (kLeft + kRight), view.bottom + 36.0, "middle", "title",
-           "angle about the axis / °");
+           tr("angle about the axis / °"));
   for (const double height : round_ticks(view.y.low, view.y.high, 5)) {
     const double y = view.y.at(height);
     svg.line(kLeft - 5.0, y, kLeft, y, "tick");
     svg.text(kLeft - 8.0, y + 4.0, "end", "label", tick_label(height));
   }
-  svg.upward_text(14.0, 0.5 * (kTop + view.bottom), "title", "height / mm");
+  svg.upward_text(14.0, 0.5 * (kTop + view.bottom), "title", tr("height / mm"));
 }
 
 /// Three digits with their sign, short enough for a disc.
@@ -194,7 +195,7 @@ std::string deviation_map(const FeatureResult& feature, const Zone& zone) {
       feature.feature.shape == record::Shape::kCircle || feature.layers.size() == 1;
   if (one_section) return section_profile(feature, zone);
   const MapView view = view_of(feature, zone);
-  Svg svg(kWidth, view.bottom + 44.0, "wide", "Deviations on the unrolled surface");
+  Svg svg(kWidth, view.bottom + 44.0, "wide", tr("Deviations on the unrolled surface"));
   draw_axes(svg, view);
   if (view.cells) {
     draw_cells(svg, feature, view);
@@ -204,13 +205,13 @@ std::string deviation_map(const FeatureResult& feature, const Zone& zone) {
   draw_contacts(svg, feature, view);
   deviation_scale(svg, kRight + 22.0, kTop, view.bottom, view.half_zone_mm);
   return fmt::format(
-      R"(<h3>Unrolled surface</h3><figure><div class="scroll">{}</div><figcaption>{} )"
-      "Orange: farther from the axis; blue: nearer. Triangles touch the outer, squares the inner "
-      "cylinder of the zone.{}</figcaption></figure>",
-      svg.str(),
-      view.cells ? "Mean deviation from the middle of the zone, in cells of 3°."
-                 : "Deviation of each point from the middle of the zone in µm.",
-      feature.merged ? " The number above a point is its pose." : "");
+      R"(<h3>{}</h3><figure><div class="scroll">{}</div><figcaption>{} {}{}</figcaption></figure>)",
+      tr("Unrolled surface"), svg.str(),
+      view.cells ? tr("Mean deviation from the middle of the zone, in cells of 3°.")
+                 : tr("Deviation of each point from the middle of the zone in µm."),
+      tr("Orange: farther from the axis; blue: nearer. Triangles touch the outer, squares the "
+         "inner cylinder of the zone."),
+      feature.merged ? tr(" The number above a point is its pose.") : std::string());
 }
 
 }  // namespace rondure::reports

@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "reports/html_plots.h"
 #include "reports/html_svg.h"
+#include "reports/language.h"
 #include "reports/section.h"
 #include "reports/text.h"
 
@@ -118,15 +119,15 @@ void draw_scale_bar(Svg& svg, const PolarView& view) {
 
 std::string roundness_of(const FeatureResult& feature, const Section& section) {
   for (const LayerResult& layer : feature.layers) {
-    if (section.title != fmt::format("Layer {}", layer.layer + 1)) continue;
-    return layer.mz ? fmt::format("RONt {} µm", um(layer.mz->width_mm())) : "no RONt";
+    if (section.title != trf("Layer {}", layer.layer + 1)) continue;
+    return layer.mz ? fmt::format("RONt {} µm", um(layer.mz->width_mm())) : tr("no RONt");
   }
   return {};
 }
 
 std::string plot(const FeatureResult& feature, const Section& section, const PolarView& view,
                  double half_zone_mm) {
-  Svg svg(kSize, kSize, "polar", section.title + ": deviations about the minimum-zone axis");
+  Svg svg(kSize, kSize, "polar", trf("{}: deviations about the minimum-zone axis", section.title));
   draw_frame(svg, view);
   draw_zone(svg, view, half_zone_mm);
   const bool sparse = section.rows.size() <= 40;
@@ -136,7 +137,7 @@ std::string plot(const FeatureResult& feature, const Section& section, const Pol
   const bool layered = !feature.layers.empty();
   std::string caption = fmt::format("<b>{}</b>", escaped(section.title));
   if (layered && feature.feature.shape == record::Shape::kCylinder) {
-    caption += fmt::format(" · at {} mm", fixed(section.height_mm, 3));
+    caption += trf(" · at {} mm", fixed(section.height_mm, 3));
   }
   const std::string roundness = roundness_of(feature, section);
   if (!roundness.empty()) caption += " · " + roundness;
@@ -145,20 +146,19 @@ std::string plot(const FeatureResult& feature, const Section& section, const Pol
 
 std::string legend(std::size_t shown, std::size_t all, double magnification, bool thinned,
                    bool sparse) {
-  std::string text = fmt::format(
-      "Deviations about the minimum-zone axis, magnified {}× against the radius, alike in all "
-      "plots. "
-      "Shaded: the zone. {} point on the outer circle, {} point on the inner circle.",
-      fixed(magnification, 0),
-      R"(<svg class="key" viewBox="0 0 12 12" width="12" height="12"><path class="outer" )"
-      R"(d="M6 1l5 10h-10z"/></svg>)",
-      R"(<svg class="key" viewBox="0 0 12 12" width="12" height="12"><rect class="inner" )"
-      R"(x="1.5" y="1.5" width="9" height="9"/></svg>)");
-  if (sparse) text += " The line guides the eye only: nothing was measured between the points.";
-  if (thinned) text += " The line runs through the extremes of 0.5° sectors.";
+  std::string text =
+      trf("Deviations about the minimum-zone axis, magnified {}× against the radius, alike in all "
+          "plots. "
+          "Shaded: the zone. {} point on the outer circle, {} point on the inner circle.",
+          fixed(magnification, 0),
+          R"(<svg class="key" viewBox="0 0 12 12" width="12" height="12"><path class="outer" )"
+          R"(d="M6 1l5 10h-10z"/></svg>)",
+          R"(<svg class="key" viewBox="0 0 12 12" width="12" height="12"><rect class="inner" )"
+          R"(x="1.5" y="1.5" width="9" height="9"/></svg>)");
+  if (sparse) text += tr(" The line guides the eye only: nothing was measured between the points.");
+  if (thinned) text += tr(" The line runs through the extremes of 0.5° sectors.");
   if (shown < all) {
-    text += fmt::format(" {} of {} layers are shown, evenly spaced; all are in report.json.", shown,
-                        all);
+    text += trf(" {} of {} layers are shown, evenly spaced; all are in report.json.", shown, all);
   }
   return R"(<p class="note">)" + text + "</p>";
 }
@@ -181,7 +181,7 @@ std::string polar_plots(const FeatureResult& feature, const Zone& zone) {
     plots += plot(feature, sections[pick], view, half_zone_mm);
   }
   const double magnification = view.px_per_mm * zone.mean_radius_mm / kMean;
-  return fmt::format(R"(<h3>Sections</h3>{}<div class="multiples{}">{}</div>)",
+  return fmt::format(R"(<h3>{}</h3>{}<div class="multiples{}">{}</div>)", tr("Sections"),
                      legend(shown, sections.size(), magnification, thinned, sparse),
                      shown == 1                 ? " single"
                      : shown == 2 || shown == 4 ? " pairs"

@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "reports/html_plots.h"
 #include "reports/html_svg.h"
+#include "reports/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -61,9 +62,9 @@ void draw_f_axes(Svg& svg, const Scale& x, const Scale& y, std::size_t visits) {
     svg.line(x.at(visit), kBottom, x.at(visit), kBottom + 5.0, "tick");
     svg.text(x.at(visit), kBottom + 18.0, "middle", "label", tick_label(visit));
   }
-  svg.text(0.5 * (kLeft + kRight), kBottom + 36.0, "middle", "title", "visit");
+  svg.text(0.5 * (kLeft + kRight), kBottom + 36.0, "middle", "title", tr("visit"));
   svg.upward_text(14.0, 0.5 * (kTop + kBottom), "title",
-                  y.decades ? "f / µm (logarithmic)" : "f / µm");
+                  y.decades ? tr("f / µm (logarithmic)") : "f / µm");
 }
 
 std::string search_plot(const FeatureResult& feature, const std::optional<Zone>& zone,
@@ -75,7 +76,7 @@ std::string search_plot(const FeatureResult& feature, const std::optional<Zone>&
                           : Scale{0.0, 1.12 * range.high, kBottom, kTop};
   const std::size_t visits = feature.poses.size();
   const Scale x{1.0, std::max(2.0, static_cast<double>(visits)), kLeft + 16.0, kRight - 16.0};
-  Svg svg(kWidth, 254.0, "wide", "f of the poses in the order visited");
+  Svg svg(kWidth, 254.0, "wide", tr("f of the poses in the order visited"));
   draw_f_axes(svg, x, y, visits);
   if (zone) svg.line(kLeft, y.at(zone_um), kRight, y.at(zone_um), "reference");
   std::string d;
@@ -139,7 +140,7 @@ std::string pose_map(const FeatureResult& feature, const Range& range) {
   const PoseBox box = box_of(feature);
   const Scale x = angle_scale(box.alpha_low, box.alpha_high, kLeft, kMapRight);
   const Scale y = angle_scale(box.beta_low, box.beta_high, kMapBottom, kTop);
-  Svg svg(kWidth, 334.0, "wide", "Poses visited, coloured by f");
+  Svg svg(kWidth, 334.0, "wide", tr("Poses visited, coloured by f"));
   for (const double alpha : round_ticks(x.low, x.high, 6)) {
     svg.line(x.at(alpha), kTop, x.at(alpha), kMapBottom, "grid");
     svg.text(x.at(alpha), kMapBottom + 18.0, "middle", "label", tick_label(alpha));
@@ -173,17 +174,15 @@ std::string pose_plots(const FeatureResult& feature, const std::optional<Zone>& 
   const Range range = range_of(feature);
   if (!range.usable() || feature.poses.size() < 2) return {};
   std::string html = fmt::format(
-      R"(<figure><div class="scroll">{}</div><figcaption>f against the visit. Diamond: the final )"
-      "pose. Open circles: poses reached in software. Crosses: no value. Dashed: the minimum zone "
-      "of "
-      "the final cloud.</figcaption></figure>",
-      search_plot(feature, zone, range));
+      R"(<figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)",
+      search_plot(feature, zone, range),
+      tr("f against the visit. Diamond: the final pose. Open circles: poses reached in software. "
+         "Crosses: no value. Dashed: the minimum zone of the final cloud."));
   if (feature.poses.size() > 5) {
     html += fmt::format(
-        R"(<figure><div class="scroll">{}</div><figcaption>Poses visited; the darker, the smaller )"
-        "f "
-        "(logarithmic). Diamond: the final pose.</figcaption></figure>",
-        pose_map(feature, range));
+        R"(<figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)",
+        pose_map(feature, range),
+        tr("Poses visited; the darker, the smaller f (logarithmic). Diamond: the final pose."));
   }
   return html;
 }

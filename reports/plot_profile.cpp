@@ -5,6 +5,7 @@
 #include "core/units.h"
 #include "reports/html_plots.h"
 #include "reports/html_svg.h"
+#include "reports/language.h"
 #include "reports/section.h"
 #include "reports/text.h"
 
@@ -29,12 +30,13 @@ void draw_axes(Svg& svg, const Scale& x, const Scale& y, double half_zone_um) {
     svg.line(x.at(angle), kBottom, x.at(angle), kBottom + 5.0, "tick");
     svg.text(x.at(angle), kBottom + 18.0, "middle", "label", std::to_string(angle));
   }
-  svg.text(0.5 * (kLeft + kRight), kBottom + 36.0, "middle", "title", "angle about the centre / °");
+  svg.text(0.5 * (kLeft + kRight), kBottom + 36.0, "middle", "title",
+           tr("angle about the centre / °"));
   for (const double value : round_ticks(y.low, y.high, 6)) {
     svg.line(kLeft - 5.0, y.at(value), kLeft, y.at(value), "tick");
     svg.text(kLeft - 8.0, y.at(value) + 4.0, "end", "label", tick_label(value));
   }
-  svg.upward_text(14.0, 0.5 * (kTop + kBottom), "title", "deviation / µm");
+  svg.upward_text(14.0, 0.5 * (kTop + kBottom), "title", tr("deviation / µm"));
 }
 
 std::string profile_path(const Section& section, const Scale& x, const Scale& y) {
@@ -59,7 +61,7 @@ std::string section_profile(const FeatureResult& feature, const Zone& zone) {
   const double half_zone_um = std::max(0.5 * zone.deviation_mm / core::kMicrometre, 1e-2);
   const Scale x{0.0, 360.0, kLeft, kRight};
   const Scale y{-1.25 * half_zone_um, 1.25 * half_zone_um, kBottom, kTop};
-  Svg svg(kWidth, kHeight, "wide", "Deviation against the angle");
+  Svg svg(kWidth, kHeight, "wide", tr("Deviation against the angle"));
   draw_axes(svg, x, y, half_zone_um);
   svg.path(profile_path(section, x, y), section.rows.size() <= 40 ? "guide" : "profile");
   for (const std::size_t row : section.rows) {
@@ -75,10 +77,10 @@ std::string section_profile(const FeatureResult& feature, const Zone& zone) {
     }
   }
   return fmt::format(
-      R"(<h3>Unrolled section</h3><figure><div class="scroll">{}</div><figcaption>Deviation from )"
-      "the middle of the zone (shaded); triangles touch the outer, squares the inner circle."
-      "</figcaption></figure>",
-      svg.str());
+      R"(<h3>{}</h3><figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)",
+      tr("Unrolled section"), svg.str(),
+      tr("Deviation from the middle of the zone (shaded); triangles touch the outer, squares the "
+         "inner circle."));
 }
 
 }  // namespace rondure::reports

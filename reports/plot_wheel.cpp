@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "reports/html_svg.h"
+#include "reports/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -205,7 +206,7 @@ void draw_wheel(Svg& svg, const SideView& view, const fit::WheelPathRow& row, do
 std::string wheel_edge_plot(const fit::WheelMeasurement& wheel,
                             std::span<const Eigen::Vector2d> points_mm) {
   const EdgeView view = edge_view(wheel);
-  Svg svg(kSize, kSize, "polar", "Edge of the wheel: deviations about the mean circle");
+  Svg svg(kSize, kSize, "polar", tr("Edge of the wheel: deviations about the mean circle"));
   draw_angles(svg, view);
   draw_edge(svg, view);
   draw_middle(svg, view);
@@ -214,17 +215,19 @@ std::string wheel_edge_plot(const fit::WheelMeasurement& wheel,
   draw_points(svg, view, dropped);
   draw_scale_bar(svg, view);
   return fmt::format(
-      R"(<figure>{}<figcaption>Deviations about the mean circle, magnified {}×; the line guides )"
-      "the eye only. Orange and blue: farthest and nearest point. In the middle, magnified alike: "
-      "centres of the quadruples (grey), their mean (cross){}{}.</figcaption></figure>",
-      svg.str(), fixed(view.px_per_mm * wheel.radius_mm / kMean, 0),
-      wheel.runout ? ", the spindle axis (orange; drawn at the edge when farther off)" : "",
-      wheel.dropped.empty() ? "" : "; crosses on the edge: dropped points");
+      "<figure>{}<figcaption>{}</figcaption></figure>", svg.str(),
+      trf("Deviations about the mean circle, magnified {}×; the line guides the eye only. Orange "
+          "and blue: farthest and nearest point. In the middle, magnified alike: centres of the "
+          "quadruples (grey), their mean (cross){}{}.",
+          fixed(view.px_per_mm * wheel.radius_mm / kMean, 0),
+          wheel.runout ? tr(", the spindle axis (orange; drawn at the edge when farther off)")
+                       : std::string(),
+          wheel.dropped.empty() ? std::string() : tr("; crosses on the edge: dropped points")));
 }
 
 std::string wheel_path_plot(const fit::WheelPath& path) {
   const SideView view = side_view(path);
-  Svg svg(kViewWidth, view.bottom + 46.0, "wide", "Surface, wheel and the way of its centre");
+  Svg svg(kViewWidth, view.bottom + 46.0, "wide", tr("Surface, wheel and the way of its centre"));
   draw_axes(svg, view);
   const std::string surface = line_of(path, view, [](const fit::WheelPathRow& row) {
     return Eigen::Vector2d(row.x_mm, row.surface.height_mm);
@@ -241,10 +244,9 @@ std::string wheel_path_plot(const fit::WheelPath& path) {
   svg.path(line_of(path, view, [](const fit::WheelPathRow& row) { return row.center_mm; }),
            "zone-inner");
   return fmt::format(
-      R"(<figure><div class="scroll">{}</div><figcaption>x and z at one scale. Black: the surface, )"
-      "material shaded; blue: way of the wheel's centre; dashed: the wheel at both ends and half "
-      "way, with the line to its contact.</figcaption></figure>",
-      svg.str());
+      R"(<figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)", svg.str(),
+      tr("x and z at one scale. Black: the surface, material shaded; blue: way of the wheel's "
+         "centre; dashed: the wheel at both ends and half way, with the line to its contact."));
 }
 
 }  // namespace rondure::reports

@@ -3,14 +3,16 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "reports/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
 
 std::vector<AxisFacts> axes_of(const RotaryFacts& facts) {
-  return {
-      {"alpha", "Axis alpha (base-fixed, about x)", &facts.alpha, facts.calibration.alpha.get()},
-      {"beta", "Axis beta (carried, about y)", &facts.beta, facts.calibration.beta.get()}};
+  return {{"alpha", translatable("Axis alpha (base-fixed, about x)"), &facts.alpha,
+           facts.calibration.alpha.get()},
+          {"beta", translatable("Axis beta (carried, about y)"), &facts.beta,
+           facts.calibration.beta.get()}};
 }
 
 core::Result<AnalysisValue> RotaryResult::value_of(

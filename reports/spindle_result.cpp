@@ -170,10 +170,12 @@ std::vector<SummaryLine> SpindleResult::summary() const {
   }
   out.push_back({"part", part + "; " + filter_text()});
   const auto direction = [](const char* name, const fit::AxisMotion& m) {
-    return fmt::format(
-        "{}: total {} um, synchronous {} um{}", name, um(m.total_mm), um(m.synchronous_mm),
-        m.asynchronous_mm ? fmt::format(", asynchronous {} um", um(*m.asynchronous_mm))
-                          : std::string());
+    if (!m.asynchronous_mm) {
+      return fmt::format("{}: total {} um, synchronous {} um", name, um(m.total_mm),
+                         um(m.synchronous_mm));
+    }
+    return fmt::format("{}: total {} um, synchronous {} um, asynchronous {} um", name,
+                       um(m.total_mm), um(m.synchronous_mm), um(*m.asynchronous_mm));
   };
   out.push_back({"motion", direction("X", facts_.x) + "; " + direction("Y", facts_.y)});
   out.push_back({"eccentricity", um(s.eccentricity_mm) + " um"});

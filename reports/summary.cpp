@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reports/facts.h"
+#include "reports/language.h"
 #include "reports/text.h"
 #include "reports/writers.h"
 
@@ -12,27 +13,30 @@ namespace {
 constexpr std::size_t kColumns = 80;
 constexpr std::size_t kLabel = 15;  ///< Where the values of labelled lines start.
 
-/// Appends `text` wrapped at spaces to lines of at most 80 columns, the first one after `head`
+/// Appends `text` wrapped to lines of at most 80 columns, the first one after `head`
 /// (`kLabel` columns or less), the others indented below it.
 void add_wrapped(std::string& out, std::string_view head, std::string_view text) {
-  std::string line = fmt::format("{:<{}}", head, kLabel);
-  const std::string clean = printable(text);
-  std::string_view rest = clean;
+  std::string line = padded(head, kLabel);
   bool fresh = true;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find(' '), rest.size());
-    const std::string word = shortened(rest.substr(0, end), kColumns - kLabel);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (!fresh && columns(line) + 1 + columns(word) > kColumns) {
+  for (const LinePiece& piece : line_pieces(printable(text))) {
+    const std::string word = shortened(piece.text, kColumns - kLabel);
+    const std::size_t space = piece.after_space && !fresh ? 1 : 0;
+    if (!fresh && columns(line) + space + columns(word) > kColumns) {
       out += line + "\n";
       line = std::string(kLabel, ' ');
       fresh = true;
     }
-    line += (fresh ? "" : " ") + word;
+    line += (piece.after_space && !fresh ? " " : "") + word;
     fresh = false;
   }
   out += line + "\n";
 }
+
+/// An error of another room: the title of its code, then its English sentence.
+std::string line_of(const core::Error& error) { return titled(error.code) + core::to_line(error); }
+
+/// Words of evaluation in the language of the report, else as they are.
+std::string words(std::string_view english) { return told(english).value_or(std::string(english)); }
 
 std::string upper(std::string_view text) {
   std::string result(text);
@@ -44,65 +48,65 @@ std::string upper(std::string_view text) {
 
 void add_head(std::string& out, const record::RunRecord& record, const Evaluation& evaluation) {
   const record::Header& header = record.header;
-  out += upper(name_of(evaluation.verdict)) + "\n";
-  add_wrapped(out, "rule", rule_sentence(evaluation));
+  out += upper(tr(name_of(evaluation.verdict))) + "\n";
+  add_wrapped(out, tr("rule"), words(rule_sentence(evaluation)));
   std::string part = header.part_id;
   for (const std::string& more : {header.part_name, header.drawing}) {
     if (!more.empty()) part += ", " + more;
   }
-  if (!header.serial.empty()) part += ", serial " + header.serial;
-  add_wrapped(out, "part", part);
-  add_wrapped(out, "run", header.run_id);
-  if (header.simulated) add_wrapped(out, "simulated", "no real part was measured");
+  if (!header.serial.empty()) part += trf(", serial {}", header.serial);
+  add_wrapped(out, tr("part"), part);
+  add_wrapped(out, tr("run"), header.run_id);
+  if (header.simulated) add_wrapped(out, tr("simulated"), tr("no real part was measured"));
   if (record.ending == "finished") return;
-  add_wrapped(out, "not finished",
-              record.ending.empty() ? "the run has no end on record" : record.ending);
-  if (record.failure) add_wrapped(out, "reason", core::to_line(*record.failure));
+  add_wrapped(out, tr("not finished"),
+              record.ending.empty() ? tr("the run has no end on record") : words(record.ending));
+  if (record.failure) add_wrapped(out, tr("reason"), line_of(*record.failure));
   for (const std::string& part_missing : missing_parts(record, evaluation)) {
-    add_wrapped(out, "missing", part_missing);
+    add_wrapped(out, tr("missing"), part_missing);
   }
 }
 
 /// Bias of a value and the influence that matters most.
 void add_uncertainty(std::string& out, const StatedValue& value) {
   const UncertaintyResult& u = *value.uncertainty().result();
-  const auto line = [&](const char* name, const UncertaintyStatement& s) {
+  const auto line = [&](const std::string& name, const UncertaintyStatement& s) {
     add_wrapped(out, name,
-                fmt::format("{} um, {:g} % within [{}, {}] um {}", um(s.estimate_mm),
-                            100.0 * value.uncertainty().coverage_1(), um(s.low_mm), um(s.high_mm),
-                            name_of(s.measurand)));
+                trf("{} um, {:g} % within [{}, {}] um {}", um(s.estimate_mm),
+                    100.0 * value.uncertainty().coverage_1(), um(s.low_mm), um(s.high_mm),
+                    tr(name_of(s.measurand))));
   };
-  line("    corrected", u.sampled);
+  line("    " + tr("corrected"), u.sampled);
   if (u.whole) line("", *u.whole);
-  std::string bias = fmt::format("noise {} um", signed_um(u.noise_inflation_mm));
-  if (u.sampling_loss_mm)
-    bias += fmt::format(", sparse sampling {} um", signed_um(*u.sampling_loss_mm));
+  std::string bias = trf("noise {} um", signed_um(u.noise_inflation_mm));
+  if (u.sampling_loss_mm) bias += trf(", sparse sampling {} um", signed_um(*u.sampling_loss_mm));
   const auto most = std::find_if(u.budget.begin(), u.budget.end(), [&](const BudgetLine& one) {
     return one.measurand == value.measurand();
   });
   if (most != u.budget.end() && most->share_1 > 0.0) {
-    bias += fmt::format("; most of the spread {}: {} ({:.0f} %)", name_of(most->measurand),
-                        most->name, 100.0 * most->share_1);
+    bias += trf("; most of the spread {}: {} ({:.0f} %)", tr(name_of(most->measurand)),
+                tr(most->name), 100.0 * most->share_1);
   }
-  add_wrapped(out, "    bias", bias);
+  add_wrapped(out, "    " + tr("bias"), bias);
 }
 
 /// "  CYLt MZCY     8.300 um   limit 10.000 um   conforms   id".
 void add_characteristic(std::string& out, const CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
-  const std::string value = result.value ? um(result.value->value_mm()) + " um" : "no value";
+  const std::string value = result.value ? um(result.value->value_mm()) + " um" : tr("no value");
   const std::string limit =
-      asked.tolerance_mm ? fmt::format("limit {} um", um(*asked.tolerance_mm)) : "no limit";
-  std::string line = fmt::format("  {} {}{:>14}   {:<19} {:<16}  ", symbol_of(asked),
-                                 reference_of(asked), value, limit, name_of(result.verdict));
+      asked.tolerance_mm ? trf("limit {} um", um(*asked.tolerance_mm)) : tr("no limit");
+  std::string line =
+      fmt::format("  {} {}{:>14}   {} {}  ", tr(symbol_of(asked)), reference_of(asked), value,
+                  padded(limit, 19), padded(tr(name_of(result.verdict)), 16));
   line += shortened(printable(asked.id), kColumns - columns(line));
   out += line + "\n";
   const bool simple = result.value && !result.value->uncertainty().result();
   if (result.verdict == Verdict::kVoid || result.verdict == Verdict::kUndecided ||
       (!simple && result.outcome)) {
-    add_wrapped(out, "    because", result.reason);
+    add_wrapped(out, "    " + tr("because"), words(result.reason));
   }
-  if (result.value) add_wrapped(out, "    stated", result.value->sentence());
+  if (result.value) add_wrapped(out, "    " + tr("stated"), words(result.value->sentence()));
   if (!simple && result.value) add_uncertainty(out, *result.value);
 }
 
@@ -113,12 +117,12 @@ void add_sketch(std::string& out, const FeatureResult& feature, SketchStyle styl
   if (!sketch || !zone) return;
   const bool braille = style == SketchStyle::kBraille;
   std::vector<std::string> legend(sketch->rows.size());
-  legend[3] = sketch->sections > 1 ? fmt::format("{} of {}, the one that departs most",
-                                                 sketch->title, sketch->sections)
-                                   : sketch->title;
-  legend[4] = fmt::format("the circles are {} um apart", um(zone->deviation_mm));
-  legend[6] = fmt::format("{} contact outside", braille ? "\u25CF" : "O");
-  legend[7] = fmt::format("{} contact inside", braille ? "\u25CB" : "I");
+  legend[3] = sketch->sections > 1
+                  ? trf("{} of {}, the one that departs most", sketch->title, sketch->sections)
+                  : sketch->title;
+  legend[4] = trf("the circles are {} um apart", um(zone->deviation_mm));
+  legend[6] = trf("{} contact outside", braille ? "\u25CF" : "O");
+  legend[7] = trf("{} contact inside", braille ? "\u25CB" : "I");
   for (std::size_t i = 0; i < sketch->rows.size(); ++i) {
     std::string line = fmt::format("{:{}}{}   {}", "", kLabel, sketch->rows[i], legend[i]);
     line.erase(line.find_last_not_of(' ') + 1);
@@ -129,18 +133,18 @@ void add_sketch(std::string& out, const FeatureResult& feature, SketchStyle styl
 void add_zone(std::string& out, const FeatureResult& feature) {
   const auto zone = zone_of(feature);
   if (!zone) return;
-  add_wrapped(out, "  zone",
-              fmt::format("radii {} and {} mm {}", fixed(zone->inner_radius_mm, 4),
-                          fixed(zone->outer_radius_mm, 4),
-                          zone->of_surface ? "of the surface" : "of the points, tip unknown"));
+  add_wrapped(
+      out, "  " + tr("zone"),
+      trf("radii {} and {} mm {}", fixed(zone->inner_radius_mm, 4), fixed(zone->outer_radius_mm, 4),
+          zone->of_surface ? tr("of the surface") : tr("of the points, tip unknown")));
   const fit::Certificate& certificate = zone->certificate;
-  std::string text = std::string(fit::name_of(certificate.kind));
-  if (!certificate.scope.empty()) text += ", " + certificate.scope;
+  std::string text = tr(fit::name_of(certificate.kind));
+  if (!certificate.scope.empty()) text += tr(", ") + words(certificate.scope);
   if (certificate.kind != fit::Certificate::Kind::kNone) {
-    text += fmt::format(", gap {} um", tiny_um(certificate.gap_mm));
+    text += trf(", gap {} um", tiny_um(certificate.gap_mm));
   }
-  if (!certificate.reason.empty()) text += "; " + certificate.reason;
-  add_wrapped(out, "  certificate", text);
+  if (!certificate.reason.empty()) text += tr("; ") + words(certificate.reason);
+  add_wrapped(out, "  " + tr("certificate"), text);
 }
 
 /// "MCCY radius 25.0052 mm, CYLt 8.812 um; MICY ..."; what does not exist is a warning.
@@ -152,11 +156,11 @@ void add_one_sided(std::string& out, const FeatureResult& feature) {
        {Reference::kMinimumCircumscribed, Reference::kMaximumInscribed}) {
     const auto found = one_sided_of(feature, reference);
     if (!found) continue;
-    text += fmt::format("{}{} radius {} mm, {} {} um", text.empty() ? "" : "; ",
-                        reference_of(reference, shape), fixed(found->radius_mm, 4),
-                        symbol_of(shape), um(found->deviation_mm));
+    if (!text.empty()) text += tr("; ");
+    text += trf("{} radius {} mm, {} {} um", reference_of(reference, shape),
+                fixed(found->radius_mm, 4), symbol_of(shape), um(found->deviation_mm));
   }
-  if (!text.empty()) add_wrapped(out, "  one-sided", text);
+  if (!text.empty()) add_wrapped(out, "  " + tr("one-sided"), text);
 }
 
 void add_truth(std::string& out, const record::SimulationTruth* truth,
@@ -164,58 +168,61 @@ void add_truth(std::string& out, const record::SimulationTruth* truth,
   if (truth == nullptr) return;
   std::string text = fmt::format("{} {} um", symbol_of(feature.feature.shape), um(truth->cylt_mm));
   if (const auto zone = zone_of(feature)) {
-    text += fmt::format(", difference {} um", signed_um(zone->deviation_mm - truth->cylt_mm));
+    text += trf(", difference {} um", signed_um(zone->deviation_mm - truth->cylt_mm));
   }
-  add_wrapped(out, "  hidden truth", text + " (of the simulation, not of the measurement)");
+  add_wrapped(out, "  " + tr("hidden truth"),
+              trf("{} (of the simulation, not of the measurement)", text));
 }
 
 /// "spool: outside cylinder, 4 x 7 points", "journal: spindle, 3 revolutions".
 std::string heading_of(const FeatureResult& feature) {
   const std::string name = shortened(printable(feature.feature.id), 30);
   if (record::is_analysis(feature.feature.shape)) {
-    return fmt::format("{}: {}{}{}", name, record::name_of(feature.feature.shape),
-                       feature.analysis ? ", " : "",
-                       feature.analysis ? feature.analysis->sampling_text() : std::string());
+    const std::string shape = tr(record::name_of(feature.feature.shape));
+    return feature.analysis
+               ? trf("{}: {}, {}", name, shape, words(feature.analysis->sampling_text()))
+               : trf("{}: {}", name, shape);
   }
-  return fmt::format("{}: {} {}, {}", name, record::name_of(feature.feature.side),
-                     record::name_of(feature.feature.shape), pattern_of(feature));
+  return trf("{}: {} {}, {}", name, tr(record::name_of(feature.feature.side)),
+             tr(record::name_of(feature.feature.shape)), pattern_of(feature));
 }
 
 void add_analysis(std::string& out, const record::RunRecord& record, std::size_t index,
                   const FeatureResult& feature) {
   if (feature.analysis) {
     for (const SummaryLine& line : feature.analysis->summary())
-      add_wrapped(out, fmt::format("  {}", line.name), line.text);
+      add_wrapped(out, fmt::format("  {}", tr(line.name)), words(line.text));
   }
   for (const record::TruthValue& truth : record.truth_values) {
     if (static_cast<std::size_t>(truth.feature) != index) continue;
-    add_wrapped(out, "  hidden truth",
-                fmt::format("{} {:.6g} (of the simulation, not of the measurement)", truth.name,
-                            truth.value));
+    add_wrapped(out, "  " + tr("hidden truth"),
+                trf("{} (of the simulation, not of the measurement)",
+                    fmt::format("{} {:.6g}", words(truth.name), truth.value)));
   }
 }
 
 }  // namespace
 
 std::string write_summary(const record::RunRecord& record, const Evaluation& evaluation,
-                          SketchStyle sketch) {
+                          SketchStyle sketch, Language language) {
+  const LanguageScope scope(language);
   std::string out;
   add_head(out, record, evaluation);
   for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
     const FeatureResult& feature = evaluation.features[i];
     out += "\n";
-    add_wrapped(out, "feature", heading_of(feature));
+    add_wrapped(out, tr("feature"), heading_of(feature));
     for (const CharacteristicResult& result : feature.characteristics) {
       add_characteristic(out, result);
     }
-    if (feature.failure) add_wrapped(out, "  no result", core::to_line(*feature.failure));
+    if (feature.failure) add_wrapped(out, "  " + tr("no result"), line_of(*feature.failure));
     add_sketch(out, feature, sketch);
     add_analysis(out, record, i, feature);
     add_zone(out, feature);
     add_one_sided(out, feature);
     add_truth(out, truth_of(record, i), feature);
     for (const core::Error& warning : feature.warnings) {
-      add_wrapped(out, "  warning", core::to_line(warning));
+      add_wrapped(out, "  " + tr("warning"), line_of(warning));
     }
   }
   return out;

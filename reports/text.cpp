@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "reports/language.h"
 
 namespace rondure::reports {
 namespace {
@@ -61,6 +62,16 @@ bool is_wide(std::uint32_t code) {
   return false;
 }
 
+/// Punctuation that no line begins with, and that none ends with.
+bool closes(std::string_view letter) {
+  constexpr std::string_view kMarks = "，。；：、）》”！？·%)],.;:";
+  return kMarks.find(letter) != std::string_view::npos;
+}
+bool opens(std::string_view letter) {
+  constexpr std::string_view kMarks = "（《“([";
+  return kMarks.find(letter) != std::string_view::npos;
+}
+
 }  // namespace
 
 std::string fixed(double value, int decimals) {
@@ -92,6 +103,7 @@ std::string deg(double angle_rad, int decimals) {
 }
 
 std::string count(std::size_t number, std::string_view one, std::string_view many) {
+  if (language() != Language::kEnglish) return fmt::format("{} {}", number, tr(many));
   return fmt::format("{} {}", number, number == 1 ? one : many);
 }
 
@@ -162,7 +174,10 @@ std::string escaped(std::string_view text) {
 
 std::string isolated(std::string_view text) { return fmt::format("<bdi>{}</bdi>", escaped(text)); }
 
-std::string in_sentence(std::string_view text) {
+namespace {
+
+/// " um" and " degC" with their signs.
+std::string with_signs(std::string_view text) {
   std::string out(text);
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto replace = [&](std::string_view from, std::string_view to) {
@@ -173,7 +188,39 @@ std::string in_sentence(std::string_view text) {
   };
   replace(" um", " \u00b5m");
   replace(" degC", " \u00b0C");
-  return isolated(out);
+  return out;
+}
+
+}  // namespace
+
+std::string foreign(std::string_view text) {
+  if (language() == Language::kEnglish) return isolated(text);
+  return fmt::format(R"(<bdi lang="en">{}</bdi>)", escaped(text));
+}
+
+std::string worded(std::string_view text) {
+  const auto known = told(text);
+  return known ? isolated(*known) : foreign(text);
+}
+
+std::string plain_words(std::string_view text) {
+  const auto known = told(text);
+  return known ? escaped(*known) : foreign(text);
+}
+
+std::string in_sentence(std::string_view text) {
+  const auto known = told(text);
+  return known ? isolated(with_signs(*known)) : foreign(with_signs(text));
+}
+
+std::string opening_sentence(std::string_view text) {
+  const auto known = told(text);
+  return known ? isolated(with_signs(capitalised(*known))) : foreign(with_signs(capitalised(text)));
+}
+
+std::string titled(core::Code code) {
+  const std::string title = title_of(code);
+  return title.empty() ? title : title + "：";
 }
 
 std::string printable(std::string_view text) {
@@ -198,6 +245,39 @@ std::size_t columns(std::string_view text) {
     text.remove_prefix(c.bytes);
   }
   return sum;
+}
+
+std::string padded(std::string_view text, std::size_t width) {
+  const std::size_t taken = columns(text);
+  return std::string(text) + std::string(taken < width ? width - taken : 0, ' ');
+}
+
+std::vector<LinePiece> line_pieces(std::string_view text) {
+  std::vector<LinePiece> out;
+  bool space = true;   // the text begins a line
+  bool joins = false;  // the next character belongs to the piece before it
+  bool wide_before = false;
+  while (!text.empty()) {
+    const Character c = next_character(text);
+    const std::string_view letter = text.substr(0, c.bytes);
+    text.remove_prefix(c.bytes);
+    if (letter == " ") {
+      if (space) out.push_back({"", !out.empty()});  // each space more stands for itself
+      space = true;
+      continue;
+    }
+    const bool wide = is_wide(c.code);
+    const bool breaks = (wide || wide_before) && !joins && !closes(letter);
+    if (space || out.empty() || breaks) {
+      out.push_back({std::string(letter), space && !out.empty()});
+    } else {
+      out.back().text += letter;
+    }
+    space = false;
+    wide_before = wide;
+    joins = opens(letter);
+  }
+  return out;
 }
 
 std::string shortened(std::string_view text, std::size_t limit) {

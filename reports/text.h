@@ -2,6 +2,9 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "core/error.h"
 
 namespace rondure::reports {
 
@@ -20,7 +23,7 @@ namespace rondure::reports {
 /// An angle in degrees.
 [[nodiscard]] std::string deg(double angle_rad, int decimals = 4);
 
-/// "1 touch", "3 touches": the number and the word in its number.
+/// "1 touch", "3 touches": the number and the word in its number; in Chinese the word of `many`.
 [[nodiscard]] std::string count(std::size_t number, std::string_view one, std::string_view many);
 
 /// The text with the first letter in upper case (ASCII).
@@ -43,15 +46,40 @@ namespace rondure::reports {
 /// Escaped and isolated (<bdi>), so that a right-to-left name does not reorder its neighbours.
 [[nodiscard]] std::string isolated(std::string_view text);
 
-/// A sentence of the program, which spells units in ASCII, as a page shows it: " um" and " degC"
-/// with their signs, escaped and isolated.
+/// Text of the program that is English whatever the language of the report (an error made in
+/// another room, a device's name): escaped, isolated and, in a report that is not English, marked
+/// as English.
+[[nodiscard]] std::string foreign(std::string_view text);
+/// Words that evaluation or another room chose ("finished", "guided"), as told() knows them, else
+/// foreign().
+[[nodiscard]] std::string worded(std::string_view text);
+/// The same, not isolated where the words are known: of words that no user can write.
+[[nodiscard]] std::string plain_words(std::string_view text);
+/// worded() of a sentence, which spells units in ASCII: " um" and " degC" with their signs.
 [[nodiscard]] std::string in_sentence(std::string_view text);
+/// in_sentence() that begins with an upper-case letter.
+[[nodiscard]] std::string opening_sentence(std::string_view text);
+/// What stands before the sentence of an error: the title of its code; empty in English.
+[[nodiscard]] std::string titled(core::Code code);
 
 /// Text for a terminal: control characters, line breaks and marks that change the direction of
 /// writing become "?".
 [[nodiscard]] std::string printable(std::string_view text);
 /// Columns that UTF-8 text takes in a terminal; East Asian wide characters take two.
 [[nodiscard]] std::size_t columns(std::string_view text);
+/// The text with spaces behind it, `width` columns at least.
+[[nodiscard]] std::string padded(std::string_view text, std::size_t width);
+
+/// What a line may not be broken within: a word, or a wide character with the punctuation that
+/// belongs to it.
+struct LinePiece {
+  std::string text;
+  bool after_space = false;  ///< A space, or several, stood before it.
+};
+/// Text as its pieces: broken at spaces, and before and after wide characters (Chinese has no
+/// spaces), but not before closing nor after opening punctuation.
+[[nodiscard]] std::vector<LinePiece> line_pieces(std::string_view text);
+
 /// The text cut to at most `limit` columns, with "..." where something was cut.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t limit);
 

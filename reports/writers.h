@@ -1,10 +1,12 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "record/run_record.h"
 #include "reports/earlier_results.h"
 #include "reports/evaluation.h"
+#include "reports/language.h"
 #include "reports/polar_sketch.h"
 
 namespace rondure::reports {
@@ -16,7 +18,11 @@ namespace rondure::reports {
 /// report.html: one self-contained page (no network, no script needed to read it).
 /// @param earlier  Results of earlier runs, for its run charts.
 [[nodiscard]] std::string write_html(const record::RunRecord& record, const Evaluation& evaluation,
+                                     Language language = Language::kEnglish,
                                      const EarlierResults& earlier = {});
+/// The language that write_html() wrote a page in, as the page itself states it; English for
+/// anything else.
+[[nodiscard]] Language language_of_page(std::string_view page);
 
 /// touches.csv: a row a touch, as journalled.
 [[nodiscard]] std::string write_touches_csv(const record::RunRecord& record);
@@ -44,6 +50,7 @@ namespace rondure::reports {
 /// drawing of the worst section of each feature where the terminal can show one.
 [[nodiscard]] std::string write_summary(const record::RunRecord& record,
                                         const Evaluation& evaluation,
-                                        SketchStyle sketch = SketchStyle::kNone);
+                                        SketchStyle sketch = SketchStyle::kNone,
+                                        Language language = Language::kEnglish);
 
 }  // namespace rondure::reports

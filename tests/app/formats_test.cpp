@@ -1,6 +1,7 @@
 // Every format of one run: written, listed, verified; the sketch on a terminal.
 
 #include <algorithm>
+#include <cstdlib>
 #include <sstream>
 #include <string>
 
@@ -21,6 +22,17 @@ using ::testing::Not;
 
 constexpr const char* kAll = "html,pdf,json,csv,qif,dmis,junit";
 
+/// Fonts as a file of fontconfig says, for programs that are started meanwhile.
+class OtherFonts {
+ public:
+  explicit OtherFonts(const std::filesystem::path& file) {
+    ::setenv("FONTCONFIG_FILE", file.c_str(), 1);
+  }
+  ~OtherFonts() { ::unsetenv("FONTCONFIG_FILE"); }
+  OtherFonts(const OtherFonts&) = delete;
+  OtherFonts& operator=(const OtherFonts&) = delete;
+};
+
 class Formats : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -34,8 +46,8 @@ class Formats : public ::testing::Test {
 };
 
 TEST_F(Formats, AreListedVerifiedAndWrittenAgainByteForByte) {
-  const std::vector<std::string> files = {"report.qif", "report.dmo", "report.junit.xml",
-                                          "results.csv"};
+  const std::vector<std::string> files = {"report.pdf", "report.qif", "report.dmo",
+                                          "report.junit.xml", "results.csv"};
   std::vector<std::string> bytes;
   for (const std::string& file : files) {
     bytes.push_back(read(run_ / file));
@@ -51,7 +63,8 @@ TEST_F(Formats, AreListedVerifiedAndWrittenAgainByteForByte) {
 }
 
 TEST_F(Formats, AChangedDigitIsFoundInEach) {
-  for (const char* file : {"report.qif", "report.dmo", "report.junit.xml", "results.csv"}) {
+  for (const char* file :
+       {"report.pdf", "report.qif", "report.dmo", "report.junit.xml", "results.csv"}) {
     SCOPED_TRACE(file);
     const std::string bytes = read(run_ / file);
     std::string changed = bytes;
@@ -73,6 +86,31 @@ TEST_F(Formats, ThatWereNotAskedForAreNotMissed) {
             0);
   EXPECT_THAT(rondure({"verify", folder_ / "json"}).out,
               AllOf(HasSubstr("exports compared: report.json"), Not(HasSubstr("not there"))));
+}
+
+TEST_F(Formats, WithoutAFontThePdfIsRefusedAndVerifiedByItsDigest) {
+  write(folder_ / "no-fonts.conf", "<fontconfig><dir>/nowhere</dir></fontconfig>");
+  const OtherFonts none(folder_ / "no-fonts.conf");
+  const Outcome outcome = rondure({"report", run_, "--format", "pdf"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("no font is installed"), HasSubstr("fonts-dejavu-core")));
+  const Outcome verified = rondure({"verify", run_});
+  EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
+  write(run_ / "report.pdf", read(run_ / "report.pdf") + "%");
+  EXPECT_NE(rondure({"verify", run_}).status, 0);
+}
+
+TEST_F(Formats, APdfThatOtherFontsGiveIsEqualWhileItsDigestHolds) {
+  write(folder_ / "mono.conf",
+        "<fontconfig><dir>/usr/share/fonts/truetype/dejavu</dir>"
+        "<selectfont><rejectfont><glob>*DejaVuSans.ttf</glob></rejectfont></selectfont></"
+        "fontconfig>");
+  const OtherFonts other(folder_ / "mono.conf");
+  EXPECT_EQ(rondure({"verify", run_}).status, 0);
+  const std::string before = read(run_ / "report.pdf");
+  ASSERT_EQ(rondure({"report", run_, "--format", "pdf"}).status, 0);
+  EXPECT_NE(read(run_ / "report.pdf"), before);
 }
 
 TEST_F(Formats, ThePlanMayAskForThem) {

@@ -95,6 +95,8 @@ bool Program::ended() const {
          info.si_pid == pid_;
 }
 
+std::string Program::told() const { return read(folder_ / "err"); }
+
 Outcome Program::wait() {
   int state = 0;
   ::waitpid(pid_, &state, 0);

@@ -58,6 +58,8 @@ class Program {
   void send(int signal) const;
   [[nodiscard]] bool ended() const;
   [[nodiscard]] Outcome wait();
+  /// Standard error so far.
+  [[nodiscard]] std::string told() const;
 
  private:
   TemporaryFolder folder_;  ///< Holds what it prints.

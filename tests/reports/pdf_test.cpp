@@ -280,7 +280,7 @@ TEST(Pdf, ChineseHebrewAndArabicAreEmbeddedAndReadable) {
 TEST(Pdf, HostileTextsStayTextOnEveryPage) {
   for (const std::string& text :
        {std::string("<script>alert(1)</script>"), std::string("</style></title>\"'><svg onload=x>"),
-        std::string("&b; &lt; &amp;amp; ]]> <!-- (\\) %PDF-1.4 endobj"), std::string(10'000, 'W'),
+        std::string("&b; &lt; &amp;amp; ]]> <!-- (\\) %PDF-1.4 endobj"), std::string(500, 'W'),
         std::string("\xff\xc3(\x01\x1b[31m"), std::string("{0} %s page-sha256-0000")}) {
     SCOPED_TRACE(text.substr(0, 40));
     const Case made = hostile_case(text);
@@ -292,6 +292,18 @@ TEST(Pdf, HostileTextsStayTextOnEveryPage) {
     const auto same = pdf_difference(pdf.bytes, pdf.bytes + " ", true);
     EXPECT_FALSE(same) << *same;
   }
+}
+
+TEST(Pdf, TenKilobytesOfANameGoOnOverPages) {
+  Case made = cylinder_case(4, 7, 3);
+  made.record.header.part_name = std::string(10'000, 'W');
+  made.record.header.plan_revision = std::string(10'000, 'R');
+  made.record.decisions.at(0).text = std::string(10'000, 'D');
+  const std::string html = page_of(made);
+  const Pdf pdf = pdf_of(made.record, html);
+  keep("ten-kilobytes", pdf);
+  EXPECT_THAT(lacking(pdf, html), ::testing::IsEmpty());
+  expect_uncut(pdf);
 }
 
 TEST(Pdf, ACharacterWithoutAFontIsSaidNotJustBoxed) {

@@ -1,0 +1,436 @@
+// The interval that is predicted before the first touch is the one that simulated runs find. Five
+// plans; 20 with RONDURE_FULL=1, with their table.
+
+#include "reports/predict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <utility>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/noise.h"
+#include "core/units.h"
+#include "plans/expected_record.h"
+#include "plans/forecast.h"
+#include "random_inspection.h"
+
+namespace rondure::plans {
+namespace {
+
+using reports::Measurand;
+using reports::PredictedStatement;
+using reports::Prediction;
+using reports::PredictionOptions;
+using ::testing::HasSubstr;
+
+bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
+
+/// A plan, and what the form of the parts is that are inspected by it.
+struct Drawn {
+  Plan plan;
+  FormSpectrumPlan form;
+};
+
+FormSpectrumPlan drawn_form(core::KeyedNoise& noise, bool section, bool declared) {
+  FormSpectrumPlan out;
+  out.amplitudes = noise.uniform() < 0.5 ? "absolute" : "relative";
+  const double size_um = 0.5 + 2.0 * noise.uniform();
+  if (declared) {
+    for (const int n : {2, 3, 4, 5, 7}) {
+      out.terms.push_back({n, 0, size_um / n * (0.5 + noise.uniform())});
+    }
+  } else {
+    for (int n = 2; n <= 15; ++n) out.terms.push_back({n, 0, size_um / n});
+  }
+  if (section) return out;
+  out.terms.push_back({0, 1, 0.3 * size_um});
+  out.terms.push_back({0, 2, 0.3 * size_um});
+  out.terms.push_back({1, 2, 0.3 * size_um});
+  return out;
+}
+
+void declare_influences(core::KeyedNoise& noise, UncertaintyPlan& out) {
+  const auto sometimes = [&] { return noise.uniform() < 0.5; };
+  out.probe.emplace();
+  out.probe->repeatability_um = 0.1 * std::pow(15.0, noise.uniform());
+  if (sometimes()) out.probe->lobes.push_back({3, 0.5 * noise.uniform()});
+  if (sometimes()) {
+    out.machine.emplace();
+    out.machine->squareness_xy_urad = 10.0 * noise.uniform();
+    out.machine->squareness_xz_urad = 10.0 * noise.uniform();
+    out.machine->squareness_yz_urad = 10.0 * noise.uniform();
+  }
+  if (sometimes()) {
+    out.thermal.emplace();
+    out.thermal->machine_drift_x_um = noise.uniform();
+    out.thermal->machine_drift_y_um = noise.uniform();
+  }
+}
+
+/// Diameter, sampling, noise, errors, form, and whether it is declared, of a seed. Of parts without
+/// a declared form the tolerance is 1.4 to 2.8 times what they have.
+Drawn drawn(std::uint64_t seed) {
+  core::KeyedNoise noise(seed, {77});
+  Drawn out{test::random_plan(seed, "guided", 0.01), {}};
+  out.plan.probe->qualification.form_limit_um = 25.0;
+  FeaturePlan& feature = out.plan.features.front();
+  feature.nominal.diameter_mm = 20.0 + 80.0 * noise.uniform();
+  const bool section = seed % 5 == 0;
+  if (section) feature.type = "circle";
+  if (section || seed % 5 == 1) feature.characteristics.front().form = "roundness";
+  feature.sampling.layers = section ? 1 : 3 + static_cast<int>(5.0 * noise.uniform());
+  feature.sampling.points_per_layer = section ? 8 + static_cast<int>(25.0 * noise.uniform())
+                                              : 6 + static_cast<int>(11.0 * noise.uniform());
+  feature.pose_search.repeats = 2 + static_cast<int>(5.0 * noise.uniform());
+  UncertaintyPlan& uncertainty = out.plan.uncertainty.emplace();
+  uncertainty.most_trials = 2000;
+  uncertainty.budget_trials = 0;
+  uncertainty.seed = seed;
+  declare_influences(noise, uncertainty);
+  const bool declared = noise.uniform() < 0.7;
+  out.form = drawn_form(noise, section, declared);
+  if (declared) uncertainty.form_spectrum = out.form;
+  double variance_um2 = 0.0;
+  for (const FormTermPlan& term : out.form.terms) variance_um2 += std::pow(term.amplitude_um, 2);
+  feature.characteristics.front().tolerance_um =
+      8.4 * std::sqrt(variance_um2) * (0.7 + 0.7 * noise.uniform());
+  return out;
+}
+
+void draw_part(const FormSpectrumPlan& form, core::KeyedNoise& noise, SimulatedPartPlan& part) {
+  part = {};
+  for (const FormTermPlan& term : form.terms) {
+    const double a_um = noise.normal() * term.amplitude_um;
+    const double b_um = noise.normal() * term.amplitude_um;
+    const double phase_deg = std::atan2(b_um, a_um) / core::kDegree;
+    if (term.undulations >= 2) {
+      part.lobes.push_back({term.undulations, std::hypot(a_um, b_um), phase_deg, 0.0});
+    } else if (term.undulations == 1) {  // 1.5 q^2 is what form holds of (3 q^2 - 1) / 2
+      part.bend_um = 1.5 * std::hypot(a_um, b_um);
+      part.bend_phase_deg = phase_deg;
+    } else {
+      (term.degree == 1 ? part.taper_um : part.barrel_um) = term.degree == 1 ? a_um : 1.5 * a_um;
+    }
+  }
+  part.tilt_deg = 3.0 * noise.uniform();
+  part.tilt_toward_deg = 360.0 * noise.uniform();
+}
+
+/// The plan with another part and other errors of the declared sizes.
+Plan simulated(const Drawn& drawn, double cloud_s, std::uint64_t seed) {
+  Plan plan = drawn.plan;
+  core::KeyedNoise noise(seed, {78});
+  plan.simulation->seed = seed;
+  draw_part(drawn.form, noise, plan.simulation->part);
+  const UncertaintyPlan& said = *plan.uncertainty;
+  plan.simulation->probe.repeatability_um = *said.probe->repeatability_um;
+  SimulatedMachinePlan& machine = plan.simulation->machine;
+  for (const LobeInfluencePlan& lobe : said.probe->lobes) {
+    machine.pretravel_lobes.push_back({lobe.order, lobe.amplitude_um, 360.0 * noise.uniform()});
+  }
+  if (said.machine) {
+    machine.squareness_xy_urad = said.machine->squareness_xy_urad * noise.normal();
+    machine.squareness_xz_urad = said.machine->squareness_xz_urad * noise.normal();
+    machine.squareness_yz_urad = said.machine->squareness_yz_urad * noise.normal();
+  }
+  if (said.thermal) {  // nearly even in time; of the time of one cloud, which is what form sees
+    constexpr double kLong_s = 1e6;
+    const auto rate = [&](double most_um) {
+      return std::clamp(most_um * (2.0 * noise.uniform() - 1.0) * kLong_s / cloud_s, -1e3, 1e3);
+    };
+    machine.drift_time_s = kLong_s;
+    machine.drift_x_um = rate(said.thermal->machine_drift_x_um);
+    machine.drift_y_um = rate(said.thermal->machine_drift_y_um);
+  }
+  return plan;
+}
+
+record::RunRecord expected(const Plan& plan) {
+  const auto foretold = forecast(plan);
+  EXPECT_TRUE(foretold) << (foretold ? "" : foretold.error().what);
+  return foretold ? expected_record(plan, *foretold) : record::RunRecord();
+}
+
+Prediction predicted(const record::RunRecord& record, const PredictionOptions& options = {}) {
+  const auto out = reports::predict(record, 0, record.features[0].characteristics[0], options);
+  EXPECT_TRUE(out) << (out ? "" : out.error().what);
+  return out.value_or(Prediction{});
+}
+
+Prediction predicted(const Plan& plan, const PredictionOptions& options = {}) {
+  return predicted(expected(plan), options);
+}
+
+/// Widths that simulated runs state of one measurand.
+struct Found {
+  std::vector<double> widths_mm;
+
+  [[nodiscard]] double mean_mm() const {
+    double sum = 0.0;
+    for (const double width : widths_mm) sum += width;
+    return sum / static_cast<double>(widths_mm.size());
+  }
+  /// Standard deviation of the mean, as a share of it.
+  [[nodiscard]] double open_1() const {
+    double squares = 0.0;
+    for (const double width : widths_mm) squares += std::pow(width - mean_mm(), 2);
+    const auto count = static_cast<double>(widths_mm.size());
+    return std::sqrt(squares / (count - 1.0) / count) / mean_mm();
+  }
+  [[nodiscard]] std::size_t within(double low_mm, double high_mm) const {
+    return static_cast<std::size_t>(
+        std::count_if(widths_mm.begin(), widths_mm.end(),
+                      [&](double width) { return width >= low_mm && width <= high_mm; }));
+  }
+};
+
+/// Runs until the mean width of each measurand is known to 4 %.
+std::map<Measurand, Found> run_many(const Drawn& drawn, double cloud_s, std::uint64_t seed) {
+  constexpr int kLeast = 8;
+  const int most = full() ? 200 : 60;
+  std::map<Measurand, Found> out;
+  for (int k = 0; k < most; ++k) {
+    const auto run =
+        test::inspect(simulated(drawn, cloud_s, 1000 * seed + static_cast<std::uint64_t>(k)));
+    if (run.evaluation.features.empty()) return {};
+    const auto& value = run.evaluation.features[0].characteristics[0].value;
+    if (!value) {
+      ADD_FAILURE() << run.evaluation.features[0].characteristics[0].reason;
+      return {};
+    }
+    for (const Measurand about : {Measurand::kSampledPoints, Measurand::kWholeSurface}) {
+      const auto* said = value->uncertainty().about(about);
+      if (said != nullptr) out[about].widths_mm.push_back(said->high_mm - said->low_mm);
+    }
+    const bool known = std::all_of(out.begin(), out.end(),
+                                   [](const auto& of) { return of.second.open_1() < 0.04; });
+    if (k + 1 >= kLeast && known) break;
+  }
+  return out;
+}
+
+double cloud_time_s(const record::RunRecord& record) {
+  return (record.touches.back().time_s - record.touches.front().time_s) /
+         (record.touches.back().repeat + 1);
+}
+
+TEST(Prediction, WidthIsWithinFifteenPercentOfThatOfSimulatedRuns) {
+  std::size_t runs = 0;
+  std::size_t near = 0;
+  std::size_t between = 0;
+  for (std::uint64_t seed = 1; seed <= (full() ? 20U : 5U); ++seed) {
+    SCOPED_TRACE(seed);
+    const Drawn plan = drawn(seed);
+    const record::RunRecord record = expected(plan.plan);
+    const Prediction foretold = predicted(record);
+    ASSERT_EQ(foretold.why, "");
+    const auto found = run_many(plan, cloud_time_s(record), seed);
+    ASSERT_TRUE(found.contains(Measurand::kSampledPoints));
+    for (const auto& [about, widths] : found) {
+      const auto& said = foretold.about(about);
+      ASSERT_TRUE(said) << reports::name_of(about);
+      const double ratio = said->width_mm() / widths.mean_mm();
+      EXPECT_NEAR(ratio, 1.0, 0.15) << reports::name_of(about);
+      const std::size_t alike = widths.within(said->width_mm() / 1.15, said->width_mm() / 0.85);
+      const std::size_t inside =
+          widths.within(said->one_of_ten_width_mm, said->nine_of_ten_width_mm);
+      runs += widths.widths_mm.size();
+      near += alike;
+      between += inside;
+      if (!full()) continue;
+      std::printf("| %2u | %s | %.3f | %.3f | %.2f | %.2f | %zu | %zu | %zu |\n",
+                  static_cast<unsigned>(seed), about == Measurand::kSampledPoints ? "a" : "b",
+                  1e3 * said->width_mm(), 1e3 * widths.mean_mm(), ratio,
+                  said->width_mm() / widths.widths_mm.front(), widths.widths_mm.size(), alike,
+                  inside);
+    }
+  }
+  // Eight of ten parts lie between what one and what nine of ten stay below.
+  const double share = static_cast<double>(between) / static_cast<double>(runs);
+  EXPECT_GT(share, 0.7);
+  EXPECT_LT(share, 0.9);
+  if (full()) {
+    std::printf("%zu runs: %zu within 15 %% of the prediction, %zu within its 8 of 10\n", runs,
+                near, between);
+  }
+}
+
+/// A small plan with a declared form, for properties.
+Plan small(double repeatability_um, int repeats) {
+  Plan plan = test::random_plan(3, "guided", 0.01);
+  plan.features[0].pose_search.repeats = repeats;
+  UncertaintyPlan& said = plan.uncertainty.emplace();
+  said.probe.emplace();
+  said.probe->repeatability_um = repeatability_um;
+  said.form_spectrum.emplace();
+  said.form_spectrum->terms = {{2, 0, 2.0}, {3, 0, 1.0}, {0, 1, 0.5}};
+  return plan;
+}
+
+/// Few parts: enough where the same random numbers are compared.
+PredictionOptions few() {
+  PredictionOptions options;
+  options.least_inspections = options.most_inspections = 12;
+  return options;
+}
+
+TEST(Prediction, MoreNoiseIsWiderAndMoreRepeatsAreNarrower) {
+  double last_mm = 0.0;
+  for (const double noise_um : {0.05, 0.2, 0.8, 3.0}) {
+    const Prediction p = predicted(small(noise_um, 1), few());
+    ASSERT_TRUE(p.sampled && p.whole);
+    EXPECT_GT(p.sampled->width_mm(), last_mm);
+    EXPECT_GE(p.sampled->below_mm, 0.0);
+    EXPECT_GE(p.sampled->above_mm, 0.0);
+    last_mm = p.sampled->width_mm();
+  }
+  for (const int repeats : {2, 4, 9, 25}) {
+    const Prediction p = predicted(small(3.0, repeats), few());
+    ASSERT_TRUE(p.sampled);
+    EXPECT_LT(p.sampled->width_mm(), last_mm);
+    last_mm = p.sampled->width_mm();
+  }
+}
+
+TEST(Prediction, TheMeanOfManyTouchesIsOneTouchOfASmallerScatter) {
+  const Prediction many = predicted(small(1.2, 9), few());
+  const Prediction one = predicted(small(0.4, 1), few());
+  ASSERT_TRUE(many.sampled && one.sampled);
+  EXPECT_NEAR(many.sampled->width_mm() / one.sampled->width_mm(), 1.0, 0.02);
+}
+
+TEST(Prediction, HasTheSameBitsAtAnyNumberOfThreads) {
+  PredictionOptions options = few();
+  options.budget_trials = 10;
+  options.threads = 1;
+  const Prediction one = predicted(small(0.5, 2), options);
+  ASSERT_TRUE(one.sampled && one.whole);
+  for (const int threads : {2, 3, 7}) {
+    options.threads = threads;
+    const Prediction other = predicted(small(0.5, 2), options);
+    ASSERT_TRUE(other.sampled && other.whole);
+    for (const Measurand about : {Measurand::kSampledPoints, Measurand::kWholeSurface}) {
+      EXPECT_EQ(one.about(about)->expected_mm, other.about(about)->expected_mm);
+      EXPECT_EQ(one.about(about)->below_mm, other.about(about)->below_mm);
+      EXPECT_EQ(one.about(about)->above_mm, other.about(about)->above_mm);
+      EXPECT_EQ(one.about(about)->nine_of_ten_width_mm, other.about(about)->nine_of_ten_width_mm);
+    }
+    ASSERT_EQ(one.budget.size(), other.budget.size());
+    for (std::size_t k = 0; k < one.budget.size(); ++k) {
+      EXPECT_EQ(one.budget[k].standard_uncertainty_mm, other.budget[k].standard_uncertainty_mm);
+    }
+  }
+}
+
+TEST(Prediction, TakesHalfTheToleranceWhereNoFormIsDeclared) {
+  Plan plan = small(0.1, 1);
+  plan.uncertainty->form_spectrum.reset();
+  for (const double tolerance_um : {8.0, 16.0}) {
+    plan.features[0].characteristics[0].tolerance_um = tolerance_um;
+    const Prediction p = predicted(plan);
+    ASSERT_TRUE(p.sampled);
+    EXPECT_FALSE(p.whole);
+    EXPECT_NEAR(p.sampled->expected_mm, 0.5e-3 * tolerance_um, 0.1e-3 * tolerance_um);
+    EXPECT_THAT(p.form, HasSubstr("half the tolerance"));
+  }
+  plan.features[0].characteristics[0].tolerance_um.reset();
+  EXPECT_THAT(predicted(plan).form, HasSubstr("ten times the errors of a point, 1 um"));
+}
+
+TEST(Prediction, AssumesOfAnUndeclaredRepeatabilityWhatTheQualificationLetsPass) {
+  Plan plan = small(0.0, 3);
+  plan.uncertainty->probe->repeatability_um.reset();
+  plan.probe->qualification.form_limit_um = 3.93;
+  const Prediction assumed = predicted(plan, few());
+  const Prediction stated = predicted(small(1.0, 3), few());
+  ASSERT_TRUE(assumed.sampled && stated.sampled);
+  EXPECT_NEAR(assumed.sampled->width_mm(), stated.sampled->width_mm(), 1e-12);
+  EXPECT_THAT(assumed.repeatability, HasSubstr("1 um"));
+  EXPECT_EQ(stated.repeatability, "");
+  plan.features[0].pose_search.repeats = 1;
+  const Prediction single = predicted(plan, few());
+  EXPECT_THAT(single.repeatability, HasSubstr("one touch a point does not show it"));
+  EXPECT_NEAR(single.sampled->width_mm(), 0.0, 1e-9);
+}
+
+TEST(Prediction, SaysWhyThereIsNone) {
+  const auto why = [](const Plan& plan) { return predicted(plan, few()).why; };
+  Plan plan = small(0.5, 2);
+  plan.features[0].characteristics[0].reference = "ls";
+  EXPECT_THAT(why(plan), HasSubstr("minimum zones only"));
+  plan = small(0.5, 2);
+  plan.uncertainty.reset();
+  EXPECT_EQ(why(plan), "the plan declares no uncertainty");
+  plan = small(0.5, 2);
+  plan.features[0].pose_search.strategy = "merged";
+  plan.features[0].pose_search.poses = {{10.0, 0.0}, {-10.0, 0.0}};
+  EXPECT_THAT(why(plan), HasSubstr("merged from several poses"));
+  plan = small(0.5, 2);  // its own harmonics: too few points to show any
+  plan.uncertainty->form_spectrum->terms.clear();
+  EXPECT_THAT(why(plan), HasSubstr("do not tell the form between them"));
+  record::RunRecord record = expected(small(0.5, 2));
+  record.features[0].strategy = record::Strategy::kPointsFile;
+  EXPECT_THAT(predicted(record, few()).why, HasSubstr("come from a file"));
+  record.features[0].shape = record::Shape::kWheel;
+  EXPECT_THAT(predicted(record, few()).why, HasSubstr("of type wheel"));
+}
+
+TEST(Prediction, RefusesSettingsOutsideTheirRange) {
+  const record::RunRecord record = expected(small(0.5, 2));
+  const auto refused = [&](const PredictionOptions& options, int feature = 0) {
+    const auto out =
+        reports::predict(record, feature, record.features[0].characteristics[0], options);
+    return !out && out.error().code == core::Code::kBadOption;
+  };
+  EXPECT_TRUE(refused({}, 1));
+  EXPECT_TRUE(refused({}, -1));
+  PredictionOptions options;
+  options.least_inspections = 7;
+  EXPECT_TRUE(refused(options));
+  options = {};
+  options.most_inspections = 23;
+  EXPECT_TRUE(refused(options));
+  options = {};
+  options.tolerance_1 = std::nan("");
+  EXPECT_TRUE(refused(options));
+  options = {};
+  options.trials = 199;
+  EXPECT_TRUE(refused(options));
+  options = {};
+  options.budget_trials = 1;
+  EXPECT_TRUE(refused(options));
+  options = {};
+  options.threads = -1;
+  EXPECT_TRUE(refused(options));
+}
+
+TEST(Prediction, ExpectsTheTouchesOfARunInTheirOrderAndAtTheirTimes) {
+  Plan plan = small(0.0, 2);
+  plan.simulation->part = {};
+  plan.simulation->probe = {};
+  const record::RunRecord foretold = expected(plan);
+  const record::RunRecord run = test::inspect(plan).record;
+  std::vector<record::Touch> touched;
+  for (const record::Touch& touch : run.touches) {
+    if (touch.purpose != record::Touch::Purpose::kMeasure) continue;
+    if (run.poses[static_cast<std::size_t>(touch.pose)].final_cloud) touched.push_back(touch);
+  }
+  ASSERT_EQ(foretold.touches.size(), touched.size());
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_EQ(foretold.touches[i].layer, touched[i].layer);
+    EXPECT_EQ(foretold.touches[i].point, touched[i].point);
+    EXPECT_EQ(foretold.touches[i].repeat, touched[i].repeat);
+    EXPECT_NEAR((foretold.touches[i].tip_mm - touched[i].tip_mm).norm(), 0.0, 1e-3);
+    EXPECT_NEAR(foretold.touches[i].time_s - foretold.touches[0].time_s,
+                touched[i].time_s - touched[0].time_s, 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace rondure::plans
