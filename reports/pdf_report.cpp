@@ -9,6 +9,7 @@
 
 #include "core/version.h"
 #include "record/sha256.h"
+#include "reports/language.h"
 #include "reports/pdf_flow.h"
 #include "reports/pdf_look.h"
 #include "reports/text.h"
@@ -101,9 +102,8 @@ void Document::describe(std::string_view html) {
   };
   set(CAIRO_PDF_METADATA_TITLE, page_.title);
   set(CAIRO_PDF_METADATA_AUTHOR, header.operator_name);
-  set(CAIRO_PDF_METADATA_SUBJECT,
-      fmt::format("Cylindricity report: {}, revision {}, run {}", header.plan_name,
-                  header.plan_revision, header.run_id));
+  set(CAIRO_PDF_METADATA_SUBJECT, trf("Cylindricity report: {}, revision {}, run {}",
+                                      header.plan_name, header.plan_revision, header.run_id));
   set(CAIRO_PDF_METADATA_KEYWORDS,
       fmt::format("{}, {}, {}, {}", header.part_id, header.serial, header.drawing, header.run_id));
   // Of the page: ASCII, which Cairo writes as it is.
@@ -225,6 +225,7 @@ std::string_view statement_in(std::string_view bytes) {
 }  // namespace
 
 core::Result<Pdf> write_pdf(const record::RunRecord& record, std::string_view html) {
+  const LanguageScope scope(language_of_page(html));
   const auto page = read_page(html);
   if (!page) return core::fail(page.error());
   const LanguageScope scope(language_of_page(html));
