@@ -35,7 +35,7 @@ std::string pose_table(const FeatureResult& feature) {
   std::string html = fmt::format(
       R"(<div class="scroll"><table{}>{}<thead><tr><th scope="col" class="n">{}</th><th )"
       R"(scope="col" class="n">alpha / °</th><th scope="col" class="n">beta / °</th><th scope="col" class="n">f / µm</th>)"
-      "<th scope=" col ">{}</th><th scope=" col ">{}</th></tr></thead><tbody>",
+      R"(<th scope="col">{}</th><th scope="col">{}</th></tr></thead><tbody>)",
       shown.size() <= 12 ? R"( class="short")" : "", spoken_caption(tr("Search for the pose")),
       tr("Visit"), tr("Search ended"), tr("Pose"));
   std::size_t expected = 0;

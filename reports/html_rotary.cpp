@@ -123,8 +123,8 @@ std::string location_table(const RotaryFacts& facts) {
 std::string combined_table(const RotaryFacts& facts) {
   std::string html = fmt::format(
       R"(<div class="scroll"><table>{}<thead><tr><th scope="col">alpha</th><th scope="col">beta</th><th scope="col">{}</th>)"
-      "<th scope=" col ">{}</th><th scope=" col ">{}</th><th scope=" col ">{}</th><th scope=" col
-      ">{}</th></tr></thead><tbody>",
+      R"(<th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th>)"
+      R"(<th scope="col">{}</th></tr></thead><tbody>)",
       spoken_caption(tr("Combined poses")), tr("balls"), tr("before, rms / µm"),
       tr("left, rms / µm"), tr("largest / µm"), tr("tilt / µrad"));
   for (const CombinedPose& pose : facts.combined) {
