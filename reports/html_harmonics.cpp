@@ -6,6 +6,7 @@
 #include "reports/harmonic_mask.h"
 #include "reports/html_plots.h"
 #include "reports/html_sections.h"
+#include "reports/language.h"
 #include "reports/plot_curve.h"
 #include "reports/text.h"
 
@@ -28,16 +29,13 @@ std::string against_limits(const FeatureResult& feature, const record::Character
     if (masked.exceeds()) rows += exceeding_row(masked);
   }
   if (rows.empty()) {
-    return fmt::format(
-        R"(<p class="note">{}</p>)",
-        fmt::format("No harmonic goes beyond the limits of {}.", isolated(asked.id)));
+    return fmt::format(R"(<p class="note">{}</p>)",
+                       trf("No harmonic goes beyond the limits of {}.", isolated(asked.id)));
   }
-  std::string html =
-      fmt::format(R"(<table class="short"><caption>{}</caption><thead><tr>)",
-                  fmt::format("Harmonics beyond the limits of {}", isolated(asked.id)));
-  for (const std::string& name :
-       {std::string("UPR"), std::string("Layer"), std::string("Amplitude / µm"),
-        std::string("Limit / µm"), std::string("Beyond by / µm")}) {
+  std::string html = fmt::format(R"(<table class="short"><caption>{}</caption><thead><tr>)",
+                                 trf("Harmonics beyond the limits of {}", isolated(asked.id)));
+  for (const std::string& name : {std::string("UPR"), tr("Layer"), tr("Amplitude / µm"),
+                                  tr("Limit / µm"), tr("Beyond by / µm")}) {
     html += fmt::format(R"(<th scope="col" class="n">{}</th>)", name);
   }
   return html + "</tr></thead><tbody>" + rows + "</tbody></table>";
@@ -61,18 +59,15 @@ std::string harmonics_section(const FeatureResult& feature) {
     if (!asked.harmonic_limits.empty()) words += against_limits(feature, asked);
   }
   const std::string note =
-      limits.empty() ? std::string(
-                           "Before the filter, of each undulation in the section where it "
-                           "is largest. The plan gives no limits.")
-                     : std::string(
-                           "Before the filter, of each undulation in the section where it "
-                           "is largest. Lines: the limits of the mask.");
-  return fmt::format(
-      R"(<h3>Harmonics of the sections</h3><p class="note">{}</p><div class="scroll">{}</div>{})",
-      note,
-      bar_chart("Amplitudes of the harmonics", "undulations per revolution", "amplitude / µm", bars,
-                limits),
-      words);
+      limits.empty() ? tr("Before the filter, of each undulation in the section where it is "
+                          "largest. The plan gives no limits.")
+                     : tr("Before the filter, of each undulation in the section where it is "
+                          "largest. Lines: the limits of the mask.");
+  return fmt::format(R"(<h3>{}</h3><p class="note">{}</p><div class="scroll">{}</div>{})",
+                     tr("Harmonics of the sections"), note,
+                     bar_chart(tr("Amplitudes of the harmonics"), tr("undulations per revolution"),
+                               tr("amplitude / µm"), bars, limits),
+                     words);
 }
 
 }  // namespace rondure::reports

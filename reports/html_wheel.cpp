@@ -35,14 +35,9 @@ std::string radius_entries(const WheelFacts& facts) {
   return html;
 }
 
-/// Why there is none; English words of the fit.
-std::string absent(std::string_view why) {
-  return language() == Language::kEnglish ? escaped(why) : in_sentence(why);
-}
-
 std::string runout_entry(const fit::WheelMeasurement& m) {
   if (!m.runout) {
-    return entry(tr("Radial run-out"), with_note(tr("not stated"), absent(m.runout_absent)));
+    return entry(tr("Radial run-out"), with_note(tr("not stated"), plain_words(m.runout_absent)));
   }
   return entry(tr("Radial run-out"), with_note(um(m.runout->fim_mm) + " µm",
                                                trf("eccentricity {} µm; effective radius {} mm",

@@ -53,6 +53,56 @@ constexpr Translation kTexts[] = {
      "。"},
     {"Poses visited; the darker, the smaller f (logarithmic). Diamond: the final pose.",
      "访问过的位姿；颜色越深 f 越小（对数）。菱形：最终位姿。"},
+    {"Cylinder in three dimensions", "三维圆柱"},
+    {"Cylinder and its zone in three dimensions", "圆柱及其区域的三维视图"},
+    {"Two coaxial cylinders {} µm apart in radius about the minimum-zone axis, {} points between "
+     "them coloured by deviation, {} of them contact points.",
+     "绕最小区域轴线的两个同轴圆柱，半径相差 {} µm，其间 {} 个点按偏差着色，其中 {} 个为接触点。"},
+    {"turned {}°, tilted {}°", "转动 {}°，倾斜 {}°"},
+    {"Turn left", "向左转"},
+    {"Turn right", "向右转"},
+    {"Tilt back", "向后倾"},
+    {"Tilt forward", "向前倾"},
+    {"Reset view", "恢复视图"},
+    {"The zone between two cylinders about the minimum-zone axis (orange: outer, blue: inner) and "
+     "the points, coloured by their deviation in µm; triangles touch the outer, squares the inner "
+     "cylinder. Deviations are magnified {}× against the radius; heights, from the mean point, are "
+     "{}.",
+     "绕最小区域轴线的两个圆柱之间的区域（橙色：外，蓝色：内）和各点，按偏差着色，单位 "
+     "µm；三角形为与外圆柱的接触点，方形为与内圆柱的接触点。偏差对半径放大 {} "
+     "倍；高度从平均点起算，{}。"},
+    {"to scale", "按比例绘制"},
+    {"drawn at {:.2g}× the scale of the radius", "按半径比例的 {:.2g} 倍绘制"},
+    {" Dotted lines guide the eye only.", "虚线仅为引导视线。"},
+    {" {} of {} points are drawn: of each cell of 5° by 1/24 of the height the one farthest from "
+     "the middle of the zone; all are in touches.csv.",
+     "绘出 {1} 个点中的 {0} 个：每个 5°、1/24 高度的单元中离区域中线最远的一个；全部见 "
+     "touches.csv。"},
+    {" Drag it to turn it, or use the arrow keys when it has the focus; Home resets the view.",
+     "拖动可旋转，或在获得焦点后用方向键；Home 键恢复视图。"},
+    // Harmonics of the sections
+    {"No harmonic goes beyond the limits of {}.", "没有谐波超出 {} 的限值。"},
+    {"Harmonics beyond the limits of {}", "超出 {} 限值的谐波"},
+    {"Layer", "层"},
+    {"Amplitude / µm", "幅值 / µm"},
+    {"Limit / µm", "限值 / µm"},
+    {"Beyond by / µm", "超出量 / µm"},
+    {"Before the filter, of each undulation in the section where it is largest. The plan gives no "
+     "limits.",
+     "滤波前，各次谐波取其最大的截面。检测方案未给出限值。"},
+    {"Before the filter, of each undulation in the section where it is largest. Lines: the limits "
+     "of the mask.",
+     "滤波前，各次谐波取其最大的截面。横线：谐波限值。"},
+    {"Harmonics of the sections", "截面的谐波"},
+    {"Amplitudes of the harmonics", "谐波幅值"},
+    {"Earlier runs", "以往结果"},
+    {"Results of the same characteristics from the archive, as it was when this run was reported "
+     "first; the last is this run.",
+     "同一特性在归档中的结果（截至本次首次出报告时）；最后一个为本次。"},
+    {"Run chart of {}", "{} 的运行图"},
+    {"number of the result, in the order of time ({} to {})", "结果序号，按时间顺序（{} 至 {}）"},
+    {"centre", "中心线"},
+    {"tolerance", "公差"},
 };
 
 }  // namespace

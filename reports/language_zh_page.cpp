@@ -4,6 +4,14 @@ namespace rondure::reports {
 namespace {
 
 constexpr Translation kTexts[] = {
+    // PDF
+    {"Page {} of {}", "第 {} 页，共 {} 页"},
+    {"No installed font has these characters of the report: {}. They are shown as boxes with their "
+     "codes. Install a font that has them and write the report again (Debian: fonts-noto-cjk for "
+     "Chinese, fonts-noto-core for others).",
+     "已安装的字体都没有报告中的这些字符：{}"
+     "。它们显示为带编码的方框。请安装含有这些字符的字体后重新生成报告"
+     "（Debian：中文用 fonts-noto-cjk，其他用 fonts-noto-core）。"},
     // Head, verdict
     {"cylindricity report", "圆柱度检测报告"},
     {"Serial", "序列号"},
@@ -41,7 +49,7 @@ constexpr Translation kTexts[] = {
     {"Value", "测得值"},
     {"Limit", "公差"},
     {"none", "无"},
-    {"Zone", "图样区域"},
+    {"Zone", "图区"},
     {"Verification operator: {}", "检验操作集：{}"},
     {"No characteristic was asked for.", "没有要求检测任何特征。"},
     {"Characteristic", "特征"},
@@ -271,12 +279,22 @@ constexpr Translation kTexts[] = {
     {"Errors of the poses against the first, at the middle of the part, ± standard uncertainty; z "
      "along its axis. {} touched in several poses. Their size against what the kinematics state: "
      "chi² {} of {} degrees of freedom, limit {}.",
-     "各位姿相对第一个位姿的误差，取工件中部，± 标准不确定度；z 沿其轴线。{} "
-     "在多个位姿下被触测。其大小与运动学声明值之比：chi² {}，自由度 {}，限值 {}。"},
+     "各位姿相对第一个位姿的误差，取工件中部，± 标准不确定度；z "
+     "沿其轴线。{}在多个位姿下被触测。其大小与运动学声明值之比：chi² {}，自由度 {}，限值 {}。"},
     {"targets were", "个测点"},
     {"finished", "已完成"},
     {"failed", "失败"},
     {"stopped", "已停止"},
+    // Top of the page
+    {"Skip to the result", "跳到结果"},
+    {"Contents", "目录"},
+    {"Dark colours", "深色"},
+    {"Result", "结果"},
+    {"Settings", "设置"},
+    {"Decisions", "决定"},
+    // Pages of the PDF
+    {"Cylindricity report: {}, revision {}, run {}", "圆柱度检测报告：{}，版本 {}，检测编号 {}"},
+    {"Page {} of {}", "第 {} 页，共 {} 页"},
 };
 
 }  // namespace

@@ -117,6 +117,7 @@ constexpr Translation kTexts[] = {
      "ISO 230-7，固定敏感方向，相对平均转的最小二乘圆心"},
     {"displacement probes", "位移传感器"},
     {"harmonic {} is nearest to its limit", "第 {} 次谐波最接近其限值"},
+    {"harmonic {} of layer {} is nearest to its limit", "第 {1} 层的第 {0} 次谐波最接近其限值"},
     {"harmonic {} was not recovered", "第 {} 次谐波未恢复"},
     {"{} harmonics were not recovered", "{} 个谐波未恢复"},
     {"the mask reaches to harmonic {}, {} is the highest recovered",
@@ -209,7 +210,6 @@ constexpr Translation kTexts[] = {
      "接触点与下界之间尚有 {} mm 间隙，允许 {} mm"},
     // Uncertainty
     {"the plan declares no uncertainty", "检测方案未声明不确定度"},
-    {"intervals are computed of minimum zones only", "仅对最小区域计算区间"},
     {"intervals are computed of touches and points only", "仅对触测点和点数据计算区间"},
     {"intervals of clouds merged from several poses are not computed; what the fixture leaves in "
      "the value is told beside it",
@@ -335,6 +335,18 @@ constexpr Translation kTexts[] = {
      "tilt of the part, not its form; the minimum zone below is free of it",
      "最终位姿的 f = {} um 大于区域 {} um "
      "的两倍：它反映工件的倾斜而非形状；下面的最小区域不受其影响"},
+    // Why there is no interval
+    {"in {} of {} trials the points have no such reference",
+     "{1} 次试验中有 {0} 次各点没有此评定基准"},
+    {"{} points are more than {}, the limit of the trials; give every n-th point",
+     "{} 个点超过试验上限 {}；请每隔 n 点取一点"},
+    // Harmonics of layers
+    {"harmonic {} of layer {} is nearest to its limit", "第 {1} 层的第 {0} 次谐波最接近其限值"},
+    {"intervals are computed of form deviations only", "仅对形状偏差计算区间"},
+    {"the mask reaches to harmonic {}, the points of the sections carry {}; harmonics need full "
+     "sections of at least 350 points",
+     "限值延伸到第 {} 次谐波，而截面上的点只能给出 {} 次；谐波需要至少 350 点的完整截面"},
+    {"the mask names no harmonic", "限值未列出任何谐波"},
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ constexpr Translation kTexts[] = {
     {"reason", "原因"},
     {"missing", "缺少"},
     {"{} um, {:g} % within [{}, {}] um {}", "{0} um，{1:g} % 包含区间 [{2}, {3}] um，{4}"},
-    {"corrected", "修正值"},
+    {"corrected", "修正"},
     {"noise {} um", "噪声 {} um"},
     {", sparse sampling {} um", "，稀疏采样 {} um"},
     {"; most of the spread {}: {} ({:.0f} %)", "；{}的主要来源：{} ({:.0f} %)"},

@@ -9,6 +9,7 @@
 
 #include "core/version.h"
 #include "record/sha256.h"
+#include "reports/language.h"
 #include "reports/pdf_flow.h"
 #include "reports/pdf_look.h"
 #include "reports/text.h"
@@ -101,9 +102,8 @@ void Document::describe(std::string_view html) {
   };
   set(CAIRO_PDF_METADATA_TITLE, page_.title);
   set(CAIRO_PDF_METADATA_AUTHOR, header.operator_name);
-  set(CAIRO_PDF_METADATA_SUBJECT,
-      fmt::format("Cylindricity report: {}, revision {}, run {}", header.plan_name,
-                  header.plan_revision, header.run_id));
+  set(CAIRO_PDF_METADATA_SUBJECT, trf("Cylindricity report: {}, revision {}, run {}",
+                                      header.plan_name, header.plan_revision, header.run_id));
   set(CAIRO_PDF_METADATA_KEYWORDS,
       fmt::format("{}, {}, {}, {}", header.part_id, header.serial, header.drawing, header.run_id));
   // Of the page: ASCII, which Cairo writes as it is.
@@ -145,16 +145,16 @@ void Document::draw_head_and_foot(int page, int pages) {
   };
   const std::string part =
       header.serial.empty() ? header.part_id : header.part_id + " / " + header.serial;
-  draw_line(kPdfMargin, kHeadY, 0.40 * kTextWidth, Align::kLeft, field("Part", part), style);
+  draw_line(kPdfMargin, kHeadY, 0.40 * kTextWidth, Align::kLeft, field(tr("Part"), part), style);
   draw_line(kPdfMargin + 0.42 * kTextWidth, kHeadY, 0.16 * kTextWidth, Align::kLeft,
-            field("Revision", header.plan_revision), style);
+            field(tr("Revision"), header.plan_revision), style);
   draw_line(kPdfMargin + 0.60 * kTextWidth, kHeadY, 0.40 * kTextWidth, Align::kRight,
-            field("Run", header.run_id), style);
+            field(tr("Run"), header.run_id), style);
   draw_rule(kHeadY + 13.0);
   draw_line(kPdfMargin, kFootY, 0.5 * kTextWidth, Align::kLeft,
             fmt::format("Rondure {}", core::kVersion), style);
   draw_line(kPdfMargin + 0.5 * kTextWidth, kFootY, 0.5 * kTextWidth, Align::kRight,
-            fmt::format("Page {} of {}", page, pages), style);
+            trf("Page {} of {}", page, pages), style);
 }
 
 /// Headings as bookmarks, each below the last one of a higher level.
@@ -213,19 +213,22 @@ core::Result<Pdf> Document::write(std::string_view html) {
   return out;
 }
 
-/// The digest of the page that a document states; empty without one.
-std::string_view digest_in(std::string_view bytes) {
-  constexpr std::size_t kDigits = 64;
-  const std::size_t at = bytes.find(kDigestMark);
-  return at == std::string_view::npos ? std::string_view()
-                                      : bytes.substr(at + kDigestMark.size(), kDigits);
+/// What a document states of its page: digest, then language. Cairo writes it behind the names,
+/// which may hold anything.
+std::string_view statement_in(std::string_view bytes) {
+  const std::size_t at = bytes.rfind(kDigestMark);
+  if (at == std::string_view::npos) return {};
+  const std::string_view rest = bytes.substr(at + kDigestMark.size(), 200);
+  return rest.substr(0, rest.find(')'));
 }
 
 }  // namespace
 
 core::Result<Pdf> write_pdf(const record::RunRecord& record, std::string_view html) {
+  const LanguageScope scope(language_of_page(html));
   const auto page = read_page(html);
   if (!page) return core::fail(page.error());
+  const LanguageScope scope(language_of_page(html));
   return Document(record, *page).write(html);
 }
 
@@ -237,16 +240,18 @@ std::string missing_in_words(const std::vector<char32_t>& missing) {
     codes += fmt::format("{}U+{:04X}", i == 0 ? "" : ", ", static_cast<unsigned>(missing[i]));
   }
   if (missing.size() > kMost) codes += ", ...";
-  return fmt::format(
-      "No installed font has {} of this report ({}): shown as boxes with the code. Install one and "
-      "write the report again (Debian: fonts-noto-cjk for Chinese, fonts-noto-core for others).",
-      count(missing.size(), "character", "characters"), codes);
+  return trf(
+      "No installed font has these characters of the report: {}. They are shown as boxes with "
+      "their "
+      "codes. Install a font that has them and write the report again (Debian: fonts-noto-cjk for "
+      "Chinese, fonts-noto-core for others).",
+      codes);
 }
 
 std::optional<std::string> pdf_difference(std::string_view expected, std::string_view found,
                                           bool as_written) {
   if (expected == found) return std::nullopt;
-  const bool same_page = digest_in(expected) == digest_in(found);
+  const bool same_page = statement_in(expected) == statement_in(found);
   if (!same_page) return "it was set from another page than the journal gives";
   if (as_written) return std::nullopt;
   return "its bytes are not those that are set now from the same page";
@@ -254,7 +259,7 @@ std::optional<std::string> pdf_difference(std::string_view expected, std::string
 
 Language language_of_pdf(std::string_view bytes) {
   const std::string mark = fmt::format("{}{}", kLanguageMark, tag_of(Language::kChinese));
-  return bytes.find(mark) == std::string_view::npos ? Language::kEnglish : Language::kChinese;
+  return statement_in(bytes).ends_with(mark) ? Language::kChinese : Language::kEnglish;
 }
 
 }  // namespace rondure::reports

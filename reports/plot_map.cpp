@@ -210,8 +210,7 @@ std::string deviation_map(const FeatureResult& feature, const Zone& zone) {
       view.cells ? tr("Mean deviation from the middle of the zone, in cells of 3°.")
                  : tr("Deviation of each point from the middle of the zone in µm."),
       tr("Orange: farther from the axis; blue: nearer. Triangles touch the outer, squares the "
-         "inner "
-         "cylinder of the zone."),
+         "inner cylinder of the zone."),
       feature.merged ? tr(" The number above a point is its pose.") : std::string());
 }
 

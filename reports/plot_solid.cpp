@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "reports/html_plots.h"
 #include "reports/html_svg.h"
+#include "reports/language.h"
 #include "reports/plot_scale.h"
 #include "reports/solid_scene.h"
 #include "reports/text.h"
@@ -155,8 +156,8 @@ std::string drawing(const SolidScene& scene, const FeatureResult& feature, doubl
   const double sine = std::abs(std::sin(camera.pitch_deg * core::kDegree));
   const double cosine = std::cos(camera.pitch_deg * core::kDegree);
   const Layers layers = layers_of(scene, feature, half_zone_mm, camera);
-  Svg svg(kWidth, kHeight, "wide turn", "Cylinder and its zone in three dimensions");
-  svg.describe(fmt::format(
+  Svg svg(kWidth, kHeight, "wide turn", tr("Cylinder and its zone in three dimensions"));
+  svg.describe(trf(
       "Two coaxial cylinders {} µm apart in radius about the minimum-zone axis, {} points between "
       "them coloured by deviation, {} of them contact points.",
       um(2.0 * half_zone_mm), scene.points.size(),
@@ -190,31 +191,30 @@ std::string tools(const SolidScene& scene) {
       R"(<div class="tools screen-only" hidden="hidden" data-half="{:.1f}" )"
       R"(data-centre="{} {}" data-view="{} {}" data-words="{}">{}{}{}{}{}<output></output></div>)",
       scene.half_height, kX, kY, camera.yaw_deg, camera.pitch_deg,
-      escaped("turned {}°, tilted {}°"), button("-15 0", "Turn left", "◀"),
-      button("15 0", "Turn right", "▶"), button("0 -15", "Tilt back", "▲"),
-      button("0 15", "Tilt forward", "▼"),
-      R"(<button type="button" data-turn="reset">Reset view</button>)");
+      escaped(tr("turned {}°, tilted {}°")), button("-15 0", tr("Turn left"), "◀"),
+      button("15 0", tr("Turn right"), "▶"), button("0 -15", tr("Tilt back"), "▲"),
+      button("0 15", tr("Tilt forward"), "▼"),
+      fmt::format(R"(<button type="button" data-turn="reset">{}</button>)", tr("Reset view")));
 }
 
 std::string caption(const SolidScene& scene, std::size_t all) {
-  std::string text = fmt::format(
+  std::string text = trf(
       "The zone between two cylinders about the minimum-zone axis (orange: outer, blue: inner) and "
       "the points, coloured by their deviation in µm; triangles touch the outer, squares the inner "
       "cylinder. Deviations are magnified {}× against the radius; heights, from the mean point, "
       "are {}.",
       fixed(scene.magnification, 0),
       std::abs(scene.height_share - 1.0) < 1e-9
-          ? std::string("to scale")
-          : fmt::format("drawn at {:.2g}× the scale of the radius", scene.height_share));
+          ? tr("to scale")
+          : trf("drawn at {:.2g}× the scale of the radius", scene.height_share));
   if (!scene.sections.empty() && !scene.dense) {
-    text += " Dotted lines guide the eye only.";
+    text += tr(" Dotted lines guide the eye only.");
   }
   if (scene.left_out > 0) {
-    text += fmt::format(
-        " {} of {} points are drawn: of each cell of 5° by 1/24 of the height the one farthest "
-        "from "
-        "the middle of the zone; all are in touches.csv.",
-        all - scene.left_out, all);
+    text +=
+        trf(" {} of {} points are drawn: of each cell of 5° by 1/24 of the height the one farthest "
+            "from the middle of the zone; all are in touches.csv.",
+            all - scene.left_out, all);
   }
   return text;
 }
@@ -228,11 +228,13 @@ std::string solid_view(const FeatureResult& feature, const Zone& zone) {
   const SolidScene scene = solid_scene_of(feature, zone);
   const double half_zone_mm = std::max(0.5 * zone.deviation_mm, 1e-5);
   return fmt::format(
-      R"(<h3>Cylinder in three dimensions</h3><figure class="solid"><div class="scroll">{}</div>)"
-      R"({}<figcaption>{}<span class="screen-only turn-note" hidden="hidden"> Drag it to turn it, )"
-      "or use the arrow keys when it has the focus; Home resets the view.</span></figcaption>"
+      R"(<h3>{}</h3><figure class="solid"><div class="scroll">{}</div>)"
+      R"({}<figcaption>{}<span class="screen-only turn-note" hidden="hidden">{}</span></figcaption>)"
       "</figure>",
-      drawing(scene, feature, half_zone_mm), tools(scene), caption(scene, feature.cloud.size()));
+      tr("Cylinder in three dimensions"), drawing(scene, feature, half_zone_mm), tools(scene),
+      caption(scene, feature.cloud.size()),
+      tr(" Drag it to turn it, or use the arrow keys when it has the focus; Home resets the "
+         "view."));
 }
 
 }  // namespace rondure::reports

@@ -203,6 +203,11 @@ std::string worded(std::string_view text) {
   return known ? isolated(*known) : foreign(text);
 }
 
+std::string plain_words(std::string_view text) {
+  const auto known = told(text);
+  return known ? escaped(*known) : foreign(text);
+}
+
 std::string in_sentence(std::string_view text) {
   const auto known = told(text);
   return known ? isolated(with_signs(*known)) : foreign(with_signs(text));

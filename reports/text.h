@@ -53,7 +53,9 @@ namespace rondure::reports {
 /// Words that evaluation or another room chose ("finished", "guided"), as told() knows them, else
 /// foreign().
 [[nodiscard]] std::string worded(std::string_view text);
-/// The same of a sentence, which spells units in ASCII: " um" and " degC" with their signs.
+/// The same, not isolated where the words are known: of words that no user can write.
+[[nodiscard]] std::string plain_words(std::string_view text);
+/// worded() of a sentence, which spells units in ASCII: " um" and " degC" with their signs.
 [[nodiscard]] std::string in_sentence(std::string_view text);
 /// in_sentence() that begins with an upper-case letter.
 [[nodiscard]] std::string opening_sentence(std::string_view text);
