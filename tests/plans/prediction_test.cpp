@@ -363,12 +363,27 @@ TEST(Prediction, AssumesOfAnUndeclaredRepeatabilityWhatTheQualificationLetsPass)
   EXPECT_NEAR(single.sampled->width_mm(), 0.0, 1e-9);
 }
 
+TEST(Prediction, IsAboutTheReferenceThatIsAskedFor) {
+  for (const char* form : {"cylindricity", "roundness"}) {
+    SCOPED_TRACE(form);
+    Plan plan = small(0.5, 2);
+    plan.features[0].characteristics[0].form = form;
+    const Prediction zone = predicted(plan, few());
+    ASSERT_TRUE(zone.sampled);
+    for (const char* reference : {"ls", "mc", "mi"}) {
+      SCOPED_TRACE(reference);
+      plan.features[0].characteristics[0].reference = reference;
+      const Prediction other = predicted(plan, few());
+      EXPECT_EQ(other.why, "");
+      ASSERT_TRUE(other.sampled);
+      EXPECT_GT(other.sampled->expected_mm, zone.sampled->expected_mm);
+    }
+  }
+}
+
 TEST(Prediction, SaysWhyThereIsNone) {
   const auto why = [](const Plan& plan) { return predicted(plan, few()).why; };
   Plan plan = small(0.5, 2);
-  plan.features[0].characteristics[0].reference = "ls";
-  EXPECT_THAT(why(plan), HasSubstr("minimum zones only"));
-  plan = small(0.5, 2);
   plan.uncertainty.reset();
   EXPECT_EQ(why(plan), "the plan declares no uncertainty");
   plan = small(0.5, 2);
