@@ -228,7 +228,6 @@ core::Result<Pdf> write_pdf(const record::RunRecord& record, std::string_view ht
   const LanguageScope scope(language_of_page(html));
   const auto page = read_page(html);
   if (!page) return core::fail(page.error());
-  const LanguageScope scope(language_of_page(html));
   return Document(record, *page).write(html);
 }
 
@@ -242,8 +241,7 @@ std::string missing_in_words(const std::vector<char32_t>& missing) {
   if (missing.size() > kMost) codes += ", ...";
   return trf(
       "No installed font has these characters of the report: {}. They are shown as boxes with "
-      "their "
-      "codes. Install a font that has them and write the report again (Debian: fonts-noto-cjk for "
+      "their codes. Install a font that has them and write the report again (Debian: fonts-noto-cjk for "
       "Chinese, fonts-noto-core for others).",
       codes);
 }
