@@ -81,7 +81,7 @@ double zone_mm(const FormCloud& cloud) {
   for (Eigen::Index i = 0; i < deviations.size(); ++i) {
     deviations[i] = cloud.points[static_cast<std::size_t>(i)].deviation_mm;
   }
-  return FormValue(cloud.kind, cloud.radius_mm, cloud.points).of(deviations);
+  return FormValue(cloud, cloud.points).of(deviations);
 }
 
 /// Form of which nothing is known but that its undulations fall with their number.
