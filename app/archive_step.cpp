@@ -6,11 +6,13 @@
 
 #include "app/shell_word.h"
 #include "app/terminal.h"
+#include "record/archive.h"
 #include "record/archive_queue.h"
 #include "record/files.h"
 #include "record/journal.h"
 #include "record/sha256.h"
 #include "reports/archive_entry.h"
+#include "reports/earlier_results.h"
 #include "reports/text.h"
 
 namespace rondure::app {
@@ -50,6 +52,24 @@ core::Result<record::ArchiveRun> entry_of(const fs::path& directory,
   const auto journal = record::read_file(directory / record::kJournalName);
   if (!journal) return core::fail(journal.error());
   return reports::archive_entry(record, evaluation, record::sha256_hex(*journal));
+}
+
+void keep_earlier_results(const record::ArchivePlace& place, const fs::path& directory,
+                          const record::RunRecord& record) {
+  std::error_code ignored;
+  if (place.kind == record::ArchivePlace::Kind::kNone) return;
+  if (fs::exists(directory / reports::kEarlierName, ignored)) return;
+  auto archive = record::Archive::open(place, record::Archive::Access::kRead);
+  if (!archive) return;
+  record::ArchiveFilter filter;
+  filter.part = record.header.part_id;
+  filter.until_s = record::seconds_of_utc(record.header.started_utc);
+  auto earlier = archive->newest(filter, reports::kMostEarlier);
+  if (!earlier) return;
+  std::erase_if(*earlier, [&](const record::ArchivedResult& r) {
+    return r.head.run_id == record.header.run_id && r.head.started_utc == record.header.started_utc;
+  });
+  if (const auto kept = reports::keep_earlier(directory, *earlier); !kept) complain(kept.error());
 }
 
 bool archive_run(const record::ArchivePlace& place, const fs::path& directory,

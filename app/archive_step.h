@@ -22,6 +22,12 @@ namespace rondure::app {
                                                         const record::RunRecord& record,
                                                         const reports::Evaluation& evaluation);
 
+/// Keeps the earlier results of a run's part in its directory (earlier.json), for the run charts of
+/// its page: once, before its reports are first written. Without an archive, or where it cannot be
+/// read, the page has no run chart; pushing the run says what is wrong with the archive.
+void keep_earlier_results(const record::ArchivePlace& place, const std::filesystem::path& directory,
+                          const record::RunRecord& record);
+
 /// Pushes a sealed run whose reports are written. What cannot be pushed waits in the queue beside
 /// the run directory; a message says so. Never changes how the run ends.
 /// @return  Whether there was anything to do: false when the archive held it, or none is wanted.

@@ -153,7 +153,7 @@ std::string forecast_table(const plans::Plan& plan, const plans::Forecast& forec
   return out + "\nEvery target can be reached. Nothing has moved.\n";
 }
 
-std::string forecast_json(const plans::Plan& plan, const plans::Forecast& forecast) {
+ordered_json forecast_json(const plans::Plan& plan, const plans::Forecast& forecast) {
   ordered_json out = {{"plan", plan.plan.name},         {"revision", plan.plan.revision},
                       {"touches", forecast.touches},    {"poses", forecast.poses},
                       {"path_mm", forecast.path_mm},    {"time_s", forecast.time_s},
@@ -161,7 +161,7 @@ std::string forecast_json(const plans::Plan& plan, const plans::Forecast& foreca
   for (const ForecastStage& stage : forecast.stages) {
     out["stages"].push_back(stage_json(plan, stage));
   }
-  return out.dump(2) + "\n";
+  return out;
 }
 
 std::string problems_json(const std::vector<core::Error>& problems) {

@@ -69,7 +69,7 @@ void add_validate(CLI::App& app, ValidateArguments& arguments) {
 
 void add_plan(CLI::App& app, PlanArguments& arguments) {
   auto* verb = app.add_subcommand(
-      "plan", "What a run would do: poses, touches, path, time, reach; nothing moves");
+      "plan", "What a run would do: poses, touches, path, time, reach, uncertainty; nothing moves");
   verb->add_option("PLAN", arguments.plan, "Plan file (JSON)")->required();
   verb->add_flag("--json", arguments.json, "JSON instead of text");
   verb->add_option("--svg", arguments.svg, "Draws the way of the tip: side and top view")
@@ -77,8 +77,16 @@ void add_plan(CLI::App& app, PlanArguments& arguments) {
   verb->add_option("--feature", arguments.feature,
                    "Feature to draw (default: the first that is touched)")
       ->type_name("ID");
+  verb->add_option("--target-U", arguments.target_expanded,
+                   "Cheapest sampling with U of at most this, as 1um, 500nm")
+      ->type_name("LENGTH");
   verb->footer(
       "\nExample: rondure plan plans/examples/01_spool_simulated.json --svg path.svg\n"
+      "         rondure plan plans/examples/01_spool_simulated.json --target-U 1um\n"
+      "With a section \"uncertainty\" the interval of each characteristic is predicted: what the "
+      "run\nwould state, for parts of the declared form. --target-U tries layers, points and "
+      "repeats,\ntells time and U of each, and what to change in the plan; exit status 2 when none "
+      "meets it.\n"
       "The run follows the same path. Targets out of reach are named with the reason and what "
       "would\nhelp; then the exit status is 2. More: docs/planning.md");
 }

@@ -97,6 +97,7 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
       return kRunFailed;
     }
   }
+  if (!failed) keep_earlier_results(archive, directory, told->record);
   const auto formats = arguments.formats.empty() ? plan.reports.formats : arguments.formats;
   const reports::Language language = language_of(arguments);
   const auto written =

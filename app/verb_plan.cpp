@@ -1,6 +1,15 @@
+#include <algorithm>
+#include <optional>
+
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "app/forecast_text.h"
+#include "app/length_word.h"
+#include "app/prediction.h"
+#include "app/prediction_json.h"
+#include "app/prediction_text.h"
+#include "app/sampling_search.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "plans/forecast.h"
@@ -37,9 +46,59 @@ core::Result<void> draw(const plans::Plan& plan, const plans::Forecast& forecast
   return record::write_file(arguments.svg, plans::forecast_picture(plan, **stage));
 }
 
+/// All that is told besides the forecast itself.
+struct Outlook {
+  std::vector<PredictedCharacteristic> predicted;
+  std::optional<double> target_mm;
+  std::vector<SamplingSearch> searches;
+};
+
+core::Result<Outlook> look_ahead(const plans::Plan& plan, const plans::Forecast& forecast,
+                                 std::optional<double> target_mm) {
+  Outlook out;
+  out.target_mm = target_mm;
+  auto predicted = predict_plan(plan, forecast);
+  if (!predicted) return core::fail(predicted.error());
+  out.predicted = *std::move(predicted);
+  if (!target_mm) return out;
+  auto searches = search_samplings(plan, *target_mm);
+  if (!searches) return core::fail(searches.error());
+  out.searches = *std::move(searches);
+  return out;
+}
+
+void print(const plans::Plan& plan, const plans::Forecast& forecast, const Outlook& outlook,
+           bool json) {
+  if (json) {
+    nlohmann::ordered_json out = forecast_json(plan, forecast);
+    out["prediction"] = prediction_json(plan, outlook.predicted);
+    if (outlook.target_mm) {
+      out["target"] = search_json(plan, outlook.searches, *outlook.target_mm);
+    }
+    return say(out.dump(2) + "\n");
+  }
+  say(forecast_table(plan, forecast));
+  say(prediction_table(plan, outlook.predicted));
+  if (outlook.target_mm) say(search_table(plan, outlook.searches, *outlook.target_mm));
+}
+
+/// Whether every touched feature has a sampling that meets the target.
+bool target_met(const Outlook& outlook) {
+  if (!outlook.target_mm) return true;
+  return !outlook.searches.empty() &&
+         std::all_of(outlook.searches.begin(), outlook.searches.end(),
+                     [](const SamplingSearch& of) { return of.best.has_value(); });
+}
+
 }  // namespace
 
 int plan(const PlanArguments& arguments) {
+  std::optional<double> target_mm;
+  if (arguments.target_expanded) {
+    const auto length = length_from(*arguments.target_expanded);
+    if (!length) return refuse({core::Error(length.error()).at("--target-U")}, arguments);
+    target_mm = *length;
+  }
   const auto read = plans::read_plan(arguments.plan);
   if (!read) return refuse(read.error(), arguments);
   const auto forecast = plans::forecast(*read);
@@ -49,8 +108,10 @@ int plan(const PlanArguments& arguments) {
       return refuse({drawn.error()}, arguments);
     }
   }
-  say(arguments.json ? forecast_json(*read, *forecast) : forecast_table(*read, *forecast));
-  return kAllWell;
+  const auto outlook = look_ahead(*read, *forecast, target_mm);
+  if (!outlook) return refuse({outlook.error()}, arguments);
+  print(*read, *forecast, *outlook, arguments.json);
+  return target_met(*outlook) ? kAllWell : kBadInput;
 }
 
 }  // namespace rondure::app

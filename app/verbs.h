@@ -28,8 +28,9 @@ struct ValidateArguments {
 struct PlanArguments {
   std::string plan;
   bool json = false;
-  std::string svg;      ///< File for a picture; empty: none.
-  std::string feature;  ///< To draw; empty: the first.
+  std::string svg;                             ///< File for a picture; empty: none.
+  std::string feature;                         ///< To draw; empty: the first.
+  std::optional<std::string> target_expanded;  ///< Length with unit that U shall not be above.
 };
 [[nodiscard]] int plan(const PlanArguments& arguments);
 

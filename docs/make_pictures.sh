@@ -1,15 +1,21 @@
 #!/usr/bin/env bash
-# Makes the pictures of README and docs: the first page of the report of example plan 01, and the way of its tip.
-# Needs chromium and imagemagick (Debian packages).
+# Makes the pictures of README and docs: the way of the tip of example plan 01, and its report on a screen, in dark,
+# narrow, in Chinese and on paper, each below 300 kB. Needs a release build and the packages of the browser tests
+# (tests/browser/README.md), imagemagick, poppler-utils and, for Chinese, fonts-noto-cjk.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build/release/rondure plan plans/examples/01_spool_simulated.json --svg docs/images/planning.svg
+
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-build/release/rondure run plans/examples/01_spool_simulated.json --out "$work/spool" --serial 0042 --quiet
-sandbox=()
-[ "$(id -u)" -eq 0 ] && sandbox=(--no-sandbox)
-chromium --headless "${sandbox[@]}" --disable-gpu --no-first-run --disable-background-networking \
-  --hide-scrollbars --force-device-scale-factor=1.5 --user-data-dir="$work/profile" \
-  --window-size=960,1180 --screenshot="$work/report.png" "file://$work/spool/report.html" 2>/dev/null
-convert "$work/report.png" -colors 64 -strip PNG8:docs/images/report.png
+export RONDURE_BINARY=$PWD/build/release/rondure RONDURE_SOURCE_DIR=$PWD RONDURE_PICTURES=$work
+tests/browser/run.sh build/release/tests/browser/packages ../../docs/pictures.mjs
+
+mkdir -p docs/pictures
+pdftoppm -r 60 -png -f 1 -l 4 "$work/print.pdf" "$work/page"
+montage "$work"/page-*.png -tile 4x1 -geometry +10+10 -background '#c8ced4' "$work/print.png"
+for picture in screen dark narrow chinese solid map print; do
+  convert "$work/$picture.png" -strip -colors 96 "PNG8:docs/pictures/$picture.png"
+done
+cp docs/pictures/screen.png docs/images/report.png
+find docs/pictures docs/images -name '*.png' -size +300k -exec echo "larger than 300 kB:" {} + -exec false {} +

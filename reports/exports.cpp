@@ -52,9 +52,10 @@ core::Result<void> look_through(const Export& what, const std::string& bytes) {
 }
 
 std::string text_of(const Export& what, const record::RunRecord& record,
-                    const Evaluation& evaluation, Language language) {
+                    const Evaluation& evaluation, Language language,
+                    const EarlierResults& earlier) {
   if (what.file == kCalibrationFile) return calibration_of(evaluation);
-  if (what.format == "html") return write_html(record, evaluation, language);
+  if (what.format == "html") return write_html(record, evaluation, language, earlier);
   if (what.format == "json") return write_json(record, evaluation);
   if (what.format == "qif") return write_qif(record, evaluation);
   if (what.format == "dmis") return write_dmis(record, evaluation);
@@ -68,8 +69,8 @@ std::string text_of(const Export& what, const record::RunRecord& record,
 core::Result<record::Checksum> write_one(const Export& what, const std::filesystem::path& directory,
                                          const record::RunRecord& record,
                                          const Evaluation& evaluation, Language language,
-                                         WrittenExports& out) {
-  const auto made = render(what, record, evaluation, language);
+                                         const EarlierResults& earlier, WrittenExports& out) {
+  const auto made = render(what, record, evaluation, language, earlier);
   if (!made) return core::fail(made.error());
   if (auto sound = look_through(what, made->bytes); !sound) return core::fail(sound.error());
   const auto path = directory / what.file;
@@ -114,9 +115,12 @@ bool applies(const Export& what, const record::RunRecord& record) {
 }
 
 core::Result<Rendered> render(const Export& what, const record::RunRecord& record,
-                              const Evaluation& evaluation, Language language) {
-  if (what.format != "pdf") return Rendered{text_of(what, record, evaluation, language), {}};
-  auto made = write_pdf(record, write_html(record, evaluation, language));
+                              const Evaluation& evaluation, Language language,
+                              const EarlierResults& earlier) {
+  if (what.format != "pdf") {
+    return Rendered{text_of(what, record, evaluation, language, earlier), {}};
+  }
+  auto made = write_pdf(record, write_html(record, evaluation, language, earlier));
   if (!made) return core::fail(made.error());
   return Rendered{std::move(made->bytes), missing_in_words(made->missing)};
 }
@@ -129,11 +133,13 @@ Language language_of(const Export& what, std::string_view bytes) {
 bool exports_are_current(const std::filesystem::path& directory,
                          const std::vector<std::string>& formats, const record::RunRecord& record,
                          const Evaluation& evaluation, Language language) {
+  const auto earlier = read_earlier(directory);
+  if (!earlier) return false;
   return std::all_of(exports().begin(), exports().end(), [&](const Export& e) {
     if (!applies(e, record)) return true;
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) return true;
     const auto bytes = record::read_file(directory / e.file);
-    const auto made = render(e, record, evaluation, language);
+    const auto made = render(e, record, evaluation, language, *earlier);
     return bytes && made && *bytes == made->bytes;
   });
 }
@@ -150,13 +156,15 @@ core::Result<WrittenExports> write_exports(const std::filesystem::path& director
           fmt::format("format '{}' is unknown; {} can be written", format, in_words(known)));
     }
   }
+  const auto earlier = read_earlier(directory);
+  if (!earlier) return core::fail(earlier.error());
   WrittenExports written;
   std::vector<record::Checksum> sums;
   core::Result<void> done;
   for (const Export& e : exports()) {
     if (!applies(e, record)) continue;
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) continue;
-    auto sum = write_one(e, directory, record, evaluation, language, written);
+    auto sum = write_one(e, directory, record, evaluation, language, *earlier, written);
     if (!sum) {
       done = core::fail(sum.error());
       break;

@@ -7,6 +7,7 @@
 
 #include "core/result.h"
 #include "record/run_record.h"
+#include "reports/earlier_results.h"
 #include "reports/evaluation.h"
 #include "reports/language.h"
 
@@ -34,9 +35,11 @@ struct Rendered {
 
 /// The bytes of one export. What people read is in `language`; what programs read is English.
 /// @return  Those, or why this machine cannot make them; only report.pdf fails, see write_pdf().
+/// @param earlier  As earlier.json of the run directory holds them.
 [[nodiscard]] core::Result<Rendered> render(const Export& what, const record::RunRecord& record,
                                             const Evaluation& evaluation,
-                                            Language language = Language::kEnglish);
+                                            Language language = Language::kEnglish,
+                                            const EarlierResults& earlier = {});
 
 /// The language that a file of a run was written in, as the file itself states it.
 [[nodiscard]] Language language_of(const Export& what, std::string_view bytes);

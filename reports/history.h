@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "record/archive.h"
 #include "reports/run_chart.h"
@@ -17,6 +18,10 @@ namespace rondure::reports {
 
 /// The run chart as a file of its own.
 [[nodiscard]] std::string history_svg(const RunChart& chart);
+
+/// The run chart as a drawing of the page, and what must be said with it.
+[[nodiscard]] std::string history_drawing(const RunChart& chart);
+[[nodiscard]] std::vector<std::string> history_sentences(const RunChart& chart);
 
 /// The header line of the CSV file, and its rows, oldest last: as they come.
 [[nodiscard]] std::string history_csv_header();

@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "reports/history.h"
 #include "reports/html_svg.h"
+#include "reports/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -59,8 +60,8 @@ void draw_frame(Svg& svg, const Axes& axes, const RunChart& chart) {
     return printable(r.head.started_utc.substr(0, 10));
   };
   svg.text(0.5 * (kLeft + kRight), kBottom + 38.0, "middle", "title",
-           fmt::format("number of the result, in the order of time ({} to {})",
-                       day(chart.results.front()), day(chart.results.back())));
+           trf("number of the result, in the order of time ({} to {})", day(chart.results.front()),
+               day(chart.results.back())));
 }
 
 /// A line across the plot with its name on the right; names keep a distance from each other.
@@ -74,10 +75,10 @@ void draw_levels(Svg& svg, const Axes& axes, const RunChart& chart, bool limit_s
   std::vector<Level> levels;
   if (chart.limits) {
     levels.push_back({chart.limits->upper_mm, "control", "UCL"});
-    levels.push_back({chart.limits->center_mm, "center", "centre"});
+    levels.push_back({chart.limits->center_mm, "center", tr("centre")});
     levels.push_back({chart.limits->lower_mm, "control", "LCL"});
   }
-  if (limit_shown) levels.push_back({*chart.upper_limit_mm, "limit", "tolerance"});
+  if (limit_shown) levels.push_back({*chart.upper_limit_mm, "limit", tr("tolerance")});
   std::sort(levels.begin(), levels.end(),
             [](const Level& a, const Level& b) { return a.value_mm > b.value_mm; });
   double free = 0.0;
@@ -148,6 +149,23 @@ std::vector<std::string> sentences_of(const RunChart& chart, bool limit_shown) {
 }
 
 }  // namespace
+
+std::string history_drawing(const RunChart& chart) {
+  const std::vector<double> values_mm = values_of(chart);
+  const ChartRange range = range_of(chart);
+  const Axes axes = axes_of(range, values_mm.size());
+  const record::ArchivedResult& newest = chart.results.back();
+  Svg svg(kWidth, kBottom + 50.0, "wide chart",
+          trf("Run chart of {}", printable(newest.result.characteristic)));
+  draw_frame(svg, axes, chart);
+  draw_levels(svg, axes, chart, range.limit_shown);
+  draw_results(svg, axes, chart, values_mm);
+  return svg.str();
+}
+
+std::vector<std::string> history_sentences(const RunChart& chart) {
+  return sentences_of(chart, range_of(chart).limit_shown);
+}
 
 std::string history_svg(const RunChart& chart) {
   const std::vector<double> values_mm = values_of(chart);

@@ -185,12 +185,13 @@ std::string part_table(const ContourFacts& facts) {
     rows += part_row(facts.study.parts[i], facts.names[i]);
   }
   return fmt::format(
-      R"(<h3>{}</h3><div class="scroll"><table class="short"><thead><tr><th>{}</th>)"
-      R"(<th class="n">t µm</th><th class="n">f µm</th><th class="n">n µm</th>)"
-      R"(<th class="n">{}</th><th class="n">f²</th><th class="n">n²</th>)"
-      R"(<th class="n">2 f n</th><th>n … t</th><th class="n">{}</th></tr></thead><tbody>{}</tbody>)"
+      R"(<h3>{}</h3><div class="scroll"><table class="short">{}<thead><tr><th scope="col">{}</th>)"
+      R"(<th scope="col" class="n">t µm</th><th scope="col" class="n">f µm</th><th scope="col" class="n">n µm</th>)"
+      R"(<th scope="col" class="n">{}</th><th scope="col" class="n">f²</th><th scope="col" class="n">n²</th>)"
+      R"(<th scope="col" class="n">2 f n</th><th scope="col">n … t</th><th scope="col" class="n">{}</th></tr></thead><tbody>{}</tbody>)"
       R"(</table></div><p class="note">{}</p>)",
-      tr("Balance"), tr("Part"), tr("mean t² µm²"), tr("f from main"), rows,
+      tr("Balance"), spoken_caption(tr("Balance")), tr("Part"), tr("mean t² µm²"),
+      tr("f from main"), rows,
       tr("t, f, n: peak to valley. The squares add up, the cross term included; rms and peak to "
          "valley do not. Last column: correlation of f with what the main journal leaves of t."));
 }

@@ -177,6 +177,10 @@ std::string with_note(const std::string& value, const std::string& note) {
   return note.empty() ? value : value + "<small>" + note + "</small>";
 }
 
+std::string spoken_caption(std::string_view html) {
+  return fmt::format(R"(<caption class="spoken screen-only">{}</caption>)", html);
+}
+
 std::string messages(const FeatureResult& feature) {
   std::string html;
   if (feature.failure) {
@@ -216,7 +220,9 @@ std::string feature_section(const record::RunRecord& record, std::size_t index,
   html += key_numbers(feature, zone);
   html += truth_box(truth_of(record, index), zone, feature.feature.shape);
   html += uncertainty_section(feature);
-  if (zone) html += polar_plots(feature, *zone) + deviation_map(feature, *zone) + solid_view(feature, *zone);
+  if (zone)
+    html +=
+        polar_plots(feature, *zone) + deviation_map(feature, *zone) + solid_view(feature, *zone);
   html += harmonics_section(feature);
   if (feature.merged) return html + merged_section(*feature.merged) + "</section>";
   if (feature.poses.empty()) return html + "</section>";

@@ -40,13 +40,13 @@ std::string merged_section(const MergedPoses& merged) {
   std::string html = fmt::format("<h3>{}</h3><p>{}</p>", tr("Several poses, one part"),
                                  trf("{}.", opening_sentence(share_in_words(merged))));
   html += fmt::format(
-      R"(<div class="scroll"><table class="short"><thead><tr><th class="n">{}</th><th class="n">)"
-      R"(alpha / °</th><th class="n">beta / °</th><th class="n">{}</th>)",
-      tr("Pose"), tr("Points"));
+      R"(<div class="scroll"><table class="short">{}<thead><tr><th scope="col" class="n">{}</th><th scope="col" class="n">)"
+      R"(alpha / °</th><th scope="col" class="n">beta / °</th><th scope="col" class="n">{}</th>)",
+      spoken_caption(tr("Several poses, one part")), tr("Pose"), tr("Points"));
   if (merged.solved) {
     for (const std::string& title :
          {tr("Shift x / µm"), tr("Shift y / µm"), tr("Tilt x / µrad"), tr("Tilt y / µrad")}) {
-      html += fmt::format(R"(<th class="n">{}</th>)", title);
+      html += fmt::format(R"(<th scope="col" class="n">{}</th>)", title);
     }
   }
   html += "</tr></thead><tbody>";

@@ -33,10 +33,11 @@ std::string pose_table(const FeatureResult& feature) {
   if (poses.empty()) return {};
   const std::set<std::size_t> shown = rows_shown(poses);
   std::string html = fmt::format(
-      R"(<div class="scroll"><table{}><thead><tr><th class="n">{}</th><th )"
-      R"(class="n">alpha / °</th><th class="n">beta / °</th><th class="n">f / µm</th>)"
-      "<th>{}</th><th>{}</th></tr></thead><tbody>",
-      shown.size() <= 12 ? R"( class="short")" : "", tr("Visit"), tr("Search ended"), tr("Pose"));
+      R"(<div class="scroll"><table{}>{}<thead><tr><th scope="col" class="n">{}</th><th )"
+      R"(scope="col" class="n">alpha / °</th><th scope="col" class="n">beta / °</th><th scope="col" class="n">f / µm</th>)"
+      R"(<th scope="col">{}</th><th scope="col">{}</th></tr></thead><tbody>)",
+      shown.size() <= 12 ? R"( class="short")" : "", spoken_caption(tr("Search for the pose")),
+      tr("Visit"), tr("Search ended"), tr("Pose"));
   std::size_t expected = 0;
   for (const std::size_t i : shown) {
     if (i > expected) {

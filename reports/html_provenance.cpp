@@ -80,16 +80,17 @@ std::string probe_section(const record::RunRecord& record, const Evaluation& eva
   } else {
     rows += property(tr("Probe qualification"), tr("none on record"));
   }
-  return fmt::format(R"(<section><h2>{}</h2><table class="short props">{}</table></section>)",
-                     tr("Settings and probe"), rows);
+  return fmt::format(R"(<section><h2>{}</h2><table class="short props">{}{}</table></section>)",
+                     tr("Settings and probe"), spoken_caption(tr("Settings and probe")), rows);
 }
 
 std::string decisions_section(const record::RunRecord& record) {
   if (record.decisions.empty()) return {};
   std::string html = fmt::format(
-      R"(<section><h2>{}</h2><table><thead><tr><th class="n">{}</th><th>{}</th><th>{}</th></tr>)"
+      R"(<section><h2>{}</h2><table>{}<thead><tr><th scope="col" class="n">{}</th><th scope="col">{}</th><th scope="col">{}</th></tr>)"
       "</thead><tbody>",
-      tr("Decisions of the program"), tr("Machine time / s"), tr("Feature"), tr("Decision"));
+      tr("Decisions of the program"), spoken_caption(tr("Decisions of the program")),
+      tr("Machine time / s"), tr("Feature"), tr("Decision"));
   const std::size_t total = record.decisions.size();
   const bool all = total <= kMostDecisions;
   for (std::size_t i = 0; i < total; ++i) {
@@ -128,8 +129,8 @@ std::string provenance_section(const record::RunRecord& record) {
                trf("{} computes every number here again from the touches in journal.db and says "
                    "which digit differs, if any.",
                    R"(<span class="mono">rondure verify RUN_DIR</span>)"));
-  return fmt::format(R"(<section><h2>{}</h2><table class="props">{}</table></section>)",
-                     tr("Provenance"), rows);
+  return fmt::format(R"(<section><h2>{}</h2><table class="props">{}{}</table></section>)",
+                     tr("Provenance"), spoken_caption(tr("Provenance")), rows);
 }
 
 }  // namespace rondure::reports

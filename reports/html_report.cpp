@@ -73,7 +73,8 @@ std::string top_of(const std::vector<Part>& parts) {
 }
 
 /// The parts of the page in their order; those that a run has nothing for are left out.
-std::vector<Part> parts_of(const record::RunRecord& record, const Evaluation& evaluation) {
+std::vector<Part> parts_of(const record::RunRecord& record, const Evaluation& evaluation,
+                           const EarlierResults& earlier) {
   std::vector<Part> parts;
   const auto add = [&](std::string id, std::string name, std::string html) {
     if (!html.empty()) parts.push_back({std::move(id), std::move(name), std::move(html)});
@@ -84,6 +85,7 @@ std::vector<Part> parts_of(const record::RunRecord& record, const Evaluation& ev
         trf("Feature {}", isolated(evaluation.features[i].feature.id)),
         feature_section(record, i, evaluation.features[i]));
   }
+  add("history", tr("Earlier runs"), history_section(record, evaluation, earlier));
   add("settings", tr("Settings"), probe_section(record, evaluation));
   add("decisions", tr("Decisions"), decisions_section(record));
   add("provenance", tr("Provenance"), provenance_section(record));
@@ -93,9 +95,9 @@ std::vector<Part> parts_of(const record::RunRecord& record, const Evaluation& ev
 }  // namespace
 
 std::string write_html(const record::RunRecord& record, const Evaluation& evaluation,
-                       Language language) {
+                       Language language, const EarlierResults& earlier) {
   const LanguageScope scope(language);
-  const std::vector<Part> parts = parts_of(record, evaluation);
+  const std::vector<Part> parts = parts_of(record, evaluation, earlier);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\"/>\n{}\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"

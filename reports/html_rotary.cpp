@@ -95,10 +95,10 @@ std::string with_u(double value, double u, int decimals) {
 /// Location and orientation of both axes: what does not depend on the angle.
 std::string location_table(const RotaryFacts& facts) {
   std::string html = fmt::format(
-      R"(<div class="scroll"><table><thead><tr><th>{}</th><th>d x / µm</th><th>d y / µm</th>)"
-      R"(<th>d z / µm</th><th>e x / µrad</th><th>e y / µrad</th><th>e z / µrad</th></tr></thead>)"
+      R"(<div class="scroll"><table>{}<thead><tr><th scope="col">{}</th><th scope="col">d x / µm</th><th scope="col">d y / µm</th>)"
+      R"(<th scope="col">d z / µm</th><th scope="col">e x / µrad</th><th scope="col">e y / µrad</th><th scope="col">e z / µrad</th></tr></thead>)"
       "<tbody>",
-      tr("Axis"));
+      spoken_caption(tr("Location and orientation of the axes")), tr("Axis"));
   for (const AxisFacts& axis : axes_of(facts)) {
     html += fmt::format("<tr><td>{}</td>", axis.key);
     if (!axis.study->offset) {
@@ -121,11 +121,12 @@ std::string location_table(const RotaryFacts& facts) {
 }
 
 std::string combined_table(const RotaryFacts& facts) {
-  std::string html =
-      fmt::format(R"(<div class="scroll"><table><thead><tr><th>alpha</th><th>beta</th><th>{}</th>)"
-                  "<th>{}</th><th>{}</th><th>{}</th><th>{}</th></tr></thead><tbody>",
-                  tr("balls"), tr("before, rms / µm"), tr("left, rms / µm"), tr("largest / µm"),
-                  tr("tilt / µrad"));
+  std::string html = fmt::format(
+      R"(<div class="scroll"><table>{}<thead><tr><th scope="col">alpha</th><th scope="col">beta</th><th scope="col">{}</th>)"
+      R"(<th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th>)"
+      R"(<th scope="col">{}</th></tr></thead><tbody>)",
+      spoken_caption(tr("Combined poses")), tr("balls"), tr("before, rms / µm"),
+      tr("left, rms / µm"), tr("largest / µm"), tr("tilt / µrad"));
   for (const CombinedPose& pose : facts.combined) {
     html += fmt::format(
         "<tr><td>{}°</td><td>{}°</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "record/run_record.h"
+#include "reports/earlier_results.h"
 #include "reports/evaluation.h"
 
 namespace rondure::reports {
@@ -27,6 +28,10 @@ namespace rondure::reports {
 [[nodiscard]] std::string probe_section(const record::RunRecord& record,
                                         const Evaluation& evaluation);
 [[nodiscard]] std::string decisions_section(const record::RunRecord& record);
+/// Run charts with earlier results; empty without any.
+[[nodiscard]] std::string history_section(const record::RunRecord& record,
+                                          const Evaluation& evaluation,
+                                          const EarlierResults& earlier);
 [[nodiscard]] std::string provenance_section(const record::RunRecord& record);
 
 /// How the clouds of several poses became one, and what the fixture adds.
@@ -36,6 +41,8 @@ namespace rondure::reports {
 /// A value with small print below it.
 [[nodiscard]] std::string with_note(const std::string& value, const std::string& note);
 
+/// The name of a table for those who do not see the heading above it; HTML already.
+[[nodiscard]] std::string spoken_caption(std::string_view html);
 /// "<div><dt>name</dt><dd>html</dd></div>"; both are HTML already.
 [[nodiscard]] std::string entry(std::string_view name, std::string_view html,
                                 std::string_view css_class = {});

@@ -165,10 +165,11 @@ std::string harmonic_table(const fit::ThreeProbeResult& s) {
   std::string rows;
   for (std::size_t i = 0; i < count; ++i) rows += harmonic_row(shown[i]);
   return fmt::format(
-      R"(<div class="scroll"><table class="short"><thead><tr><th class="n">UPR</th><th class="n">)"
-      R"({}</th><th class="n">{}</th><th class="n">u µm</th><th class="n">{}</th>)"
-      R"(<th class="n">{}</th></tr></thead><tbody>{}</tbody></table></div><p class="note">{}</p>)",
-      tr("Amplitude µm"), tr("Phase °"), tr("Gain"), tr("Attenuation"), rows,
+      R"(<div class="scroll"><table class="short">{}<thead><tr><th scope="col" class="n">UPR</th><th scope="col" class="n">)"
+      R"({}</th><th scope="col" class="n">{}</th><th scope="col" class="n">u µm</th><th scope="col" class="n">{}</th>)"
+      R"(<th scope="col" class="n">{}</th></tr></thead><tbody>{}</tbody></table></div><p class="note">{}</p>)",
+      spoken_caption(tr("Harmonics of the part")), tr("Amplitude µm"), tr("Phase °"), tr("Gain"),
+      tr("Attenuation"), rows,
       tr("The ten largest, and those not recovered; all are in report.json."));
 }
 

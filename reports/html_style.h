@@ -31,6 +31,8 @@ button{font:inherit;font-size:13px;color:var(--ink);background:var(--pale);borde
 padding:3px 11px;min-height:28px;min-width:28px;cursor:pointer}
 button[aria-pressed=true]{background:var(--ink);color:var(--paper)}
 button[hidden],.tools[hidden]{display:none}
+.spoken{position:absolute;width:1px;height:1px;overflow:hidden;clip-path:inset(50%);white-space:nowrap}
+caption{text-align:left;font-weight:600;font-size:13.5px;padding:4px 0}
 .print-only{display:none}
 .brand{display:flex;justify-content:space-between;gap:16px;color:var(--soft);font-size:13px;
 border-bottom:1px solid var(--line);padding-bottom:10px;flex-wrap:wrap}
@@ -121,6 +123,9 @@ svg.polar{display:block;width:100%;max-width:340px;margin:0 auto}
 .trail{fill:none;stroke:var(--trail);stroke-width:1}.pose{fill:var(--ink)}.pose.virtual{fill:var(--paper);stroke:var(--ink);stroke-width:1.2}
 .final{fill:var(--orange);stroke:var(--paper);stroke-width:1}.no-value{fill:none;stroke:var(--soft);stroke-width:1.5}
 .reference{stroke:var(--blue);stroke-width:1.3;stroke-dasharray:7 4}
+.chart .control{stroke:var(--blue);stroke-width:1.2;stroke-dasharray:6 4}.chart .center{stroke:var(--blue);stroke-width:1}
+.chart .limit{stroke:var(--ink);stroke-width:2}.chart .run{fill:none;stroke:var(--trail);stroke-width:1}
+.chart .result{fill:var(--ink)}.chart .beyond{fill:var(--orange)}.chart .cross{fill:none;stroke:var(--bad);stroke-width:2.2}
 .solid-glass{fill:var(--orange);fill-opacity:.05;stroke:var(--orange);stroke-width:1.2}
 .solid-body{fill:var(--solid);fill-opacity:.8;stroke:var(--blue);stroke-width:1.2}
 .solid-cap{fill:var(--cap);fill-opacity:.75;stroke:var(--blue);stroke-width:1}

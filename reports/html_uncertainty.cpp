@@ -72,9 +72,11 @@ std::string declaration(const std::vector<InfluenceStatement>& influences) {
                           in_sentence(influence.text));
     }
   }
-  return fmt::format(R"(<table class="short"><thead><tr><th>{}</th><th>{}</th><th>{}</th></tr>)"
-                     "</thead><tbody>{}</tbody></table>",
-                     tr("Influence"), tr("In the interval"), tr("As declared"), rows);
+  return fmt::format(
+      R"(<table class="short">{}<thead><tr><th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th></tr>)"
+      "</thead><tbody>{}</tbody></table>",
+      spoken_caption(tr("Influence")), tr("Influence"), tr("In the interval"), tr("As declared"),
+      rows);
 }
 
 std::string value_part(const CharacteristicResult& result) {

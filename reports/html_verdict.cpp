@@ -156,10 +156,10 @@ std::string results_table(const Evaluation& evaluation) {
   }
   if (rows.empty()) return fmt::format("<p>{}</p>", tr("No characteristic was asked for."));
   return fmt::format(
-             R"(<table class="results"><thead><tr><th>{}</th><th class="n">{}</th>)"
-             R"(<th class="n">{}</th><th>{}</th><th>{}</th><th>{}</th></tr></thead><tbody>)",
-             tr("Characteristic"), tr("Value"), tr("Limit"), tr("Value against limit"),
-             tr("Verdict"), tr("Zone")) +
+             R"(<table class="results">{}<thead><tr><th scope="col">{}</th><th scope="col" class="n">{}</th>)"
+             R"(<th scope="col" class="n">{}</th><th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th></tr></thead><tbody>)",
+             spoken_caption(tr("Result")), tr("Characteristic"), tr("Value"), tr("Limit"),
+             tr("Value against limit"), tr("Verdict"), tr("Zone")) +
          rows + "</tbody></table>";
 }
 

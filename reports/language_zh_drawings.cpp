@@ -95,6 +95,14 @@ constexpr Translation kTexts[] = {
      "滤波前，各次谐波取其最大的截面。横线：谐波限值。"},
     {"Harmonics of the sections", "截面的谐波"},
     {"Amplitudes of the harmonics", "谐波幅值"},
+    {"Earlier runs", "以往结果"},
+    {"Results of the same characteristics from the archive, as it was when this run was reported "
+     "first; the last is this run.",
+     "同一特性在归档中的结果（截至本次首次出报告时）；最后一个为本次。"},
+    {"Run chart of {}", "{} 的运行图"},
+    {"number of the result, in the order of time ({} to {})", "结果序号，按时间顺序（{} 至 {}）"},
+    {"centre", "中心线"},
+    {"tolerance", "公差"},
 };
 
 }  // namespace

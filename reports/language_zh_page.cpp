@@ -4,6 +4,14 @@ namespace rondure::reports {
 namespace {
 
 constexpr Translation kTexts[] = {
+    // PDF
+    {"Page {} of {}", "第 {} 页，共 {} 页"},
+    {"No installed font has these characters of the report: {}. They are shown as boxes with their "
+     "codes. Install a font that has them and write the report again (Debian: fonts-noto-cjk for "
+     "Chinese, fonts-noto-core for others).",
+     "已安装的字体都没有报告中的这些字符：{}"
+     "。它们显示为带编码的方框。请安装含有这些字符的字体后重新生成报告"
+     "（Debian：中文用 fonts-noto-cjk，其他用 fonts-noto-core）。"},
     // Head, verdict
     {"cylindricity report", "圆柱度检测报告"},
     {"Serial", "序列号"},

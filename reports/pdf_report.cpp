@@ -213,12 +213,13 @@ core::Result<Pdf> Document::write(std::string_view html) {
   return out;
 }
 
-/// The digest of the page that a document states; empty without one.
-std::string_view digest_in(std::string_view bytes) {
-  constexpr std::size_t kDigits = 64;
-  const std::size_t at = bytes.find(kDigestMark);
-  return at == std::string_view::npos ? std::string_view()
-                                      : bytes.substr(at + kDigestMark.size(), kDigits);
+/// What a document states of its page: digest, then language. Cairo writes it behind the names,
+/// which may hold anything.
+std::string_view statement_in(std::string_view bytes) {
+  const std::size_t at = bytes.rfind(kDigestMark);
+  if (at == std::string_view::npos) return {};
+  const std::string_view rest = bytes.substr(at + kDigestMark.size(), 200);
+  return rest.substr(0, rest.find(')'));
 }
 
 }  // namespace
@@ -227,6 +228,7 @@ core::Result<Pdf> write_pdf(const record::RunRecord& record, std::string_view ht
   const LanguageScope scope(language_of_page(html));
   const auto page = read_page(html);
   if (!page) return core::fail(page.error());
+  const LanguageScope scope(language_of_page(html));
   return Document(record, *page).write(html);
 }
 
@@ -238,16 +240,18 @@ std::string missing_in_words(const std::vector<char32_t>& missing) {
     codes += fmt::format("{}U+{:04X}", i == 0 ? "" : ", ", static_cast<unsigned>(missing[i]));
   }
   if (missing.size() > kMost) codes += ", ...";
-  return fmt::format(
-      "No installed font has {} of this report ({}): shown as boxes with the code. Install one and "
-      "write the report again (Debian: fonts-noto-cjk for Chinese, fonts-noto-core for others).",
-      count(missing.size(), "character", "characters"), codes);
+  return trf(
+      "No installed font has these characters of the report: {}. They are shown as boxes with "
+      "their "
+      "codes. Install a font that has them and write the report again (Debian: fonts-noto-cjk for "
+      "Chinese, fonts-noto-core for others).",
+      codes);
 }
 
 std::optional<std::string> pdf_difference(std::string_view expected, std::string_view found,
                                           bool as_written) {
   if (expected == found) return std::nullopt;
-  const bool same_page = digest_in(expected) == digest_in(found);
+  const bool same_page = statement_in(expected) == statement_in(found);
   if (!same_page) return "it was set from another page than the journal gives";
   if (as_written) return std::nullopt;
   return "its bytes are not those that are set now from the same page";
@@ -255,7 +259,7 @@ std::optional<std::string> pdf_difference(std::string_view expected, std::string
 
 Language language_of_pdf(std::string_view bytes) {
   const std::string mark = fmt::format("{}{}", kLanguageMark, tag_of(Language::kChinese));
-  return bytes.find(mark) == std::string_view::npos ? Language::kEnglish : Language::kChinese;
+  return statement_in(bytes).ends_with(mark) ? Language::kChinese : Language::kEnglish;
 }
 
 }  // namespace rondure::reports

@@ -72,6 +72,11 @@ core::Result<std::string> compare_exports(const fs::path& directory,
                                           const record::RunRecord& record,
                                           const Evaluation& evaluation, const Exactness& exactness,
                                           const ListedFiles& listed, Verification& out) {
+  const auto earlier = read_earlier(directory);
+  if (!earlier) {
+    out.differences.push_back(earlier.error().what);
+    return std::string("none, because of it");
+  }
   std::string names;
   std::string absent;
   for (const Export& e : exports()) {
@@ -83,7 +88,7 @@ core::Result<std::string> compare_exports(const fs::path& directory,
     const auto bytes = record::read_file(directory / e.file);
     if (!bytes) return core::fail(bytes.error());
     names += (names.empty() ? "" : ", ") + e.file;
-    const auto made = render(e, record, evaluation, language_of(e, *bytes));
+    const auto made = render(e, record, evaluation, language_of(e, *bytes), *earlier);
     const auto state = listed.state_of(e.file);
     if (!made && state == State::kAsWritten) continue;  // no font here: its digest has to do
     if (!made) return core::fail(made.error());

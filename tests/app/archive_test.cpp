@@ -55,6 +55,24 @@ TEST(ArchiveOfRuns, StandsBesideTheRunDirectoriesAndHoldsWhatTheReportSays) {
   }
 }
 
+TEST(ArchiveOfRuns, PutsARunChartIntoThePageOfTheSecondRunAndVerifyNeedsNoArchive) {
+  const TemporaryFolder folder;
+  for (const char* name : {"one", "two", "three"}) ASSERT_LE(run_into(folder / name).status, 1);
+  EXPECT_FALSE(fs::exists(folder / "one" / "earlier.json"));
+  EXPECT_THAT(read(folder / "one" / "report.html"), Not(HasSubstr("Earlier runs")));
+  const auto earlier = nlohmann::json::parse(read(folder / "three" / "earlier.json"));
+  const auto report = nlohmann::json::parse(read(folder / "three" / "report.json"));
+  EXPECT_EQ(earlier["results"].size(), 2 * report["features"][0]["characteristics"].size());
+  const std::string page = read(folder / "three" / "report.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("<section id=\"history\">"), HasSubstr("Run chart of ")));
+  fs::remove(folder / "archive.db");
+  EXPECT_EQ(rondure({"verify", folder / "three"}).status, 0);
+  EXPECT_LE(rondure({"report", folder / "three", "--format", "html"}).status, 1);
+  EXPECT_EQ(read(folder / "three" / "report.html"), page);
+  write(folder / "three" / "earlier.json", "{}");
+  EXPECT_EQ(rondure({"verify", folder / "three"}).status, 1);
+}
+
 TEST(ArchiveOfRuns, CanBeSwitchedOffAndNamed) {
   const TemporaryFolder folder;
   ASSERT_LE(run_into(folder / "one", {"--archive", "none"}).status, 1);

@@ -75,5 +75,106 @@ TEST(PlanVerb, HasNothingToMoveForPointsFiles) {
   EXPECT_THAT(told.out, HasSubstr("nothing would move"));
 }
 
+TEST(PlanVerb, PredictsTheIntervalInEightyColumns) {
+  const Outcome told = rondure({"plan", example("01_spool_simulated.json")});
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(told.out,
+              AllOf(HasSubstr("Predicted interval, before the first touch, 95 %"),
+                    HasSubstr("at the sampled points"), HasSubstr("of the whole surface"),
+                    HasSubstr("running surface, CYLt least squares: none; intervals are computed"),
+                    HasSubstr("Form of the parts: form_spectrum of the plan"),
+                    HasSubstr("the most that the qualification lets pass")));
+  EXPECT_LE(longest_line(told.out), 80U);
+}
+
+TEST(PlanVerb, SaysOfEveryExampleWhatIsPredictedOrWhyNot) {
+  const auto told = [](const char* name) { return rondure({"plan", example(name)}).out; };
+  EXPECT_THAT(told("05_spindle_three_probe.json"), HasSubstr("this is one of type spindle"));
+  EXPECT_THAT(told("06_wheel.json"), HasSubstr("this is one of type wheel"));
+  EXPECT_THAT(told("07_crank_pin.json"), HasSubstr("this is one of type contour"));
+  EXPECT_THAT(told("03_calibrate_fixture.json"), HasSubstr("this is one of type rotary_axes"));
+  EXPECT_THAT(told("04_part_in_two_poses.json"), HasSubstr("merged from several poses"));
+  EXPECT_THAT(told("09_axle_points_file.json"), HasSubstr("its points come from a file"));
+  EXPECT_THAT(told("14_bore_simulated.json"), HasSubstr("the plan declares no uncertainty"));
+}
+
+TEST(PlanVerb, RefusesATargetThatIsNoLength) {
+  for (const char* target :
+       {"1", "um", "0um", "-1um", "nanum", "infum", "1 km", "1e-400um", "1um2", "one um"}) {
+    SCOPED_TRACE(target);
+    const Outcome told =
+        rondure({"plan", example("01_spool_simulated.json"), std::string("--target-U=") + target});
+    EXPECT_EQ(told.status, 2);
+    EXPECT_EQ(told.out, "");
+    EXPECT_THAT(told.err, AllOf(HasSubstr("--target-U"), HasSubstr("1um, 0.001mm or 1000nm")));
+  }
+  EXPECT_EQ(rondure({"plan", example("01_spool_simulated.json"), "--target-U="}).status, 2);
+  const Outcome bare = rondure({"plan", example("01_spool_simulated.json"), "--target-U", "1"});
+  EXPECT_THAT(bare.err, HasSubstr("\"1\" has no unit"));
+}
+
+/// Example 01 with a declared and real repeatability, few points, and one characteristic.
+std::vector<Change> small_inspection() {
+  return {{"/uncertainty/probe/repeatability_um", 1.0},
+          {"/simulation/probe/repeatability_um", 1.0},
+          {"/features/0/sampling/layers", 3},
+          {"/features/0/sampling/points_per_layer", 6},
+          {"/features/0/pose_search/repeats", 1},
+          {"/features/0/characteristics",
+           nlohmann::json::array({{{"id", "CYLt"}, {"form", "cylindricity"}}})}};
+}
+
+TEST(PlanVerb, ProposesASamplingWhoseRunMeetsTheTarget) {
+  constexpr double kTarget_um = 0.8;
+  const TemporaryFolder folder;
+  std::vector<Change> changes = small_inspection();
+  write_plan(folder / "plan.json", changes);
+  const Outcome told = rondure({"plan", folder / "plan.json", "--json", "--target-U", "800nm"});
+  ASSERT_EQ(told.status, 0) << told.err;
+  const auto json = nlohmann::json::parse(told.out);
+  EXPECT_GT(json["prediction"][0]["sampled_points"]["nine_of_ten_expanded_um"], kTarget_um);
+  const auto& target = json["target"]["features"][0];
+  EXPECT_EQ(target["met"], true);
+  for (const auto& candidate : target["candidates"]) {
+    const bool small = candidate["nine_of_ten_expanded_um"] <= kTarget_um;
+    EXPECT_EQ(candidate["meets"], small);
+    if (small) {
+      EXPECT_GE(candidate["time_s"], target["best"]["time_s"]);
+    }
+  }
+  for (const auto& change : target["changes"]) {
+    changes.push_back({change["pointer"], change["value"]});
+  }
+  write_plan(folder / "better.json", changes);
+  const auto better =
+      nlohmann::json::parse(rondure({"plan", folder / "better.json", "--json"}).out);
+  const auto& foretold = better["prediction"][0]["sampled_points"];
+  EXPECT_NEAR(foretold["nine_of_ten_expanded_um"], target["best"]["nine_of_ten_expanded_um"], 1e-9);
+  EXPECT_NEAR(better["time_s"], target["best"]["time_s"], 1e-6);
+  EXPECT_EQ(better["touches"], target["best"]["touches"]);
+  const Outcome run = rondure({"run", folder / "better.json", "--out", folder / "run", "--quiet"});
+  ASSERT_LE(run.status, 1) << run.err;
+  const auto report = nlohmann::json::parse(read(folder.path() / "run" / "report.json"));
+  const auto& found = report["features"][0]["characteristics"][0]["uncertainty"];
+  EXPECT_LE(found["sampled_points"]["expanded_um"], kTarget_um);
+}
+
+TEST(PlanVerb, SaysWhatLimitsATargetThatNoSamplingMeets) {
+  const TemporaryFolder folder;
+  write_plan(folder / "plan.json", small_inspection());
+  const Outcome told = rondure({"plan", folder / "plan.json", "--target-U", "1e-9um"});
+  EXPECT_EQ(told.status, 2);
+  EXPECT_THAT(told.out, AllOf(HasSubstr("No sampling that was tried meets 1e-09 um"),
+                              HasSubstr("probe-lobing"), HasSubstr("(the plan)")));
+  EXPECT_LE(longest_line(told.out), 80U);
+  const Outcome merged =
+      rondure({"plan", example("04_part_in_two_poses.json"), "--target-U", "1um"});
+  EXPECT_EQ(merged.status, 2);
+  EXPECT_THAT(merged.out, HasSubstr("merged from several poses"));
+  const Outcome file = rondure({"plan", example("09_axle_points_file.json"), "--target-U", "1um"});
+  EXPECT_EQ(file.status, 2);
+  EXPECT_THAT(file.out, HasSubstr("No feature is touched"));
+}
+
 }  // namespace
 }  // namespace rondure::app::testing

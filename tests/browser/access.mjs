@@ -31,12 +31,14 @@ for (const plan of plans) {
     await page.close();
   });
 
-  test(`headings of ${plan} leave out no level and drawings have names`, async () => {
+  test(`headings of ${plan} leave out no level, tables and drawings have names`, async () => {
     const {page} = await open(run(plan).html);
     const levels = await page.locator('h1, h2, h3, h4, [role=heading]').evaluateAll((all) => all.map(
         (h) => Number(h.getAttribute('aria-level') ?? h.tagName[1])));
     assert.equal(levels[0], 1);
     levels.slice(1).forEach((level, i) => assert.ok(level >= 2 && level <= levels[i] + 1, `${levels}`));
+    assert.equal(await page.locator('table:not(:has(> caption))').count(), 0);
+    assert.equal(await page.locator('th:not([scope])').count(), 0);
     assert.equal(await page.locator('figure:not(:has(figcaption))').count(), 0);
     assert.equal(await page.locator('svg:not([aria-label]):not([aria-hidden])').count(), 0);
     await page.close();

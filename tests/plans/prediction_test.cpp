@@ -189,10 +189,11 @@ struct Found {
   }
 };
 
-/// Runs until the mean width of each measurand is known to 4 %.
+/// Runs until the mean width of each measurand is known to 8 %, or to 4 % with RONDURE_FULL=1.
 std::map<Measurand, Found> run_many(const Drawn& drawn, double cloud_s, std::uint64_t seed) {
   constexpr int kLeast = 8;
-  const int most = full() ? 200 : 60;
+  const int most = full() ? 200 : 40;
+  const double enough_1 = full() ? 0.04 : 0.08;
   std::map<Measurand, Found> out;
   for (int k = 0; k < most; ++k) {
     const auto run =
@@ -208,7 +209,7 @@ std::map<Measurand, Found> run_many(const Drawn& drawn, double cloud_s, std::uin
       if (said != nullptr) out[about].widths_mm.push_back(said->high_mm - said->low_mm);
     }
     const bool known = std::all_of(out.begin(), out.end(),
-                                   [](const auto& of) { return of.second.open_1() < 0.04; });
+                                   [&](const auto& of) { return of.second.open_1() < enough_1; });
     if (k + 1 >= kLeast && known) break;
   }
   return out;
@@ -223,6 +224,8 @@ TEST(Prediction, WidthIsWithinFifteenPercentOfThatOfSimulatedRuns) {
   std::size_t runs = 0;
   std::size_t near = 0;
   std::size_t between = 0;
+  std::size_t statements = 0;
+  std::size_t first_near = 0;
   for (std::uint64_t seed = 1; seed <= (full() ? 20U : 5U); ++seed) {
     SCOPED_TRACE(seed);
     const Drawn plan = drawn(seed);
@@ -242,12 +245,14 @@ TEST(Prediction, WidthIsWithinFifteenPercentOfThatOfSimulatedRuns) {
       runs += widths.widths_mm.size();
       near += alike;
       between += inside;
+      ++statements;
+      const double first_ratio = said->width_mm() / widths.widths_mm.front();
+      if (std::abs(first_ratio - 1.0) <= 0.15) ++first_near;
       if (!full()) continue;
       std::printf("| %2u | %s | %.3f | %.3f | %.2f | %.2f | %zu | %zu | %zu |\n",
                   static_cast<unsigned>(seed), about == Measurand::kSampledPoints ? "a" : "b",
-                  1e3 * said->width_mm(), 1e3 * widths.mean_mm(), ratio,
-                  said->width_mm() / widths.widths_mm.front(), widths.widths_mm.size(), alike,
-                  inside);
+                  1e3 * said->width_mm(), 1e3 * widths.mean_mm(), ratio, first_ratio,
+                  widths.widths_mm.size(), alike, inside);
     }
   }
   // Eight of ten parts lie between what one and what nine of ten stay below.

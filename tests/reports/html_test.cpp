@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -255,16 +257,35 @@ TEST(Html, AZoneOfNoWidthAndPosesWithoutValueAreDrawn) {
   EXPECT_FALSE(shows_nan(page));
 }
 
-TEST(Html, AHundredThousandPointsMakeAPageOfModestSizeAtOnce) {
-  const Case made = cylinder_case(1, 100000, 3);
-  const auto start = std::chrono::steady_clock::now();
-  const std::string page = page_of(made);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  keep("hundred-thousand", page);
-  EXPECT_LT(page.size(), 5'000'000U);
-  EXPECT_LT(took.count(), 1.0);
-  RecordProperty("bytes", std::to_string(page.size()));
-  RecordProperty("seconds", std::to_string(took.count()));
+#ifdef __SANITIZE_ADDRESS__
+constexpr double kSlower = 30.0;  // under the sanitizers, which are no measure of time
+#else
+constexpr double kSlower = 1.0;
+#endif
+
+/// Writes a page three times and holds its size and its best time against the figures.
+void expect_small_and_quick(const std::string& name, const Case& made, std::size_t most_bytes,
+                            double most_s) {
+  std::string page;
+  double best_s = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    page = page_of(made);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    best_s = std::min(best_s, took.count());
+  }
+  keep(name, page);
+  std::printf("%s: %zu points, %zu bytes, %.1f ms\n", name.c_str(),
+              made.evaluation.features[0].cloud.size(), page.size(), 1e3 * best_s);
+  EXPECT_LT(page.size(), most_bytes);
+  EXPECT_LT(best_s, most_s * kSlower);
+}
+
+TEST(Html, APageIsSmallAndWrittenAtOnce) {
+  expect_small_and_quick("touches", cylinder_case(4, 7, 3), 1'000'000, 0.05);
+  expect_small_and_quick("layers", cylinder_case(100, 1000, 3), 5'000'000, 0.5);
+  expect_small_and_quick("section", cylinder_case(1, 100000, 3), 5'000'000, 0.5);
+  expect_small_and_quick("spiral", spiral_case(100000), 5'000'000, 0.5);
 }
 
 }  // namespace

@@ -104,8 +104,8 @@ std::string inked(std::string_view text) {
 std::string body_ink(const Pdf& pdf) {
   std::string out;
   for (const std::string& page : pages_of(pdf)) {
-    const std::size_t foot = page.find("Page ");
-    const std::size_t end = page.find('\n', foot);
+    const std::size_t foot = page.find("Rondure 0.");  // then the number of the page
+    const std::size_t end = page.find('\n', page.find('\n', foot) + 1);
     EXPECT_NE(end, std::string::npos) << page.substr(0, 300);
     out += inked(page.substr(std::min(end, page.size())));
   }
@@ -277,11 +277,25 @@ TEST(Pdf, ChineseHebrewAndArabicAreEmbeddedAndReadable) {
   EXPECT_THAT(said_of(pdf, "pdfinfo"), HasSubstr("\u05D0\u05D1\u05D2"));
 }
 
+TEST(Pdf, AChinesePageIsSetInChinese) {
+  const Case made = failing_case();
+  const std::string html = write_html(made.record, made.evaluation, Language::kChinese);
+  const Pdf pdf = pdf_of(made.record, html);
+  keep("chinese", pdf);
+  EXPECT_THAT(lacking(pdf, html), ::testing::IsEmpty());
+  EXPECT_TRUE(pdf.missing.empty()) << missing_in_words(pdf.missing);
+  expect_embedded(pdf);
+  expect_uncut(pdf);
+  EXPECT_EQ(language_of_pdf(pdf.bytes), Language::kChinese);
+  EXPECT_NE(pdf.bytes, pdf_of(made).bytes);
+}
+
 TEST(Pdf, HostileTextsStayTextOnEveryPage) {
   for (const std::string& text :
        {std::string("<script>alert(1)</script>"), std::string("</style></title>\"'><svg onload=x>"),
         std::string("&b; &lt; &amp;amp; ]]> <!-- (\\) %PDF-1.4 endobj"), std::string(500, 'W'),
-        std::string("\xff\xc3(\x01\x1b[31m"), std::string("{0} %s page-sha256-0000")}) {
+        std::string("\xff\xc3(\x01\x1b[31m"),
+        std::string("{0} %s page-sha256-0000, page-language-zh-Hans")}) {
     SCOPED_TRACE(text.substr(0, 40));
     const Case made = hostile_case(text);
     const std::string html = page_of(made);
@@ -291,6 +305,7 @@ TEST(Pdf, HostileTextsStayTextOnEveryPage) {
     expect_uncut(pdf);
     const auto same = pdf_difference(pdf.bytes, pdf.bytes + " ", true);
     EXPECT_FALSE(same) << *same;
+    EXPECT_EQ(language_of_pdf(pdf.bytes), Language::kEnglish);
   }
 }
 
@@ -311,8 +326,8 @@ TEST(Pdf, ACharacterWithoutAFontIsSaidNotJustBoxed) {
   made.record.header.part_name = "\U000F1234";  // of private use: in no font
   const Pdf pdf = pdf_of(made);
   ASSERT_EQ(pdf.missing.size(), 1U);
-  EXPECT_THAT(missing_in_words(pdf.missing), HasSubstr("has 1 character of this report (U+F1234)"));
-  EXPECT_THAT(pages_of(pdf).front(), HasSubstr("(U+F1234)"));
+  EXPECT_THAT(missing_in_words(pdf.missing), HasSubstr("characters of the report: U+F1234."));
+  EXPECT_THAT(pages_of(pdf).front(), HasSubstr("U+F1234."));
   EXPECT_EQ(missing_in_words({}), "");
 }
 

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+
+#include "core/result.h"
+#include "plans/forecast.h"
+#include "plans/plan.h"
+#include "reports/predict.h"
+
+namespace rondure::app {
+
+/// A sampling of a feature, as its plan spells it.
+struct Sampling {
+  int layers = 0;
+  int points_per_layer = 0;
+  int repeats = 0;  ///< Touches of every point of the final cloud.
+
+  friend bool operator==(const Sampling&, const Sampling&) = default;
+};
+
+/// A sampling that was tried.
+struct SamplingCandidate {
+  Sampling sampling;
+  int touches = 0;                       ///< Of the whole run.
+  double time_s = 0.0;                   ///< Of the whole run, as forecast() predicts it.
+  double expanded_mm = 0.0;              ///< Predicted U, the largest of its characteristics.
+  double nine_of_ten_expanded_mm = 0.0;  ///< U that nine of ten parts stay below.
+  bool meets = false;                    ///< That U is not above the target.
+  bool confirmed = false;                ///< Predicted with the full number of simulated parts.
+  std::string out_of_reach;              ///< Not empty: why it cannot be touched; no numbers then.
+};
+
+/// The fewest repeats that may be proposed: 2 where the run finds the repeatability by them.
+[[nodiscard]] int least_repeats(const plans::Plan& plan);
+
+/// One layout of one feature: its way is laid once, its repeats are varied.
+class SamplingLayout {
+ public:
+  /// @param sampling  Its repeats are not looked at.
+  SamplingLayout(plans::Plan plan, std::size_t feature, const Sampling& sampling);
+
+  /// With the fewest repeats; or why it cannot be touched.
+  [[nodiscard]] const core::Result<plans::Forecast>& forecast() const { return forecast_; }
+
+  /// A candidate without its U.
+  [[nodiscard]] SamplingCandidate candidate(int repeats) const;
+
+  /// Predicts the U of a candidate of this layout.
+  /// @return  The prediction with the largest U of its characteristics; `why` when none has one.
+  core::Result<reports::Prediction> predict(reports::Measurand measurand,
+                                            const reports::PredictionOptions& options,
+                                            SamplingCandidate& candidate) const;
+
+ private:
+  [[nodiscard]] plans::Forecast repeated(int repeats) const;
+
+  plans::Plan plan_;
+  std::size_t feature_;
+  Sampling sampling_;
+  core::Result<plans::Forecast> forecast_;
+  double again_s_ = 0.0;  ///< Time of the final cloud once more.
+};
+
+}  // namespace rondure::app
