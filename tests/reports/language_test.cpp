@@ -233,7 +233,7 @@ TEST(LanguageTable, HasNothingThatNoSourceSays) {
   // Evaluation puts some sentences together from parts: every part must be in a source.
   for (const Translation& line : chinese_sentences()) {
     for (const std::string& piece : pieces_of(line.english)) {
-      EXPECT_THAT(all, HasSubstr(piece)) << '"' << line.english << '"';
+      EXPECT_NE(all.find(piece), std::string::npos) << '"' << piece << "\" of " << line.english;
     }
   }
 }
@@ -284,11 +284,15 @@ TEST(LanguageTable, HasTheSameArgumentsOnBothSidesOfAFormat) {
 }
 
 TEST(LanguageTable, SaysItInChinese) {
+  const auto is_name = [](std::string_view text) {  // of a standard, a rule or a person
+    for (const char* name : {"ISO ", "JCGM ", "N:1", "Anderson-Darling"}) {
+      if (text.find(name) != std::string_view::npos) return true;
+    }
+    return false;
+  };
   for (const Translation& line : whole_table()) {
-    if (has_no_words(line.english)) continue;
-    EXPECT_TRUE(is_chinese(line.chinese) || line.chinese == "N:1" || line.chinese == "JCGM 106" ||
-                line.chinese.find("ISO") != std::string_view::npos)
-        << line.english;
+    if (has_no_words(line.english) || is_name(line.chinese)) continue;
+    EXPECT_TRUE(is_chinese(line.chinese)) << line.english;
   }
 }
 
