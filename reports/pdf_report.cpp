@@ -228,7 +228,6 @@ core::Result<Pdf> write_pdf(const record::RunRecord& record, std::string_view ht
   const LanguageScope scope(language_of_page(html));
   const auto page = read_page(html);
   if (!page) return core::fail(page.error());
-  const LanguageScope scope(language_of_page(html));
   return Document(record, *page).write(html);
 }
 
