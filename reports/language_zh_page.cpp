@@ -5,7 +5,6 @@ namespace {
 
 constexpr Translation kTexts[] = {
     // PDF
-    {"Page {} of {}", "第 {} 页，共 {} 页"},
     {"No installed font has these characters of the report: {}. They are shown as boxes with their "
      "codes. Install a font that has them and write the report again (Debian: fonts-noto-cjk for "
      "Chinese, fonts-noto-core for others).",
