@@ -5,7 +5,6 @@ namespace {
 
 constexpr Translation kTexts[] = {
     // PDF
-    {"Page {} of {}", "第 {} 页，共 {} 页"},
     {"No installed font has these characters of the report: {}. They are shown as boxes with their "
      "codes. Install a font that has them and write the report again (Debian: fonts-noto-cjk for "
      "Chinese, fonts-noto-core for others).",
@@ -295,6 +294,9 @@ constexpr Translation kTexts[] = {
     // Pages of the PDF
     {"Cylindricity report: {}, revision {}, run {}", "圆柱度检测报告：{}，版本 {}，检测编号 {}"},
     {"Page {} of {}", "第 {} 页，共 {} 页"},
+    // Run charts
+    {"results were", "个结果"},
+    {"results", "个结果"},
 };
 
 }  // namespace
