@@ -15,7 +15,8 @@ namespace {
 
 /// Mean range of 25 normal values, touches of the qualification sphere (influences.h).
 constexpr double kRangeOf25 = 3.93;
-constexpr double kWork = 4e6;  // points times trials of a prediction: a second, about
+constexpr double kWork = 4e6;           // points times trials of a prediction: a second, about
+constexpr double kOneSidedCost = 10.0;  // of a circumscribed or inscribed cylinder, in zones
 constexpr int kLeastInspections = 8;
 constexpr int kLeastTrials = 200;
 
@@ -47,12 +48,15 @@ core::Result<void> check(const PredictionOptions& options) {
 
 /// Fewer parts for clouds and spectra whose trials take long.
 PredictionOptions affordable(const FormCloud& cloud, const FormSpectrum& form, bool whole,
-                             PredictionOptions options) {
+                             const record::Characteristic& asked, PredictionOptions options) {
   auto cost = static_cast<double>(cloud.points.size());
   if (whole) {
     const double coefficients = 2.0 * static_cast<double>(form.terms.size());
     cost += static_cast<double>(whole_surface(form, cloud.kind).size()) * (1.0 + coefficients / 40);
   }
+  const bool one_sided = asked.reference == record::Reference::kMinimumCircumscribed ||
+                         asked.reference == record::Reference::kMaximumInscribed;
+  if (one_sided && asked.form == record::Form::kCylindricity) cost *= kOneSidedCost;
   const int most = std::max(kLeastInspections, static_cast<int>(kWork / cost / options.trials));
   options.most_inspections = std::min(options.most_inspections, most);
   options.least_inspections = std::min(options.least_inspections, most);
@@ -229,9 +233,9 @@ core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
   const auto declared = declared_for(expected, rehearsal->result(), std::nullopt);
   const auto form = expected_form(*rehearsal, *declared, asked);
   if (!form) return none(form.error().what);
-  Prediction out =
-      rehearsed(expected, *rehearsal, *declared, *form, asked,
-                affordable(rehearsal->nominal(), *form, declared->spectrum.has_value(), options));
+  const bool about_whole = declared->spectrum.has_value() && options.whole_surface;
+  Prediction out = rehearsed(expected, *rehearsal, *declared, *form, asked,
+                             affordable(rehearsal->nominal(), *form, about_whole, asked, options));
   if (out.why.empty()) out.repeatability = std::move(repeatability);
   return out;
 }
