@@ -71,6 +71,33 @@ void check_rule(const DecisionRulePlan& rule, Findings& findings) {
   }
 }
 
+bool any_terms(const MachineInfluencesPlan& machine) {
+  return !machine.translations.empty() || !machine.rotations.empty() ||
+         machine.squareness_xy_urad + machine.squareness_xz_urad + machine.squareness_yz_urad > 0.0;
+}
+
+/// Limits of ISO 10360 hold everything that the machine or the probe does: beside its parts the
+/// same error would count twice.
+void check_limits(const UncertaintyPlan& u, Findings& findings) {
+  if (u.machine && u.machine->length_limit_um + u.machine->length_limit_um_m > 0.0 &&
+      any_terms(*u.machine)) {
+    findings.meaning(
+        Code::kMeaning, "/uncertainty/machine",
+        fmt::format("the length limit {} um + {} um/m (ISO 10360-2) contains the error "
+                    "terms given beside it, and both would count; give the terms, or "
+                    "the limit alone",
+                    plain(u.machine->length_limit_um), plain(u.machine->length_limit_um_m)));
+  }
+  if (!u.probe || !(u.probe->form_limit_um > 0.0)) return;
+  const bool touch = u.probe->repeatability_um.value_or(0.0) > 0.0;
+  if (!touch && u.probe->lobes.empty()) return;
+  findings.meaning(
+      Code::kMeaning, "/uncertainty/probe/form_limit_um",
+      fmt::format("{} um (ISO 10360-5) contains the {} given beside it, and both would "
+                  "count; give these, or the limit alone",
+                  plain(u.probe->form_limit_um), touch ? "repeatability" : "lobes"));
+}
+
 }  // namespace
 
 void check_uncertainty(const Plan& plan, Findings& findings) {
@@ -91,6 +118,7 @@ void check_uncertainty(const Plan& plan, Findings& findings) {
     findings.meaning(Code::kMeaning, "/uncertainty/most_trials",
                      fmt::format("{} is below least_trials {}", u.most_trials, u.least_trials));
   }
+  check_limits(u, findings);
   if (needed && rule.measurand == "whole-surface" && !u.form_spectrum) {
     findings.meaning(Code::kMissingKey, "/uncertainty/form_spectrum",
                      "this key is missing: a verdict about the whole surface needs the forms that "

@@ -56,12 +56,14 @@ std::optional<ProbeInfluences> probe_influences(const record::RunRecord& record,
   if (!declares(record, "probe")) return std::nullopt;
   const Section said(record, "probe/");
   ProbeInfluences out;
-  const auto repeatability_um = said.given("repeatability_um");
-  out.repeatability_mm = repeatability_um ? *repeatability_um * core::kMicrometre
-                                          : result.repeat_sigma_mm.value_or(0.0);
+  out.form_limit_mm = said.number("form_limit_um") * core::kMicrometre;
+  if (const auto repeatability_um = said.given("repeatability_um")) {
+    out.repeatability_mm = *repeatability_um * core::kMicrometre;
+  } else if (out.form_limit_mm == 0.0) {  // a limit contains it
+    out.repeatability_mm = result.repeat_sigma_mm.value_or(0.0);
+  }
   const auto tip_um = said.given("tip_radius_um");
   out.tip_radius_mm = tip_um ? *tip_um * core::kMicrometre : (probe ? probe->radius_sigma_mm : 0.0);
-  out.form_limit_mm = said.number("form_limit_um") * core::kMicrometre;
   const auto orders = said.numbers("lobes/order");
   const auto amplitudes_um = said.numbers("lobes/amplitude_um");
   for (std::size_t i = 0; i < orders.size(); ++i) {

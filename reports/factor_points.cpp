@@ -1,6 +1,7 @@
 #include "reports/factor_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -24,97 +25,7 @@ using record::Form;
 using record::Reference;
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr double kSigmas = 3.0;
-constexpr double kMedianScales = 5.0;
-constexpr double kLeastScaleMm = 1e-4;
 constexpr double kPointsPerUndulation = 7.0;
-
-std::vector<Eigen::Vector2d> plane_of(const Points& points) {
-  std::vector<Eigen::Vector2d> out;
-  out.reserve(points.size());
-  for (const Eigen::Vector3d& p : points) out.emplace_back(p.head<2>());
-  return out;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
-/// Which of the deviations a rule calls outliers.
-/// @param parameters  Of the least-squares fit they come from.
-std::vector<bool> flagged(const std::vector<double>& deviations, OutlierRule rule,
-                          double parameters) {
-  double middle = 0.0;
-  double limit = 0.0;
-  if (rule == OutlierRule::kThreeSigma) {
-    double squares = 0.0;
-    for (const double d : deviations) squares += d * d;
-    const double freedoms = static_cast<double>(deviations.size()) - parameters;
-    limit = freedoms > 0.0 ? kSigmas * std::sqrt(squares / freedoms) : squares + 1.0;
-  } else {
-    middle = median(deviations);
-    std::vector<double> apart;
-    for (const double d : deviations) apart.push_back(std::abs(d - middle));
-    limit = kMedianScales * std::max(1.4826 * median(std::move(apart)), kLeastScaleMm);
-  }
-  std::vector<bool> out;
-  for (const double d : deviations) out.push_back(std::abs(d - middle) > limit);
-  return out;
-}
-
-core::Result<std::size_t> checked_count(const std::vector<bool>& out) {
-  const auto gone = static_cast<std::size_t>(std::count(out.begin(), out.end(), true));
-  if (4 * gone > out.size()) {
-    return core::fail(core::Code::kOutliers,
-                      fmt::format("{} of {} points would be left out, more than a quarter: that "
-                                  "is form",
-                                  gone, out.size()));
-  }
-  return gone;
-}
-
-/// Distances from the least-squares circle of a section.
-core::Result<std::vector<double>> section_deviations(const Points& points) {
-  const auto plane = plane_of(points);
-  const auto circle = fit::ls_circle(plane);
-  if (!circle) return core::fail(circle.error());
-  std::vector<double> out;
-  for (const Eigen::Vector2d& p : plane)
-    out.push_back((p - circle->center_mm).norm() - circle->radius_mm);
-  return out;
-}
-
-core::Result<std::vector<double>> cylinder_deviations(const Points& points) {
-  const auto cylinder = fit::ls_cylinder(points, Eigen::Vector3d::UnitZ());
-  if (!cylinder) return core::fail(cylinder.error());
-  std::vector<double> out;
-  for (const Eigen::Vector3d& p : points)
-    out.push_back(fit::distance_mm(cylinder->axis, p) - cylinder->radius_mm);
-  return out;
-}
-
-/// The flags of every point, layer by layer.
-core::Result<std::vector<bool>> outliers_of(const FactorPoints& points, OutlierRule rule) {
-  if (points.form == Form::kCylindricity) {
-    const auto deviations = cylinder_deviations(points.all_mm());
-    if (!deviations) return core::fail(deviations.error());
-    auto out = flagged(*deviations, rule, 5.0);
-    if (auto checked = checked_count(out); !checked) return core::fail(checked.error());
-    return out;
-  }
-  std::vector<bool> out;
-  for (const Points& layer : points.layers_mm) {
-    const auto deviations = section_deviations(layer);
-    if (!deviations) return core::fail(deviations.error());
-    const auto of_layer = flagged(*deviations, rule, 3.0);
-    if (auto checked = checked_count(of_layer); !checked) return core::fail(checked.error());
-    out.insert(out.end(), of_layer.begin(), of_layer.end());
-  }
-  return out;
-}
 
 /// Height of a layer over its angle, z = a + b cos + c sin: how its plane lies.
 Eigen::Vector3d plane_heights(const Points& points, const Eigen::Vector2d& center) {
@@ -136,7 +47,7 @@ core::Result<Points> filtered_layer(const Points& points, double cutoff_upr) {
     return core::fail(core::Code::kSampling,
                       fmt::format("needs {} points a layer, has {}", needed, points.size()));
   }
-  const auto plane = plane_of(points);
+  const auto plane = across_axis(points);
   const auto circle = fit::ls_circle(plane);
   if (!circle) return core::fail(circle.error());
   fit::RoundnessOptions options;
@@ -185,7 +96,7 @@ core::Result<double> roundness(const Points& points, Reference reference) {
         core::Code::kTooFewPoints,
         fmt::format("{} points a layer prove nothing: any 3 lie on a circle", points.size()));
   }
-  const auto plane = plane_of(points);
+  const auto plane = across_axis(points);
   if (reference == Reference::kLeastSquares) return one_sided(fit::ls_circle(plane));
   if (reference == Reference::kMinimumCircumscribed)
     return one_sided(fit::min_circumscribed_circle(plane));
@@ -238,6 +149,13 @@ bool keeps(PointSubset subset, std::size_t layer, std::size_t layers, std::size_
 
 }  // namespace
 
+std::vector<Eigen::Vector2d> across_axis(const Points& points_mm) {
+  std::vector<Eigen::Vector2d> out;
+  out.reserve(points_mm.size());
+  for (const Eigen::Vector3d& p : points_mm) out.emplace_back(p.head<2>());
+  return out;
+}
+
 std::size_t FactorPoints::count() const {
   std::size_t out = 0;
   for (const Points& layer : layers_mm) out += layer.size();
@@ -249,11 +167,6 @@ Points FactorPoints::all_mm() const {
   out.reserve(count());
   for (const Points& layer : layers_mm) out.insert(out.end(), layer.begin(), layer.end());
   return out;
-}
-
-std::string_view name_of(OutlierRule rule) {
-  constexpr std::array<std::string_view, 3> kNames = {"none", "3 sigma", "5 medians"};
-  return kNames[static_cast<std::size_t>(rule)];
 }
 
 std::string_view name_of(PointSubset subset) {
@@ -307,23 +220,6 @@ FactorPoints chosen(const FactorPoints& points, PointSubset subset) {
       if (keeps(subset, layer, layers, i)) kept.push_back(points.layers_mm[layer][i]);
     }
     if (!kept.empty()) out.layers_mm.push_back(std::move(kept));
-  }
-  return out;
-}
-
-core::Result<WithoutOutliers> without_outliers(const FactorPoints& points, OutlierRule rule) {
-  if (rule == OutlierRule::kNone) return WithoutOutliers{points, 0};
-  const auto out_of_all = outliers_of(points, rule);
-  if (!out_of_all) return core::fail(out_of_all.error());
-  WithoutOutliers out{{points.form, points.layers_known, {}}, 0};
-  std::size_t row = 0;
-  for (const Points& layer : points.layers_mm) {
-    Points kept;
-    for (const Eigen::Vector3d& p : layer) {
-      if (!(*out_of_all)[row++]) kept.push_back(p);
-    }
-    out.left_out += layer.size() - kept.size();
-    if (!kept.empty()) out.points.layers_mm.push_back(std::move(kept));
   }
   return out;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string_view>
 #include <vector>
@@ -27,17 +26,9 @@ struct FactorPoints {
   [[nodiscard]] std::vector<Eigen::Vector3d> all_mm() const;
 };
 
-/// Rules that find outliers. Both look once, at the distances d from the least-squares reference
-/// (of each section for RONt) with p parameters.
-enum class OutlierRule {
-  kNone,
-  kThreeSigma,  ///< |d| > 3 s, s^2 = sum d^2 / (n - p).
-  /// |d - m| > 5 s, m = median d, s = 1.4826 median |d - m|, at least 0.1 um: one bad point cannot
-  /// widen its own limit. The scales of fit/wheel_outliers.h.
-  kFiveMedians,
-};
-inline constexpr std::array kOutlierRules = {OutlierRule::kNone, OutlierRule::kThreeSigma,
-                                             OutlierRule::kFiveMedians};
+/// Points of a layer across the axis.
+[[nodiscard]] std::vector<Eigen::Vector2d> across_axis(
+    const std::vector<Eigen::Vector3d>& points_mm);
 
 /// Which points another sampling plan would have touched. Even: the first, third, ... one.
 enum class PointSubset {
@@ -50,8 +41,7 @@ enum class PointSubset {
   kWithoutLastLayer,
 };
 
-/// "none", "3 sigma", "5 medians"; "all points", "points 1, 3, 5, ...", "first layer left out".
-[[nodiscard]] std::string_view name_of(OutlierRule rule);
+/// "all points", "points 1, 3, 5, ...", "first layer left out".
 [[nodiscard]] std::string_view name_of(PointSubset subset);
 
 /// The points of an evaluated feature.
@@ -62,16 +52,6 @@ enum class PointSubset {
 /// The subsets that mean something for these points: those of layers need two.
 [[nodiscard]] std::vector<PointSubset> subsets_of(const FactorPoints& points);
 [[nodiscard]] FactorPoints chosen(const FactorPoints& points, PointSubset subset);
-
-/// What a rule leaves.
-struct WithoutOutliers {
-  FactorPoints points;
-  std::size_t left_out = 0;
-};
-/// @return kOutliers when more than a quarter of the points (of a section) would go: that is form;
-///         the errors of the least-squares fit.
-[[nodiscard]] core::Result<WithoutOutliers> without_outliers(const FactorPoints& points,
-                                                             OutlierRule rule);
 
 /// Every layer through a Gaussian low pass about its least-squares circle, as
 /// fit::evaluate_section() does; heights follow the plane of the layer.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "reports/factor_outliers.h"
 #include "reports/facts.h"
 #include "reports/text.h"
 
@@ -172,6 +173,10 @@ const FactorCell& FactorStudy::changed(Factor factor, std::size_t level) const {
 core::Result<FactorStudy> study_factors(const FeatureResult& feature,
                                         const CharacteristicResult& characteristic) {
   const record::Characteristic& asked = characteristic.characteristic;
+  if (asked.form != record::Form::kCylindricity && asked.form != record::Form::kRoundness) {
+    return core::fail(core::Code::kMeaning,
+                      fmt::format("{} has no reference to exchange", record::name_of(asked.form)));
+  }
   const auto points = factor_points(feature, asked.form);
   if (!points) return core::fail(points.error());
   if (!characteristic.value) return core::fail(core::Code::kReferenceAbsent, characteristic.reason);

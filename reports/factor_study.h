@@ -64,11 +64,12 @@ struct FactorStudy {
 /// Evaluates a characteristic under every combination of reference (LS, MZ, MC, MI), filter
 /// (unfiltered, Gaussian 15, 50, 150 UPR section by section), outlier rule and sampling subset.
 ///
-/// The steps follow each other as in factor_points.h. The reported combination carries the reported
-/// value, which is certified; the other values are proven locally. A combination that cannot be
-/// evaluated says why.
+/// The steps follow each other as in factor_points.h and factor_outliers.h. The reported
+/// combination carries the reported value, which is certified; the other values are proven locally.
+/// A combination that cannot be evaluated says why.
 ///
-/// @return The failure of the feature; kReferenceAbsent where the characteristic has no value.
+/// @return The failure of the feature; kMeaning for another form than cylindricity and roundness;
+///         kReferenceAbsent where the characteristic has no value.
 /// Cost: docs/compare.md.
 [[nodiscard]] core::Result<FactorStudy> study_factors(const FeatureResult& feature,
                                                       const CharacteristicResult& characteristic);

@@ -364,6 +364,19 @@ TEST(FactorStudy, CombinationsThatCannotBeEvaluatedSayWhy) {
             "3 points a layer prove nothing: any 3 lie on a circle");
 }
 
+TEST(FactorStudy, AmplitudesOfHarmonicsAreNotCompared) {
+  auto run =
+      points_run(part(3, 50, [](double t, int, int) { return 1e-3 * std::cos(3.0 * t); }), 3);
+  run.features[0].characteristics.resize(2);
+  run.features[0].characteristics[1].form = Form::kHarmonicLimits;
+  run.features[0].characteristics[1].harmonic_limits = {{2, 5, 2e-3}};
+  const auto comparison = compare_run(evaluated(run));
+  ASSERT_TRUE(comparison);
+  EXPECT_EQ(comparison->studies.size(), 1U);
+  ASSERT_EQ(comparison->without.size(), 1U);
+  EXPECT_THAT(comparison->without[0].what, HasSubstr("has no reference to exchange"));
+}
+
 TEST(FactorStudy, ARunWithoutAValueIsRefusedWithTheReason) {
   auto run = points_run(rough_part(2, 4, 7, core::kTwoPi), 4);
   run.poses[0].final_cloud = false;

@@ -225,6 +225,12 @@ std::vector<VoidPath> void_paths() {
          r.features[0].characteristics[0].form = record::Form::kRoundness;
        },
        "a section of three different points has no roundness"},
+      {"no harmonics",
+       [](RunRecord& r) {
+         r.features[0].characteristics[0].form = record::Form::kHarmonicLimits;
+         r.features[0].characteristics[0].harmonic_limits = {{2, 5, 1e-3}};
+       },
+       "the mask reaches to harmonic 5"},
       {"no cylinder reference",
        [](RunRecord& r) {
          r.features[0].characteristics[0].reference = record::Reference::kMaximumInscribed;
@@ -374,7 +380,10 @@ TEST(Verdict, IsVoidWithoutCertificateOrTemperatureOrWithoutTheIntervalOfWhatWas
        }},
       {"it was not fitted", [](FeatureResult& f) { f.ls_cylinder.reset(); }},
       {"intervals of clouds merged from several poses are not computed",
-       [](FeatureResult& f) { f.merged = std::make_shared<const MergedPoses>(); }},
+       [](FeatureResult& f) {
+         f.feature.strategy = record::Strategy::kMerged;
+         f.merged = std::make_shared<const MergedPoses>();
+       }},
       {"20001 points are more than 20000, the limit of the trials",
        [](FeatureResult& f) { f.cloud.resize(20'001, f.cloud.front()); }},
   };
@@ -470,6 +479,11 @@ TEST(Declared, InfluencesComeFromThePlanAndFromTheRunItself) {
   ASSERT_EQ(said->spectrum->terms.size(), 1U);
   EXPECT_EQ(said->spectrum->terms[0].degree, 1);
   EXPECT_NEAR(said->spectrum->terms[0].amplitude_mm, 1.25e-3, 1e-15);
+  // A limit contains the repeatability that the repeats show.
+  run.settings.push_back({"uncertainty/probe/form_limit_um", 2.0, ""});
+  const auto limited = declared_for(run, feature, evaluation->probe);
+  EXPECT_EQ(limited->influences.probe->repeatability_mm, 0.0);
+  EXPECT_NEAR(limited->influences.probe->form_limit_mm, 2e-3, 1e-15);
   EXPECT_FALSE(declared_for(points_run(rough_part(3, 4, 7, 6.0), 4), feature, std::nullopt));
 }
 
