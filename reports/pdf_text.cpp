@@ -7,10 +7,12 @@
 #include <pango/pangocairo.h>
 
 #ifdef __SANITIZE_ADDRESS__
-// Patterns that fontconfig hands to Pango live until the program ends. Nothing is printed of it:
-// the tests read what the program says.
+// Patterns that fontconfig hands to Pango live until the program ends, and Cairo 1.16 loses 0.8 kB
+// a document. Nothing is printed of it: the tests read what the program says.
 extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)
-extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libfontconfig\nleak:libcairo\n";
+}
 extern "C" const char* __lsan_default_options();  // NOLINT(bugprone-reserved-identifier)
 extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
 #endif

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -353,15 +354,14 @@ TEST(Pdf, AReportOf28TouchesIsSetAtOnceWhenTheFontsAreRead) {
   const Case made = cylinder_case(4, 7, 3);
   const std::string html = page_of(made);
   (void)pdf_of(made.record, html);
-  double best_s = 1e9;
+  double best_s = 1e9;  // of the processor, which may have others to serve
   for (int i = 0; i < 5; ++i) {
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     (void)pdf_of(made.record, html);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    best_s = std::min(best_s, took.count());
+    best_s = std::min(best_s, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   }
   std::printf("a PDF of 28 touches: %.0f ms\n", 1e3 * best_s);
-  EXPECT_LT(best_s, 0.5);  // about 0.04 on an idle machine; this one may be busy
+  EXPECT_LT(best_s, 0.25);
 }
 
 TEST(Pdf, AHundredThousandPointsAreSetInBoundedTime) {
