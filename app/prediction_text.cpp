@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "reports/stated_value.h"
 
 namespace rondure::app {
 namespace {
@@ -43,10 +44,12 @@ std::string wrapped(const std::string& text, const std::string& first, const std
 
 std::string statement_row(const std::optional<PredictedStatement>& said) {
   if (!said) return {};
-  return fmt::format("    {:<24} {:>8.2f} {:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f} {:>7.2f}\n",
-                     reports::name_of(said->measurand), um(said->expected_mm), um(said->below_mm),
-                     um(said->above_mm), um(said->width_mm()), um(said->expanded_mm()),
-                     um(said->nine_of_ten_expanded_mm()));
+  const int digits = reports::decimals_for(said->expanded_mm());
+  return fmt::format("    {:<24} {:>8.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f}\n",
+                     reports::name_of(said->measurand), um(said->expected_mm), digits,
+                     um(said->below_mm), digits, um(said->above_mm), digits, um(said->width_mm()),
+                     digits, um(said->expanded_mm()), digits, um(said->nine_of_ten_expanded_mm()),
+                     digits);
 }
 
 std::string characteristic_rows(const plans::Plan& plan, const PredictedCharacteristic& of) {
@@ -55,8 +58,8 @@ std::string characteristic_rows(const plans::Plan& plan, const PredictedCharacte
   out += statement_row(p.sampled) + statement_row(p.whole);
   const Measurand widest = p.whole ? Measurand::kWholeSurface : Measurand::kSampledPoints;
   const std::string largest = largest_influences(p, widest);
-  if (!largest.empty()) out += wrapped(largest, "    from ", "      ");
-  return out;
+  return out + wrapped(largest.empty() ? "nothing: no influence is declared" : largest, "    from ",
+                       "      ");
 }
 
 /// Characteristics without an interval: those of a feature that share a reason, together.

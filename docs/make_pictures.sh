@@ -4,12 +4,12 @@
 # (tests/browser/README.md), imagemagick, poppler-utils and, for Chinese, fonts-noto-cjk.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-build/release/rondure plan plans/examples/01_spool_simulated.json --svg docs/images/planning.svg
+build/release/rondure plan plans/examples/01_spool_simulated.json --svg docs/images/planning.svg >/dev/null
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export RONDURE_BINARY=$PWD/build/release/rondure RONDURE_SOURCE_DIR=$PWD RONDURE_PICTURES=$work
-tests/browser/run.sh build/release/tests/browser/packages ../../docs/pictures.mjs
+tests/browser/run.sh "$PWD/build/release/tests/browser/packages" ../../docs/pictures.mjs
 
 mkdir -p docs/pictures
 pdftoppm -r 60 -png -f 1 -l 4 "$work/print.pdf" "$work/page"

@@ -89,7 +89,8 @@ std::string earlier_json(const EarlierResults& earlier) {
 core::Result<EarlierResults> parse_earlier(const std::string& text) {
   try {
     EarlierResults out;
-    for (const Json& row : Json::parse(text).at("results")) out.push_back(result_of(row));
+    const Json document = Json::parse(text);
+    for (const Json& row : document.at("results")) out.push_back(result_of(row));
     return out;
   } catch (const Json::exception& e) {
     return core::fail(core::Code::kSyntax,

@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "fit/min_zone_circle.h"
+#include "reports/deviation.h"
 #include "reports/error_modes.h"
 #include "reports/form_value.h"
 
@@ -52,7 +52,9 @@ Eigen::Vector3d direction_of(const record::RunRecord& record, int feature) {
   return Eigen::Vector3d::UnitZ();
 }
 
-std::vector<LayerResult> layers_of(const FormCloud& cloud, const std::vector<CloudPoint>& points) {
+/// The sections of a simulated cloud about the reference that is asked for.
+std::vector<LayerResult> layers_of(const FormCloud& cloud, const std::vector<CloudPoint>& points,
+                                   record::Reference reference) {
   std::map<int, std::vector<std::size_t>> rows;
   for (std::size_t i = 0; i < points.size(); ++i) rows[points[i].layer].push_back(i);
   std::vector<LayerResult> out;
@@ -63,20 +65,21 @@ std::vector<LayerResult> layers_of(const FormCloud& cloud, const std::vector<Clo
       section.push_back((cloud.radius_mm + p.deviation_mm) *
                         Eigen::Vector2d(std::cos(p.angle_rad), std::sin(p.angle_rad)));
     }
-    out.push_back({layer, 0.0, std::move(of_layer), fit::min_zone_circle(section), not_fitted()});
+    LayerResult result{layer, 0.0, std::move(of_layer), fit::min_zone_circle(section),
+                       fit::ls_circle(section)};
+    using record::Reference;
+    if (reference == Reference::kMinimumCircumscribed) {
+      result.mc = fit::min_circumscribed_circle(section);
+    }
+    if (reference == Reference::kMaximumInscribed) result.mi = fit::max_inscribed_circle(section);
+    result.points_mm = std::move(section);
+    out.push_back(std::move(result));
   }
   return out;
 }
 
-double worst_zone_mm(const std::vector<LayerResult>& layers) {
-  double worst = 0.0;
-  for (const LayerResult& layer : layers) {
-    if (layer.mz) worst = std::max(worst, layer.mz->width_mm());
-  }
-  return worst;
-}
-
-double zone_mm(const FormCloud& cloud) {
+/// About the reference of the cloud.
+double form_mm(const FormCloud& cloud) {
   Eigen::VectorXd deviations(static_cast<Eigen::Index>(cloud.points.size()));
   for (Eigen::Index i = 0; i < deviations.size(); ++i) {
     deviations[i] = cloud.points[static_cast<std::size_t>(i)].deviation_mm;
@@ -155,15 +158,21 @@ FeatureResult Rehearsal::result_of(const FormCloud& simulated,
   for (std::size_t i = 0; i < out.cloud.size(); ++i) {
     out.cloud[i].tip_mm = position_mm(simulated, simulated.points[i]);
   }
-  if (asked.form == record::Form::kRoundness) out.layers = layers_of(simulated, out.cloud);
+  if (asked.form == record::Form::kRoundness) {
+    out.layers = layers_of(simulated, out.cloud, asked.reference);
+  }
   return out;
 }
 
 double Rehearsal::value_mm(const FormCloud& simulated, const record::Characteristic& asked) const {
-  if (asked.form == record::Form::kRoundness) {
-    return worst_zone_mm(layers_of(simulated, result_.cloud));
+  if (asked.form != record::Form::kRoundness) {
+    FormCloud about = simulated;
+    about.reference = asked.reference;
+    return form_mm(about);
   }
-  return zone_mm(simulated);
+  const FeatureResult inspected = result_of(simulated, asked);
+  const auto worst = worst_section(inspected, asked.reference);
+  return worst ? worst->value_mm : 0.0;
 }
 
 core::Result<FormSpectrum> expected_form(const Rehearsal& rehearsal, const Declared& declared,

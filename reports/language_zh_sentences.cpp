@@ -117,7 +117,6 @@ constexpr Translation kTexts[] = {
      "ISO 230-7，固定敏感方向，相对平均转的最小二乘圆心"},
     {"displacement probes", "位移传感器"},
     {"harmonic {} is nearest to its limit", "第 {} 次谐波最接近其限值"},
-    {"harmonic {} of layer {} is nearest to its limit", "第 {1} 层的第 {0} 次谐波最接近其限值"},
     {"harmonic {} was not recovered", "第 {} 次谐波未恢复"},
     {"{} harmonics were not recovered", "{} 个谐波未恢复"},
     {"the mask reaches to harmonic {}, {} is the highest recovered",

@@ -50,7 +50,7 @@ std::string legend_of(const std::vector<Curve>& curves) {
   for (const Curve& curve : curves) {
     if (curve.name.empty()) continue;
     out += fmt::format(
-        R"({}<svg class="key" viewBox="0 0 22 8" width="22" height="8"><path class="{}" )"
+        R"({}<svg class="key" aria-hidden="true" viewBox="0 0 22 8" width="22" height="8"><path class="{}" )"
         R"(d="{}"/></svg> {})",
         out.empty() ? "" : " · ", curve.css_class,
         curve.marks_only ? "M13.6 4a2.6 2.6 0 1 0-5.2 0a2.6 2.6 0 1 0 5.2 0" : "M1 4h20",

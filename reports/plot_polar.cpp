@@ -146,15 +146,15 @@ std::string plot(const FeatureResult& feature, const Section& section, const Pol
 
 std::string legend(std::size_t shown, std::size_t all, double magnification, bool thinned,
                    bool sparse) {
-  std::string text =
-      trf("Deviations about the minimum-zone axis, magnified {}× against the radius, alike in all "
-          "plots. "
-          "Shaded: the zone. {} point on the outer circle, {} point on the inner circle.",
-          fixed(magnification, 0),
-          R"(<svg class="key" viewBox="0 0 12 12" width="12" height="12"><path class="outer" )"
-          R"(d="M6 1l5 10h-10z"/></svg>)",
-          R"(<svg class="key" viewBox="0 0 12 12" width="12" height="12"><rect class="inner" )"
-          R"(x="1.5" y="1.5" width="9" height="9"/></svg>)");
+  std::string text = trf(
+      "Deviations about the minimum-zone axis, magnified {}× against the radius, alike in all "
+      "plots. "
+      "Shaded: the zone. {} point on the outer circle, {} point on the inner circle.",
+      fixed(magnification, 0),
+      R"(<svg class="key" aria-hidden="true" viewBox="0 0 12 12" width="12" height="12"><path class="outer" )"
+      R"(d="M6 1l5 10h-10z"/></svg>)",
+      R"(<svg class="key" aria-hidden="true" viewBox="0 0 12 12" width="12" height="12"><rect class="inner" )"
+      R"(x="1.5" y="1.5" width="9" height="9"/></svg>)");
   if (sparse) text += tr(" The line guides the eye only: nothing was measured between the points.");
   if (thinned) text += tr(" The line runs through the extremes of 0.5° sectors.");
   if (shown < all) {

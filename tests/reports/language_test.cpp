@@ -36,7 +36,7 @@ using ::testing::StartsWith;
 std::vector<Translation> whole_table() {
   std::vector<Translation> out;
   for (const auto& part : {chinese_page(), chinese_drawings(), chinese_analyses(),
-                           chinese_sentences(), chinese_summary()}) {
+                           chinese_sentences(), chinese_summary(), chinese_live()}) {
     out.insert(out.end(), part.begin(), part.end());
   }
   return out;
@@ -224,8 +224,8 @@ TEST(LanguageTable, HasNothingThatNoSourceSays) {
       if (said.insert(literal.text).second) all += literal.text + '\n';
     }
   }
-  for (const auto& part :
-       {chinese_page(), chinese_drawings(), chinese_analyses(), chinese_summary()}) {
+  for (const auto& part : {chinese_page(), chinese_drawings(), chinese_analyses(),
+                           chinese_summary(), chinese_live()}) {
     for (const Translation& line : part) {
       EXPECT_EQ(said.count(std::string(line.english)), 1U) << '"' << line.english << '"';
     }

@@ -7,6 +7,7 @@ function ofCloud(feature) {
   const labels = feature.layers.slice(0, mostPolarPlots).map(() => /deviations about the minimum-zone axis/);
   labels.push(oneSection ? /^Deviation against the angle/ : /^Deviations on the unrolled surface/);
   if (!oneSection) labels.push(/^Cylinder and its zone in three dimensions/);
+  if (feature.layers.some((layer) => layer.filtered)) labels.push(/^Amplitudes of the harmonics/);
   if (feature.poses.length > 1) labels.push(/^f of the poses/);
   if (feature.poses.length > 5) labels.push(/^Poses visited/);
   return labels;
