@@ -41,7 +41,7 @@ TEST(Arguments, WhatIsNotUnderstoodIsNamed) {
       {{"run"}, "PLAN is required"},
       {{"run", plan, "--colour"}, "--colour"},
       {{"run", plan, "again"}, "again"},
-      {{"run", plan, "--format", "pdf"}, "pdf"},
+      {{"run", plan, "--format", "docx"}, "docx"},
       {{"run", plan, "--seed", "-1"}, "0 to 9007199254740991"},
       {{"run", plan, "--seed", "1.5"}, "0 to 9007199254740991"},
       {{"run", plan, "--seed", "9007199254740992"}, "0 to 9007199254740991"},

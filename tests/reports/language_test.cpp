@@ -264,8 +264,8 @@ bool is_chinese(std::string_view text) {
 }
 
 TEST(LanguageTable, HasTheSameArgumentsOnBothSidesOfAFormat) {
-  for (const auto& part :
-       {chinese_page(), chinese_drawings(), chinese_analyses(), chinese_summary()}) {
+  for (const auto& part : {chinese_page(), chinese_drawings(), chinese_analyses(),
+                           chinese_summary(), chinese_live()}) {
     for (const Translation& line : part) {
       EXPECT_EQ(places_of(line.english), places_of(line.chinese)) << line.english;
     }
