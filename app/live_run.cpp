@@ -8,6 +8,7 @@
 #include "app/terminal.h"
 #include "core/numbers.h"
 #include "plans/forecast.h"
+#include "reports/language.h"
 
 namespace rondure::app {
 
@@ -31,6 +32,7 @@ core::Result<std::unique_ptr<reports::LiveView>> open_live(const RunArguments& a
   live.control = arguments.control;
   live.stages = predicted_stages(plan);
   live.stop = request_stop;
+  live.language = reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
   auto record = std::make_shared<record::GrowingRecord>();
   auto view = reports::LiveView::start(std::move(live), record);
   if (!view) return core::fail(view.error());

@@ -122,6 +122,21 @@ core::Result<void> check_hand(const plans::Plan& plan) {
   return {};
 }
 
+/// Measures, and what follows.
+int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& options, bool resume) {
+  auto run = measure(ending.plan, options, resume, ending.arguments);
+  if (!run) {
+    if (ending.live != nullptr) ending.live->show_failure(core::to_line(run.error().front()));
+    refuse(run.error(), resume, options.directory);
+    if (!ending.arguments.resume) tell_about_resume(ending);
+    return status_of(run.error());
+  }
+  if (run->failure) complain(*run->failure);
+  const int status = conclude(ending, &*run);
+  tell_how_to_go_on(*run, ending);
+  return status;
+}
+
 /// The state of the run that is resumed; a run that is not resumed begins.
 core::Result<Resumption> look(const RunArguments& arguments) {
   return arguments.resume ? find_resumption(arguments) : Resumption{};
@@ -174,17 +189,7 @@ int run(const RunArguments& arguments) {
     return kBadInput;
   }
   ending.live = live->get();
-  auto run = measure(*plan, options, resume, arguments);
-  if (!run) {
-    if (ending.live != nullptr) ending.live->show_failure(core::to_line(run.error().front()));
-    refuse(run.error(), resume, options.directory);
-    if (!arguments.resume) tell_about_resume(ending);
-    return status_of(run.error());
-  }
-  if (run->failure) complain(*run->failure);
-  const int status = conclude(ending, &*run);
-  tell_how_to_go_on(*run, ending);
-  return status;
+  return measure_and_conclude(ending, options, resume);
 }
 
 }  // namespace rondure::app

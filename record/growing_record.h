@@ -16,7 +16,7 @@ namespace rondure::record {
 /// not seen yet.
 class GrowingRecord {
  public:
-  /// The run begins, or goes on, with this on record.
+  /// The run begins, or goes on, with this on record. Its header names the version that measures.
   void begin(RunRecord record);
   void add(std::span<const Touch> touches);
   void add(const PoseVisit& pose);

@@ -21,7 +21,7 @@ const Table& table() {
   static const Table all = [] {
     Table out;
     for (const auto& part : {chinese_page(), chinese_drawings(), chinese_analyses(),
-                             chinese_sentences(), chinese_summary()}) {
+                             chinese_sentences(), chinese_summary(), chinese_live()}) {
       for (const Translation& line : part) out.emplace(line.english, line.chinese);
     }
     return out;

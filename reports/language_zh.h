@@ -20,6 +20,7 @@ struct Translation {
 [[nodiscard]] std::span<const Translation> chinese_analyses();   ///< Spindle, wheel, contour, axes.
 [[nodiscard]] std::span<const Translation> chinese_sentences();  ///< Made by evaluation: told().
 [[nodiscard]] std::span<const Translation> chinese_summary();    ///< The terminal.
+[[nodiscard]] std::span<const Translation> chinese_live();       ///< The live page.
 
 /// Title of a code.
 [[nodiscard]] std::string_view chinese_title(core::Code code);

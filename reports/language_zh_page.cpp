@@ -294,6 +294,9 @@ constexpr Translation kTexts[] = {
     // Pages of the PDF
     {"Cylindricity report: {}, revision {}, run {}", "圆柱度检测报告：{}，版本 {}，检测编号 {}"},
     {"Page {} of {}", "第 {} 页，共 {} 页"},
+    // Run charts
+    {"results were", "个结果"},
+    {"results", "个结果"},
 };
 
 }  // namespace

@@ -340,12 +340,47 @@ constexpr Translation kTexts[] = {
     {"{} points are more than {}, the limit of the trials; give every n-th point",
      "{} 个点超过试验上限 {}；请每隔 n 点取一点"},
     // Harmonics of layers
-    {"harmonic {} of layer {} is nearest to its limit", "第 {1} 层的第 {0} 次谐波最接近其限值"},
     {"intervals are computed of form deviations only", "仅对形状偏差计算区间"},
     {"the mask reaches to harmonic {}, the points of the sections carry {}; harmonics need full "
      "sections of at least 350 points",
      "限值延伸到第 {} 次谐波，而截面上的点只能给出 {} 次；谐波需要至少 350 点的完整截面"},
     {"the mask names no harmonic", "限值未列出任何谐波"},
+    // Run charts
+    {"Note: {}.", "注：{}。"},
+    {"UCL, LCL: control limits of individuals, 3 sigma from moving ranges of ln x (I-MR chart). "
+     "Triangle: beyond a control limit; cross: beyond the tolerance.",
+     "UCL、LCL：单值控制限，3 sigma，由 ln x 的移动极差求得（I-MR "
+     "图）。三角形：超出控制限；叉号：超出公差。"},
+    {"The tolerance, {} um, is above the chart.", "公差 {} um 在图的上方。"},
+    {"simulated: no real part was measured", "仿真：未测量真实工件"},
+    {"{} left out: other part, characteristic, reference, filter or sampling, or simulated beside "
+     "real; filter for them to see them",
+     "略去 {}：工件、特征、评定基准、滤波或采样不同，或仿真与实测混合；筛选后可查看"},
+    {"{} void or without a value and left out", "{} 无效或无值，已略去"},
+    {"mixed: {} {} ({})", "混合：{} 种{}（{:s}）"},
+    {"machines", "测量机"},
+    {"fixtures", "夹具"},
+    {"persons", "操作者"},
+    {"versions of the program", "程序版本"},
+    {"plans", "检测方案"},
+    {"upper limits", "上限"},
+    {"no control limits: {}", "没有控制限：{}"},
+    {"control limits are provisional: {} results, {} are needed",
+     "控制限为暂定：{} 个结果，需要 {} 个"},
+    {"no capability: {}", "没有过程能力：{}"},
+    {"no capability: the characteristic has no tolerance", "没有过程能力：该特征没有公差"},
+    {"no capability: all results are of one serial number; they show how well it is measured, not "
+     "what the process makes",
+     "没有过程能力：全部结果属于同一序列号；它们反映测量的好坏，而非过程的产出"},
+    {"{} is a rough estimate: {} results, {} are needed", "{} 为粗略估计：{} 个结果，需要 {} 个"},
+    {"performance (PpkU), not capability (CpkU): {} beyond the control limits, {} expected of a "
+     "stable process",
+     "过程性能 (PpkU) 而非过程能力 (CpkU)：{} 超出控制限，稳定过程预期 {} 个"},
+    {"{}, at least {:.2f} with 95 % confidence", "{}，95 % 置信下限 {}"},
+    {"median {} um, 99.865 % point {} um of the {}", "{2}的中位数 {0} um，99.865 % 分位点 {1} um"},
+    {"Anderson-Darling p = {:.2g}", "Anderson-Darling p = {}"},
+    {"fitted log-normal distribution", "拟合的对数正态分布"},
+    {"results themselves", "结果本身"},
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "reports/facts.h"
 #include "reports/html_plots.h"
 #include "reports/html_sections.h"
+#include "reports/language.h"
 #include "reports/live_cloud.h"
 #include "reports/live_sections.h"
 #include "reports/measured_cloud.h"
@@ -60,8 +61,8 @@ std::string answer_of(const LiveFrame& frame, std::string_view session, std::uin
 }
 
 LivePainter::LivePainter(std::shared_ptr<const record::GrowingRecord> source,
-                         std::vector<PredictedStage> stages)
-    : source_(std::move(source)), stages_(std::move(stages)) {}
+                         std::vector<PredictedStage> stages, Language language)
+    : source_(std::move(source)), stages_(std::move(stages)), language_(language) {}
 
 void LivePainter::put(std::string_view id, std::string html) {
   const auto found = std::find_if(frame_.parts.begin(), frame_.parts.end(),
@@ -86,10 +87,12 @@ std::shared_ptr<const LiveFrame> LivePainter::frame() {
 void LivePainter::look_at_poses(const record::PoseVisit& present) {
   for (const record::PoseVisit& visit : record_.poses) {
     if (visit.feature != present.feature) continue;
-    if (visit.id != present.id && poses_.count(visit.id) == 1) continue;
+    const bool grew = visit.id == present.id || visit.id == grew_;
+    if (!grew && poses_.count(visit.id) == 1) continue;
     const auto value = value_of_pose(record_, visit, strategy_of(record_, visit));
     if (value) poses_[visit.id] = *value;
   }
+  grew_ = present.id;
 }
 
 void LivePainter::paint_cloud(const record::PoseVisit& visit) {
@@ -104,10 +107,12 @@ void LivePainter::paint_cloud(const record::PoseVisit& visit) {
   look_at_poses(visit);
   const FeatureResult feature = with_poses(record_, visit, poses_);
   const std::string plots = pose_plots(feature, std::nullopt);
-  put("poses", plots.empty() ? plots : fmt::format("<h2>{}</h2>", "Search for the pose") + plots);
+  put("poses",
+      plots.empty() ? plots : fmt::format("<h2>{}</h2>", tr("Search for the pose")) + plots);
 }
 
 std::shared_ptr<const LiveFrame> LivePainter::paint(double elapsed_s) {
+  const LanguageScope scope(language_);
   const bool fresh = source_->catch_up(record_);
   if (record_.header.version.empty()) {
     put("now", live_numbers(record_, {}));
@@ -147,10 +152,12 @@ std::shared_ptr<const LiveFrame> LivePainter::paint(double elapsed_s) {
 std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunRecord& record,
                                                            const Evaluation& evaluation,
                                                            std::string_view report) {
+  const LanguageScope scope(language_);
   put("head", live_head(record));
   put("now", live_over(record, report));
   put("result", verdict_section(record, evaluation));
-  put("announce", fmt::format("{} {}.", "The run is over. Verdict:", name_of(evaluation.verdict)));
+  put("announce",
+      fmt::format("{} {}.", tr("The run is over. Verdict:"), tr(name_of(evaluation.verdict))));
   put("touches", live_touches(record));
   put("decisions", decisions_section(record));
   std::string drawings;  // under a heading that says of which feature
@@ -159,23 +166,24 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
     const auto zone = zone_of(feature);
     if (record::is_analysis(feature.feature.shape)) continue;
     const std::string heading =
-        fmt::format("<h2>{} {}</h2>", "Feature", isolated(feature.feature.id));
+        fmt::format("<h2>{}</h2>", trf("Feature {}", isolated(feature.feature.id)));
     if (zone) drawings += heading + polar_plots(feature, *zone) + deviation_map(feature, *zone);
     searches += pose_plots(feature, zone);
   }
   put("drawing", std::move(drawings));
   put("poses", std::move(searches));
-  frame_.title = fmt::format("{}: {}", name_of(evaluation.verdict), record.header.part_id);
+  frame_.title = fmt::format("{}: {}", tr(name_of(evaluation.verdict)), record.header.part_id);
   frame_.ended = true;
   changed_ = true;
   return frame();
 }
 
 std::shared_ptr<const LiveFrame> LivePainter::paint_failure(std::string_view why) {
+  const LanguageScope scope(language_);
   put("now", fmt::format(R"(<h2 class="doing">{}</h2><div class="banner alarm">{}</div>)",
-                         "No result", isolated(why)));
-  put("announce", fmt::format("{} {}", "No result:", isolated(why)));
-  frame_.title = "No result";
+                         tr("No result"), isolated(why)));
+  put("announce", fmt::format("{}: {}", tr("No result"), isolated(why)));
+  frame_.title = tr("No result");
   frame_.ended = true;
   changed_ = true;
   return frame();

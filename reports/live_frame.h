@@ -11,6 +11,7 @@
 #include "record/growing_record.h"
 #include "record/run_record.h"
 #include "reports/evaluation.h"
+#include "reports/language.h"
 #include "reports/live_time.h"
 
 // Private to the room: what a live page shows, as HTML by part.
@@ -42,7 +43,7 @@ struct LiveFrame {
 class LivePainter {
  public:
   LivePainter(std::shared_ptr<const record::GrowingRecord> source,
-              std::vector<PredictedStage> stages);
+              std::vector<PredictedStage> stages, Language language);
 
   /// @param elapsed_s  Since this start of the program.
   [[nodiscard]] std::shared_ptr<const LiveFrame> paint(double elapsed_s);
@@ -63,8 +64,10 @@ class LivePainter {
 
   std::shared_ptr<const record::GrowingRecord> source_;
   std::vector<PredictedStage> stages_;
+  Language language_;
   record::RunRecord record_;
   std::map<int, PoseValue> poses_;  ///< By PoseVisit::id.
+  int grew_ = -1;                   ///< The pose that was present when they were looked at last.
   std::optional<double> zone_mm_;   ///< Of the present cloud.
   std::optional<int> first_;        ///< Touches on record when this start made its first.
   double first_s_ = 0.0;            ///< And when that was.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reports/html_style.h"
+#include "reports/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -14,13 +15,11 @@ h2.doing{font-size:22px;margin:24px 0 8px;padding:0;border:0}
 progress{display:block;width:100%;max-width:220px;height:10px;margin-top:6px;accent-color:var(--blue)}
 .heard{position:absolute;width:1px;height:1px;overflow:hidden;clip-path:inset(50%);white-space:nowrap}
 #control{margin:18px 0;display:flex;gap:16px;align-items:center;flex-wrap:wrap}
-button{font:inherit;font-weight:650;padding:9px 20px;border-radius:4px;border:1.5px solid var(--line);
-background:transparent;color:var(--ink);cursor:pointer}
+#control button,dialog button{font:inherit;font-weight:650;padding:9px 20px}
 button.stop{background:#b93c00;border-color:#b93c00;color:#fff}
 button:disabled{opacity:.55;cursor:default}
-button:focus-visible,[tabindex]:focus-visible{outline:3px solid var(--blue);outline-offset:2px}
 dialog{border:1px solid var(--line);border-radius:6px;padding:22px 26px;max-width:460px;
-background:Canvas;color:CanvasText}
+background:var(--paper);color:var(--ink)}
 dialog::backdrop{background:rgba(0,0,0,.45)}
 dialog h2{margin:0 0 8px;padding:0;border:0}
 dialog .choices{display:flex;gap:12px;margin-top:18px;flex-wrap:wrap}
@@ -36,19 +35,24 @@ std::string control_part() {
       R"(<h2 id="question-title">{4}</h2><p id="question-text">{5}</p><div class="choices">)"
       R"(<button id="yes" class="stop" type="button">{0}</button>)"
       R"(<button id="no" type="button" autofocus>{6}</button></div></dialog>)",
-      "Stop the run", "The run stops after the present touch.",
-      "The program did not take this; use Ctrl-C in its terminal.",
-      "To stop the run from here, open the address that the program printed, with all that stands "
-      "behind the #.",
-      "Stop the run?",
-      "The machine ends the present touch, goes back and up, and everything measured is kept. The "
-      "run can go on later with rondure run --resume. This is no emergency stop.",
-      "Go on measuring");
+      tr("Stop the run"), tr("The run stops after the present touch."),
+      tr("The program did not take this; use Ctrl-C in its terminal."),
+      tr("To stop the run from here, open the address that the program printed, with all that "
+         "stands "
+         "behind the #."),
+      tr("Stop the run?"),
+      tr("The machine ends the present touch, goes back and up, and everything measured is kept. "
+         "The "
+         "run can go on later with rondure run --resume. This is no emergency stop."),
+      tr("Go on measuring"));
 }
 
 }  // namespace
 
-std::string live_style() { return std::string(kStyle) + std::string(kLiveStyle); }
+std::string live_style() {
+  return fmt::format("{}@media screen and (prefers-color-scheme:dark){{:root{{{}}}}}\n{}", kStyle,
+                     kDarkColours, kLiveStyle);
+}
 
 std::string live_page(bool control) {
   std::string html = fmt::format(
@@ -57,24 +61,23 @@ std::string live_page(bool control) {
       "<title>{}</title>\n<link rel=\"icon\" href=\"data:,\">\n"
       "<link rel=\"stylesheet\" href=\"live.css\">\n"
       "<script src=\"live.js\" defer></script>\n</head>\n<body>\n<main>\n",
-      "en", "Rondure: live view");
+      tag_of(language()), tr("Rondure: live view"));
   html += fmt::format(
       "<noscript><div class=\"banner alarm\">{}</div></noscript>\n"
       "<div id=\"announce\" class=\"heard\" role=\"status\" aria-live=\"polite\"></div>\n"
       "<div id=\"head\"></div>\n"
       "<div id=\"lost\" class=\"banner alarm\" role=\"alert\" hidden><b>{}</b> {}</div>\n",
-      "This page needs JavaScript.", "Connection lost.",
-      "The program does not answer: it has ended, or this computer is very busy. Its terminal "
-      "tells; what was measured is on disk.");
+      tr("This page needs JavaScript."), tr("Connection lost."),
+      tr("The program does not answer: it has ended, or this computer is very busy. Its terminal "
+         "tells; what was measured is on disk."));
   html += "<section id=\"now\"></section>\n";
   if (control) html += control_part() + "\n";
   html +=
       "<div id=\"result\"></div>\n<div id=\"drawing\"></div>\n<div id=\"poses\"></div>\n"
       "<div id=\"touches\"></div>\n<div id=\"decisions\"></div>\n";
-  return html +
-         fmt::format("<footer>{}</footer>\n</main>\n</body>\n</html>\n",
-                     "Served by Rondure on this computer only. The drawings are those of the "
-                     "report, of the touches so far.");
+  return html + fmt::format("<footer>{}</footer>\n</main>\n</body>\n</html>\n",
+                            tr("Served by Rondure on this computer only. The drawings are those of "
+                               "the report, of the touches so far."));
 }
 
 }  // namespace rondure::reports

@@ -9,6 +9,7 @@
 #include "reports/facts.h"
 #include "reports/html_plots.h"
 #include "reports/html_sections.h"
+#include "reports/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -16,11 +17,11 @@ namespace {
 
 constexpr std::size_t kTouchRows = 10;
 
-/// "3:07", "1:02:09".
+/// "3:07 min", "1:02:09 h".
 std::string clock_text(double time_s) {
   const auto s = std::lround(std::max(time_s, 0.0));
-  if (s < 3600) return fmt::format("{}:{:02}", s / 60, s % 60);
-  return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+  if (s < 3600) return fmt::format("{}:{:02} min", s / 60, s % 60);
+  return fmt::format("{}:{:02}:{:02} h", s / 3600, s / 60 % 60, s % 60);
 }
 
 std::string fact(std::string_view name, const std::string& value) {
@@ -47,20 +48,35 @@ std::string angles_of(const core::Pose& pose) {
 
 std::string touches_entry(const record::RunRecord& record, const LiveNow& now) {
   const std::size_t done = record.touches.size();
-  if (now.expected == 0) return entry("Touches", std::to_string(done), "lead");
+  if (now.expected == 0) return entry(tr("Touches"), std::to_string(done), "lead");
   const std::size_t all = std::max(now.expected, done);
-  return entry("Touches",
-               with_note(fmt::format("{} of {}", done, all),
+  return entry(tr("Touches"),
+               with_note(trf("{} of {}", done, all),
                          fmt::format(R"(<progress value="{}" max="{}" aria-label="{}"></progress>)",
-                                     done, all, "Touches made")),
+                                     done, all, tr("Touches made"))),
                "lead");
 }
 
 std::string time_entries(const LiveNow& now) {
-  const std::string left = now.left_s ? clock_text(*now.left_s) + " min" : "–";
-  return entry("Time left",
-               with_note(left, "as the plan's time model predicts, at the pace so far"), "lead") +
-         entry("Time so far", clock_text(now.elapsed_s) + " min");
+  const std::string left = now.left_s ? clock_text(*now.left_s) : "–";
+  return entry(tr("Time left"),
+               with_note(left, tr("as the plan's time model predicts, at the pace so far")),
+               "lead") +
+         entry(tr("Time so far"), clock_text(now.elapsed_s));
+}
+
+std::string purpose_of(const record::Touch& touch) {
+  switch (touch.purpose) {
+    case record::Touch::Purpose::kQualification:
+      return tr("qualification");
+    case record::Touch::Purpose::kLocate:
+      return tr("location");
+    case record::Touch::Purpose::kMeasure:
+      return tr("measurement");
+    case record::Touch::Purpose::kCheck:
+      return tr("check");
+  }
+  return {};
 }
 
 std::string touch_row(const record::RunRecord& record, const record::Touch& touch) {
@@ -70,7 +86,7 @@ std::string touch_row(const record::RunRecord& record, const record::Touch& touc
   return fmt::format(
       R"(<tr><td class="n">{}</td><td>{}</td><td class="n">{}</td><td class="n">{}</td>)"
       R"(<td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td></tr>)",
-      touch.id, record::name_of(touch.purpose),
+      touch.id, purpose_of(touch),
       pose == record.poses.rend() ? "–" : std::to_string(number_of(record, *pose)),
       in_layer ? std::to_string(touch.layer + 1) : "–",
       in_layer ? std::to_string(touch.point + 1) : "–", fixed(touch.tip_mm.x(), 5),
@@ -83,45 +99,49 @@ std::string live_head(const record::RunRecord& record) {
   const record::Header& header = record.header;
   std::string html = fmt::format(
       R"(<header><div class="brand"><span><b>RONDURE</b> {}</span><span>{}</span></div>)",
-      "live view", isolated(header.started_utc));
+      tr("live view"), isolated(header.started_utc));
   html += fmt::format("<h1>{}", isolated(header.part_id));
   if (!header.part_name.empty()) html += fmt::format(" {}", isolated(header.part_name));
   html += R"(</h1><dl class="facts">)";
-  html += fact("Serial", header.serial) + fact("Drawing", header.drawing) +
-          fact("Plan", header.plan_name) + fact("Revision", header.plan_revision) +
-          fact("Operator", header.operator_name) + fact("Run", header.run_id) + "</dl></header>";
+  html += fact(tr("Serial"), header.serial) + fact(tr("Drawing"), header.drawing) +
+          fact(tr("Plan"), header.plan_name) + fact(tr("Revision"), header.plan_revision) +
+          fact(tr("Operator"), header.operator_name) + fact(tr("Run"), header.run_id) +
+          "</dl></header>";
   return html;
 }
 
 std::string live_doing(const record::RunRecord& record, const LiveNow& now) {
-  if (!record.ending.empty()) return "All touches are made; evaluating";
-  if (record.header.version.empty()) return "Starting";
-  if (now.pose == nullptr) return "Qualifying the probe";
+  if (!record.ending.empty()) return tr("All touches are made; evaluating");
+  if (record.header.version.empty()) return tr("Starting");
+  if (now.pose == nullptr) return tr("Qualifying the probe");
   const bool locating = !record.touches.empty() && record.touches.back().pose == now.pose->id &&
                         record.touches.back().purpose == record::Touch::Purpose::kLocate;
-  return fmt::format("{} {}, {} {}", locating ? "Locating" : "Measuring",
-                     isolated(id_of(record, *now.pose)), "pose", number_of(record, *now.pose));
+  const std::string feature = isolated(id_of(record, *now.pose));
+  const std::size_t number = number_of(record, *now.pose);
+  return locating ? trf("Locating {}, pose {}", feature, number)
+                  : trf("Measuring {}, pose {}", feature, number);
 }
 
 std::string live_numbers(const record::RunRecord& record, const LiveNow& now) {
   std::string html;
   if (record.header.simulated) {
-    html += fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)",
-                        "Simulated:", "no real part is measured.");
+    html += fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)", tr("Simulated:"),
+                        tr("no real part is measured."));
   }
   html += fmt::format(R"(<h2 class="doing">{}</h2><dl class="keys">)", live_doing(record, now));
   html += touches_entry(record, now) + time_entries(now);
   if (now.pose != nullptr) {
-    html += entry("Pose", with_note(std::to_string(number_of(record, *now.pose)),
-                                    angles_of(now.pose->reached)));
+    html += entry(tr("Pose"), with_note(std::to_string(number_of(record, *now.pose)),
+                                        angles_of(now.pose->reached)));
   }
   if (now.f) {
-    html += entry("f of this pose",
-                  now.f->valid ? with_note(f_um(now.f->f_mm) + " µm", "of the touches so far")
+    html += entry(tr("f of this pose"),
+                  now.f->valid ? with_note(f_um(now.f->f_mm) + " µm", tr("of the touches so far"))
                                : with_note("–", isolated(now.f->ending)));
   }
   if (now.zone_mm)
-    html += entry("Minimum zone", with_note(um(*now.zone_mm) + " µm", "of the touches so far"));
+    html +=
+        entry(tr("Minimum zone"), with_note(um(*now.zone_mm) + " µm", tr("of the touches so far")));
   return html + "</dl>";
 }
 
@@ -132,17 +152,17 @@ std::string live_sentence(const record::RunRecord& record, const LiveNow& now) {
 std::string live_drawings(const core::Result<LiveCloud>& cloud) {
   if (!cloud) {
     return fmt::format(R"(<p class="note">{}</p>)",
-                       "The drawings begin when the touches of this pose define the feature.");
+                       tr("The drawings begin when the touches of this pose define the feature."));
   }
   const auto zone = zone_of(cloud->result);
   if (!zone) return {};
-  std::string html = fmt::format("<h2>{}</h2>", "The present cloud");
+  std::string html = fmt::format("<h2>{}</h2>", tr("The present cloud"));
   html += polar_plots(cloud->result, *zone) + deviation_map(cloud->result, *zone);
   if (cloud->every > 1) {
     html += fmt::format(R"(<p class="note">{}</p>)",
-                        fmt::format("Every {}th point is drawn while the run is at work; the "
-                                    "report has all of them.",
-                                    cloud->every));
+                        trf("Every {}th point is drawn while the run is at work; the report "
+                            "has all of them.",
+                            cloud->every));
   }
   return html;
 }
@@ -154,28 +174,30 @@ std::string live_touches(const record::RunRecord& record) {
       R"(<thead><tr><th class="n">{}</th><th>{}</th><th class="n">{}</th><th class="n">{}</th>)"
       R"(<th class="n">{}</th><th class="n">x / mm</th><th class="n">y / mm</th>)"
       R"(<th class="n">z / mm</th></tr></thead><tbody>)",
-      "Last touches", "Last touches", "Touch", "Purpose", "Pose", "Layer", "Point");
+      tr("Last touches"), tr("Last touches"), tr("Touch"), tr("Purpose"), tr("Pose"), tr("Layer"),
+      tr("Point"));
   const std::size_t rows = std::min(kTouchRows, record.touches.size());
   for (std::size_t i = 0; i < rows; ++i) {
     html += touch_row(record, record.touches[record.touches.size() - 1 - i]);
   }
-  return html + fmt::format(R"(</tbody></table></div><p class="note">{}</p>)",
-                            "Centres of the tip in the machine frame, the newest first. Each is on "
-                            "disk before the next is made.");
+  return html +
+         fmt::format(R"(</tbody></table></div><p class="note">{}</p>)",
+                     tr("Centres of the tip in the machine frame, the newest first. Each is on "
+                        "disk before the next is made."));
 }
 
 std::string live_over(const record::RunRecord& record, std::string_view report) {
   std::string html = fmt::format(R"(<h2 class="doing">{}</h2>)",
-                                 record.ending == "finished" ? "Run finished"
+                                 record.ending == "finished" ? tr("Run finished")
                                  : record.ending == "stopped"
-                                     ? "Run stopped; it can go on with rondure run --resume"
-                                     : "Run ended by a fault");
+                                     ? tr("Run stopped; it can go on with rondure run --resume")
+                                     : tr("Run ended by a fault"));
   if (!report.empty()) {
-    html += fmt::format(R"(<p>{} <span class="mono">{}</span></p>)", "The report is in",
+    html += fmt::format(R"(<p>{} <span class="mono">{}</span></p>)", tr("The report is in"),
                         isolated(report));
   }
   return html + fmt::format(R"(<p class="note">{}</p>)",
-                            "The program has ended; this page stays as it is.");
+                            tr("The program has ended; this page stays as it is."));
 }
 
 }  // namespace rondure::reports

@@ -73,8 +73,8 @@ class QuietThreads {
 /// The library's server with connections that end.
 class LiveServer::Http final : public httplib::Server {
  public:
-  Http(LiveGate gate, LiveHandlers handlers)
-      : gate_(std::move(gate)), handlers_(std::move(handlers)) {
+  Http(LiveGate gate, std::string page, LiveHandlers handlers)
+      : gate_(std::move(gate)), page_(std::move(page)), handlers_(std::move(handlers)) {
     new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
     set_socket_options(allow_reuse_after_end);
     set_payload_max_length(kMostBody_bytes);
@@ -125,7 +125,7 @@ class LiveServer::Http final : public httplib::Server {
  private:
   void serve_page() {
     Get("/", [this](const httplib::Request&, httplib::Response& response) {
-      response.set_content(live_page(gate_.control), "text/html; charset=utf-8");
+      response.set_content(page_, "text/html; charset=utf-8");
     });
     Get("/live.css", [](const httplib::Request&, httplib::Response& response) {
       response.set_content(live_style(), "text/css; charset=utf-8");
@@ -161,6 +161,7 @@ class LiveServer::Http final : public httplib::Server {
   }
 
   LiveGate gate_;
+  const std::string page_;
   LiveHandlers handlers_;
   std::atomic<bool> ending_ = false;
 };
@@ -185,8 +186,9 @@ LiveServer::~LiveServer() {
 const LiveGate& LiveServer::gate() const { return http_->gate(); }
 
 core::Result<std::unique_ptr<LiveServer>> LiveServer::start(std::uint16_t port, LiveGate gate,
+                                                            std::string page,
                                                             LiveHandlers handlers) {
-  auto http = std::make_unique<Http>(std::move(gate), std::move(handlers));
+  auto http = std::make_unique<Http>(std::move(gate), std::move(page), std::move(handlers));
   if (!http->take_port(port)) {
     return core::fail(
         core::Code::kFile,

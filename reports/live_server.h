@@ -31,9 +31,11 @@ class LiveServer {
  public:
   /// @param port      0: any free one.
   /// @param gate      Its port is filled in.
+  /// @param page      What "/" gives (live_page()).
   /// @return  kFile when the port cannot be had: `what` says what to do.
   [[nodiscard]] static core::Result<std::unique_ptr<LiveServer>> start(std::uint16_t port,
                                                                        LiveGate gate,
+                                                                       std::string page,
                                                                        LiveHandlers handlers);
   ~LiveServer();
   LiveServer(const LiveServer&) = delete;

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "reports/live_frame.h"
+#include "reports/live_page.h"
 #include "reports/live_server.h"
 
 namespace rondure::reports {
@@ -33,7 +34,8 @@ constexpr std::size_t kMostClients = 64;
 class LiveView::Impl {
  public:
   Impl(LiveOptions options, std::shared_ptr<const record::GrowingRecord> source)
-      : painter_(std::move(source), std::move(options.stages)),
+      : painter_(std::move(source), std::move(options.stages), options.language),
+        language_(options.language),
         stop_(std::move(options.stop)),
         session_(random_token()) {}
 
@@ -43,8 +45,9 @@ class LiveView::Impl {
     if (control) gate.token = random_token();
     if (session_.empty() || (control && gate.token.empty()))
       return core::fail(core::Code::kFile, "the system gives no random numbers for the live page");
+    const LanguageScope scope(language_);
     auto server = LiveServer::start(
-        port, std::move(gate),
+        port, std::move(gate), live_page(control),
         {[this](std::uint64_t since, const std::string& client) { return state(since, client); },
          [this] {
            if (stop_) stop_();
@@ -138,6 +141,7 @@ class LiveView::Impl {
   };
 
   LivePainter painter_;  ///< Of its thread; of the run's behind the end of that.
+  Language language_;
   std::function<void()> stop_;
   std::string session_;
   const Clock::time_point start_ = Clock::now();

@@ -11,6 +11,7 @@
 #include "record/growing_record.h"
 #include "record/run_record.h"
 #include "reports/evaluation.h"
+#include "reports/language.h"
 #include "reports/live_time.h"
 
 namespace rondure::reports {
@@ -24,6 +25,7 @@ struct LiveOptions {
   /// What the button does, as Ctrl-C: sets a flag that the run asks for. Called from another thread
   /// and more than once. Only with `control`.
   std::function<void()> stop;
+  Language language = Language::kEnglish;  ///< Of the page.
 };
 
 /// A page at http://127.0.0.1 that shows a run while it is measured: touches, poses, f, time left,

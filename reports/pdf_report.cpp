@@ -241,8 +241,7 @@ std::string missing_in_words(const std::vector<char32_t>& missing) {
   if (missing.size() > kMost) codes += ", ...";
   return trf(
       "No installed font has these characters of the report: {}. They are shown as boxes with "
-      "their "
-      "codes. Install a font that has them and write the report again (Debian: fonts-noto-cjk for "
+      "their codes. Install a font that has them and write the report again (Debian: fonts-noto-cjk for "
       "Chinese, fonts-noto-core for others).",
       codes);
 }

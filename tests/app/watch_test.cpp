@@ -80,7 +80,7 @@ TEST(Watch, ShowsTouchesPosesAndTimeThenTheVerdictAndChangesNoBit) {
               AllOf(HasSubstr("class=\"polar\""), Not(HasSubstr(" style="))));
   EXPECT_THAT(std::string(drawn["now"]),
               AllOf(HasSubstr("f of this pose"), HasSubstr("Time left"), HasSubstr("of 159")));
-  EXPECT_THAT(std::string(drawn["touches"]), HasSubstr("<td>measure</td>"));
+  EXPECT_THAT(std::string(drawn["touches"]), HasSubstr("<td>measurement</td>"));
   EXPECT_THAT(std::string(drawn["decisions"]), HasSubstr("part located"));
   EXPECT_EQ(listening_at(run.port()), std::vector<std::string>{"0100007F"}) << "127.0.0.1 only";
   const json over = run.look_until("result", "Conforms");

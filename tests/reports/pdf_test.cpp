@@ -104,8 +104,8 @@ std::string inked(std::string_view text) {
 std::string body_ink(const Pdf& pdf) {
   std::string out;
   for (const std::string& page : pages_of(pdf)) {
-    const std::size_t foot = page.find("Rondure 0.");  // then the number of the page
-    const std::size_t end = page.find('\n', page.find('\n', foot) + 1);
+    const std::size_t foot = page.find("Rondure 0.");  // and the number of the page
+    const std::size_t end = page.find('\n', foot);
     EXPECT_NE(end, std::string::npos) << page.substr(0, 300);
     out += inked(page.substr(std::min(end, page.size())));
   }
@@ -347,6 +347,21 @@ TEST(Pdf, IsComparedByBytesByPageAndByDigest) {
   EXPECT_FALSE(pdf_difference(old, with_other_fonts, true));
   EXPECT_THAT(pdf_difference(old, with_other_fonts, false).value_or(""), HasSubstr("its bytes"));
   EXPECT_THAT(pdf_difference(old, other, true).value_or(""), HasSubstr("another page"));
+}
+
+TEST(Pdf, AReportOf28TouchesIsSetAtOnceWhenTheFontsAreRead) {
+  const Case made = cylinder_case(4, 7, 3);
+  const std::string html = page_of(made);
+  (void)pdf_of(made.record, html);
+  double best_s = 1e9;
+  for (int i = 0; i < 5; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    (void)pdf_of(made.record, html);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    best_s = std::min(best_s, took.count());
+  }
+  std::printf("a PDF of 28 touches: %.0f ms\n", 1e3 * best_s);
+  EXPECT_LT(best_s, 0.5);  // about 0.04 on an idle machine; this one may be busy
 }
 
 TEST(Pdf, AHundredThousandPointsAreSetInBoundedTime) {
