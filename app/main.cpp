@@ -54,11 +54,15 @@ std::string check_seed(const std::string& text) {
 }
 
 /// How many times faster than a real machine.
-std::string check_speed(const std::string& text) {
-  if (text == "inf") return {};
+/// A number in range; NaN is in none.
+std::string check_factor(const std::string& text) {
   const auto factor = core::parse_number(text);
   if (factor && *factor >= 1e-3 && *factor <= 1e6) return {};
-  return fmt::format("{} is neither inf nor a number from 0.001 to 1000000", text);
+  return fmt::format("{} is no number from 0.001 to 1000000", text);
+}
+
+std::string check_speed(const std::string& text) {
+  return text == "inf" ? std::string() : check_factor(text);
 }
 
 void add_validate(CLI::App& app, ValidateArguments& arguments) {
@@ -109,7 +113,8 @@ void add_watching(CLI::App& verb, RunArguments& arguments) {
   verb.add_option("--speed", arguments.speed,
                   "Of a simulated machine: seconds of its clock in one second (default: no\n"
                   "waiting), to watch a simulated run; the result is the same")
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check(check_factor)
+      ->type_name("FACTOR");
 }
 
 void add_run(CLI::App& app, RunArguments& arguments) {

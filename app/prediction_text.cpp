@@ -126,7 +126,9 @@ std::string candidate_row(const SamplingCandidate& c, const SamplingSearch& of, 
   std::string layout = fmt::format("{} x {}", s.layers, s.points_per_layer);
   if (s == of.planned) layout += " (the plan)";
   if (!c.out_of_reach.empty()) {
-    return fmt::format("  {:<20} {:>7} out of reach\n", layout, s.repeats);
+    return fmt::format(
+        "  {:<20} {:>7} {}\n", layout, s.repeats,
+        c.missing.empty() ? "out of reach" : "without an interval that the plan has");
   }
   return fmt::format("  {:<20} {:>7} {:>8} {:>9} {:>8.3g} {:>8.3g}  {}\n", layout, s.repeats,
                      c.touches, clock(c.time_s), um(c.expanded_mm), um(c.nine_of_ten_expanded_mm),

@@ -106,6 +106,9 @@ std::string resume_command(const RunToFinish& run) {
     out += directory;
   }
   out += " --resume";
+  for (std::size_t i = 0; i < arguments.formats.size(); ++i) {
+    out += (i == 0 ? " --format " : ",") + arguments.formats[i];
+  }
   if (arguments.language != "en") out += " --lang " + arguments.language;
   if (!arguments.archive.empty()) out += " --archive " + quoted(run.archive.shown);
   return out;

@@ -1,6 +1,8 @@
 #include "app/run_ending.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -28,6 +30,18 @@ int exit_status(bool failed, reports::Verdict verdict) {
   const bool well =
       verdict == reports::Verdict::kConforms || verdict == reports::Verdict::kNotToleranced;
   return well ? kAllWell : kNotConforming;
+}
+
+/// Formats to write: those asked for, and those that an interrupted beginning left, which would
+/// tell of another state than the run's.
+std::vector<std::string> with_those_there(std::vector<std::string> asked,
+                                          const fs::path& directory) {
+  for (const reports::Export& e : reports::exports()) {
+    std::error_code unknown;
+    if (!fs::exists(directory / e.file, unknown)) continue;
+    if (std::find(asked.begin(), asked.end(), e.format) == asked.end()) asked.push_back(e.format);
+  }
+  return asked;
 }
 
 reports::Language language_of(const RunArguments& arguments) {
@@ -98,7 +112,8 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
     }
   }
   if (!failed) keep_earlier_results(archive, directory, told->record);
-  const auto formats = arguments.formats.empty() ? plan.reports.formats : arguments.formats;
+  const auto formats = with_those_there(
+      arguments.formats.empty() ? plan.reports.formats : arguments.formats, directory);
   const reports::Language language = language_of(arguments);
   const auto written =
       reports::write_exports(directory, formats, told->record, evaluation, language);

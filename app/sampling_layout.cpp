@@ -11,8 +11,10 @@ using reports::Measurand;
 
 /// A run finds the repeatability by its repeats, where the plan does not declare it.
 int least_repeats(const plans::Plan& plan) {
-  const bool declares = plan.uncertainty && plan.uncertainty->probe;
-  return declares && !plan.uncertainty->probe->repeatability_um ? 2 : 1;
+  if (!plan.uncertainty || !plan.uncertainty->probe) return 1;
+  const auto& probe = *plan.uncertainty->probe;
+  const bool contained = probe.form_limit_um > 0.0;
+  return probe.repeatability_um || contained ? 1 : 2;
 }
 
 SamplingLayout::SamplingLayout(plans::Plan plan, std::size_t feature, const Sampling& sampling)
@@ -50,14 +52,18 @@ core::Result<reports::Prediction> SamplingLayout::predict(Measurand measurand,
   const auto expected = plans::expected_record(plan, repeated(candidate.sampling.repeats));
   reports::Prediction worst;
   candidate.expanded_mm = candidate.nine_of_ten_expanded_mm = 0.0;
+  candidate.stated = 0;
+  candidate.missing.clear();
   for (const record::Characteristic& asked : expected.features[feature_].characteristics) {
     auto found = reports::predict(expected, static_cast<int>(feature_), asked, options);
     if (!found) return found;
     const auto& said = found->about(measurand);
     if (!said) {
       if (worst.why.empty() && !worst.sampled) worst.why = found->why;
+      if (candidate.missing.empty()) candidate.missing = found->why;
       continue;
     }
+    ++candidate.stated;
     candidate.expanded_mm = std::max(candidate.expanded_mm, said->expanded_mm());
     if (said->nine_of_ten_expanded_mm() >= candidate.nine_of_ten_expanded_mm) {
       candidate.nine_of_ten_expanded_mm = said->nine_of_ten_expanded_mm();

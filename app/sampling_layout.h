@@ -27,7 +27,10 @@ struct SamplingCandidate {
   double nine_of_ten_expanded_mm = 0.0;  ///< U that nine of ten parts stay below.
   bool meets = false;                    ///< That U is not above the target.
   bool confirmed = false;                ///< Predicted with the full number of simulated parts.
-  std::string out_of_reach;              ///< Not empty: why it cannot be touched; no numbers then.
+  int stated = 0;                        ///< Characteristics whose interval is predicted.
+  std::string missing;                   ///< Why another has none; empty when each has one.
+  std::string out_of_reach;  ///< Not empty: why it cannot be touched, or loses an interval that the
+                             ///< plan has; no numbers then.
 };
 
 /// The fewest repeats that may be proposed: 2 where the run finds the repeatability by them.

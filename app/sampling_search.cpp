@@ -99,15 +99,20 @@ class Search {
                      : fmt::format("nothing is stated {}", reports::name_of(out_.measurand));
       return {};
     }
+    stated_ = as_planned.stated;
     // With one touch a point and no declared repeatability U would be small for want of noise.
     if (out_.planned.repeats >= least_repeats(plan_)) keep(as_planned, *found, true);
     return {};
   }
 
-  void keep(SamplingCandidate candidate, const reports::Prediction& found, bool confirmed) {
+  /// @return Whether it meets the target, with an interval wherever the plan has one.
+  bool keep(SamplingCandidate candidate, const reports::Prediction& found, bool confirmed) {
     candidate.confirmed = confirmed;
-    candidate.meets = candidate.nine_of_ten_expanded_mm <= target_mm_;
-    if (confirmed && (smallest_mm_ < 0.0 || candidate.expanded_mm < smallest_mm_)) {
+    if (candidate.stated < stated_) candidate.out_of_reach = candidate.missing;
+    const bool sound = candidate.out_of_reach.empty();
+    const bool meets = sound && candidate.nine_of_ten_expanded_mm <= target_mm_;
+    candidate.meets = meets;
+    if (sound && confirmed && (smallest_mm_ < 0.0 || candidate.expanded_mm < smallest_mm_)) {
       smallest_mm_ = candidate.expanded_mm;
       out_.limit = largest_influences(found, out_.measurand);
     }
@@ -119,6 +124,7 @@ class Search {
     } else if (!same->confirmed) {
       *same = std::move(candidate);
     }
+    return meets;
   }
 
   /// Whether a candidate that takes so long could still be the cheapest.
@@ -131,8 +137,7 @@ class Search {
     SamplingCandidate candidate = layout.candidate(repeats);
     const auto found = layout.predict(out_.measurand, few_parts(out_.measurand), candidate);
     if (!found) return core::fail(found.error());
-    keep(candidate, *found, false);
-    return candidate.nine_of_ten_expanded_mm <= target_mm_;
+    return keep(std::move(candidate), *found, false);
   }
 
   /// The fewest repeats of a layout that meet the target, among those that are worth trying.
@@ -170,8 +175,7 @@ class Search {
       const SamplingLayout layout(plan_, out_.feature, candidate.sampling);
       const auto found = layout.predict(out_.measurand, all_parts(), candidate);
       if (!found) return core::fail(found.error());
-      keep(candidate, *found, true);
-      if (candidate.nine_of_ten_expanded_mm <= target_mm_) break;
+      if (keep(candidate, *found, true)) break;
       const auto* more =
           std::upper_bound(kRepeats.begin(), kRepeats.end(), candidate.sampling.repeats);
       if (more == kRepeats.end()) continue;
@@ -220,6 +224,7 @@ class Search {
   const plans::Plan& plan_;
   double target_mm_;
   SamplingSearch out_;
+  int stated_ = 0;  ///< Characteristics of the plan that have an interval.
   double smallest_mm_ = -1.0;
 };
 

@@ -19,6 +19,12 @@ int compare(const CompareArguments& arguments) {
                      arguments.directory, broken.table, broken.what));
   }
   if (!read->broken.empty()) return kBadInput;
+  if (read->record.ending != "finished") {
+    tell(
+        fmt::format("rondure: {}: the run did not finish; its values are void, and what is said of "
+                    "them holds for the touches so far\n",
+                    arguments.directory));
+  }
   const auto evaluation = reports::evaluate(read->record);
   if (!evaluation) {
     complain(evaluation.error());

@@ -41,6 +41,11 @@ core::Result<const plans::ForecastStage*> drawn_stage(const plans::Plan& plan,
 
 core::Result<void> draw(const plans::Plan& plan, const plans::Forecast& forecast,
                         const PlanArguments& arguments) {
+  std::error_code ignored;  // a picture that is not there yet is no plan
+  if (std::filesystem::equivalent(arguments.svg, arguments.plan, ignored)) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("--svg {} is the plan itself; name another file", arguments.svg));
+  }
   const auto stage = drawn_stage(plan, forecast, arguments.feature);
   if (!stage) return core::fail(stage.error());
   return record::write_file(arguments.svg, plans::forecast_picture(plan, **stage));

@@ -137,6 +137,13 @@ void remove_temporaries(const fs::path& directory) {
 core::Result<void> write_file(const fs::path& path, std::string_view bytes) {
   std::error_code ignored;  // whatever cannot be looked at fails again below, with its reason
   if (fs::is_directory(path, ignored)) return cannot("write", path, EISDIR);
+  const fs::file_status there = fs::status(path, ignored);
+  if (fs::exists(there) && !fs::is_regular_file(there)) {  // it would be replaced by a file
+    return core::fail(
+        core::Code::kFile,
+        fmt::format("cannot write {}: it is a device or a pipe; name a file", path.string()),
+        path.string());
+  }
   const fs::path temporary = temporary_name(path);
   OpenFile file(temporary, O_WRONLY | O_CREAT | O_EXCL);
   if (!file.ok()) return cannot("write", path, errno);

@@ -100,8 +100,11 @@ core::Result<EarlierResults> parse_earlier(const std::string& text) {
 }
 
 core::Result<EarlierResults> read_earlier(const std::filesystem::path& directory) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(directory / kEarlierName, unknown)) return EarlierResults();
   const auto text = record::read_file(directory / kEarlierName);
-  return text ? parse_earlier(*text) : EarlierResults();
+  if (!text) return core::fail(text.error());
+  return parse_earlier(*text);
 }
 
 core::Result<void> keep_earlier(const std::filesystem::path& directory,

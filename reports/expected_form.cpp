@@ -122,6 +122,10 @@ core::Result<double> mean_value_mm(const Rehearsal& rehearsal, const FormSpectru
     if (!part) return core::fail(part.error());
     sum += rehearsal.value_mm(*part, asked);
   }
+  if (!(sum > 0.0 && std::isfinite(sum))) {
+    return core::fail(core::Code::kReferenceAbsent,
+                      "simulated parts of the expected form do not all have this reference");
+  }
   return sum / kScalingParts;
 }
 

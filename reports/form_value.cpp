@@ -19,6 +19,19 @@ fit::ZoneWeights weights_of(Reference reference) {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+/// Where trials about a one-sided cylinder start, in the frame of the cloud.
+fit::Axis start_of(const FormCloud& cloud, fit::CylinderZoneFitter& fitter) {
+  const Reference reference = cloud.reference;
+  if (reference == Reference::kMinimumZone || reference == Reference::kLeastSquares) return {};
+  std::vector<Eigen::Vector3d> points;
+  for (const FormPoint& p : cloud.points) {
+    const double r = cloud.radius_mm + p.deviation_mm;
+    points.emplace_back(r * std::cos(p.angle_rad), r * std::sin(p.angle_rad), p.height_mm);
+  }
+  const auto best = fitter.fit(points, fit::Axis().direction, weights_of(reference));
+  return best ? best->place : fit::Axis();
+}
+
 }  // namespace
 
 FormValue::FormValue(const FormCloud& cloud, std::span<const FormPoint> places)
@@ -28,6 +41,7 @@ FormValue::FormValue(const FormCloud& cloud, std::span<const FormPoint> places)
   }
   plane_.resize(directions_.size());
   space_.resize(directions_.size());
+  if (cloud.kind == FormKind::kCylindricity) start_ = start_of(cloud, cylinders_);
 }
 
 double FormValue::of(const Eigen::VectorXd& deviations_mm) {
@@ -62,9 +76,8 @@ double FormValue::of_cylinder() {
     const auto cylinder = fit::ls_cylinder(space_, axis.direction);
     return cylinder ? cylinder->deviation_mm : kNone;
   }
-  // From several starts, as the reported value: few points have other minima close by.
-  const auto cylinder = cylinders_.fit(space_, axis.direction, weights_of(reference_));
-  return cylinder ? cylinder->width_mm() : kNone;
+  const auto cylinder = cylinders_.fit_from(space_, start_, weights_of(reference_), radius_);
+  return cylinder.ending == fit::ZoneEnding::kConverged ? cylinder.width_mm() : kNone;
 }
 
 }  // namespace rondure::reports

@@ -13,7 +13,8 @@ namespace rondure::reports {
 
 /// The form value of given places with varying deviations, about the reference of a cloud, without
 /// proof: for loops. Minimum zones take no memory after the first call. Searches start at the axis
-/// the angles count about.
+/// the angles count about; those for one-sided cylinders, of which few points have several close to
+/// one another, at the best one of the deviations of the cloud.
 class FormValue {
  public:
   /// @param cloud   Kind, reference and radius are taken of it, the places are not.
@@ -29,6 +30,7 @@ class FormValue {
 
   FormKind kind_;
   record::Reference reference_;
+  fit::Axis start_ = {};  ///< Of searches for a cylinder.
   double radius_;
   std::vector<Eigen::Vector3d> directions_;  ///< cos, sin, height.
   std::vector<Eigen::Vector2d> plane_;

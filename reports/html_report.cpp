@@ -102,8 +102,9 @@ std::string write_html(const record::RunRecord& record, const Evaluation& evalua
       "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\"/>\n{}\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<title>{} {} - {}</title>\n{}\n</head>\n<body>\n{}\n<main id=\"main\">\n{}\n",
-      tag_of(language), policy(), escaped(record.header.part_id), escaped(record.header.serial),
-      tr(name_of(evaluation.verdict)), style(), top_of(parts), head_section(record));
+      tag_of(language), policy(), escaped(printable(record.header.part_id)),
+      escaped(printable(record.header.serial)), tr(name_of(evaluation.verdict)), style(),
+      top_of(parts), head_section(record));
   constexpr std::string_view kTag = "<section";
   for (const Part& part : parts) {
     html += fmt::format("{} id=\"{}\"{}\n", kTag, part.id, part.html.substr(kTag.size()));

@@ -27,6 +27,9 @@ constexpr Translation kTexts[] = {
     {"{}, at least {:g} %", "{}，不低于 {} %"},
     {"{}, at most {:g} %", "{}，不高于 {} %"},
     {"{}, between {:g} % and {:g} %", "{}，介于 {} % 和 {} % 之间"},
+    {"the interval of the whole surface lies below that of the sampled points, which are part of "
+     "it: the stated form spectrum contradicts the data",
+     "整个表面的区间低于采样点处的区间，而采样点是其一部分：所述形状谱与数据矛盾"},
     {"the rule {} needs the interval {}, which was not computed",
      "规则 {} 需要{}的包含区间，但未计算"},
     {"the rule {:g}:1 does not apply: the tolerance of {:g} um is {:.3g} times the interval of "
@@ -117,6 +120,7 @@ constexpr Translation kTexts[] = {
      "ISO 230-7，固定敏感方向，相对平均转的最小二乘圆心"},
     {"displacement probes", "位移传感器"},
     {"harmonic {} is nearest to its limit", "第 {} 次谐波最接近其限值"},
+    {"harmonic {} of layer {} is nearest to its limit", "第 {1:s} 层的第 {0} 次谐波最接近其限值"},
     {"harmonic {} was not recovered", "第 {} 次谐波未恢复"},
     {"{} harmonics were not recovered", "{} 个谐波未恢复"},
     {"the mask reaches to harmonic {}, {} is the highest recovered",

@@ -144,6 +144,7 @@ std::string assume_repeatability(const record::RunRecord& record, Rehearsal& reh
   const auto declared = declared_for(record, rehearsal.result(), std::nullopt);
   if (!declared || !declared->influences.probe) return {};
   if (record::number_in(record.settings, "uncertainty/probe/repeatability_um")) return {};
+  if (declared->influences.probe->form_limit_mm > 0.0) return "within the declared probing form";
   const auto& cloud = rehearsal.result().cloud;
   const bool repeats = std::any_of(cloud.begin(), cloud.end(),
                                    [](const CloudPoint& point) { return point.repeats > 1; });
@@ -225,6 +226,9 @@ core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
   }
   if (of.strategy == record::Strategy::kPointsFile) {
     return none("its points come from a file: a run states the interval at once");
+  }
+  if (asked.form != record::Form::kCylindricity && asked.form != record::Form::kRoundness) {
+    return none("intervals are computed of CYLt and RONt only");
   }
   if (auto why = why_no_interval(expected, of)) return none(*std::move(why));
   auto rehearsal = Rehearsal::of(expected, feature);

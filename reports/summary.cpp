@@ -33,10 +33,13 @@ void add_wrapped(std::string& out, std::string_view head, std::string_view text)
 }
 
 /// An error of another room: the title of its code, then its English sentence.
-std::string line_of(const core::Error& error) { return titled(error.code) + core::to_line(error); }
-
 /// Words of evaluation in the language of the report, else as they are.
 std::string words(std::string_view english) { return told(english).value_or(std::string(english)); }
+
+std::string line_of(core::Error error) {
+  error.what = words(error.what);
+  return titled(error.code) + core::to_line(error);
+}
 
 std::string upper(std::string_view text) {
   std::string result(text);

@@ -137,15 +137,18 @@ int threads_of(const UncertaintyOptions& options) {
 }
 
 /// A reference that exists for the points as measured may not exist for all that they may be.
+core::Result<void> check_values(const std::vector<double>& values) {
+  const auto lost =
+      std::count_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
+  if (lost == 0) return {};
+  return core::fail(
+      Code::kReferenceAbsent,
+      fmt::format("in {} of {} trials the points have no such reference", lost, values.size()));
+}
+
 core::Result<void> check_values(const FormTrials& trials) {
-  const auto lost = [](const std::vector<double>& values) {
-    return std::count_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
-  };
-  const auto count = lost(trials.sampled()) + lost(trials.whole());
-  if (count == 0) return {};
-  return core::fail(Code::kReferenceAbsent,
-                    fmt::format("in {} of {} trials the points have no such reference", count,
-                                trials.sampled().size() + trials.whole().size()));
+  if (auto good = check_values(trials.sampled()); !good) return good;
+  return check_values(trials.whole());
 }
 
 /// Runs blocks until the numbers stand still. Source: JCGM 101 section 7.9.
@@ -215,13 +218,16 @@ void share_out(std::vector<BudgetLine>& budget) {
   });
 }
 
-std::vector<BudgetLine> budget_of(FormTrials& trials, const ErrorModel& errors,
-                                  const FormCloud& cloud,
-                                  const std::optional<FormSpectrum>& spectrum,
-                                  const UncertaintyOptions& options) {
+core::Result<std::vector<BudgetLine>> budget_of(FormTrials& trials, const ErrorModel& errors,
+                                                const FormCloud& cloud,
+                                                const std::optional<FormSpectrum>& spectrum,
+                                                const UncertaintyOptions& options) {
   std::vector<BudgetLine> budget;
   if (options.budget_trials == 0) return budget;
   const auto changes = trials.changes(static_cast<std::size_t>(options.budget_trials));
+  for (const std::vector<double>& values : changes) {
+    if (auto good = check_values(values); !good) return core::fail(good.error());
+  }
   for (std::size_t k = 0; k < changes.size(); ++k) {
     BudgetLine line;
     line.name = errors.names()[k];
@@ -254,7 +260,9 @@ core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
   auto found = run_trials(trials, options);
   if (!found) return found;
   UncertaintyResult& out = *found;
-  out.budget = budget_of(trials, errors, cloud, spectrum, options);
+  auto budget = budget_of(trials, errors, cloud, spectrum, options);
+  if (!budget) return core::fail(budget.error());
+  out.budget = *std::move(budget);
   out.declaration = influence_statements(influences);
   if (spectrum) out.spectrum_source = spectrum->source;
   return found;

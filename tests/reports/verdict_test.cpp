@@ -404,6 +404,24 @@ TEST(Verdict, IsVoidWithoutCertificateOrTemperatureOrWithoutTheIntervalOfWhatWas
   }
 }
 
+TEST(Verdict, IsVoidWhereTheWholeSurfaceWouldBeBetterThanItsPoints) {
+  const auto sound = evaluate(touched_run("iso-14253-1"));
+  ASSERT_TRUE(sound);
+  for (const double above : {1e-6, -1e-6}) {
+    CharacteristicResult result = sound->features[0].characteristics[0];
+    UncertaintyResult known = *result.value->uncertainty().result();
+    known.whole = known.sampled;
+    known.whole->measurand = Measurand::kWholeSurface;
+    known.whole->high_mm = known.sampled.low_mm + above;
+    known.whole->low_mm = 0.5 * known.whole->high_mm;
+    result.value = StatedValue("CYLt", result.value->value_mm(), result.value->value_operator(),
+                               UncertaintyStatus::stated(known, 0.95));
+    result.verdict = Verdict::kVoid;
+    apply(sound->rule, result);
+    EXPECT_EQ(result.verdict, above > 0.0 ? Verdict::kConforms : Verdict::kVoid) << result.reason;
+  }
+}
+
 TEST(StatedValue, SaysWhatItIsAboutWithTheDigitsThatItsIntervalAllows) {
   const ValueOperator how(ReferenceTerm("MZCY"), FilterTerm("unfiltered"),
                           SamplingTerm("4 x 7 layers"), TipTerm("r_tip 1.998"),
