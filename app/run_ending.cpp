@@ -90,14 +90,19 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
   return kBadInput;
 }
 
+/// To the terminal, and to the page, which would wait for a verdict that never comes.
+void tell_failure(const core::Error& error, reports::LiveView* live) {
+  complain(error);
+  if (live != nullptr) live->show_failure(core::to_line(error));
+}
+
 }  // namespace
 
 int conclude(const RunToFinish& ending, plans::Run* run) {
   const auto& [arguments, plan, archive, directory, live] = ending;
   const auto told = read_and_evaluate(directory);
   if (!told) {
-    complain(told.error());
-    if (live != nullptr) live->show_failure(core::to_line(told.error()));
+    tell_failure(told.error(), live);
     return kRunFailed;
   }
   const reports::Evaluation& evaluation = told->evaluation;
@@ -105,7 +110,7 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
   // An unfinished run stays open: it has no results to seal.
   if (run != nullptr && !failed) {
     if (auto sealed = run->journal.seal(reports::stored_results(evaluation)); !sealed) {
-      complain(sealed.error());
+      tell_failure(sealed.error(), live);
       tell(fmt::format("rondure: every touch is kept; to finish the run: {}\n",
                        resume_command(ending)));
       return kRunFailed;
@@ -118,7 +123,7 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
   const auto written =
       reports::write_exports(directory, formats, told->record, evaluation, language);
   if (!written) {
-    complain(written.error());
+    tell_failure(written.error(), live);
     if (!failed) {
       tell(
           fmt::format("rondure: the measurement is kept; to write its reports and archive it: {}\n",

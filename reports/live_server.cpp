@@ -4,9 +4,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <charconv>
 #include <chrono>
 #include <csignal>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,7 +22,8 @@ namespace rondure::reports {
 namespace {
 
 constexpr std::size_t kThreads = 8;
-constexpr int kWaiting = 128;  ///< Connections that were not looked at yet.
+constexpr int kWaiting = 128;      ///< Connections that were not looked at yet.
+constexpr int kMostAccepted = 64;  ///< Connections that wait for a thread; more are closed.
 constexpr std::size_t kMostBody_bytes = 1024;
 constexpr auto kConnection = std::chrono::milliseconds(2000);  ///< For a request and its answer.
 constexpr const char* kAddress = "127.0.0.1";
@@ -68,6 +71,35 @@ class QuietThreads {
   sigset_t before_{};
 };
 
+/// In the thread that accepts: the connection of the task at hand is one too many.
+thread_local bool one_too_many = false;
+
+/// The library's threads with an end to what waits for them: connections that say nothing would
+/// else take every file the process may open, and the run needs some. The library cannot be told
+/// no: a task too many is done at once, and closes its connection unread.
+class BoundedQueue final : public httplib::TaskQueue {
+ public:
+  void enqueue(std::function<void()> task) override {
+    if (waiting_ >= kMostAccepted) {
+      one_too_many = true;
+      task();
+      one_too_many = false;
+      return;
+    }
+    ++waiting_;
+    pool_.enqueue([this, task = std::move(task)] {
+      --waiting_;
+      task();
+    });
+  }
+
+  void shutdown() override { pool_.shutdown(); }
+
+ private:
+  std::atomic<int> waiting_ = 0;
+  httplib::ThreadPool pool_{kThreads};
+};
+
 }  // namespace
 
 /// The library's server with connections that end.
@@ -75,7 +107,7 @@ class LiveServer::Http final : public httplib::Server {
  public:
   Http(LiveGate gate, std::string page, LiveHandlers handlers)
       : gate_(std::move(gate)), page_(std::move(page)), handlers_(std::move(handlers)) {
-    new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    new_task_queue = [] { return new BoundedQueue; };
     set_socket_options(allow_reuse_after_end);
     set_payload_max_length(kMostBody_bytes);
     set_tcp_nodelay(true);
@@ -149,6 +181,7 @@ class LiveServer::Http final : public httplib::Server {
   }
 
   bool process_and_close_socket(socket_t socket) override {
+    if (one_too_many) return ::close(socket) == 0;
     LiveStream stream(socket, kConnection, ending_);
     bool closed = false;
     // Compressing costs more than handing it over within a computer.

@@ -1,12 +1,17 @@
 // The live page of `rondure run --watch`: the real program on the first example, whose simulated
 // machine is slowed down, asked over HTTP. What the page looks like: tests/browser/live.mjs.
 
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <thread>
 
@@ -211,6 +216,59 @@ TEST(Watch, BearsManyClientsAndThoseThatHangUpOrReadSlowly) {
   EXPECT_EQ(record::measured_bits(journal_of(folder / "run")), unwatched_bits());
 }
 
+/// Programs started meanwhile may have so many files open.
+class FewFiles {
+ public:
+  explicit FewFiles(rlim_t most) {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit few{most, before_.rlim_max};
+    EXPECT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+  }
+  ~FewFiles() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+  FewFiles(const FewFiles&) = delete;
+  FewFiles& operator=(const FewFiles&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+/// Of connections on which nothing was said, those that the other side has closed; so early, some
+/// of them, that they never were (-1).
+int closed_of(const std::vector<int>& connections) {
+  int out = 0;
+  for (const int fd : connections) {
+    char byte = 0;
+    const ssize_t got = ::recv(fd, &byte, 1, MSG_DONTWAIT);
+    if (fd < 0 || got == 0 || (got < 0 && errno == ECONNRESET)) ++out;
+  }
+  return out;
+}
+
+TEST(Watch, EndsWellThoughSilentConnectionsOutnumberTheFilesItMayOpen) {
+  const TemporaryFolder folder;
+  auto run = [&] {
+    const FewFiles few(128);
+    return std::make_unique<WatchedRun>(run_words(folder, "100"));
+  }();
+  constexpr int kSilent = 400;
+  constexpr int kKept = 8 + 64;  // by the threads, and waiting for them
+  std::vector<int> silent;
+  for (int i = 0; i < kSilent; ++i) silent.push_back(connect_to(run->port()));
+  EXPECT_LT(std::count(silent.begin(), silent.end(), -1), kSilent / 4) << "they reach the program";
+  int closed = 0;
+  for (int i = 0; i < 1000 && closed < kSilent - kKept; ++i) {
+    closed = closed_of(silent);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_GE(closed, kSilent - kKept) << "at once, not eight every two seconds";
+  const Outcome outcome = run->program().wait();
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const int fd : silent) {
+    if (fd >= 0) ::close(fd);
+  }
+  EXPECT_EQ(record::measured_bits(journal_of(folder / "run")), unwatched_bits());
+}
+
 TEST(Watch, EndsSoonThoughABrowserWasKilledOrNeverReads) {
   const TemporaryFolder folder;
   WatchedRun run(run_words(folder, "1000"));
@@ -232,6 +290,19 @@ TEST(Watch, ShowsAFaultAndEndsAsTheRunDoes) {
   EXPECT_THAT(std::string(over["result"]), HasSubstr("did not finish"));
   EXPECT_EQ(run.program().wait().status, 3);
   EXPECT_EQ(journal_of(folder / "run").touches.size(), 59U);
+}
+
+TEST(Watch, ShowsThatTheReportsCouldNotBeWritten) {
+  const TemporaryFolder folder;
+  WatchedRun run(run_words(folder, "150"));
+  ASSERT_FALSE(run.look_until("now", "Measuring").is_null());
+  std::filesystem::create_directories(folder / "run" / "report.html" / "in the way");
+  const json over = run.look_until("now", "report.html");
+  ASSERT_FALSE(over.is_null());
+  EXPECT_TRUE(over["ended"]);
+  const Outcome outcome = run.program().wait();
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("the measurement is kept"));
 }
 
 TEST(Watch, KeepsHostileTextsText) {
