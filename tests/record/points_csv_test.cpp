@@ -263,7 +263,9 @@ TEST(PointsCsv, ReadsAMillionRowsInATenthOfASecondOrSo) {
   EXPECT_EQ(table.points_mm.size(), 1'000'000U);
   RecordProperty("milliseconds", std::to_string(time_ms.count()));
   std::printf("1e6 rows: %.0f ms\n", time_ms.count());
+#ifndef __SANITIZE_THREAD__            // which makes everything some fifteen times slower
   EXPECT_LT(time_ms.count(), 1000.0);  // 10 times the aim: a busy machine is no defect
+#endif
 }
 
 }  // namespace
