@@ -6,15 +6,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/length_word.h"
 #include "core/units.h"
 #include "reports/contour_document.h"
 
 namespace rondure::app {
 namespace {
 
-double um(double mm) { return mm / core::kMicrometre; }
 double um2(double mm2) { return mm2 / (core::kMicrometre * core::kMicrometre); }
-double deg(double rad) { return rad / core::kDegree; }
 
 std::string head(const fit::ContourStudy& study, const fit::ContourStudyOptions& options) {
   const fit::CrankGeometry& g = options.geometry;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/units.h"
+#include "app/length_word.h"
 
 namespace rondure::app {
 namespace {
@@ -53,8 +53,6 @@ Json reference_json(const FitReference& found) {
                         {"reason", found.certificate->reason}};
   return out;
 }
-
-double um(double mm) { return mm / core::kMicrometre; }
 
 std::string place_line(const FitPlace& place) {
   if (place.axis) {

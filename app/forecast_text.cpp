@@ -35,13 +35,6 @@ const char* name_of(ForecastStage::Kind kind) {
   return "";
 }
 
-/// "4:07" or "1:02:10".
-std::string clock(double time_s) {
-  const auto s = static_cast<long>(std::lround(time_s));
-  if (s >= 3600) return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
-  return fmt::format("{}:{:02}", s / 60, s % 60);
-}
-
 /// Without the sign of a rounded zero.
 double hundredths(double angle_rad) {
   return std::round(100.0 * angle_rad / core::kDegree) / 100.0 + 0.0;
@@ -50,7 +43,7 @@ double hundredths(double angle_rad) {
 std::string row(const std::string& what, const std::string& feature, const std::string& pose,
                 int touches, double path_mm, double time_s) {
   return fmt::format("  {:<16.16} {:<18.18} {:>15} {:>7} {:>9.0f} {:>8}\n", what, feature, pose,
-                     touches, path_mm, clock(time_s));
+                     touches, path_mm, clock_text(time_s));
 }
 
 std::string row_of(const plans::Plan& plan, const ForecastStage& stage) {
@@ -103,9 +96,9 @@ std::string further_poses(const plans::Plan& plan, const plans::Forecast& foreca
     const plans::FeaturePlan& feature = plan.features[static_cast<std::size_t>(stage.feature)];
     const std::string& strategy = feature.pose_search.strategy;
     if (feature.type == "circle" || strategy == "virtual") continue;
-    out +=
-        fmt::format("  {}: each further pose {} touches, {:.0f} mm, {}\n", feature.id,
-                    stage.touches, stage.path_mm / stage.times, clock(stage.time_s / stage.times));
+    out += fmt::format("  {}: each further pose {} touches, {:.0f} mm, {}\n", feature.id,
+                       stage.touches, stage.path_mm / stage.times,
+                       clock_text(stage.time_s / stage.times));
   }
   if (out.empty()) return out;
   return "A part that sits beside its nominal place needs poses more than these:\n" + out;
@@ -136,6 +129,12 @@ ordered_json stage_json(const plans::Plan& plan, const ForecastStage& stage) {
 }
 
 }  // namespace
+
+std::string clock_text(double time_s) {
+  const auto s = static_cast<long>(std::lround(time_s));
+  if (s >= 3600) return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+  return fmt::format("{}:{:02}", s / 60, s % 60);
+}
 
 std::string forecast_table(const plans::Plan& plan, const plans::Forecast& forecast) {
   std::string out = fmt::format("{}, revision {}\n", plan.plan.name, plan.plan.revision);

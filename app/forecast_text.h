@@ -10,6 +10,9 @@
 
 namespace rondure::app {
 
+/// "4:07" or "1:02:10".
+[[nodiscard]] std::string clock_text(double time_s);
+
 /// A forecast for a person: one line a stage, at most 80 columns.
 [[nodiscard]] std::string forecast_table(const plans::Plan& plan, const plans::Forecast& forecast);
 /// The same as JSON (keys with their units), to be completed by what else is foretold.

@@ -3,19 +3,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/units.h"
+#include "app/length_word.h"
 
 namespace rondure::app {
 namespace {
 
 using nlohmann::ordered_json;
 using reports::PredictedStatement;
-
-double um(double length_mm) { return length_mm / core::kMicrometre; }
-
-const std::string& id_of(const plans::Plan& plan, std::size_t feature) {
-  return plan.features[feature].id;
-}
 
 ordered_json statement_json(const std::optional<PredictedStatement>& said) {
   if (!said) return nullptr;
@@ -66,7 +60,7 @@ ordered_json prediction_json(const plans::Plan& plan,
   ordered_json out = ordered_json::array();
   for (const PredictedCharacteristic& of : predicted) {
     const reports::Prediction& p = of.prediction;
-    ordered_json one = {{"feature", id_of(plan, of.feature)},
+    ordered_json one = {{"feature", plan.features[of.feature].id},
                         {"characteristic", of.characteristic.id}};
     if (!p.why.empty()) {
       one["none"] = p.why;
@@ -88,7 +82,7 @@ ordered_json search_json(const plans::Plan& plan, const std::vector<SamplingSear
                          double target_mm) {
   ordered_json features = ordered_json::array();
   for (const SamplingSearch& of : searches) {
-    ordered_json one = {{"feature", id_of(plan, of.feature)},
+    ordered_json one = {{"feature", plan.features[of.feature].id},
                         {"measurand", reports::name_of(of.measurand)},
                         {"met", of.best.has_value()}};
     if (!of.why.empty()) one["none"] = of.why;

@@ -1,12 +1,12 @@
 #include "app/prediction_text.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "core/units.h"
+#include "app/forecast_text.h"
+#include "app/length_word.h"
 #include "reports/stated_value.h"
 
 namespace rondure::app {
@@ -14,12 +14,6 @@ namespace {
 
 using reports::Measurand;
 using reports::PredictedStatement;
-
-double um(double length_mm) { return length_mm / core::kMicrometre; }
-
-const std::string& id_of(const plans::Plan& plan, std::size_t feature) {
-  return plan.features[feature].id;
-}
 
 /// Breaks a sentence into lines of 78 columns at most, all but the first indented.
 std::string wrapped(const std::string& text, const std::string& first, const std::string& indent) {
@@ -54,7 +48,7 @@ std::string statement_row(const std::optional<PredictedStatement>& said) {
 
 std::string characteristic_rows(const plans::Plan& plan, const PredictedCharacteristic& of) {
   const reports::Prediction& p = of.prediction;
-  std::string out = fmt::format("  {}, {}\n", id_of(plan, of.feature), of.characteristic.id);
+  std::string out = fmt::format("  {}, {}\n", plan.features[of.feature].id, of.characteristic.id);
   out += statement_row(p.sampled) + statement_row(p.whole);
   const Measurand widest = p.whole ? Measurand::kWholeSurface : Measurand::kSampledPoints;
   const std::string largest = largest_influences(p, widest);
@@ -75,9 +69,9 @@ std::string rows_without(const plans::Plan& plan,
       names += (names.empty() ? "" : ", ") + predicted[i].characteristic.id;
     }
     if (first.prediction.why.empty()) continue;
-    out += wrapped(
-        fmt::format("{}, {}: none; {}", id_of(plan, first.feature), names, first.prediction.why),
-        "  ", "    ");
+    out += wrapped(fmt::format("{}, {}: none; {}", plan.features[first.feature].id, names,
+                               first.prediction.why),
+                   "  ", "    ");
   }
   return out;
 }
@@ -115,12 +109,6 @@ bool states_any(const std::vector<PredictedCharacteristic>& predicted) {
                      [](const auto& of) { return of.prediction.why.empty(); });
 }
 
-std::string clock(double time_s) {
-  const auto s = static_cast<long>(std::lround(time_s));
-  if (s >= 3600) return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
-  return fmt::format("{}:{:02}", s / 60, s % 60);
-}
-
 std::string candidate_row(const SamplingCandidate& c, const SamplingSearch& of, bool best) {
   const Sampling& s = c.sampling;
   std::string layout = fmt::format("{} x {}", s.layers, s.points_per_layer);
@@ -131,7 +119,8 @@ std::string candidate_row(const SamplingCandidate& c, const SamplingSearch& of, 
         c.missing.empty() ? "out of reach" : "without an interval that the plan has");
   }
   return fmt::format("  {:<20} {:>7} {:>8} {:>9} {:>8.3g} {:>8.3g}  {}\n", layout, s.repeats,
-                     c.touches, clock(c.time_s), um(c.expanded_mm), um(c.nine_of_ten_expanded_mm),
+                     c.touches, clock_text(c.time_s), um(c.expanded_mm),
+                     um(c.nine_of_ten_expanded_mm),
                      best ? "meets, cheapest" : (c.meets ? "meets" : "no"));
 }
 
@@ -190,8 +179,8 @@ std::string search_table(const plans::Plan& plan, const std::vector<SamplingSear
   if (searches.empty()) return "\nNo feature is touched, so no sampling can be proposed.\n";
   std::string out;
   for (const SamplingSearch& of : searches) {
-    out += fmt::format("\nSamplings of {} for U of at most {:.6g} um {}\n", id_of(plan, of.feature),
-                       um(target_mm), reports::name_of(of.measurand));
+    out += fmt::format("\nSamplings of {} for U of at most {:.6g} um {}\n",
+                       plan.features[of.feature].id, um(target_mm), reports::name_of(of.measurand));
     if (!of.why.empty()) {
       out += wrapped("none: " + of.why, "  ", "  ");
       continue;

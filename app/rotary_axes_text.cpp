@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/units.h"
+#include "app/length_word.h"
 
 namespace rondure::app {
 namespace {
@@ -14,9 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Eigen::Vector3d;
 
-double um(double mm) { return mm / core::kMicrometre; }
 double urad(double rad) { return rad * 1e6; }
-double deg(double rad) { return rad / core::kDegree; }
 
 Json list(const Vector3d& v, double factor = 1.0) {
   return {v.x() * factor, v.y() * factor, v.z() * factor};
@@ -199,8 +197,8 @@ std::string offset_lines(const fit::AxisOffset& o) {
                      urad(o.zero_point_rad), deg(o.arc_rad), o.arc_factor);
 }
 
-/// A sentence in lines of at most 78 columns, the later ones indented.
-std::string wrapped(const std::string& text) {
+/// A warning in lines of at most 78 columns, the later ones indented.
+std::string warning_lines(const std::string& text) {
   std::string out;
   std::string line = "  warning     ";
   std::size_t start = 0;
@@ -231,7 +229,7 @@ std::string axis_table(const RotaryFacts& facts) {
   if (study.table.hysteresis_rms.maxCoeff() > 0.0) {
     out += fmt::format(" hysteresis{}\n", six(study.table.hysteresis_rms));
   }
-  for (const core::Error& w : study.warnings) out += wrapped(core::to_line(w));
+  for (const core::Error& w : study.warnings) out += warning_lines(core::to_line(w));
   return out;
 }
 

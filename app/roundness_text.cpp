@@ -5,15 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/units.h"
+#include "app/length_word.h"
 
 namespace rondure::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double um(double mm) { return mm / core::kMicrometre; }
-double deg(double rad) { return rad / core::kDegree; }
 
 std::vector<double> contact_angles(const fit::RoundnessEvaluation& evaluation,
                                    const std::vector<std::size_t>& rows) {

@@ -8,15 +8,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/units.h"
+#include "app/length_word.h"
 
 namespace rondure::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double um(double mm) { return mm / core::kMicrometre; }
-double deg(double rad) { return rad / core::kDegree; }
 
 std::string harmonic_lines(const fit::ThreeProbeResult& s) {
   std::string out = "   UPR  amplitude um   phase deg       u um    gain  |G|\n";

@@ -96,7 +96,7 @@ core::Result<record::Series> read_table(const std::string& file,
   return record::parse_series_csv(*bytes, std::filesystem::path(file).filename().string(), columns);
 }
 
-core::Error placed(const core::Error& error, const std::string& file) {
+core::Error in_file(const core::Error& error, const std::string& file) {
   return error.at(std::filesystem::path(file).filename().string());
 }
 
@@ -119,7 +119,7 @@ core::Result<fit::WheelSurface> read_surface(const std::string& word) {
   const auto table = read_table(file, {{{"x"}, {"z"}}});
   if (!table) return core::fail(table.error());
   auto surface = fit::WheelSurface::table(*table->column("x"), *table->column("z"));
-  if (!surface) return core::fail(placed(surface.error(), file));
+  if (!surface) return core::fail(in_file(surface.error(), file));
   return surface;
 }
 
@@ -130,7 +130,7 @@ core::Result<fit::WheelSurface> take_removal(const fit::WheelSurface& surface,
   std::vector<double> depth = *table->column("depth_um");
   for (double& d : depth) d *= core::kMicrometre;
   auto out = surface.less(*table->column("x"), std::move(depth));
-  if (!out) return core::fail(placed(out.error(), file));
+  if (!out) return core::fail(in_file(out.error(), file));
   return out;
 }
 

@@ -11,7 +11,7 @@
 namespace rondure::app {
 namespace {
 
-core::Result<record::PointTable> load(const FitArguments& arguments) {
+core::Result<record::PointTable> load_points(const FitArguments& arguments) {
   const auto bytes = record::read_file(arguments.file);
   if (!bytes) return core::fail(bytes.error());
   const std::string name = std::filesystem::path(arguments.file).filename().string();
@@ -30,7 +30,7 @@ core::Result<record::PointTable> load(const FitArguments& arguments) {
 }  // namespace
 
 int fit(const FitArguments& arguments) {
-  const auto table = load(arguments);
+  const auto table = load_points(arguments);
   if (!table) {
     complain(table.error());
     return kBadInput;

@@ -55,7 +55,7 @@ core::Result<fit::RoundnessOptions> options_of(const RoundnessArguments& argumen
   return out;
 }
 
-core::Result<record::ProfileTable> load(const std::string& file) {
+core::Result<record::ProfileTable> load_profile(const std::string& file) {
   const auto bytes = record::read_file(file);
   if (!bytes) return core::fail(bytes.error());
   return record::parse_profile_csv(*bytes, std::filesystem::path(file).filename().string());
@@ -129,7 +129,7 @@ int roundness(const RoundnessArguments& arguments) {
     complain(options.error());
     return kBadInput;
   }
-  const auto table = load(arguments.file);
+  const auto table = load_profile(arguments.file);
   if (!table) {
     complain(table.error());
     return kBadInput;

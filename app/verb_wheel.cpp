@@ -21,7 +21,7 @@ namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-core::Result<Points> load(const std::string& file) {
+core::Result<Points> load_wheel(const std::string& file) {
   const auto bytes = record::read_file(file);
   if (!bytes) return core::fail(bytes.error());
   const std::string name = std::filesystem::path(file).filename().string();
@@ -123,7 +123,7 @@ int refuse(const core::Error& error, const std::string& file) {
 int wheel(const WheelArguments& arguments) {
   const auto task = task_of(arguments);
   if (!task) return refuse(task.error(), {});
-  const auto points = load(arguments.file);
+  const auto points = load_wheel(arguments.file);
   if (!points) return refuse(points.error(), arguments.file);
   const auto evaluation = fit::evaluate_wheel(*points, *task);
   if (!evaluation) return refuse(evaluation.error(), arguments.file);

@@ -4,12 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "core/units.h"
+#include "app/length_word.h"
 
 namespace rondure::app {
 namespace {
-
-double um(double mm) { return mm / core::kMicrometre; }
 
 std::string circle_lines(const fit::WheelMeasurement& m) {
   std::string out = fmt::format(
@@ -24,7 +22,7 @@ std::string circle_lines(const fit::WheelMeasurement& m) {
   out += fmt::format(
       "\n  arc       {:.1f} deg covered; a point error shows {:.2f} times in the centre, {:.2f} in "
       "R; tau {:.2f}\n",
-      m.order.coverage_rad() / core::kDegree, m.factors.center, m.factors.radius, m.correlation);
+      deg(m.order.coverage_rad()), m.factors.center, m.factors.radius, m.correlation);
   return out;
 }
 

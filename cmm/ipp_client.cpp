@@ -28,10 +28,6 @@ using ipp::client::Reply;
 
 constexpr double kToReturn_mm = -1.0;  // PtMeasPar.Retract: back to the approach point
 
-tl::unexpected<core::Error> fault(std::string what) {
-  return core::fail(core::Code::kMachine, std::move(what));
-}
-
 std::vector<Item> coordinates(const Vector3d& p) {
   return {call_item("X", {p.x()}), call_item("Y", {p.y()}), call_item("Z", {p.z()})};
 }
@@ -132,12 +128,12 @@ core::Error IppMachine::stopped_before(std::string_view what) const {
 core::Result<void> IppMachine::check_ready() {
   if (is_stop_wanted()) return core::fail(stopped_before(""));
   if (!dialogue_->fault().empty()) {
-    return fault(
+    return core::machine_fault(
         fmt::format("the machine is in its error state: {}; put that right at the machine, "
                     "then resume",
                     dialogue_->fault()));
   }
-  if (!homed_) return fault("the machine is not homed; home it first, no motion");
+  if (!homed_) return core::machine_fault("the machine is not homed; home it first, no motion");
   return {};
 }
 
@@ -203,7 +199,8 @@ core::Result<void> IppMachine::home() {
 
 core::Result<void> IppMachine::move_to(const Vector3d& tip_W_mm) {
   if (auto ready = check_ready(); !ready) return ready;
-  if (!tip_W_mm.allFinite()) return fault("the target of a move is not a finite point; no motion");
+  if (!tip_W_mm.allFinite())
+    return core::machine_fault("the target of a move is not a finite point; no motion");
   return go_to(on_grid_mm(tip_W_mm));
 }
 

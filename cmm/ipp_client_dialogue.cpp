@@ -17,10 +17,6 @@ constexpr auto kPointReport = std::to_array<std::string_view>(
     {"X", "Y", "Z", "ER", "Part.Temperature", "Scale.Temperature", "Time"});
 constexpr auto kReportLengths = std::to_array<std::size_t>({7, 4, 3});
 
-tl::unexpected<core::Error> fault_of(std::string what) {
-  return core::fail(core::Code::kMachine, std::move(what));
-}
-
 /// All items of a reply, those inside a call too.
 void collect(std::span<const Item> items, std::vector<const Item*>& out) {
   for (const Item& item : items) {
@@ -89,8 +85,8 @@ core::Result<Eigen::Vector3d> find_point(const Reply& reply) {
   const auto y = find_number(reply, "Y");
   const auto z = find_number(reply, "Z");
   if (x && y && z) return Eigen::Vector3d(*x, *y, *z);
-  return fault_of(fmt::format("the machine was asked for X, Y and Z and answered \"{}\"",
-                              told(reply).substr(0, 80)));
+  return core::machine_fault(fmt::format("the machine was asked for X, Y and Z and answered \"{}\"",
+                                         told(reply).substr(0, 80)));
 }
 
 std::vector<Eigen::Vector3d> find_vectors(const Reply& reply) {
@@ -117,8 +113,8 @@ core::Result<std::vector<Eigen::Vector3d>> scan_points(const Reply& reply) {
       return item.kind == Item::Kind::kNumber;
     });
     if (!bare || line.data.empty() || line.data.size() % 3 != 0) {
-      return fault_of(fmt::format("a line of the scan does not hold groups of X, Y, Z: \"{}\"",
-                                  line.raw.substr(0, 80)));
+      return core::machine_fault(fmt::format(
+          "a line of the scan does not hold groups of X, Y, Z: \"{}\"", line.raw.substr(0, 80)));
     }
     for (std::size_t i = 0; i < line.data.size(); i += 3) {
       out.emplace_back(line.data[i].number, line.data[i + 1].number, line.data[i + 2].number);
@@ -216,7 +212,7 @@ core::Result<void> Dialogue::check_state() {
   if (find_number(*status, "ErrStatus").value_or(0.0) == 0.0) return {};
   const auto more = session_.call("GetXtdErrStatus", {}, limit_);
   fault_ = more ? told(*more) : more.error().what;
-  return fault_of(
+  return core::machine_fault(
       fmt::format("the machine is in its error state: {}; put that right at the "
                   "machine, then start again",
                   fault_));
@@ -228,7 +224,7 @@ core::Result<std::string> Dialogue::version() {
   if (!*reply) return std::string("before 1.4");
   const std::string version = word_of(**reply);
   if (version.starts_with("1.") || version.starts_with("2.")) return version;
-  return fault_of(
+  return core::machine_fault(
       fmt::format("the server at {} speaks I++ DME version \"{}\", this program speaks "
                   "1.x and 2.x; connect another server",
                   session_.peer(), version));
@@ -246,7 +242,7 @@ core::Result<void> Dialogue::choose_reports(Identity& identity) {
     identity.tells_time = identity.tells_temperature = length > 4;
     break;
   }
-  if (!chosen) return fault_of("the machine cannot report X, Y and Z of a probed point");
+  if (!chosen) return core::machine_fault("the machine cannot report X, Y and Z of a probed point");
   const auto scans = ask_if_known("OnScanReport", {call_item("X"), call_item("Y"), call_item("Z")});
   if (!scans) return core::fail(scans.error());
   identity.scans = scans->has_value();

@@ -23,10 +23,6 @@ using ipp::Item;
 using ipp::number_item;
 using ipp::client::Reply;
 
-tl::unexpected<core::Error> fault(std::string what) {
-  return core::fail(core::Code::kMachine, std::move(what));
-}
-
 void append(std::vector<Item>& items, const Vector3d& v) {
   for (const double value : {v.x(), v.y(), v.z()}) items.push_back(number_item(value));
 }
@@ -49,7 +45,7 @@ std::vector<Item> scan_arguments(const ScanCircleCommand& command) {
 core::Result<std::vector<TouchReading>> IppMachine::scan_circle(const ScanCircleCommand& given) {
   if (auto ready = check_ready(); !ready) return core::fail(ready.error());
   if (auto sound = check_scan(given); !sound) return core::fail(sound.error());
-  if (!identity_.scans) return fault("the machine does not scan circles");
+  if (!identity_.scans) return core::machine_fault("the machine does not scan circles");
   const ScanCircleCommand command = on_grid(given);
   const TouchCommand first = scan_point(command, 0);
   if (auto checked = check_touch(first, position_W_mm_); !checked) {
@@ -99,8 +95,9 @@ core::Result<std::vector<TouchReading>> IppMachine::readings_of(const Reply& rep
 core::Result<void> IppMachine::check_scanned(const std::vector<Vector3d>& tips,
                                              const ScanCircleCommand& command) const {
   if (tips.size() < 3) {
-    return fault(fmt::format("the scan about {} gave {} points, {} were expected",
-                             in_words(command.center_W_mm), tips.size(), command.points));
+    return core::machine_fault(fmt::format("the scan about {} gave {} points, {} were expected",
+                                           in_words(command.center_W_mm), tips.size(),
+                                           command.points));
   }
   // Servers put other columns first than those that were asked for.
   const double off_mm = (tips.front() - command.start_tip_W_mm).norm();
@@ -108,7 +105,7 @@ core::Result<void> IppMachine::check_scanned(const std::vector<Vector3d>& tips,
                             std::abs(command.sweep_rad) / command.points *
                                 (command.start_tip_W_mm - command.center_W_mm).norm();
   if (off_mm <= allowed_mm) return {};
-  return fault(
+  return core::machine_fault(
       fmt::format("the first point of the scan, {}, is {:.3f} mm from where the scan "
                   "started, at most {:.3f} mm are possible: the columns of the scan report "
                   "are not X, Y, Z",
@@ -128,7 +125,7 @@ core::Result<IppMachine::Alignment> IppMachine::align_part(const Alignment& targ
   if (!reply) return core::fail(reply.error());
   const std::vector<Vector3d> reached = ipp::client::find_vectors(*reply);
   if (reached.size() != 2) {
-    return fault(
+    return core::machine_fault(
         fmt::format("turning the part: the machine answered with {} vectors instead of 2; "
                     "it needs two rotary axes (AlignPart with 14 numbers)",
                     reached.size()));

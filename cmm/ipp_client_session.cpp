@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cmm/ipp_errors.h"
+#include "cmm/ipp_reader.h"
 
 namespace rondure::cmm::ipp::client {
 namespace {
@@ -15,15 +16,7 @@ constexpr int kLastEventTag = 9'999;
 constexpr std::chrono::milliseconds kLook(20);       // between two looks at a wish to stop
 constexpr std::chrono::milliseconds kGoodbye(1000);  // for AbortE on a line that is given up
 constexpr std::size_t kMaxReply_bytes = std::size_t{64} << 20;  // a scan of 100 000 points has 6 MB
-
-/// The beginning of a line, for a message.
-std::string excerpt(std::string_view text) {
-  constexpr std::size_t kShown = 80;
-  std::string out;
-  for (const char c : text.substr(0, kShown)) out += c >= ' ' && c <= '~' ? c : '?';
-  if (text.size() > kShown) out += "...";
-  return out;
-}
+constexpr std::size_t kShown = 80;                              // characters of a line, in messages
 
 }  // namespace
 
@@ -58,10 +51,11 @@ Outcome<Tag> Session::begin(std::string_view method, std::vector<Item> arguments
                                  Clock::now() + options_.answer_limit, Watch::kNothing);
   if (!acknowledged) return tl::unexpected(acknowledged.error());
   if (*acknowledged) return tag;
-  return break_off(fmt::format(
-      "{} did not acknowledge {} within {:g} s; is another client "
-      "connected to it?",
-      peer(), excerpt(running.text), static_cast<double>(options_.answer_limit.count()) / 1000.0));
+  return break_off(
+      fmt::format("{} did not acknowledge {} within {:g} s; is another client "
+                  "connected to it?",
+                  peer(), excerpt(running.text, kShown),
+                  static_cast<double>(options_.answer_limit.count()) / 1000.0));
 }
 
 Outcome<Reply> Session::finish(const Tag& tag, Milliseconds limit, Watch watch) {
@@ -73,7 +67,8 @@ Outcome<Reply> Session::finish(const Tag& tag, Milliseconds limit, Watch watch) 
   const auto ended = wait([&] { return running.complete; }, Clock::now() + limit, watch);
   if (!ended) return tl::unexpected(ended.error());
   if (*ended) return result_of(tag);
-  return break_off(fmt::format("{} did not finish {} within {:g} s", peer(), excerpt(running.text),
+  return break_off(fmt::format("{} did not finish {} within {:g} s", peer(),
+                               excerpt(running.text, kShown),
                                static_cast<double>(limit.count()) / 1000.0));
 }
 
@@ -81,8 +76,8 @@ Outcome<Reply> Session::result_of(const Tag& tag) {
   const auto node = running_.extract(to_text(tag));
   Running& running = node.mapped();
   if (running.aborted) {
-    return tl::unexpected(
-        Failure{Failure::Kind::kStopped, fmt::format("{} was stopped", excerpt(running.text)), {}});
+    return tl::unexpected(Failure{
+        Failure::Kind::kStopped, fmt::format("{} was stopped", excerpt(running.text, kShown)), {}});
   }
   if (!running.error) return std::move(running.reply);
   return tl::unexpected(
@@ -138,7 +133,7 @@ Outcome<void> Session::take(const wire::Line& line) {
     heard_.clear();  // the message shows the line itself
     return break_off(fmt::format("{} does not speak I++ DME: {}", peer(), response.error().what));
   }
-  heard_ = excerpt(line.text);
+  heard_ = excerpt(line.text, kShown);
   if (response->tag == kUnsolicited) {
     take_unsolicited_line(*response);
     return {};
@@ -149,7 +144,7 @@ Outcome<void> Session::take(const wire::Line& line) {
   running.bytes += line.text.size();
   if (running.bytes > kMaxReply_bytes) {
     return break_off(fmt::format("{} sent more than {} bytes in answer to {}", peer(),
-                                 kMaxReply_bytes, excerpt(running.text)));
+                                 kMaxReply_bytes, excerpt(running.text, kShown)));
   }
   switch (response->kind) {
     case Response::Kind::kAck:
@@ -186,7 +181,7 @@ std::string Session::with_unsolicited(std::string what) {
 
 tl::unexpected<Failure> Session::break_off(std::string what) {
   if (broken_.empty()) {
-    const std::string half = excerpt(line_->unfinished());
+    const std::string half = excerpt(line_->unfinished(), kShown);
     if (!half.empty()) {
       what += fmt::format("; half a line came: \"{}\"", half);
     } else if (!heard_.empty()) {

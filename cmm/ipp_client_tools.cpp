@@ -16,10 +16,6 @@
 namespace rondure::cmm {
 namespace {
 
-tl::unexpected<core::Error> fault(std::string what) {
-  return core::fail(core::Code::kMachine, std::move(what));
-}
-
 std::string listed(const std::vector<std::string>& names) {
   std::string out;
   for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
@@ -43,7 +39,8 @@ core::Result<void> IppMachine::take_tool(const std::string& name) {
   const auto& tools = identity_.tools;
   const bool named = tools.empty() || std::find(tools.begin(), tools.end(), name) != tools.end();
   if (!named) {
-    return fault(fmt::format("the machine has no tool {}; its tools: {}", name, listed(tools)));
+    return core::machine_fault(
+        fmt::format("the machine has no tool {}; its tools: {}", name, listed(tools)));
   }
   if (auto changed =
           run("ChangeTool", {ipp::string_item(name)}, 0.0, fmt::format("taking tool {}", name));
@@ -56,7 +53,7 @@ core::Result<void> IppMachine::take_tool(const std::string& name) {
   if (!active) return core::fail(active.error());
   tool_ = *active;
   if (tool_ != name) {
-    return fault(
+    return core::machine_fault(
         fmt::format("tool {} was asked for, the machine says that {} is active; see which "
                     "tool is in its head",
                     name, tool_.empty() ? "none" : tool_));
@@ -69,7 +66,7 @@ core::Result<void> IppMachine::take_tool(const std::string& name) {
 
 core::Result<void> IppMachine::check_tool() {
   if (tool_.empty()) {
-    return fault(
+    return core::machine_fault(
         fmt::format("the machine has no tool active; name one of its tools (machine.tool): "
                     "{}",
                     listed(identity_.tools)));
@@ -80,7 +77,7 @@ core::Result<void> IppMachine::check_tool() {
   const bool unknown = !*radius || **radius == 0.0;  // the qualification of the run will find it
   if (unknown || std::abs(**radius - options_.tip_radius_mm) <= options_.tip_tolerance_mm)
     return {};
-  return fault(
+  return core::machine_fault(
       fmt::format("tool {} has an effective radius of {:.4f} mm, the tip of the plan has "
                   "{:.4f} mm, at most {:g} mm off: name another tool (machine.tool), "
                   "correct tip_diameter_mm, or qualify the tool on the machine",

@@ -12,20 +12,12 @@
 namespace rondure::cmm::ipp {
 namespace {
 
-using Arguments = std::vector<Item>;
-
 constexpr std::array<std::string_view, 5> kMotions = {"Home", "GoTo", "PtMeas", "ScanOnCircle",
                                                       "AlignPart"};
 constexpr std::array<std::string_view, 9> kOfServer = {
     "StartSession",    "EndSession",    "AbortE",     "ClearAllErrors", "GetErrStatusE",
     "GetXtdErrStatus", "OnMoveReportE", "StopDaemon", "StopAllDaemons"};
 constexpr double kMaxOrigin_mm = 1e6;  // of a coordinate system
-
-tl::unexpected<Failure> wrong_arguments(std::string_view wanted) {
-  return refusal(kIncorrectArguments, fmt::format("the arguments are not {}", wanted));
-}
-
-Outcome one_line(Item item) { return Reply{{{std::move(item)}}, 0}; }
 
 double as_number(bool value) { return value ? 1.0 : 0.0; }
 

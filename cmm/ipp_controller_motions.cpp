@@ -17,7 +17,6 @@
 namespace rondure::cmm::ipp {
 namespace {
 
-using Arguments = std::vector<Item>;
 using Eigen::Vector3d;
 
 constexpr double kThere_mm = 1e-6;  // the tip stands where it shall be
@@ -104,7 +103,7 @@ tl::expected<Motion, Failure> Controller::plan_motion(const Command& command) {
 }
 
 tl::expected<Motion, Failure> Controller::plan_home(const Arguments& arguments) {
-  if (!arguments.empty()) return refusal(kIncorrectArguments, "the arguments are not ()");
+  if (!arguments.empty()) return wrong_arguments("()");
   user_enabled_ = false;
   Motion out;
   out.phases.push_back({{}, [this]() -> core::Result<std::vector<Vector3d>> {
@@ -181,8 +180,7 @@ Motion Controller::touch_motion(const TouchCommand& touch) {
 tl::expected<Motion, Failure> Controller::plan_scan(const Arguments& arguments) {
   if (tool_.empty()) return refusal(kToolNotDefined, "no tool is active; send ChangeTool first");
   const auto n = numbers(arguments);
-  if (!n || n->size() != 12)
-    return refusal(kIncorrectArguments, "the arguments are not 12 numbers");
+  if (!n || n->size() != 12) return wrong_arguments("12 numbers");
   const double delta_deg = (*n)[9];
   const double surface_deg = (*n)[10];
   const double step_deg = (*n)[11];
@@ -238,7 +236,7 @@ Motion Controller::scan_motion(const ScanCircleCommand& scan) {
 tl::expected<Motion, Failure> Controller::plan_align(const Arguments& arguments) {
   const auto n = numbers(arguments);
   if (!n || (n->size() != 7 && n->size() != 14)) {
-    return refusal(kIncorrectArguments, "the arguments are not 7 or 14 numbers");
+    return wrong_arguments("7 or 14 numbers");
   }
   const std::size_t pairs = n->size() / 7;
   std::vector<Alignment> wanted;

@@ -13,19 +13,12 @@
 namespace rondure::cmm::ipp {
 namespace {
 
-using Arguments = std::vector<Item>;
 using Eigen::Vector3d;
 
 constexpr std::size_t kNumbersInALine = 400;  // of a scan: some 8000 characters
 constexpr std::array<std::string_view, 9> kTouchValues = {
     "X", "Y", "Z", "IJK", "ER", "Q", "Part.Temperature", "Scale.Temperature", "Time"};
 constexpr std::array<std::string_view, 5> kScanValues = {"X", "Y", "Z", "ER", "Q"};
-
-Outcome one_line(Item item) { return Reply{{{std::move(item)}}, 0}; }
-
-tl::unexpected<Failure> wrong_arguments(std::string_view wanted) {
-  return refusal(kIncorrectArguments, fmt::format("the arguments are not {}", wanted));
-}
 
 }  // namespace
 

@@ -12,8 +12,6 @@
 namespace rondure::cmm::ipp {
 namespace {
 
-using Arguments = std::vector<Item>;
-
 constexpr std::string_view kNoTool = "NoTool";
 constexpr std::string_view kTool = "Tool.";
 constexpr std::string_view kFoundTool = "FoundTool.";
@@ -60,7 +58,7 @@ std::optional<std::string> prefix_of(const Arguments& arguments) {
 }  // namespace
 
 Outcome Controller::enum_tools(const Arguments& arguments) {
-  if (!arguments.empty()) return refusal(kIncorrectArguments, "the arguments are not ()");
+  if (!arguments.empty()) return wrong_arguments("()");
   Reply out;
   out.lines.push_back({string_item(kNoTool)});
   for (const std::string& tool : machine().capabilities().tools) {

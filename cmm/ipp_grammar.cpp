@@ -12,8 +12,6 @@
 namespace rondure::cmm::ipp {
 namespace {
 
-constexpr std::size_t kTagLength = 5;
-
 tl::unexpected<Refusal> refuse(int number, std::optional<Tag> tag, std::string what) {
   return tl::unexpected(Refusal{number, tag, std::move(what)});
 }

@@ -23,6 +23,7 @@ namespace rondure::cmm::ipp {
 inline constexpr std::uint16_t kDefaultPort = 1294;
 inline constexpr std::size_t kMaxLineLength = 65536;  ///< Characters, without CR LF.
 inline constexpr int kMaxDepth = 8;                   ///< Of parentheses in parentheses.
+inline constexpr std::size_t kTagLength = 5;
 
 /// The first five characters of a line.
 struct Tag {

@@ -8,9 +8,7 @@
 namespace rondure::cmm::ipp {
 namespace {
 
-bool all_digits(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
+bool all_digits(std::string_view text) { return std::all_of(text.begin(), text.end(), is_digit); }
 
 int to_int(std::string_view digits) {
   int value = 0;
@@ -68,7 +66,7 @@ std::string to_text(const Tag& tag) {
 }
 
 std::optional<Tag> read_tag(std::string_view text) {
-  if (text.size() != 5) return std::nullopt;
+  if (text.size() != kTagLength) return std::nullopt;
   if (text[0] == 'E' && all_digits(text.substr(1))) return Tag{true, to_int(text.substr(1))};
   if (!all_digits(text) || text == "00000") return std::nullopt;
   return Tag{false, to_int(text)};

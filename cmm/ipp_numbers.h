@@ -6,6 +6,8 @@
 
 namespace rondure::cmm::ipp {
 
+[[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 /// The number as we send it: the shortest text that reads back to the same double, at most 16
 /// digits, which the protocol allows ("-0.25", "300", "1e-10"). A double that needs 17 is rounded;
 /// positions on the grid of 1e-10 mm and directions on that of 1e-15 never do (grid.h).

@@ -13,7 +13,6 @@ namespace {
 constexpr int kLiberalDigits = 400;  // a server that writes more digits than it may is understood
 
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Characters of which numbers are made, right or wrong ones.
 bool is_number_character(char c) {
@@ -24,6 +23,12 @@ bool is_number_character(char c) {
 
 bool is_plain(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= 32 && c <= 126; });
+}
+
+std::string excerpt(std::string_view line, std::size_t shown) {
+  std::string out;
+  for (const char c : line.substr(0, shown)) out += c >= 32 && c <= 126 ? c : '?';
+  return line.size() > shown ? out + "..." : out;
 }
 
 void ItemReader::skip_spaces() {

@@ -12,6 +12,9 @@ namespace rondure::cmm::ipp {
 
 /// Whether every character is ASCII 32..126.
 [[nodiscard]] bool is_plain(std::string_view text);
+/// The first `shown` characters of a line for a message: "?" for one that is not plain, "..." for
+/// the others.
+[[nodiscard]] std::string excerpt(std::string_view line, std::size_t shown);
 
 /// Reads items out of one line, from left to right. Internal to the grammar.
 class ItemReader {

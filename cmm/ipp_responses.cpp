@@ -10,8 +10,6 @@
 namespace rondure::cmm::ipp {
 namespace {
 
-constexpr std::size_t kTagLength = 5;
-
 std::string_view trim(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(' ');
   if (begin == std::string_view::npos) return {};
@@ -88,16 +86,9 @@ std::optional<Response::Kind> kind_of(char c) {
   }
 }
 
-/// The beginning of a line, for a message about it.
-std::string excerpt(std::string_view line) {
-  std::string out;
-  for (const char c : line.substr(0, 60)) out += c >= 32 && c <= 126 ? c : '?';
-  return line.size() > 60 ? out + "..." : out;
-}
-
 tl::unexpected<core::Error> bad(std::string_view why, std::string_view line) {
   return core::fail(core::Code::kSyntax,
-                    fmt::format("the machine sent a line with {}: \"{}\"", why, excerpt(line)));
+                    fmt::format("the machine sent a line with {}: \"{}\"", why, excerpt(line, 60)));
 }
 
 }  // namespace

@@ -6,10 +6,10 @@
 #include <queue>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "cmm/surface_shape.h"
+#include "core/decompositions.h"
 #include "core/units.h"
 
 namespace rondure::cmm {

@@ -28,10 +28,6 @@ constexpr double kHalfVolume_mm = 10'000.0;  // the grid of 1e-10 mm holds it wi
 constexpr Speeds kSlowest = {0.001, 0.001, 0.001};
 constexpr Speeds kFastest = {1000.0, 50.0, 500.0};
 
-tl::unexpected<core::Error> fault(std::string what) {
-  return core::fail(core::Code::kMachine, std::move(what));
-}
-
 }  // namespace
 
 SimulatedMachine::SimulatedMachine(const SimulatedMachineOptions& options)
@@ -83,7 +79,8 @@ core::Result<MachineStatus> SimulatedMachine::status() {
 
 core::Result<void> SimulatedMachine::select_tool(const std::string& name) {
   if (name == options_.tool) return {};
-  return fault(fmt::format("there is no tool \"{}\"; the machine has \"{}\"", name, options_.tool));
+  return core::machine_fault(
+      fmt::format("there is no tool \"{}\"; the machine has \"{}\"", name, options_.tool));
 }
 
 core::Result<void> SimulatedMachine::set_speeds(const Speeds& speeds) {
@@ -151,7 +148,8 @@ core::Result<SimulatedMachine::Obstacle> SimulatedMachine::first_obstacle(
 core::Result<void> SimulatedMachine::move_to(const Vector3d& target_W_mm) {
   if (auto ready = check_ready(); !ready) return ready;
   const Vector3d tip_W_mm = on_grid_mm(target_W_mm);
-  if (!tip_W_mm.allFinite()) return fault("the target of a move is not a finite point; no motion");
+  if (!tip_W_mm.allFinite())
+    return core::machine_fault("the target of a move is not a finite point; no motion");
   if (auto within = check_volume(tip_W_mm); !within) return within;
   const Vector3d way = tip_W_mm - position_W_mm_;
   const double length_mm = way.norm();
@@ -187,14 +185,15 @@ core::Error SimulatedMachine::stop_before(const Obstacle& obstacle, const Vector
 
 core::Result<void> SimulatedMachine::check_ready() const {
   if (lost_) {
-    return fault("the machine does not answer: the connection is lost; check cable and controller");
+    return core::machine_fault(
+        "the machine does not answer: the connection is lost; check cable and controller");
   }
   if (stopped_) {
     return core::fail(core::Code::kStopped,
                       "the machine was stopped; it moves again once the stop "
                       "is taken back");
   }
-  if (!homed_) return fault("the machine is not homed; home it first, no motion");
+  if (!homed_) return core::machine_fault("the machine is not homed; home it first, no motion");
   return {};
 }
 

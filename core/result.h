@@ -25,4 +25,9 @@ using Result = tl::expected<T, Error>;
   return tl::unexpected<Error>(std::move(error));
 }
 
+/// Shorthand for a fault of a machine, of a fixture or of the line to it (kMachine).
+[[nodiscard]] inline tl::unexpected<Error> machine_fault(std::string what) {
+  return fail(Code::kMachine, std::move(what));
+}
+
 }  // namespace rondure::core

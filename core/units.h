@@ -9,5 +9,6 @@ namespace rondure::core {
 inline constexpr double kDegree = std::numbers::pi / 180.0;
 inline constexpr double kMicrometre = 1e-3;  ///< in mm
 inline constexpr double kTwoPi = 2.0 * std::numbers::pi;
+inline constexpr double kSameAngle = 1e-9;  ///< Angles no farther apart are one [rad].
 
 }  // namespace rondure::core

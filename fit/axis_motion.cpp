@@ -4,7 +4,8 @@
 #include <cassert>
 #include <cmath>
 
-#include <Eigen/Dense>
+#include "core/decompositions.h"
+#include "fit/contour_error.h"
 
 namespace rondure::fit {
 namespace {
@@ -19,11 +20,6 @@ Eigen::Vector3d plot_centre(std::span<const double> alpha_rad, const std::vector
     right += row * values[n];
   }
   return normal.ldlt().solve(right);
-}
-
-double peak_to_valley(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return *high - *low;
 }
 
 /// Largest difference of the revolutions at one angle.

@@ -8,11 +8,11 @@
 
 #include "core/units.h"
 #include "fit/axis.h"
+#include "fit/dft.h"
 
 namespace rondure::fit {
 namespace {
 
-using Complex = std::complex<double>;
 using Plane = Eigen::Matrix<double, 3, 2>;
 
 /// How c and d follow from the stations: c = sum of to_c tau, d = sum of to_d tau.
@@ -37,15 +37,15 @@ Estimator estimator_of(const std::vector<Complex>& z) {
   return out;
 }
 
-struct Part {
+struct OffsetPart {
   Eigen::Vector3d constant = Eigen::Vector3d::Zero();
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   Eigen::Vector3d offset_u = Eigen::Vector3d::Zero();
 };
 
 /// One of t (first = 0) and w (first = 3).
-Part part_of(const RotaryTable& table, const Estimator& estimator, const Plane& plane,
-             Eigen::Index first) {
+OffsetPart part_of(const RotaryTable& table, const Estimator& estimator, const Plane& plane,
+                   Eigen::Index first) {
   Complex constant = 0.0;
   Complex offset = 0.0;
   // The noise of the reference turns with the body: it is a d of the opposite sign.
@@ -62,7 +62,7 @@ Part part_of(const RotaryTable& table, const Estimator& estimator, const Plane& 
     covariance += turn * plane.transpose() * table.rows[i].covariance.block<3, 3>(first, first) *
                   plane * turn.transpose();
   }
-  Part out;
+  OffsetPart out;
   out.constant = plane * Eigen::Vector2d(constant.real(), constant.imag());
   out.offset = plane * Eigen::Vector2d(offset.real(), offset.imag());
   out.offset_u = (plane * covariance * plane.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
@@ -98,8 +98,8 @@ core::Result<AxisOffset> axis_offset(const RotaryTable& table) {
   out.arc_factor = 1.0 / std::sqrt(1.0 - std::norm(mean));
   const Plane plane = across(table.axis.direction);
   const Estimator estimator = estimator_of(z);
-  const Part t = part_of(table, estimator, plane, 0);
-  const Part w = part_of(table, estimator, plane, 3);
+  const OffsetPart t = part_of(table, estimator, plane, 0);
+  const OffsetPart w = part_of(table, estimator, plane, 3);
   out.d_mm = t.offset;
   out.d_u_mm = t.offset_u;
   out.c_mm = t.constant;

@@ -13,13 +13,11 @@
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kLeastSamples = 16;
 constexpr double kMargin = 0.2;       ///< Beside the turn, for the ends of the spline [rad].
 constexpr double kMissingStep = 1.6;  ///< Times the neighbouring steps.
 constexpr double kLargeX = 0.5;       ///< mm
 constexpr double kLargeC = 0.5 * core::kDegree;
 constexpr double kLargeMeanX = 0.1;  ///< mm
-constexpr double kSameAngle = 1e-9;
 
 core::Result<void> check(const AxisTrace& trace, const AxisTraceOptions& options) {
   const std::size_t n = trace.c_rad.size();
@@ -34,10 +32,10 @@ core::Result<void> check(const AxisTrace& trace, const AxisTraceOptions& options
     return core::fail(core::Code::kMeaning,
                       fmt::format("a sign or direction of {}; it is 1 or -1", sign));
   }
-  if (n < kLeastSamples) {
+  if (n < kLeastTurnSamples) {
     return core::fail(
         core::Code::kTooFewPoints,
-        fmt::format("{} samples of the axes; at least {} are needed", n, kLeastSamples));
+        fmt::format("{} samples of the axes; at least {} are needed", n, kLeastTurnSamples));
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (std::isfinite(trace.c_rad[i]) && std::isfinite(trace.c_error_rad[i]) &&
@@ -111,8 +109,8 @@ struct Cut {
 };
 
 std::size_t first_at(const std::vector<double>& alpha, double angle) {
-  return static_cast<std::size_t>(std::lower_bound(alpha.begin(), alpha.end(), angle - kSameAngle) -
-                                  alpha.begin());
+  return static_cast<std::size_t>(
+      std::lower_bound(alpha.begin(), alpha.end(), angle - core::kSameAngle) - alpha.begin());
 }
 
 core::Result<Cut> cut_of(const std::vector<double>& alpha) {
@@ -128,8 +126,8 @@ core::Result<Cut> cut_of(const std::vector<double>& alpha) {
                         : ""));
   }
   Cut cut;
-  const double last = core::kTwoPi * std::floor((alpha.back() + kSameAngle) / core::kTwoPi);
-  if (last - core::kTwoPi >= alpha.front() - kSameAngle) {
+  const double last = core::kTwoPi * std::floor((alpha.back() + core::kSameAngle) / core::kTwoPi);
+  if (last - core::kTwoPi >= alpha.front() - core::kSameAngle) {
     cut.start_rad = last - core::kTwoPi;
     cut.margins = cut.start_rad - kMargin >= alpha.front() && last + kMargin <= alpha.back();
   } else {
@@ -201,10 +199,10 @@ void warn_of_units(AxisTurn& turn) {
 
 core::Result<AxisTurn> last_turn(const AxisTrace& trace, const AxisTraceOptions& options) {
   if (auto checked = check(trace, options); !checked) return core::fail(checked.error());
-  if (options.samples < kLeastSamples) {
+  if (options.samples < kLeastTurnSamples) {
     return core::fail(core::Code::kBadOption,
                       fmt::format("the axes on {} angles are asked for; at least {} are needed",
-                                  options.samples, kLeastSamples));
+                                  options.samples, kLeastTurnSamples));
   }
   const AxisTrace rows = oriented(trace, options);
   const bool reversed = options.c_direction * trace.c_rad[0] != rows.c_rad[0];

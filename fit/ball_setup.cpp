@@ -5,7 +5,8 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
+
+#include "core/decompositions.h"
 
 namespace rondure::fit {
 namespace {

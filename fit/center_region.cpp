@@ -14,7 +14,6 @@ namespace {
 
 /// Centres are sought up to this many times the extent of the points from their mean.
 constexpr double kReach = 64.0;
-constexpr int kPivots = 60;
 
 }  // namespace
 
@@ -29,7 +28,7 @@ CenterRegion center_region(std::span<const Eigen::Vector2d> points_mm, double wi
     const Eigen::Vector2d v = p - mean;
     rows.push_back(v.squaredNorm(), -2.0 * reach * v);
   }
-  const auto least = solve_zone_program<2>(rows, kReach, kMinimumZone, kPivots);
+  const auto least = solve_zone_program<2>(rows, kReach, kMinimumZone, kBoundPivotLimit);
   out.center_mm = mean + reach * least.step;
 
   // From here on the programme is not trusted: only its centre is used. Points up to `depth` off

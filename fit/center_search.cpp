@@ -12,10 +12,9 @@ namespace {
 
 constexpr double kContactTolerance = 1e-9;  // tau_c [mm]
 constexpr double kGapTolerance = 1e-9;      // tau_g
-constexpr int kMoveLimit = 100;
 
 /// Distances of all points from a centre, and who is in contact there.
-struct Contacts {
+struct ContactSets {
   double low = 0.0;
   double high = 0.0;
   std::vector<std::size_t> outer;
@@ -36,9 +35,9 @@ double contact_tolerance(std::span<const Eigen::Vector2d> points_mm) {
       {kContactTolerance, 1e-13 * range, 16.0 * std::numeric_limits<double>::epsilon() * size});
 }
 
-Contacts contacts_at(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center,
-                     double tolerance) {
-  Contacts out;
+ContactSets contacts_at(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center,
+                        double tolerance) {
+  ContactSets out;
   std::vector<double> r(points_mm.size());
   std::transform(points_mm.begin(), points_mm.end(), r.begin(),
                  [&](const Eigen::Vector2d& p) { return (p - center).norm(); });
@@ -120,8 +119,8 @@ core::Result<CenterSearch> center_search(std::span<const Eigen::Vector2d> points
   const double tolerance = contact_tolerance(points_mm);
   CenterSearch out;
   out.center_mm = start->center_mm;
-  for (int move = 0; move <= kMoveLimit; ++move) {
-    const Contacts now = contacts_at(points_mm, out.center_mm, tolerance);
+  for (int move = 0; move <= kCenterMoveLimit; ++move) {
+    const ContactSets now = contacts_at(points_mm, out.center_mm, tolerance);
     out.inner_radius_mm = now.low;
     out.outer_radius_mm = now.high;
     out.outer = now.outer;
@@ -136,7 +135,7 @@ core::Result<CenterSearch> center_search(std::span<const Eigen::Vector2d> points
       out.ending = gap.vertices ? CenterSearch::Ending::kSpoke : CenterSearch::Ending::kCross;
       return out;
     }
-    if (move == kMoveLimit) break;
+    if (move == kCenterMoveLimit) break;
     const Eigen::Vector2d direction = (gap.on_first - gap.on_second) / gap.distance;
     const auto met = contact_candidates(points_mm, out.center_mm, direction, now.outer, now.inner);
     if (met.empty()) {

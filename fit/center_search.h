@@ -28,6 +28,8 @@ struct ContactCandidate {
     const Eigen::Vector2d& direction, std::span<const std::size_t> outer,
     std::span<const std::size_t> inner);
 
+inline constexpr int kCenterMoveLimit = 100;  ///< Moves of one search.
+
 /// One move of a centre search, for the log and for tests.
 struct CenterMove {
   Eigen::Vector2d from_mm = Eigen::Vector2d::Zero();

@@ -4,21 +4,19 @@
 #include "fit/center_search.h"
 #include "fit/hull_distance.h"
 #include "fit/ls_circle.h"
+#include "fit/points.h"
 
 namespace rondure::fit {
 namespace {
 
-constexpr int kMoveLimit = 100;
 constexpr double kSameRay = 1e-12;
 
-using Points = std::span<const Eigen::Vector2d>;
-
-Eigen::Vector2d unit(Points points, const Eigen::Vector2d& center, std::size_t i) {
+Eigen::Vector2d unit(PlanePoints points, const Eigen::Vector2d& center, std::size_t i) {
   return (points[i] - center).normalized();
 }
 
 /// Sets radii and picks the first contacts [302]: the farthest and the nearest point.
-void measure(Points points, CenterSearch& search, bool pick) {
+void measure(PlanePoints points, CenterSearch& search, bool pick) {
   std::size_t far = 0;
   std::size_t near = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -42,7 +40,7 @@ Eigen::Vector2d bisector(const Eigen::Vector2d& first, const Eigen::Vector2d& se
 }
 
 /// Direction of the next move, [302] to [304] with corrected signs; zero where it degenerates.
-Eigen::Vector2d direction(Points points, const CenterSearch& search) {
+Eigen::Vector2d direction(PlanePoints points, const CenterSearch& search) {
   const Eigen::Vector2d h = unit(points, search.center_mm, search.outer.front());
   const Eigen::Vector2d l = unit(points, search.center_mm, search.inner.front());
   if (search.inner.size() == 2) {
@@ -59,7 +57,7 @@ Eigen::Vector2d direction(Points points, const CenterSearch& search) {
 }
 
 /// The chord test [305] on the contacts the search holds, as unit vectors.
-bool chords_cross(Points points, const CenterSearch& search) {
+bool chords_cross(PlanePoints points, const CenterSearch& search) {
   return segments_cross(unit(points, search.center_mm, search.outer.front()),
                         unit(points, search.center_mm, search.outer.back()),
                         unit(points, search.center_mm, search.inner.front()),
@@ -74,13 +72,13 @@ void take(std::vector<std::size_t>& side, std::size_t met) {
 
 }  // namespace
 
-core::Result<CenterSearch> center_search_as_published(Points points_mm) {
+core::Result<CenterSearch> center_search_as_published(PlanePoints points_mm) {
   const auto start = algebraic_circle(points_mm);
   if (!start) return core::fail(start.error());
   CenterSearch out;
   out.center_mm = start->center_mm;
   measure(points_mm, out, true);
-  for (int move = 0; move < kMoveLimit; ++move) {
+  for (int move = 0; move < kCenterMoveLimit; ++move) {
     const Eigen::Vector2d u = direction(points_mm, out);
     const auto met = u.isZero()
                          ? std::vector<ContactCandidate>()

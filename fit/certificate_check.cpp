@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWeightTolerance = 1e-9;
 /// Central differences over this part of the radius leave errors of some 1e-9.
-constexpr double kStep = 1e-5;
+constexpr double kDifferenceShare = 1e-5;
 constexpr double kImbalanceTolerance = 1e-6;
 
 /// Distance of a point from the place moved by `by` along unknown `k`.
@@ -24,8 +24,8 @@ void raise(double& worst, double by) {
 }
 
 /// Points against the sides that the zone claims: those with contacts, or both.
-void check_points(std::size_t count, const MovedDistance& distance, const StatedZone& zone,
-                  ZoneCheck& out) {
+void check_sides(std::size_t count, const MovedDistance& distance, const StatedZone& zone,
+                 ZoneCheck& out) {
   const bool outer = !zone.outer.empty() || zone.inner.empty();
   const bool inner = !zone.inner.empty() || zone.outer.empty();
   for (std::size_t i = 0; i < count; ++i) {
@@ -68,10 +68,10 @@ ZoneCheck check(std::size_t count, int unknowns, const MovedDistance& distance,
       return out;
     }
   }
-  check_points(count, distance, zone, out);
+  check_sides(count, distance, zone, out);
   if (!zone.outer.empty() || !zone.inner.empty()) {
     Eigen::Vector4d balance = Eigen::Vector4d::Zero();
-    const double step = kStep * zone.outer_radius_mm;
+    const double step = kDifferenceShare * zone.outer_radius_mm;
     const double high =
         weigh(zone.outer, zone.outer_radius_mm, 1.0, unknowns, step, distance, balance, out);
     const double low =

@@ -15,10 +15,9 @@
 namespace rondure::fit {
 namespace {
 
-constexpr double kSameAngle = 1e-9;
 constexpr double kUniformShare = 1e-6;
 constexpr double kArcGap = std::numbers::pi / 2.0;
-constexpr std::size_t kLeastSamples = 1024;
+constexpr std::size_t kLeastResampled = 1024;
 /// By how much all points are better than every other one, at least.
 constexpr double kHalvingGain = 4.0;
 
@@ -53,8 +52,8 @@ void count_steps(std::span<const double> theta, AngularProfile& out) {
   for (std::size_t i = 1; i < theta.size(); ++i) {
     const double step = std::remainder(theta[i] - theta[i - 1], core::kTwoPi);
     sum += step;
-    if (step > kSameAngle) ++forward;
-    if (step < -kSameAngle) ++backward;
+    if (step > core::kSameAngle) ++forward;
+    if (step < -core::kSameAngle) ++backward;
   }
   out.reversals = std::min(forward, backward);
   out.turns = std::abs(sum) / core::kTwoPi;
@@ -66,7 +65,7 @@ class Merger {
   explicit Merger(AngularProfile& out) : out_(out) {}
 
   void add(double theta, double r, std::size_t row) {
-    if (count_ > 0 && theta - out_.theta_rad.back() < kSameAngle) {
+    if (count_ > 0 && theta - out_.theta_rad.back() < core::kSameAngle) {
       sum_ += r;
       ++count_;
       ++out_.merged;
@@ -130,7 +129,7 @@ core::Result<AngularProfile> ordered_profile(std::span<const double> theta_rad,
   std::transform(theta_rad.begin(), theta_rad.end(), turned.begin(), within_turn);
   // What rounding left just below a full turn belongs to its begin.
   for (double& theta : turned) {
-    if (core::kTwoPi - theta < kSameAngle) theta = 0.0;
+    if (core::kTwoPi - theta < core::kSameAngle) theta = 0.0;
   }
   std::vector<std::size_t> order(turned.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -176,7 +175,7 @@ core::Result<ResampledProfile> resampled(const AngularProfile& profile) {
                                   profile.largest_gap_rad / core::kDegree));
   }
   out.interpolated = true;
-  const std::size_t samples = std::max(kLeastSamples, std::bit_ceil(2 * profile.r_mm.size()));
+  const std::size_t samples = std::max(kLeastResampled, std::bit_ceil(2 * profile.r_mm.size()));
   out.profile.r_mm.resize(samples);
   const PeriodicSpline all(profile.theta_rad, profile.r_mm);
   std::optional<PeriodicSpline> rough;

@@ -18,17 +18,15 @@
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kLeastPoints = 16;
-
 double angle_of(std::size_t m, std::size_t count) {
   return core::kTwoPi * static_cast<double>(m) / static_cast<double>(count);
 }
 
 core::Result<void> check_values(std::span<const double> deviation_mm) {
-  if (deviation_mm.size() < kLeastPoints) {
+  if (deviation_mm.size() < kLeastContourPoints) {
     return core::fail(core::Code::kTooFewPoints,
                       fmt::format("a contour of {} points; at least {} are needed",
-                                  deviation_mm.size(), kLeastPoints));
+                                  deviation_mm.size(), kLeastContourPoints));
   }
   for (std::size_t i = 0; i < deviation_mm.size(); ++i) {
     if (std::isfinite(deviation_mm[i])) continue;

@@ -12,6 +12,8 @@
 
 namespace rondure::fit {
 
+inline constexpr std::size_t kLeastContourPoints = 16;  ///< M of a contour.
+
 /// How the base circle of a contour is taken away.
 enum class BaseCircle {
   kLimacon,    ///< Mean, cos and sin of the deviations; e^2/(2 r) off for an eccentricity e.

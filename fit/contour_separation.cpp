@@ -15,8 +15,6 @@
 namespace rondure::fit {
 namespace {
 
-using Complex = std::complex<double>;
-
 constexpr std::size_t kPlacesPerSample = 16;
 constexpr int kNewtonSteps = 20;
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
+#include "core/decompositions.h"
 #include "core/units.h"
 #include "fit/axis.h"
 #include "fit/ls_circle.h"
@@ -12,8 +11,8 @@
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kSample = 200;  // points looked at
-constexpr int kDirections = 240;      // on the half sphere, some 9 deg apart
+constexpr std::size_t kLookedAt = 200;  // points looked at
+constexpr int kDirections = 240;        // on the half sphere, some 9 deg apart
 constexpr std::size_t kKept = 8;
 const double kApart = std::cos(12.0 * core::kDegree);
 
@@ -42,7 +41,7 @@ std::vector<Eigen::Vector3d> spread(std::span<const Eigen::Vector3d> sample) {
 
 std::vector<Eigen::Vector3d> start_directions(std::span<const Eigen::Vector3d> points) {
   std::vector<Eigen::Vector3d> sample;
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSample);
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kLookedAt);
   for (std::size_t i = 0; i < points.size(); i += stride) sample.push_back(points[i]);
 
   std::vector<Scored> scored;

@@ -9,7 +9,6 @@
 namespace rondure::fit {
 namespace {
 
-using Complex = std::complex<double>;
 using Plan = std::unique_ptr<fftw_plan_s, void (*)(fftw_plan)>;
 
 /// Nothing is timed and no alignment is used: the same transform, and the same bits, every time.
@@ -41,7 +40,7 @@ fftw_complex* raw(std::vector<Complex>& values) {
 
 }  // namespace
 
-std::vector<Complex> spectrum(std::span<const double> series) {
+Spectrum spectrum(std::span<const double> series) {
   std::vector<double> in(series.begin(), series.end());
   std::vector<Complex> out(series.size() / 2 + 1);
   const int count = static_cast<int>(series.size());

@@ -7,15 +7,17 @@
 
 namespace rondure::fit {
 
+using Complex = std::complex<double>;
+using Spectrum = std::vector<Complex>;
+
 /// Spectrum of a real periodic series: F(k) = sum_i x_i e^{-2 pi j k i / N}, k = 0..floor(N/2); the
 /// other half is its conjugate.
 ///
 /// @param series  N >= 1. Any N costs O(N log N): 1e5 values take about 1 ms.
-[[nodiscard]] std::vector<std::complex<double>> spectrum(std::span<const double> series);
+[[nodiscard]] Spectrum spectrum(std::span<const double> series);
 
 /// The real series of N values with that half spectrum.
 /// @param half  floor(N/2) + 1 values; the imaginary parts of k = 0 and k = N/2 are not looked at.
-[[nodiscard]] std::vector<double> series_of(std::span<const std::complex<double>> half,
-                                            std::size_t count);
+[[nodiscard]] std::vector<double> series_of(std::span<const Complex> half, std::size_t count);
 
 }  // namespace rondure::fit

@@ -2,12 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "core/decompositions.h"
+
 namespace rondure::fit {
+
+/// Larger sets start from the shape of so many of their points.
+inline constexpr std::size_t kStartSample = 1000;
+/// Of an algebraic circle: below this share of (Suu + Svv)^2 the determinant is round-off and the
+/// points are on a line.
+inline constexpr double kCollinearShare = 1e-12;
 
 /// Gauss-Newton sums of residuals d with gradients g over n points: matrix = sum of g g^T, right =
 /// -sum of g d, squares = sum of d^2.

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "fit/hull_distance.h"
 #include "fit/points.h"
 
 namespace rondure::fit {
@@ -42,11 +43,6 @@ std::vector<Eigen::Vector2d> turned(std::span<const Eigen::Vector2d> points,
   return out;
 }
 
-/// Twice the area of the triangle a, b, c; > 0 where c lies to the left of a -> b.
-double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
 /// Corners of the convex hull, anticlockwise (monotone chain); 1 or 2 for points of one line.
 std::vector<Eigen::Vector2d> hull_of(std::vector<Eigen::Vector2d> points) {
   std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
@@ -55,7 +51,7 @@ std::vector<Eigen::Vector2d> hull_of(std::vector<Eigen::Vector2d> points) {
   points.erase(std::unique(points.begin(), points.end()), points.end());
   std::vector<Eigen::Vector2d> hull;
   const auto add = [&](const Eigen::Vector2d& p, std::size_t kept) {
-    while (hull.size() > kept && turn(hull[hull.size() - 2], hull.back(), p) <= 0.0)
+    while (hull.size() > kept && twice_area(hull[hull.size() - 2], hull.back(), p) <= 0.0)
       hull.pop_back();
     hull.push_back(p);
   };
@@ -78,8 +74,8 @@ double least_zone(std::vector<Eigen::Vector2d> points) {
     const Eigen::Vector2d& a = hull[i];
     const Eigen::Vector2d& b = hull[(i + 1) % n];
     // The farthest corner goes round with the edge.
-    while (turn(a, b, hull[(far + 1) % n]) > turn(a, b, hull[far])) far = (far + 1) % n;
-    least = std::min(least, turn(a, b, hull[far]) / (b - a).norm());
+    while (twice_area(a, b, hull[(far + 1) % n]) > twice_area(a, b, hull[far])) far = (far + 1) % n;
+    least = std::min(least, twice_area(a, b, hull[far]) / (b - a).norm());
   }
   return least;
 }

@@ -19,6 +19,9 @@ struct GlobalSearchOptions {
                                ///< coordinate range, if that is more; enters the gap.
 };
 
+/// Searches of one proof: each but the first starts from the better place that the last one met.
+inline constexpr int kRestartLimit = 20;
+
 /// What a zone is compared with: the solver's result.
 struct ZoneClaim {
   double width_mm = 0.0;

@@ -16,8 +16,6 @@
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kLeastSamples = 16;
-
 /// First and second derivative by the parameter of a periodic series over one turn.
 struct Derivatives {
   std::vector<double> first;
@@ -136,10 +134,10 @@ core::Result<GrindingPath> wheel_path(const CrankGeometry& geometry, const AxisE
                       fmt::format("{} errors of C and {} of X; both traces need the same samples",
                                   n, errors.x_mm.size()));
   }
-  if (n < kLeastSamples) {
+  if (n < kLeastTurnSamples) {
     return core::fail(
         core::Code::kTooFewPoints,
-        fmt::format("{} samples over the turn; at least {} are needed", n, kLeastSamples));
+        fmt::format("{} samples over the turn; at least {} are needed", n, kLeastTurnSamples));
   }
   GrindingPath path;
   for (std::size_t i = 0; i < n; ++i) {
@@ -194,10 +192,10 @@ ParallelCurve parallel_curve(const GrindingPath& path, double wheel_radius_mm, P
 
 core::Result<GroundContour> ground_contour(const CrankGeometry& geometry, const AxisErrors& errors,
                                            const GroundContourOptions& options) {
-  if (options.samples < kLeastSamples) {
+  if (options.samples < kLeastTurnSamples) {
     return core::fail(core::Code::kBadOption,
                       fmt::format("a contour of {} points is asked for; at least {} are needed",
-                                  options.samples, kLeastSamples));
+                                  options.samples, kLeastTurnSamples));
   }
   const auto path = wheel_path(geometry, errors);
   if (!path) return core::fail(path.error());

@@ -9,6 +9,8 @@
 
 namespace rondure::fit {
 
+inline constexpr std::size_t kLeastTurnSamples = 16;  ///< N and M of one turn.
+
 /// Errors of both axes over one turn, ACTUAL minus COMMAND, at the command angles 2 pi m / N.
 struct AxisErrors {
   std::vector<double> c_rad;  ///< dalpha.
@@ -25,7 +27,7 @@ struct GrindingPath {
 /// @return check_geometry()'s errors; kMeaning for arrays of different length; kTooFewPoints
 ///         (N < 16); kNotFinite (row); kOutOfRange where the wheel centre comes to O.
 [[nodiscard]] core::Result<GrindingPath> wheel_path(const CrankGeometry& geometry,
-                                                 const AxisErrors& errors);
+                                                    const AxisErrors& errors);
 
 /// The Fourier series of a path at `times` as many places.
 [[nodiscard]] GrindingPath refined(const GrindingPath& path, std::size_t times);
@@ -56,8 +58,8 @@ struct ParallelCurve {
 /// parabola. Positions that cannot reach the least found so far are not looked at; the result is
 /// that of looking at all.
 /// @param samples  Angles 2 pi m / samples.
-[[nodiscard]] std::vector<double> envelope_radii_mm(const GrindingPath& path, double wheel_radius_mm,
-                                                    std::size_t samples,
+[[nodiscard]] std::vector<double> envelope_radii_mm(const GrindingPath& path,
+                                                    double wheel_radius_mm, std::size_t samples,
                                                     std::size_t oversampling = 40);
 
 /// Settings of ground_contour().

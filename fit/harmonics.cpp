@@ -5,9 +5,9 @@
 #include <complex>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "core/decompositions.h"
 #include "core/units.h"
 #include "fit/dft.h"
 
@@ -25,7 +25,7 @@ double amplitude_sigma(double noise, std::size_t points) {
   return noise * std::sqrt(2.0 / static_cast<double>(points));
 }
 
-core::Result<void> check_gap(const AngularProfile& profile, int highest) {
+core::Result<void> check_harmonic_gap(const AngularProfile& profile, int highest) {
   const double gap_deg = profile.largest_gap_rad / core::kDegree;
   if (gap_deg >= 90.0) {
     return core::fail(core::Code::kNotFullSection,
@@ -129,7 +129,7 @@ core::Result<HarmonicTable> harmonic_fit(const AngularProfile& profile,
                                          const HarmonicOptions& options) {
   const std::size_t n = profile.r_mm.size();
   if (auto checked = check_harmonics(n, options); !checked) return core::fail(checked.error());
-  if (auto checked = check_gap(profile, options.highest); !checked) {
+  if (auto checked = check_harmonic_gap(profile, options.highest); !checked) {
     return core::fail(checked.error());
   }
   const Eigen::VectorXd x = least_squares(profile, options.highest);

@@ -12,12 +12,6 @@ struct Edge {
   Eigen::Vector2d b;
 };
 
-double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  const Eigen::Vector2d u = b - a;
-  const Eigen::Vector2d v = c - a;
-  return u.x() * v.y() - u.y() * v.x();
-}
-
 /// Neighbours by angle; a single vertex gives one edge of length 0.
 std::vector<Edge> edges(std::vector<Eigen::Vector2d>& vertices) {
   std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) {
@@ -50,7 +44,8 @@ void offer(const Eigen::Vector2d& vertex, const Edge& edge, bool vertex_first, H
 
 bool segments_cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
                     const Eigen::Vector2d& d) {
-  return turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;
+  return twice_area(a, b, c) * twice_area(a, b, d) < 0.0 &&
+         twice_area(c, d, a) * twice_area(c, d, b) < 0.0;
 }
 
 HullDistance hull_distance(std::vector<Eigen::Vector2d> first,

@@ -24,6 +24,12 @@ struct HullDistance {
 [[nodiscard]] HullDistance hull_distance(std::vector<Eigen::Vector2d> first,
                                          std::vector<Eigen::Vector2d> second);
 
+/// Twice the area of the triangle a, b, c; > 0 where c lies to the left of a -> b.
+[[nodiscard]] inline double twice_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                                       const Eigen::Vector2d& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
 /// True when the segments ab and cd cross in a point inside both.
 [[nodiscard]] bool segments_cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                                   const Eigen::Vector2d& c, const Eigen::Vector2d& d);

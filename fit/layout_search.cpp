@@ -95,7 +95,7 @@ std::vector<Candidate> scan_grid(const LayoutSearch& search) {
 }
 
 /// Walks to a neighbour while that is better, with halved steps in the end.
-Candidate refined(Candidate at, const LayoutSearch& search) {
+Candidate refined_candidate(Candidate at, const LayoutSearch& search) {
   for (double step = kGrid_deg / 2.0; step >= kFinest_deg / 2.0;) {
     Candidate best = at;
     for (int i = -1; i <= 1; ++i) {
@@ -171,7 +171,7 @@ core::Result<std::vector<DesignedLayout>> design_layout(const LayoutSearch& sear
   const auto count = static_cast<std::size_t>(search.count);
   std::vector<Candidate> found = distinct(scan_grid(search), kRefined * count);
   if (search.samples == 0) {
-    for (Candidate& candidate : found) candidate = refined(candidate, search);
+    for (Candidate& candidate : found) candidate = refined_candidate(candidate, search);
     std::stable_sort(found.begin(), found.end(),
                      [](const Candidate& a, const Candidate& b) { return a.worst < b.worst; });
   }

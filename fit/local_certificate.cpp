@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <Eigen/Dense>
 
+#include "core/decompositions.h"
 #include "fit/zone_program.h"
 
 namespace rondure::fit {
@@ -18,11 +18,11 @@ constexpr double kGrowthNoise = 1e-9;
 constexpr double kLevel = 1e-9;
 
 template <int K>
-using Rows = std::span<const ContactRow<K>>;
+using ContactRows = std::span<const ContactRow<K>>;
 
 /// Growth of the linearised zone on the face x_k = sign of the unit box.
 template <int K>
-double growth_on_face(Rows<K> outer, Rows<K> inner, const ZoneWeights& weights, int k,
+double growth_on_face(ContactRows<K> outer, ContactRows<K> inner, const ZoneWeights& weights, int k,
                       double sign) {
   ZoneRows<K - 1> rows;
   const auto add = [&](const ContactRow<K>& contact, double lift) {
@@ -36,7 +36,7 @@ double growth_on_face(Rows<K> outer, Rows<K> inner, const ZoneWeights& weights, 
 }
 
 template <int K>
-const ContactRow<K>& row_of(Rows<K> rows, std::size_t index) {
+const ContactRow<K>& row_of(ContactRows<K> rows, std::size_t index) {
   return *std::find_if(rows.begin(), rows.end(),
                        [&](const ContactRow<K>& row) { return row.index == index; });
 }
@@ -73,13 +73,14 @@ Eigen::Vector4d least_curved(const Eigen::Matrix4d& w, Columns columns, int unkn
 
 template <int K>
 Eigen::Matrix<double, K, 1> curvature_descent(std::span<const Contact> outer,
-                                              std::span<const Contact> inner, Rows<K> outer_rows,
-                                              Rows<K> inner_rows, const ZoneWeights& weights) {
+                                              std::span<const Contact> inner,
+                                              ContactRows<K> outer_rows, ContactRows<K> inner_rows,
+                                              const ZoneWeights& weights) {
   // Padded to four unknowns: Eigen's decompositions take half a minute to compile for each size.
   Eigen::Matrix4d w = Eigen::Matrix4d::Zero();
   Columns differences = Columns::Zero();
   Eigen::Index column = 0;
-  const auto collect = [&](std::span<const Contact> side, Rows<K> rows, double weight) {
+  const auto collect = [&](std::span<const Contact> side, ContactRows<K> rows, double weight) {
     for (const Contact& c : side) {
       const ContactRow<K>& contact = row_of(rows, c.index);
       w.template topLeftCorner<K, K>() += weight * c.multiplier * contact.hessian;
@@ -93,7 +94,7 @@ Eigen::Matrix<double, K, 1> curvature_descent(std::span<const Contact> outer,
 }
 
 template <int K>
-double first_order_growth(Rows<K> outer, Rows<K> inner, const ZoneWeights& weights) {
+double first_order_growth(ContactRows<K> outer, ContactRows<K> inner, const ZoneWeights& weights) {
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < K; ++k) {
     least = std::min({least, growth_on_face<K>(outer, inner, weights, k, 1.0),
@@ -103,7 +104,7 @@ double first_order_growth(Rows<K> outer, Rows<K> inner, const ZoneWeights& weigh
 }
 
 template <int K>
-LocalProof<K> prove_local(Rows<K> outer, Rows<K> inner, double reach_mm,
+LocalProof<K> prove_local(ContactRows<K> outer, ContactRows<K> inner, double reach_mm,
                           const ZoneWeights& weights) {
   // Distances relative to one contact keep their digits; the multipliers of each side sum to 1, so
   // a common value only shifts the result.
@@ -174,25 +175,25 @@ Certificate certify_local(const LocalProof<K>& proof, double width_mm, double ro
 }
 
 template struct LocalProof<2>;
-template double first_order_growth<2>(Rows<2>, Rows<2>, const ZoneWeights&);
+template double first_order_growth<2>(ContactRows<2>, ContactRows<2>, const ZoneWeights&);
 template Eigen::Matrix<double, 2, 1> curvature_descent<2>(std::span<const Contact>,
-                                                          std::span<const Contact>, Rows<2>,
-                                                          Rows<2>, const ZoneWeights&);
-template LocalProof<2> prove_local<2>(Rows<2>, Rows<2>, double, const ZoneWeights&);
+                                                          std::span<const Contact>, ContactRows<2>,
+                                                          ContactRows<2>, const ZoneWeights&);
+template LocalProof<2> prove_local<2>(ContactRows<2>, ContactRows<2>, double, const ZoneWeights&);
 template Certificate certify_local<2>(const LocalProof<2>&, double, double, std::string);
 template struct LocalProof<3>;
-template double first_order_growth<3>(Rows<3>, Rows<3>, const ZoneWeights&);
+template double first_order_growth<3>(ContactRows<3>, ContactRows<3>, const ZoneWeights&);
 template Eigen::Matrix<double, 3, 1> curvature_descent<3>(std::span<const Contact>,
-                                                          std::span<const Contact>, Rows<3>,
-                                                          Rows<3>, const ZoneWeights&);
-template LocalProof<3> prove_local<3>(Rows<3>, Rows<3>, double, const ZoneWeights&);
+                                                          std::span<const Contact>, ContactRows<3>,
+                                                          ContactRows<3>, const ZoneWeights&);
+template LocalProof<3> prove_local<3>(ContactRows<3>, ContactRows<3>, double, const ZoneWeights&);
 template Certificate certify_local<3>(const LocalProof<3>&, double, double, std::string);
 template struct LocalProof<4>;
-template double first_order_growth<4>(Rows<4>, Rows<4>, const ZoneWeights&);
+template double first_order_growth<4>(ContactRows<4>, ContactRows<4>, const ZoneWeights&);
 template Eigen::Matrix<double, 4, 1> curvature_descent<4>(std::span<const Contact>,
-                                                          std::span<const Contact>, Rows<4>,
-                                                          Rows<4>, const ZoneWeights&);
-template LocalProof<4> prove_local<4>(Rows<4>, Rows<4>, double, const ZoneWeights&);
+                                                          std::span<const Contact>, ContactRows<4>,
+                                                          ContactRows<4>, const ZoneWeights&);
+template LocalProof<4> prove_local<4>(ContactRows<4>, ContactRows<4>, double, const ZoneWeights&);
 template Certificate certify_local<4>(const LocalProof<4>&, double, double, std::string);
 
 }  // namespace rondure::fit

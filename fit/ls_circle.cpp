@@ -15,12 +15,6 @@
 namespace rondure::fit {
 namespace {
 
-// Below this share of (Suu + Svv)^2 the determinant is round-off and the points are on a line.
-constexpr double kCollinearShare = 1e-12;
-
-// Larger sets start from the circle of so many of their points.
-constexpr std::size_t kSample = 1000;
-
 /// Fills deviation and rms about the centre.
 void fill_residuals(std::span<const Eigen::Vector2d> points_mm, LsCircle& circle) {
   double low = std::numeric_limits<double>::infinity();
@@ -60,7 +54,7 @@ LsCircle finished(const CircleModel& model, const Eigen::Vector2d& origin, doubl
 
 /// A large set from the circle of a sample; nothing when that does not lead to the minimum.
 std::optional<LsCircle> from_sample(std::span<const Eigen::Vector2d> points_mm) {
-  std::array<Eigen::Vector2d, kSample> sample;
+  std::array<Eigen::Vector2d, kStartSample> sample;
   sample_points(points_mm, sample);
   const auto start = ls_circle(sample);
   if (!start) return std::nullopt;
@@ -122,7 +116,7 @@ core::Result<LsCircle> algebraic_circle(std::span<const Eigen::Vector2d> points_
 }
 
 core::Result<LsCircle> ls_circle(std::span<const Eigen::Vector2d> points_mm) {
-  if (points_mm.size() > kSample) {
+  if (points_mm.size() > kStartSample) {
     if (const auto circle = from_sample(points_mm)) return *circle;
   }
   const auto start = algebraic_start(points_mm);

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
+#include "core/decompositions.h"
 #include "fit/cylinder_frame.h"
 #include "fit/cylinder_start.h"
 #include "fit/gauss_newton.h"
@@ -20,18 +21,10 @@
 namespace rondure::fit {
 namespace {
 
-// Larger sets start from the cylinder of so many of their points.
-constexpr std::size_t kSample = 1000;
-
 // Squared extents below this share are round-off of the sums: 3e-8 of the largest extent.
 constexpr double kFlat = 1e-15;
 
-// As in algebraic_circle(): below this share the determinant is round-off.
-constexpr double kCollinearShare = 1e-12;
-
 using Vector5 = Eigen::Matrix<double, 5, 1>;
-using Points = std::span<const Eigen::Vector3d>;
-
 /// Cylinder under iteration, relative to an origin amid the points.
 struct CylinderModel {
   static constexpr int kUnknowns = 5;
@@ -51,7 +44,7 @@ struct Settled {
 
 /// Algebraic circle of the projection along a direction; the points are relative to `origin`, their
 /// mean.
-core::Result<CylinderModel> start(Points points, const Eigen::Vector3d& origin,
+core::Result<CylinderModel> start(SpacePoints points, const Eigen::Vector3d& origin,
                                   const Eigen::Vector3d& direction) {
   const auto frame = across(direction);
   // Plain numbers: sums in Eigen matrices would go through memory at every point.
@@ -97,7 +90,7 @@ LsCylinder finished(const Settled& settled, const Eigen::Vector3d& origin,
 }
 
 /// Refuses points of one line and of one plane; they are relative to `origin`, their mean.
-core::Result<void> check_rank(Points points, const Eigen::Vector3d& origin) {
+core::Result<void> check_rank(SpacePoints points, const Eigen::Vector3d& origin) {
   double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
   for (const Eigen::Vector3d& p : points) {
     const double x = p.x() - origin.x(), y = p.y() - origin.y(), z = p.z() - origin.z();
@@ -126,14 +119,14 @@ core::Result<void> check_rank(Points points, const Eigen::Vector3d& origin) {
 }
 
 /// Directions to start from, best first.
-std::vector<Eigen::Vector3d> directions(Points points, const Eigen::Vector3d& origin) {
-  std::vector<Eigen::Vector3d> seen(std::min(points.size(), kSample));
+std::vector<Eigen::Vector3d> directions(SpacePoints points, const Eigen::Vector3d& origin) {
+  std::vector<Eigen::Vector3d> seen(std::min(points.size(), kStartSample));
   sample_points(points, seen);
   for (Eigen::Vector3d& p : seen) p -= origin;
   return start_directions(seen);
 }
 
-core::Result<Settled> settle_from(Points points, const Eigen::Vector3d& origin,
+core::Result<Settled> settle_from(SpacePoints points, const Eigen::Vector3d& origin,
                                   const Eigen::Vector3d& direction) {
   auto model = start(points, origin, direction);
   if (!model) return core::fail(model.error());
@@ -146,7 +139,7 @@ core::Result<Settled> settle_from(Points points, const Eigen::Vector3d& origin,
 }
 
 /// The best cylinder over the starts, of points whose mean is `origin`.
-core::Result<Settled> settle_all(Points points, const Eigen::Vector3d& origin,
+core::Result<Settled> settle_all(SpacePoints points, const Eigen::Vector3d& origin,
                                  const std::optional<Eigen::Vector3d>& near_direction) {
   if (auto ranked = check_rank(points, origin); !ranked) return core::fail(ranked.error());
   if (near_direction) return settle_from(points, origin, near_direction->normalized());
@@ -160,9 +153,9 @@ core::Result<Settled> settle_all(Points points, const Eigen::Vector3d& origin,
 }
 
 /// A large set from the cylinder of a sample; nothing when that does not lead to the minimum.
-std::optional<LsCylinder> from_sample(Points points_mm,
+std::optional<LsCylinder> from_sample(SpacePoints points_mm,
                                       const std::optional<Eigen::Vector3d>& near_direction) {
-  std::array<Eigen::Vector3d, kSample> sample;
+  std::array<Eigen::Vector3d, kStartSample> sample;
   sample_points(points_mm, sample);
   if (!check_points(sample) || distinct_points(sample, 5) < 5) return std::nullopt;
   const Eigen::Vector3d origin = mean_point(sample);
@@ -194,9 +187,9 @@ std::optional<LsCylinder> from_sample(Points points_mm,
 
 }  // namespace
 
-core::Result<LsCylinder> ls_cylinder(Points points_mm,
+core::Result<LsCylinder> ls_cylinder(SpacePoints points_mm,
                                      const std::optional<Eigen::Vector3d>& near_direction) {
-  if (points_mm.size() > kSample) {
+  if (points_mm.size() > kStartSample) {
     if (const auto cylinder = from_sample(points_mm, near_direction)) return *cylinder;
   }
   if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());

@@ -5,19 +5,17 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 
+#include "core/decompositions.h"
 #include "fit/points.h"
 
 namespace rondure::fit {
 namespace {
 
 /// Directions whose extents differ by less than this share of the larger one are alike.
-constexpr double kAlike = 1e-12;
+constexpr double kAlikeExtents = 1e-12;
 
-using Points = std::span<const Eigen::Vector3d>;
-
-Eigen::Matrix3d scatter_about(Points points, const Eigen::Vector3d& mean) {
+Eigen::Matrix3d scatter_about(SpacePoints points, const Eigen::Vector3d& mean) {
   Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& p : points) out += (p - mean) * (p - mean).transpose();
   return out;
@@ -26,8 +24,8 @@ Eigen::Matrix3d scatter_about(Points points, const Eigen::Vector3d& mean) {
 /// Turns a direction that is nearly the first principal axis the rest of the way. Of a line a metre
 /// long the eigenvector is good to 1e-16 of the length only, sums across the direction to 1e-16 of
 /// the distances.
-Eigen::Vector3d refined(Points points, const Eigen::Vector3d& mean,
-                        const Eigen::Vector3d& direction) {
+Eigen::Vector3d refined_direction(SpacePoints points, const Eigen::Vector3d& mean,
+                                  const Eigen::Vector3d& direction) {
   const auto frame = across(direction);
   Eigen::Matrix2d side = Eigen::Matrix2d::Zero();
   Eigen::Vector2d mixed = Eigen::Vector2d::Zero();
@@ -46,7 +44,7 @@ Eigen::Vector3d refined(Points points, const Eigen::Vector3d& mean,
 
 }  // namespace
 
-core::Result<LsLine> ls_line(Points points_mm) {
+core::Result<LsLine> ls_line(SpacePoints points_mm) {
   if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
   if (distinct_points(points_mm, 2) < 2) {
     return core::fail(core::Code::kTooFewPoints,
@@ -55,11 +53,12 @@ core::Result<LsLine> ls_line(Points points_mm) {
   const Eigen::Vector3d mean = mean_point(points_mm);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(scatter_about(points_mm, mean));
   const Eigen::Vector3d spread = principal.eigenvalues();
-  if (spread(2) - spread(1) <= kAlike * spread(2)) {
+  if (spread(2) - spread(1) <= kAlikeExtents * spread(2)) {
     return core::fail(core::Code::kRank,
                       "the points extend as far in two directions: no line fits them best");
   }
-  const Eigen::Vector3d direction = refined(points_mm, mean, principal.eigenvectors().col(2));
+  const Eigen::Vector3d direction =
+      refined_direction(points_mm, mean, principal.eigenvectors().col(2));
   LsLine out;
   out.axis = conventional({mean, direction}, mean);
   const auto frame = across(direction);
@@ -75,7 +74,7 @@ core::Result<LsLine> ls_line(Points points_mm) {
   return out;
 }
 
-core::Result<LsLine> median_line_straightness(Points section_centers_mm) {
+core::Result<LsLine> median_line_straightness(SpacePoints section_centers_mm) {
   if (section_centers_mm.size() < 3) {
     return core::fail(core::Code::kTooFewPoints,
                       fmt::format("{} section centres; the straightness of a median line needs at "

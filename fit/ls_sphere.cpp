@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <Eigen/Dense>
 
+#include "core/decompositions.h"
 #include "fit/gauss_newton.h"
 #include "fit/ls_sums.h"
 #include "fit/points.h"
@@ -14,8 +14,6 @@ namespace {
 
 /// Relative eigenvalue below which all points lie in one plane and the height is undetermined.
 constexpr double kRankShare = 1e-12;
-
-using Points = std::span<const Eigen::Vector3d>;
 
 /// Sphere under iteration, relative to an origin amid the points.
 struct SphereModel {
@@ -30,7 +28,7 @@ struct SphereModel {
 };
 
 /// Minimises the sum of (|p - c|^2 - R^2)^2; the points are relative to `origin`, their mean.
-core::Result<SphereModel> algebraic_sphere(Points points, const Eigen::Vector3d& origin) {
+core::Result<SphereModel> algebraic_sphere(SpacePoints points, const Eigen::Vector3d& origin) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   Eigen::Vector3d cubes = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : points) {
@@ -50,7 +48,8 @@ core::Result<SphereModel> algebraic_sphere(Points points, const Eigen::Vector3d&
                                        scatter.trace() / static_cast<double>(points.size()))};
 }
 
-NormalSums<4> sphere_sums(Points points, const Eigen::Vector3d& origin, const SphereModel& at) {
+NormalSums<4> sphere_sums(SpacePoints points, const Eigen::Vector3d& origin,
+                          const SphereModel& at) {
   NormalSums<4> out;
   for (const Eigen::Vector3d& p : points) {
     const Eigen::Vector3d v = (p - origin) - at.center;
@@ -68,7 +67,7 @@ NormalSums<4> sphere_sums(Points points, const Eigen::Vector3d& origin, const Sp
 
 }  // namespace
 
-core::Result<LsSphere> ls_sphere(Points points_mm) {
+core::Result<LsSphere> ls_sphere(SpacePoints points_mm) {
   if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
   if (distinct_points(points_mm, 4) < 4) {
     return core::fail(core::Code::kTooFewPoints,

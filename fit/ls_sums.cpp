@@ -8,41 +8,41 @@
 namespace rondure::fit {
 namespace {
 
-using namespace ls_kernel;  // NOLINT(google-build-using-namespace): names of the sums
-
-const Kernel& kernel_for(Simd simd) {
+const ls_kernel::Kernel& kernel_for(Simd simd) {
 #if defined(RONDURE_LS_KERNEL_X86)
-  if (simd == Simd::kAvx512) return kAvx512;
-  if (simd == Simd::kAvx2) return kAvx2;
+  if (simd == Simd::kAvx512) return ls_kernel::kAvx512;
+  if (simd == Simd::kAvx2) return ls_kernel::kAvx2;
 #endif
   static_cast<void>(simd);
-  return kPortable;
+  return ls_kernel::kPortable;
 }
 
 /// One pass: which block function at which spot over which numbers.
 struct Pass {
   const double* numbers = nullptr;
   std::size_t dimensions = 3;
-  Kernel::Block block = nullptr;
-  Spot spot = {};
+  ls_kernel::Kernel::Block block = nullptr;
+  ls_kernel::Spot spot = {};
   double radius_mm = 0.0;
   StretchExtremes* extremes = nullptr;
 };
 
 /// Sums of the points [first, first + count), pairwise over blocks.
-Sums total(const Pass& pass, std::size_t first, std::size_t count) {
-  if (count <= kBlock) {
-    const Sums out = pass.block(pass.numbers + first * pass.dimensions, count, pass.spot);
+ls_kernel::Sums total(const Pass& pass, std::size_t first, std::size_t count) {
+  if (count <= ls_kernel::kBlock) {
+    const ls_kernel::Sums out =
+        pass.block(pass.numbers + first * pass.dimensions, count, pass.spot);
     if (pass.extremes != nullptr) {
       pass.extremes->add(first, pass.radius_mm * std::sqrt(out.low),
                          pass.radius_mm * std::sqrt(out.high));
     }
     return out;
   }
-  const std::size_t half = (count / 2 + kBlock - 1) / kBlock * kBlock;
-  Sums out = total(pass, first, half);
-  const Sums rest = total(pass, first + half, count - half);
-  for (std::size_t k = 0; k < kAll; ++k) out.sum[k] += rest.sum[k];
+  const std::size_t half =
+      (count / 2 + ls_kernel::kBlock - 1) / ls_kernel::kBlock * ls_kernel::kBlock;
+  ls_kernel::Sums out = total(pass, first, half);
+  const ls_kernel::Sums rest = total(pass, first + half, count - half);
+  for (std::size_t k = 0; k < ls_kernel::kAll; ++k) out.sum[k] += rest.sum[k];
   return out;
 }
 
@@ -60,7 +60,8 @@ Simd best_simd() {
 }
 
 StretchExtremes::StretchExtremes(std::size_t n)
-    : size_(((n + kBlock - 1) / kBlock + kStretches - 1) / kStretches * kBlock) {
+    : size_(((n + ls_kernel::kBlock - 1) / ls_kernel::kBlock + kStretches - 1) / kStretches *
+            ls_kernel::kBlock) {
   low_mm_.fill(std::numeric_limits<double>::infinity());
   high_mm_.fill(0.0);
 }
@@ -80,11 +81,12 @@ bool StretchExtremes::may_hold(std::size_t i, double change_mm) const {
 PassSums<5> cylinder_sums(std::span<const Eigen::Vector3d> points_mm,
                           const Eigen::Vector3d& origin_mm, const CylinderFrame& frame,
                           double radius_mm, const PassOptions& options) {
+  using enum ls_kernel::Place;
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
   PassSums<5> out;
   out.squares = std::numeric_limits<double>::infinity();
   if (!(radius_mm > 0.0)) return out;
-  const Kernel& kernel = kernel_for(options.simd);
+  const ls_kernel::Kernel& kernel = kernel_for(options.simd);
   const auto across = frame.across_axis();
   const Eigen::Vector3d row1 = across.col(0) / radius_mm;
   const Eigen::Vector3d row2 = across.col(1) / radius_mm;
@@ -105,7 +107,7 @@ PassSums<5> cylinder_sums(std::span<const Eigen::Vector3d> points_mm,
   pass.spot.shift2 = frame.axis().point_mm.dot(row2);
   // Tilts turn about the point of the axis: s is measured from it.
   const double foot = frame.axis().point_mm.dot(along);
-  Sums raw = total(pass, 0, points_mm.size());
+  ls_kernel::Sums raw = total(pass, 0, points_mm.size());
   const double* m = raw.sum;
   const auto n = static_cast<double>(points_mm.size());
   out.along_mm = m[kS] / n * frame.half_length_mm();
@@ -137,11 +139,12 @@ PassSums<5> cylinder_sums(std::span<const Eigen::Vector3d> points_mm,
 PassSums<3> circle_sums(std::span<const Eigen::Vector2d> points_mm,
                         const Eigen::Vector2d& origin_mm, const Eigen::Vector2d& center_mm,
                         double radius_mm, const PassOptions& options) {
+  using enum ls_kernel::Place;
   static_assert(sizeof(Eigen::Vector2d) == 2 * sizeof(double));
   PassSums<3> out;
   out.squares = std::numeric_limits<double>::infinity();
   if (!(radius_mm > 0.0)) return out;
-  const Kernel& kernel = kernel_for(options.simd);
+  const ls_kernel::Kernel& kernel = kernel_for(options.simd);
   Pass pass{points_mm.front().data(),
             2,
             options.matrix ? kernel.circle_all : kernel.circle_gradient,
@@ -153,7 +156,7 @@ PassSums<3> circle_sums(std::span<const Eigen::Vector2d> points_mm,
   pass.spot.row1[0] = 1.0 / radius_mm;
   pass.spot.shift1 = center_mm.x() / radius_mm;
   pass.spot.shift2 = center_mm.y() / radius_mm;
-  const Sums raw = total(pass, 0, points_mm.size());
+  const ls_kernel::Sums raw = total(pass, 0, points_mm.size());
   const double* m = raw.sum;
   const auto n = static_cast<double>(points_mm.size());
   out.squares = radius_mm * radius_mm * m[kDD];

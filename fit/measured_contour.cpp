@@ -14,9 +14,8 @@
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kLeastPoints = 16;
 constexpr double kLargestGap = 1.0 * core::kDegree;
-constexpr double kMissingStep = 1.6;
+constexpr double kMissingGap = 1.6;
 constexpr double kFilteredRms = 0.01 * core::kMicrometre;
 constexpr double kFilteredShare = 0.01;
 constexpr double kRoundOff = 1e-8;   ///< Amplitude that rounding to 0.001 um leaves [mm].
@@ -35,10 +34,10 @@ core::Result<void> check(std::span<const double> angle, std::span<const double> 
     return core::fail(core::Code::kMeaning,
                       fmt::format("a direction of {}; it is 1 or -1", options.direction));
   }
-  if (angle.size() < kLeastPoints) {
+  if (angle.size() < kLeastContourPoints) {
     return core::fail(core::Code::kTooFewPoints,
                       fmt::format("{} points of the contour; at least {} are needed", angle.size(),
-                                  kLeastPoints));
+                                  kLeastContourPoints));
   }
   for (std::size_t i = 0; i < angle.size(); ++i) {
     if (std::isfinite(angle[i]) && std::isfinite(deviation[i])) continue;
@@ -64,7 +63,7 @@ core::Result<void> check_order(std::span<const double> angle) {
   return {};
 }
 
-core::Result<void> check_gap(const AngularProfile& profile, std::size_t rows) {
+core::Result<void> check_contour_gap(const AngularProfile& profile, std::size_t rows) {
   if (profile.largest_gap_rad <= kLargestGap * (1.0 + 1e-9)) return {};
   const double span_deg = (core::kTwoPi - profile.largest_gap_rad) / core::kDegree;
   return core::fail(
@@ -134,7 +133,7 @@ void warn_of_filter(MeasuredContour& out, const MeasuredContourOptions& options)
 
 void warn_of_rows(MeasuredContour& out, const AngularProfile& profile) {
   const double even = core::kTwoPi / static_cast<double>(profile.theta_rad.size());
-  if (profile.largest_gap_rad > kMissingStep * even) {
+  if (profile.largest_gap_rad > kMissingGap * even) {
     warn(out, core::Code::kSparse,
          fmt::format("a gap of {:.4g} deg where the mean step is {:.4g} deg: samples are missing "
                      "and were interpolated",
@@ -184,7 +183,7 @@ core::Result<MeasuredContour> measured_contour(std::span<const double> angle_rad
   });
   const auto profile = ordered_profile(beta, deviation_mm);
   if (!profile) return core::fail(profile.error());
-  if (auto checked = check_gap(*profile, angle_rad.size()); !checked) {
+  if (auto checked = check_contour_gap(*profile, angle_rad.size()); !checked) {
     return core::fail(checked.error());
   }
   if (!options.error.filtered_already) {

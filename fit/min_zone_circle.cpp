@@ -13,14 +13,11 @@
 namespace rondure::fit {
 namespace {
 
-constexpr int kRestartLimit = 20;
 constexpr std::size_t kEnumerated = 40;  // points up to which all bisector crossings can be tried
-
-using Points = std::span<const Eigen::Vector2d>;
 
 /// States the zone about a centre: radii, contacts, multipliers and the local certificate.
 /// @return The first-order growth of the zone there.
-double certify(Points points, const Eigen::Vector2d& center, MinZoneCircle& out) {
+double certify(PlanePoints points, const Eigen::Vector2d& center, MinZoneCircle& out) {
   double size = 0.0;
   for (const Eigen::Vector2d& p : points) size = std::max(size, p.cwiseAbs().maxCoeff());
   const double round_off = distance_round_off(size);
@@ -41,8 +38,8 @@ double certify(Points points, const Eigen::Vector2d& center, MinZoneCircle& out)
 }
 
 /// Branch and bound over all centres; every better centre it meets becomes the new start.
-void search_all_centers(Points points, const GlobalSearchOptions& options, CircleZoneFitter& fitter,
-                        double growth, MinZoneCircle& out) {
+void search_all_centers(PlanePoints points, const GlobalSearchOptions& options,
+                        CircleZoneFitter& fitter, double growth, MinZoneCircle& out) {
   for (int restart = 0; restart < kRestartLimit; ++restart) {
     if (out.certificate.kind != Certificate::Kind::kLocal) return;
     const auto search = search_centers(points, out.center_mm,
@@ -60,7 +57,7 @@ void search_all_centers(Points points, const GlobalSearchOptions& options, Circl
 }
 
 /// Tries every candidate of a small set whose zone is too wide for bounds to bite.
-void try_all_centers(Points points, CircleZoneFitter& fitter, MinZoneCircle& out) {
+void try_all_centers(PlanePoints points, CircleZoneFitter& fitter, MinZoneCircle& out) {
   const BisectorSearch all = search_bisectors(points, out.center_mm);
   if (all.width_mm < out.width_mm()) {
     MinZoneCircle other;
@@ -93,7 +90,8 @@ MinZoneCircle exact_fit(const LsCircle& circle) {
 
 }  // namespace
 
-core::Result<MinZoneCircle> min_zone_circle(Points points_mm, const MinZoneCircleOptions& options) {
+core::Result<MinZoneCircle> min_zone_circle(PlanePoints points_mm,
+                                            const MinZoneCircleOptions& options) {
   CircleZoneFitter fitter;
   const auto zone = fitter.fit(points_mm);
   if (!zone) return core::fail(zone.error());

@@ -16,10 +16,6 @@
 namespace rondure::fit {
 namespace {
 
-constexpr int kRestartLimit = 20;
-
-using Points = std::span<const Eigen::Vector3d>;
-
 /// A zone as it is stated, with its certificate.
 struct Solved {
   Axis axis;  ///< Its point midway between the ends of the points.
@@ -28,7 +24,7 @@ struct Solved {
   Certificate certificate;
 };
 
-Solved solved(Points points, const Axis& found) {
+Solved solved(SpacePoints points, const Axis& found) {
   Solved out;
   out.axis = found;
   double low = std::numeric_limits<double>::infinity();
@@ -73,7 +69,7 @@ std::string outside(const Solved& solution, const AxisScope& scope) {
 
 /// Searches one scope; every better axis it meets becomes the new start.
 /// @return Whether the certificate is now global.
-bool search_scope(Points points, const AxisScope& scope, const GlobalSearchOptions& options,
+bool search_scope(SpacePoints points, const AxisScope& scope, const GlobalSearchOptions& options,
                   CylinderZoneFitter& fitter, Solved& solution, int& boxes) {
   const bool whole = scope.kind == AxisScope::Kind::kHalfSphere;
   const auto directions = whole ? cover_half_sphere() : cover_cone(scope.nominal, scope.cone_rad);
@@ -104,7 +100,7 @@ bool search_scope(Points points, const AxisScope& scope, const GlobalSearchOptio
 }  // namespace
 
 core::Result<MinZoneCylinder> min_zone_cylinder(
-    Points points_mm, const std::optional<Eigen::Vector3d>& near_direction,
+    SpacePoints points_mm, const std::optional<Eigen::Vector3d>& near_direction,
     const MinZoneCylinderOptions& options) {
   CylinderZoneFitter fitter;
   const auto zone = fitter.fit(points_mm, near_direction);

@@ -17,7 +17,7 @@ const double kGaussian = std::sqrt(std::numbers::ln2 / std::numbers::pi);
 /// gives 50 %, alpha = sqrt(q / pi) = 0.7309.
 const double kWide = std::sqrt(1.6783469900166605 / std::numbers::pi);
 /// Weights beyond this many cut-offs are below 1e-16 of the middle one.
-constexpr double kReach = 2.0;
+constexpr double kNarrowReach = 2.0;
 constexpr double kWideReach = 2.6;
 
 core::Result<void> check(std::span<const double> x, std::span<const double> r,
@@ -108,7 +108,7 @@ void fill(std::span<const double> x, std::span<const double> r, const OpenFilter
           OpenProfile& out) {
   const bool wide = Terms == 3;
   const LocalMean<Terms> mean(x, r, options.cutoff, wide ? kWide : kGaussian,
-                              wide ? kWideReach : kReach);
+                              wide ? kWideReach : kNarrowReach);
   for (const double position : out.position) out.r_mm.push_back(mean.at(position));
 }
 

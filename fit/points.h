@@ -8,6 +8,9 @@
 
 namespace rondure::fit {
 
+using PlanePoints = std::span<const Eigen::Vector2d>;
+using SpacePoints = std::span<const Eigen::Vector3d>;
+
 /// Checks every fitter makes first: at least one point, every coordinate finite.
 /// @return kNoPoints, or kNotFinite naming the row.
 [[nodiscard]] core::Result<void> check_points(std::span<const Eigen::Vector2d> points_mm);

@@ -6,9 +6,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
+#include "core/decompositions.h"
 #include "core/noise.h"
 #include "fit/ls_cylinder.h"
 #include "fit/pose_joint_model.h"
@@ -20,7 +19,7 @@ namespace {
 using core::Code;
 using core::fail;
 
-constexpr int kPassLimit = 20;
+constexpr int kFormPasses = 20;
 /// Above this share of the prior uncertainty a parameter counts as that of the kinematics.
 constexpr double kFromPrior = 0.7;
 constexpr double kWarnCondition = 30.0;  // half shells that just meet have 8, whole turns 3
@@ -92,7 +91,7 @@ core::Result<void> check_rank(const JointRank& rank, double limit) {
 /// Solves, takes the size of the form from what is left, and again until that holds.
 core::Result<Eigen::VectorXd> settle_form(JointModel& model, double touch_mm) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(model.unknowns());
-  for (int pass = 0; pass < kPassLimit; ++pass) {
+  for (int pass = 0; pass < kFormPasses; ++pass) {
     if (!solve_joint(model, x)) break;
     const Eigen::VectorXd d = model.deviations(x);
     const double freedom = std::max(1.0, static_cast<double>(d.size()) - 5.0);
@@ -107,7 +106,7 @@ core::Result<Eigen::VectorXd> settle_form(JointModel& model, double touch_mm) {
     model.set_form(form);
   }
   return fail(Code::kNotConverged,
-              fmt::format("part and poses: no solution that holds in {} passes", kPassLimit));
+              fmt::format("part and poses: no solution that holds in {} passes", kFormPasses));
 }
 
 /// Covariance of the unknowns of all poses, units of their priors.

@@ -2,8 +2,8 @@
 #include <limits>
 
 #include <ceres/ceres.h>
-#include <Eigen/Eigenvalues>
 
+#include "core/decompositions.h"
 #include "fit/pose_joint_model.h"
 
 namespace rondure::fit {

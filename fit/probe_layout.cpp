@@ -12,7 +12,7 @@ namespace rondure::fit {
 namespace {
 
 constexpr double kLeastSine = 1e-3;
-constexpr double kAlike = 1e-9;  ///< Relative; equal gains differ by rounding.
+constexpr double kAlikeGains = 1e-9;  ///< Relative; equal gains differ by rounding.
 
 /// Of N = 1024 samples a turn.
 double of_1024(int samples) { return samples * core::kTwoPi / 1024.0; }
@@ -67,7 +67,7 @@ WorstGain worst_gain(const ProbeLayout& layout, int first, int last) {
   WorstGain out;
   for (int order = first; order <= last; ++order) {
     const double gain = layout.gain(order);
-    if (gain > out.gain * (1.0 + kAlike)) out = {order, gain};
+    if (gain > out.gain * (1.0 + kAlikeGains)) out = {order, gain};
   }
   return out;
 }

@@ -12,8 +12,6 @@
 namespace rondure::fit {
 namespace {
 
-using Complex = std::complex<double>;
-
 constexpr double kPointsPerUndulation = 7.0;
 
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }

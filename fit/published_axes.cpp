@@ -5,23 +5,21 @@
 namespace rondure::fit {
 namespace {
 
-using Rows = Eigen::Matrix<double, 3, 6>;
-
-Rows c_rows(double l, double h, double c_rad) {
+Matrix36 c_rows(double l, double h, double c_rad) {
   const double s = std::sin(c_rad);
   const double c = std::cos(c_rad);
-  Rows out;
+  Matrix36 out;
   out << 1.0, 0.0, 0.0, 0.0, -l, -h * c,  //
       0.0, 1.0, 0.0, l, 0.0, -h * s,      //
       0.0, 0.0, 1.0, h * c, h * s, 0.0;
   return out;
 }
 
-Rows a_rows(double l, double h, double a_rad, PublishedSigns signs) {
+Matrix36 a_rows(double l, double h, double a_rad, PublishedSigns signs) {
   const double s = std::sin(a_rad);
   const double c = std::cos(a_rad);
   const double y_al = signs == PublishedSigns::kRestored ? -h * s + l * c : -h * s * l * c;
-  Rows out;
+  Matrix36 out;
   out << 1.0, 0.0, 0.0, 0.0, -l * c + h * s, -h * c - l * s,  //
       0.0, 1.0, 0.0, y_al, 0.0, 0.0,                          //
       0.0, 0.0, 1.0, h * c + l * s, 0.0, 0.0;

@@ -20,8 +20,9 @@ Eigen::Matrix3Xd columns(std::span<const Eigen::Vector3d> points_mm) {
 
 bool on_one_line(const Eigen::Matrix3Xd& points) {
   const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean();
-  const Eigen::Vector3d spread = Eigen::JacobiSVD<Eigen::Matrix3Xd>(centred).singularValues();
-  return spread(1) <= 1e-6 * spread(0);
+  const Eigen::Matrix3d products = centred * centred.transpose();
+  const Eigen::Vector3d squares = Eigen::JacobiSVD<Eigen::Matrix3d>(products).singularValues();
+  return squares(1) <= 1e-12 * squares(0);
 }
 
 /// The motion for weights that sum up to 1.

@@ -20,7 +20,7 @@ constexpr int kIterationLimit = 3000;
 constexpr int kIterationsPerDamping = 100;
 constexpr int kDampings = 3;
 constexpr double kStandardised = 4.4478;  // 3 standard deviations: median|e| = 0.67449 sigma
-constexpr double kStep = 1e-9;
+constexpr double kSettledStep = 1e-9;
 /// Weight of a neighbourhood below which its mean is round-off of the transform.
 constexpr double kLeastWeight = 1e-6;
 
@@ -84,7 +84,7 @@ core::Result<RobustMeanLine> settled_line(const std::vector<double>& r, double c
     const double step = greatest_step(line, out.r_mm);
     const double share = std::exp2(-std::min(out.iterations / kIterationsPerDamping, kDampings));
     for (std::size_t i = 0; i < line.size(); ++i) out.r_mm[i] += share * (line[i] - out.r_mm[i]);
-    if (step <= kStep * c + round_off) return out;
+    if (step <= kSettledStep * c + round_off) return out;
   }
   return core::fail(core::Code::kNotConverged,
                     fmt::format("the robust filter at {} UPR still moves after {} iterations; take "

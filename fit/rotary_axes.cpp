@@ -18,8 +18,6 @@ using core::Code;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kSameAngle = 1e-9;  // rad
-
 Matrix3d covariance_of(const Vector3d& u_mm) { return Vector3d(u_mm.cwiseAbs2()).asDiagonal(); }
 
 /// Mean of all references, ball by ball, in the order of their first appearance.
@@ -245,26 +243,27 @@ void fill_table(RotaryStudy& study) {
   const double lowest = angles.front();
   const auto place = [&](double angle) {
     if (!table.full_circle) return angle;
-    const double turns = std::floor((angle - lowest + kSameAngle) / core::kTwoPi);
+    const double turns = std::floor((angle - lowest + core::kSameAngle) / core::kTwoPi);
     return angle - turns * core::kTwoPi;
   };
   for (double& angle : angles) angle = place(angle);
   std::sort(angles.begin(), angles.end());
   angles.erase(std::unique(angles.begin(), angles.end(),
-                           [](double a, double b) { return b - a <= kSameAngle; }),
+                           [](double a, double b) { return b - a <= core::kSameAngle; }),
                angles.end());
   for (const double angle : angles) {
     std::vector<const RotaryStation*> group;
     for (const RotaryStation& station : study.stations) {
-      const bool here = std::abs(place(station.angle_rad) - angle) <= kSameAngle;
+      const bool here = std::abs(place(station.angle_rad) - angle) <= core::kSameAngle;
       if (here && !station.undetermined) group.push_back(&station);
     }
     table.rows.push_back(row_of(group, angle));
   }
   for (const RotaryStation& station : study.stations) {
     const double angle = place(station.angle_rad);
-    const bool known = std::any_of(angles.begin(), angles.end(),
-                                   [&](double a) { return std::abs(a - angle) <= kSameAngle; });
+    const bool known = std::any_of(angles.begin(), angles.end(), [&](double a) {
+      return std::abs(a - angle) <= core::kSameAngle;
+    });
     if (!known) table.missing_rad.push_back(angle);
   }
   table.hysteresis_rms = hysteresis_of(table.rows);

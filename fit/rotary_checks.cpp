@@ -16,8 +16,6 @@ namespace {
 using core::Code;
 using Eigen::Vector3d;
 
-constexpr double kSameAngle = 1e-9;  // rad
-
 double deg(double rad) { return rad / core::kDegree; }
 
 const BallCentre* find_ball(std::span<const BallCentre> balls, const std::string& name) {
@@ -73,7 +71,7 @@ core::Result<void> check_axis(const RotaryMeasurement& m) {
 bool repeats(const RotaryPose& a, const RotaryPose& b) {
   const bool two_directions = a.approach != b.approach && a.approach != Approach::kUnknown &&
                               b.approach != Approach::kUnknown;
-  return !two_directions && std::abs(a.angle_rad - b.angle_rad) <= kSameAngle;
+  return !two_directions && std::abs(a.angle_rad - b.angle_rad) <= core::kSameAngle;
 }
 
 core::Result<void> check_station(const RotaryMeasurement& m, std::size_t index,
@@ -84,8 +82,8 @@ core::Result<void> check_station(const RotaryMeasurement& m, std::size_t index,
                       fmt::format("the angle of station {} is not finite", index + 1));
   }
   const std::string place = fmt::format("at {:g} deg", deg(station.angle_rad));
-  if (station.angle_rad < m.lowest_rad - kSameAngle ||
-      station.angle_rad > m.highest_rad + kSameAngle) {
+  if (station.angle_rad < m.lowest_rad - core::kSameAngle ||
+      station.angle_rad > m.highest_rad + core::kSameAngle) {
     return core::fail(Code::kPoseRange,
                       fmt::format("station {:g} deg is outside the range of the axis, {:g}..{:g} "
                                   "deg",
@@ -153,7 +151,7 @@ std::vector<std::pair<double, Eigen::Matrix3d>> measured_turns(
   return out;
 }
 
-double median(std::vector<double> values) {
+double upper_median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -187,7 +185,7 @@ core::Result<void> check_distance(const DistanceChanges& changes, const std::str
   const std::vector<double>& all = changes.change_mm;
   if (all.size() < 3) return {};
   const double limit = 4.0 * std::hypot(changes.u_mm, changes.reference_u_mm);
-  const double change = median(all);
+  const double change = upper_median(all);
   if (std::abs(change) > limit) {
     return core::fail(Code::kInconsistent,
                       fmt::format("the distance of balls {} is {:.2f} um off that of the reference "
@@ -196,8 +194,8 @@ core::Result<void> check_distance(const DistanceChanges& changes, const std::str
   }
   const auto third = static_cast<std::ptrdiff_t>(all.size() / 3);
   if (third < 2) return {};
-  const double drift =
-      median({all.end() - third, all.end()}) - median({all.begin(), all.begin() + third});
+  const double drift = upper_median({all.end() - third, all.end()}) -
+                       upper_median({all.begin(), all.begin() + third});
   const double drift_limit = 4.0 * std::sqrt(2.0) * changes.u_mm;
   if (std::abs(drift) <= drift_limit) return {};
   return core::fail(Code::kInconsistent,

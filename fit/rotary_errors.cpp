@@ -28,7 +28,7 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
 }
 
 Eigen::Matrix3d point_covariance_mm2(const Matrix6& covariance, const Eigen::Vector3d& p_mm) {
-  Eigen::Matrix<double, 3, 6> rows;
+  Matrix36 rows;
   rows << Eigen::Matrix3d::Identity(), -cross_matrix(p_mm);
   return rows * covariance * rows.transpose();
 }

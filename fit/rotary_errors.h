@@ -6,6 +6,7 @@ namespace rondure::fit {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
 /// A rotary axis as it is meant to be: its line in the frame of the measuring machine.
 struct RotaryAxis {

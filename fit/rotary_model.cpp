@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <Eigen/QR>
 
+#include "core/decompositions.h"
 #include "core/units.h"
 
 namespace rondure::fit {

@@ -5,10 +5,9 @@
 #include <limits>
 #include <span>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "core/decompositions.h"
 #include "fit/ball_setup.h"
 #include "fit/chi_square.h"
 #include "fit/registration.h"
@@ -18,14 +17,13 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Rows = Eigen::Matrix<double, 3, 6>;
 
 /// The linear equations of a station: unknowns (shift of the centroid, l times rotation), so that
 /// all six are lengths of one size.
 struct Equations {
   Vector3d centroid = Vector3d::Zero();
   double length = 1.0;
-  std::vector<Rows> rows;         ///< One a ball.
+  std::vector<Matrix36> rows;     ///< One a ball.
   std::vector<Matrix3d> weights;  ///< Inverse covariances.
   Matrix6 inverse = Matrix6::Zero();
   Matrix6 back = Matrix6::Identity();  ///< From the unknowns to (t; w) at the origin.
@@ -45,7 +43,7 @@ Equations equations_at(const std::vector<Vector3d>& places, std::span<const Stat
   out.length = std::sqrt(squares);
   Matrix6 normal = Matrix6::Zero();
   for (std::size_t i = 0; i < places.size(); ++i) {
-    Rows rows;
+    Matrix36 rows;
     rows << Matrix3d::Identity(), -cross_matrix(places[i] - out.centroid) / out.length;
     out.rows.push_back(rows);
     out.weights.emplace_back((balls[i].measured_mm2 + balls[i].nominal_mm2).inverse());
@@ -72,7 +70,7 @@ bool alike_in_all_directions(std::span<const StationBall> balls) {
 }
 
 /// Least squares of the full model with full weights, from a rigid registration.
-Eigen::Isometry3d refined(Eigen::Isometry3d motion, std::span<const StationBall> balls) {
+Eigen::Isometry3d refined_motion(Eigen::Isometry3d motion, std::span<const StationBall> balls) {
   for (int pass = 0; pass < 20; ++pass) {
     std::vector<Vector3d> places;
     for (const StationBall& ball : balls) places.emplace_back(motion * ball.nominal_mm);
@@ -101,7 +99,7 @@ core::Result<Eigen::Isometry3d> exact_motion(std::span<const StationBall> balls)
   const auto found = rigid_registration(nominal_places(balls), measured, weights);
   if (!found) return core::fail(found.error());
   if (alike_in_all_directions(balls)) return found->motion;
-  return refined(found->motion, balls);
+  return refined_motion(found->motion, balls);
 }
 
 Vector6 linear_errors(const Equations& at, std::span<const StationBall> balls) {

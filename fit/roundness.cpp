@@ -6,8 +6,8 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <Eigen/QR>
 
+#include "core/decompositions.h"
 #include "fit/ls_circle.h"
 #include "fit/min_zone_circle.h"
 #include "fit/one_sided_center.h"

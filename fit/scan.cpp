@@ -177,6 +177,7 @@ bool has_avx2() {
   static const bool has = __builtin_cpu_supports("avx2") != 0;
   return has;
 }
+#undef RONDURE_AVX2
 #endif
 
 template <class View>

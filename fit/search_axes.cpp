@@ -9,20 +9,17 @@
 
 #include "fit/center_region.h"
 #include "fit/global_search.h"
+#include "fit/points.h"
 #include "fit/search_points.h"
 #include "fit/zone_box.h"
 
 namespace rondure::fit {
 namespace {
 
-/// Rounding outward: this part of the coordinate range.
-constexpr double kOutward = 1e-12;
 /// Wider boxes of directions are split unseen: their bounds say nothing.
 constexpr double kWidestOpening = 0.35;
 /// Squares of centres are quartered this often before the directions are.
 constexpr int kSquareLevels = 6;
-
-using Points = std::span<const Eigen::Vector3d>;
 
 /// Moves x = (a, b, Z tx, Z ty) with |x| <= size (max norm) in which growth beats curvature:
 /// sigma e - K e^2 >= 0 with K = 4/(0.85 r) + (R + 2 sqrt(2) e)/Z^2 for e up to r/20.
@@ -38,7 +35,7 @@ double ball_size(double growth, double inner_radius, double outer_radius, double
 
 class AxisSearcher {
  public:
-  AxisSearcher(Points points, const Axis& axis, double half_length, const ZoneClaim& claim,
+  AxisSearcher(SpacePoints points, const Axis& axis, double half_length, const ZoneClaim& claim,
                const GlobalSearchOptions& options)
       : axis_(axis),
         half_length_(half_length),
@@ -208,7 +205,7 @@ class AxisSearcher {
     double width = 0.0;
   };
 
-  [[nodiscard]] static Zone zone_of(Points points, const Axis& axis) {
+  [[nodiscard]] static Zone zone_of(SpacePoints points, const Axis& axis) {
     Zone out;
     double low = std::numeric_limits<double>::infinity();
     double high = 0.0;
@@ -260,7 +257,7 @@ class AxisSearcher {
 
 }  // namespace
 
-GlobalSearch<Axis> search_axes(Points points_mm, const Axis& axis, double half_length_mm,
+GlobalSearch<Axis> search_axes(SpacePoints points_mm, const Axis& axis, double half_length_mm,
                                const ZoneClaim& claim, std::span<const DirectionBox> directions,
                                const GlobalSearchOptions& options) {
   return AxisSearcher(points_mm, axis, half_length_mm, claim, options).run(directions);

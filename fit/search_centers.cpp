@@ -7,16 +7,12 @@
 
 #include "fit/center_region.h"
 #include "fit/global_search.h"
+#include "fit/points.h"
 #include "fit/search_points.h"
 #include "fit/zone_box.h"
 
 namespace rondure::fit {
 namespace {
-
-/// Rounding outward: this part of the coordinate range.
-constexpr double kOutward = 1e-12;
-
-using Points = std::span<const Eigen::Vector2d>;
 
 /// Half side of the square about the centre in which growth beats curvature:
 /// sigma e - e^2 / (r - sqrt(2) e) > 0, with e at most r/4, where r - sqrt(2) e > 0.64 r.
@@ -24,7 +20,7 @@ double closed_half_side(double growth, double inner_radius) {
   return std::min(0.25 * inner_radius, 0.64 * growth * inner_radius);
 }
 
-struct Extremes {
+struct ExtremePoints {
   std::size_t far = 0;
   std::size_t near = 0;
   double width = 0.0;
@@ -32,7 +28,7 @@ struct Extremes {
 
 class CenterSearcher {
  public:
-  CenterSearcher(Points points, const Eigen::Vector2d& center, const ZoneClaim& claim,
+  CenterSearcher(PlanePoints points, const Eigen::Vector2d& center, const ZoneClaim& claim,
                  const GlobalSearchOptions& options)
       : origin_(center),
         claim_(claim),
@@ -84,8 +80,8 @@ class CenterSearcher {
     return bound_zone_box<2>(chosen_, box, claim_.width_mm, options_.tolerance_mm, slack_);
   }
 
-  [[nodiscard]] Extremes extremes(const Eigen::Vector2d& center) const {
-    Extremes out;
+  [[nodiscard]] ExtremePoints extremes(const Eigen::Vector2d& center) const {
+    ExtremePoints out;
     double low = std::numeric_limits<double>::infinity();
     double high = 0.0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -111,7 +107,7 @@ class CenterSearcher {
       out_.lower_mm = std::min(out_.lower_mm, found.lower_mm);
       return;
     }
-    const Extremes at = extremes(found.center_mm);
+    const ExtremePoints at = extremes(found.center_mm);
     if (at.width < claim_.width_mm - slack_) {
       out_.better = origin_ + found.center_mm;
       return;
@@ -153,7 +149,8 @@ class CenterSearcher {
 
 }  // namespace
 
-GlobalSearch<Eigen::Vector2d> search_centers(Points points_mm, const Eigen::Vector2d& center_mm,
+GlobalSearch<Eigen::Vector2d> search_centers(PlanePoints points_mm,
+                                             const Eigen::Vector2d& center_mm,
                                              const ZoneClaim& claim,
                                              const GlobalSearchOptions& options) {
   return CenterSearcher(points_mm, center_mm, claim, options).run();

@@ -13,8 +13,6 @@ namespace rondure::fit {
 namespace {
 
 using core::Code;
-using Complex = std::complex<double>;
-using Spectrum = std::vector<Complex>;
 
 core::Result<void> check_trace(std::span<const double> trace, std::size_t count) {
   if (trace.size() != count) {
@@ -59,13 +57,13 @@ RecoveredHarmonic harmonic_of(int order, double gain, const Complex& value, std:
 }
 
 /// Solves r and S of one harmonic from all traces; gives r, S and the gain of r.
-struct Solved {
+struct SolvedHarmonic {
   Complex part;
   Complex motion;
   double gain = std::numeric_limits<double>::infinity();
 };
 
-Solved solve(int order, std::span<const double> steps, std::span<const Spectrum> traces) {
+SolvedHarmonic solve(int order, std::span<const double> steps, std::span<const Spectrum> traces) {
   const auto k = static_cast<std::size_t>(order);
   const auto count = static_cast<double>(steps.size());
   Complex turns;   // sum of e_j
@@ -78,7 +76,7 @@ Solved solve(int order, std::span<const double> steps, std::span<const Spectrum>
     sum += traces[j][k];
   }
   const double determinant = count * count - std::norm(turns);
-  Solved out;
+  SolvedHarmonic out;
   if (determinant < 1e-12 * count * count) {
     out.motion = sum / count;
     return out;
@@ -114,7 +112,7 @@ core::Result<StepSeparation> separate_multi_step(std::span<const double> steps_r
   StepSeparation out;
   for (int order = 2; 2 * static_cast<std::size_t>(order) < count; ++order) {
     const auto k = static_cast<std::size_t>(order);
-    const Solved solved = solve(order, steps_rad, traces);
+    const SolvedHarmonic solved = solve(order, steps_rad, traces);
     const bool asked = order <= options.highest;
     const bool kept = asked && solved.gain <= options.greatest_gain;
     if (kept) part[k] = solved.part;

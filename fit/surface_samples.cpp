@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kGrid = 2000;
 constexpr int kPiecesPerRow = 4;
-constexpr std::size_t kBlock = 64;
+constexpr std::size_t kBoxedSamples = 64;
 
 /// Place of the least `cost` between two x, by golden section. `cost` has one minimum there.
 template <class Cost>
@@ -74,10 +74,10 @@ core::Result<SurfaceSamples> SurfaceSamples::over(const WheelSurface& surface, d
 }
 
 void SurfaceSamples::make_boxes() {
-  for (std::size_t first = 0; first < samples_.size(); first += kBlock) {
+  for (std::size_t first = 0; first < samples_.size(); first += kBoxedSamples) {
     Eigen::Array2d low(samples_[first].x, samples_[first].surface.height_mm);
     Eigen::Array2d high = low;
-    for (std::size_t i = first; i < std::min(first + kBlock, samples_.size()); ++i) {
+    for (std::size_t i = first; i < std::min(first + kBoxedSamples, samples_.size()); ++i) {
       const Eigen::Array2d p(samples_[i].x, samples_[i].surface.height_mm);
       low = low.min(p);
       high = high.max(p);
@@ -123,7 +123,8 @@ SurfaceSamples::Place SurfaceSamples::nearest(const Eigen::Vector2d& from_mm,
   for (std::size_t b = 0; b < boxes_.size(); ++b) {
     const Eigen::Array2d off = (boxes_[b].low - c).max(c - boxes_[b].high).max(0.0);
     if (off.square().sum() >= best) continue;
-    for (std::size_t i = b * kBlock; i < std::min((b + 1) * kBlock, samples_.size()); ++i) {
+    for (std::size_t i = b * kBoxedSamples; i < std::min((b + 1) * kBoxedSamples, samples_.size());
+         ++i) {
       const double dx = samples_[i].x - c.x();
       const double dz = samples_[i].surface.height_mm - c.y();
       if (dx * dx + dz * dz >= best) continue;

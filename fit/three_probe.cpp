@@ -14,8 +14,6 @@ namespace rondure::fit {
 namespace {
 
 using core::Code;
-using Complex = std::complex<double>;
-using Spectrum = std::vector<Complex>;
 
 constexpr double kSecondOrderFrom_mm = 0.010;
 constexpr int kSecondOrderPasses = 5;

@@ -11,9 +11,6 @@
 namespace rondure::fit {
 namespace {
 
-using Complex = std::complex<double>;
-using Spectrum = std::vector<Complex>;
-
 /// Half spectrum of r(theta + shift), or of its derivative of the given order.
 Spectrum shifted(const Spectrum& spectrum, double shift_rad, int derivative) {
   Spectrum turned(spectrum.size());

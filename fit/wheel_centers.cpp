@@ -12,7 +12,7 @@
 namespace rondure::fit {
 namespace {
 
-using Rows = std::array<std::size_t, 4>;
+using FourRows = std::array<std::size_t, 4>;
 
 /// Draws per accepted quadruple wanted before giving up: points that refuse nine hundred and
 /// ninety-nine of a thousand are no circle worth measuring.
@@ -20,7 +20,7 @@ constexpr std::size_t kDrawsPerCenter = 1000;
 
 enum class Refusal { kNone, kShortChord, kParallel, kIllConditioned };
 
-Rows paired(const Rows& r, int pairing) {
+FourRows paired(const FourRows& r, int pairing) {
   if (pairing == 1) return {r[0], r[2], r[1], r[3]};
   if (pairing == 2) return {r[0], r[3], r[1], r[2]};
   return r;
@@ -32,8 +32,8 @@ std::size_t draw(std::uint64_t& state, std::size_t end) {
 }
 
 /// Four different rows in ascending order.
-Rows draw_rows(std::uint64_t& state, std::size_t n) {
-  Rows rows{};
+FourRows draw_rows(std::uint64_t& state, std::size_t n) {
+  FourRows rows{};
   for (std::size_t k = 0; k < rows.size();) {
     const auto end = rows.begin() + static_cast<std::ptrdiff_t>(k);
     rows[k] = draw(state, n);
@@ -43,8 +43,8 @@ Rows draw_rows(std::uint64_t& state, std::size_t n) {
   return rows;
 }
 
-std::vector<Rows> all_subsets(std::size_t n) {
-  std::vector<Rows> out;
+std::vector<FourRows> all_subsets(std::size_t n) {
+  std::vector<FourRows> out;
   for (std::size_t a = 0; a < n; ++a) {
     for (std::size_t b = a + 1; b < n; ++b) {
       for (std::size_t c = b + 1; c < n; ++c) {
@@ -56,14 +56,14 @@ std::vector<Rows> all_subsets(std::size_t n) {
 }
 
 /// C(n, 4) passes 5000 between 20 and 21 points.
-std::vector<Rows> subsets(std::size_t n, std::uint64_t seed) {
+std::vector<FourRows> subsets(std::size_t n, std::uint64_t seed) {
   constexpr std::size_t kMostPoints = 20;
   if (n <= kMostPoints) return all_subsets(n);
   std::uint64_t state = seed;
-  std::set<Rows> seen;
-  std::vector<Rows> out;
+  std::set<FourRows> seen;
+  std::vector<FourRows> out;
   while (out.size() < kMostQuadruples) {
-    const Rows rows = draw_rows(state, n);
+    const FourRows rows = draw_rows(state, n);
     if (seen.insert(rows).second) out.push_back(rows);
   }
   return out;
@@ -90,7 +90,7 @@ WheelCenters select_systematic(std::span<const Eigen::Vector2d> points_mm, doubl
                                const QuadrupleOptions& options) {
   std::vector<FourPointCenter> found;
   double best = std::numeric_limits<double>::infinity();
-  for (const Rows& rows : subsets(points_mm.size(), options.seed)) {
+  for (const FourRows& rows : subsets(points_mm.size(), options.seed)) {
     found.push_back(best_pairing(points_mm, rows, radius_mm));
     best = std::min(best, found.back().kappa);
   }
@@ -112,11 +112,11 @@ WheelCenters select_random(std::span<const Eigen::Vector2d> points_mm, double ra
   WheelCenters out;
   out.kappa_limit = options.kappa_limit.value_or(std::numeric_limits<double>::infinity());
   std::uint64_t state = options.seed;
-  std::set<Rows> seen;
+  std::set<FourRows> seen;
   for (std::size_t k = 0; k < kDrawsPerCenter * options.count; ++k) {
     if (out.accepted.size() == options.count) break;
-    const Rows subset = draw_rows(state, points_mm.size());
-    const Rows rows = paired(subset, static_cast<int>(draw(state, 3)));
+    const FourRows subset = draw_rows(state, points_mm.size());
+    const FourRows rows = paired(subset, static_cast<int>(draw(state, 3)));
     if (!seen.insert(rows).second) continue;
     const FourPointCenter center = four_point_center(points_mm, rows, radius_mm);
     sort_in(center, refusal_of(center, radius_mm, out.kappa_limit, options), out);
@@ -157,7 +157,7 @@ std::string_view name_of(QuadrupleChoice choice) {
   return "all";
 }
 
-FourPointCenter four_point_center(std::span<const Eigen::Vector2d> points_mm, const Rows& rows,
+FourPointCenter four_point_center(std::span<const Eigen::Vector2d> points_mm, const FourRows& rows,
                                   double radius_mm) {
   FourPointCenter out;
   out.rows = rows;
@@ -185,7 +185,7 @@ FourPointCenter four_point_center(std::span<const Eigen::Vector2d> points_mm, co
   return out;
 }
 
-FourPointCenter best_pairing(std::span<const Eigen::Vector2d> points_mm, const Rows& rows,
+FourPointCenter best_pairing(std::span<const Eigen::Vector2d> points_mm, const FourRows& rows,
                              double radius_mm) {
   FourPointCenter best = four_point_center(points_mm, rows, radius_mm);
   for (const int pairing : {1, 2}) {

@@ -6,20 +6,18 @@
 #include <utility>
 #include <vector>
 
+#include "fit/points.h"
 #include "fit/zone_program.h"
 
 namespace rondure::fit {
 namespace {
 
 constexpr int kBisections = 10;
-constexpr int kPivots = 60;
-
-using Points = std::span<const Eigen::Vector3d>;
 
 /// Weak duality for one box: the multipliers of its programme and what they prove for any width.
 class BoxProof {
  public:
-  BoxProof(Points points, const ZoneBox& box, double guess_radius, const Contacts& outer,
+  BoxProof(SpacePoints points, const ZoneBox& box, double guess_radius, const Contacts& outer,
            const Contacts& inner)
       : points_(points), box_(box), radius_(guess_radius), outer_(outer), inner_(inner) {
     normalise(outer_);
@@ -90,7 +88,7 @@ class BoxProof {
     return middle - std::hypot(0.5 * (m(0, 0) - m(1, 1)), m(0, 1));
   }
 
-  Points points_;
+  SpacePoints points_;
   ZoneBox box_;
   double radius_;
   Contacts outer_;
@@ -108,7 +106,7 @@ std::array<ZoneBox, 4> quarters(const ZoneBox& box) {
 }
 
 template <int K>
-ZoneBoxBound bound_zone_box(Points points_mm, const ZoneBox& box, double width_mm,
+ZoneBoxBound bound_zone_box(SpacePoints points_mm, const ZoneBox& box, double width_mm,
                             double tolerance_mm, double slack_mm) {
   ZoneRows<K> rows;
   double nearest = std::numeric_limits<double>::infinity();
@@ -122,7 +120,8 @@ ZoneBoxBound bound_zone_box(Points points_mm, const ZoneBox& box, double width_m
   }
   // Any radius would do; the one of the data is the sharpest.
   const double radius = std::max(std::sqrt(nearest), width_mm);
-  const auto step = solve_zone_program<K>(rows, 1.0, {1.0, 1.0 + width_mm / radius}, kPivots);
+  const auto step =
+      solve_zone_program<K>(rows, 1.0, {1.0, 1.0 + width_mm / radius}, kBoundPivotLimit);
 
   ZoneBoxBound out;
   out.center_mm = box.center_mm + box.half_side_mm * step.step.template head<2>();
@@ -143,7 +142,7 @@ ZoneBoxBound bound_zone_box(Points points_mm, const ZoneBox& box, double width_m
   return out;
 }
 
-template ZoneBoxBound bound_zone_box<2>(Points, const ZoneBox&, double, double, double);
-template ZoneBoxBound bound_zone_box<4>(Points, const ZoneBox&, double, double, double);
+template ZoneBoxBound bound_zone_box<2>(SpacePoints, const ZoneBox&, double, double, double);
+template ZoneBoxBound bound_zone_box<4>(SpacePoints, const ZoneBox&, double, double, double);
 
 }  // namespace rondure::fit

@@ -9,6 +9,9 @@
 
 namespace rondure::fit {
 
+/// Bounds are rounded outward by this part of the coordinate range.
+inline constexpr double kOutward = 1e-12;
+
 /// A set of axes: those that cross the plane z = 0 of a frame in the square
 /// |o - center_mm| <= half_side_mm and lean to the frame's z by an angle whose tangent is at most
 /// `lean`. With lean 0 these are the centres of a square of the plane.

@@ -68,6 +68,7 @@ struct ZoneStep {
 };
 
 inline constexpr int kZonePivotLimit = 5000;
+inline constexpr int kBoundPivotLimit = 60;  ///< Where only a bound is wanted.
 
 /// Minimises  outer * max_i (r_i + J_i d) - inner * min_i (r_i + J_i d)  over |d_k| <= box.
 ///

@@ -9,7 +9,7 @@
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kBlock = 128;
+constexpr std::size_t kProofBlock = 128;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ ProvenZone<Frame> prove_zone(std::span<const typename Frame::Point> points,
                              const ZoneWeights& weights, double round_off) {
   constexpr int K = Frame::kUnknowns;
   BlockScan blocks;
-  blocks.block = kBlock;
+  blocks.block = kProofBlock;
   scan_blocks(points, frame.place(origin), blocks);
   ProvenZone<Frame> out;
   out.zone = {std::sqrt(blocks.all.low), std::sqrt(blocks.all.high)};
@@ -32,8 +32,8 @@ ProvenZone<Frame> prove_zone(std::span<const typename Frame::Point> points,
     // A block that has no contact by its squares, with some room for their rounding, is passed by.
     if (std::sqrt(blocks.high[k]) < high - slack && std::sqrt(blocks.low[k]) > low + slack)
       continue;
-    const std::size_t end = std::min((k + 1) * kBlock, points.size());
-    for (std::size_t i = k * kBlock; i < end; ++i) {
+    const std::size_t end = std::min((k + 1) * kProofBlock, points.size());
+    for (std::size_t i = k * kProofBlock; i < end; ++i) {
       const typename Frame::Point p = points[i] - origin;
       const double r = frame.distance(p);
       if (weights.outer > 0.0 && r >= high) outer.push_back(frame.contact_row(p, i));

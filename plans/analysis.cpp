@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
+#include "core/units.h"
 #include "plans/json_text.h"
 #include "plans/plan_checks.h"
 #include "plans/series_file.h"
@@ -100,6 +102,27 @@ void check_data(const Plan& plan, std::size_t index, const AnalysisKind& kind, F
 }
 
 }  // namespace
+
+std::vector<SeriesFile> source_file(const FeaturePlan& feature,
+                                    std::span<const record::WantedColumn> wanted) {
+  if (!feature.source) return {};
+  SeriesFile out;
+  out.file = feature.source->file;
+  out.where = "/source/file";
+  out.wanted.assign(wanted.begin(), wanted.end());
+  for (const ColumnPlan& column : feature.source->columns) {
+    out.names.push_back({column.column, column.in_file});
+  }
+  return {out};
+}
+
+double sum_of(std::span<const HarmonicPlan> harmonics, double angle_rad) {
+  double sum = 0.0;
+  for (const HarmonicPlan& h : harmonics) {
+    sum += h.amplitude_um * std::cos(h.order * angle_rad - h.phase_deg * core::kDegree);
+  }
+  return sum;
+}
 
 bool has_files(const FeaturePlan& feature) {
   const AnalysisKind* const kind = analysis_kind(feature.type);

@@ -51,6 +51,20 @@ struct AnalysisKind {
   void (*check_cell)(const Plan& plan, std::size_t index, Findings& findings) = nullptr;
 };
 
+/// Whether a plan simulates the data of an analysis: `section` is such as &SimulationPlan::spindle.
+template <auto section>
+[[nodiscard]] bool simulates(const SimulationPlan& simulation) {
+  return (simulation.*section).has_value();
+}
+
+/// The file that the source of a feature names, as the only one of an analysis; none without
+/// source.
+[[nodiscard]] std::vector<SeriesFile> source_file(const FeaturePlan& feature,
+                                                  std::span<const record::WantedColumn> wanted);
+
+/// The sum of simulated harmonics, amplitude cos(order angle - phase) [um].
+[[nodiscard]] double sum_of(std::span<const HarmonicPlan> harmonics, double angle_rad);
+
 /// Whether the data of an analysis come from files: as its source says, or its own section.
 [[nodiscard]] bool has_files(const FeaturePlan& feature);
 

@@ -10,8 +10,8 @@
 namespace rondure::plans {
 namespace {
 
-constexpr const char* kWhere = "/fixture/calibration";
-constexpr const char* kFileWhere = "/fixture/calibration/file";
+constexpr const char* kCalibrationPointer = "/fixture/calibration";
+constexpr const char* kCalibrationFilePointer = "/fixture/calibration/file";
 
 fixture::CalibrationDemand demand_of(const FixturePlan& plan, std::string_view run_utc) {
   const fixture::FixtureLimits limits = limits_of(plan);
@@ -36,17 +36,18 @@ core::Result<std::optional<UsedCalibration>> used_calibration(const Plan& plan,
   if (!plan.fixture || !plan.fixture->calibration) return std::nullopt;
   const std::string& file = plan.fixture->calibration->file;
   auto text = read_data_file(plan.folder / file, file);
-  if (!text) return core::fail(text.error().at(kFileWhere));
+  if (!text) return core::fail(text.error().at(kCalibrationFilePointer));
   auto calibration = fixture::parse_calibration(*text, file);
   if (!calibration) {
     // Codes of structure are those of plans; this is another file.
     const bool no_json = calibration.error().code == core::Code::kSyntax;
     return core::fail(no_json ? core::Code::kSyntax : core::Code::kCalibration,
-                      calibration.error().where + ": " + calibration.error().what, kFileWhere);
+                      calibration.error().where + ": " + calibration.error().what,
+                      kCalibrationFilePointer);
   }
   if (auto usable = fixture::check_calibration(*calibration, demand_of(*plan.fixture, run_utc));
       !usable) {
-    return core::fail(usable.error().at(kWhere));
+    return core::fail(usable.error().at(kCalibrationPointer));
   }
   return UsedCalibration{*std::move(calibration), *std::move(text)};
 }

@@ -18,19 +18,13 @@ namespace {
 
 using core::Code;
 
-constexpr std::array<std::string_view, 3> kForms = {"contour-deviation", "contour-spread",
-                                                    "harmonic-limits"};
+constexpr std::array<std::string_view, 3> kContourForms = {"contour-deviation", "contour-spread",
+                                                           "harmonic-limits"};
 constexpr std::array<record::WantedColumn, 3> kAxes = {
     {{"c_deg"}, {"c_error_deg"}, {"x_error_mm"}}};
 constexpr std::array<record::WantedColumn, 2> kGauge = {{{"angle_deg"}, {"deviation_um"}}};
 
-bool is_simulated(const SimulationPlan& simulation) { return simulation.contour.has_value(); }
-
-std::vector<record::Setting> settings(const FeaturePlan& feature) {
-  return settings_of_section(feature.contour.value_or(ContourPlan{}));
-}
-
-std::vector<SeriesFile> files(const FeaturePlan& feature) {
+std::vector<SeriesFile> contour_files(const FeaturePlan& feature) {
   std::vector<SeriesFile> out;
   if (!feature.contour) return out;
   const auto add = [&](std::size_t part, std::string_view key, const std::string& file,
@@ -51,7 +45,7 @@ std::vector<SeriesFile> files(const FeaturePlan& feature) {
   return out;
 }
 
-void check(const FeaturePlan& feature, const std::string& where, Findings& findings) {
+void check_contour(const FeaturePlan& feature, const std::string& where, Findings& findings) {
   const ContourPlan& plan = *feature.contour;
   if (feature.source) {
     findings.meaning(Code::kMeaning, where.substr(0, where.rfind('/')) + "/source",
@@ -82,11 +76,11 @@ void check(const FeaturePlan& feature, const std::string& where, Findings& findi
 const AnalysisKind& contour_kind() {
   static constexpr AnalysisKind kKind = {.type = "contour",
                                          .shape = record::Shape::kContour,
-                                         .forms = kForms,
-                                         .is_simulated = is_simulated,
-                                         .settings = settings,
-                                         .files = files,
-                                         .check = check,
+                                         .forms = kContourForms,
+                                         .is_simulated = simulates<&SimulationPlan::contour>,
+                                         .settings = settings_of_section<&FeaturePlan::contour>,
+                                         .files = contour_files,
+                                         .check = check_contour,
                                          .simulate = simulate_contour};
   return kKind;
 }

@@ -24,7 +24,7 @@ constexpr int kHighestSpread = 6;
 constexpr std::size_t kPathSamples = 2048;
 
 /// What is hidden of one ground part.
-struct World {
+struct GroundWorld {
   const SimulatedContourPlan& hidden;
   double c_scale = 1.0;
   std::vector<HarmonicPlan> own;  ///< Non-following, of this part only.
@@ -40,21 +40,12 @@ struct World {
   [[nodiscard]] double rest_um(double beta) const {
     return sum_of(hidden.rest, beta) + sum_of(own, beta);
   }
-
- private:
-  static double sum_of(const std::vector<HarmonicPlan>& harmonics, double angle) {
-    double sum = 0.0;
-    for (const HarmonicPlan& h : harmonics) {
-      sum += h.amplitude_um * std::cos(h.order * angle - h.phase_deg * kDegree);
-    }
-    return sum;
-  }
 };
 
-World world_of(const SimulatedContourPlan& hidden, std::uint64_t seed, std::uint64_t feature,
-               std::uint64_t part) {
+GroundWorld world_of(const SimulatedContourPlan& hidden, std::uint64_t seed, std::uint64_t feature,
+                     std::uint64_t part) {
   core::KeyedNoise noise(seed, {kPartStream, feature, part});
-  World out{hidden, 1.0 + hidden.c_error_spread * noise.normal(), {}};
+  GroundWorld out{hidden, 1.0 + hidden.c_error_spread * noise.normal(), {}};
   if (hidden.rest_spread_um == 0.0) return out;
   for (int order = 2; order <= kHighestSpread; ++order) {
     const double c = hidden.rest_spread_um * noise.normal();
@@ -65,7 +56,7 @@ World world_of(const SimulatedContourPlan& hidden, std::uint64_t seed, std::uint
 }
 
 /// Samples of the control, in the sense and sign that the plan states.
-record::Series axes_of(const World& world, const ContourPlan& asked, std::uint64_t seed,
+record::Series axes_of(const GroundWorld& world, const ContourPlan& asked, std::uint64_t seed,
                        std::uint64_t feature, std::uint64_t part) {
   const SimulatedContourPlan& hidden = world.hidden;
   const double sign = asked.error == "command-minus-actual" ? -1.0 : 1.0;
@@ -87,7 +78,8 @@ record::Series axes_of(const World& world, const ContourPlan& asked, std::uint64
 }
 
 /// What all wheel positions leave of the pin, less its nominal radius [um].
-core::Result<std::vector<double>> ground_um(const World& world, const fit::CrankGeometry& geometry,
+core::Result<std::vector<double>> ground_um(const GroundWorld& world,
+                                            const fit::CrankGeometry& geometry,
                                             std::size_t points) {
   fit::AxisErrors errors;
   for (std::size_t i = 0; i < kPathSamples; ++i) {
@@ -147,7 +139,7 @@ core::Result<AnalysisData> simulate_contour(const Plan& plan, std::size_t index,
   AnalysisData out;
   for (int part = 0; part < hidden.parts; ++part) {
     const auto key = static_cast<std::uint64_t>(part);
-    const World world = world_of(hidden, seed, index, key);
+    const GroundWorld world = world_of(hidden, seed, index, key);
     auto pin = ground_um(world, geometry, points);
     if (!pin) return core::fail(pin.error());
     record::Series truth;

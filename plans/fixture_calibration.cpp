@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "fixture/axis_motion.h"
 #include "plans/qualification.h"
 #include "plans/rotary_poses.h"
 
@@ -16,8 +17,8 @@ namespace {
 
 using core::kDegree;
 using core::kMicrometre;
+using fixture::kMicroradian;
 
-constexpr double kMicroradian = 1e-6;
 constexpr double kTruthStep_deg = 2.0;
 
 core::Result<void> touch_balls(RunContext& context, const RotaryPlan& rotary,

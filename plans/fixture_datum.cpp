@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr const char* kWhere = "/fixture/datum";
+constexpr const char* kDatumPointer = "/fixture/datum";
 
 /// Where the base is, in words for the journal.
 std::string in_words(const fit::Registration& base) {
@@ -31,7 +31,7 @@ core::Result<Vector3d> center_near_nominal(const Plan& plan, std::size_t sphere,
   const DatumPlan& datum = *plan.fixture->datum;
   const auto center =
       sphere_center(plan, tips, fmt::format("sphere {} of the fixture", sphere + 1));
-  if (!center) return core::fail(center.error().at(kWhere));
+  if (!center) return core::fail(center.error().at(kDatumPointer));
   const double off_mm = (*center - vector3(datum.spheres[sphere].center_mm)).norm();
   if (off_mm <= datum.uncertainty_mm) return *center;
   return core::fail(core::Code::kLocation,
@@ -39,7 +39,7 @@ core::Result<Vector3d> center_near_nominal(const Plan& plan, std::size_t sphere,
                                 "place, the plan allows {:g} mm (uncertainty_mm); check where the "
                                 "fixture is bolted",
                                 sphere + 1, off_mm, datum.uncertainty_mm),
-                    kWhere);
+                    kDatumPointer);
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ core::Result<std::vector<TouchStep>> datum_steps(const Plan& plan) {
                                   0.5 * datum.sphere_diameter_mm, datum.points,
                                   datum.uncertainty_mm};
     auto steps = sphere_steps(plan, sphere);
-    if (!steps) return core::fail(steps.error().at(kWhere));
+    if (!steps) return core::fail(steps.error().at(kDatumPointer));
     for (TouchStep& step : *steps) {
       step.row.purpose = record::Touch::Purpose::kLocate;
       step.row.layer = static_cast<int>(i);
@@ -75,7 +75,7 @@ core::Result<fit::Registration> fixture_base(const Plan& plan,
     found.push_back(*center);
   }
   const auto base = fit::rigid_registration(nominal, found);
-  if (!base) return core::fail(base.error().at(kWhere));
+  if (!base) return core::fail(base.error().at(kDatumPointer));
   if (base->largest_residual_mm > datum.residual_limit_um * core::kMicrometre) {
     return core::fail(
         core::Code::kCalibration,
@@ -84,7 +84,7 @@ core::Result<fit::Registration> fixture_base(const Plan& plan,
             "{:g} um (residual_limit_um); check their certified centres and that none is "
             "loose",
             base->largest_residual_mm / core::kMicrometre, datum.residual_limit_um),
-        kWhere);
+        kDatumPointer);
   }
   return *base;
 }

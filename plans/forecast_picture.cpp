@@ -49,7 +49,7 @@ double hundredths(double angle_rad) {
 }
 
 /// Text as XML takes it.
-std::string escaped(const std::string& text) {
+std::string xml_text(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '&') {
@@ -254,7 +254,7 @@ std::string forecast_picture(const Plan& plan, const ForecastStage& stage) {
       "<text x=\"{2:.0f}\" y=\"24\" font-size=\"15\">{3}, pose ({4:.2f}, {5:.2f}) deg: {6} "
       "touches, "
       "way of the tip {7:.0f} mm, {8:.0f} s</text>\n",
-      width, height, kMargin_px, escaped(name), hundredths(stage.pose.alpha_rad),
+      width, height, kMargin_px, xml_text(name), hundredths(stage.pose.alpha_rad),
       hundredths(stage.pose.beta_rad), stage.touches, stage.path_mm / stage.times,
       stage.time_s / stage.times);
   out += panel(side, shapes, path, stage, "From the side", "z");

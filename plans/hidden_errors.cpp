@@ -6,11 +6,13 @@
 
 #include "cmm/typical_errors.h"
 #include "core/units.h"
+#include "fixture/axis_motion.h"
 
 namespace rondure::plans {
 namespace {
 
-constexpr double kMicroradian = 1e-6;  // rad
+using fixture::kMicroradian;
+
 constexpr double kMm_per_m = 1e3;
 constexpr double kKeywayFlank_mm = 0.2;
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/units.h"
+#include "plans/plan_reach.h"
 
 namespace rondure::plans {
 namespace {
@@ -18,11 +18,6 @@ tl::unexpected<core::Error> other_way(const std::string& what) {
                     fmt::format("the run cannot go on: {}; this program or this computer does not "
                                 "repeat the run that was interrupted, start a new one",
                                 what));
-}
-
-std::string degrees(const core::Pose& pose) {
-  return fmt::format("({:.6f}, {:.6f}) deg", pose.alpha_rad / core::kDegree,
-                     pose.beta_rad / core::kDegree);
 }
 
 }  // namespace
@@ -116,7 +111,7 @@ core::Result<void> check_same_step(const record::PoseVisit& known, int feature,
                     std::abs(known.commanded.beta_rad - commanded.beta_rad) <= kSame;
   if (same) return {};
   return other_way(fmt::format("pose {} of its journal is {}; now it would be {}", known.id,
-                               degrees(known.commanded), degrees(commanded)));
+                               in_degrees(known.commanded, 6), in_degrees(commanded, 6)));
 }
 
 core::Result<void> check_same_step(const record::Decision& known, const record::Decision& planned) {

@@ -15,11 +15,6 @@
 namespace rondure::plans {
 namespace {
 
-core::Pose start_pose(const FeaturePlan& feature) {
-  return {feature.pose_search.start_alpha_deg * core::kDegree,
-          feature.pose_search.start_beta_deg * core::kDegree};
-}
-
 /// The targets that are out of reach besides the first: "; nor can layer 1 points 2, 3, layer 2
 /// point 1 be reached".
 std::string others(const std::vector<Unreachable>& missed) {
@@ -57,6 +52,16 @@ fixture::FixtureLimits limits_of(const FixturePlan& fixture) {
   return {fixture.min_alpha_deg * core::kDegree, fixture.max_alpha_deg * core::kDegree,
           fixture.min_beta_deg * core::kDegree, fixture.max_beta_deg * core::kDegree,
           fixture.resolution_deg * core::kDegree};
+}
+
+core::Pose start_pose(const FeaturePlan& feature) {
+  return {feature.pose_search.start_alpha_deg * core::kDegree,
+          feature.pose_search.start_beta_deg * core::kDegree};
+}
+
+std::string in_degrees(const core::Pose& pose, int decimals) {
+  return fmt::format("({:.{}f}, {:.{}f}) deg", pose.alpha_rad / core::kDegree, decimals,
+                     pose.beta_rad / core::kDegree, decimals);
 }
 
 std::vector<SectionPlan> part_sections(const Plan& plan, const FeaturePlan& feature) {

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "core/pose.h"
 #include "core/result.h"
 #include "fixture/fixture.h"
 #include "fixture/kinematics.h"
@@ -27,6 +29,12 @@ namespace rondure::plans {
 [[nodiscard]] Eigen::Isometry3d nominal_seat(const FixturePlan& fixture);
 
 [[nodiscard]] fixture::FixtureLimits limits_of(const FixturePlan& fixture);
+
+/// The pose in which the plan has the measurement of a feature begin.
+[[nodiscard]] core::Pose start_pose(const FeaturePlan& feature);
+
+/// A pose for messages: "(12.3400, 0.0000) deg".
+[[nodiscard]] std::string in_degrees(const core::Pose& pose, int decimals = 4);
 
 /// The part beside a feature: the sections of the plan, and the other touched outside surfaces that
 /// lie above or below it (not of a bore, whose block hides them).

@@ -9,6 +9,7 @@
 #include "fit/center_search.h"
 #include "fit/min_zone_cylinder.h"
 #include "fit/pose_walk.h"
+#include "plans/plan_reach.h"
 
 namespace rondure::plans {
 namespace {
@@ -17,18 +18,12 @@ namespace {
 constexpr double kFinestStep = 2e-6 * core::kDegree;
 
 core::Pose start_pose(const PoseSession& session, const FeaturePlan& feature) {
-  return session.commanded_for({feature.pose_search.start_alpha_deg * core::kDegree,
-                                feature.pose_search.start_beta_deg * core::kDegree});
+  return session.commanded_for(start_pose(feature));
 }
 
 bool within(const fixture::FixtureLimits& limits, const core::Pose& pose) {
   return pose.alpha_rad >= limits.min_alpha_rad && pose.alpha_rad <= limits.max_alpha_rad &&
          pose.beta_rad >= limits.min_beta_rad && pose.beta_rad <= limits.max_beta_rad;
-}
-
-std::string degrees(const core::Pose& pose) {
-  return fmt::format("({:.4f}, {:.4f}) deg", pose.alpha_rad / core::kDegree,
-                     pose.beta_rad / core::kDegree);
 }
 
 double f_of(const Cloud& cloud, bool as_published) {
@@ -67,7 +62,7 @@ NextStep next_step(const PoseSession& session, const Cloud& cloud,
         step_deg, session.limits().resolution_rad / core::kDegree);
   } else if (!within(session.limits(), out.pose)) {
     out.why = fmt::format("not level: the levelling pose {} is beyond the limits of the fixture",
-                          degrees(out.pose));
+                          in_degrees(out.pose));
   } else if (out.size_rad >= 0.5 * last_rad) {
     out.why = fmt::format(
         "as level as probe and fixture scatter: the step of {:.6f} deg is not below half the last "
@@ -106,13 +101,13 @@ core::Result<void> guided(PoseSession& session, const FeaturePlan& feature, core
                              next.size_rad / core::kDegree);
     }
     const std::string zone_text =
-        fmt::format("pose {}: zone of the cloud {:.3f} um; ", degrees(cloud->reached),
+        fmt::format("pose {}: zone of the cloud {:.3f} um; ", in_degrees(cloud->reached),
                     zone->width_mm() / core::kMicrometre);
     if (next.stop) {
       if (auto noted = session.note(zone_text + next.why); !noted) return noted;
       break;
     }
-    if (auto noted = session.note(zone_text + "turning to " + degrees(next.pose)); !noted)
+    if (auto noted = session.note(zone_text + "turning to " + in_degrees(next.pose)); !noted)
       return noted;
     pose = next.pose;
     last_rad = next.size_rad;
@@ -143,7 +138,7 @@ core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool a
   const std::string text = fmt::format(
       "pose search ended at {} after {} poses with f = {:.3f} um, a search value; that pose is "
       "measured anew",
-      degrees(best.pose), walk->visited.size(), best.f_mm / core::kMicrometre);
+      in_degrees(best.pose), walk->visited.size(), best.f_mm / core::kMicrometre);
   if (auto noted = session.note(text); !noted) return noted;
   if (const auto cloud = session.measure(best.pose); !cloud) return core::fail(cloud.error());
   return finish(session, feature);
@@ -165,8 +160,8 @@ core::Result<void> merged(PoseSession& session, const FeaturePlan& feature) {
     const auto cloud = session.measure_reachable(pose);
     if (!cloud) return core::fail(cloud.error());
     session.show(f_of(*cloud, false));
-    const std::string text = fmt::format("pose {}: {} of {} targets can be reached", degrees(pose),
-                                         cloud->tips_W_mm.size(), targets);
+    const std::string text = fmt::format("pose {}: {} of {} targets can be reached",
+                                         in_degrees(pose), cloud->tips_W_mm.size(), targets);
     if (auto noted = session.note(text); !noted) return noted;
     if (auto done = finish(session, feature); !done) return done;
   }
@@ -184,7 +179,7 @@ core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature)
     if (!axis) return core::fail(axis.error());
     const core::Pose level = session.levelling(axis->direction);
     const std::string text = fmt::format("part located in pose {}: its axis is level at {}",
-                                         degrees(pose), degrees(level));
+                                         in_degrees(pose), in_degrees(level));
     if (auto noted = session.note(text); !noted) return noted;
     // The other strategies start where the plan says: that is what they are compared for.
     if (feature.type == "cylinder" && strategy == "guided" && within(session.limits(), level))

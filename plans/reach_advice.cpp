@@ -18,11 +18,6 @@ constexpr double kMargins = 40.0;  // tried, at most
 constexpr double kLongest_mm = 300.0;
 constexpr double kLengthStep_mm = 5.0;
 
-core::Pose start_pose(const FeaturePlan& feature) {
-  return {feature.pose_search.start_alpha_deg * core::kDegree,
-          feature.pose_search.start_beta_deg * core::kDegree};
-}
-
 bool reaches_all(const Plan& plan, const FeaturePlan& feature, const core::Pose& pose) {
   return unreachable_targets(plan, feature, pose).empty();
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 
+#include "core/decompositions.h"
 #include "core/units.h"
 #include "fixture/alignment.h"
 #include "plans/plan_reach.h"
@@ -18,13 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr const char* kWhere = "/fixture/reached_pose";
+constexpr const char* kReachedPosePointer = "/fixture/reached_pose";
 constexpr double kLeastLever_mm = 10.0;  ///< 1 um of a sphere is 0.006 deg there.
-
-std::string in_degrees(const core::Pose& pose) {
-  return fmt::format("({:.4f}, {:.4f}) deg", pose.alpha_rad / core::kDegree,
-                     pose.beta_rad / core::kDegree);
-}
 
 /// How far a sphere may be from where the asked pose puts it [mm].
 double setting_room_mm(const ReachedPosePlan& plan, const fixture::Kinematics& kinematics,
@@ -47,7 +42,7 @@ core::Result<void> check_ways(const Scene& scene, const Placement& placement,
     return core::fail(core::Code::kUnreachable,
                       fmt::format("sphere {} on the ring, point {}: {}; nothing has moved",
                                   sphere + 1, step.row.point + 1, in_words(*hit)),
-                      kWhere);
+                      kReachedPosePointer);
   }
   return {};
 }
@@ -86,7 +81,7 @@ core::Result<void> check_pose(const ReachedPosePlan& plan,
                                   "a lever of {:.3g} mm, at least {:g} mm are needed; add a sphere "
                                   "off the line of the others",
                                   in_degrees(found), lever_mm, kLeastLever_mm),
-                      kWhere);
+                      kReachedPosePointer);
   }
   const Eigen::Matrix3d R = fixture::body_to_machine({}, found).linear();
   double worst_mm = 0.0;
@@ -99,7 +94,7 @@ core::Result<void> check_pose(const ReachedPosePlan& plan,
                     "the limit is {:g} um (residual_limit_um); check their certified centres, that "
                     "none is loose, and that nobody touched the fixture",
                     in_degrees(found), worst_mm / core::kMicrometre, plan.residual_limit_um),
-        kWhere);
+        kReachedPosePointer);
   }
   const double off_rad = std::max(std::abs(found.alpha_rad - asked.alpha_rad),
                                   std::abs(found.beta_rad - asked.beta_rad));
@@ -110,7 +105,7 @@ core::Result<void> check_pose(const ReachedPosePlan& plan,
                   "{:g} deg (setting_uncertainty_deg); set it anew, then resume",
                   in_degrees(found), in_degrees(asked), off_rad / core::kDegree,
                   plan.setting_uncertainty_deg),
-      kWhere);
+      kReachedPosePointer);
 }
 
 }  // namespace
@@ -132,7 +127,7 @@ core::Result<std::vector<TouchStep>> reached_pose_steps(const RunContext& contex
     auto steps =
         sphere_steps(plan, {X_WB * center_B, 0.5 * wanted.sphere_diameter_mm, wanted.points,
                             setting_room_mm(wanted, context.cell->kinematics(), center_B)});
-    if (!steps) return core::fail(steps.error().at(kWhere));
+    if (!steps) return core::fail(steps.error().at(kReachedPosePointer));
     if (auto clear = check_ways(scene, {X_WP, X_WP}, geometry, *steps, i); !clear) {
       return core::fail(clear.error());
     }
@@ -154,7 +149,7 @@ core::Result<core::Pose> reached_pose(const Plan& plan, const fixture::Kinematic
   for (std::size_t i = 0; i < tips_W_mm.size(); ++i) {
     const auto center =
         sphere_center(plan, tips_W_mm[i], fmt::format("sphere {} on the ring", i + 1));
-    if (!center) return core::fail(center.error().at(kWhere));
+    if (!center) return core::fail(center.error().at(kReachedPosePointer));
     nominal_B.push_back(vector3(wanted.spheres[i].center_mm));
     found_F.push_back(kinematics.X_WF.inverse() * *center);
   }

@@ -18,15 +18,10 @@ namespace {
 
 using core::Code;
 
-constexpr std::array<std::string_view, 2> kForms = {"fixture-residual", "fixture-residual-rms"};
+constexpr std::array<std::string_view, 2> kRotaryForms = {"fixture-residual",
+                                                          "fixture-residual-rms"};
 constexpr std::size_t kLeastStations = 3;  // with the zero pose four, as a cubic needs
 constexpr std::size_t kLeastPoses = 5;
-
-std::vector<record::Setting> settings(const FeaturePlan& feature) {
-  return settings_of_section(feature.rotary_axes.value_or(RotaryPlan{}));
-}
-
-std::vector<SeriesFile> files(const FeaturePlan& /*feature*/) { return {}; }
 
 void check_stations(const std::vector<double>& stations_deg, const std::string& where,
                     Findings& findings) {
@@ -72,7 +67,7 @@ void check_balls(const RotaryPlan& plan, const std::string& where, Findings& fin
   }
 }
 
-void check(const FeaturePlan& feature, const std::string& where, Findings& findings) {
+void check_rotary_axes(const FeaturePlan& feature, const std::string& where, Findings& findings) {
   const RotaryPlan& plan = *feature.rotary_axes;
   check_balls(plan, where + "/balls", findings);
   check_stations(plan.alpha_stations_deg, where + "/alpha_stations_deg", findings);
@@ -148,15 +143,16 @@ void check_cell(const Plan& plan, std::size_t index, Findings& findings) {
 }  // namespace
 
 const AnalysisKind& rotary_kind() {
-  static const AnalysisKind kind = {.type = "rotary_axes",
-                                    .shape = record::Shape::kRotaryAxes,
-                                    .forms = kForms,
-                                    .is_simulated = nullptr,
-                                    .settings = settings,
-                                    .files = files,
-                                    .check = check,
-                                    .simulate = nullptr,
-                                    .check_cell = check_cell};
+  static const AnalysisKind kind = {
+      .type = "rotary_axes",
+      .shape = record::Shape::kRotaryAxes,
+      .forms = kRotaryForms,
+      .is_simulated = nullptr,
+      .settings = settings_of_section<&FeaturePlan::rotary_axes>,
+      .files = [](const FeaturePlan&) { return std::vector<SeriesFile>{}; },
+      .check = check_rotary_axes,
+      .simulate = nullptr,
+      .check_cell = check_cell};
   return kind;
 }
 

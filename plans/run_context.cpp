@@ -247,9 +247,7 @@ core::Result<void> RunContext::rise() {
 
 core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& commanded) {
   if (!recalling()) {
-    const std::string what =
-        fmt::format("turn the fixture to ({:.4f}, {:.4f}) deg", commanded.alpha_rad / core::kDegree,
-                    commanded.beta_rad / core::kDegree);
+    const std::string what = "turn the fixture to " + in_degrees(commanded);
     if (auto go = ask({NextMove::Kind::kTurn, what, {}, {}}); !go) return core::fail(go.error());
   }
   const auto steps = reached_pose_steps(*this, feature, commanded);  // before anybody turns it

@@ -11,7 +11,7 @@
 namespace rondure::plans {
 namespace {
 
-core::Result<void> check(const FeaturePlan& feature, int layers) {
+core::Result<void> check_layers(const FeaturePlan& feature, int layers) {
   const SamplingPlan& sampling = feature.sampling;
   if (layers < 1) {
     return core::fail(core::Code::kSampling,
@@ -65,7 +65,7 @@ std::vector<int> share_among_rings(int points, int rings) {
 core::Result<std::vector<Target>> sampling_targets(const FeaturePlan& feature) {
   const SamplingPlan& sampling = feature.sampling;
   const int layers = feature.type == "circle" ? 1 : sampling.layers;
-  if (auto checked = check(feature, layers); !checked) return core::fail(checked.error());
+  if (auto checked = check_layers(feature, layers); !checked) return core::fail(checked.error());
   const double step_rad = core::kTwoPi / sampling.points_per_layer;
   std::vector<Target> targets;
   for (int layer = 0; layer < layers; ++layer) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "plans/key_spec.h"
+#include "plans/plan.h"
 #include "record/run_record.h"
 
 namespace rondure::plans {
@@ -75,11 +76,13 @@ class SettingList {
   std::vector<record::Setting> settings_;
 };
 
-/// The settings of one section.
-template <class Section>
-[[nodiscard]] std::vector<record::Setting> settings_of_section(Section section) {
+/// The settings of one section of a feature, such as &FeaturePlan::spindle; of a missing one the
+/// defaults.
+template <auto section>
+[[nodiscard]] std::vector<record::Setting> settings_of_section(const FeaturePlan& feature) {
   SettingList list;
-  describe(list, section);
+  auto given = feature.*section;
+  describe(list, given ? *given : given.emplace());
   return list.take();
 }
 

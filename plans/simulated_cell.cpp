@@ -30,11 +30,11 @@ fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t
   out.errors.squareness_rad = hidden.squareness_deg * core::kDegree;
   out.errors.repeatability_rad = hidden.repeatability_deg * core::kDegree;
   if (hidden.motion) {
-    constexpr double kMicroradian = 1e-6;
-    const fixture::MotionClass size = {
-        hidden.motion->offset_um * core::kMicrometre, hidden.motion->tilt_urad * kMicroradian,
-        hidden.motion->shift_um * core::kMicrometre, hidden.motion->turn_urad * kMicroradian,
-        hidden.motion->seed};
+    const fixture::MotionClass size = {hidden.motion->offset_um * core::kMicrometre,
+                                       hidden.motion->tilt_urad * fixture::kMicroradian,
+                                       hidden.motion->shift_um * core::kMicrometre,
+                                       hidden.motion->turn_urad * fixture::kMicroradian,
+                                       hidden.motion->seed};
     out.errors.alpha_motion = fixture::drawn_motion(size, Eigen::Vector3d::UnitX(), 0);
     out.errors.beta_motion = fixture::drawn_motion(size, Eigen::Vector3d::UnitY(), 1);
   }

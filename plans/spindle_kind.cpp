@@ -18,31 +18,13 @@ namespace {
 using core::Code;
 using core::kDegree;
 
-constexpr std::array<std::string_view, 6> kForms = {"roundness",          "roundness-rms",
-                                                    "harmonic-limits",    "motion-total",
-                                                    "motion-synchronous", "motion-asynchronous"};
-constexpr std::array<record::WantedColumn, 5> kColumns = {
+constexpr std::array<std::string_view, 6> kSpindleForms = {
+    "roundness",    "roundness-rms",      "harmonic-limits",
+    "motion-total", "motion-synchronous", "motion-asynchronous"};
+constexpr std::array<record::WantedColumn, 5> kProbeColumns = {
     {{"alpha_deg"}, {"H1_um"}, {"H2_um"}, {"H3_um"}, {"beta_deg", false}}};
-constexpr std::uint64_t kNoiseStream = 0x5b1d1eU;
+constexpr std::uint64_t kProbeStream = 0x5b1d1eU;
 constexpr double kDriftCycles = 0.37;  ///< A turn: never in step with it.
-
-bool is_simulated(const SimulationPlan& simulation) { return simulation.spindle.has_value(); }
-
-std::vector<record::Setting> settings(const FeaturePlan& feature) {
-  return settings_of_section(feature.spindle.value_or(SpindlePlan{}));
-}
-
-std::vector<SeriesFile> files(const FeaturePlan& feature) {
-  if (!feature.source) return {};
-  SeriesFile out;
-  out.file = feature.source->file;
-  out.where = "/source/file";
-  out.wanted.assign(kColumns.begin(), kColumns.end());
-  for (const ColumnPlan& column : feature.source->columns) {
-    out.names.push_back({column.column, column.in_file});
-  }
-  return {out};
-}
 
 fit::SwingArm arm_of(const SpindlePlan& plan) {
   return {plan.crank_radius_mm, plan.wheel_radius_mm, plan.pin_radius_mm};
@@ -92,7 +74,7 @@ bool check_angles(const SpindlePlan& plan, const std::string& where, Findings& f
   return true;
 }
 
-void check(const FeaturePlan& feature, const std::string& where, Findings& findings) {
+void check_spindle(const FeaturePlan& feature, const std::string& where, Findings& findings) {
   const SpindlePlan& plan = *feature.spindle;
   if (check_angles(plan, where, findings)) {
     if (const auto layout = layout_of(plan); !layout) {
@@ -115,16 +97,8 @@ void check(const FeaturePlan& feature, const std::string& where, Findings& findi
   }
 }
 
-double sum_of(const std::vector<HarmonicPlan>& harmonics, double angle_rad) {
-  double sum = 0.0;
-  for (const HarmonicPlan& h : harmonics) {
-    sum += h.amplitude_um * std::cos(h.order * angle_rad - h.phase_deg * kDegree);
-  }
-  return sum;
-}
-
 /// What the simulated probes see at one angle of the work.
-struct World {
+struct ProbedWorld {
   const SimulatedSpindlePlan& hidden;
   fit::SwingArm arm;
   std::array<double, 3> places_rad;  ///< Where the probes really are.
@@ -166,7 +140,7 @@ struct World {
   }
 };
 
-record::Series readings(const World& world, int feature, std::uint64_t seed) {
+record::Series readings(const ProbedWorld& world, int feature, std::uint64_t seed) {
   record::Series out;
   out.feature = feature;
   out.columns = {{"alpha_deg", "deg"}, {"H1_um", "um"}, {"H2_um", "um"}, {"H3_um", "um"}};
@@ -175,7 +149,7 @@ record::Series readings(const World& world, int feature, std::uint64_t seed) {
     const double alpha_deg = 360.0 * m / world.hidden.samples_per_turn;
     out.values.push_back(alpha_deg);
     core::KeyedNoise noise(
-        seed, {kNoiseStream, static_cast<std::uint64_t>(feature), static_cast<std::uint64_t>(m)});
+        seed, {kProbeStream, static_cast<std::uint64_t>(feature), static_cast<std::uint64_t>(m)});
     for (std::size_t i = 0; i < 3; ++i) {
       out.values.push_back(world.reading_um(i, alpha_deg * kDegree) +
                            world.hidden.probe_noise_um * noise.normal());
@@ -185,7 +159,7 @@ record::Series readings(const World& world, int feature, std::uint64_t seed) {
 }
 
 /// Profile over the part and motion over the work, each at equal angles.
-void add_truth(const World& world, int feature, const SpindlePlan& plan, AnalysisData& out) {
+void add_truth(const ProbedWorld& world, int feature, const SpindlePlan& plan, AnalysisData& out) {
   record::Series truth;
   truth.feature = feature;
   truth.name = "truth";
@@ -206,12 +180,13 @@ void add_truth(const World& world, int feature, const SpindlePlan& plan, Analysi
   out.truths.push_back({feature, "profile_peak_to_valley_um", greatest - least});
 }
 
-core::Result<AnalysisData> simulate(const Plan& plan, std::size_t index, std::uint64_t seed) {
+core::Result<AnalysisData> simulate_spindle(const Plan& plan, std::size_t index,
+                                            std::uint64_t seed) {
   const SpindlePlan& asked = *plan.features[index].spindle;
   const SimulatedSpindlePlan& hidden = *plan.simulation->spindle;
   const auto layout = layout_of(asked);
   if (!layout) return core::fail(layout.error());
-  World world{hidden, arm_of(asked), layout->angles_rad()};
+  ProbedWorld world{hidden, arm_of(asked), layout->angles_rad()};
   world.places_rad[1] += hidden.p2_error_deg * kDegree;
   world.places_rad[2] += hidden.p3_error_deg * kDegree;
   const auto feature = static_cast<int>(index);
@@ -224,14 +199,15 @@ core::Result<AnalysisData> simulate(const Plan& plan, std::size_t index, std::ui
 }  // namespace
 
 const AnalysisKind& spindle_kind() {
-  static constexpr AnalysisKind kKind = {.type = "spindle",
-                                         .shape = record::Shape::kSpindle,
-                                         .forms = kForms,
-                                         .is_simulated = is_simulated,
-                                         .settings = settings,
-                                         .files = files,
-                                         .check = check,
-                                         .simulate = simulate};
+  static constexpr AnalysisKind kKind = {
+      .type = "spindle",
+      .shape = record::Shape::kSpindle,
+      .forms = kSpindleForms,
+      .is_simulated = simulates<&SimulationPlan::spindle>,
+      .settings = settings_of_section<&FeaturePlan::spindle>,
+      .files = [](const FeaturePlan& feature) { return source_file(feature, kProbeColumns); },
+      .check = check_spindle,
+      .simulate = simulate_spindle};
   return kKind;
 }
 

@@ -18,27 +18,10 @@ using core::Code;
 using core::kDegree;
 using core::kMicrometre;
 
-constexpr std::array<std::string_view, 3> kForms = {"radius", "run-out", "roundness"};
-constexpr std::uint64_t kNoiseStream = 0x3e1eeU;
+constexpr std::array<std::string_view, 3> kWheelForms = {"radius", "run-out", "roundness"};
+constexpr std::array<record::WantedColumn, 2> kEdgeColumns = {{{"x"}, {"z"}}};
+constexpr std::uint64_t kEdgeStream = 0x3e1eeU;
 constexpr int kBodyPoints = 3600;  ///< Of the noise-free body behind the stated truth.
-
-bool is_simulated(const SimulationPlan& simulation) { return simulation.wheel.has_value(); }
-
-std::vector<record::Setting> settings(const FeaturePlan& feature) {
-  return settings_of_section(feature.wheel.value_or(WheelPlan{}));
-}
-
-std::vector<SeriesFile> files(const FeaturePlan& feature) {
-  if (!feature.source) return {};
-  SeriesFile out;
-  out.file = feature.source->file;
-  out.where = "/source/file";
-  out.wanted = {{"x"}, {"z"}};
-  for (const ColumnPlan& column : feature.source->columns) {
-    out.names.push_back({column.column, column.in_file});
-  }
-  return {out};
-}
 
 /// Keys that belong together, and those that have no effect.
 struct Checker {
@@ -123,14 +106,14 @@ void check_surface(const GroundSurfacePlan& s, const Checker& checker) {
   }
 }
 
-void check(const FeaturePlan& feature, const std::string& where, Findings& findings) {
+void check_wheel(const FeaturePlan& feature, const std::string& where, Findings& findings) {
   const Checker checker{where, findings};
   check_axis(feature, checker);
   if (feature.wheel->surface) check_surface(*feature.wheel->surface, checker);
 }
 
 /// The simulated wheel.
-struct Body {
+struct SimulatedWheel {
   const SimulatedWheelPlan& hidden;
 
   [[nodiscard]] Eigen::Vector2d axis() const { return {hidden.axis_x_mm, hidden.axis_z_mm}; }
@@ -157,7 +140,7 @@ struct Reach {
   double greatest_mm = 0.0;
 };
 
-Reach reach_of(const Body& body) {
+Reach reach_of(const SimulatedWheel& body) {
   Reach out;
   for (int k = 0; k < kBodyPoints; ++k) {
     const double distance = (body.edge(360.0 * k / kBodyPoints, 0.0) - body.axis()).norm();
@@ -167,8 +150,8 @@ Reach reach_of(const Body& body) {
   return out;
 }
 
-record::Series edge_points(const Body& body, const Reach& reach, bool envelope, int feature,
-                           std::uint64_t seed) {
+record::Series edge_points(const SimulatedWheel& body, const Reach& reach, bool envelope,
+                           int feature, std::uint64_t seed) {
   const SimulatedWheelPlan& hidden = body.hidden;
   record::Series out;
   out.feature = feature;
@@ -178,21 +161,21 @@ record::Series edge_points(const Body& body, const Reach& reach, bool envelope, 
   const int steps = std::max(1, whole ? hidden.points : hidden.points - 1);
   for (int i = 0; i < hidden.points; ++i) {
     core::KeyedNoise noise(
-        seed, {kNoiseStream, static_cast<std::uint64_t>(feature), static_cast<std::uint64_t>(i)});
+        seed, {kEdgeStream, static_cast<std::uint64_t>(feature), static_cast<std::uint64_t>(i)});
     const double deg = hidden.arc_from_deg + arc * i / steps;
     double error_um = hidden.noise_um * noise.normal();
     if (i + 1 == hidden.chipped_point) error_um += hidden.chip_um;
     const Eigen::Vector2d p =
         envelope ? Eigen::Vector2d(body.axis() + (reach.greatest_mm + error_um * kMicrometre) *
-                                                     Body::direction(deg))
+                                                     SimulatedWheel::direction(deg))
                  : body.edge(deg, error_um);
     out.values.insert(out.values.end(), {p.x(), p.y()});
   }
   return out;
 }
 
-core::Result<AnalysisData> simulate(const Plan& plan, std::size_t index, std::uint64_t seed) {
-  const Body body{*plan.simulation->wheel};
+core::Result<AnalysisData> simulate_wheel(const Plan& plan, std::size_t index, std::uint64_t seed) {
+  const SimulatedWheel body{*plan.simulation->wheel};
   const Reach reach = reach_of(body);
   const auto feature = static_cast<int>(index);
   const bool envelope = plan.features[index].wheel->mode == "envelope";
@@ -209,14 +192,15 @@ core::Result<AnalysisData> simulate(const Plan& plan, std::size_t index, std::ui
 }  // namespace
 
 const AnalysisKind& wheel_kind() {
-  static constexpr AnalysisKind kKind = {.type = "wheel",
-                                         .shape = record::Shape::kWheel,
-                                         .forms = kForms,
-                                         .is_simulated = is_simulated,
-                                         .settings = settings,
-                                         .files = files,
-                                         .check = check,
-                                         .simulate = simulate};
+  static constexpr AnalysisKind kKind = {
+      .type = "wheel",
+      .shape = record::Shape::kWheel,
+      .forms = kWheelForms,
+      .is_simulated = simulates<&SimulationPlan::wheel>,
+      .settings = settings_of_section<&FeaturePlan::wheel>,
+      .files = [](const FeaturePlan& feature) { return source_file(feature, kEdgeColumns); },
+      .check = check_wheel,
+      .simulate = simulate_wheel};
   return kKind;
 }
 

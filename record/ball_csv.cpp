@@ -30,11 +30,6 @@ std::optional<std::size_t> index_of(std::string_view column) {
   return static_cast<std::size_t>(at - kColumns.begin());
 }
 
-std::string_view stem_of(std::string_view name) {
-  const std::string_view unit = unit_of_column(name);
-  return unit.empty() ? name : name.substr(0, name.size() - unit.size() - 1);
-}
-
 core::Error unknown_column(std::string_view field) {
   for (const std::string_view column : kColumns) {
     if (field == column || unit_of_column(column).empty() || stem_of(field) != stem_of(column))

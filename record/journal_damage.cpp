@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 /// The length that the head of a database states, in pages times bytes of a page
 /// (sqlite.org/fileformat2.html, 1.3); nothing when the head is no such head.
 std::optional<std::uintmax_t> stated_length(const fs::path& file) {
-  constexpr std::size_t kHead = 32;
-  std::array<char, kHead> head{};
-  std::ifstream(file, std::ios::binary).read(head.data(), kHead);
+  constexpr std::size_t kHeadBytes = 32;
+  std::array<char, kHeadBytes> head{};
+  std::ifstream(file, std::ios::binary).read(head.data(), kHeadBytes);
   if (std::string_view(head.data(), 15) != "SQLite format 3") return std::nullopt;
   const auto number = [&](std::size_t at, std::size_t bytes) {
     std::uintmax_t value = 0;

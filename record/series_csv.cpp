@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "record/csv_lines.h"
 
 namespace rondure::record {
@@ -19,9 +18,6 @@ using core::Code;
 constexpr std::array<std::string_view, 14> kUnits = {
     "um", "mm", "m", "nm", "inch", "deg", "rad", "s", "ms", "rpm", "degC", "V", "mV", "N"};
 
-/// For one field of the file: the place in the result, or nothing for one that is passed over.
-using Places = std::vector<std::optional<std::size_t>>;
-
 std::string list_of(std::span<const WantedColumn> wanted) {
   std::string out;
   for (const WantedColumn& column : wanted) {
@@ -29,11 +25,6 @@ std::string list_of(std::span<const WantedColumn> wanted) {
                        column.required ? "" : "]");
   }
   return out;
-}
-
-std::string_view stem_of(std::string_view name) {
-  const std::string_view unit = unit_of_column(name);
-  return unit.empty() ? name : name.substr(0, name.size() - unit.size() - 1);
 }
 
 /// The name under which the file holds a wanted column.
@@ -61,7 +52,8 @@ core::Error unknown_column(std::string_view field, std::span<const WantedColumn>
 struct Layout {
   std::vector<std::string_view> fields;  ///< Of the header.
   std::vector<std::size_t> wanted;       ///< For each column of the result, its place in `wanted`.
-  Places places;                         ///< For each field.
+  /// For each field its place in the result, or nothing for one that is passed over.
+  std::vector<std::optional<std::size_t>> places;
 };
 
 core::Result<Layout> read_layout(std::string_view line, std::span<const WantedColumn> wanted,
@@ -92,15 +84,6 @@ core::Result<Layout> read_layout(std::string_view line, std::span<const WantedCo
   return out;
 }
 
-std::optional<double> number_in(std::string_view field) {
-  if (field.starts_with('+') && !field.starts_with("+-")) field.remove_prefix(1);
-  double value = 0.0;
-  const char* const end = field.data() + field.size();
-  const auto [stop, problem] = std::from_chars(field.data(), end, value);
-  if (problem != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 /// Adds a row to the values of a series.
 core::Result<void> read_row(std::string_view line, const Layout& layout, Series& series) {
   const auto fields = split_fields(line);
@@ -115,7 +98,7 @@ core::Result<void> read_row(std::string_view line, const Layout& layout, Series&
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (!layout.places[i]) continue;
     const SeriesColumn& column = series.columns[*layout.places[i]];
-    const auto value = number_in(fields[i]);
+    const auto value = core::parse_number(fields[i]);
     if (!value) {
       const auto error = explain_field(fields[i], column.name, column.unit);
       return core::fail(error.value_or(syntax_error(
@@ -146,6 +129,11 @@ std::string_view unit_of_column(std::string_view name) {
   if (cut == std::string_view::npos || cut == 0) return {};
   const std::string_view unit = name.substr(cut + 1);
   return std::find(kUnits.begin(), kUnits.end(), unit) == kUnits.end() ? std::string_view() : unit;
+}
+
+std::string_view stem_of(std::string_view name) {
+  const std::string_view unit = unit_of_column(name);
+  return unit.empty() ? name : name.substr(0, name.size() - unit.size() - 1);
 }
 
 core::Result<Series> parse_series_csv(std::string_view text, std::string_view name,

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "reports/conformance.h"
 #include "reports/evaluation.h"
@@ -15,8 +14,6 @@
 
 namespace rondure::reports {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string joined(const std::string& detail) {
   return detail.empty() ? std::string() : fmt::format(" ({})", detail);

@@ -19,31 +19,31 @@ std::string sampling_of(const FeatureResult& feature, const record::Characterist
   return text;
 }
 
-using Kind = fit::Certificate::Kind;
+using CertificateKind = fit::Certificate::Kind;
 
 template <class Fit>
-Kind kind_of(const core::Result<Fit>& fit) {
-  return fit ? fit->certificate.kind : Kind::kNone;
+CertificateKind kind_of(const core::Result<Fit>& fit) {
+  return fit ? fit->certificate.kind : CertificateKind::kNone;
 }
 
 /// Of the reference behind a result; "none" for least squares, which proves nothing.
-Kind certificate_of(const FeatureResult& feature, record::Reference reference) {
+CertificateKind certificate_of(const FeatureResult& feature, record::Reference reference) {
   switch (reference) {
     case record::Reference::kLeastSquares:
-      return Kind::kNone;
+      return CertificateKind::kNone;
     case record::Reference::kMinimumZone:
-      return feature.mz_cylinder ? feature.mz_cylinder->certificate.kind : Kind::kNone;
+      return feature.mz_cylinder ? feature.mz_cylinder->certificate.kind : CertificateKind::kNone;
     case record::Reference::kMinimumCircumscribed:
       return kind_of(feature.mc_cylinder);
     case record::Reference::kMaximumInscribed:
       return kind_of(feature.mi_cylinder);
   }
-  return Kind::kNone;
+  return CertificateKind::kNone;
 }
-Kind certificate_of(const LayerResult& layer, record::Reference reference) {
+CertificateKind certificate_of(const LayerResult& layer, record::Reference reference) {
   switch (reference) {
     case record::Reference::kLeastSquares:
-      return Kind::kNone;
+      return CertificateKind::kNone;
     case record::Reference::kMinimumZone:
       return kind_of(layer.mz);
     case record::Reference::kMinimumCircumscribed:
@@ -51,13 +51,14 @@ Kind certificate_of(const LayerResult& layer, record::Reference reference) {
     case record::Reference::kMaximumInscribed:
       return kind_of(layer.mi);
   }
-  return Kind::kNone;
+  return CertificateKind::kNone;
 }
 
 /// The same; of sections the weakest.
-Kind certificate_of(const FeatureResult& feature, const record::Characteristic& asked) {
+CertificateKind certificate_of(const FeatureResult& feature, const record::Characteristic& asked) {
   if (asked.form == record::Form::kCylindricity) return certificate_of(feature, asked.reference);
-  Kind weakest = feature.layers.empty() ? Kind::kNone : Kind::kGlobal;
+  CertificateKind weakest =
+      feature.layers.empty() ? CertificateKind::kNone : CertificateKind::kGlobal;
   for (const LayerResult& layer : feature.layers)
     weakest = std::min(weakest, certificate_of(layer, asked.reference));
   return weakest;

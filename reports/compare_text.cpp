@@ -6,12 +6,11 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
+
+#include "reports/json_parts.h"
 
 namespace rondure::reports {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// A piece of a line: a number, or the text between two numbers.
 struct Token {
@@ -120,7 +119,7 @@ std::string shown(const Json& value) {
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
 }
 
-std::string escaped(std::string key) {  // RFC 6901
+std::string pointer_token(std::string key) {  // RFC 6901
   for (std::size_t at = 0; (at = key.find_first_of("~/", at)) != std::string::npos; at += 2) {
     key.replace(at, 1, key[at] == '~' ? "~0" : "~1");
   }
@@ -137,7 +136,7 @@ std::optional<std::string> value_difference(const Json& expected, const Json& fo
 std::optional<std::string> object_difference(const Json& expected, const Json& found,
                                              const std::string& pointer, double tolerance) {
   for (const auto& [key, value] : expected.items()) {
-    const std::string below = pointer + "/" + escaped(key);
+    const std::string below = pointer + "/" + pointer_token(key);
     const auto other = found.find(key);
     if (other == found.end()) {
       return fmt::format("{}: missing in the file, the journal gives {}", below, shown(value));
@@ -147,7 +146,7 @@ std::optional<std::string> object_difference(const Json& expected, const Json& f
   for (const auto& [key, value] : found.items()) {
     if (expected.contains(key)) continue;
     return fmt::format("{}/{}: the file says {}, the journal gives nothing there", pointer,
-                       escaped(key), shown(value));
+                       pointer_token(key), shown(value));
   }
   return std::nullopt;
 }

@@ -13,7 +13,7 @@
 namespace rondure::reports {
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 
 constexpr const char* kSchemaVersion = "/schema_version";
 
@@ -24,7 +24,7 @@ class JsonWalk {
  public:
   explicit JsonWalk(double tolerance) : tolerance_(tolerance) {}
 
-  void walk(const Json& expected, const Json& found, const std::string& pointer) {
+  void walk(const SortedJson& expected, const SortedJson& found, const std::string& pointer) {
     if (out_.difference || pointer == kSchemaVersion) return;
     if (found.is_number()) {
       compare(expected, found, pointer);
@@ -44,15 +44,15 @@ class JsonWalk {
   [[nodiscard]] const ValueComparison& result() const { return out_; }
 
  private:
-  void compare(const Json& expected, const Json& found, const std::string& pointer) {
+  void compare(const SortedJson& expected, const SortedJson& found, const std::string& pointer) {
     ++out_.numbers;
     if (expected.is_number() && close(expected.get<double>(), found.get<double>(), tolerance_)) {
       return;
     }
     tell(expected, found, pointer);
   }
-  void tell(const Json& expected, const Json& found, const std::string& pointer) {
-    constexpr auto kReplace = Json::error_handler_t::replace;
+  void tell(const SortedJson& expected, const SortedJson& found, const std::string& pointer) {
+    constexpr auto kReplace = SortedJson::error_handler_t::replace;
     out_.difference = fmt::format("{}: the file says {}, the journal gives {}", pointer,
                                   found.dump(-1, ' ', false, kReplace).substr(0, 60),
                                   expected.dump(-1, ' ', false, kReplace).substr(0, 60));
@@ -62,11 +62,11 @@ class JsonWalk {
   ValueComparison out_;
 };
 
-using Row = std::vector<std::string_view>;
+using CsvRow = std::vector<std::string_view>;
 
 /// The rows of a table, the header line first, without comments.
-std::vector<Row> rows_of(std::string_view text) {
-  std::vector<Row> rows;
+std::vector<CsvRow> rows_of(std::string_view text) {
+  std::vector<CsvRow> rows;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     const std::string_view line = text.substr(0, end);
@@ -77,8 +77,8 @@ std::vector<Row> rows_of(std::string_view text) {
 }
 
 /// Places of the columns that two header lines have in common.
-std::vector<std::pair<std::size_t, std::size_t>> common_columns(const Row& expected,
-                                                                const Row& found) {
+std::vector<std::pair<std::size_t, std::size_t>> common_columns(const CsvRow& expected,
+                                                                const CsvRow& found) {
   std::vector<std::pair<std::size_t, std::size_t>> common;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto other = std::find(expected.begin(), expected.end(), found[i]);
@@ -101,8 +101,8 @@ std::pair<bool, bool> same_field(std::string_view a, std::string_view b, double 
 
 ValueComparison compare_json_values(std::string_view expected, std::string_view found,
                                     double tolerance) {
-  const Json left = Json::parse(expected, nullptr, false);
-  const Json right = Json::parse(found, nullptr, false);
+  const SortedJson left = SortedJson::parse(expected, nullptr, false);
+  const SortedJson right = SortedJson::parse(found, nullptr, false);
   if (right.is_discarded()) return {"it is no JSON any more", 0};
   JsonWalk walk(tolerance);
   walk.walk(left, right, "");

@@ -7,18 +7,16 @@
 
 #include <fmt/format.h>
 
-#include "core/units.h"
 #include "reports/declared.h"
 #include "reports/deviation.h"
 #include "reports/facts.h"
 #include "reports/harmonic_mask.h"
+#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
 
 using record::Form;
-
-double um(double mm) { return mm / core::kMicrometre; }
 
 /// The value of a characteristic and whether what proves it is there.
 core::Result<Deviation> value_of(const FeatureResult& result,
@@ -77,12 +75,12 @@ std::optional<std::string> probe_fault(const record::RunRecord& record,
   if (!probe) return "the probe was not qualified";
   if (!(std::abs(probe->radius_mm - limits.nominal_tip_radius_mm) <= limits.radius_tolerance_mm)) {
     return fmt::format("the effective tip radius {:.6f} mm is not within {:g} um of {:g} mm",
-                       probe->radius_mm, um(limits.radius_tolerance_mm),
+                       probe->radius_mm, micrometres(limits.radius_tolerance_mm),
                        limits.nominal_tip_radius_mm);
   }
   if (!(probe->form_mm <= limits.form_limit_mm)) {
     return fmt::format("the probing form {:.3f} um is above its limit of {:g} um",
-                       um(probe->form_mm), um(limits.form_limit_mm));
+                       micrometres(probe->form_mm), micrometres(limits.form_limit_mm));
   }
   return std::nullopt;
 }

@@ -13,8 +13,6 @@
 namespace rondure::reports {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr int kHighestHarmonic = 50;
 
 double in_um2(double mm2) { return mm2 / (core::kMicrometre * core::kMicrometre); }
@@ -88,7 +86,7 @@ Json repeatability_json(const std::optional<fit::Repeatability>& found, double s
     return out;
   };
   const auto word = found->word(limits);
-  Json out = {{"index", found->index ? Json(*found->index) : Json(nullptr)},
+  Json out = {{"index", optional_json(found->index)},
               {"word", word ? Json(fit::name_of(*word)) : Json(nullptr)},
               {"mean_rms_" + unit, found->mean_rms * scale},
               {"spread_" + unit, found->spread * scale},

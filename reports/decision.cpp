@@ -5,13 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "core/units.h"
 #include "reports/decision_risks.h"
+#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
-
-double um(double length_mm) { return length_mm / core::kMicrometre; }
 
 tl::unexpected<core::Error> no_verdict(std::string why) {
   return core::fail(core::Code::kMeaning, std::move(why));
@@ -69,12 +67,12 @@ Limits limits_of(const DecisionRule& rule, const KnownValue& value, double toler
 std::string simple_sentence(const std::string& value, const Limits& limits, double tolerance_mm) {
   const bool within = limits.compared_mm <= tolerance_mm;
   return fmt::format("{} is {} the tolerance of {:g} um by {:.3f} um", value,
-                     within ? "within" : "above", um(tolerance_mm),
-                     um(std::abs(tolerance_mm - limits.compared_mm)));
+                     within ? "within" : "above", micrometres(tolerance_mm),
+                     micrometres(std::abs(tolerance_mm - limits.compared_mm)));
 }
 
 std::string corrected_value(const Limits& limits) {
-  return fmt::format("the corrected value {:.3f} um", um(limits.compared_mm));
+  return fmt::format("the corrected value {:.3f} um", micrometres(limits.compared_mm));
 }
 
 std::string guarded_sentence(const Limits& limits, double tolerance_mm, Verdict verdict) {
@@ -83,18 +81,21 @@ std::string guarded_sentence(const Limits& limits, double tolerance_mm, Verdict 
     return fmt::format(
         "{} is within the acceptance limit of {:.3f} um (tolerance {:g} um, guard "
         "band {:.3f} um)",
-        value, um(limits.acceptance_mm), um(tolerance_mm), um(tolerance_mm - limits.acceptance_mm));
+        value, micrometres(limits.acceptance_mm), micrometres(tolerance_mm),
+        micrometres(tolerance_mm - limits.acceptance_mm));
   }
   if (verdict == Verdict::kDoesNotConform) {
     return fmt::format(
         "{} is above the rejection limit of {:.3f} um (tolerance {:g} um, guard "
         "band {:.3f} um)",
-        value, um(limits.rejection_mm), um(tolerance_mm), um(limits.rejection_mm - tolerance_mm));
+        value, micrometres(limits.rejection_mm), micrometres(tolerance_mm),
+        micrometres(limits.rejection_mm - tolerance_mm));
   }
   return fmt::format(
       "{} lies between the acceptance limit of {:.3f} um and the rejection limit of "
       "{:.3f} um about the tolerance of {:g} um: neither is proven",
-      value, um(limits.acceptance_mm), um(limits.rejection_mm), um(tolerance_mm));
+      value, micrometres(limits.acceptance_mm), micrometres(limits.rejection_mm),
+      micrometres(tolerance_mm));
 }
 
 std::string probability_sentence(const DecisionRule& rule, double p_1, Verdict verdict) {
@@ -121,7 +122,7 @@ std::optional<std::string> obstacle(const DecisionRule& rule, const KnownValue& 
     return fmt::format(
         "the rule {:g}:1 does not apply: the tolerance of {:g} um is {:.3g} times the interval of "
         "{:.3f} um",
-        rule.ratio, um(tolerance_mm), tolerance_mm / width_mm, um(width_mm));
+        rule.ratio, micrometres(tolerance_mm), tolerance_mm / width_mm, micrometres(width_mm));
   }
   if (rule.kind == DecisionRule::Kind::kJcgm106 &&
       !conformance(*value.statement, rule.prior, 0.0, tolerance_mm)) {
@@ -132,11 +133,11 @@ std::optional<std::string> obstacle(const DecisionRule& rule, const KnownValue& 
   return std::nullopt;
 }
 
-std::string sentence_of(const DecisionRule& rule, const Limits& limits, double tolerance_mm,
-                        const RuleOutcome& outcome) {
+std::string verdict_sentence(const DecisionRule& rule, const Limits& limits, double tolerance_mm,
+                             const RuleOutcome& outcome) {
   switch (rule.kind) {
     case DecisionRule::Kind::kSimpleAcceptance:
-      return simple_sentence(fmt::format("{:.3f} um", um(limits.compared_mm)), limits,
+      return simple_sentence(fmt::format("{:.3f} um", micrometres(limits.compared_mm)), limits,
                              tolerance_mm);
     case DecisionRule::Kind::kNToOne:
       return simple_sentence(corrected_value(limits), limits, tolerance_mm);
@@ -177,7 +178,7 @@ core::Result<RuleOutcome> apply_rule(const DecisionRule& rule, const KnownValue&
                   : p <= rule.producer_risk_1     ? Verdict::kDoesNotConform
                                                   : Verdict::kUndecided;
   }
-  out.sentence = sentence_of(rule, limits, tolerance_mm, out);
+  out.sentence = verdict_sentence(rule, limits, tolerance_mm, out);
   return out;
 }
 

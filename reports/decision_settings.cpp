@@ -6,13 +6,13 @@
 namespace rondure::reports {
 namespace {
 
-using Kind = DecisionRule::Kind;
-
 std::string path(std::string_view key) { return fmt::format("decision_rule/{}", key); }
 
-core::Result<Kind> kind_named(std::string_view name) {
-  for (const Kind kind : {Kind::kSimpleAcceptance, Kind::kIso14253, Kind::kJcgm106, Kind::kNToOne,
-                          Kind::kGuardBand}) {
+core::Result<DecisionRule::Kind> kind_named(std::string_view name) {
+  for (const DecisionRule::Kind kind :
+       {DecisionRule::Kind::kSimpleAcceptance, DecisionRule::Kind::kIso14253,
+        DecisionRule::Kind::kJcgm106, DecisionRule::Kind::kNToOne,
+        DecisionRule::Kind::kGuardBand}) {
     if (name == name_of(kind)) return kind;
   }
   return core::fail(core::Code::kMeaning,

@@ -7,17 +7,17 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
 
-constexpr double kMicroradian = 1e-6;
 constexpr double kPerMetre = 1e-3;  // 1/mm in 1/m
 
 /// The settings below one key.
-class Section {
+class SettingGroup {
  public:
-  Section(const record::RunRecord& record, std::string path)
+  SettingGroup(const record::RunRecord& record, std::string path)
       : record_(record), path_("uncertainty/" + std::move(path)) {}
 
   [[nodiscard]] std::optional<double> given(std::string_view key) const {
@@ -42,11 +42,11 @@ class Section {
 };
 
 bool declares(const record::RunRecord& record, std::string_view group) {
-  const auto groups = Section(record, "").words("declared");
+  const auto groups = SettingGroup(record, "").words("declared");
   return std::find(groups.begin(), groups.end(), group) != groups.end();
 }
 
-double at(const std::vector<double>& values, std::size_t i) {
+double value_at(const std::vector<double>& values, std::size_t i) {
   return i < values.size() ? values[i] : 0.0;
 }
 
@@ -54,7 +54,7 @@ std::optional<ProbeInfluences> probe_influences(const record::RunRecord& record,
                                                 const FeatureResult& result,
                                                 const std::optional<fit::ProbeTip>& probe) {
   if (!declares(record, "probe")) return std::nullopt;
-  const Section said(record, "probe/");
+  const SettingGroup said(record, "probe/");
   ProbeInfluences out;
   out.form_limit_mm = said.number("form_limit_um") * core::kMicrometre;
   if (const auto repeatability_um = said.given("repeatability_um")) {
@@ -68,14 +68,14 @@ std::optional<ProbeInfluences> probe_influences(const record::RunRecord& record,
   const auto amplitudes_um = said.numbers("lobes/amplitude_um");
   for (std::size_t i = 0; i < orders.size(); ++i) {
     out.lobes.push_back(
-        {static_cast<int>(orders[i]), at(amplitudes_um, i) * core::kMicrometre, 0.0});
+        {static_cast<int>(orders[i]), value_at(amplitudes_um, i) * core::kMicrometre, 0.0});
   }
   return out;
 }
 
 /// Fills the curves of one list of error terms; names as in ISO 230-1: "EYX" is along y, of the x
 /// axis, "EAX" about x.
-void take_curves(const Section& said, std::string_view first_letter, std::string_view unit,
+void take_curves(const SettingGroup& said, std::string_view first_letter, std::string_view unit,
                  double unit_value, cmm::GeometricErrors& terms) {
   const bool rotation = first_letter == "A";
   const auto names = said.words("error");
@@ -90,19 +90,20 @@ void take_curves(const Section& said, std::string_view first_letter, std::string
     if (component > 2 || axis > 2) continue;
     cmm::AxisErrors& errors = terms.axes[axis];
     cmm::ErrorCurve& curve = (rotation ? errors.rotation : errors.translation)[component];
-    curve.linear_1_mm = at(linear, i) * unit_value * kPerMetre;
-    curve.quadratic_1_mm2 = at(quadratic, i) * unit_value * kPerMetre * kPerMetre;
-    curve.wave = at(wave, i) * unit_value;
-    if (at(period, i) > 0.0) curve.period_mm = period[i];
+    curve.linear_1_mm = value_at(linear, i) * unit_value * kPerMetre;
+    curve.quadratic_1_mm2 = value_at(quadratic, i) * unit_value * kPerMetre * kPerMetre;
+    curve.wave = value_at(wave, i) * unit_value;
+    if (value_at(period, i) > 0.0) curve.period_mm = period[i];
   }
 }
 
 std::optional<MachineInfluences> machine_influences(const record::RunRecord& record) {
   if (!declares(record, "machine")) return std::nullopt;
-  const Section said(record, "machine/");
+  const SettingGroup said(record, "machine/");
   MachineInfluences out;
-  take_curves(Section(record, "machine/translations/"), "X", "um", core::kMicrometre, out.terms);
-  take_curves(Section(record, "machine/rotations/"), "A", "urad", kMicroradian, out.terms);
+  take_curves(SettingGroup(record, "machine/translations/"), "X", "um", core::kMicrometre,
+              out.terms);
+  take_curves(SettingGroup(record, "machine/rotations/"), "A", "urad", kMicroradian, out.terms);
   out.terms.squareness_xy_rad = said.number("squareness_xy_urad") * kMicroradian;
   out.terms.squareness_xz_rad = said.number("squareness_xz_urad") * kMicroradian;
   out.terms.squareness_yz_rad = said.number("squareness_yz_urad") * kMicroradian;
@@ -116,7 +117,7 @@ std::optional<MachineInfluences> machine_influences(const record::RunRecord& rec
 std::optional<ThermalInfluences> thermal_influences(const record::RunRecord& record,
                                                     const FeatureResult& result) {
   if (!declares(record, "thermal")) return std::nullopt;
-  const Section said(record, "thermal/");
+  const SettingGroup said(record, "thermal/");
   const record::Feature& feature = result.feature;
   ThermalInfluences out;
   out.temperature_K = feature.number("temperature_uncertainty_K").value_or(0.0);
@@ -145,7 +146,7 @@ std::string source_text(const FormSpectrum& spectrum) {
 
 std::optional<FormSpectrum> spectrum_of(const record::RunRecord& record) {
   if (!declares(record, "form_spectrum")) return std::nullopt;
-  const Section said(record, "form_spectrum/");
+  const SettingGroup said(record, "form_spectrum/");
   FormSpectrum out;
   const auto amplitudes = said.words("amplitudes");
   out.absolute = !amplitudes.empty() && amplitudes.front() == "absolute";
@@ -153,14 +154,14 @@ std::optional<FormSpectrum> spectrum_of(const record::RunRecord& record) {
   const auto degrees = said.numbers("terms/degree");
   const auto amplitudes_um = said.numbers("terms/amplitude_um");
   for (std::size_t i = 0; i < undulations.size(); ++i) {
-    out.terms.push_back({static_cast<int>(undulations[i]), static_cast<int>(at(degrees, i)),
-                         at(amplitudes_um, i) * core::kMicrometre});
+    out.terms.push_back({static_cast<int>(undulations[i]), static_cast<int>(value_at(degrees, i)),
+                         value_at(amplitudes_um, i) * core::kMicrometre});
   }
   out.source = source_text(out);
   return out;
 }
 
-UncertaintyOptions options_of(const Section& said) {
+UncertaintyOptions options_of(const SettingGroup& said) {
   UncertaintyOptions out;
   out.coverage = 0.01 * said.number("coverage_percent");
   out.least_trials = static_cast<int>(said.number("least_trials"));
@@ -175,7 +176,7 @@ UncertaintyOptions options_of(const Section& said) {
 
 std::optional<FixtureInfluences> fixture_influences(const record::RunRecord& record) {
   if (!declares(record, "fixture")) return std::nullopt;
-  const Section said(record, "fixture/");
+  const SettingGroup said(record, "fixture/");
   FixtureInfluences out;
   out.angle_rad = said.number("angle_deg") * core::kDegree;
   out.position_mm = said.number("position_um") * core::kMicrometre;
@@ -185,7 +186,7 @@ std::optional<FixtureInfluences> fixture_influences(const record::RunRecord& rec
 
 std::optional<Declared> declared_for(const record::RunRecord& record, const FeatureResult& result,
                                      const std::optional<fit::ProbeTip>& probe) {
-  const Section said(record, "");
+  const SettingGroup said(record, "");
   if (!said.given("coverage_percent")) return std::nullopt;
   Declared out;
   out.influences.probe = probe_influences(record, result, probe);

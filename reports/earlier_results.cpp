@@ -4,17 +4,16 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
 #include "reports/archive_entry.h"
+#include "reports/json_parts.h"
 
 namespace rondure::reports {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using record::ArchivedResult;
 using record::ArchiveHead;
 using record::ArchiveResult;
@@ -45,8 +44,6 @@ constexpr std::array<std::pair<const char*, std::string ArchiveResult::*>, 9> kR
      {"verdict", &ArchiveResult::verdict},
      {"certificate", &ArchiveResult::certificate}}};
 
-Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
 std::optional<double> optional_of(const Json& value) {
   return value.is_null() ? std::nullopt : std::optional(value.get<double>());
 }
@@ -56,8 +53,8 @@ Json json_of(const ArchivedResult& r) {
   for (const auto& [key, member] : kHeadTexts) out[key] = r.head.*member;
   for (const auto& [key, member] : kResultTexts) out[key] = r.result.*member;
   out["simulated"] = r.head.simulated;
-  out["value"] = json_of(r.result.value);
-  out["upper_limit"] = json_of(r.result.upper_limit);
+  out["value"] = optional_json(r.result.value);
+  out["upper_limit"] = optional_json(r.result.upper_limit);
   out["time_s"] = r.time_s;
   out["number"] = r.number;
   return out;

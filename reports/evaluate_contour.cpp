@@ -27,7 +27,7 @@ double number(const record::Feature& feature, std::string_view name, double othe
 }
 
 /// The settings of the journal as options of the study.
-fit::ContourStudyOptions options_of(const record::Feature& feature) {
+fit::ContourStudyOptions contour_options(const record::Feature& feature) {
   fit::ContourStudyOptions out;
   const auto is = [&](std::string_view key, std::string_view word) {
     return feature.word(key) == word;
@@ -216,7 +216,7 @@ std::vector<SummaryLine> ContourResult::summary() const {
 
 void evaluate_contour(const record::RunRecord& record, int index, FeatureResult& result) {
   ContourFacts facts;
-  facts.options = options_of(result.feature);
+  facts.options = contour_options(result.feature);
   const auto parts = parts_of(record, index);
   auto study = fit::contour_study(parts, facts.options);
   if (!study) {

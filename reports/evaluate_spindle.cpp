@@ -23,7 +23,7 @@ core::Result<fit::ProbeLayout> layout_of(const record::Feature& feature) {
   return fit::ProbeLayout::of(p2 * kDegree, p3 * kDegree);
 }
 
-fit::ThreeProbeOptions options_of(const record::Feature& feature) {
+fit::ThreeProbeOptions separation_options(const record::Feature& feature) {
   using Options = fit::ThreeProbeOptions;
   Options out;
   out.samples = static_cast<int>(feature.number("samples").value_or(out.samples));
@@ -104,7 +104,7 @@ void evaluate_spindle(const record::RunRecord& record, int index, FeatureResult&
       feature.word("filter") == "none" ? 0.0 : feature.number("cutoff_upr").value_or(50.0);
   auto facts =
       spindle_facts(probe_readings(*record.data_of(index, "data")), arm_of(feature), *layout,
-                    options_of(feature), cutoff, feature.side == record::Side::kInside);
+                    separation_options(feature), cutoff, feature.side == record::Side::kInside);
   if (!facts) {
     result.failure = facts.error();
     return;

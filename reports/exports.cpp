@@ -33,7 +33,7 @@ std::string calibration_of(const Evaluation& evaluation) {
 constexpr const char* kResultsFile = "results.csv";
 
 /// "html, json and csv".
-std::string in_words(const std::vector<std::string>& words) {
+std::string enumerated(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
     text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
@@ -51,9 +51,9 @@ core::Result<void> look_through(const Export& what, const std::string& bytes) {
                     fmt::format("{} would not be sound: {}", what.file, faults.front()), what.file);
 }
 
-std::string text_of(const Export& what, const record::RunRecord& record,
-                    const Evaluation& evaluation, Language language,
-                    const EarlierResults& earlier) {
+std::string export_text(const Export& what, const record::RunRecord& record,
+                        const Evaluation& evaluation, Language language,
+                        const EarlierResults& earlier) {
   if (what.file == kCalibrationFile) return calibration_of(evaluation);
   if (what.format == "html") return write_html(record, evaluation, language, earlier);
   if (what.format == "json") return write_json(record, evaluation);
@@ -118,7 +118,7 @@ core::Result<Rendered> render(const Export& what, const record::RunRecord& recor
                               const Evaluation& evaluation, Language language,
                               const EarlierResults& earlier) {
   if (what.format != "pdf") {
-    return Rendered{text_of(what, record, evaluation, language, earlier), {}};
+    return Rendered{export_text(what, record, evaluation, language, earlier), {}};
   }
   auto made = write_pdf(record, write_html(record, evaluation, language, earlier));
   if (!made) return core::fail(made.error());
@@ -153,7 +153,7 @@ core::Result<WrittenExports> write_exports(const std::filesystem::path& director
     if (std::find(known.begin(), known.end(), format) == known.end()) {
       return core::fail(
           core::Code::kBadOption,
-          fmt::format("format '{}' is unknown; {} can be written", format, in_words(known)));
+          fmt::format("format '{}' is unknown; {} can be written", format, enumerated(known)));
     }
   }
   const auto earlier = read_earlier(directory);

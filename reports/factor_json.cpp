@@ -4,10 +4,6 @@
 namespace rondure::reports {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::size_t at(Factor factor) { return static_cast<std::size_t>(factor); }
-
 Json names_of(const FactorStudy& study, Factor factor, const std::vector<std::size_t>& levels) {
   return list_json(levels, [&](std::size_t level) { return study.levels[at(factor)][level]; });
 }

@@ -14,7 +14,6 @@ namespace rondure::reports {
 namespace {
 
 using record::Form;
-using Points = std::vector<Eigen::Vector3d>;
 
 constexpr double kSigmas = 3.0;
 constexpr double kMedianScales = 5.0;
@@ -61,7 +60,7 @@ core::Result<std::size_t> checked_count(const std::vector<bool>& out) {
 }
 
 /// Distances from the least-squares circle of a section.
-core::Result<std::vector<double>> section_deviations(const Points& points) {
+core::Result<std::vector<double>> section_deviations(const Points3& points) {
   const auto plane = across_axis(points);
   const auto circle = fit::ls_circle(plane);
   if (!circle) return core::fail(circle.error());
@@ -71,7 +70,7 @@ core::Result<std::vector<double>> section_deviations(const Points& points) {
   return out;
 }
 
-core::Result<std::vector<double>> cylinder_deviations(const Points& points) {
+core::Result<std::vector<double>> cylinder_deviations(const Points3& points) {
   const auto cylinder = fit::ls_cylinder(points, Eigen::Vector3d::UnitZ());
   if (!cylinder) return core::fail(cylinder.error());
   std::vector<double> out;
@@ -90,7 +89,7 @@ core::Result<std::vector<bool>> outliers_of(const FactorPoints& points, OutlierR
     return out;
   }
   std::vector<bool> out;
-  for (const Points& layer : points.layers_mm) {
+  for (const Points3& layer : points.layers_mm) {
     const auto deviations = section_deviations(layer);
     if (!deviations) return core::fail(deviations.error());
     const auto of_layer = flagged(*deviations, rule, 3.0);
@@ -113,8 +112,8 @@ core::Result<WithoutOutliers> without_outliers(const FactorPoints& points, Outli
   if (!out_of_all) return core::fail(out_of_all.error());
   WithoutOutliers out{{points.form, points.layers_known, {}}, 0};
   std::size_t row = 0;
-  for (const Points& layer : points.layers_mm) {
-    Points kept;
+  for (const Points3& layer : points.layers_mm) {
+    Points3 kept;
     for (const Eigen::Vector3d& p : layer) {
       if (!(*out_of_all)[row++]) kept.push_back(p);
     }

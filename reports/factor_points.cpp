@@ -23,12 +23,11 @@ namespace {
 
 using record::Form;
 using record::Reference;
-using Points = std::vector<Eigen::Vector3d>;
 
 constexpr double kPointsPerUndulation = 7.0;
 
 /// Height of a layer over its angle, z = a + b cos + c sin: how its plane lies.
-Eigen::Vector3d plane_heights(const Points& points, const Eigen::Vector2d& center) {
+Eigen::Vector3d plane_heights(const Points3& points, const Eigen::Vector2d& center) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   const double first = points.front().z();
@@ -41,7 +40,7 @@ Eigen::Vector3d plane_heights(const Points& points, const Eigen::Vector2d& cente
   return normal.inverse() * right + Eigen::Vector3d(first, 0.0, 0.0);
 }
 
-core::Result<Points> filtered_layer(const Points& points, double cutoff_upr) {
+core::Result<Points3> filtered_layer(const Points3& points, double cutoff_upr) {
   const auto needed = static_cast<std::size_t>(std::ceil(kPointsPerUndulation * cutoff_upr));
   if (points.size() < needed) {
     return core::fail(core::Code::kSampling,
@@ -57,7 +56,7 @@ core::Result<Points> filtered_layer(const Points& points, double cutoff_upr) {
   const auto section = fit::evaluate_section(plane, options);
   if (!section) return core::fail(section.error());
   const Eigen::Vector3d heights = plane_heights(points, circle->center_mm);
-  Points out;
+  Points3 out;
   out.reserve(section->r_mm.size());
   for (std::size_t i = 0; i < section->r_mm.size(); ++i) {
     const Eigen::Vector2d n(std::cos(section->theta_rad[i]), std::sin(section->theta_rad[i]));
@@ -73,7 +72,7 @@ core::Result<double> one_sided(const core::Result<Fit>& fit) {
   return fit->deviation_mm;
 }
 
-core::Result<double> cylindricity(const Points& points, Reference reference) {
+core::Result<double> cylindricity(const Points3& points, Reference reference) {
   if (points.size() < 6) {
     return core::fail(
         core::Code::kTooFewPoints,
@@ -90,7 +89,7 @@ core::Result<double> cylindricity(const Points& points, Reference reference) {
   return zone->width_mm();
 }
 
-core::Result<double> roundness(const Points& points, Reference reference) {
+core::Result<double> roundness(const Points3& points, Reference reference) {
   if (points.size() < 4) {
     return core::fail(
         core::Code::kTooFewPoints,
@@ -109,22 +108,23 @@ core::Result<double> roundness(const Points& points, Reference reference) {
 }
 
 /// A point and where it stands on its layer.
-struct Placed {
+struct PlacedPoint {
   double angle_rad = 0.0;
   Eigen::Vector3d place_mm;
 };
 
 /// By angle from the first point on: half a step of room keeps a neighbour that lies just before it
 /// from becoming the last.
-void sort_by_angle(std::vector<Placed>& layer) {
+void sort_by_angle(std::vector<PlacedPoint>& layer) {
   const double from =
       layer.front().angle_rad - 0.5 * core::kTwoPi / static_cast<double>(layer.size());
-  for (Placed& one : layer) {
+  for (PlacedPoint& one : layer) {
     one.angle_rad = std::fmod(one.angle_rad - from, core::kTwoPi);
     if (one.angle_rad < 0.0) one.angle_rad += core::kTwoPi;
   }
-  std::stable_sort(layer.begin(), layer.end(),
-                   [](const Placed& a, const Placed& b) { return a.angle_rad < b.angle_rad; });
+  std::stable_sort(layer.begin(), layer.end(), [](const PlacedPoint& a, const PlacedPoint& b) {
+    return a.angle_rad < b.angle_rad;
+  });
 }
 
 bool keeps(PointSubset subset, std::size_t layer, std::size_t layers, std::size_t point) {
@@ -149,7 +149,7 @@ bool keeps(PointSubset subset, std::size_t layer, std::size_t layers, std::size_
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> across_axis(const Points& points_mm) {
+std::vector<Eigen::Vector2d> across_axis(const Points3& points_mm) {
   std::vector<Eigen::Vector2d> out;
   out.reserve(points_mm.size());
   for (const Eigen::Vector3d& p : points_mm) out.emplace_back(p.head<2>());
@@ -158,14 +158,14 @@ std::vector<Eigen::Vector2d> across_axis(const Points& points_mm) {
 
 std::size_t FactorPoints::count() const {
   std::size_t out = 0;
-  for (const Points& layer : layers_mm) out += layer.size();
+  for (const Points3& layer : layers_mm) out += layer.size();
   return out;
 }
 
-Points FactorPoints::all_mm() const {
-  Points out;
+Points3 FactorPoints::all_mm() const {
+  Points3 out;
   out.reserve(count());
-  for (const Points& layer : layers_mm) out.insert(out.end(), layer.begin(), layer.end());
+  for (const Points3& layer : layers_mm) out.insert(out.end(), layer.begin(), layer.end());
   return out;
 }
 
@@ -185,7 +185,7 @@ core::Result<FactorPoints> factor_points(const FeatureResult& result, Form form)
     return core::fail(core::Code::kNoPoints, "this feature has no sections");
   const fit::Axis& axis = result.mz_cylinder ? result.mz_cylinder->axis : result.section_axis;
   const auto frame = fit::across(axis.direction);
-  std::map<int, std::vector<Placed>> layers;
+  std::map<int, std::vector<PlacedPoint>> layers;
   for (const CloudPoint& point : result.cloud) {
     const Eigen::Vector3d v = point.tip_mm - axis.point_mm;
     const Eigen::Vector2d in_plane = frame.transpose() * v;
@@ -194,9 +194,9 @@ core::Result<FactorPoints> factor_points(const FeatureResult& result, Form form)
   }
   for (auto& [number, layer] : layers) {
     if (out.layers_known) sort_by_angle(layer);
-    Points places;
+    Points3 places;
     places.reserve(layer.size());
-    for (const Placed& one : layer) places.push_back(one.place_mm);
+    for (const PlacedPoint& one : layer) places.push_back(one.place_mm);
     out.layers_mm.push_back(std::move(places));
   }
   return out;
@@ -215,7 +215,7 @@ FactorPoints chosen(const FactorPoints& points, PointSubset subset) {
   FactorPoints out{points.form, points.layers_known, {}};
   const std::size_t layers = points.layers_mm.size();
   for (std::size_t layer = 0; layer < layers; ++layer) {
-    Points kept;
+    Points3 kept;
     for (std::size_t i = 0; i < points.layers_mm[layer].size(); ++i) {
       if (keeps(subset, layer, layers, i)) kept.push_back(points.layers_mm[layer][i]);
     }
@@ -229,7 +229,7 @@ core::Result<FactorPoints> filtered(const FactorPoints& points, double cutoff_up
     return core::fail(core::Code::kSampling, "the layers of the points are not known");
   }
   FactorPoints out{points.form, true, {}};
-  for (const Points& layer : points.layers_mm) {
+  for (const Points3& layer : points.layers_mm) {
     auto of_layer = filtered_layer(layer, cutoff_upr);
     if (!of_layer) return core::fail(of_layer.error());
     out.layers_mm.push_back(*std::move(of_layer));
@@ -240,7 +240,7 @@ core::Result<FactorPoints> filtered(const FactorPoints& points, double cutoff_up
 core::Result<double> deviation_mm(const FactorPoints& points, Reference reference) {
   if (points.form == Form::kCylindricity) return cylindricity(points.all_mm(), reference);
   double worst = 0.0;
-  for (const Points& layer : points.layers_mm) {
+  for (const Points3& layer : points.layers_mm) {
     const auto of_layer = roundness(layer, reference);
     if (!of_layer) return of_layer;
     worst = std::max(worst, *of_layer);

@@ -12,6 +12,8 @@
 
 namespace rondure::reports {
 
+using Points3 = std::vector<Eigen::Vector3d>;
+
 /// The points behind a characteristic, on their way through another program: some of them chosen,
 /// outliers left out, sections filtered, a reference fitted, in this order.
 struct FactorPoints {
@@ -19,16 +21,15 @@ struct FactorPoints {
   bool layers_known = true;                         ///< false: one list, in the order of the data.
   /// The layers from the first, each by angle from its first point on; axis of the feature along z,
   /// as it was reported.
-  std::vector<std::vector<Eigen::Vector3d>> layers_mm;
+  std::vector<Points3> layers_mm;
 
   [[nodiscard]] std::size_t count() const;
   /// All points, layer by layer.
-  [[nodiscard]] std::vector<Eigen::Vector3d> all_mm() const;
+  [[nodiscard]] Points3 all_mm() const;
 };
 
 /// Points of a layer across the axis.
-[[nodiscard]] std::vector<Eigen::Vector2d> across_axis(
-    const std::vector<Eigen::Vector3d>& points_mm);
+[[nodiscard]] std::vector<Eigen::Vector2d> across_axis(const Points3& points_mm);
 
 /// Which points another sampling plan would have touched. Even: the first, third, ... one.
 enum class PointSubset {

@@ -15,13 +15,12 @@ namespace {
 
 using record::Reference;
 
-constexpr std::array kReferences = {Reference::kLeastSquares, Reference::kMinimumZone,
-                                    Reference::kMinimumCircumscribed, Reference::kMaximumInscribed};
+constexpr std::array kStudiedReferences = {Reference::kLeastSquares, Reference::kMinimumZone,
+                                           Reference::kMinimumCircumscribed,
+                                           Reference::kMaximumInscribed};
 constexpr std::array kCutoffsUpr = {0.0, 15.0, 50.0, 150.0};  ///< 0: unfiltered.
 
 constexpr double kRoundOffMm = 1e-9;  ///< No change.
-
-std::size_t at(Factor factor) { return static_cast<std::size_t>(factor); }
 
 /// Fills the cells of a study: one subset, one outlier rule, one filter after the other, so that
 /// each is made once.
@@ -31,7 +30,7 @@ class Cells {
       : points_(points), subsets_(subsets_of(points)), study_(study) {}
 
   void fill() {
-    study_.cells.resize(kReferences.size() * kCutoffsUpr.size() * kOutlierRules.size() *
+    study_.cells.resize(kStudiedReferences.size() * kCutoffsUpr.size() * kOutlierRules.size() *
                         subsets_.size());
     for (std::size_t s = 0; s < subsets_.size(); ++s) {
       const FactorPoints subset = chosen(points_, subsets_[s]);
@@ -55,15 +54,16 @@ class Cells {
     const bool same = kept && o > 0 && kept->left_out == 0;
     for (std::size_t f = 0; f < kCutoffsUpr.size(); ++f) {
       if (same) {  // nothing was left out: the values of no rule
-        for (std::size_t r = 0; r < kReferences.size(); ++r) cell(r, f, o, s) = cell(r, f, 0, s);
+        for (std::size_t r = 0; r < kStudiedReferences.size(); ++r)
+          cell(r, f, o, s) = cell(r, f, 0, s);
         continue;
       }
       const auto points = !kept ? core::Result<FactorPoints>(core::fail(kept.error()))
                           : kCutoffsUpr[f] > 0.0 ? filtered(kept->points, kCutoffsUpr[f])
                                                  : kept->points;
-      for (std::size_t r = 0; r < kReferences.size(); ++r) {
+      for (std::size_t r = 0; r < kStudiedReferences.size(); ++r) {
         FactorCell& out = cell(r, f, o, s);
-        const auto value = points ? deviation_mm(*points, kReferences[r])
+        const auto value = points ? deviation_mm(*points, kStudiedReferences[r])
                                   : core::Result<double>(core::fail(points.error()));
         if (value) out.value_mm = *value;
         if (!value) out.why = value.error().what;
@@ -80,7 +80,7 @@ class Cells {
 };
 
 void name_levels(const FactorPoints& points, record::Shape shape, FactorStudy& study) {
-  for (const Reference reference : kReferences)
+  for (const Reference reference : kStudiedReferences)
     study.levels[at(Factor::kReference)].push_back(reference_of(reference, shape));
   for (const double cutoff : kCutoffsUpr) {
     study.levels[at(Factor::kFilter)].push_back(
@@ -188,8 +188,8 @@ core::Result<FactorStudy> study_factors(const FeatureResult& feature,
   out.operator_words = characteristic.value->operator_text();
   out.reported_mm = characteristic.value->value_mm();
   name_levels(*points, shape_of(asked.form), out);
-  for (std::size_t r = 0; r < kReferences.size(); ++r) {
-    if (kReferences[r] == asked.reference) out.reported[at(Factor::kReference)] = r;
+  for (std::size_t r = 0; r < kStudiedReferences.size(); ++r) {
+    if (kStudiedReferences[r] == asked.reference) out.reported[at(Factor::kReference)] = r;
   }
   Cells(*points, out).fill();
   for (const Factor factor : kFactors) out.effects[at(factor)] = effect_of(out, factor);

@@ -20,6 +20,8 @@ namespace rondure::reports {
 enum class Factor : std::size_t { kReference, kFilter, kOutliers, kSampling };
 inline constexpr std::array kFactors = {Factor::kReference, Factor::kFilter, Factor::kOutliers,
                                         Factor::kSampling};
+/// Its place in arrays by factor.
+[[nodiscard]] constexpr std::size_t at(Factor factor) { return static_cast<std::size_t>(factor); }
 
 /// "reference", "filter", "outliers", "sampling".
 [[nodiscard]] std::string_view name_of(Factor factor);

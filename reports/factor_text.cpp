@@ -12,12 +12,9 @@
 namespace rondure::reports {
 namespace {
 
-constexpr std::size_t kColumns = 80;
 constexpr std::size_t kLabel = 34;
 constexpr std::size_t kNumber = 9;  ///< Of a reference.
 constexpr std::size_t kChange = 10;
-
-std::size_t at(Factor factor) { return static_cast<std::size_t>(factor); }
 
 /// Lines of at most 80 columns, the first behind `head`, the others below its end.
 std::string wrapped(std::string_view head, std::string_view text) {
@@ -28,9 +25,9 @@ std::string wrapped(std::string_view head, std::string_view text) {
   const std::string clean = printable(text);
   for (std::string_view rest = clean; !rest.empty();) {
     const std::size_t end = std::min(rest.find(' '), rest.size());
-    const std::string word = shortened(rest.substr(0, end), kColumns - indent.size());
+    const std::string word = shortened(rest.substr(0, end), kTerminalColumns - indent.size());
     rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (!fresh && columns(line) + 1 + columns(word) > kColumns) {
+    if (!fresh && columns(line) + 1 + columns(word) > kTerminalColumns) {
       out += line + "\n";
       line = indent;
       fresh = true;
@@ -44,7 +41,7 @@ std::string wrapped(std::string_view head, std::string_view text) {
 using Combination = std::array<std::size_t, 4>;
 
 /// A row: one combination of the last three factors, a column a reference.
-struct Row {
+struct CombinationRow {
   const FactorStudy& study;
   Combination combination;  ///< Its reference is not looked at.
 
@@ -68,7 +65,7 @@ struct Row {
 };
 
 /// The row, and below it why a value is missing.
-std::string row_text(const Row& row, const std::string& label) {
+std::string row_text(const CombinationRow& row, const std::string& label) {
   std::string out = fmt::format("{:<{}}", shortened(label, kLabel), kLabel);
   if (!row.has_value()) return wrapped(out, fmt::format("no value: {}", row.reported().why));
   std::string notes;
@@ -166,7 +163,7 @@ std::string all_text(const FactorStudy& study) {
     for (std::size_t o = 0; o < study.levels[at(Factor::kOutliers)].size(); ++o) {
       std::string rows;
       for (std::size_t s = 0; s < study.levels[at(Factor::kSampling)].size(); ++s) {
-        const Row row{study, {0, f, o, s}};
+        const CombinationRow row{study, {0, f, o, s}};
         if (!row.has_value()) continue;
         const std::string label =
             fmt::format("  {} ({})", study.levels[at(Factor::kSampling)][s], row.reported().points);

@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/QR>
-
+#include "core/decompositions.h"
 #include "fit/ls_circle.h"
 #include "fit/ls_cylinder.h"
 

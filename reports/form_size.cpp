@@ -6,7 +6,7 @@
 namespace rondure::reports {
 namespace {
 
-constexpr int kSteps = 256;
+constexpr int kSizeSteps = 256;
 
 }  // namespace
 
@@ -23,8 +23,8 @@ FormSize::FormSize(const std::vector<NoiseLevel>& levels) : FormSize(0.0) {
   const double mean_noise = noise / count;
   const double scale = (square + noise) / count;
   std::vector<double> log_density;
-  for (int k = 0; k <= kSteps; ++k) {
-    const double s2 = scale * std::pow(10.0, -5.0 + 9.0 * k / kSteps);
+  for (int k = 0; k <= kSizeSteps; ++k) {
+    const double s2 = scale * std::pow(10.0, -5.0 + 9.0 * k / kSizeSteps);
     double value = std::log(s2 / (s2 + mean_noise));
     for (const NoiseLevel& level : levels) {
       const double variance = s2 + level.noise_mm2;
@@ -36,11 +36,11 @@ FormSize::FormSize(const std::vector<NoiseLevel>& levels) : FormSize(0.0) {
   sizes_.clear();
   below_.clear();
   double sum = 0.0;
-  for (int k = 0; k <= kSteps; ++k) {
+  for (int k = 0; k <= kSizeSteps; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const double here = std::exp(log_density[at] - highest);
     if (k > 0) sum += 0.5 * (here + std::exp(log_density[at - 1] - highest));
-    sizes_.push_back(std::sqrt(scale * std::pow(10.0, -5.0 + 9.0 * k / kSteps)));
+    sizes_.push_back(std::sqrt(scale * std::pow(10.0, -5.0 + 9.0 * k / kSizeSteps)));
     below_.push_back(sum);
   }
   for (double& value : below_) value /= sum;

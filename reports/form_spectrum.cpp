@@ -6,8 +6,8 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <Eigen/QR>
 
+#include "core/decompositions.h"
 #include "core/units.h"
 
 namespace rondure::reports {

@@ -1,16 +1,14 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/numbers.h"
 #include "core/units.h"
 #include "reports/history.h"
+#include "reports/json_parts.h"
 
 namespace rondure::reports {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Lengths leave the program in um; what is in another unit stays in it.
 std::optional<double> outside(const std::optional<double>& value, const std::string& unit) {
@@ -34,11 +32,9 @@ std::string field(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string number(const std::optional<double>& value) {
+std::string shortest_or_empty(const std::optional<double>& value) {
   return value ? core::shortest(*value) : std::string();
 }
-
-Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json result_json(const record::ArchivedResult& r) {
   return {{"run_id", r.head.run_id},
@@ -56,8 +52,8 @@ Json result_json(const record::ArchivedResult& r) {
           {"reference", r.result.reference},
           {"filter", r.result.filter},
           {"sampling", r.result.sampling},
-          {"value", json_of(outside(r.result.value, r.result.unit))},
-          {"limit", json_of(outside(r.result.upper_limit, r.result.unit))},
+          {"value", optional_json(outside(r.result.value, r.result.unit))},
+          {"limit", optional_json(outside(r.result.upper_limit, r.result.unit))},
           {"unit", outside_unit(r.result.unit)},
           {"verdict", r.result.verdict},
           {"certificate", r.result.certificate},
@@ -95,7 +91,7 @@ Json chart_json(const RunChart& chart) {
   const bool model = c.method == Capability::Method::kLogNormal;
   out["capability"] = {{"name", chart.index_name},
                        {"index", c.index},
-                       {"lower_bound_95", json_of(c.lower_bound)},
+                       {"lower_bound_95", optional_json(c.lower_bound)},
                        {"percentiles_of", model ? "log-normal" : "sample"},
                        {"median_um", um_json(c.median_mm)},
                        {"point_99_865_um", um_json(c.upper_point_mm)},
@@ -124,8 +120,8 @@ std::string history_csv_rows(std::span<const record::ArchivedResult> newest_firs
                                     &r.result.reference, &r.result.filter, &r.result.sampling}) {
       out += field(*text) + ",";
     }
-    out += fmt::format("{},{},{},", number(outside(r.result.value, r.result.unit)),
-                       number(outside(r.result.upper_limit, r.result.unit)),
+    out += fmt::format("{},{},{},", shortest_or_empty(outside(r.result.value, r.result.unit)),
+                       shortest_or_empty(outside(r.result.upper_limit, r.result.unit)),
                        outside_unit(r.result.unit));
     out += fmt::format("{},{},{},{},{},{},{}\n", field(r.result.verdict),
                        field(r.result.certificate), field(h.plan_name), field(h.plan_revision),

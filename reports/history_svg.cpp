@@ -12,18 +12,18 @@
 namespace rondure::reports {
 namespace {
 
-constexpr double kWidth = 860.0;
-constexpr double kLeft = 66.0;
-constexpr double kRight = 738.0;
-constexpr double kTop = 64.0;
-constexpr double kBottom = 344.0;
+constexpr double kRunWidth = 860.0;
+constexpr double kRunLeft = 66.0;
+constexpr double kRunRight = 738.0;
+constexpr double kRunTop = 64.0;
+constexpr double kRunBottom = 344.0;
 constexpr double kText = 412.0;  ///< Where the sentences begin.
 constexpr double kLine = 18.0;
-constexpr std::size_t kLetters = 112;      ///< Of a line of sentences.
-constexpr std::size_t kIndexLetters = 84;  ///< Of a line of the index, in bold letters.
+constexpr std::size_t kSentenceLetters = 112;  ///< Of a line of sentences.
+constexpr std::size_t kIndexLetters = 84;      ///< Of a line of the index, in bold letters.
 
 /// Colours of Okabe and Ito, darkened; every mark also differs in shape, every line in its dashes.
-constexpr std::string_view kStyle =
+constexpr std::string_view kRunStyle =
     "text{font-family:\"DejaVu Sans\",\"Noto Sans\",\"Noto Sans CJK "
     "SC\",Arial,sans-serif;fill:#3c4752;"
     "font-size:12px}.head{font-size:16px;font-weight:bold;fill:#16202a}.index{font-size:13px;"
@@ -33,33 +33,34 @@ constexpr std::string_view kStyle =
     ".run{fill:none;stroke:#9aa5af;stroke-width:1}.result{fill:#16202a}"
     ".beyond{fill:#c24e00}.cross{fill:none;stroke:#b93c00;stroke-width:2.2}";
 
-struct Axes {
+struct RunAxes {
   Scale x;
   Scale y;
 };
 
-Axes axes_of(const ChartRange& range, std::size_t results) {
-  return {{0.0, static_cast<double>(results) + 1.0, kLeft, kRight},
-          {range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre, kBottom, kTop}};
+RunAxes run_axes(const ChartRange& range, std::size_t results) {
+  return {
+      {0.0, static_cast<double>(results) + 1.0, kRunLeft, kRunRight},
+      {range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre, kRunBottom, kRunTop}};
 }
 
-void draw_frame(Svg& svg, const Axes& axes, const RunChart& chart) {
-  svg.rect(kLeft, kTop, kRight - kLeft, kBottom - kTop, "frame");
+void draw_frame(Svg& svg, const RunAxes& axes, const RunChart& chart) {
+  svg.rect(kRunLeft, kRunTop, kRunRight - kRunLeft, kRunBottom - kRunTop, "frame");
   for (const double value : round_ticks(axes.y.low, axes.y.high, 6)) {
-    svg.line(kLeft - 5.0, axes.y.at(value), kLeft, axes.y.at(value), "tick");
-    svg.text(kLeft - 9.0, axes.y.at(value) + 4.0, "end", "label", tick_label(value));
+    svg.line(kRunLeft - 5.0, axes.y.at(value), kRunLeft, axes.y.at(value), "tick");
+    svg.text(kRunLeft - 9.0, axes.y.at(value) + 4.0, "end", "label", tick_label(value));
   }
-  svg.upward_text(16.0, 0.5 * (kTop + kBottom), "title",
+  svg.upward_text(16.0, 0.5 * (kRunTop + kRunBottom), "title",
                   fmt::format("{} / µm", chart.results.back().result.symbol));
   for (const double number : round_ticks(1.0, axes.x.high - 1.0, 8)) {
     if (number != std::floor(number)) continue;
-    svg.line(axes.x.at(number), kBottom, axes.x.at(number), kBottom + 5.0, "tick");
-    svg.text(axes.x.at(number), kBottom + 18.0, "middle", "label", tick_label(number));
+    svg.line(axes.x.at(number), kRunBottom, axes.x.at(number), kRunBottom + 5.0, "tick");
+    svg.text(axes.x.at(number), kRunBottom + 18.0, "middle", "label", tick_label(number));
   }
   const auto day = [](const record::ArchivedResult& r) {
     return printable(r.head.started_utc.substr(0, 10));
   };
-  svg.text(0.5 * (kLeft + kRight), kBottom + 38.0, "middle", "title",
+  svg.text(0.5 * (kRunLeft + kRunRight), kRunBottom + 38.0, "middle", "title",
            trf("number of the result, in the order of time ({} to {})", day(chart.results.front()),
                day(chart.results.back())));
 }
@@ -71,7 +72,7 @@ struct Level {
   std::string name;
 };
 
-void draw_levels(Svg& svg, const Axes& axes, const RunChart& chart, bool limit_shown) {
+void draw_levels(Svg& svg, const RunAxes& axes, const RunChart& chart, bool limit_shown) {
   std::vector<Level> levels;
   if (chart.limits) {
     levels.push_back({chart.limits->upper_mm, "control", "UCL"});
@@ -84,15 +85,15 @@ void draw_levels(Svg& svg, const Axes& axes, const RunChart& chart, bool limit_s
   double free = 0.0;
   for (const Level& level : levels) {
     const double y = axes.y.at(level.value_mm / core::kMicrometre);
-    svg.line(kLeft, y, kRight, y, level.css_class);
+    svg.line(kRunLeft, y, kRunRight, y, level.css_class);
     const double label = std::max(y + 4.0, free);
-    svg.text(kRight + 7.0, label, "start", "label",
+    svg.text(kRunRight + 7.0, label, "start", "label",
              fmt::format("{} {}", level.name, um(level.value_mm)));
     free = label + 14.0;
   }
 }
 
-void draw_results(Svg& svg, const Axes& axes, const RunChart& chart,
+void draw_results(Svg& svg, const RunAxes& axes, const RunChart& chart,
                   const std::vector<double>& values_mm) {
   const auto x = [&](std::size_t i) { return axes.x.at(static_cast<double>(i) + 1.0); };
   const auto y = [&](std::size_t i) { return axes.y.at(values_mm[i] / core::kMicrometre); };
@@ -113,8 +114,9 @@ void draw_results(Svg& svg, const Axes& axes, const RunChart& chart,
   }
 }
 
-/// Lines of at most kLetters columns.
-std::vector<std::string> lines_of(std::string_view text, std::size_t letters = kLetters) {
+/// Lines of at most kSentenceLetters columns.
+std::vector<std::string> lines_within(std::string_view text,
+                                      std::size_t letters = kSentenceLetters) {
   std::vector<std::string> out(1);
   for (std::string_view rest = text; !rest.empty();) {
     const std::size_t end = std::min(rest.find(' '), rest.size());
@@ -125,7 +127,7 @@ std::vector<std::string> lines_of(std::string_view text, std::size_t letters = k
   return out;
 }
 
-std::string with_signs(std::string text) {
+std::string with_micro_sign(std::string text) {
   for (std::size_t at = text.find(" um"); at != std::string::npos; at = text.find(" um", at + 1)) {
     text.replace(at, 3, " µm");
   }
@@ -153,9 +155,9 @@ std::vector<std::string> sentences_of(const RunChart& chart, bool limit_shown) {
 std::string history_drawing(const RunChart& chart) {
   const std::vector<double> values_mm = values_of(chart);
   const ChartRange range = range_of(chart);
-  const Axes axes = axes_of(range, values_mm.size());
+  const RunAxes axes = run_axes(range, values_mm.size());
   const record::ArchivedResult& newest = chart.results.back();
-  Svg svg(kWidth, kBottom + 50.0, "wide chart",
+  Svg svg(kRunWidth, kRunBottom + 50.0, "wide chart",
           trf("Run chart of {}", printable(newest.result.characteristic)));
   draw_frame(svg, axes, chart);
   draw_levels(svg, axes, chart, range.limit_shown);
@@ -170,12 +172,12 @@ std::vector<std::string> history_sentences(const RunChart& chart) {
 std::string history_svg(const RunChart& chart) {
   const std::vector<double> values_mm = values_of(chart);
   const ChartRange range = range_of(chart);
-  const Axes axes = axes_of(range, values_mm.size());
+  const RunAxes axes = run_axes(range, values_mm.size());
   std::vector<std::string> lines;
   for (const std::string& sentence : sentences_of(chart, range.limit_shown)) {
-    for (const std::string& line : lines_of(with_signs(sentence))) lines.push_back(line);
+    for (const std::string& line : lines_within(with_micro_sign(sentence))) lines.push_back(line);
   }
-  const auto index = lines_of(with_signs(capability_in_words(chart)), kIndexLetters);
+  const auto index = lines_within(with_micro_sign(capability_in_words(chart)), kIndexLetters);
   const double height = kText + kLine * static_cast<double>(index.size() + lines.size());
   const record::ArchivedResult& newest = chart.results.back();
   const std::string head =
@@ -183,10 +185,10 @@ std::string history_svg(const RunChart& chart) {
                   shortened(printable(newest.result.feature), 24),
                   shortened(printable(newest.result.characteristic), 24),
                   shortened(printable(newest.head.part_id), 24));
-  Svg svg(kWidth, height, "chart", head);
-  svg.rect(0.0, 0.0, kWidth, height, "paper");
-  svg.text(kLeft, 26.0, "start", "head", head);
-  svg.text(kLeft, 48.0, "start", "label",
+  Svg svg(kRunWidth, height, "chart", head);
+  svg.rect(0.0, 0.0, kRunWidth, height, "paper");
+  svg.text(kRunLeft, 26.0, "start", "head", head);
+  svg.text(kRunLeft, 48.0, "start", "label",
            fmt::format("{}; {}; {}", shortened(printable(newest.result.filter), 40),
                        shortened(printable(newest.result.sampling), 60),
                        count(chart.results.size(), "result", "results")));
@@ -195,14 +197,14 @@ std::string history_svg(const RunChart& chart) {
   draw_results(svg, axes, chart, values_mm);
   double y = kText;
   for (const std::string& line : index) {
-    svg.text(kLeft, y, "start", "index", line);
+    svg.text(kRunLeft, y, "start", "index", line);
     if (!line.empty()) y += kLine;
   }
   for (const std::string& line : lines) {
-    svg.text(kLeft, y, "start", "label", line);
+    svg.text(kRunLeft, y, "start", "label", line);
     y += kLine;
   }
-  return svg.document(kStyle);
+  return svg.document(kRunStyle);
 }
 
 }  // namespace rondure::reports

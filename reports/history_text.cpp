@@ -12,7 +12,6 @@
 namespace rondure::reports {
 namespace {
 
-constexpr std::size_t kColumns = 80;
 constexpr std::size_t kAxis = 8;   ///< Columns of the labels on the left.
 constexpr std::size_t kPlot = 56;  ///< Columns of the plot.
 constexpr std::size_t kRows = 17;
@@ -34,14 +33,14 @@ std::string minute_of(const std::string& utc) {
   return out;
 }
 
-std::string wrapped(std::string_view text, std::string_view head) {
+std::string broken_lines(std::string_view text, std::string_view head) {
   std::string out;
   std::string line(head);
   for (std::string_view rest = text; !rest.empty();) {
     const std::size_t end = std::min(rest.find(' '), rest.size());
-    const std::string word = shortened(rest.substr(0, end), kColumns - columns(head) - 1);
+    const std::string word = shortened(rest.substr(0, end), kTerminalColumns - columns(head) - 1);
     rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (columns(line) + 1 + columns(word) > kColumns) {
+    if (columns(line) + 1 + columns(word) > kTerminalColumns) {
       out += line + "\n";
       line = std::string(head.size(), ' ');
     }
@@ -51,9 +50,9 @@ std::string wrapped(std::string_view text, std::string_view head) {
 }
 
 /// The drawing as rows of characters, the first row on top.
-class Canvas {
+class TextCanvas {
  public:
-  Canvas(double low_um, double high_um) : low_(low_um), high_(high_um) {
+  TextCanvas(double low_um, double high_um) : low_(low_um), high_(high_um) {
     rows_.fill(std::string(kPlot, ' '));
   }
 
@@ -90,7 +89,7 @@ std::string painted(const std::string& row) {
   return out;
 }
 
-std::string Canvas::text(bool coloured) const {
+std::string TextCanvas::text(bool coloured) const {
   std::array<std::string, kRows> ticks;
   for (const double tick : round_ticks(low_, high_, 5)) ticks[row_of(tick)] = tick_label(tick);
   std::string out;
@@ -110,7 +109,7 @@ char mark_of(const RunChart& chart, std::size_t index, double value_mm) {
   return std::binary_search(chart.beyond.begin(), chart.beyond.end(), index) ? 'X' : 'o';
 }
 
-void draw_results(Canvas& canvas, const RunChart& chart, const std::vector<double>& values_mm) {
+void draw_results(TextCanvas& canvas, const RunChart& chart, const std::vector<double>& values_mm) {
   const std::size_t n = values_mm.size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t column = (2 * i + 1) * kPlot / (2 * n);
@@ -120,15 +119,15 @@ void draw_results(Canvas& canvas, const RunChart& chart, const std::vector<doubl
 
 std::string head_of(const RunChart& chart) {
   const record::ArchivedResult& r = chart.results.back();
-  return wrapped(fmt::format("{} {} of {} / {}, part {}", r.result.symbol, r.result.reference,
-                             shortened(printable(r.result.feature), 60),
-                             shortened(printable(r.result.characteristic), 60),
-                             shortened(printable(r.head.part_id), 60)),
-                 "") +
-         wrapped(fmt::format("{}; {}; {}", printable(r.result.filter),
-                             shortened(printable(r.result.sampling), 60),
-                             count(chart.results.size(), "result", "results")),
-                 "") +
+  return broken_lines(fmt::format("{} {} of {} / {}, part {}", r.result.symbol, r.result.reference,
+                                  shortened(printable(r.result.feature), 60),
+                                  shortened(printable(r.result.characteristic), 60),
+                                  shortened(printable(r.head.part_id), 60)),
+                      "") +
+         broken_lines(fmt::format("{}; {}; {}", printable(r.result.filter),
+                                  shortened(printable(r.result.sampling), 60),
+                                  count(chart.results.size(), "result", "results")),
+                      "") +
          "\n";
 }
 
@@ -165,7 +164,7 @@ std::string history_chart(const RunChart& chart, bool coloured) {
   if (chart.results.empty()) return "no result with a value\n";
   const std::vector<double> values_mm = values_of(chart);
   const ChartRange range = range_of(chart);
-  Canvas canvas(range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre);
+  TextCanvas canvas(range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre);
   if (chart.limits) {
     const auto label = [](double mm) { return um(mm); };
     canvas.line(chart.limits->lower_mm / core::kMicrometre, '-',
@@ -182,7 +181,7 @@ std::string history_chart(const RunChart& chart, bool coloured) {
   draw_results(canvas, chart, values_mm);
   std::string out = head_of(chart) + canvas.text(coloured) + legend_of(chart);
   if (chart.limits) {
-    out += wrapped(
+    out += broken_lines(
         "UCL, CL, LCL: control limits and centre of individuals (I-MR chart of ln x); U: tolerance",
         "");
   }
@@ -190,9 +189,9 @@ std::string history_chart(const RunChart& chart, bool coloured) {
     out += fmt::format("the tolerance, {} um, is above the chart\n", um(*chart.upper_limit_mm));
   }
   if (const std::string words = capability_in_words(chart); !words.empty()) {
-    out.append("\n").append(wrapped(words, ""));
+    out.append("\n").append(broken_lines(words, ""));
   }
-  for (const std::string& note : chart.notes) out += wrapped(note, "note: ");
+  for (const std::string& note : chart.notes) out += broken_lines(note, "note: ");
   return out;
 }
 

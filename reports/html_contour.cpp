@@ -54,8 +54,8 @@ std::string side_by_side(const ContourFacts& facts, std::string_view title,
   return curves.empty() ? std::string() : line_chart(title, x_title, y_title, curves);
 }
 
-constexpr const char* kBeta = translatable("angle β on the pin / °");
-constexpr const char* kAlpha = translatable("C position α / °");
+constexpr const char* kBetaTitle = translatable("angle β on the pin / °");
+constexpr const char* kAlphaTitle = translatable("C position α / °");
 
 /// The hidden rest of a simulated part, its harmonics 0 and 1 left in.
 void add_truth(const record::RunRecord& record, int feature, std::size_t part,
@@ -84,10 +84,10 @@ std::string separation_plots(const ContourFacts& facts, const record::RunRecord&
     curves.push_back(
         curve_of(tr("n, not following"), "zone-inner", part.direct.rest_mm, core::kMicrometre));
     add_truth(record, feature, i, curves);
-    html +=
-        R"(<div class="scroll">)" +
-        line_chart(trf("Part {}", facts.names[i]), tr(kBeta), tr("contour error / µm"), curves) +
-        "</div>";
+    html += R"(<div class="scroll">)" +
+            line_chart(trf("Part {}", facts.names[i]), tr(kBetaTitle), tr("contour error / µm"),
+                       curves) +
+            "</div>";
   }
   return html;
 }
@@ -95,8 +95,8 @@ std::string separation_plots(const ContourFacts& facts, const record::RunRecord&
 std::string comparison_plots(const ContourFacts& facts) {
   using Part = fit::ContourPartResult;
   const double um_unit = core::kMicrometre;
-  const std::string beta = tr(kBeta);
-  const std::string alpha = tr(kAlpha);
+  const std::string beta = tr(kBetaTitle);
+  const std::string alpha = tr(kAlphaTitle);
   const std::string error = tr("contour error / µm");
   std::string html =
       fmt::format(R"(<h3>{}</h3><div class="scroll">)", tr("All parts side by side"));

@@ -14,7 +14,7 @@ namespace rondure::reports {
 namespace {
 
 /// A part of the page that the contents point to.
-struct Part {
+struct PagePart {
   std::string id;
   std::string name;  ///< HTML.
   std::string html;  ///< Begins with "<section".
@@ -60,9 +60,9 @@ std::string style() {
 }
 
 /// What stands above the page on a screen: the way past it, the contents, the switch of the theme.
-std::string top_of(const std::vector<Part>& parts) {
+std::string top_of(const std::vector<PagePart>& parts) {
   std::string links;
-  for (const Part& part : parts) {
+  for (const PagePart& part : parts) {
     links += fmt::format(R"(<li><a href="#{}">{}</a></li>)", part.id, part.name);
   }
   return fmt::format(
@@ -73,9 +73,9 @@ std::string top_of(const std::vector<Part>& parts) {
 }
 
 /// The parts of the page in their order; those that a run has nothing for are left out.
-std::vector<Part> parts_of(const record::RunRecord& record, const Evaluation& evaluation,
-                           const EarlierResults& earlier) {
-  std::vector<Part> parts;
+std::vector<PagePart> parts_of(const record::RunRecord& record, const Evaluation& evaluation,
+                               const EarlierResults& earlier) {
+  std::vector<PagePart> parts;
   const auto add = [&](std::string id, std::string name, std::string html) {
     if (!html.empty()) parts.push_back({std::move(id), std::move(name), std::move(html)});
   };
@@ -97,7 +97,7 @@ std::vector<Part> parts_of(const record::RunRecord& record, const Evaluation& ev
 std::string write_html(const record::RunRecord& record, const Evaluation& evaluation,
                        Language language, const EarlierResults& earlier) {
   const LanguageScope scope(language);
-  const std::vector<Part> parts = parts_of(record, evaluation, earlier);
+  const std::vector<PagePart> parts = parts_of(record, evaluation, earlier);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\"/>\n{}\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
@@ -106,7 +106,7 @@ std::string write_html(const record::RunRecord& record, const Evaluation& evalua
       escaped(printable(record.header.serial)), tr(name_of(evaluation.verdict)), style(),
       top_of(parts), head_section(record));
   constexpr std::string_view kTag = "<section";
-  for (const Part& part : parts) {
+  for (const PagePart& part : parts) {
     html += fmt::format("{} id=\"{}\"{}\n", kTag, part.id, part.html.substr(kTag.size()));
   }
   html += fmt::format("</main>\n<footer>{}</footer>\n<script>",

@@ -17,7 +17,6 @@ namespace {
 using core::kDegree;
 using core::kMicrometre;
 
-constexpr double kMicroradian = 1e-6;
 constexpr double kCoverage = 2.0;  // of the bands: standard uncertainties
 constexpr int kCurvePoints = 121;
 
@@ -28,12 +27,13 @@ struct ErrorName {
   const char* truth = "";
 };
 
-constexpr std::array<ErrorName, 6> kErrors = {{{0, translatable("shift along x"), "shift_x_um"},
-                                               {1, translatable("shift along y"), "shift_y_um"},
-                                               {2, translatable("shift along z"), "shift_z_um"},
-                                               {3, translatable("tilt about x"), "tilt_x_urad"},
-                                               {4, translatable("tilt about y"), "tilt_y_urad"},
-                                               {5, translatable("tilt about z"), "tilt_z_urad"}}};
+constexpr std::array<ErrorName, 6> kErrorNames = {
+    {{0, translatable("shift along x"), "shift_x_um"},
+     {1, translatable("shift along y"), "shift_y_um"},
+     {2, translatable("shift along z"), "shift_z_um"},
+     {3, translatable("tilt about x"), "tilt_x_urad"},
+     {4, translatable("tilt about y"), "tilt_y_urad"},
+     {5, translatable("tilt about z"), "tilt_z_urad"}}};
 
 double unit_of(Eigen::Index index) { return index < 3 ? kMicrometre : kMicroradian; }
 
@@ -73,7 +73,7 @@ Curve station_marks(const fixture::StationMotion& motion, Eigen::Index index) {
 
 std::string axis_charts(const AxisFacts& axis, const record::Series* truth) {
   std::string html = R"(<div class="scroll">)";
-  for (const ErrorName& error : kErrors) {
+  for (const ErrorName& error : kErrorNames) {
     std::vector<Curve> curves = {model_curve(*axis.motion, error.index),
                                  station_marks(*axis.motion, error.index)};
     if (truth != nullptr) {

@@ -46,5 +46,7 @@ namespace rondure::reports {
 /// "<div><dt>name</dt><dd>html</dd></div>"; both are HTML already.
 [[nodiscard]] std::string entry(std::string_view name, std::string_view html,
                                 std::string_view css_class = {});
+/// The same of a plain text; nothing without one.
+[[nodiscard]] std::string fact(std::string_view name, const std::string& text);
 
 }  // namespace rondure::reports

@@ -12,7 +12,7 @@ namespace rondure::reports {
 namespace {
 
 /// What the letters of the formula stand for.
-constexpr const char* kLetters = translatable(
+constexpr const char* kFormulaLetters = translatable(
     "T: the tolerance; y: the value corrected for noise (and, of the whole surface, for sparse "
     "sampling); [lo, hi]: its coverage interval; U: half its width. In the bars above: the line is "
     "T, "
@@ -114,7 +114,7 @@ std::string rule_section(const Evaluation& evaluation) {
   }
   return fmt::format(R"(<div class="rule"><b>{}</b> {}<div class="note">{}</div>{}</div>)",
                      tr("Decision rule."), trf("{}.", in_sentence(rule_sentence(evaluation))),
-                     tr(kLetters), statements(*evaluation.rule));
+                     tr(kFormulaLetters), statements(*evaluation.rule));
 }
 
 std::string uncertainty_section(const FeatureResult& feature) {

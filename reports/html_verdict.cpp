@@ -18,10 +18,6 @@ std::string css_name(Verdict verdict) {
   return name;
 }
 
-std::string fact(std::string_view name, const std::string& value) {
-  return value.empty() ? std::string() : entry(name, isolated(value));
-}
-
 /// Why the verdict is what it is, in one line.
 std::string sentence(const Evaluation& evaluation) {
   std::size_t toleranced = 0;
@@ -168,6 +164,10 @@ std::string results_table(const Evaluation& evaluation) {
 std::string entry(std::string_view name, std::string_view html, std::string_view css_class) {
   if (css_class.empty()) return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, html);
   return fmt::format(R"(<div class="{}"><dt>{}</dt><dd>{}</dd></div>)", css_class, name, html);
+}
+
+std::string fact(std::string_view name, const std::string& text) {
+  return text.empty() ? std::string() : entry(name, isolated(text));
 }
 
 std::string head_section(const record::RunRecord& record) {

@@ -11,8 +11,6 @@
 namespace rondure::reports {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json vector_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
 Json vector_json(const Eigen::Vector2d& v) { return Json::array({v.x(), v.y()}); }
 
@@ -53,7 +51,7 @@ Json fixture_json(const std::optional<FixtureUse>& use) {
           {"fixture", use->fixture_id},
           {"measured_utc", use->measured_utc},
           {"expires_utc", use->expires_utc},
-          {"age_days", use->age_days ? Json(*use->age_days) : Json(nullptr)},
+          {"age_days", optional_json(use->age_days)},
           {"residual_rms_um", in_um(use->residual_rms_mm)},
           {"residual_max_um", in_um(use->residual_max_mm)},
           {"residual_tilt_urad", use->residual_tilt_rad * 1e6},
@@ -294,7 +292,7 @@ Json feature_json(const FeatureResult& feature) {
   json["ls"] = least_squares_json(feature);
   json["mc"] = one_sided_json(feature, record::Reference::kMinimumCircumscribed);
   json["mi"] = one_sided_json(feature, record::Reference::kMaximumInscribed);
-  json["tip_radius_mm"] = feature.tip_radius_mm ? Json(*feature.tip_radius_mm) : Json(nullptr);
+  json["tip_radius_mm"] = optional_json(feature.tip_radius_mm);
   json["levelling_pose"] = levelling_json(feature.levelling_pose);
   json["repeat_sigma_um"] = optional_um(feature.repeat_sigma_mm);
   json["repeat_zone_mean_um"] = optional_um(feature.repeat_zone_mean_mm);

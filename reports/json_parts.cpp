@@ -4,8 +4,6 @@
 
 namespace rondure::reports {
 
-using Json = nlohmann::ordered_json;
-
 Json optional_um(const std::optional<double>& length_mm) {
   return length_mm ? Json(in_um(*length_mm)) : Json(nullptr);
 }

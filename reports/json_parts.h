@@ -12,23 +12,28 @@
 
 namespace rondure::reports {
 
+using Json = nlohmann::ordered_json;
+
 /// The one place where lengths become micrometres and angles degrees.
 [[nodiscard]] inline double in_um(double length_mm) { return length_mm * 1000.0; }
 [[nodiscard]] inline double in_deg(double angle_rad) { return angle_rad / core::kDegree; }
 
-[[nodiscard]] nlohmann::ordered_json optional_um(const std::optional<double>& length_mm);
-[[nodiscard]] nlohmann::ordered_json error_json(const core::Error& error);
-[[nodiscard]] nlohmann::ordered_json characteristic_json(const CharacteristicResult& result);
+[[nodiscard]] inline Json optional_json(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+[[nodiscard]] Json optional_um(const std::optional<double>& length_mm);
+[[nodiscard]] Json error_json(const core::Error& error);
+[[nodiscard]] Json characteristic_json(const CharacteristicResult& result);
 /// Intervals, bias, budget and declaration of a value; null without an interval.
-[[nodiscard]] nlohmann::ordered_json uncertainty_json(const CharacteristicResult& result);
+[[nodiscard]] Json uncertainty_json(const CharacteristicResult& result);
 /// What the rule compared, its limits and risks; null where it decided nothing.
-[[nodiscard]] nlohmann::ordered_json decision_json(const CharacteristicResult& result);
+[[nodiscard]] Json decision_json(const CharacteristicResult& result);
 /// The decision rule of a run with its parameters and statements; null when it is not known.
-[[nodiscard]] nlohmann::ordered_json rule_json(const Evaluation& evaluation);
+[[nodiscard]] Json rule_json(const Evaluation& evaluation);
 
 template <class Range, class Convert>
-[[nodiscard]] nlohmann::ordered_json list_json(const Range& range, const Convert& convert) {
-  auto list = nlohmann::ordered_json::array();
+[[nodiscard]] Json list_json(const Range& range, const Convert& convert) {
+  Json list = Json::array();
   for (const auto& item : range) list.push_back(convert(item));
   return list;
 }

@@ -1,28 +1,12 @@
-#include <nlohmann/json.hpp>
-
 #include "reports/json_parts.h"
 #include "reports/spindle_result.h"
 
 namespace rondure::reports {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json in_um(const std::vector<double>& values_mm) {
-  Json list = Json::array();
-  for (const double value : values_mm) list.push_back(reports::in_um(value));
-  return list;
-}
-
-Json in_deg(const std::vector<double>& angles_rad) {
-  Json list = Json::array();
-  for (const double value : angles_rad) list.push_back(reports::in_deg(value));
-  return list;
-}
-
 Json layout_json(const fit::ProbeLayout& layout) {
-  return {{"p1_to_p2_deg", reports::in_deg(layout.phi2_rad())},
-          {"p2_to_p3_deg", reports::in_deg(layout.phi3_rad())},
+  return {{"p1_to_p2_deg", in_deg(layout.phi2_rad())},
+          {"p2_to_p3_deg", in_deg(layout.phi3_rad())},
           {"weights", layout.weights()},
           {"weight_norm", layout.weight_norm()}};
 }
@@ -30,19 +14,19 @@ Json layout_json(const fit::ProbeLayout& layout) {
 Json harmonic_json(const fit::RecoveredHarmonic& h) {
   return {{"order", h.order},
           {"recovered", h.recovered},
-          {"amplitude_um", h.recovered ? Json(reports::in_um(h.amplitude_mm)) : Json(nullptr)},
-          {"phase_deg", h.phase_rad ? Json(reports::in_deg(*h.phase_rad)) : Json(nullptr)},
+          {"amplitude_um", h.recovered ? Json(in_um(h.amplitude_mm)) : Json(nullptr)},
+          {"phase_deg", h.phase_rad ? Json(in_deg(*h.phase_rad)) : Json(nullptr)},
           {"transfer", h.transfer},
           {"gain", h.gain < 1e300 ? Json(h.gain) : Json(nullptr)},
-          {"u_um", h.recovered ? Json(reports::in_um(h.sigma_mm)) : Json(nullptr)},
+          {"u_um", h.recovered ? Json(in_um(h.sigma_mm)) : Json(nullptr)},
           {"attenuation", h.attenuation}};
 }
 
 Json motion_json(const fit::AxisMotion& motion) {
-  return {{"total_um", reports::in_um(motion.total_mm)},
-          {"synchronous_um", reports::in_um(motion.synchronous_mm)},
+  return {{"total_um", in_um(motion.total_mm)},
+          {"synchronous_um", in_um(motion.synchronous_mm)},
           {"asynchronous_um", optional_um(motion.asynchronous_mm)},
-          {"fundamental_um", reports::in_um(motion.fundamental_mm)}};
+          {"fundamental_um", in_um(motion.fundamental_mm)}};
 }
 
 Json roundness_json(const fit::RoundnessEvaluation& evaluation) {
@@ -50,11 +34,11 @@ Json roundness_json(const fit::RoundnessEvaluation& evaluation) {
   Json json = {{"filter", filtered ? "gaussian" : "none"},
                {"cutoff_upr", filtered ? Json(evaluation.filter.cutoff_upr) : Json(nullptr)}};
   for (const fit::Roundness& value : evaluation.values) {
-    Json one = {{"RONt_um", reports::in_um(value.total_mm)}};
+    Json one = {{"RONt_um", in_um(value.total_mm)}};
     if (value.parameters) {
-      one["RONp_um"] = reports::in_um(value.parameters->peak_mm);
-      one["RONv_um"] = reports::in_um(value.parameters->valley_mm);
-      one["RONq_um"] = reports::in_um(value.parameters->rms_mm);
+      one["RONp_um"] = in_um(value.parameters->peak_mm);
+      one["RONv_um"] = in_um(value.parameters->valley_mm);
+      one["RONq_um"] = in_um(value.parameters->rms_mm);
     }
     json[std::string(fit::name_of(value.reference))] = std::move(one);
   }
@@ -64,13 +48,13 @@ Json roundness_json(const fit::RoundnessEvaluation& evaluation) {
 Json curves_json(const fit::ThreeProbeResult& s) {
   std::vector<double> theta;
   for (std::size_t n = 0; n < s.profile.r_mm.size(); ++n) theta.push_back(s.profile.angle_rad(n));
-  return {{"theta_deg", in_deg(theta)},
-          {"alpha_deg", in_deg(s.alpha_rad)},
-          {"profile_um", in_um(s.profile.r_mm)},
-          {"RX_um", in_um(s.mean_motion.x_mm)},
-          {"RY_um", in_um(s.mean_motion.y_mm)},
-          {"RX_before_um", in_um(s.mean_motion_before.x_mm)},
-          {"RY_before_um", in_um(s.mean_motion_before.y_mm)}};
+  return {{"theta_deg", list_json(theta, in_deg)},
+          {"alpha_deg", list_json(s.alpha_rad, in_deg)},
+          {"profile_um", list_json(s.profile.r_mm, in_um)},
+          {"RX_um", list_json(s.mean_motion.x_mm, in_um)},
+          {"RY_um", list_json(s.mean_motion.y_mm, in_um)},
+          {"RX_before_um", list_json(s.mean_motion_before.x_mm, in_um)},
+          {"RY_before_um", list_json(s.mean_motion_before.y_mm, in_um)}};
 }
 
 }  // namespace
@@ -86,14 +70,14 @@ Json separation_json(const SpindleFacts& facts) {
   json["interpolated"] = s.interpolated;
   json["part"] = roundness_json(facts.roundness);
   json["motion"] = {{"X", motion_json(facts.x)}, {"Y", motion_json(facts.y)}};
-  json["eccentricity_um"] = reports::in_um(s.eccentricity_mm);
-  json["eccentricity_deg"] = reports::in_deg(s.eccentricity_rad);
-  json["noise_um"] = reports::in_um(s.noise_mm);
+  json["eccentricity_um"] = in_um(s.eccentricity_mm);
+  json["eccentricity_deg"] = in_deg(s.eccentricity_rad);
+  json["noise_um"] = in_um(s.noise_mm);
   json["noise_estimated"] = s.noise_estimated;
-  json["profile_u_um"] = reports::in_um(s.profile_sigma_mm);
-  json["first_harmonic_um"] = reports::in_um(s.first_harmonic_mm);
-  json["first_harmonic_limit_um"] = reports::in_um(s.first_harmonic_limit_mm);
-  json["residual_rms_um"] = reports::in_um(s.residual_rms_mm);
+  json["profile_u_um"] = in_um(s.profile_sigma_mm);
+  json["first_harmonic_um"] = in_um(s.first_harmonic_mm);
+  json["first_harmonic_limit_um"] = in_um(s.first_harmonic_limit_mm);
+  json["residual_rms_um"] = in_um(s.residual_rms_mm);
   json["second_order_passes"] = s.second_order_passes;
   json["unrecovered"] = s.unrecovered;
   json["harmonics"] = list_json(s.harmonics, harmonic_json);

@@ -3,8 +3,6 @@
 namespace rondure::reports {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json statement_json(const UncertaintyStatement& s) {
   return {{"estimate_um", in_um(s.estimate_mm)},
           {"low_um", in_um(s.low_mm)},
@@ -33,10 +31,6 @@ Json prior_json(const std::optional<Prior>& prior) {
           {"standard_deviation_um", in_um(prior->standard_deviation_mm)}};
 }
 
-Json optional_number(const std::optional<double>& number) {
-  return number ? Json(*number) : Json(nullptr);
-}
-
 }  // namespace
 
 Json uncertainty_json(const CharacteristicResult& result) {
@@ -61,8 +55,8 @@ Json decision_json(const CharacteristicResult& result) {
   return {{"compared_um", in_um(o.compared_mm)},
           {"acceptance_limit_um", in_um(o.acceptance_mm)},
           {"rejection_limit_um", in_um(o.rejection_mm)},
-          {"conformance_probability", optional_number(o.conformance_1)},
-          {"specific_risk", optional_number(o.specific_risk_1())},
+          {"conformance_probability", optional_json(o.conformance_1)},
+          {"specific_risk", optional_json(o.specific_risk_1())},
           {"global_consumer_risk", risks ? Json(risks->false_acceptance_1) : Json(nullptr)},
           {"global_producer_risk", risks ? Json(risks->false_rejection_1) : Json(nullptr)}};
 }

@@ -3,7 +3,7 @@
 namespace rondure::reports {
 namespace {
 
-constexpr Translation kTexts[] = {
+constexpr Translation kAnalysisTexts[] = {
     // Of every analysis
     {"Calibration of the fixture with balls that it carried", "用夹具上所载的球校准夹具"},
     {"{}; data {}", "{}；数据{}"},
@@ -223,6 +223,6 @@ constexpr Translation kTexts[] = {
 
 }  // namespace
 
-std::span<const Translation> chinese_analyses() { return kTexts; }
+std::span<const Translation> chinese_analyses() { return kAnalysisTexts; }
 
 }  // namespace rondure::reports

@@ -3,7 +3,7 @@
 namespace rondure::reports {
 namespace {
 
-constexpr Translation kTexts[] = {
+constexpr Translation kDrawingTexts[] = {
     {"{} of {} um", "{} / {} um"},
     {", accepted up to {} um", "，接收限 {} um"},
     {"standard uncertainty by each influence alone", "各影响因素单独引起的标准不确定度"},
@@ -107,6 +107,6 @@ constexpr Translation kTexts[] = {
 
 }  // namespace
 
-std::span<const Translation> chinese_drawings() { return kTexts; }
+std::span<const Translation> chinese_drawings() { return kDrawingTexts; }
 
 }  // namespace rondure::reports

@@ -3,7 +3,7 @@
 namespace rondure::reports {
 namespace {
 
-constexpr Translation kTexts[] = {
+constexpr Translation kLiveTexts[] = {
     {"Rondure: live view", "Rondure：实时视图"},
     {"live view", "实时视图"},
     {"no real part is measured.", "没有测量真实工件。"},
@@ -72,6 +72,6 @@ constexpr Translation kTexts[] = {
 
 }  // namespace
 
-std::span<const Translation> chinese_live() { return kTexts; }
+std::span<const Translation> chinese_live() { return kLiveTexts; }
 
 }  // namespace rondure::reports

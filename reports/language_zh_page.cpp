@@ -3,7 +3,7 @@
 namespace rondure::reports {
 namespace {
 
-constexpr Translation kTexts[] = {
+constexpr Translation kPageTexts[] = {
     // PDF
     {"No installed font has these characters of the report: {}. They are shown as boxes with their "
      "codes. Install a font that has them and write the report again (Debian: fonts-noto-cjk for "
@@ -301,6 +301,6 @@ constexpr Translation kTexts[] = {
 
 }  // namespace
 
-std::span<const Translation> chinese_page() { return kTexts; }
+std::span<const Translation> chinese_page() { return kPageTexts; }
 
 }  // namespace rondure::reports

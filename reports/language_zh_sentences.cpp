@@ -3,7 +3,7 @@
 namespace rondure::reports {
 namespace {
 
-constexpr Translation kTexts[] = {
+constexpr Translation kSentenceTexts[] = {
     // General
     {"{}: {}", "{}：{}"},
     {"{} ({})", "{}（{}）"},
@@ -389,6 +389,6 @@ constexpr Translation kTexts[] = {
 
 }  // namespace
 
-std::span<const Translation> chinese_sentences() { return kTexts; }
+std::span<const Translation> chinese_sentences() { return kSentenceTexts; }
 
 }  // namespace rondure::reports

@@ -3,7 +3,7 @@
 namespace rondure::reports {
 namespace {
 
-constexpr Translation kTexts[] = {
+constexpr Translation kSummaryTexts[] = {
     {"rule", "规则"},
     {", serial {}", "，序列号 {}"},
     {"no real part was measured", "未测量真实工件"},
@@ -56,6 +56,6 @@ constexpr Translation kTexts[] = {
 
 }  // namespace
 
-std::span<const Translation> chinese_summary() { return kTexts; }
+std::span<const Translation> chinese_summary() { return kSummaryTexts; }
 
 }  // namespace rondure::reports

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "core/units.h"
 #include "reports/facts.h"
 #include "reports/html_plots.h"
 #include "reports/html_sections.h"
@@ -22,10 +21,6 @@ std::string clock_text(double time_s) {
   const auto s = std::lround(std::max(time_s, 0.0));
   if (s < 3600) return fmt::format("{}:{:02} min", s / 60, s % 60);
   return fmt::format("{}:{:02}:{:02} h", s / 3600, s / 60 % 60, s % 60);
-}
-
-std::string fact(std::string_view name, const std::string& value) {
-  return value.empty() ? std::string() : entry(name, isolated(value));
 }
 
 /// Which pose of its feature a visit is, from 1.

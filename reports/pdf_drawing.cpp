@@ -11,15 +11,15 @@
 namespace rondure::reports::pdf {
 namespace {
 
-struct Release {
+struct ReleaseDrawing {
   void operator()(RsvgHandle* handle) const { g_object_unref(handle); }
   void operator()(GError* error) const { g_error_free(error); }
 };
-using Handle = std::unique_ptr<RsvgHandle, Release>;
+using Handle = std::unique_ptr<RsvgHandle, ReleaseDrawing>;
 
 /// Takes the reason out of GLib's hands.
 std::string reason_of(GError* error) {
-  const std::unique_ptr<GError, Release> owned(error);
+  const std::unique_ptr<GError, ReleaseDrawing> owned(error);
   return owned ? owned->message : "no reason given";
 }
 

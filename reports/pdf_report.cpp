@@ -15,10 +15,8 @@
 #include "reports/text.h"
 #include "reports/writers.h"
 
-namespace rondure::reports {
+namespace rondure::reports::pdf {
 namespace {
-
-using namespace pdf;
 
 constexpr double kTextWidth = kPdfWidth - 2.0 * kPdfMargin;
 constexpr double kTextHeight = kPdfHeight - kPdfTop - kPdfBottom;
@@ -26,7 +24,7 @@ constexpr double kHeadSize = 7.4;
 constexpr std::string_view kDigestMark = "page-sha256-";
 constexpr std::string_view kLanguageMark = ", page-language-";
 
-struct Release {
+struct ReleaseSurface {
   void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
   void operator()(cairo_t* cairo) const { cairo_destroy(cairo); }
 };
@@ -62,8 +60,8 @@ class Document {
   const record::RunRecord& record_;
   const Source& page_;
   std::string bytes_;
-  std::unique_ptr<cairo_surface_t, Release> surface_;
-  std::unique_ptr<cairo_t, Release> cairo_;
+  std::unique_ptr<cairo_surface_t, ReleaseSurface> surface_;
+  std::unique_ptr<cairo_t, ReleaseSurface> cairo_;
   Press press_;
   std::vector<int> outline_ = {CAIRO_PDF_OUTLINE_ROOT};
 };
@@ -223,12 +221,15 @@ std::string_view statement_in(std::string_view bytes) {
 }
 
 }  // namespace
+}  // namespace rondure::reports::pdf
+
+namespace rondure::reports {
 
 core::Result<Pdf> write_pdf(const record::RunRecord& record, std::string_view html) {
   const LanguageScope scope(language_of_page(html));
-  const auto page = read_page(html);
+  const auto page = pdf::read_page(html);
   if (!page) return core::fail(page.error());
-  return Document(record, *page).write(html);
+  return pdf::Document(record, *page).write(html);
 }
 
 std::string missing_in_words(const std::vector<char32_t>& missing) {
@@ -241,7 +242,8 @@ std::string missing_in_words(const std::vector<char32_t>& missing) {
   if (missing.size() > kMost) codes += ", ...";
   return trf(
       "No installed font has these characters of the report: {}. They are shown as boxes with "
-      "their codes. Install a font that has them and write the report again (Debian: fonts-noto-cjk for "
+      "their codes. Install a font that has them and write the report again (Debian: "
+      "fonts-noto-cjk for "
       "Chinese, fonts-noto-core for others).",
       codes);
 }
@@ -249,15 +251,15 @@ std::string missing_in_words(const std::vector<char32_t>& missing) {
 std::optional<std::string> pdf_difference(std::string_view expected, std::string_view found,
                                           bool as_written) {
   if (expected == found) return std::nullopt;
-  const bool same_page = statement_in(expected) == statement_in(found);
+  const bool same_page = pdf::statement_in(expected) == pdf::statement_in(found);
   if (!same_page) return "it was set from another page than the journal gives";
   if (as_written) return std::nullopt;
   return "its bytes are not those that are set now from the same page";
 }
 
 Language language_of_pdf(std::string_view bytes) {
-  const std::string mark = fmt::format("{}{}", kLanguageMark, tag_of(Language::kChinese));
-  return statement_in(bytes).ends_with(mark) ? Language::kChinese : Language::kEnglish;
+  const std::string mark = fmt::format("{}{}", pdf::kLanguageMark, tag_of(Language::kChinese));
+  return pdf::statement_in(bytes).ends_with(mark) ? Language::kChinese : Language::kEnglish;
 }
 
 }  // namespace rondure::reports

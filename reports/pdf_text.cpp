@@ -18,6 +18,15 @@ extern "C" const char* __lsan_default_options() { return "print_suppressions=0";
 #endif
 
 namespace rondure::reports::pdf {
+
+struct ReleaseLayout {
+  void operator()(PangoLayout* layout) const { g_object_unref(layout); }
+  void operator()(PangoLayoutIter* iter) const { pango_layout_iter_free(iter); }
+  void operator()(PangoAttrList* list) const { pango_attr_list_unref(list); }
+};
+using LayoutPtr = std::unique_ptr<PangoLayout, ReleaseLayout>;
+using IterPtr = std::unique_ptr<PangoLayoutIter, ReleaseLayout>;
+
 namespace {
 
 constexpr std::string_view kObject = "\uFFFC";  // stands for a drawing in the line
@@ -25,14 +34,6 @@ constexpr double kFramePad = 3.0;
 constexpr double kUsualSize = 8.8;
 /// A word may be broken where it would make a column wider than this.
 constexpr double kLongestWord = 104.0;
-
-struct Release {
-  void operator()(PangoLayout* layout) const { g_object_unref(layout); }
-  void operator()(PangoLayoutIter* iter) const { pango_layout_iter_free(iter); }
-  void operator()(PangoAttrList* list) const { pango_attr_list_unref(list); }
-};
-using LayoutPtr = std::unique_ptr<PangoLayout, Release>;
-using IterPtr = std::unique_ptr<PangoLayoutIter, Release>;
 
 int units(double pt) { return static_cast<int>(std::lround(pt * PANGO_SCALE)); }
 double points(int units) { return static_cast<double>(units) / PANGO_SCALE; }
@@ -122,7 +123,7 @@ class TextBox final : public Box {
       pango_layout_set_single_paragraph_mode(layout_.get(), TRUE);
       pango_layout_set_ellipsize(layout_.get(), PANGO_ELLIPSIZE_END);
     }
-    const std::unique_ptr<PangoAttrList, Release> list(pango_attr_list_new());
+    const std::unique_ptr<PangoAttrList, ReleaseLayout> list(pango_attr_list_new());
     for (const Words::Run& run : words.runs_) style_range(list.get(), run.style, run.from, run.to);
     for (const Words::Inset& inset : insets_) {
       inset.box->lay(inset.box->widths().wanted);

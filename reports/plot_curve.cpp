@@ -14,15 +14,15 @@ namespace {
 
 constexpr std::size_t kMostPoints = 1440;
 constexpr double kPolarSize = 320.0;
-constexpr double kCentre = 160.0;
+constexpr double kPolarCentre = 160.0;
 constexpr double kMeanCircle = 84.0;
-constexpr double kReach = 34.0;  ///< Largest deviation as drawn.
-constexpr double kWidth = 720.0;
-constexpr double kHeight = 260.0;
-constexpr double kLeft = 64.0;
-constexpr double kRight = 16.0;
-constexpr double kTop = 12.0;
-constexpr double kBottom = 44.0;
+constexpr double kPolarReach = 34.0;  ///< Largest deviation as drawn.
+constexpr double kChartWidth = 720.0;
+constexpr double kChartHeight = 260.0;
+constexpr double kChartLeft = 64.0;
+constexpr double kChartRight = 16.0;
+constexpr double kChartTop = 12.0;
+constexpr double kChartBottom = 44.0;
 
 /// At most kMostPoints indices: of each piece those of its least and greatest value, in order.
 std::vector<std::size_t> drawn_points(const std::vector<double>& values) {
@@ -77,60 +77,66 @@ std::string polar_path(const Curve& curve, double px_per_um, bool closed) {
   std::string d;
   for (const std::size_t i : drawn_points(curve.y)) {
     const double r = kMeanCircle + px_per_um * curve.y[i];
-    d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? 'M' : 'L', kCentre + r * std::cos(curve.x[i]),
-                     kCentre - r * std::sin(curve.x[i]));
+    d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? 'M' : 'L',
+                     kPolarCentre + r * std::cos(curve.x[i]),
+                     kPolarCentre - r * std::sin(curve.x[i]));
   }
   return closed ? d + "z" : d;
 }
 
 void polar_frame(Svg& svg) {
-  constexpr double kEdge = kMeanCircle + kReach + 6.0;
-  svg.circle(kCentre, kCentre, kMeanCircle, "mean");
+  constexpr double kEdge = kMeanCircle + kPolarReach + 6.0;
+  svg.circle(kPolarCentre, kPolarCentre, kMeanCircle, "mean");
   for (int tick = 0; tick < 12; ++tick) {
     const double angle = tick * 30.0 * core::kDegree;
     const double c = std::cos(angle);
     const double s = std::sin(angle);
-    svg.line(kCentre + kEdge * c, kCentre - kEdge * s, kCentre + (kEdge + 5.0) * c,
-             kCentre - (kEdge + 5.0) * s, "tick");
-    if (tick % 3 == 0) svg.line(kCentre, kCentre, kCentre + kEdge * c, kCentre - kEdge * s, "grid");
+    svg.line(kPolarCentre + kEdge * c, kPolarCentre - kEdge * s, kPolarCentre + (kEdge + 5.0) * c,
+             kPolarCentre - (kEdge + 5.0) * s, "tick");
+    if (tick % 3 == 0)
+      svg.line(kPolarCentre, kPolarCentre, kPolarCentre + kEdge * c, kPolarCentre - kEdge * s,
+               "grid");
   }
-  svg.text(kCentre + 133.0, kCentre + 4.0, "start", "label", "0°");
-  svg.text(kCentre, kCentre - 134.0, "middle", "label", "90°");
-  svg.text(kCentre - 133.0, kCentre + 4.0, "end", "label", "180°");
-  svg.text(kCentre, kCentre + 143.0, "middle", "label", "270°");
+  svg.text(kPolarCentre + 133.0, kPolarCentre + 4.0, "start", "label", "0°");
+  svg.text(kPolarCentre, kPolarCentre - 134.0, "middle", "label", "90°");
+  svg.text(kPolarCentre - 133.0, kPolarCentre + 4.0, "end", "label", "180°");
+  svg.text(kPolarCentre, kPolarCentre + 143.0, "middle", "label", "270°");
 }
 
 /// Axes of an ordinary chart, with room round the values.
-struct Axes {
+struct ChartAxes {
   Scale x;
   Scale y;
 };
 
-Axes axes_over(double x_low, double x_high, double y_low, double y_high) {
+ChartAxes axes_over(double x_low, double x_high, double y_low, double y_high) {
   if (!(x_high > x_low)) x_high = x_low + 1.0;
   const double room = y_high > y_low ? 0.06 * (y_high - y_low) : 1.0;
-  return {{x_low, x_high, kLeft, kWidth - kRight},
-          {y_low - room, y_high + room, kHeight - kBottom, kTop}};
+  return {{x_low, x_high, kChartLeft, kChartWidth - kChartRight},
+          {y_low - room, y_high + room, kChartHeight - kChartBottom, kChartTop}};
 }
 
-void draw_axes(Svg& svg, const Axes& axes, std::string_view x_title, std::string_view y_title) {
+void draw_axes(Svg& svg, const ChartAxes& axes, std::string_view x_title,
+               std::string_view y_title) {
   for (const double tick : round_ticks(axes.y.low, axes.y.high, 5)) {
     const double y = axes.y.at(tick);
-    svg.line(kLeft, y, kWidth - kRight, y, "grid");
-    svg.text(kLeft - 6.0, y + 4.0, "end", "label", tick_label(tick));
+    svg.line(kChartLeft, y, kChartWidth - kChartRight, y, "grid");
+    svg.text(kChartLeft - 6.0, y + 4.0, "end", "label", tick_label(tick));
   }
   for (const double tick : round_ticks(axes.x.low, axes.x.high, 8)) {
     const double x = axes.x.at(tick);
-    svg.line(x, kHeight - kBottom, x, kHeight - kBottom + 5.0, "tick");
-    svg.text(x, kHeight - kBottom + 18.0, "middle", "label", tick_label(tick));
+    svg.line(x, kChartHeight - kChartBottom, x, kChartHeight - kChartBottom + 5.0, "tick");
+    svg.text(x, kChartHeight - kChartBottom + 18.0, "middle", "label", tick_label(tick));
   }
-  svg.rect(kLeft, kTop, kWidth - kRight - kLeft, kHeight - kBottom - kTop, "frame", "none");
-  svg.text(0.5 * (kLeft + kWidth - kRight), kHeight - 8.0, "middle", "title", x_title);
-  svg.upward_text(14.0, 0.5 * (kTop + kHeight - kBottom), "title", y_title);
+  svg.rect(kChartLeft, kChartTop, kChartWidth - kChartRight - kChartLeft,
+           kChartHeight - kChartBottom - kChartTop, "frame", "none");
+  svg.text(0.5 * (kChartLeft + kChartWidth - kChartRight), kChartHeight - 8.0, "middle", "title",
+           x_title);
+  svg.upward_text(14.0, 0.5 * (kChartTop + kChartHeight - kChartBottom), "title", y_title);
 }
 
 /// The band of a curve, as one closed shape: along its upper edge and back along the lower.
-void draw_band(Svg& svg, const Axes& axes, const Curve& curve) {
+void draw_band(Svg& svg, const ChartAxes& axes, const Curve& curve) {
   std::string d;
   const std::size_t n = curve.x.size();
   for (std::size_t k = 0; k < 2 * n; ++k) {
@@ -146,9 +152,9 @@ void draw_band(Svg& svg, const Axes& axes, const Curve& curve) {
 std::string polar_chart(std::string_view title, const std::vector<Curve>& curves, bool closed) {
   Svg svg(kPolarSize, kPolarSize, "polar", std::string(title));
   polar_frame(svg);
-  const double px_per_um = kReach / std::max(largest(curves), 1e-9);
+  const double px_per_um = kPolarReach / std::max(largest(curves), 1e-9);
   for (const Curve& curve : curves) svg.path(polar_path(curve, px_per_um, closed), curve.css_class);
-  const double bar_um = round_below(kReach / px_per_um);
+  const double bar_um = round_below(kPolarReach / px_per_um);
   svg.path(fmt::format("M8 303v8M8 307h{0:.1f}M{1:.1f} 303v8", bar_um * px_per_um,
                        8.0 + bar_um * px_per_um),
            "scale");
@@ -175,8 +181,8 @@ std::string line_chart(std::string_view title, std::string_view x_title, std::st
     y_high = any ? std::max(y_high, *y1 + band) : *y1 + band;
     any = true;
   }
-  const Axes axes = axes_over(x_low, x_high, y_low, y_high);
-  Svg svg(kWidth, kHeight, "wide", std::string(title));
+  const ChartAxes axes = axes_over(x_low, x_high, y_low, y_high);
+  Svg svg(kChartWidth, kChartHeight, "wide", std::string(title));
   draw_axes(svg, axes, x_title, y_title);
   for (const Curve& curve : curves) {
     if (!curve.band.empty()) draw_band(svg, axes, curve);
@@ -204,9 +210,9 @@ std::string bar_chart(std::string_view title, std::string_view x_title, std::str
   double high = 0.0;
   for (const Bar& bar : bars) high = std::max(high, bar.value);
   for (const BarLimit& limit : limits) high = std::max(high, limit.value);
-  Axes axes = axes_over(bars.front().order - 0.5, bars.back().order + 0.5, 0.0, high);
+  ChartAxes axes = axes_over(bars.front().order - 0.5, bars.back().order + 0.5, 0.0, high);
   axes.y.low = 0.0;
-  Svg svg(kWidth, kHeight, "wide", std::string(title));
+  Svg svg(kChartWidth, kChartHeight, "wide", std::string(title));
   draw_axes(svg, axes, x_title, y_title);
   const double width = 0.7 * (axes.x.at(1.0) - axes.x.at(0.0));
   for (const Bar& bar : bars) {

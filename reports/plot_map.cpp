@@ -17,14 +17,14 @@
 namespace rondure::reports {
 namespace {
 
-constexpr double kWidth = 680.0;
-constexpr double kLeft = 62.0;
-constexpr double kRight = 580.0;
+constexpr double kMapWidth = 680.0;
+constexpr double kMapLeft = 62.0;
+constexpr double kMapRight = 580.0;
 constexpr double kSideMargin = 20.0;  ///< Free space beside 0 and 360 deg.
-constexpr double kTop = 14.0;
+constexpr double kMapTop = 14.0;
 constexpr std::size_t kMostDiscs = 1200;  ///< More points than this are averaged in cells.
-constexpr int kCellColumns = 120;
-constexpr int kCellRows = 48;  ///< Where layers are unknown, or more than these.
+constexpr int kMapCellColumns = 120;
+constexpr int kMapCellRows = 48;  ///< Where layers are unknown, or more than these.
 
 struct MapView {
   Scale x;
@@ -63,7 +63,7 @@ std::size_t most_points_of_a_layer(const FeatureResult& feature) {
 /// Distance of neighbouring discs on a map of the given height: exact for points in layers, a share
 /// of the mean distance where layers are unknown.
 double disc_pitch(const FeatureResult& feature, double plot, double layer_pitch) {
-  constexpr double kPlotWidth = kRight - kLeft - 2.0 * kSideMargin;
+  constexpr double kPlotWidth = kMapRight - kMapLeft - 2.0 * kSideMargin;
   if (feature.layers.empty()) {
     return 0.6 * std::sqrt(kPlotWidth * plot / static_cast<double>(feature.cloud.size()));
   }
@@ -89,31 +89,31 @@ MapView view_of(const FeatureResult& feature, const Zone& zone) {
   if (feature.merged) view.disc = std::min(6.0, 0.6 * view.disc);
   view.labels = view.disc >= 14.0;
   view.cells = feature.cloud.size() > kMostDiscs;
-  view.rows_are_layers = feature.layers.size() >= 2 && feature.layers.size() <= kCellRows;
-  view.row = view.rows_are_layers ? std::clamp(0.9 * layer_pitch, 2.0, 40.0) : plot / kCellRows;
+  view.rows_are_layers = feature.layers.size() >= 2 && feature.layers.size() <= kMapCellRows;
+  view.row = view.rows_are_layers ? std::clamp(0.9 * layer_pitch, 2.0, 40.0) : plot / kMapCellRows;
   const double label = feature.merged ? 8.0 : 0.0;  // the number of the pose
   const double margin = (view.cells ? 0.5 * view.row : view.disc) + 8.0 + label;
-  view.bottom = kTop + plot + 2.0 * margin;
-  view.x = {0.0, 360.0, kLeft + kSideMargin, kRight - kSideMargin};
-  view.y = {low, low + span, view.bottom - margin, kTop + margin};
+  view.bottom = kMapTop + plot + 2.0 * margin;
+  view.x = {0.0, 360.0, kMapLeft + kSideMargin, kMapRight - kSideMargin};
+  view.y = {low, low + span, view.bottom - margin, kMapTop + margin};
   return view;
 }
 
 void draw_axes(Svg& svg, const MapView& view) {
-  svg.rect(kLeft, kTop, kRight - kLeft, view.bottom - kTop, "frame");
+  svg.rect(kMapLeft, kMapTop, kMapRight - kMapLeft, view.bottom - kMapTop, "frame");
   for (int tick = 0; tick <= 8; ++tick) {
     const double x = view.x.at(45.0 * tick);
     svg.line(x, view.bottom, x, view.bottom + 5.0, "tick");
     svg.text(x, view.bottom + 18.0, "middle", "label", std::to_string(45 * tick));
   }
-  svg.text(0.5 * (kLeft + kRight), view.bottom + 36.0, "middle", "title",
+  svg.text(0.5 * (kMapLeft + kMapRight), view.bottom + 36.0, "middle", "title",
            tr("angle about the axis / °"));
   for (const double height : round_ticks(view.y.low, view.y.high, 5)) {
     const double y = view.y.at(height);
-    svg.line(kLeft - 5.0, y, kLeft, y, "tick");
-    svg.text(kLeft - 8.0, y + 4.0, "end", "label", tick_label(height));
+    svg.line(kMapLeft - 5.0, y, kMapLeft, y, "tick");
+    svg.text(kMapLeft - 8.0, y + 4.0, "end", "label", tick_label(height));
   }
-  svg.upward_text(14.0, 0.5 * (kTop + view.bottom), "title", tr("height / mm"));
+  svg.upward_text(14.0, 0.5 * (kMapTop + view.bottom), "title", tr("height / mm"));
 }
 
 /// Three digits with their sign, short enough for a disc.
@@ -151,9 +151,9 @@ double cell_height(const CloudPoint& point, const std::map<int, double>& layer_h
                    const MapView& view) {
   const auto layer = layer_heights.find(point.layer);
   if (layer != layer_heights.end()) return layer->second;
-  const double pitch = (view.y.high - view.y.low) / kCellRows;
+  const double pitch = (view.y.high - view.y.low) / kMapCellRows;
   const double row = std::floor((point.height_mm - view.y.low) / pitch);
-  return view.y.low + (std::clamp(row, 0.0, kCellRows - 1.0) + 0.5) * pitch;
+  return view.y.low + (std::clamp(row, 0.0, kMapCellRows - 1.0) + 0.5) * pitch;
 }
 
 void draw_cells(Svg& svg, const FeatureResult& feature, const MapView& view) {
@@ -163,13 +163,13 @@ void draw_cells(Svg& svg, const FeatureResult& feature, const MapView& view) {
   }
   std::map<std::pair<double, int>, std::pair<double, int>> cells;
   for (const CloudPoint& point : feature.cloud) {
-    const int column = std::clamp(static_cast<int>(point.angle_rad / core::kTwoPi * kCellColumns),
-                                  0, kCellColumns - 1);
+    const int column = std::clamp(
+        static_cast<int>(point.angle_rad / core::kTwoPi * kMapCellColumns), 0, kMapCellColumns - 1);
     auto& [sum, number] = cells[{cell_height(point, layer_heights, view), column}];
     sum += point.deviation_mm;
     ++number;
   }
-  const double width = (view.x.to - view.x.from) / kCellColumns;
+  const double width = (view.x.to - view.x.from) / kMapCellColumns;
   for (const auto& [place, content] : cells) {
     svg.rect(view.x.from + place.second * width, view.y.at(place.first) - 0.5 * view.row,
              width + 0.3, view.row + 0.1, "swatch", view.colour(content.first / content.second));
@@ -195,7 +195,7 @@ std::string deviation_map(const FeatureResult& feature, const Zone& zone) {
       feature.feature.shape == record::Shape::kCircle || feature.layers.size() == 1;
   if (one_section) return section_profile(feature, zone);
   const MapView view = view_of(feature, zone);
-  Svg svg(kWidth, view.bottom + 44.0, "wide", tr("Deviations on the unrolled surface"));
+  Svg svg(kMapWidth, view.bottom + 44.0, "wide", tr("Deviations on the unrolled surface"));
   draw_axes(svg, view);
   if (view.cells) {
     draw_cells(svg, feature, view);
@@ -203,7 +203,7 @@ std::string deviation_map(const FeatureResult& feature, const Zone& zone) {
     draw_discs(svg, feature, view);
   }
   draw_contacts(svg, feature, view);
-  deviation_scale(svg, kRight + 22.0, kTop, view.bottom, view.half_zone_mm);
+  deviation_scale(svg, kMapRight + 22.0, kMapTop, view.bottom, view.half_zone_mm);
   return fmt::format(
       R"(<h3>{}</h3><figure><div class="scroll">{}</div><figcaption>{} {}{}</figcaption></figure>)",
       tr("Unrolled surface"), svg.str(),

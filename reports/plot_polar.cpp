@@ -13,10 +13,10 @@
 namespace rondure::reports {
 namespace {
 
-constexpr double kSize = 320.0;
-constexpr double kCentre = 160.0;
-constexpr double kMean = 88.0;      ///< Radius at which the middle of the zone is drawn.
-constexpr double kHalfZone = 24.0;  ///< Half the zone as drawn.
+constexpr double kSectionSize = 320.0;
+constexpr double kSectionCentre = 160.0;
+constexpr double kSectionMean = 88.0;      ///< Radius at which the middle of the zone is drawn.
+constexpr double kSectionHalfZone = 24.0;  ///< Half the zone as drawn.
 constexpr std::size_t kMostPlots = 12;
 
 /// Places deviations on a polar plot.
@@ -24,13 +24,13 @@ struct PolarView {
   double px_per_mm = 1.0;
 
   [[nodiscard]] double radius(double deviation_mm) const {
-    return kMean + px_per_mm * deviation_mm;
+    return kSectionMean + px_per_mm * deviation_mm;
   }
   [[nodiscard]] double x(double angle_rad, double r) const {
-    return kCentre + r * std::cos(angle_rad);
+    return kSectionCentre + r * std::cos(angle_rad);
   }
   [[nodiscard]] double y(double angle_rad, double r) const {
-    return kCentre - r * std::sin(angle_rad);
+    return kSectionCentre - r * std::sin(angle_rad);
   }
 };
 
@@ -38,16 +38,17 @@ void draw_frame(Svg& svg, const PolarView& view) {
   for (int tick = 0; tick < 12; ++tick) {
     const double angle = tick * 30.0 * core::kDegree;
     const bool labelled = tick % 3 == 0;
-    const double from = kMean + kHalfZone + 6.0;
+    const double from = kSectionMean + kSectionHalfZone + 6.0;
     const double to = from + (labelled ? 7.0 : 4.0);
     svg.line(view.x(angle, from), view.y(angle, from), view.x(angle, to), view.y(angle, to),
              "tick");
-    if (labelled) svg.line(kCentre, kCentre, view.x(angle, from), view.y(angle, from), "grid");
+    if (labelled)
+      svg.line(kSectionCentre, kSectionCentre, view.x(angle, from), view.y(angle, from), "grid");
   }
-  svg.text(kCentre + 127.0, kCentre + 4.0, "start", "label", "0°");
-  svg.text(kCentre, kCentre - 130.0, "middle", "label", "90°");
-  svg.text(kCentre - 127.0, kCentre + 4.0, "end", "label", "180°");
-  svg.text(kCentre, kCentre + 139.0, "middle", "label", "270°");
+  svg.text(kSectionCentre + 127.0, kSectionCentre + 4.0, "start", "label", "0°");
+  svg.text(kSectionCentre, kSectionCentre - 130.0, "middle", "label", "90°");
+  svg.text(kSectionCentre - 127.0, kSectionCentre + 4.0, "end", "label", "180°");
+  svg.text(kSectionCentre, kSectionCentre + 139.0, "middle", "label", "270°");
 }
 
 void draw_zone(Svg& svg, const PolarView& view, double half_zone_mm) {
@@ -56,12 +57,12 @@ void draw_zone(Svg& svg, const PolarView& view, double half_zone_mm) {
   svg.path(fmt::format(
                "M{0:.1f} {2:.1f}a{1:.1f} {1:.1f} 0 1 0 {3:.1f} 0a{1:.1f} {1:.1f} 0 1 0 {4:.1f} 0z"
                "M{5:.1f} {2:.1f}a{6:.1f} {6:.1f} 0 1 1 {7:.1f} 0a{6:.1f} {6:.1f} 0 1 1 {8:.1f} 0z",
-               kCentre - outer, outer, kCentre, 2.0 * outer, -2.0 * outer, kCentre - inner, inner,
-               2.0 * inner, -2.0 * inner),
+               kSectionCentre - outer, outer, kSectionCentre, 2.0 * outer, -2.0 * outer,
+               kSectionCentre - inner, inner, 2.0 * inner, -2.0 * inner),
            "band");
-  svg.circle(kCentre, kCentre, outer, "zone-outer");
-  svg.circle(kCentre, kCentre, inner, "zone-inner");
-  svg.circle(kCentre, kCentre, kMean, "mean");
+  svg.circle(kSectionCentre, kSectionCentre, outer, "zone-outer");
+  svg.circle(kSectionCentre, kSectionCentre, inner, "zone-inner");
+  svg.circle(kSectionCentre, kSectionCentre, kSectionMean, "mean");
 }
 
 /// The profile as a line that is straight in angle and deviation, not across the plot.
@@ -127,7 +128,8 @@ std::string roundness_of(const FeatureResult& feature, const Section& section) {
 
 std::string plot(const FeatureResult& feature, const Section& section, const PolarView& view,
                  double half_zone_mm) {
-  Svg svg(kSize, kSize, "polar", trf("{}: deviations about the minimum-zone axis", section.title));
+  Svg svg(kSectionSize, kSectionSize, "polar",
+          trf("{}: deviations about the minimum-zone axis", section.title));
   draw_frame(svg, view);
   draw_zone(svg, view, half_zone_mm);
   const bool sparse = section.rows.size() <= 40;
@@ -169,7 +171,7 @@ std::string polar_plots(const FeatureResult& feature, const Zone& zone) {
   const std::vector<Section> sections = sections_of(feature);
   if (sections.empty()) return {};
   const double half_zone_mm = 0.5 * zone.deviation_mm;
-  const PolarView view{kHalfZone / std::max(half_zone_mm, 1e-5)};
+  const PolarView view{kSectionHalfZone / std::max(half_zone_mm, 1e-5)};
   const std::size_t shown = std::min(sections.size(), kMostPlots);
   bool thinned = false;
   bool sparse = false;
@@ -180,7 +182,7 @@ std::string polar_plots(const FeatureResult& feature, const Zone& zone) {
     sparse |= has_line(sections[pick]) && sections[pick].rows.size() <= 40;
     plots += plot(feature, sections[pick], view, half_zone_mm);
   }
-  const double magnification = view.px_per_mm * zone.mean_radius_mm / kMean;
+  const double magnification = view.px_per_mm * zone.mean_radius_mm / kSectionMean;
   return fmt::format(R"(<h3>{}</h3>{}<div class="multiples{}">{}</div>)", tr("Sections"),
                      legend(shown, sections.size(), magnification, thinned, sparse),
                      shown == 1                 ? " single"

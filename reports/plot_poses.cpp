@@ -13,11 +13,11 @@
 namespace rondure::reports {
 namespace {
 
-constexpr double kWidth = 680.0;
-constexpr double kLeft = 66.0;
-constexpr double kRight = 660.0;
-constexpr double kTop = 16.0;
-constexpr double kBottom = 212.0;
+constexpr double kPoseWidth = 680.0;
+constexpr double kPoseLeft = 66.0;
+constexpr double kPoseRight = 660.0;
+constexpr double kPoseTop = 16.0;
+constexpr double kPoseBottom = 212.0;
 
 /// Range of f over the poses that have one, in um.
 struct Range {
@@ -26,7 +26,7 @@ struct Range {
   [[nodiscard]] bool usable() const { return low > 0.0 && low <= high; }
 };
 
-Range range_of(const FeatureResult& feature) {
+Range f_range(const FeatureResult& feature) {
   Range range;
   for (const PoseValue& pose : feature.poses) {
     if (!pose.valid) continue;
@@ -52,18 +52,18 @@ void draw_pose(Svg& svg, double x, double y, const PoseValue& pose, double size,
 void draw_f_axes(Svg& svg, const Scale& x, const Scale& y, std::size_t visits) {
   const auto ticks = y.decades ? decade_ticks(y.low, y.high) : round_ticks(y.low, y.high, 5);
   for (const double f : ticks) {
-    svg.line(kLeft, y.at(f), kRight, y.at(f), "grid");
-    svg.text(kLeft - 8.0, y.at(f) + 4.0, "end", "label", tick_label(f));
+    svg.line(kPoseLeft, y.at(f), kPoseRight, y.at(f), "grid");
+    svg.text(kPoseLeft - 8.0, y.at(f) + 4.0, "end", "label", tick_label(f));
   }
-  svg.rect(kLeft, kTop, kRight - kLeft, kBottom - kTop, "frame");
+  svg.rect(kPoseLeft, kPoseTop, kPoseRight - kPoseLeft, kPoseBottom - kPoseTop, "frame");
   for (const double visit :
        round_ticks(1.0, static_cast<double>(visits), std::min<int>(12, static_cast<int>(visits)))) {
     if (visit != std::floor(visit)) continue;
-    svg.line(x.at(visit), kBottom, x.at(visit), kBottom + 5.0, "tick");
-    svg.text(x.at(visit), kBottom + 18.0, "middle", "label", tick_label(visit));
+    svg.line(x.at(visit), kPoseBottom, x.at(visit), kPoseBottom + 5.0, "tick");
+    svg.text(x.at(visit), kPoseBottom + 18.0, "middle", "label", tick_label(visit));
   }
-  svg.text(0.5 * (kLeft + kRight), kBottom + 36.0, "middle", "title", tr("visit"));
-  svg.upward_text(14.0, 0.5 * (kTop + kBottom), "title",
+  svg.text(0.5 * (kPoseLeft + kPoseRight), kPoseBottom + 36.0, "middle", "title", tr("visit"));
+  svg.upward_text(14.0, 0.5 * (kPoseTop + kPoseBottom), "title",
                   y.decades ? tr("f / µm (logarithmic)") : "f / µm");
 }
 
@@ -72,13 +72,14 @@ std::string search_plot(const FeatureResult& feature, const std::optional<Zone>&
   const double zone_um = zone ? zone->deviation_mm / core::kMicrometre : range.low;
   const double least = zone_um > 0.0 ? std::min(range.low, zone_um) : range.low;
   const bool decades = range.high > 100.0 * least;
-  const Scale y = decades ? Scale{least / 1.6, range.high * 1.4, kBottom, kTop, true}
-                          : Scale{0.0, 1.12 * range.high, kBottom, kTop};
+  const Scale y = decades ? Scale{least / 1.6, range.high * 1.4, kPoseBottom, kPoseTop, true}
+                          : Scale{0.0, 1.12 * range.high, kPoseBottom, kPoseTop};
   const std::size_t visits = feature.poses.size();
-  const Scale x{1.0, std::max(2.0, static_cast<double>(visits)), kLeft + 16.0, kRight - 16.0};
-  Svg svg(kWidth, 254.0, "wide", tr("f of the poses in the order visited"));
+  const Scale x{1.0, std::max(2.0, static_cast<double>(visits)), kPoseLeft + 16.0,
+                kPoseRight - 16.0};
+  Svg svg(kPoseWidth, 254.0, "wide", tr("f of the poses in the order visited"));
   draw_f_axes(svg, x, y, visits);
-  if (zone) svg.line(kLeft, y.at(zone_um), kRight, y.at(zone_um), "reference");
+  if (zone) svg.line(kPoseLeft, y.at(zone_um), kPoseRight, y.at(zone_um), "reference");
   std::string d;
   for (std::size_t i = 0; i < visits; ++i) {
     const PoseValue& pose = feature.poses[i];
@@ -90,7 +91,7 @@ std::string search_plot(const FeatureResult& feature, const std::optional<Zone>&
   const double size = visits <= 40 ? 3.6 : 2.2;
   for (std::size_t i = 0; i < visits; ++i) {
     const PoseValue& pose = feature.poses[i];
-    const double py = pose.valid ? y.at(pose.f_mm / core::kMicrometre) : kTop + 8.0;
+    const double py = pose.valid ? y.at(pose.f_mm / core::kMicrometre) : kPoseTop + 8.0;
     draw_pose(svg, x.at(static_cast<double>(i + 1)), py, pose, size, {});
   }
   return svg.str();
@@ -135,23 +136,24 @@ void draw_f_colour_bar(Svg& svg, const Range& range, double top, double bottom) 
 }
 
 std::string pose_map(const FeatureResult& feature, const Range& range) {
-  constexpr double kMapBottom = 290.0;
-  constexpr double kMapRight = 530.0;
+  constexpr double kPoseMapBottom = 290.0;
+  constexpr double kPoseMapRight = 530.0;
   const PoseBox box = box_of(feature);
-  const Scale x = angle_scale(box.alpha_low, box.alpha_high, kLeft, kMapRight);
-  const Scale y = angle_scale(box.beta_low, box.beta_high, kMapBottom, kTop);
-  Svg svg(kWidth, 334.0, "wide", tr("Poses visited, coloured by f"));
+  const Scale x = angle_scale(box.alpha_low, box.alpha_high, kPoseLeft, kPoseMapRight);
+  const Scale y = angle_scale(box.beta_low, box.beta_high, kPoseMapBottom, kPoseTop);
+  Svg svg(kPoseWidth, 334.0, "wide", tr("Poses visited, coloured by f"));
   for (const double alpha : round_ticks(x.low, x.high, 6)) {
-    svg.line(x.at(alpha), kTop, x.at(alpha), kMapBottom, "grid");
-    svg.text(x.at(alpha), kMapBottom + 18.0, "middle", "label", tick_label(alpha));
+    svg.line(x.at(alpha), kPoseTop, x.at(alpha), kPoseMapBottom, "grid");
+    svg.text(x.at(alpha), kPoseMapBottom + 18.0, "middle", "label", tick_label(alpha));
   }
   for (const double beta : round_ticks(y.low, y.high, 6)) {
-    svg.line(kLeft, y.at(beta), kMapRight, y.at(beta), "grid");
-    svg.text(kLeft - 8.0, y.at(beta) + 4.0, "end", "label", tick_label(beta));
+    svg.line(kPoseLeft, y.at(beta), kPoseMapRight, y.at(beta), "grid");
+    svg.text(kPoseLeft - 8.0, y.at(beta) + 4.0, "end", "label", tick_label(beta));
   }
-  svg.rect(kLeft, kTop, kMapRight - kLeft, kMapBottom - kTop, "frame");
-  svg.text(0.5 * (kLeft + kMapRight), kMapBottom + 38.0, "middle", "title", "alpha / °");
-  svg.upward_text(14.0, 0.5 * (kTop + kMapBottom), "title", "beta / °");
+  svg.rect(kPoseLeft, kPoseTop, kPoseMapRight - kPoseLeft, kPoseMapBottom - kPoseTop, "frame");
+  svg.text(0.5 * (kPoseLeft + kPoseMapRight), kPoseMapBottom + 38.0, "middle", "title",
+           "alpha / °");
+  svg.upward_text(14.0, 0.5 * (kPoseTop + kPoseMapBottom), "title", "beta / °");
   const double decades = std::max(std::log(range.high / range.low), 1e-9);
   const auto draw = [&](const PoseValue& pose) {
     const double f_um = std::max(pose.f_mm / core::kMicrometre, range.low);
@@ -164,14 +166,14 @@ std::string pose_map(const FeatureResult& feature, const Range& range) {
     if (!pose.final_pose) draw(pose);
   }
   if (const PoseValue* final_pose = final_pose_of(feature)) draw(*final_pose);
-  draw_f_colour_bar(svg, range, kTop + 24.0, 200.0);
+  draw_f_colour_bar(svg, range, kPoseTop + 24.0, 200.0);
   return svg.str();
 }
 
 }  // namespace
 
 std::string pose_plots(const FeatureResult& feature, const std::optional<Zone>& zone) {
-  const Range range = range_of(feature);
+  const Range range = f_range(feature);
   if (!range.usable() || feature.poses.size() < 2) return {};
   std::string html = fmt::format(
       R"(<figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)",

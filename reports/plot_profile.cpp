@@ -12,31 +12,32 @@
 namespace rondure::reports {
 namespace {
 
-constexpr double kWidth = 680.0;
-constexpr double kHeight = 250.0;
-constexpr double kLeft = 62.0;
-constexpr double kRight = 664.0;
-constexpr double kTop = 12.0;
-constexpr double kBottom = 204.0;
+constexpr double kProfileWidth = 680.0;
+constexpr double kProfileHeight = 250.0;
+constexpr double kProfileLeft = 62.0;
+constexpr double kProfileRight = 664.0;
+constexpr double kProfileTop = 12.0;
+constexpr double kProfileBottom = 204.0;
 
 void draw_axes(Svg& svg, const Scale& x, const Scale& y, double half_zone_um) {
-  svg.rect(kLeft, y.at(half_zone_um), kRight - kLeft, y.at(-half_zone_um) - y.at(half_zone_um),
-           "band");
-  svg.line(kLeft, y.at(half_zone_um), kRight, y.at(half_zone_um), "zone-outer");
-  svg.line(kLeft, y.at(-half_zone_um), kRight, y.at(-half_zone_um), "zone-inner");
-  svg.line(kLeft, y.at(0.0), kRight, y.at(0.0), "mean");
-  svg.rect(kLeft, kTop, kRight - kLeft, kBottom - kTop, "frame");
+  svg.rect(kProfileLeft, y.at(half_zone_um), kProfileRight - kProfileLeft,
+           y.at(-half_zone_um) - y.at(half_zone_um), "band");
+  svg.line(kProfileLeft, y.at(half_zone_um), kProfileRight, y.at(half_zone_um), "zone-outer");
+  svg.line(kProfileLeft, y.at(-half_zone_um), kProfileRight, y.at(-half_zone_um), "zone-inner");
+  svg.line(kProfileLeft, y.at(0.0), kProfileRight, y.at(0.0), "mean");
+  svg.rect(kProfileLeft, kProfileTop, kProfileRight - kProfileLeft, kProfileBottom - kProfileTop,
+           "frame");
   for (int angle = 0; angle <= 360; angle += 45) {
-    svg.line(x.at(angle), kBottom, x.at(angle), kBottom + 5.0, "tick");
-    svg.text(x.at(angle), kBottom + 18.0, "middle", "label", std::to_string(angle));
+    svg.line(x.at(angle), kProfileBottom, x.at(angle), kProfileBottom + 5.0, "tick");
+    svg.text(x.at(angle), kProfileBottom + 18.0, "middle", "label", std::to_string(angle));
   }
-  svg.text(0.5 * (kLeft + kRight), kBottom + 36.0, "middle", "title",
+  svg.text(0.5 * (kProfileLeft + kProfileRight), kProfileBottom + 36.0, "middle", "title",
            tr("angle about the centre / °"));
   for (const double value : round_ticks(y.low, y.high, 6)) {
-    svg.line(kLeft - 5.0, y.at(value), kLeft, y.at(value), "tick");
-    svg.text(kLeft - 8.0, y.at(value) + 4.0, "end", "label", tick_label(value));
+    svg.line(kProfileLeft - 5.0, y.at(value), kProfileLeft, y.at(value), "tick");
+    svg.text(kProfileLeft - 8.0, y.at(value) + 4.0, "end", "label", tick_label(value));
   }
-  svg.upward_text(14.0, 0.5 * (kTop + kBottom), "title", tr("deviation / µm"));
+  svg.upward_text(14.0, 0.5 * (kProfileTop + kProfileBottom), "title", tr("deviation / µm"));
 }
 
 std::string profile_path(const Section& section, const Scale& x, const Scale& y) {
@@ -59,9 +60,9 @@ std::string section_profile(const FeatureResult& feature, const Zone& zone) {
   if (sections.empty()) return {};
   const Section& section = sections.front();
   const double half_zone_um = std::max(0.5 * zone.deviation_mm / core::kMicrometre, 1e-2);
-  const Scale x{0.0, 360.0, kLeft, kRight};
-  const Scale y{-1.25 * half_zone_um, 1.25 * half_zone_um, kBottom, kTop};
-  Svg svg(kWidth, kHeight, "wide", tr("Deviation against the angle"));
+  const Scale x{0.0, 360.0, kProfileLeft, kProfileRight};
+  const Scale y{-1.25 * half_zone_um, 1.25 * half_zone_um, kProfileBottom, kProfileTop};
+  Svg svg(kProfileWidth, kProfileHeight, "wide", tr("Deviation against the angle"));
   draw_axes(svg, x, y, half_zone_um);
   svg.path(profile_path(section, x, y), section.rows.size() <= 40 ? "guide" : "profile");
   for (const std::size_t row : section.rows) {

@@ -19,8 +19,8 @@ namespace {
 // "body" and "cap" a radius, "h" a height. The n-th ring of the near group goes with the n-th of
 // the far group.
 
-constexpr double kWidth = 680.0;
-constexpr double kHeight = 420.0;
+constexpr double kSolidWidth = 680.0;
+constexpr double kSolidHeight = 420.0;
 constexpr double kX = 270.0;  ///< Centre.
 constexpr double kY = 208.0;
 constexpr double kLabels = 14.0;  ///< Distance of the labels of angles.
@@ -156,7 +156,7 @@ std::string drawing(const SolidScene& scene, const FeatureResult& feature, doubl
   const double sine = std::abs(std::sin(camera.pitch_deg * core::kDegree));
   const double cosine = std::cos(camera.pitch_deg * core::kDegree);
   const Layers layers = layers_of(scene, feature, half_zone_mm, camera);
-  Svg svg(kWidth, kHeight, "wide turn", tr("Cylinder and its zone in three dimensions"));
+  Svg svg(kSolidWidth, kSolidHeight, "wide turn", tr("Cylinder and its zone in three dimensions"));
   svg.describe(trf(
       "Two coaxial cylinders {} µm apart in radius about the minimum-zone axis, {} points between "
       "them coloured by deviation, {} of them contact points.",

@@ -14,11 +14,11 @@
 namespace rondure::reports {
 namespace {
 
-constexpr double kSize = 340.0;
-constexpr double kCentre = 170.0;
-constexpr double kMean = 104.0;   ///< Radius of the mean circle as drawn.
-constexpr double kReach = 24.0;   ///< Largest deviation of a used point as drawn.
-constexpr double kMiddle = 64.0;  ///< What is drawn in the middle stays within this.
+constexpr double kEdgeSize = 340.0;
+constexpr double kEdgeCentre = 170.0;
+constexpr double kEdgeMean = 104.0;  ///< Radius of the mean circle as drawn.
+constexpr double kEdgeReach = 24.0;  ///< Largest deviation of a used point as drawn.
+constexpr double kMiddle = 64.0;     ///< What is drawn in the middle stays within this.
 constexpr std::size_t kMostCenters = 250;
 
 /// Places on the drawing of an edge.
@@ -27,16 +27,16 @@ struct EdgeView {
   double px_per_mm = 1.0;
 
   [[nodiscard]] double radius(double deviation_mm) const {
-    return kMean + std::clamp(px_per_mm * deviation_mm, -1.3 * kReach, 1.3 * kReach);
+    return kEdgeMean + std::clamp(px_per_mm * deviation_mm, -1.3 * kEdgeReach, 1.3 * kEdgeReach);
   }
   [[nodiscard]] Eigen::Vector2d at(double angle_rad, double r) const {
-    return {kCentre + r * std::cos(angle_rad), kCentre - r * std::sin(angle_rad)};
+    return {kEdgeCentre + r * std::cos(angle_rad), kEdgeCentre - r * std::sin(angle_rad)};
   }
   /// A place near the wheel's centre, magnified alike; drawn to `kMiddle` at most.
   [[nodiscard]] Eigen::Vector2d middle(const Eigen::Vector2d& p) const {
     Eigen::Vector2d off = px_per_mm * (p - wheel.center_mm);
     if (off.norm() > kMiddle) off *= kMiddle / off.norm();
-    return {kCentre + off.x(), kCentre - off.y()};
+    return {kEdgeCentre + off.x(), kEdgeCentre - off.y()};
   }
 };
 
@@ -45,14 +45,14 @@ EdgeView edge_view(const fit::WheelMeasurement& wheel) {
   for (const std::size_t row : wheel.order.rows) {
     largest = std::max(largest, std::abs(wheel.deviations_mm[row]));
   }
-  return {wheel, kReach / largest};
+  return {wheel, kEdgeReach / largest};
 }
 
 void draw_angles(Svg& svg, const EdgeView& view) {
   constexpr std::array<const char*, 4> kNames = {"0°", "90°", "180°", "270°"};
   for (int tick = 0; tick < 12; ++tick) {
     const double angle = tick * 30.0 * core::kDegree;
-    const double from = kMean + 1.3 * kReach + 3.0;
+    const double from = kEdgeMean + 1.3 * kEdgeReach + 3.0;
     const Eigen::Vector2d a = view.at(angle, from);
     const Eigen::Vector2d b = view.at(angle, from + (tick % 3 == 0 ? 7.0 : 4.0));
     svg.line(a.x(), a.y(), b.x(), b.y(), "tick");
@@ -76,9 +76,9 @@ void draw_edge(Svg& svg, const EdgeView& view) {
     const Eigen::Vector2d p = view.at(order.angles_rad[k], view.radius(deviation));
     guide += fmt::format("{}{:.1f} {:.1f}", k == 0 ? 'M' : 'L', p.x(), p.y());
   }
-  svg.circle(kCentre, kCentre, view.radius(high), "zone-outer");
-  svg.circle(kCentre, kCentre, view.radius(low), "zone-inner");
-  svg.circle(kCentre, kCentre, kMean, "mean");
+  svg.circle(kEdgeCentre, kEdgeCentre, view.radius(high), "zone-outer");
+  svg.circle(kEdgeCentre, kEdgeCentre, view.radius(low), "zone-inner");
+  svg.circle(kEdgeCentre, kEdgeCentre, kEdgeMean, "mean");
   svg.path(order.closed() ? guide + "z" : guide, "guide");
 }
 
@@ -105,7 +105,7 @@ void draw_middle(Svg& svg, const EdgeView& view) {
     const Eigen::Vector2d p = view.middle(centers[i * centers.size() / shown].center_mm);
     svg.circle(p.x(), p.y(), 1.4, "trail");
   }
-  svg.cross(kCentre, kCentre, 6.0, "scale");
+  svg.cross(kEdgeCentre, kEdgeCentre, 6.0, "scale");
   if (!view.wheel.runout) return;
   const Eigen::Vector2d axis = view.middle(view.wheel.runout->axis_mm);
   svg.diamond(axis.x(), axis.y(), 6.0, "final");
@@ -132,8 +132,8 @@ struct SideView {
 };
 
 constexpr double kViewWidth = 700.0;
-constexpr double kMostHeight = 380.0;
-constexpr double kTop = 12.0;
+constexpr double kMostViewHeight = 380.0;
+constexpr double kViewTop = 12.0;
 constexpr double kRightMargin = 16.0;
 
 SideView side_view(const fit::WheelPath& path) {
@@ -155,10 +155,10 @@ SideView side_view(const fit::WheelPath& path) {
   view.high += air;
   const Eigen::Vector2d size = view.high - view.low;
   view.px_per_mm =
-      std::min((kViewWidth - view.left - kRightMargin) / size.x(), kMostHeight / size.y());
+      std::min((kViewWidth - view.left - kRightMargin) / size.x(), kMostViewHeight / size.y());
   // A tall view is narrower than the page: in its middle.
   view.left = std::max(view.left, 0.5 * (kViewWidth - view.px_per_mm * size.x()));
-  view.bottom = kTop + view.px_per_mm * size.y();
+  view.bottom = kViewTop + view.px_per_mm * size.y();
   return view;
 }
 
@@ -166,7 +166,7 @@ void draw_axes(Svg& svg, const SideView& view) {
   const Eigen::Vector2d corner = view.at(view.high);
   for (const double x : round_ticks(view.low.x(), view.high.x(), 8)) {
     const double px = view.at({x, view.low.y()}).x();
-    svg.line(px, kTop, px, view.bottom, "grid");
+    svg.line(px, kViewTop, px, view.bottom, "grid");
     svg.line(px, view.bottom, px, view.bottom + 5.0, "tick");
     svg.text(px, view.bottom + 18.0, "middle", "label", tick_label(x));
   }
@@ -175,9 +175,9 @@ void draw_axes(Svg& svg, const SideView& view) {
     svg.line(view.left, py, corner.x(), py, "grid");
     svg.text(view.left - 7.0, py + 4.0, "end", "label", tick_label(z));
   }
-  svg.rect(view.left, kTop, corner.x() - view.left, view.bottom - kTop, "frame");
+  svg.rect(view.left, kViewTop, corner.x() - view.left, view.bottom - kViewTop, "frame");
   svg.text(0.5 * (view.left + corner.x()), view.bottom + 36.0, "middle", "title", "x / mm");
-  svg.upward_text(view.left - 50.0, 0.5 * (kTop + view.bottom), "title", "z / mm");
+  svg.upward_text(view.left - 50.0, 0.5 * (kViewTop + view.bottom), "title", "z / mm");
 }
 
 /// The line through places of all rows, thinned to some 700.
@@ -206,7 +206,7 @@ void draw_wheel(Svg& svg, const SideView& view, const fit::WheelPathRow& row, do
 std::string wheel_edge_plot(const fit::WheelMeasurement& wheel,
                             std::span<const Eigen::Vector2d> points_mm) {
   const EdgeView view = edge_view(wheel);
-  Svg svg(kSize, kSize, "polar", tr("Edge of the wheel: deviations about the mean circle"));
+  Svg svg(kEdgeSize, kEdgeSize, "polar", tr("Edge of the wheel: deviations about the mean circle"));
   draw_angles(svg, view);
   draw_edge(svg, view);
   draw_middle(svg, view);
@@ -219,7 +219,7 @@ std::string wheel_edge_plot(const fit::WheelMeasurement& wheel,
       trf("Deviations about the mean circle, magnified {}×; the line guides the eye only. Orange "
           "and blue: farthest and nearest point. In the middle, magnified alike: centres of the "
           "quadruples (grey), their mean (cross){}{}.",
-          fixed(view.px_per_mm * wheel.radius_mm / kMean, 0),
+          fixed(view.px_per_mm * wheel.radius_mm / kEdgeMean, 0),
           wheel.runout ? tr(", the spindle axis (orange; drawn at the edge when farther off)")
                        : std::string(),
           wheel.dropped.empty() ? std::string() : tr("; crosses on the edge: dropped points")));

@@ -16,9 +16,9 @@ constexpr double kOuter = 0.97;
 
 /// A field of dots. Characters are twice as high as wide: a character of letters is one dot wide
 /// and counts two in height, one of braille holds two by four.
-class Canvas {
+class DotCanvas {
  public:
-  explicit Canvas(bool braille)
+  explicit DotCanvas(bool braille)
       : braille_(braille),
         width_(braille ? 2 * kSketchColumns : kSketchColumns),
         height_(braille ? 4 * kSketchRows : kSketchRows),
@@ -91,7 +91,7 @@ double drawn_radius(double deviation_mm, double zone_mm) {
   return kInner + share * (kOuter - kInner);
 }
 
-void draw_circle(Canvas& canvas, double radius, int dots) {
+void draw_circle(DotCanvas& canvas, double radius, int dots) {
   for (int i = 0; i < dots; ++i) {
     const double t = core::kTwoPi * i / dots;
     canvas.dot(radius * std::cos(t), radius * std::sin(t), '.');
@@ -99,7 +99,7 @@ void draw_circle(Canvas& canvas, double radius, int dots) {
 }
 
 /// Straight between neighbours in angle and radius; a gap of the data stays open.
-void draw_profile(Canvas& canvas, const Section& section, double zone_mm) {
+void draw_profile(DotCanvas& canvas, const Section& section, double zone_mm) {
   const std::size_t n = section.profile.size();
   for (std::size_t i = 0; i < n; ++i) {
     const SectionPoint& a = section.profile[i];
@@ -118,7 +118,7 @@ void draw_profile(Canvas& canvas, const Section& section, double zone_mm) {
   }
 }
 
-void draw_contacts(Canvas& canvas, const FeatureResult& feature) {
+void draw_contacts(DotCanvas& canvas, const FeatureResult& feature) {
   for (const CloudPoint& point : feature.cloud) {
     if (!point.outer_contact && !point.inner_contact) continue;
     const double r = point.outer_contact ? kOuter : kInner;
@@ -145,7 +145,7 @@ std::optional<PolarSketch> polar_sketch(const FeatureResult& feature, SketchStyl
       [](const Section& a, const Section& b) { return extent_mm(a) < extent_mm(b); });
   if (widest == sections.end() || widest->profile.empty()) return {};
   const bool braille = style == SketchStyle::kBraille;
-  Canvas canvas(braille);
+  DotCanvas canvas(braille);
   draw_circle(canvas, kInner, braille ? 48 : 20);
   draw_circle(canvas, kOuter, braille ? 72 : 36);
   draw_profile(canvas, *widest, zone->deviation_mm);

@@ -47,7 +47,7 @@ const char* status_of(Verdict verdict) {
 }
 
 /// "RONt about LSCI", "dR".
-std::string words_of(const record::Characteristic& asked) {
+std::string symbol_words(const record::Characteristic& asked) {
   const std::string reference = reference_of(asked);
   return symbol_of(asked) + (reference.empty() ? "" : " about " + reference);
 }
@@ -55,7 +55,7 @@ std::string words_of(const record::Characteristic& asked) {
 bool has_reference(const record::Characteristic& asked) { return !reference_of(asked).empty(); }
 
 /// One characteristic on its way through the document.
-struct Placed {
+struct PlacedResult {
   const CharacteristicResult& result;
   const FeatureResult& feature;
   const QifFeature& places;
@@ -64,7 +64,7 @@ struct Placed {
   int item = 0;
 };
 
-void add_definition(QifDraft& draft, Placed& placed) {
+void add_definition(QifDraft& draft, PlacedResult& placed) {
   const record::Characteristic& asked = placed.result.characteristic;
   pugi::xml_node node =
       add(draft.lists.characteristic_definitions, element(placed.family, "Definition").c_str());
@@ -79,7 +79,7 @@ void add_definition(QifDraft& draft, Placed& placed) {
     } else {
       add(node, "NonTolerance", "MEASURED");
     }
-    add(node, "WhatToMeasure", words_of(asked));
+    add(node, "WhatToMeasure", symbol_words(asked));
   } else {
     add(node, "ToleranceValue", decimal(*asked.tolerance_mm));
   }
@@ -93,7 +93,7 @@ void add_definition(QifDraft& draft, Placed& placed) {
   }
 }
 
-void add_item(QifDraft& draft, Placed& placed) {
+void add_item(QifDraft& draft, PlacedResult& placed) {
   const record::Characteristic& asked = placed.result.characteristic;
   pugi::xml_node node =
       add(draft.lists.characteristic_items, element(placed.family, "Item").c_str());
@@ -109,7 +109,7 @@ void add_item(QifDraft& draft, Placed& placed) {
 }
 
 /// The measured shapes that the value comes from.
-std::vector<int> measured_shapes(const Placed& placed) {
+std::vector<int> measured_shapes(const PlacedResult& placed) {
   const record::Characteristic& asked = placed.result.characteristic;
   const auto about = static_cast<std::size_t>(asked.reference);
   std::vector<int> ids;
@@ -137,7 +137,7 @@ bool is_width(const CharacteristicResult& result, double width_mm) {
 }
 
 /// ZoneRadii and ZoneAxis: the minimum zone itself.
-void add_cylinder_zone(pugi::xml_node node, const Placed& placed) {
+void add_cylinder_zone(pugi::xml_node node, const PlacedResult& placed) {
   const FeatureResult& feature = placed.feature;
   const auto zone = zone_of(feature);
   if (!zone || !feature.mz_cylinder || !is_width(placed.result, zone->deviation_mm)) return;
@@ -151,7 +151,7 @@ void add_cylinder_zone(pugi::xml_node node, const Placed& placed) {
 }
 
 /// ZoneRadii and ZonePlane of the section that gave the value.
-void add_circle_zone(pugi::xml_node node, const Placed& placed) {
+void add_circle_zone(pugi::xml_node node, const PlacedResult& placed) {
   const double offset_mm = surface_offset_mm(placed.feature);
   for (const LayerResult& layer : placed.feature.layers) {
     if (!layer.mz || !is_width(placed.result, layer.mz->width_mm())) continue;
@@ -173,7 +173,7 @@ std::string uncertainty_words(const CharacteristicResult& result) {
                      decimal(known->low_mm), decimal(known->high_mm));
 }
 
-void add_measured(QifDraft& draft, const Placed& placed) {
+void add_measured(QifDraft& draft, const PlacedResult& placed) {
   const CharacteristicResult& result = placed.result;
   const record::Characteristic& asked = result.characteristic;
   pugi::xml_node node =
@@ -205,7 +205,7 @@ void add_measured(QifDraft& draft, const Placed& placed) {
 void add_qif_characteristics(QifDraft& draft, const QifFeature& places,
                              const FeatureResult& feature) {
   for (const CharacteristicResult& result : feature.characteristics) {
-    Placed placed{result, feature, places, family_of(result.characteristic)};
+    PlacedResult placed{result, feature, places, family_of(result.characteristic)};
     add_definition(draft, placed);
     add_item(draft, placed);
     add_measured(draft, placed);

@@ -147,7 +147,7 @@ void add_measurement(QifDraft& draft, QifShape& shape, const Associated& found,
 }
 
 /// The rows of a layer as a range, where they stand one behind the other.
-PointRange range_of(std::optional<int> set, const std::vector<std::size_t>& rows) {
+PointRange point_range(std::optional<int> set, const std::vector<std::size_t>& rows) {
   if (rows.empty() || rows.back() - rows.front() + 1 != rows.size()) return {};
   if (!std::is_sorted(rows.begin(), rows.end())) return {};
   return {set, std::pair{rows.front(), rows.back()}};
@@ -177,7 +177,7 @@ QifFeature add_qif_feature(QifDraft& draft, const FeatureResult& feature) {
     QifShape section = add_shape(draft, asked, true, layer.height_mm,
                                  fmt::format("{}, section {}", asked.id, layer.layer + 1));
     for (const Associated& found : circles_of(feature, layer)) {
-      add_measurement(draft, section, found, range_of(set, layer.rows));
+      add_measurement(draft, section, found, point_range(set, layer.rows));
     }
     out.sections.push_back(section);
   }

@@ -12,7 +12,7 @@
 namespace rondure::reports {
 namespace {
 
-std::string in_um(const std::optional<double>& length_mm) {
+std::string um_field(const std::optional<double>& length_mm) {
   if (!length_mm || !std::isfinite(*length_mm)) return {};
   return core::shortest(*length_mm / core::kMicrometre);
 }
@@ -32,10 +32,10 @@ std::string write_results_csv(const record::RunRecord& record, const Evaluation&
       const record::Characteristic& asked = result.characteristic;
       const UncertaintyStatement* known = result.value ? result.value->statement() : nullptr;
       const std::string interval =
-          known == nullptr ? "," : in_um(known->low_mm) + "," + in_um(known->high_mm);
+          known == nullptr ? "," : um_field(known->low_mm) + "," + um_field(known->high_mm);
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", head, csv_field(feature.feature.id),
                           csv_field(asked.id), symbol_of(asked), reference_of(asked),
-                          in_um(result.value_mm()), in_um(asked.tolerance_mm),
+                          um_field(result.value_mm()), um_field(asked.tolerance_mm),
                           name_of(result.verdict), csv_field(result.reason),
                           csv_field(result.value ? result.value->operator_text() : ""), interval);
     }

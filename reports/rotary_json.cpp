@@ -1,16 +1,11 @@
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "reports/json_parts.h"
 #include "reports/rotary_result.h"
+#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-constexpr double kMicroradian = 1e-6;
 
 Json um_list(const Eigen::Vector3d& v_mm) {
   return Json::array({in_um(v_mm.x()), in_um(v_mm.y()), in_um(v_mm.z())});

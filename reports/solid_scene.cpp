@@ -11,12 +11,12 @@
 namespace rondure::reports {
 namespace {
 
-constexpr double kMean = 112.0;     ///< Radius at which the middle of the zone is drawn.
-constexpr double kHalfZone = 16.0;  ///< Half the zone as drawn.
-constexpr double kLeastHeight = 45.0;
-constexpr double kMostHeight = 138.0;  ///< Of half the cylinder.
-constexpr int kCellColumns = 72;
-constexpr int kCellRows = 24;
+constexpr double kSolidMean = 112.0;     ///< Radius at which the middle of the zone is drawn.
+constexpr double kSolidHalfZone = 16.0;  ///< Half the zone as drawn.
+constexpr double kLeastSolidHeight = 45.0;
+constexpr double kMostSolidHeight = 138.0;  ///< Of half the cylinder.
+constexpr int kSolidCellColumns = 72;
+constexpr int kSolidCellRows = 24;
 constexpr std::size_t kRingSteps = 120;  ///< 3 deg.
 constexpr std::size_t kMostSections = 24;
 
@@ -30,7 +30,7 @@ struct Scales {
     return (height_mm - middle_mm) * px_per_height_mm;
   }
   [[nodiscard]] double radius(double deviation_mm) const {
-    return kMean + deviation_mm * px_per_deviation_mm;
+    return kSolidMean + deviation_mm * px_per_deviation_mm;
   }
 };
 
@@ -40,17 +40,18 @@ std::vector<std::size_t> rows_drawn(const FeatureResult& feature, const SolidSce
   std::vector<std::size_t> rows;
   const bool all = cloud.size() <= kMostSolidPoints;
   std::map<int, std::size_t> farthest;
-  const double pitch = std::max(scene.high_mm - scene.low_mm, 1e-9) / kCellRows;
+  const double pitch = std::max(scene.high_mm - scene.low_mm, 1e-9) / kSolidCellRows;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (all || cloud[i].outer_contact || cloud[i].inner_contact) {
       rows.push_back(i);
       continue;
     }
-    const int column = std::clamp(
-        static_cast<int>(cloud[i].angle_rad / core::kTwoPi * kCellColumns), 0, kCellColumns - 1);
-    const int row =
-        std::clamp(static_cast<int>((cloud[i].height_mm - scene.low_mm) / pitch), 0, kCellRows - 1);
-    const auto [cell, fresh] = farthest.try_emplace(row * kCellColumns + column, i);
+    const int column =
+        std::clamp(static_cast<int>(cloud[i].angle_rad / core::kTwoPi * kSolidCellColumns), 0,
+                   kSolidCellColumns - 1);
+    const int row = std::clamp(static_cast<int>((cloud[i].height_mm - scene.low_mm) / pitch), 0,
+                               kSolidCellRows - 1);
+    const auto [cell, fresh] = farthest.try_emplace(row * kSolidCellColumns + column, i);
     const double kept = std::abs(cloud[cell->second].deviation_mm);
     if (!fresh && std::abs(cloud[i].deviation_mm) > kept) cell->second = i;
   }
@@ -94,16 +95,16 @@ void add_sections(SolidScene& scene, const FeatureResult& feature, const Scales&
 
 SolidScene solid_scene_of(const FeatureResult& feature, const Zone& zone) {
   SolidScene scene;
-  scene.outer = kMean + kHalfZone;
-  scene.inner = kMean - kHalfZone;
+  scene.outer = kSolidMean + kSolidHalfZone;
+  scene.inner = kSolidMean - kSolidHalfZone;
   std::tie(scene.low_mm, scene.high_mm) = heights_of(feature);
   const double half_zone_mm = std::max(0.5 * zone.deviation_mm, 1e-5);
   const double half_span_mm = std::max(0.5 * (scene.high_mm - scene.low_mm), 1e-9);
-  const double px_per_mm = kMean / std::max(zone.mean_radius_mm, 1e-9);
-  scene.half_height = std::clamp(half_span_mm * px_per_mm, kLeastHeight, kMostHeight);
+  const double px_per_mm = kSolidMean / std::max(zone.mean_radius_mm, 1e-9);
+  scene.half_height = std::clamp(half_span_mm * px_per_mm, kLeastSolidHeight, kMostSolidHeight);
   scene.height_share = scene.half_height / (half_span_mm * px_per_mm);
   const Scales scales{0.5 * (scene.low_mm + scene.high_mm), scene.half_height / half_span_mm,
-                      kHalfZone / half_zone_mm};
+                      kSolidHalfZone / half_zone_mm};
   scene.magnification = scales.px_per_deviation_mm / px_per_mm;
   for (const std::size_t row : rows_drawn(feature, scene)) {
     const CloudPoint& point = feature.cloud[row];

@@ -12,7 +12,7 @@
 namespace rondure::reports {
 namespace {
 
-std::string in_um(double length_mm, int decimals) {
+std::string um_text(double length_mm, int decimals) {
   return fixed(length_mm / core::kMicrometre, decimals);
 }
 
@@ -54,8 +54,8 @@ std::string StatedValue::value_text() const {
   const UncertaintyStatement* known = statement();
   if (known == nullptr) return um(value_mm_) + " um";
   const int decimals = decimals_for(known->expanded_mm());
-  return fmt::format("{} um [{}, {}]", in_um(value_mm_, decimals), in_um(known->low_mm, decimals),
-                     in_um(known->high_mm, decimals));
+  return fmt::format("{} um [{}, {}]", um_text(value_mm_, decimals),
+                     um_text(known->low_mm, decimals), um_text(known->high_mm, decimals));
 }
 
 std::string StatedValue::operator_text() const {

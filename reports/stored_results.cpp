@@ -1,15 +1,12 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "reports/evaluation.h"
 #include "reports/json_document.h"
+#include "reports/json_parts.h"
 
 namespace rondure::reports {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Every number below `node` with its JSON pointer. The cloud is left out: it is the touches again,
 /// which the journal's digests hold, and it may have a million rows. So may the curves of an

@@ -10,20 +10,19 @@
 namespace rondure::reports {
 namespace {
 
-constexpr std::size_t kColumns = 80;
-constexpr std::size_t kLabel = 15;  ///< Where the values of labelled lines start.
+constexpr std::size_t kValueColumn = 15;  ///< Where the values of labelled lines start.
 
 /// Appends `text` wrapped to lines of at most 80 columns, the first one after `head`
-/// (`kLabel` columns or less), the others indented below it.
+/// (`kValueColumn` columns or less), the others indented below it.
 void add_wrapped(std::string& out, std::string_view head, std::string_view text) {
-  std::string line = padded(head, kLabel);
+  std::string line = padded(head, kValueColumn);
   bool fresh = true;
   for (const LinePiece& piece : line_pieces(printable(text))) {
-    const std::string word = shortened(piece.text, kColumns - kLabel);
+    const std::string word = shortened(piece.text, kTerminalColumns - kValueColumn);
     const std::size_t space = piece.after_space && !fresh ? 1 : 0;
-    if (!fresh && columns(line) + space + columns(word) > kColumns) {
+    if (!fresh && columns(line) + space + columns(word) > kTerminalColumns) {
       out += line + "\n";
-      line = std::string(kLabel, ' ');
+      line = std::string(kValueColumn, ' ');
       fresh = true;
     }
     line += (piece.after_space && !fresh ? " " : "") + word;
@@ -102,7 +101,7 @@ void add_characteristic(std::string& out, const CharacteristicResult& result) {
   std::string line =
       fmt::format("  {} {}{:>14}   {} {}  ", tr(symbol_of(asked)), reference_of(asked), value,
                   padded(limit, 19), padded(tr(name_of(result.verdict)), 16));
-  line += shortened(printable(asked.id), kColumns - columns(line));
+  line += shortened(printable(asked.id), kTerminalColumns - columns(line));
   out += line + "\n";
   const bool simple = result.value && !result.value->uncertainty().result();
   if (result.verdict == Verdict::kVoid || result.verdict == Verdict::kUndecided ||
@@ -127,7 +126,7 @@ void add_sketch(std::string& out, const FeatureResult& feature, SketchStyle styl
   legend[6] = trf("{} contact outside", braille ? "\u25CF" : "O");
   legend[7] = trf("{} contact inside", braille ? "\u25CB" : "I");
   for (std::size_t i = 0; i < sketch->rows.size(); ++i) {
-    std::string line = fmt::format("{:{}}{}   {}", "", kLabel, sketch->rows[i], legend[i]);
+    std::string line = fmt::format("{:{}}{}   {}", "", kValueColumn, sketch->rows[i], legend[i]);
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";
   }

@@ -5,8 +5,16 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/units.h"
 
 namespace rondure::reports {
+
+/// Columns of a line on a terminal.
+inline constexpr std::size_t kTerminalColumns = 80;
+
+inline constexpr double kMicroradian = 1e-6;  ///< in rad
+/// A length in um, as a number.
+[[nodiscard]] inline double micrometres(double length_mm) { return length_mm / core::kMicrometre; }
 
 /// Numbers and names as reports print them. No locale, no clock: same value, same text. A value
 /// that is not finite is an en dash, a rounded zero has no sign.

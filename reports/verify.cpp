@@ -43,8 +43,8 @@ std::optional<std::string> compare_export(const Export& what, const std::string&
 }
 
 /// A line about one export: what differs, and whether the file or what it follows from was changed.
-std::string in_words(const Export& what, const std::optional<std::string>& difference,
-                     const std::optional<State>& state) {
+std::string difference_line(const Export& what, const std::optional<std::string>& difference,
+                            const std::optional<State>& state) {
   const bool changed = state == State::kChanged;
   if (!difference) {
     return fmt::format("{}: its bytes were changed after it was written ({})", what.file,
@@ -94,7 +94,7 @@ core::Result<std::string> compare_exports(const fs::path& directory,
     if (!made) return core::fail(made.error());
     const auto difference = compare_export(e, made->bytes, *bytes, exactness, state);
     if (difference || state == State::kChanged) {
-      out.differences.push_back(in_words(e, difference, state));
+      out.differences.push_back(difference_line(e, difference, state));
     }
   }
   if (!listed.list_found) {

@@ -16,7 +16,7 @@ constexpr double kGapLimit =
 constexpr std::size_t kFewPoints = 21;  // 3 layers of 7
 constexpr double kTold = 1e-6;          // radii nearer than this look alike in every report [mm]
 
-void add(FeatureResult& result, core::Code code, std::string what) {
+void add_warning(FeatureResult& result, core::Code code, std::string what) {
   result.warnings.push_back({code, std::move(what), {}});
 }
 
@@ -37,14 +37,16 @@ void warn_sampling(FeatureResult& result) {
                           ? feature.points_per_layer < 7 || (cylinder && feature.layers < 3)
                           : result.cloud.size() < (cylinder ? kFewPoints : kFewPoints / 3);
   if (sparse) {
-    add(result, core::Code::kSparse,
+    add_warning(
+        result, core::Code::kSparse,
         fmt::format(
             "{} points see only part of the form; the deviation of the whole surface is larger",
             result.cloud.size()));
   }
   const double gap = largest_gap(result.cloud);
   if (gap > kGapLimit) {
-    add(result, core::Code::kNotFullSection,
+    add_warning(
+        result, core::Code::kNotFullSection,
         fmt::format(
             "a gap of {:.0f} deg about the axis holds no point: the deviation is that of an arc, "
             "and its axis is weakly determined",
@@ -55,7 +57,8 @@ void warn_sampling(FeatureResult& result) {
 void warn_exact_fit(FeatureResult& result) {
   for (const LayerResult& layer : result.layers) {
     if (!layer.mz || !layer.mz->exact_fit) continue;
-    add(result, core::Code::kExactFit,
+    add_warning(
+        result, core::Code::kExactFit,
         fmt::format(
             "layer {} has three different points, which lie on a circle exactly: its roundness "
             "of 0 says nothing about the part",
@@ -72,16 +75,17 @@ void warn_absent(FeatureResult& result) {
        {Reference::kMinimumCircumscribed, Reference::kMaximumInscribed}) {
     const auto found = one_sided_of(result, reference);
     if (!found) {
-      add(result, found.error().code,
+      add_warning(
+          result, found.error().code,
           fmt::format("no {}: {}", words_of(reference, result.feature.shape), found.error().what));
       continue;
     }
     for (const LayerResult& layer : result.layers) {
       const auto& circle = reference == Reference::kMinimumCircumscribed ? layer.mc : layer.mi;
       if (circle) continue;
-      add(result, circle.error().code,
-          fmt::format("layer {} has no {}: {}", layer.layer + 1,
-                      words_of(reference, record::Shape::kCircle), circle.error().what));
+      add_warning(result, circle.error().code,
+                  fmt::format("layer {} has no {}: {}", layer.layer + 1,
+                              words_of(reference, record::Shape::kCircle), circle.error().what));
       break;
     }
   }
@@ -94,7 +98,8 @@ void warn_better(const Zone& mz, const core::Result<OneSided>& mc, const core::R
                  record::Shape shape, const std::string& place, FeatureResult& result) {
   using record::Reference;
   const auto say = [&](Reference reference, double radius_mm, double better_mm) {
-    add(result, core::Code::kSeveralOptima,
+    add_warning(
+        result, core::Code::kSeveralOptima,
         fmt::format("{}the {} next to the least-squares one has a radius of {:.7f} mm, about the "
                     "place of the minimum zone {:.3g} um better: a gauge may settle in either",
                     place, words_of(reference, shape), radius_mm + surface_offset_mm(result),
@@ -123,7 +128,8 @@ void warn_level(FeatureResult& result) {
   const double zone = result.mz_cylinder->width_mm();
   for (const PoseValue& value : result.poses) {
     if (!value.final_pose || !value.valid || !(value.f_mm > 2.0 * zone)) continue;
-    add(result, core::Code::kNotLevel,
+    add_warning(
+        result, core::Code::kNotLevel,
         fmt::format(
             "f = {:.3f} um in the final pose is more than twice the zone of {:.3f} um: it "
             "measures the tilt of the part, not its form; the minimum zone below is free of it",
@@ -140,7 +146,7 @@ void warn(FeatureResult& result) {
   warn_absent(result);
   warn_several(result);
   if (result.mz_cylinder && result.mz_cylinder->certificate.kind == fit::Certificate::Kind::kNone) {
-    add(result, core::Code::kNoCertificate, result.mz_cylinder->certificate.reason);
+    add_warning(result, core::Code::kNoCertificate, result.mz_cylinder->certificate.reason);
   }
   warn_level(result);
 }

@@ -2,15 +2,12 @@
 
 #include <cmath>
 
-#include "core/units.h"
+#include "reports/json_parts.h"
+#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-double um(double mm) { return mm / core::kMicrometre; }
-double deg(double rad) { return rad / core::kDegree; }
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
 
@@ -28,15 +25,15 @@ Json quadruples(const fit::WheelMeasurement& m, const fit::QuadrupleOptions& opt
             {"rms", c.rms_kappa()},
             {"worst", c.worst_kappa()},
             {"limit", finite(c.kappa_limit)}}},
-          {"scatter_um", um(m.center_scatter_mm)},
-          {"scatter_of_noise_um", um(m.expected_scatter_mm)},
-          {"farthest_um", um(m.farthest_center_mm)}};
+          {"scatter_um", micrometres(m.center_scatter_mm)},
+          {"scatter_of_noise_um", micrometres(m.expected_scatter_mm)},
+          {"farthest_um", micrometres(m.farthest_center_mm)}};
 }
 
 Json limits(const fit::WheelOptions& o) {
   return {{"least_chord_mm", o.quadruples.least_chord_mm},
           {"least_chord_per_radius", o.quadruples.least_chord_per_radius},
-          {"least_angle_deg", deg(o.quadruples.least_angle_rad)},
+          {"least_angle_deg", in_deg(o.quadruples.least_angle_rad)},
           {"outlier_scales", o.outliers.scales},
           {"short_arc_allowed", o.allow_short_arc}};
 }
@@ -44,56 +41,48 @@ Json limits(const fit::WheelOptions& o) {
 Json runout(const fit::WheelMeasurement& m) {
   if (!m.runout) return nullptr;
   return {{"axis_mm", point(m.runout->axis_mm)},
-          {"fim_um", um(m.runout->fim_mm)},
-          {"eccentricity_um", um(m.runout->eccentricity_mm)}};
+          {"fim_um", micrometres(m.runout->fim_mm)},
+          {"eccentricity_um", micrometres(m.runout->eccentricity_mm)}};
 }
 
 Json zone(const fit::WheelMeasurement& m) {
   if (!m.zone) return nullptr;
   return {{"center_mm", point(m.zone->center_mm)},
-          {"deviation_um", um(m.zone->width_mm())},
+          {"deviation_um", micrometres(m.zone->width_mm())},
           {"certificate", fit::name_of(m.zone->certificate.kind)}};
 }
 
 Json dropped(const fit::WheelMeasurement& m) {
   Json out = Json::array();
   for (const fit::DroppedPoint& p : m.dropped) {
-    out.push_back({{"row", p.row}, {"deviation_um", um(p.deviation_mm)}});
+    out.push_back({{"row", p.row}, {"deviation_um", micrometres(p.deviation_mm)}});
   }
-  return out;
-}
-
-/// One list a column, of all rows.
-template <class Rows, class Value>
-Json column(const Rows& rows, const Value& value) {
-  Json out = Json::array();
-  for (const auto& row : rows) out.push_back(value(row));
   return out;
 }
 
 Json path_curves(const fit::WheelPath& path) {
   using Row = fit::WheelPathRow;
-  const auto of = [&](const auto& value) { return column(path.rows, value); };
+  const auto of = [&](const auto& value) { return list_json(path.rows, value); };
   return {{"x_mm", of([](const Row& r) { return r.x_mm; })},
           {"f_mm", of([](const Row& r) { return r.surface.height_mm; })},
           {"slope", of([](const Row& r) { return r.surface.slope; })},
           {"xc_mm", of([](const Row& r) { return r.center_mm.x(); })},
           {"zc_mm", of([&](const Row& r) { return path.machine_z_mm(r); })},
-          {"phi_deg", of([](const Row& r) { return deg(r.contact_rad); })},
+          {"phi_deg", of([](const Row& r) { return in_deg(r.contact_rad); })},
           {"R_ks", of([](const Row& r) { return r.load; })},
-          {"clearance_um", of([](const Row& r) { return um(r.clearance_mm); })}};
+          {"clearance_um", of([](const Row& r) { return micrometres(r.clearance_mm); })}};
 }
 
 Json residual_curves(const fit::ResidualForm& form) {
   using Row = fit::ResidualRow;
-  const auto of = [&](const auto& value) { return column(form.rows, value); };
+  const auto of = [&](const auto& value) { return list_json(form.rows, value); };
   return {{"x_mm", of([](const Row& r) { return r.x_mm; })},
-          {"vertical_um", of([](const Row& r) { return um(r.vertical_mm); })},
-          {"touched_off_um", of([](const Row& r) { return um(r.touched_mm); })}};
+          {"vertical_um", of([](const Row& r) { return micrometres(r.vertical_mm); })},
+          {"touched_off_um", of([](const Row& r) { return micrometres(r.touched_mm); })}};
 }
 
 Json curves(const fit::WheelEvaluation& e) {
-  Json out = {{"deviations_um", column(e.wheel.deviations_mm, um)}};
+  Json out = {{"deviations_um", list_json(e.wheel.deviations_mm, micrometres)}};
   if (e.path) out["path"] = path_curves(*e.path);
   if (e.forecast) {
     out["residual_measured"] = residual_curves(e.forecast->measured);
@@ -109,21 +98,21 @@ Json path_json(const fit::WheelPath& path, const fit::WheelPathTask& task) {
       {"reference", path.lowest_point ? "lowest-point" : "center"},
       {"places", path.rows.size()},
       {"step_mm", path.step_mm},
-      {"cusp_um", um(path.cusp_mm)},
+      {"cusp_um", micrometres(path.cusp_mm)},
       {"greatest_R_ks",
        {{"value", path.load.load}, {"x_mm", path.load.x_mm}, {"limit", task.options.load_limit}}}};
 }
 
 Json residual(const fit::ResidualForm& form) {
-  return {{"delta_um", um(form.delta_mm)},
+  return {{"delta_um", micrometres(form.delta_mm)},
           {"touch_off_mm", form.touch_off_mm},
-          {"deviation_um", um(form.deviation_mm)}};
+          {"deviation_um", micrometres(form.deviation_mm)}};
 }
 
 Json forecast(const fit::WheelForecast& f) {
   Json out = {{"nominal", f.nominal ? residual(*f.nominal) : Json(nullptr)},
               {"measured", residual(f.measured)}};
-  out["improvement"] = f.improvement ? Json(*f.improvement) : Json(nullptr);
+  out["improvement"] = optional_json(f.improvement);
   out["limited_by_machine"] = f.capped;
   return out;
 }
@@ -152,22 +141,21 @@ nlohmann::ordered_json wheel_json(const fit::WheelEvaluation& evaluation,
               {"center_by", fit::name_of(m.mean)},
               {"center_mm", point(m.center_mm)},
               {"radius_mm", m.radius_mm},
-              {"radius_uncertainty_um", um(m.radius_uncertainty_mm)},
-              {"spread_um", um(m.spread_mm)},
-              {"deviation_um", um(m.deviation_mm)},
-              {"coverage_deg", deg(m.order.coverage_rad())},
+              {"radius_uncertainty_um", micrometres(m.radius_uncertainty_mm)},
+              {"spread_um", micrometres(m.spread_mm)},
+              {"deviation_um", micrometres(m.deviation_mm)},
+              {"coverage_deg", in_deg(m.order.coverage_rad())},
               {"amplification", {{"center", m.factors.center}, {"radius", m.factors.radius}}},
               {"correlation", m.correlation},
               {"quadruples", quadruples(m, task.wheel.quadruples)},
               {"ls",
                {{"center_mm", point(m.check.center_mm)},
                 {"radius_mm", m.check.radius_mm},
-                {"deviation_um", um(m.check.deviation_mm)}}},
+                {"deviation_um", micrometres(m.check.deviation_mm)}}},
               {"mz", zone(m)},
               {"runout", runout(m)}};
   if (!m.runout) out["runout_absent"] = m.runout_absent;
-  const auto effective = m.effective_radius_mm();
-  out["effective_radius_mm"] = effective ? Json(*effective) : Json(nullptr);
+  out["effective_radius_mm"] = optional_json(m.effective_radius_mm());
   out["limits"] = limits(task.wheel);
   if (task.path) {
     out["path"] = evaluation.path ? path_json(*evaluation.path, *task.path) : Json(nullptr);

@@ -18,8 +18,6 @@ constexpr std::uint8_t kToInterface = 0x21;  // class request, host to device
 constexpr std::uint8_t kSetLineCoding = 0x20;
 constexpr std::uint8_t kSetControlLineState = 0x22;
 constexpr std::uint16_t kDtrAndRts = 0x03;
-constexpr milliseconds kControlLimit(1000);
-constexpr std::size_t kPacketsAtOnce = 8;
 
 /// Where a device of this class is spoken to.
 struct Ends {

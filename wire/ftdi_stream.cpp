@@ -14,9 +14,7 @@ using std::chrono::duration_cast;
 using std::chrono::milliseconds;
 
 constexpr std::size_t kStatus_bytes = 2;
-constexpr std::size_t kPacketsAtOnce = 8;
 constexpr std::uint8_t kVendorOut = 0x40;
-constexpr milliseconds kControlLimit(1000);
 constexpr milliseconds kWriteLimit(1000);
 constexpr milliseconds kPause(50);
 

@@ -24,11 +24,7 @@ namespace {
 using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr std::size_t kChunk_bytes = 4096;
-
-tl::unexpected<core::Error> fault(std::string what) {
-  return core::fail(core::Code::kMachine, std::move(what));
-}
+constexpr std::size_t kSerialChunk_bytes = 4096;
 
 std::optional<speed_t> speed_of(int baud) {
   constexpr std::array<std::pair<int, speed_t>, 9> kSpeeds = {{{1200, B1200},
@@ -124,7 +120,7 @@ class SerialPort final : public ByteStream {
     const auto ready = wait(POLLIN, time_limit);
     if (!ready) return core::fail(ready.error());
     if (!*ready) return std::string{};
-    std::string bytes(kChunk_bytes, '\0');
+    std::string bytes(kSerialChunk_bytes, '\0');
     const auto count = ::read(file_.number(), bytes.data(), bytes.size());
     if (count < 0 && (errno == EAGAIN || errno == EINTR)) return std::string{};
     if (count < 0) return lose(broken());
@@ -212,18 +208,20 @@ core::Result<std::unique_ptr<ByteStream>> open_serial(const std::filesystem::pat
         fmt::format("{} baud is no usual speed of a serial line: 1200..230400", settings.baud));
   }
   Descriptor file(::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (file.number() < 0) return fault(why_not_opened(device, errno));
+  if (file.number() < 0) return core::machine_fault(why_not_opened(device, errno));
   // Two locks: the first keeps other programs that ask for it away, the second all but root.
-  if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0) return fault(why_not_opened(device, errno));
+  if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0)
+    return core::machine_fault(why_not_opened(device, errno));
   termios line = {};
   if (::tcgetattr(file.number(), &line) != 0) {
-    return fault(fmt::format("{} is no serial device", device.string()));
+    return core::machine_fault(fmt::format("{} is no serial device", device.string()));
   }
   (void)::ioctl(file.number(), TIOCEXCL);
   const termios wanted = with_settings(line, on(device, settings), *speed);
   if (::tcsetattr(file.number(), TCSANOW, &wanted) != 0) {
-    return fault(fmt::format("{} refuses {} baud, {} data bits: {}", device.string(), settings.baud,
-                             settings.data_bits, std::strerror(errno)));
+    return core::machine_fault(fmt::format("{} refuses {} baud, {} data bits: {}", device.string(),
+                                           settings.baud, settings.data_bits,
+                                           std::strerror(errno)));
   }
   (void)::tcflush(file.number(), TCIOFLUSH);
   return std::make_unique<SerialPort>(std::move(file), device.string(), settings.write_limit);

@@ -14,11 +14,7 @@ namespace {
 using std::chrono::milliseconds;
 using Tcp = asio::ip::tcp;
 
-constexpr std::size_t kChunk_bytes = 16'384;
-
-tl::unexpected<core::Error> fault(std::string what) {
-  return core::fail(core::Code::kMachine, std::move(what));
-}
+constexpr std::size_t kTcpChunk_bytes = 16'384;
 
 std::string place(const std::string& host, std::uint16_t port) {
   return fmt::format("{}:{}", host, port);
@@ -107,7 +103,7 @@ class TcpStream final : public ByteStream {
   Tcp::socket socket_;
   milliseconds write_limit_;
   std::string peer_;
-  std::array<char, kChunk_bytes> chunk_ = {};
+  std::array<char, kTcpChunk_bytes> chunk_ = {};
   bool open_ = true;
   core::Error failure_;
 };
@@ -145,14 +141,16 @@ core::Result<std::unique_ptr<LineTransport>> connect_tcp(const std::string& host
   });
   const std::string where = place(host, port);
   if (!in_time && result) {
-    return fault(fmt::format("{} does not answer within {} ms; check address, cable and firewall",
-                             where, options.connect_limit.count()));
+    return core::machine_fault(
+        fmt::format("{} does not answer within {} ms; check address, cable and firewall", where,
+                    options.connect_limit.count()));
   }
   if (result && !resolved) {
-    return fault(fmt::format("the computer {} is not known here: {}", host, result.message()));
+    return core::machine_fault(
+        fmt::format("the computer {} is not known here: {}", host, result.message()));
   }
   if (result) {
-    return fault(
+    return core::machine_fault(
         fmt::format("no connection to {}: {}; check that the server runs and listens on "
                     "port {}",
                     where, result.message(), port));
@@ -177,7 +175,8 @@ core::Result<TcpListener> TcpListener::open(const std::string& address, std::uin
   socket->options = options;
   asio::error_code error;
   const auto ip = asio::ip::make_address(address, error);
-  if (error) return fault(fmt::format("{} is not an IP address, e.g. 127.0.0.1", address));
+  if (error)
+    return core::machine_fault(fmt::format("{} is not an IP address, e.g. 127.0.0.1", address));
   const Tcp::endpoint end(ip, port);
   Tcp::acceptor& acceptor = socket->acceptor;
   acceptor.open(end.protocol(), error);
@@ -185,8 +184,8 @@ core::Result<TcpListener> TcpListener::open(const std::string& address, std::uin
   if (!error) acceptor.bind(end, error);
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error) {
-    return fault(fmt::format("cannot listen on {}: {}; choose another port", place(address, port),
-                             error.message()));
+    return core::machine_fault(fmt::format("cannot listen on {}: {}; choose another port",
+                                           place(address, port), error.message()));
   }
   return TcpListener(std::move(socket));
 }
@@ -206,7 +205,8 @@ core::Result<std::unique_ptr<LineTransport>> TcpListener::accept(milliseconds ti
     socket_->acceptor.cancel(ignored);
   });
   if (result == asio::error::operation_aborted) return std::unique_ptr<LineTransport>{};
-  if (result) return fault(fmt::format("no client could be accepted: {}", result.message()));
+  if (result)
+    return core::machine_fault(fmt::format("no client could be accepted: {}", result.message()));
   return lines_of(std::move(io), std::move(client), socket_->options);
 }
 

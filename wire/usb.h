@@ -141,6 +141,11 @@ class UsbDevice {
   virtual void close() = 0;
 };
 
+/// Of a serial line over USB: the limit of a request that sets it up, and the packets that one
+/// transfer reads at most.
+inline constexpr UsbDevice::Limit kControlLimit(1000);
+inline constexpr std::size_t kPacketsAtOnce = 8;
+
 /// Opens the device that is meant. Nothing is claimed.
 /// @return  kNotFound, kAmbiguous (the sentence lists the serial numbers), kPermission, kBusy.
 [[nodiscard]] UsbResult<std::unique_ptr<UsbDevice>> open_usb(const UsbSelector& selector);

@@ -11,7 +11,7 @@
 namespace rondure::wire {
 namespace {
 
-constexpr std::size_t kShown_bytes = 4096;
+constexpr std::size_t kLogged_bytes = 4096;
 
 /// "2026-11-21T02:33:02.123456Z".
 std::string utc_now() {
@@ -28,14 +28,14 @@ std::string utc_now() {
 
 std::string printable(std::string_view text) {
   std::string out;
-  for (const char c : text.substr(0, kShown_bytes)) {
+  for (const char c : text.substr(0, kLogged_bytes)) {
     if (c >= ' ' && c <= '~') {
       out += c;
     } else {
       out += fmt::format("\\x{:02X}", static_cast<unsigned char>(c));
     }
   }
-  if (text.size() > kShown_bytes) out += fmt::format(" ... ({} bytes)", text.size());
+  if (text.size() > kLogged_bytes) out += fmt::format(" ... ({} bytes)", text.size());
   return out;
 }
 

@@ -21,25 +21,17 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Outcome run_into(const fs::path& place, const std::vector<std::string>& more = {}) {
+Outcome run_axle_into(const fs::path& place, const std::vector<std::string>& more = {}) {
   std::vector<std::string> words = {"run", example("09_axle_points_file.json"), "--out", place};
   words.insert(words.end(), more.begin(), more.end());
   return rondure(words);
 }
 
-nlohmann::json history_of(const fs::path& archive, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words = {"history", archive, "--json"};
-  words.insert(words.end(), more.begin(), more.end());
-  const Outcome outcome = rondure(words);
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  return nlohmann::json::parse(outcome.out, nullptr, false);
-}
-
 TEST(ArchiveOfRuns, StandsBesideTheRunDirectoriesAndHoldsWhatTheReportSays) {
   const TemporaryFolder folder;
-  const int status = run_into(folder / "one", {"--serial", "0042", "--operator", "mk"}).status;
+  const int status = run_axle_into(folder / "one", {"--serial", "0042", "--operator", "mk"}).status;
   ASSERT_LE(status, 1);
-  ASSERT_EQ(run_into(folder / "two", {"--serial", "0043"}).status, status);
+  ASSERT_EQ(run_axle_into(folder / "two", {"--serial", "0043"}).status, status);
   EXPECT_THAT(names_in(folder.path()), ElementsAre("archive.db", "one", "two"));
   const auto all = history_of(folder / "archive.db");
   const auto report = nlohmann::json::parse(read(folder / "one" / "report.json"));
@@ -57,7 +49,8 @@ TEST(ArchiveOfRuns, StandsBesideTheRunDirectoriesAndHoldsWhatTheReportSays) {
 
 TEST(ArchiveOfRuns, PutsARunChartIntoThePageOfTheSecondRunAndVerifyNeedsNoArchive) {
   const TemporaryFolder folder;
-  for (const char* name : {"one", "two", "three"}) ASSERT_LE(run_into(folder / name).status, 1);
+  for (const char* name : {"one", "two", "three"})
+    ASSERT_LE(run_axle_into(folder / name).status, 1);
   EXPECT_FALSE(fs::exists(folder / "one" / "earlier.json"));
   EXPECT_THAT(read(folder / "one" / "report.html"), Not(HasSubstr("Earlier runs")));
   const auto earlier = nlohmann::json::parse(read(folder / "three" / "earlier.json"));
@@ -75,9 +68,9 @@ TEST(ArchiveOfRuns, PutsARunChartIntoThePageOfTheSecondRunAndVerifyNeedsNoArchiv
 
 TEST(ArchiveOfRuns, CanBeSwitchedOffAndNamed) {
   const TemporaryFolder folder;
-  ASSERT_LE(run_into(folder / "one", {"--archive", "none"}).status, 1);
+  ASSERT_LE(run_axle_into(folder / "one", {"--archive", "none"}).status, 1);
   EXPECT_THAT(names_in(folder.path()), ElementsAre("one"));
-  ASSERT_LE(run_into(folder / "two", {"--archive", folder / "mine.db"}).status, 1);
+  ASSERT_LE(run_axle_into(folder / "two", {"--archive", folder / "mine.db"}).status, 1);
   EXPECT_THAT(names_in(folder.path()), ElementsAre("mine.db", "one", "two"));
   // As a plan says it: relative to the plan.
   fs::create_directory(folder / "plans");
@@ -88,7 +81,7 @@ TEST(ArchiveOfRuns, CanBeSwitchedOffAndNamed) {
 
 TEST(ArchiveOfRuns, IsMadeAgainFromTheRunDirectories) {
   const TemporaryFolder folder;
-  ASSERT_LE(run_into(folder / "one").status, 1);
+  ASSERT_LE(run_axle_into(folder / "one").status, 1);
   const auto before = history_of(folder / "archive.db");
   const std::vector<std::string> add = {"history", folder / "again.db", "--add", folder / "one"};
   EXPECT_THAT(rondure(add).out, HasSubstr("added"));
@@ -102,10 +95,10 @@ TEST(ArchiveOfRuns, IsMadeAgainFromTheRunDirectories) {
 
 TEST(ArchiveOfRuns, ThatFailsChangesNothingOfTheRunAndIsCaughtUp) {
   const TemporaryFolder folder;
-  const int status = run_into(folder / "zero", {"--archive", "none"}).status;
+  const int status = run_axle_into(folder / "zero", {"--archive", "none"}).status;
   const fs::path archive = folder / "absent" / "archive.db";
   for (const char* name : {"one", "two"}) {
-    const Outcome outcome = run_into(folder / name, {"--archive", archive});
+    const Outcome outcome = run_axle_into(folder / name, {"--archive", archive});
     EXPECT_EQ(outcome.status, status);
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("no such file or folder"), HasSubstr("wait"),
                                    HasSubstr("--push --queue")));
@@ -119,7 +112,7 @@ TEST(ArchiveOfRuns, ThatFailsChangesNothingOfTheRunAndIsCaughtUp) {
   EXPECT_THAT(rondure({"history", archive}).out, AllOf(HasSubstr("started (UTC)")));
   // What stands in the way may be anything.
   write(folder / "text", "not a database at all");
-  const Outcome outcome = run_into(folder / "three", {"--archive", folder / "text"});
+  const Outcome outcome = run_axle_into(folder / "three", {"--archive", folder / "text"});
   EXPECT_EQ(outcome.status, status);
   EXPECT_THAT(outcome.err, HasSubstr("is not a database"));
   EXPECT_EQ(read(folder / "text"), "not a database at all");
@@ -129,14 +122,15 @@ TEST(ArchiveOfRuns, OnAServerThatIsAwayWaits) {
   record::PostgresServer server;
   if (!server.absent().empty()) GTEST_SKIP() << server.absent();
   const TemporaryFolder folder;
-  ASSERT_LE(run_into(folder / "one", {"--archive", server.url()}).status, 1);
+  ASSERT_LE(run_axle_into(folder / "one", {"--archive", server.url()}).status, 1);
   server.stop();
-  const Outcome away = run_into(folder / "two", {"--archive", server.url_of("rondure:secret")});
+  const Outcome away =
+      run_axle_into(folder / "two", {"--archive", server.url_of("rondure:secret")});
   EXPECT_LE(away.status, 1);
   EXPECT_THAT(away.err, AllOf(HasSubstr("1 run waits"), Not(HasSubstr("secret"))));
   EXPECT_THAT(read(folder / "archive-queue.db"), Not(HasSubstr("secret")));
   server.start();
-  ASSERT_LE(run_into(folder / "three", {"--archive", server.url()}).status, 1);
+  ASSERT_LE(run_axle_into(folder / "three", {"--archive", server.url()}).status, 1);
   const auto all = history_of(server.url());
   std::set<std::string> runs;
   for (const auto& result : all["results"]) runs.insert(result["run_id"]);
@@ -146,7 +140,7 @@ TEST(ArchiveOfRuns, OnAServerThatIsAwayWaits) {
 TEST(ArchiveOfRuns, ThatCannotBeIsRefusedBeforeAnythingMoves) {
   const TemporaryFolder folder;
   for (const char* wrong : {"mysql://h/d", "postgresql://u:p/w@h/d"}) {
-    const Outcome outcome = run_into(folder / "run", {"--archive", wrong});
+    const Outcome outcome = run_axle_into(folder / "run", {"--archive", wrong});
     EXPECT_EQ(outcome.status, 2);
     EXPECT_FALSE(fs::exists(folder / "run"));
   }
@@ -165,7 +159,7 @@ TEST(History, OfHostileNamesIsPlainText) {
       std::string(10'000, 'x'),    "o'; drop table rondure_run"};
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Outcome outcome =
-        run_into(folder / std::to_string(i), {"--serial", names[i], "--operator", names[i]});
+        run_axle_into(folder / std::to_string(i), {"--serial", names[i], "--operator", names[i]});
     EXPECT_LE(outcome.status, 1);
     EXPECT_EQ(outcome.err, "");
   }
@@ -205,7 +199,7 @@ TEST(History, SaysWhatItCannotRead) {
     EXPECT_THAT(outcome.err, HasSubstr(why));
     EXPECT_EQ(outcome.out, "");
   }
-  ASSERT_LE(run_into(folder / "run").status, 1);
+  ASSERT_LE(run_axle_into(folder / "run").status, 1);
   const std::string archive = folder / "archive.db";
   for (const std::vector<std::string>& words : {std::vector<std::string>{"--since", "yesterday"},
                                                 {"--until", "2026-02-30"},
@@ -224,7 +218,7 @@ TEST(History, SaysWhatItCannotRead) {
 
 TEST(History, GivesCsvToAFileAndToStandardOutput) {
   const TemporaryFolder folder;
-  ASSERT_LE(run_into(folder / "run").status, 1);
+  ASSERT_LE(run_axle_into(folder / "run").status, 1);
   const std::string archive = folder / "archive.db";
   ASSERT_EQ(rondure({"history", archive, "--csv", folder / "all.csv"}).status, 0);
   EXPECT_EQ(rondure({"history", archive, "--csv", "-"}).out, read(folder / "all.csv"));

@@ -20,7 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string data(const std::string& kind) {
+std::string four_files(const std::string& kind) {
   std::string out;
   for (int i = 1; i <= 4; ++i) {
     out +=
@@ -36,8 +36,8 @@ std::string one(const std::string& kind) {
 
 /// The command for all four parts, with more arguments.
 Outcome four_parts(std::vector<std::string> more = {}) {
-  std::vector<std::string> words = {"fit",   "contour",   "--axes",       data("axes"),
-                                    "--pin", data("pin"), "--prefiltered"};
+  std::vector<std::string> words = {"fit",   "contour",         "--axes",       four_files("axes"),
+                                    "--pin", four_files("pin"), "--prefiltered"};
   words.insert(words.end(), more.begin(), more.end());
   return rondure(words);
 }
@@ -61,22 +61,22 @@ class ContourVerb : public ::testing::Test {
 };
 
 TEST_F(ContourVerb, GivesTheNumbersOfTheWorkedExampleAsJson) {
-  const auto out = four_parts({"--json", "--main", data("main")});
+  const auto out = four_parts({"--json", "--main", four_files("main")});
   ASSERT_EQ(out.status, 0) << out.err;
-  const auto json = nlohmann::json::parse(out.out);
+  const auto document = nlohmann::json::parse(out.out);
   const double total[] = {8.9290, 8.5189, 6.4567, 6.2871};
   const double following[] = {7.0430, 7.1535, 6.9326, 7.0872};
   const double rest[] = {3.3301, 2.6908, 2.5161, 3.9805};
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR(json["parts"][i]["total"]["pv_um"], total[i], 1e-4);
-    EXPECT_NEAR(json["parts"][i]["following"]["pv_um"], following[i], 2e-4);
-    EXPECT_NEAR(json["parts"][i]["rest"]["pv_um"], rest[i], 2e-4);
-    EXPECT_GT(json["parts"][i]["indirect"]["correlation_with_direct"], 0.99999);
+    EXPECT_NEAR(document["parts"][i]["total"]["pv_um"], total[i], 1e-4);
+    EXPECT_NEAR(document["parts"][i]["following"]["pv_um"], following[i], 2e-4);
+    EXPECT_NEAR(document["parts"][i]["rest"]["pv_um"], rest[i], 2e-4);
+    EXPECT_GT(document["parts"][i]["indirect"]["correlation_with_direct"], 0.99999);
   }
-  EXPECT_NEAR(json["stability"]["total"]["index"], 0.7772, 1e-4);
-  EXPECT_EQ(json["stability"]["following"]["word"], "stable");
-  EXPECT_EQ(json["stability"]["rest"]["word"], "unstable");
-  EXPECT_TRUE(json["warnings"].empty()) << json["warnings"];
+  EXPECT_NEAR(document["stability"]["total"]["index"], 0.7772, 1e-4);
+  EXPECT_EQ(document["stability"]["following"]["word"], "stable");
+  EXPECT_EQ(document["stability"]["rest"]["word"], "unstable");
+  EXPECT_TRUE(document["warnings"].empty()) << document["warnings"];
 }
 
 TEST_F(ContourVerb, SaysForAPersonWhatToDo) {
@@ -112,9 +112,9 @@ TEST_F(ContourVerb, ReadsOtherColumnsUnitsAndSigns) {
       with_axes(file, {"--json", "--error-sign", "-1", "--column", "c=C", "--column",
                        "c_error=C_FOLLOW:mdeg", "--column", "x_error=X_FOLLOW:um"});
   ASSERT_EQ(by_words.status, 0) << by_words.err;
-  const auto json = nlohmann::json::parse(by_file.out);
-  EXPECT_NEAR(json["parts"][0]["following"]["pv_um"], 7.0430, 2e-4);
-  EXPECT_EQ(json["parts"], nlohmann::json::parse(by_words.out)["parts"]);
+  const auto document = nlohmann::json::parse(by_file.out);
+  EXPECT_NEAR(document["parts"][0]["following"]["pv_um"], 7.0430, 2e-4);
+  EXPECT_EQ(document["parts"], nlohmann::json::parse(by_words.out)["parts"]);
 }
 
 TEST_F(ContourVerb, TakesPositionsInPlaceOfErrors) {
@@ -134,9 +134,9 @@ TEST_F(ContourVerb, TakesPositionsInPlaceOfErrors) {
   const auto out =
       with_axes((folder_ / "positions.csv").string(), {"--json", "--error-sign", "-1"});
   ASSERT_EQ(out.status, 0) << out.err;
-  const auto json = nlohmann::json::parse(out.out);
-  EXPECT_NEAR(json["parts"][0]["following"]["pv_um"], 7.0430, 5e-3);  // six decimals of a mm
-  EXPECT_EQ(json["settings"]["error_sign"], 1);
+  const auto document = nlohmann::json::parse(out.out);
+  EXPECT_NEAR(document["parts"][0]["following"]["pv_um"], 7.0430, 5e-3);  // six decimals of a mm
+  EXPECT_EQ(document["settings"]["error_sign"], 1);
 }
 
 TEST_F(ContourVerb, WritesTheCurves) {
@@ -159,7 +159,7 @@ TEST_F(ContourVerb, NamesFileAndRowOfBadNumbersAndAngles) {
 
 TEST_F(ContourVerb, RefusesWhatCannotBe) {
   EXPECT_THAT(four_parts({"--crank-radius-mm", "400"}).err, HasSubstr("400 mm"));
-  EXPECT_THAT(rondure({"fit", "contour", "--axes", data("axes"), "--pin", one("pin")}).err,
+  EXPECT_THAT(rondure({"fit", "contour", "--axes", four_files("axes"), "--pin", one("pin")}).err,
               HasSubstr("4 files for --axes, 1 for --pin"));
   EXPECT_THAT(four_parts({"--column", "speed=V"}).err, HasSubstr("there is no quantity \"speed\""));
   EXPECT_THAT(four_parts({"--column", "c_error=C:um"}).err, HasSubstr("it is one of lengths"));

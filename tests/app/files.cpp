@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "record/journal.h"
+#include "tests/app/program.h"
 
 namespace rondure::app::testing {
 
@@ -75,6 +76,14 @@ record::RunRecord journal_of(const fs::path& run) {
   }
   EXPECT_TRUE(read->broken.empty());
   return std::move(read->record);
+}
+
+nlohmann::json history_of(const fs::path& archive, const std::vector<std::string>& more) {
+  std::vector<std::string> words = {"history", archive, "--json"};
+  words.insert(words.end(), more.begin(), more.end());
+  const Outcome outcome = rondure(words);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return nlohmann::json::parse(outcome.out, nullptr, false);
 }
 
 }  // namespace rondure::app::testing

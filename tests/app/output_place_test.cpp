@@ -13,14 +13,14 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-Outcome run_into(const fs::path& place, const Surroundings& surroundings = {}) {
+Outcome run_spool_into(const fs::path& place, const Surroundings& surroundings = {}) {
   return rondure({"run", example("01_spool_simulated.json"), "--out", place}, surroundings);
 }
 
 TEST(OutputPlace, AFolderThatIsNotEmptyIsLeftAlone) {
   const TemporaryFolder folder;
   write(folder / "mine.txt", "keep this");
-  const Outcome outcome = run_into(folder.path());
+  const Outcome outcome = run_spool_into(folder.path());
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("is not empty (it holds mine.txt)"),
                                  HasSubstr("name a new directory")));
@@ -30,9 +30,9 @@ TEST(OutputPlace, AFolderThatIsNotEmptyIsLeftAlone) {
 
 TEST(OutputPlace, ASecondRunIntoTheSameFolderIsRefused) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_into(folder / "run").status, 0);
+  ASSERT_EQ(run_spool_into(folder / "run").status, 0);
   const std::string journal = read(folder / "run" / "journal.db");
-  EXPECT_EQ(run_into(folder / "run").status, 2);
+  EXPECT_EQ(run_spool_into(folder / "run").status, 2);
   EXPECT_EQ(read(folder / "run" / "journal.db"), journal);
 }
 
@@ -42,7 +42,7 @@ TEST(OutputPlace, AnImpossiblePlaceIsNamed) {
   for (const fs::path& place : {fs::path("/dev/null/run"), folder / "file", folder / "file" / "run",
                                 fs::path("/proc/run"), folder / std::string(300, 'x')}) {
     SCOPED_TRACE(place);
-    const Outcome outcome = run_into(place);
+    const Outcome outcome = run_spool_into(place);
     EXPECT_EQ(outcome.status, 2);
     EXPECT_THAT(outcome.err, AllOf(HasSubstr(place.string()), HasSubstr("[file]")));
   }
@@ -52,13 +52,13 @@ TEST(OutputPlace, AnImpossiblePlaceIsNamed) {
 TEST(OutputPlace, MayHaveBlanksQuotesAndOtherScripts) {
   const TemporaryFolder folder;
   const fs::path place = folder / "a b" / "it's \xe6\x97\xa5\xe6\x9c\xac & <i>";
-  EXPECT_EQ(run_into(place).status, 0);
+  EXPECT_EQ(run_spool_into(place).status, 0);
   EXPECT_EQ(rondure({"verify", place}).status, 0);
 }
 
 TEST(OutputPlace, NamesTheRunAlsoWithATrailingSlash) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_into((folder / "seven").string() + "/").status, 0);
+  ASSERT_EQ(run_spool_into((folder / "seven").string() + "/").status, 0);
   EXPECT_EQ(journal_of(folder / "seven").header.run_id, "seven");
 }
 
@@ -75,7 +75,7 @@ TEST(OutputPlace, NeedsNoEnvironment) {
   const TemporaryFolder folder;
   Surroundings bare;
   bare.empty_environment = true;
-  EXPECT_EQ(run_into(folder / "run", bare).status, 0);
+  EXPECT_EQ(run_spool_into(folder / "run", bare).status, 0);
 }
 
 void expect_whole_or_absent(const fs::path& file, std::string_view ending) {
@@ -122,7 +122,7 @@ TEST(FullDisk, StopsWithASentenceAndKeepsWhatWasWritten) {
 
 TEST(FullDisk, LeavesAnOlderReportAsItWas) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_into(folder / "run").status, 0);
+  ASSERT_EQ(run_spool_into(folder / "run").status, 0);
   const auto names = names_in(folder / "run");
   const std::string html = read(folder / "run" / "report.html");
   Surroundings full;

@@ -36,13 +36,13 @@ TEST(PlanVerb, TellsStagesTimeAndPathInEightyColumns) {
 TEST(PlanVerb, TellsTheSameAsJson) {
   const Outcome told = rondure({"plan", example("14_bore_simulated.json"), "--json"});
   ASSERT_EQ(told.status, 0) << told.err;
-  const auto json = nlohmann::json::parse(told.out);
-  EXPECT_EQ(json["touches"], 13 + 6 + 3 * 45);
-  ASSERT_EQ(json["stages"].size(), 3U);
-  EXPECT_EQ(json["stages"][2]["final"], true);
+  const auto document = nlohmann::json::parse(told.out);
+  EXPECT_EQ(document["touches"], 13 + 6 + 3 * 45);
+  ASSERT_EQ(document["stages"].size(), 3U);
+  EXPECT_EQ(document["stages"][2]["final"], true);
   double time_s = 0.0;
-  for (const auto& stage : json["stages"]) time_s += stage["time_s"].get<double>();
-  EXPECT_NEAR(json["time_s"].get<double>(), time_s, 1e-9);
+  for (const auto& stage : document["stages"]) time_s += stage["time_s"].get<double>();
+  EXPECT_NEAR(document["time_s"].get<double>(), time_s, 1e-9);
 }
 
 TEST(PlanVerb, DrawsAPicture) {
@@ -65,8 +65,8 @@ TEST(PlanVerb, NamesWhatIsOutOfReachAndMovesNothing) {
   EXPECT_EQ(told.status, 2);
   EXPECT_THAT(told.err, AllOf(HasSubstr("/features/0/sampling: layer 1, point 1 (0.0 deg)"),
                               HasSubstr("the rim of the bowl"), HasSubstr("[unreachable]")));
-  const auto json = nlohmann::json::parse(told.out);
-  EXPECT_EQ(json["problems"][0]["code"], "unreachable");
+  const auto document = nlohmann::json::parse(told.out);
+  EXPECT_EQ(document["problems"][0]["code"], "unreachable");
 }
 
 TEST(PlanVerb, HasNothingToMoveForPointsFiles) {
@@ -130,9 +130,9 @@ TEST(PlanVerb, ProposesASamplingWhoseRunMeetsTheTarget) {
   write_plan(folder / "plan.json", changes);
   const Outcome told = rondure({"plan", folder / "plan.json", "--json", "--target-U", "800nm"});
   ASSERT_EQ(told.status, 0) << told.err;
-  const auto json = nlohmann::json::parse(told.out);
-  EXPECT_GT(json["prediction"][0]["sampled_points"]["nine_of_ten_expanded_um"], kTarget_um);
-  const auto& target = json["target"]["features"][0];
+  const auto document = nlohmann::json::parse(told.out);
+  EXPECT_GT(document["prediction"][0]["sampled_points"]["nine_of_ten_expanded_um"], kTarget_um);
+  const auto& target = document["target"]["features"][0];
   EXPECT_EQ(target["met"], true);
   for (const auto& candidate : target["candidates"]) {
     const bool small = candidate["nine_of_ten_expanded_um"] <= kTarget_um;

@@ -159,9 +159,9 @@ TEST(Devices, AreNoErrorWhenThereAreNone) {
   const Outcome text = rondure({"devices"});
   EXPECT_EQ(text.status, 0) << text.err;
   EXPECT_FALSE(text.out.empty());
-  const Outcome json = rondure({"devices", "--json"});
-  EXPECT_EQ(json.status, 0);
-  EXPECT_THAT(json.out, HasSubstr("\"devices\": ["));
+  const Outcome as_json = rondure({"devices", "--json"});
+  EXPECT_EQ(as_json.status, 0);
+  EXPECT_THAT(as_json.out, HasSubstr("\"devices\": ["));
 }
 
 }  // namespace

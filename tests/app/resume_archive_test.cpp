@@ -15,11 +15,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::size_t results_in(const fs::path& archive) {
-  const Outcome outcome = rondure({"history", archive, "--json"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  return nlohmann::json::parse(outcome.out, nullptr, false)["results"].size();
-}
+std::size_t result_count(const fs::path& archive) { return history_of(archive)["results"].size(); }
 
 TEST(ResumeArchive, DeliversARunThatDiedBehindItsReportsAndOnce) {
   const TemporaryFolder folder;
@@ -33,14 +29,14 @@ TEST(ResumeArchive, DeliversARunThatDiedBehindItsReportsAndOnce) {
   const Outcome resumed = rondure({"run", run, "--resume"});
   EXPECT_EQ(resumed.status, 0);
   EXPECT_THAT(resumed.err, HasSubstr("only its results had still to go to"));
-  const std::size_t results = results_in(folder / "archive.db");
+  const std::size_t results = result_count(folder / "archive.db");
   EXPECT_GT(results, 0U);
   EXPECT_EQ(names_in(run), names);
   EXPECT_EQ(read(run / "SHA256SUMS"), sums);
   const Outcome again = rondure({"run", run, "--resume"});
   EXPECT_EQ(again.status, 2);
   EXPECT_THAT(again.err, HasSubstr("nothing to resume"));
-  EXPECT_EQ(results_in(folder / "archive.db"), results);
+  EXPECT_EQ(result_count(folder / "archive.db"), results);
 }
 
 TEST(ResumeArchive, ThatIsAwayLetsTheRunWait) {
@@ -56,7 +52,7 @@ TEST(ResumeArchive, ThatIsAwayLetsTheRunWait) {
   fs::create_directory(folder / "away");
   EXPECT_EQ(rondure({"run", run, "--resume", "--archive", away}).status, 0);
   EXPECT_EQ(rondure({"run", run, "--resume", "--archive", away}).status, 2);
-  EXPECT_GT(results_in(away), 0U);
+  EXPECT_GT(result_count(away), 0U);
 }
 
 /// A plan of its own folder that archives beside itself, and a run of it that lost its machine.

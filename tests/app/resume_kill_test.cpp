@@ -74,10 +74,8 @@ void print(const Tally& tally, std::size_t equal) {
 }
 
 /// What an archive of one run holds: name, value and verdict of each result.
-std::vector<std::string> results_in(const fs::path& archive) {
-  const Outcome outcome = rondure({"history", archive, "--json"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  const auto document = nlohmann::json::parse(outcome.out, nullptr, false);
+std::vector<std::string> archived_results(const fs::path& archive) {
+  const auto document = history_of(archive);
   std::vector<std::string> out;
   for (const auto& result : document["results"]) {
     out.push_back(result["characteristic"].dump() + result["symbol"].dump() +
@@ -104,7 +102,7 @@ struct Whole {
     bits = record::measured_bits(record);
     csv = read(folder / "run" / "touches.csv");
     names = names_in(folder / "run");
-    archived = results_in(folder / "archive.db");
+    archived = archived_results(folder / "archive.db");
     EXPECT_FALSE(archived.empty());
   }
 };
@@ -120,7 +118,7 @@ void expect_equal(const fs::path& run, const Whole& whole) {
   EXPECT_EQ(read(run / "touches.csv"), whole.csv);
   EXPECT_EQ(names_in(run), whole.names);
   EXPECT_EQ(rondure({"verify", run}).status, 0);
-  EXPECT_EQ(results_in(run.parent_path() / "archive.db"), whole.archived);
+  EXPECT_EQ(archived_results(run.parent_path() / "archive.db"), whole.archived);
   EXPECT_TRUE(read(run / "report.html").ends_with("</html>\n"));
   EXPECT_TRUE(read(run / "report.json").ends_with("}\n"));
 }

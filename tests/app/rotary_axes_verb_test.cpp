@@ -16,7 +16,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::string data(const char* name) {
+std::string rotary_data(const char* name) {
   return (fs::path(RONDURE_SOURCE_DIR) / "tests/data/spec_rotary" / name).string();
 }
 
@@ -34,7 +34,7 @@ TEST(FitRotaryAxes, GivesTheWorkedExample) {
   for (const char* method : {"exact", "linear", "as-published"}) {
     SCOPED_TRACE(method);
     const bool exact = std::string(method) == "exact";
-    const json axis = found_in({data("c_axis.csv"), "--method", method}).at("axes").at(0);
+    const json axis = found_in({rotary_data("c_axis.csv"), "--method", method}).at("axes").at(0);
     const json& station = axis.at("stations").at(3);
     EXPECT_EQ(station.at("station_deg"), 45.0);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -49,7 +49,7 @@ TEST(FitRotaryAxes, GivesTheWorkedExample) {
 }
 
 TEST(FitRotaryAxes, FindsThePlantedFixtureWithinItsUncertainties) {
-  const json axes = found_in({data("fixture.csv"), "--origin", "250,180,320"}).at("axes");
+  const json axes = found_in({rotary_data("fixture.csv"), "--origin", "250,180,320"}).at("axes");
   ASSERT_EQ(axes.size(), 2U);
   const auto wave = [](double phi, double a, double q) {
     return a * (std::cos(2.0 * phi - q) - std::cos(q));
@@ -74,7 +74,7 @@ TEST(FitRotaryAxes, FindsThePlantedFixtureWithinItsUncertainties) {
 }
 
 TEST(FitRotaryAxes, TableFitsATerminal) {
-  const Outcome outcome = rondure({"fit", "rotary-axes", data("fixture.csv"), "--origin",
+  const Outcome outcome = rondure({"fit", "rotary-axes", rotary_data("fixture.csv"), "--origin",
                                    "250,180,320", "--at", "250,180,380"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   std::size_t start = 0;
@@ -89,7 +89,7 @@ TEST(FitRotaryAxes, TableFitsATerminal) {
 
 TEST(FitRotaryAxes, RefusesBadInput) {
   const TemporaryFolder folder;
-  const std::string good = read(data("c_axis.csv"));
+  const std::string good = read(rotary_data("c_axis.csv"));
   const auto refusal = [&](const std::string& text, std::vector<std::string> more = {}) {
     write(folder / "in.csv", text);
     more.insert(more.begin(), {"fit", "rotary-axes", (folder / "in.csv").string()});
@@ -123,7 +123,8 @@ TEST(FitRotaryAxes, RefusesBadInput) {
   EXPECT_THAT(refusal("axis,station_deg,ball,x_mm,y_mm,z_inch,u_um\n"), HasSubstr("not in mm"));
   EXPECT_THAT(refusal("axis,station_deg,ball,x_mm,y_mm,z_mm,u_um\nturn,0,a,1,2,3,1\n"),
               HasSubstr("give --axis"));
-  const Outcome fixture = rondure({"fit", "rotary-axes", data("fixture.csv"), "--axis", "x"});
+  const Outcome fixture =
+      rondure({"fit", "rotary-axes", rotary_data("fixture.csv"), "--axis", "x"});
   EXPECT_EQ(fixture.status, 2);
   EXPECT_THAT(fixture.err, HasSubstr("phi_alpha and phi_beta"));
   const Outcome help = rondure({"fit", "rotary-axes", "--help"});

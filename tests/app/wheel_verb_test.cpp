@@ -33,15 +33,15 @@ TEST(WheelVerb, GivesTheNumbersOfTheWorkedExamplesAsJson) {
   const auto one = fit_wheel({kExample1, "--mode", "indexed", "--axis-mm", "12.02,-7", "--center",
                               "as-published", "--json"});
   ASSERT_EQ(one.status, 0) << one.err;
-  const auto json = nlohmann::json::parse(one.out);
-  EXPECT_NEAR(json["center_mm"][0], 12.000438, 1.1e-6);
-  EXPECT_NEAR(json["center_mm"][1], -6.998759, 1.1e-6);
-  EXPECT_NEAR(json["radius_mm"], 50.0, 1.1e-6);
-  EXPECT_NEAR(json["runout"]["fim_um"], 35.393, 1.6e-3);
-  EXPECT_NEAR(json["effective_radius_mm"], 50.017696, 1.1e-6);
-  EXPECT_EQ(json["quadruples"]["accepted"], 70);
-  EXPECT_EQ(json["curves"]["deviations_um"].size(), 8U);
-  EXPECT_FALSE(json.contains("path"));
+  const auto document = nlohmann::json::parse(one.out);
+  EXPECT_NEAR(document["center_mm"][0], 12.000438, 1.1e-6);
+  EXPECT_NEAR(document["center_mm"][1], -6.998759, 1.1e-6);
+  EXPECT_NEAR(document["radius_mm"], 50.0, 1.1e-6);
+  EXPECT_NEAR(document["runout"]["fim_um"], 35.393, 1.6e-3);
+  EXPECT_NEAR(document["effective_radius_mm"], 50.017696, 1.1e-6);
+  EXPECT_EQ(document["quadruples"]["accepted"], 70);
+  EXPECT_EQ(document["curves"]["deviations_um"].size(), 8U);
+  EXPECT_FALSE(document.contains("path"));
   const auto two = fit_wheel({kExample2, "--mode", "indexed", "--robust", "--json"});
   ASSERT_EQ(two.status, 0) << two.err;
   const auto robust = nlohmann::json::parse(two.out);
@@ -97,10 +97,10 @@ TEST(WheelVerb, ReadsSurfaceAndRemovalTables) {
                               "table:" + (folder / "surface.csv").string(), "--removal",
                               folder / "removal.csv", "--step-mm", "1", "--json"});
   ASSERT_EQ(out.status, 0) << out.err;
-  const auto json = nlohmann::json::parse(out.out);
-  EXPECT_EQ(json["path"]["places"], 61);
-  EXPECT_NEAR(json["curves"]["path"]["f_mm"][30], -0.002, 1e-9);
-  EXPECT_NEAR(json["path"]["greatest_R_ks"]["value"], 50.0 / 200.0, 1e-3);
+  const auto document = nlohmann::json::parse(out.out);
+  EXPECT_EQ(document["path"]["places"], 61);
+  EXPECT_NEAR(document["curves"]["path"]["f_mm"][30], -0.002, 1e-9);
+  EXPECT_NEAR(document["path"]["greatest_R_ks"]["value"], 50.0 / 200.0, 1e-3);
 }
 
 TEST(WheelVerb, NamesWhatIsWrongWithTheInput) {

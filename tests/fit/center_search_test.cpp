@@ -7,23 +7,23 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/ls_circle.h"
 #include "fit/bisectors.h"
+#include "fit/ls_circle.h"
 
 // Worked examples: method specification, cylindricity section 13. Point numbers there start at 1.
 
 namespace rondure::fit {
 namespace {
 
-using Points = std::vector<Eigen::Vector2d>;
+using Points2 = std::vector<Eigen::Vector2d>;
 
-const Points kExample1 = {
+const Points2 kExample1 = {
     {25.005, 0},  {17.679084, 17.679084},   {0, 25},      {-17.675548, 17.675548},
     {-24.998, 0}, {-17.673427, -17.673427}, {0, -24.994}, {17.673427, -17.673427}};
-const Points kExample2 = {
+const Points2 kExample2 = {
     {25.006, 0},  {17.674841, 17.674841},   {0, 24.994}, {-17.679084, 17.679084},
     {-24.997, 0}, {-17.673427, -17.673427}, {0, -25},    {17.680498, -17.680498}};
-const Points kExample3 = {
+const Points2 kExample3 = {
     {25.006, 0},  {17.679084, 17.679084},   {0, 25.002},  {-17.681205, 17.681205},
     {-25.001, 0}, {-17.680498, -17.680498}, {0, -25.004}, {17.674841, -17.674841}};
 
@@ -52,7 +52,7 @@ std::vector<std::size_t> from_one(std::vector<std::size_t> rows) {
   return rows;
 }
 
-void expect_course(const Points& points, const std::vector<Move>& moves, double width_um,
+void expect_course(const Points2& points, const std::vector<Move>& moves, double width_um,
                    std::vector<std::size_t> outer, std::vector<std::size_t> inner) {
   const auto search = center_search(points);
   ASSERT_TRUE(search.has_value());
@@ -85,14 +85,14 @@ void expect_course(const Points& points, const std::vector<Move>& moves, double 
   EXPECT_NEAR(search_bisectors(points, search->center_mm).width_mm * 1e3, width_um, kSix);
 }
 
-void expect_start(const Points& points, const Eigen::Vector2d& center, double radius) {
+void expect_start(const Points2& points, const Eigen::Vector2d& center, double radius) {
   const auto circle = algebraic_circle(points);
   ASSERT_TRUE(circle.has_value());
   EXPECT_NEAR((circle->center_mm - center).norm(), 0.0, kNine);
   EXPECT_NEAR(circle->radius_mm, radius, kNine);
 }
 
-void expect_distances(const Points& points, const Eigen::Vector2d& center,
+void expect_distances(const Points2& points, const Eigen::Vector2d& center,
                       const std::vector<double>& r) {
   for (std::size_t i = 0; i < r.size(); ++i) {
     EXPECT_NEAR((points[i] - center).norm(), r[i], kSix) << "P" << i + 1;
@@ -206,7 +206,7 @@ struct Section {
   double stagger;
 };
 
-Points random_section(std::uint64_t seed, const Section& kind) {
+Points2 random_section(std::uint64_t seed, const Section& kind) {
   core::KeyedNoise noise(
       seed, {8, static_cast<std::uint64_t>(kind.layers), static_cast<std::uint64_t>(kind.points)});
   std::vector<std::array<double, 3>> lobes;
@@ -214,7 +214,7 @@ Points random_section(std::uint64_t seed, const Section& kind) {
     lobes.push_back({order, 0.004 * noise.normal() / order, core::kTwoPi * noise.uniform()});
   }
   const Eigen::Vector2d offset(0.02 * noise.uniform() - 0.01, 0.02 * noise.uniform() - 0.01);
-  Points out;
+  Points2 out;
   for (int layer = 0; layer < kind.layers; ++layer) {
     for (int k = 0; k < kind.points; ++k) {
       const double jitter = kind.layers > 1 ? 0.5 * core::kDegree * noise.normal() : 0.0;
@@ -234,7 +234,7 @@ TEST(CenterSearch, EndsAtTheEnumeratedMinimumInEveryRandomSection) {
        {Section{1, 12, 0}, Section{3, 5, 0}, Section{4, 7, 0}, Section{4, 7, 1}}) {
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
       SCOPED_TRACE(seed);
-      const Points points = random_section(seed, kind);
+      const Points2 points = random_section(seed, kind);
       const auto search = center_search(points);
       ASSERT_TRUE(search.has_value());
       const auto all = search_bisectors(points, search->center_mm);
@@ -251,7 +251,7 @@ TEST(CenterSearchAsPublished, EndsWrongAsOftenAsTheSpecificationStates) {
   const auto share = [](const Section& kind) {
     int right = 0;
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-      const Points points = random_section(seed, kind);
+      const Points2 points = random_section(seed, kind);
       const double excess =
           center_search_as_published(points)->width_mm() - center_search(points)->width_mm();
       if (std::abs(excess) <= 1e-6) ++right;
@@ -266,17 +266,17 @@ TEST(CenterSearchAsPublished, EndsWrongAsOftenAsTheSpecificationStates) {
 TEST(CenterSearch, DoesNotDependOnPlaceScaleMirrorOrOrder) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = random_section(seed, {4, 7, 1});
+    const Points2 points = random_section(seed, {4, 7, 1});
     const double width = center_search(points)->width_mm();
-    Points moved;
-    Points mirrored;
-    Points scaled;
+    Points2 moved;
+    Points2 mirrored;
+    Points2 scaled;
     for (const auto& p : points) {
       moved.emplace_back(p + Eigen::Vector2d(812.0, -455.0));
       mirrored.emplace_back(-p.x(), p.y());
       scaled.emplace_back(3.0 * p);
     }
-    Points reversed(points.rbegin(), points.rend());
+    Points2 reversed(points.rbegin(), points.rend());
     EXPECT_NEAR(center_search(moved)->width_mm(), width, 1e-11);
     EXPECT_NEAR(center_search(mirrored)->width_mm(), width, 1e-12);
     EXPECT_NEAR(center_search(scaled)->width_mm(), 3.0 * width, 1e-11);
@@ -287,12 +287,12 @@ TEST(CenterSearch, DoesNotDependOnPlaceScaleMirrorOrOrder) {
 TEST(CenterSearch, StopsWhenTheEnclosingPairIsCloserThanTheChordTestOfPointsAllows) {
   // Section 7.2: as points the chords miss each other, as directions they cross.
   const double one = 1.0 * core::kDegree;
-  const Points points = {{25.010 * std::cos(one), 25.010 * std::sin(one)},
-                         {25.010 * std::cos(-one), 25.010 * std::sin(-one)},
-                         {24.990, 0.0},
-                         {-24.990, 0.0},
-                         {0.0, 25.0},
-                         {0.0, -25.0}};
+  const Points2 points = {{25.010 * std::cos(one), 25.010 * std::sin(one)},
+                          {25.010 * std::cos(-one), 25.010 * std::sin(-one)},
+                          {24.990, 0.0},
+                          {-24.990, 0.0},
+                          {0.0, 25.0},
+                          {0.0, -25.0}};
   const auto search = center_search(points);
   ASSERT_TRUE(search.has_value());
   const auto all = search_bisectors(points, search->center_mm);
@@ -301,16 +301,16 @@ TEST(CenterSearch, StopsWhenTheEnclosingPairIsCloserThanTheChordTestOfPointsAllo
 
 TEST(CenterSearch, RefusesWhatIsNoSection) {
   EXPECT_EQ(center_search({}).error().code, core::Code::kNoPoints);
-  EXPECT_EQ(center_search(Points{{1, 2}}).error().code, core::Code::kTooFewPoints);
-  EXPECT_EQ(center_search(Points{{0, 0}, {1, 1}, {2, 2}, {3, 3}}).error().code,
+  EXPECT_EQ(center_search(Points2{{1, 2}}).error().code, core::Code::kTooFewPoints);
+  EXPECT_EQ(center_search(Points2{{0, 0}, {1, 1}, {2, 2}, {3, 3}}).error().code,
             core::Code::kCollinear);
-  const auto nan = center_search(Points{{0, 0}, {1, std::nan("")}, {2, 2}});
+  const auto nan = center_search(Points2{{0, 0}, {1, std::nan("")}, {2, 2}});
   EXPECT_EQ(nan.error().code, core::Code::kNotFinite);
   EXPECT_NE(nan.error().what.find("point 1"), std::string::npos);
 }
 
 TEST(CenterSearch, SaysCoCircularForAPerfectCircle) {
-  Points points;
+  Points2 points;
   for (int k = 0; k < 12; ++k) {
     points.emplace_back(40.0 * std::cos(0.5 * k), 40.0 * std::sin(0.5 * k));
   }

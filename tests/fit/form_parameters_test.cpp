@@ -16,7 +16,7 @@
 namespace rondure::fit {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
+using Points3 = std::vector<Eigen::Vector3d>;
 
 /// A cylinder r = 25 + taper z + 3 um cos(3 theta) about a tilted axis far from the origin.
 struct Part {
@@ -27,8 +27,8 @@ struct Part {
     return axis.point_mm + z * axis.direction +
            r * (std::cos(theta) * u.col(0) + std::sin(theta) * u.col(1));
   }
-  [[nodiscard]] Points surface(double taper) const {
-    Points points;
+  [[nodiscard]] Points3 surface(double taper) const {
+    Points3 points;
     for (int layer = -2; layer <= 2; ++layer) {
       for (int k = 0; k < 36; ++k) {
         const double theta = core::kTwoPi * k / 36.0;
@@ -52,7 +52,7 @@ TEST(FormParameters, AreTotalPeakValleyAndRms) {
 }
 
 TEST(FormParameters, OfACylinderAgreeWithItsFits) {
-  const Points points = Part{}.surface(1e-5);
+  const Points3 points = Part{}.surface(1e-5);
   const auto ls = ls_cylinder(points);
   const auto mz = min_zone_cylinder(points);
   ASSERT_TRUE(ls && mz);
@@ -78,7 +78,7 @@ TEST(Generatrix, TaperIsTheLeastSquaresSlopeOfTheRadii) {
   EXPECT_NEAR(t->slope, 2e-4, 1e-12);
   EXPECT_NEAR(t->diameter_mm, 2.0 * 2e-4 * 40.0, 1e-10);
   EXPECT_NEAR(t->cone_angle_rad, 2.0 * std::atan(2e-4), 1e-12);
-  Points section;
+  Points3 section;
   for (int k = 0; k < 9; ++k) section.push_back(part.at(0.7 * k, 5.0, 25.0));
   EXPECT_EQ(taper(section, part.axis).error().code, core::Code::kRank);
 }
@@ -159,16 +159,16 @@ TEST(Generatrix, RefusesWhatHasNoLength) {
 
 TEST(Datum, CoaxialityIsTwiceTheGreatestDistance) {
   const Part part;
-  const Points median = {part.at(0.3, -20.0, 4e-3), part.at(2.0, 0.0, 1e-3),
-                         part.at(5.0, 20.0, 6e-3)};
+  const Points3 median = {part.at(0.3, -20.0, 4e-3), part.at(2.0, 0.0, 1e-3),
+                          part.at(5.0, 20.0, 6e-3)};
   EXPECT_NEAR(*coaxiality_mm(median, part.axis), 12e-3, 1e-12);
   EXPECT_EQ(coaxiality_mm({}, part.axis).error().code, core::Code::kNoPoints);
 }
 
 TEST(Datum, RunOutOfAnEccentricCylinderIsTwiceItsEccentricity) {
   const Part part;
-  std::vector<Points> sections;
-  Points all;
+  std::vector<Points3> sections;
+  Points3 all;
   for (int layer = 0; layer < 3; ++layer) {
     const double e = 2e-3 * (layer + 1);
     sections.emplace_back();
@@ -192,7 +192,7 @@ TEST(Datum, RunOutOfAnEccentricCylinderIsTwiceItsEccentricity) {
 }
 
 TEST(Datum, RunOutNamesTheSectionThatIsEmpty) {
-  const std::vector<Points> sections = {{{25.0, 0.0, 0.0}}, {}};
+  const std::vector<Points3> sections = {{{25.0, 0.0, 0.0}}, {}};
   const auto out = radial_run_out(sections, {});
   ASSERT_FALSE(out.has_value());
   EXPECT_EQ(out.error().code, core::Code::kNoPoints);

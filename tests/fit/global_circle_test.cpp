@@ -8,21 +8,21 @@
 
 #include "core/noise.h"
 #include "core/units.h"
+#include "fit/bisectors.h"
 #include "fit/center_region.h"
 #include "fit/global_search.h"
 #include "fit/min_zone_circle.h"
 #include "fit/zone_box.h"
-#include "fit/bisectors.h"
 
 namespace rondure::fit {
 namespace {
 
-using Points = std::vector<Eigen::Vector2d>;
+using Points2 = std::vector<Eigen::Vector2d>;
 
-Points noisy_circle(std::uint64_t seed, int count, double arc_deg, double noise_mm) {
+Points2 placed_circle(std::uint64_t seed, int count, double arc_deg, double noise_mm) {
   core::KeyedNoise noise(seed, {12});
   const Eigen::Vector2d center(40.0 * noise.normal(), 40.0 * noise.normal());
-  Points points;
+  Points2 points;
   for (int k = 0; k < count; ++k) {
     const double theta = arc_deg * core::kDegree * (k + 0.5 * noise.uniform()) / count;
     const double r = 25.0 + noise_mm * noise.normal();
@@ -31,7 +31,7 @@ Points noisy_circle(std::uint64_t seed, int count, double arc_deg, double noise_
   return points;
 }
 
-double zone_about(const Points& points, const Eigen::Vector2d& center) {
+double zone_about(const Points2& points, const Eigen::Vector2d& center) {
   double low = 1e300;
   double high = 0.0;
   for (const auto& p : points) {
@@ -42,13 +42,13 @@ double zone_about(const Points& points, const Eigen::Vector2d& center) {
 }
 
 /// All candidates of the enumeration lie among the bisectors of a disc; this is the narrowest.
-double enumerated(const Points& points, const Eigen::Vector2d& start) {
+double enumerated(const Points2& points, const Eigen::Vector2d& start) {
   const auto all = search_bisectors(points, start);
   EXPECT_TRUE(all.complete);
   return all.width_mm;
 }
 
-GlobalSearch<Eigen::Vector2d> search(const Points& points, const MinZoneCircle& zone,
+GlobalSearch<Eigen::Vector2d> search(const Points2& points, const MinZoneCircle& zone,
                                      double growth = 0.0) {
   return search_centers(points, zone.center_mm, {zone.width_mm(), growth, zone.outer, zone.inner});
 }
@@ -58,7 +58,7 @@ TEST(GlobalCircle, IsProvenForLargeSetsOfAnyArc) {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
       SCOPED_TRACE(testing::Message() << arc_deg << " deg, seed " << seed);
       const auto zone =
-          min_zone_circle(noisy_circle(seed, 41 + 37 * static_cast<int>(seed), arc_deg, 0.002));
+          min_zone_circle(placed_circle(seed, 41 + 37 * static_cast<int>(seed), arc_deg, 0.002));
       ASSERT_TRUE(zone.has_value());
       EXPECT_EQ(zone->certificate.kind, Certificate::Kind::kGlobal) << zone->certificate.reason;
       EXPECT_EQ(zone->certificate.scope, "all centres");
@@ -72,7 +72,7 @@ TEST(GlobalCircle, AgreesWithTheEnumerationOnSmallSets) {
   for (const double arc_deg : {360.0, 150.0, 60.0, 30.0}) {
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
       SCOPED_TRACE(testing::Message() << arc_deg << " deg, seed " << seed);
-      const Points points = noisy_circle(seed, 6 + static_cast<int>(seed % 20), arc_deg, 0.003);
+      const Points2 points = placed_circle(seed, 6 + static_cast<int>(seed % 20), arc_deg, 0.003);
       const auto zone = min_zone_circle(points, {.global = false, .search = {}});
       ASSERT_TRUE(zone.has_value());
       const double least = enumerated(points, zone->center_mm);
@@ -92,7 +92,7 @@ TEST(GlobalCircle, AgreesWithTheEnumerationOnSmallSets) {
 TEST(GlobalCircle, NeverCallsAnotherCentreGlobal) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = noisy_circle(seed, 60, seed % 2 == 0 ? 360.0 : 70.0, 0.003);
+    const Points2 points = placed_circle(seed, 60, seed % 2 == 0 ? 360.0 : 70.0, 0.003);
     auto zone = min_zone_circle(points);
     ASSERT_TRUE(zone.has_value());
     core::KeyedNoise noise(seed, {13});
@@ -111,7 +111,7 @@ TEST(GlobalCircle, NeverCallsAnotherCentreGlobal) {
 TEST(GlobalCircle, BoundsHoldForRandomCentres) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = noisy_circle(seed, 30, 40.0 + 8.0 * static_cast<double>(seed), 0.01);
+    const Points2 points = placed_circle(seed, 30, 40.0 + 8.0 * static_cast<double>(seed), 0.01);
     std::vector<Eigen::Vector3d> flat;
     for (const auto& p : points) flat.emplace_back(p.x(), p.y(), 0.0);
     const auto zone = min_zone_circle(points);
@@ -138,7 +138,7 @@ TEST(GlobalCircle, BoundsHoldForRandomCentres) {
 }
 
 TEST(GlobalCircle, DoesNotDependOnLuckAtTheLimit) {
-  const Points points = noisy_circle(5, 300, 50.0, 0.01);
+  const Points2 points = placed_circle(5, 300, 50.0, 0.01);
   const MinZoneCircleOptions few{.global = true, .search = {.max_boxes = 1}};
   const auto a = min_zone_circle(points, few);
   const auto b = min_zone_circle(points, few);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <vector>
 
@@ -12,65 +11,30 @@
 #include <Eigen/Geometry>
 
 #include "core/noise.h"
-#include "core/units.h"
 #include "fit/axis_cover.h"
 #include "fit/center_region.h"
 #include "fit/certificate_check.h"
 #include "fit/min_zone_cylinder.h"
 #include "fit/zone_box.h"
+#include "tests/fit/oracles/dial.h"
+#include "tests/fit/spec_cases.h"
 
 namespace rondure::fit {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
-
-struct Kind {
-  int layers = 4;
-  int points = 7;
-  double half_length_mm = 35.0;
-  double noise_mm = 0.003;
-  double arc_deg = 360.0;
-  double bend_mm = 0.0;
-};
-
-Points random_cylinder(std::uint64_t seed, const Kind& kind) {
-  core::KeyedNoise noise(seed, {21});
-  Points points;
-  for (int j = 0; j < kind.layers; ++j) {
-    for (int k = 0; k < kind.points; ++k) {
-      const double theta = kind.arc_deg * core::kDegree * (k + 0.4 * noise.uniform()) / kind.points;
-      const double u = 2.0 * j / (kind.layers - 1) - 1.0;
-      const double r = 25.0 + kind.noise_mm * noise.normal();
-      points.emplace_back(r * std::cos(theta) + kind.bend_mm * u * u, r * std::sin(theta),
-                          kind.half_length_mm * u);
-    }
-  }
-  return points;
-}
-
-double zone_about(const Points& points, const Axis& axis) {
-  double low = 1e300;
-  double high = 0.0;
-  for (const auto& p : points) {
-    low = std::min(low, distance_mm(axis, p));
-    high = std::max(high, distance_mm(axis, p));
-  }
-  return high - low;
-}
-
-bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
+using Points3 = std::vector<Eigen::Vector3d>;
 
 const AxisScope kCone{AxisScope::Kind::kCone};
 const AxisScope kHalfSphere{AxisScope::Kind::kHalfSphere};
 
-MinZoneCylinder proven(const Points& points, const AxisScope& scope) {
+MinZoneCylinder proven(const Points3& points, const AxisScope& scope) {
   auto zone =
       min_zone_cylinder(points, Eigen::Vector3d::UnitZ(), {.scopes = {scope}, .search = {}});
   EXPECT_TRUE(zone.has_value());
   return zone.value_or(MinZoneCylinder{});
 }
 
-void expect_global(const Points& points, const MinZoneCylinder& zone) {
+void expect_global(const Points3& points, const MinZoneCylinder& zone) {
   EXPECT_EQ(zone.certificate.kind, Certificate::Kind::kGlobal) << zone.certificate.reason;
   const auto checked = check_zone(
       points, zone.axis, {zone.inner_radius_mm, zone.outer_radius_mm, zone.outer, zone.inner});
@@ -79,7 +43,7 @@ void expect_global(const Points& points, const MinZoneCylinder& zone) {
 
 /// Least zone of many solves from random directions in the cone; on arcs each tries 25 starts
 /// itself.
-double best_of_many_starts(const Points& points, std::uint64_t seed, int starts) {
+double best_of_many_starts(const Points3& points, std::uint64_t seed, int starts) {
   core::KeyedNoise noise(seed, {22});
   double best = 1e300;
   for (int i = 0; i < starts; ++i) {
@@ -95,11 +59,11 @@ double best_of_many_starts(const Points& points, std::uint64_t seed, int starts)
 
 // Every axis of a box must have a zone of at least the bound.
 TEST(GlobalCylinder, BoundsHoldForRandomAxes) {
-  const int axes = full() ? 500 : 50;
+  const int axes = test::full() ? 500 : 50;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = random_cylinder(
-        seed, {3 + static_cast<int>(seed % 4), 7, 35.0, 0.01, seed % 2 == 0 ? 360.0 : 90.0});
+    const Points3 points = test::random_cylinder(
+        seed, 21, {3 + static_cast<int>(seed % 4), 7, 35.0, 0.01, seed % 2 == 0 ? 360.0 : 90.0});
     core::KeyedNoise noise(seed, {23});
     const auto spread = [&] { return 2.0 * noise.uniform() - 1.0; };
     for (int k = 0; k < 10; ++k) {
@@ -114,9 +78,9 @@ TEST(GlobalCylinder, BoundsHoldForRandomAxes) {
             box.center_mm + box.half_side_mm * Eigen::Vector2d(spread(), spread());
         Eigen::Vector2d t = box.lean * Eigen::Vector2d(spread(), spread());
         if (t.norm() > box.lean) t *= box.lean / t.norm();
-        least =
-            std::min(least, zone_about(points, {{o.x(), o.y(), 0.0},
-                                                Eigen::Vector3d(t.x(), t.y(), 1.0).normalized()}));
+        least = std::min(
+            least, test::zone_about(points, {{o.x(), o.y(), 0.0},
+                                             Eigen::Vector3d(t.x(), t.y(), 1.0).normalized()}));
       }
       ASSERT_GE(least, bound.lower_mm);
     }
@@ -124,11 +88,11 @@ TEST(GlobalCylinder, BoundsHoldForRandomAxes) {
 }
 
 TEST(GlobalCylinder, LowerBoundIsNeverAboveTheZoneOfAnyAxis) {
-  const int axes = full() ? 100000 : 5000;
+  const int axes = test::full() ? 100000 : 5000;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = random_cylinder(
-        seed, {4, 7, seed % 3 == 0 ? 2.0 : 35.0, 0.003, seed % 2 == 0 ? 360.0 : 60.0});
+    const Points3 points = test::random_cylinder(
+        seed, 21, {4, 7, seed % 3 == 0 ? 2.0 : 35.0, 0.003, seed % 2 == 0 ? 360.0 : 60.0});
     const auto zone = proven(points, kHalfSphere);
     expect_global(points, zone);
     EXPECT_EQ(zone.certificate.scope, "all directions");
@@ -142,7 +106,7 @@ TEST(GlobalCylinder, LowerBoundIsNeverAboveTheZoneOfAnyAxis) {
         axis.direction(k) += size / 10.0 * noise.normal();
       }
       axis.direction.normalize();
-      ASSERT_GE(zone_about(points, axis), lower - 1e-13);
+      ASSERT_GE(test::zone_about(points, axis), lower - 1e-13);
     }
   }
 }
@@ -152,7 +116,8 @@ TEST(GlobalCylinder, NeverProvesAWrongOptimum) {
   const auto cone = cover_cone(Eigen::Vector3d::UnitZ(), kCone.cone_rad);
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = random_cylinder(seed, {3, 7, seed % 2 == 0 ? 35.0 : 1.0, 0.003});
+    const Points3 points =
+        test::random_cylinder(seed, 21, {3, 7, seed % 2 == 0 ? 35.0 : 1.0, 0.003});
     const auto zone = proven(points, kCone);
     for (const double size : {1e-6, 1e-4, 1e-2}) {
       core::KeyedNoise noise(seed, {25});
@@ -160,27 +125,27 @@ TEST(GlobalCylinder, NeverProvesAWrongOptimum) {
       wrong.point_mm.x() += size * noise.normal();
       wrong.direction =
           (wrong.direction + size / 35.0 * Eigen::Vector3d(noise.normal(), 1.0, 0.0)).normalized();
-      const double wider = zone_about(points, wrong);
+      const double wider = test::zone_about(points, wrong);
       ASSERT_GT(wider, zone.width_mm() + 2e-9);
       const auto search =
           search_axes(points, wrong, 35.0, {wider, 0.0, zone.outer, zone.inner}, cone);
       EXPECT_FALSE(search.proven);
       ASSERT_TRUE(search.better) << search.reason;
-      EXPECT_LT(zone_about(points, *search.better), wider);
+      EXPECT_LT(test::zone_about(points, *search.better), wider);
     }
   }
 }
 
 TEST(GlobalCylinder, ReachesTheBestKnownOnNarrowArcs) {
-  const std::uint64_t sets = full() ? 100 : 30;
+  const std::uint64_t sets = test::full() ? 100 : 30;
   int missed_by_one_start = 0;
   for (std::uint64_t seed = 1; seed <= sets; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points =
-        random_cylinder(seed, {3, 3 + static_cast<int>(seed % 2), 35.0, 0.003, 60.0});
+    const Points3 points =
+        test::random_cylinder(seed, 21, {3, 3 + static_cast<int>(seed % 2), 35.0, 0.003, 60.0});
     const auto zone = proven(points, kCone);
     expect_global(points, zone);
-    EXPECT_LE(zone.width_mm(), best_of_many_starts(points, seed, full() ? 100 : 5) + 1.1e-9);
+    EXPECT_LE(zone.width_mm(), best_of_many_starts(points, seed, test::full() ? 100 : 5) + 1.1e-9);
     const auto local = min_zone_cylinder(points, Eigen::Vector3d::UnitZ());
     if (local->width_mm() > zone.width_mm() + 1e-8) ++missed_by_one_start;
   }
@@ -189,21 +154,21 @@ TEST(GlobalCylinder, ReachesTheBestKnownOnNarrowArcs) {
 }
 
 TEST(GlobalCylinder, HoldsTheTraps) {
-  const std::uint64_t sets = full() ? 60 : 10;
+  const std::uint64_t sets = test::full() ? 60 : 10;
   std::uint64_t slight = 0;
   std::uint64_t strong = 0;
   for (std::uint64_t seed = 1; seed <= sets; ++seed) {
     SCOPED_TRACE(seed);
     // L/D 50. Bent, the zone is large against the form; a search at its limit must say so.
     for (const double bend : {0.5, 3.0}) {
-      const Points shaft = random_cylinder(seed, {9, 7, 1250.0, 0.003, 360.0, bend});
+      const Points3 shaft = test::random_cylinder(seed, 21, {9, 7, 1250.0, 0.003, 360.0, bend});
       const auto zone = proven(shaft, kCone);
       const bool global = zone.certificate.kind == Certificate::Kind::kGlobal;
       EXPECT_TRUE(global || zone.certificate.reason.find("were left") != std::string::npos);
       (bend < 1.0 ? slight : strong) += global ? 1U : 0U;
     }
     for (const double half_length : {0.1, 0.25, 1.0}) {
-      const Points disc = random_cylinder(seed, {3, 7, half_length, 0.00125});
+      const Points3 disc = test::random_cylinder(seed, 21, {3, 7, half_length, 0.00125});
       // Thinner discs keep directions near 90 deg open: their zone may be the strip of their edge.
       expect_global(disc, proven(disc, half_length < 1.0 ? kCone : kHalfSphere));
     }
@@ -217,7 +182,7 @@ TEST(GlobalCylinder, HoldsTheTraps) {
 TEST(GlobalCylinder, TellsRivalsApart) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
-    Points points = random_cylinder(seed, {3, 4, 35.0, 0.003, 60.0});
+    Points3 points = test::random_cylinder(seed, 21, {3, 4, 35.0, 0.003, 60.0});
     const std::size_t half = points.size();
     for (std::size_t i = 0; i < half; ++i)
       points.emplace_back(points[i].x(), -points[i].y(), points[i].z());
@@ -231,7 +196,7 @@ TEST(GlobalCylinder, TellsRivalsApart) {
 }
 
 TEST(GlobalCylinder, StopsAtItsLimitWithAReasonAndTheSameBits) {
-  const Points points = random_cylinder(3, {});
+  const Points3 points = test::random_cylinder(3, 21, {});
   const MinZoneCylinderOptions few{.scopes = {kHalfSphere}, .search = {.max_boxes = 40}};
   const auto a = min_zone_cylinder(points, Eigen::Vector3d::UnitZ(), few);
   const auto b = min_zone_cylinder(points, Eigen::Vector3d::UnitZ(), few);
@@ -243,7 +208,7 @@ TEST(GlobalCylinder, StopsAtItsLimitWithAReasonAndTheSameBits) {
 }
 
 TEST(CertificateCheck, FindsEveryWrongStatement) {
-  const Points points = random_cylinder(2, {});
+  const Points3 points = test::random_cylinder(2, 21, {});
   const auto zone = proven(points, kCone);
   const StatedZone right{zone.inner_radius_mm, zone.outer_radius_mm, zone.outer, zone.inner};
   EXPECT_EQ(check_zone(points, zone.axis, right).fault, "");
@@ -268,13 +233,13 @@ TEST(GlobalCylinder, ProvesFullSurfaceSetsOfAnySize) {
     int layers;
     int points;
   };
-  const std::uint64_t sets = full() ? 400 : 20;
+  const std::uint64_t sets = test::full() ? 400 : 20;
   for (const Size& size : {Size{3, 5}, {4, 7}, {6, 12}, {20, 50}, {100, 1000}}) {
     std::vector<double> times_ms;
     std::vector<int> boxes;
     std::uint64_t global = 0;
     for (std::uint64_t seed = 1; seed <= sets; ++seed) {
-      const Points points = random_cylinder(seed, {size.layers, size.points});
+      const Points3 points = test::random_cylinder(seed, 21, {size.layers, size.points});
       const auto begin = std::chrono::steady_clock::now();
       const auto zone = proven(points, kCone);
       const std::chrono::duration<double, std::milli> spent =

@@ -14,9 +14,9 @@
 namespace rondure::fit {
 namespace {
 
-using Points = std::vector<Eigen::Vector2d>;
+using Points2 = std::vector<Eigen::Vector2d>;
 
-double squares(const Points& points, const Eigen::Vector2d& center, double radius) {
+double squares(const Points2& points, const Eigen::Vector2d& center, double radius) {
   double sum = 0.0;
   for (const auto& p : points) sum += std::pow((p - center).norm() - radius, 2);
   return sum;
@@ -26,7 +26,7 @@ TEST(LsCircle, HasNoNeighbourWithLessSquares) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     SCOPED_TRACE(seed);
     core::KeyedNoise noise(seed, {1});
-    Points points;
+    Points2 points;
     const double arc = (seed % 2 == 0 ? 60.0 : 360.0) * core::kDegree;
     for (int k = 0; k < 20; ++k) {
       const double theta = arc * noise.uniform();
@@ -48,7 +48,7 @@ TEST(LsCircle, HasNoNeighbourWithLessSquares) {
 }
 
 /// Newton on the two equations of the centre in 80-bit numbers, the radius being the mean distance.
-LsCircle converged(const Points& points, const Eigen::Vector2d& start) {
+LsCircle converged(const Points2& points, const Eigen::Vector2d& start) {
   using Wide2 = Eigen::Matrix<long double, 2, 1>;
   Wide2 center = start.cast<long double>();
   const auto n = static_cast<long double>(points.size());
@@ -81,7 +81,7 @@ TEST(LsCircle, IsTheFullyConvergedMinimumForSmallAndLargeSets) {
         SCOPED_TRACE(testing::Message() << n << " points, radius " << radius << ", at " << place);
         core::KeyedNoise noise(n, {5});
         const Eigen::Vector2d center(place * radius, -place * radius);
-        Points points;
+        Points2 points;
         for (std::size_t k = 0; k < n; ++k) {
           const double theta = core::kTwoPi * noise.uniform();
           const double r = radius * (1.0 + 1e-4 * std::cos(2.0 * theta) + 1e-5 * noise.normal());
@@ -106,7 +106,7 @@ TEST(LsCircle, IsTheFullyConvergedMinimumForSmallAndLargeSets) {
 }
 
 TEST(LsCircle, NamesTheBadRowOfALargeSet) {
-  Points points;
+  Points2 points;
   for (int k = 0; k < 4000; ++k) points.emplace_back(25.0 * std::cos(k), 25.0 * std::sin(k));
   points[3456].x() = std::numeric_limits<double>::infinity();
   const auto refused = ls_circle(points);
@@ -116,16 +116,16 @@ TEST(LsCircle, NamesTheBadRowOfALargeSet) {
 }
 
 TEST(AlgebraicCircle, IsExactForThreePoints) {
-  const auto circle = algebraic_circle(Points{{1001.0, 0.0}, {1000.0, 1.0}, {999.0, 0.0}});
+  const auto circle = algebraic_circle(Points2{{1001.0, 0.0}, {1000.0, 1.0}, {999.0, 0.0}});
   ASSERT_TRUE(circle.has_value());
   EXPECT_NEAR((circle->center_mm - Eigen::Vector2d(1000.0, 0.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR(circle->radius_mm, 1.0, 1e-12);
 }
 
 TEST(AlgebraicCircle, RefusesPointsOnALine) {
-  EXPECT_EQ(algebraic_circle(Points{{0, 0}, {1, 2}, {2, 4}, {5, 10}}).error().code,
+  EXPECT_EQ(algebraic_circle(Points2{{0, 0}, {1, 2}, {2, 4}, {5, 10}}).error().code,
             core::Code::kCollinear);
-  EXPECT_EQ(algebraic_circle(Points{{3, 3}, {3, 3}, {3, 3}}).error().code,
+  EXPECT_EQ(algebraic_circle(Points2{{3, 3}, {3, 3}, {3, 3}}).error().code,
             core::Code::kTooFewPoints);
 }
 

@@ -16,13 +16,13 @@
 namespace rondure::fit {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
+using Points3 = std::vector<Eigen::Vector3d>;
 using Wide = long double;
 using Wide3 = Eigen::Matrix<Wide, 3, 1>;
 using Wide5 = Eigen::Matrix<Wide, 5, 1>;
 
 struct Made {
-  Points points;
+  Points3 points;
   Axis axis;
   double radius = 25.0;
 };
@@ -52,12 +52,12 @@ Made made(std::size_t n, double radius, double form, const Eigen::Vector3d& plac
 
 /// Gauss-Newton with the full gradient in 80-bit numbers, from the cylinder the points were made
 /// of.
-struct Oracle {
+struct WideCylinder {
   Wide3 point, direction;
   Wide radius = 0, squares = 0;
 };
 
-Wide5 oracle_step(const Points& points, const Wide3& origin, Oracle& at) {
+Wide5 oracle_step(const Points3& points, const Wide3& origin, WideCylinder& at) {
   const Wide3 u = at.direction.unitOrthogonal();
   const Wide3 v = at.direction.cross(u);
   Eigen::Matrix<Wide, 5, 5> matrix = Eigen::Matrix<Wide, 5, 5>::Zero();
@@ -81,9 +81,9 @@ Wide5 oracle_step(const Points& points, const Wide3& origin, Oracle& at) {
 }
 
 /// @return The least squares with its axis relative to `origin`.
-Oracle oracle(const Made& part, const Eigen::Vector3d& origin) {
-  Oracle at{(part.axis.point_mm - origin).cast<Wide>(), part.axis.direction.cast<Wide>(),
-            part.radius, 0};
+WideCylinder oracle(const Made& part, const Eigen::Vector3d& origin) {
+  WideCylinder at{(part.axis.point_mm - origin).cast<Wide>(), part.axis.direction.cast<Wide>(),
+                  part.radius, 0};
   for (int i = 0; i < 40; ++i) {
     if (oracle_step(part.points, origin.cast<Wide>(), at).norm() < 1e-17L * part.radius) break;
   }
@@ -92,7 +92,7 @@ Oracle oracle(const Made& part, const Eigen::Vector3d& origin) {
 
 void expect_equal(const LsCylinder& got, const Made& part, double tolerance) {
   const Eigen::Vector3d origin = part.axis.point_mm;
-  const Oracle want = oracle(part, origin);
+  const WideCylinder want = oracle(part, origin);
   const double size = part.radius;
   EXPECT_NEAR(got.radius_mm, static_cast<double>(want.radius), tolerance * size);
   const Eigen::Vector3d direction = want.direction.cast<double>();
@@ -150,7 +150,7 @@ TEST(LsCylinder, HoldsFromAMicrometreToAHundredMetresAndFarFromTheOrigin) {
 TEST(LsCylinder, EveryPointTwiceIsTheSameCylinder) {
   Made part = made(900, 25.0, 0.01, {10.0, 20.0, 30.0}, 8);
   const auto once = ls_cylinder(part.points);
-  const Points copy = part.points;
+  const Points3 copy = part.points;
   part.points.insert(part.points.end(), copy.begin(), copy.end());
   const auto twice = ls_cylinder(part.points);  // long enough to start from a sample
   ASSERT_TRUE(once.has_value() && twice.has_value());
@@ -164,14 +164,14 @@ TEST(LsCylinder, EveryPointTwiceIsTheSameCylinder) {
 TEST(LsCylinder, ALargeSetIsRefusedForTheSameReasonsAsASmallOne) {
   const Made part = made(5000, 25.0, 0.01, {10.0, 20.0, 30.0}, 9);
   for (const std::size_t row : {0U, 2777U, 4999U}) {
-    Points bad = part.points;
+    Points3 bad = part.points;
     bad[row].y() = std::numeric_limits<double>::quiet_NaN();
     const auto refused = ls_cylinder(bad, part.axis.direction);
     ASSERT_FALSE(refused.has_value());
     EXPECT_EQ(refused.error().code, core::Code::kNotFinite);
     EXPECT_THAT(refused.error().what, testing::HasSubstr(std::to_string(row)));
   }
-  Points line, plane, four;
+  Points3 line, plane, four;
   for (int i = 0; i < 3000; ++i) {
     line.emplace_back(1.0 * i, 2.0 * i, 3.0 * i);
     plane.emplace_back(25.0 * std::cos(i), 25.0 * std::sin(i), 3.0);

@@ -12,12 +12,13 @@
 namespace rondure::fit {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
+using Points3 = std::vector<Eigen::Vector3d>;
+using Wide3 = Eigen::Matrix<long double, 3, 1>;
 
-Points line_points(std::size_t n, const Axis& axis, double length, double scatter,
-                   std::uint64_t seed) {
+Points3 line_points(std::size_t n, const Axis& axis, double length, double scatter,
+                    std::uint64_t seed) {
   core::KeyedNoise noise(seed, {41});
-  Points out;
+  Points3 out;
   for (std::size_t i = 0; i < n; ++i) {
     out.push_back(axis.point_mm + axis.direction * length * (noise.uniform() - 0.5) +
                   scatter * Eigen::Vector3d(noise.normal(), noise.normal(), noise.normal()));
@@ -35,11 +36,10 @@ TEST(LsLine, ResidualsNeitherShiftNorTurnIt) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     const Axis axis = some_axis(seed, 100.0);
-    const Points points =
+    const Points3 points =
         line_points(3 + seed % 40, axis, 200.0, seed % 3 == 0 ? 20.0 : 1e-3, seed);
     const auto line = ls_line(points);
     ASSERT_TRUE(line.has_value()) << line.error().what;
-    using Wide3 = Eigen::Matrix<long double, 3, 1>;
     const Wide3 t = line->axis.direction.cast<long double>();
     Wide3 shift = Wide3::Zero();
     Wide3 turn = Wide3::Zero();
@@ -65,7 +65,7 @@ TEST(LsLine, ResidualsNeitherShiftNorTurnIt) {
 TEST(LsLine, HasNoNeighbourWithLessSquares) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = line_points(30, some_axis(seed, 5.0), 50.0, 3.0, seed);
+    const Points3 points = line_points(30, some_axis(seed, 5.0), 50.0, 3.0, seed);
     const auto line = ls_line(points);
     ASSERT_TRUE(line.has_value());
     core::KeyedNoise noise(seed, {43});
@@ -90,21 +90,21 @@ TEST(LsLine, KeepsItsDigitsFarFromTheOrigin) {
 
 TEST(LsLine, RefusesWhatFixesNoLine) {
   EXPECT_EQ(ls_line({}).error().code, core::Code::kNoPoints);
-  EXPECT_EQ(ls_line(Points{{1, 2, 3}, {1, 2, 3}}).error().code, core::Code::kTooFewPoints);
-  EXPECT_EQ(ls_line(Points{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}).error().code,
+  EXPECT_EQ(ls_line(Points3{{1, 2, 3}, {1, 2, 3}}).error().code, core::Code::kTooFewPoints);
+  EXPECT_EQ(ls_line(Points3{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}).error().code,
             core::Code::kRank);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(ls_line(Points{{1, 0, 0}, {nan, 0, 0}}).error().code, core::Code::kNotFinite);
+  EXPECT_EQ(ls_line(Points3{{1, 0, 0}, {nan, 0, 0}}).error().code, core::Code::kNotFinite);
 }
 
 TEST(MedianLine, StraightnessIsTwiceTheLargestDistanceFromTheLine) {
   // A bow of 3 um: about the mean line the ends and the middle stand off by 1 and 2 um.
-  const Points bow = {{0.0, 0.0, 0.0}, {0.003, 0.0, 50.0}, {0.0, 0.0, 100.0}};
+  const Points3 bow = {{0.0, 0.0, 0.0}, {0.003, 0.0, 50.0}, {0.0, 0.0, 100.0}};
   const auto straightness = median_line_straightness(bow);
   ASSERT_TRUE(straightness.has_value());
   EXPECT_NEAR(straightness->deviation_mm, 2.0 * 0.002, 1e-12);
   EXPECT_NEAR(straightness->axis.direction.z(), 1.0, 1e-12);
-  EXPECT_EQ(median_line_straightness(Points{{0, 0, 0}, {0, 0, 1}}).error().code,
+  EXPECT_EQ(median_line_straightness(Points3{{0, 0, 0}, {0, 0, 1}}).error().code,
             core::Code::kTooFewPoints);
 }
 

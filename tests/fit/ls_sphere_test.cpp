@@ -11,13 +11,14 @@
 namespace rondure::fit {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
+using Points3 = std::vector<Eigen::Vector3d>;
+using Wide3 = Eigen::Matrix<long double, 3, 1>;
 
 /// Points of a sphere, of its cap above `lowest` (-1: all of it).
-Points sphere_points(std::size_t n, const Eigen::Vector3d& center, double radius, double form,
-                     double lowest, std::uint64_t seed) {
+Points3 sphere_points(std::size_t n, const Eigen::Vector3d& center, double radius, double form,
+                      double lowest, std::uint64_t seed) {
   core::KeyedNoise noise(seed, {31});
-  Points out;
+  Points3 out;
   for (std::size_t i = 0; i < n; ++i) {
     const double z = lowest + (1.0 - lowest) * noise.uniform();
     const double a = 6.283185307179586 * noise.uniform();
@@ -29,8 +30,7 @@ Points sphere_points(std::size_t n, const Eigen::Vector3d& center, double radius
 }
 
 /// Pull of the residuals on the centre and the radius, in 80-bit numbers: 0 at the minimum.
-double largest_pull(const Points& points, const LsSphere& sphere) {
-  using Wide3 = Eigen::Matrix<long double, 3, 1>;
+double largest_pull(const Points3& points, const LsSphere& sphere) {
   Wide3 pull = Wide3::Zero();
   long double swell = 0.0L;
   for (const auto& p : points) {
@@ -48,7 +48,7 @@ TEST(LsSphere, ResidualsPullNeitherOnTheCentreNorOnTheRadius) {
     SCOPED_TRACE(seed);
     const double radius = std::pow(10.0, static_cast<double>(seed % 7) - 2.0);
     const double lowest = seed % 2 == 0 ? -1.0 : 0.7;
-    const Points points =
+    const Points3 points =
         sphere_points(5 + 10 * (seed % 6), 3.0 * radius * Eigen::Vector3d(1, -2, 1), radius,
                       1e-4 * radius, lowest, seed);
     const auto sphere = ls_sphere(points);
@@ -70,7 +70,7 @@ TEST(LsSphere, ResidualsPullNeitherOnTheCentreNorOnTheRadius) {
 }
 
 TEST(LsSphere, IsExactForFourPointsAndKeepsItsDigitsFarAway) {
-  const auto four = ls_sphere(Points{{3, 0, 0}, {0, 3, 0}, {0, 0, 3}, {-3, 0, 0}});
+  const auto four = ls_sphere(Points3{{3, 0, 0}, {0, 3, 0}, {0, 0, 3}, {-3, 0, 0}});
   ASSERT_TRUE(four.has_value());
   EXPECT_LT(four->center_mm.norm(), 1e-14);
   EXPECT_NEAR(four->radius_mm, 3.0, 1e-14);
@@ -84,12 +84,12 @@ TEST(LsSphere, IsExactForFourPointsAndKeepsItsDigitsFarAway) {
 
 TEST(LsSphere, RefusesWhatFixesNoSphere) {
   EXPECT_EQ(ls_sphere({}).error().code, core::Code::kNoPoints);
-  EXPECT_EQ(ls_sphere(Points{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}}).error().code,
+  EXPECT_EQ(ls_sphere(Points3{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}}).error().code,
             core::Code::kTooFewPoints);
-  EXPECT_EQ(ls_sphere(Points{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}).error().code,
+  EXPECT_EQ(ls_sphere(Points3{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}).error().code,
             core::Code::kRank);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(ls_sphere(Points{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {nan, 0, 0}}).error().code,
+  EXPECT_EQ(ls_sphere(Points3{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {nan, 0, 0}}).error().code,
             core::Code::kNotFinite);
 }
 

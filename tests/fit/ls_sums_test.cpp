@@ -14,17 +14,17 @@
 namespace rondure::fit {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
+using Points3 = std::vector<Eigen::Vector3d>;
 using Flat = std::vector<Eigen::Vector2d>;
 
 const Axis kAxis{{0.1, -0.2, 3.0}, Eigen::Vector3d(0.2, -0.3, 1.0).normalized()};
 const Eigen::Vector3d kOrigin(400.0, -300.0, 50.0);
 
 /// Points about kAxis, radius 25, half length 35.
-Points cylinder_points(std::size_t n, double form_mm, std::uint64_t seed) {
+Points3 cylinder_points(std::size_t n, double form_mm, std::uint64_t seed) {
   core::KeyedNoise noise(seed, {3});
   const auto frame = across(kAxis.direction);
-  Points out;
+  Points3 out;
   for (std::size_t i = 0; i < n; ++i) {
     const double theta = core::kTwoPi * noise.uniform();
     const double r = 25.0 + form_mm * noise.normal();
@@ -35,7 +35,7 @@ Points cylinder_points(std::size_t n, double form_mm, std::uint64_t seed) {
   return out;
 }
 
-Flat flattened(const Points& points) {
+Flat flattened(const Points3& points) {
   const auto frame = across(kAxis.direction);
   Flat out;
   for (const auto& p : points) out.emplace_back(frame.transpose() * (p - kOrigin));
@@ -65,7 +65,7 @@ TEST(LsSums, AllInstructionSetsGiveTheSameBits) {
   for (const std::size_t n : {1U, 5U, 7U, 8U, 9U, 24U, 31U, 1023U, 1024U, 1025U, 5000U}) {
     for (const double form_mm : {1e-3, 3.0}) {  // by the series, and by the square root
       SCOPED_TRACE(testing::Message() << n << " points, form " << form_mm);
-      const Points points = cylinder_points(n, form_mm, n);
+      const Points3 points = cylinder_points(n, form_mm, n);
       const Flat flat = flattened(points);
       for (const bool matrix : {true, false}) {
         const auto solid = bits(cylinder_sums(points, kOrigin, frame, 25.0, {matrix, nullptr}));
@@ -88,7 +88,7 @@ struct Plain {
   long double squares = 0.0L;
 };
 
-Plain plain_sums(const Points& points, const CylinderFrame& frame, double radius) {
+Plain plain_sums(const Points3& points, const CylinderFrame& frame, double radius) {
   Plain out;
   for (const auto& p : points) {
     const ContactRow<4> row = frame.contact_row(p - kOrigin, 0);
@@ -108,7 +108,7 @@ TEST(LsSums, AgreesWithPlainSums) {
     SCOPED_TRACE(form_mm);
     for (const std::size_t n : {9U, 300000U}) {
       SCOPED_TRACE(n);
-      const Points points = cylinder_points(n, form_mm, 4);
+      const Points3 points = cylinder_points(n, form_mm, 4);
       const CylinderFrame frame(kAxis, 35.0);
       const auto sums = cylinder_sums(points, kOrigin, frame, 25.0);
       const Plain plain = plain_sums(points, frame, 25.0);
@@ -126,7 +126,7 @@ TEST(LsSums, AgreesWithPlainSums) {
 }
 
 TEST(LsSums, APointOnTheAxisHasADistanceAndNoDirection) {
-  Points points = cylinder_points(24, 1e-3, 2);
+  Points3 points = cylinder_points(24, 1e-3, 2);
   const CylinderFrame frame({Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()}, 35.0);
   points[7] = kOrigin + Eigen::Vector3d(0.0, 0.0, 12.0);
   const auto sums = cylinder_sums(points, kOrigin, frame, 25.0);
@@ -141,7 +141,7 @@ TEST(LsSums, ANumberThatIsNotFiniteShowsInTheSquares) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     for (const std::size_t row : {0U, 1024U, 2998U, 2999U}) {
-      Points points = cylinder_points(3000, 1e-3, 5);
+      Points3 points = cylinder_points(3000, 1e-3, 5);
       Flat flat = flattened(points);
       points[row].z() = bad;
       flat[row].x() = bad;
@@ -157,7 +157,7 @@ TEST(LsSums, ANumberThatIsNotFiniteShowsInTheSquares) {
 
 TEST(LsSums, StretchesHoldTheExtremesOfAMovedAxis) {
   for (const std::size_t n : {1500U, 50000U}) {
-    const Points points = cylinder_points(n, 1e-3, 6);
+    const Points3 points = cylinder_points(n, 1e-3, 6);
     const CylinderFrame frame(kAxis, 35.0);
     StretchExtremes extremes(n);
     const auto sums = cylinder_sums(points, kOrigin, frame, 25.0, {true, &extremes});

@@ -7,17 +7,17 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/ls_circle.h"
 #include "fit/bisectors.h"
+#include "fit/ls_circle.h"
 
 namespace rondure::fit {
 namespace {
 
-using Points = std::vector<Eigen::Vector2d>;
+using Points2 = std::vector<Eigen::Vector2d>;
 
-Points noisy_circle(std::uint64_t seed, int count, double arc_deg, double noise_mm) {
+Points2 noisy_circle(std::uint64_t seed, int count, double arc_deg, double noise_mm) {
   core::KeyedNoise noise(seed, {2});
-  Points points;
+  Points2 points;
   for (int k = 0; k < count; ++k) {
     const double theta = arc_deg * core::kDegree * (k + 0.5 * noise.uniform()) / count;
     const double r = 25.0 + noise_mm * noise.normal();
@@ -27,7 +27,7 @@ Points noisy_circle(std::uint64_t seed, int count, double arc_deg, double noise_
 }
 
 /// All candidates there are: every crossing of two bisectors, anywhere in the plane.
-double brute_force(const Points& points) {
+double brute_force(const Points2& points) {
   struct Line {
     Eigen::Vector2d n;
     double c;
@@ -61,7 +61,7 @@ double brute_force(const Points& points) {
 TEST(MinZoneCircle, AgreesWithAllBisectorCrossings) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = noisy_circle(seed, 6 + static_cast<int>(seed % 9), 360.0, 0.003);
+    const Points2 points = noisy_circle(seed, 6 + static_cast<int>(seed % 9), 360.0, 0.003);
     const auto zone = min_zone_circle(points);
     ASSERT_TRUE(zone.has_value());
     EXPECT_NEAR(zone->width_mm(), brute_force(points), 1e-11);
@@ -73,7 +73,7 @@ TEST(MinZoneCircle, AgreesWithAllBisectorCrossings) {
 TEST(MinZoneCircle, HoldsTiesDuplicatesAndSpokes) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE(seed);
-    Points points = noisy_circle(seed, 9, 360.0, 0.004);
+    Points2 points = noisy_circle(seed, 9, 360.0, 0.004);
     // Rounded to 1 um, every point twice, and a second point on the ray of the first.
     for (auto& p : points) p = (p * 1e3).array().round().matrix() / 1e3;
     const std::size_t n = points.size();
@@ -99,7 +99,7 @@ TEST(MinZoneCircle, CertifiesLocallyWhenAskedForNoMore) {
 }
 
 TEST(MinZoneCircle, FitsThreePointsExactly) {
-  const auto zone = min_zone_circle(Points{{25, 0}, {0, 25}, {-25, 0}});
+  const auto zone = min_zone_circle(Points2{{25, 0}, {0, 25}, {-25, 0}});
   ASSERT_TRUE(zone.has_value());
   EXPECT_TRUE(zone->exact_fit);
   EXPECT_EQ(zone->width_mm(), 0.0);
@@ -108,7 +108,7 @@ TEST(MinZoneCircle, FitsThreePointsExactly) {
 TEST(MinZoneCircle, FindsTheGlobalMinimumOfNarrowArcsToo) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = noisy_circle(seed, 9 + static_cast<int>(seed % 4), 60.0, 0.002);
+    const Points2 points = noisy_circle(seed, 9 + static_cast<int>(seed % 4), 60.0, 0.002);
     const auto zone = min_zone_circle(points);
     ASSERT_TRUE(zone.has_value());
     EXPECT_NEAR(zone->width_mm(), brute_force(points), 1e-9);
@@ -118,7 +118,7 @@ TEST(MinZoneCircle, FindsTheGlobalMinimumOfNarrowArcsToo) {
 
 TEST(MinZoneCircle, ClaimsNothingGlobalWhereTheZoneMayBeAStrip) {
   // Two parallel rows: whichever way a circle bends, it is wider than the strip between them.
-  Points points;
+  Points2 points;
   for (int k = 0; k < 20; ++k) points.emplace_back(k, k % 2 == 0 ? 0.01 : -0.01);
   const auto zone = min_zone_circle(points);
   ASSERT_TRUE(zone.has_value());

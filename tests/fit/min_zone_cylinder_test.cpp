@@ -1,6 +1,5 @@
 #include "fit/min_zone_cylinder.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -9,36 +8,14 @@
 #include <Eigen/Geometry>
 
 #include "core/noise.h"
-#include "core/units.h"
 #include "fit/ls_cylinder.h"
 #include "fit/zone_fit.h"
+#include "tests/fit/spec_cases.h"
 
 namespace rondure::fit {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
-
-struct Kind {
-  int layers = 4;
-  int points = 7;
-  double half_length_mm = 35.0;
-  double noise_mm = 0.003;
-  double arc_deg = 360.0;
-};
-
-Points random_cylinder(std::uint64_t seed, const Kind& kind) {
-  core::KeyedNoise noise(seed, {3});
-  Points points;
-  for (int j = 0; j < kind.layers; ++j) {
-    for (int k = 0; k < kind.points; ++k) {
-      const double theta = kind.arc_deg * core::kDegree * (k + 0.4 * noise.uniform()) / kind.points;
-      const double z = kind.half_length_mm * (2.0 * j / (kind.layers - 1) - 1.0);
-      const double r = 25.0 + kind.noise_mm * noise.normal();
-      points.emplace_back(r * std::cos(theta), r * std::sin(theta), z);
-    }
-  }
-  return points;
-}
+using Points3 = std::vector<Eigen::Vector3d>;
 
 Eigen::Isometry3d random_place(std::uint64_t seed, double far_mm) {
   core::KeyedNoise noise(seed, {4});
@@ -49,19 +26,9 @@ Eigen::Isometry3d random_place(std::uint64_t seed, double far_mm) {
   return place;
 }
 
-double zone_about(const Points& points, const Axis& axis) {
-  double low = 1e300;
-  double high = 0.0;
-  for (const auto& p : points) {
-    low = std::min(low, distance_mm(axis, p));
-    high = std::max(high, distance_mm(axis, p));
-  }
-  return high - low;
-}
-
 /// Checks by hand what the multipliers claim: non-negative, sum 1 on each side, on contacts only,
 /// gradients in balance. Gradients by finite differences: shares nothing with the solver.
-void expect_stationary(const Points& points, const MinZoneCylinder& zone) {
+void expect_stationary(const Points3& points, const MinZoneCylinder& zone) {
   const Eigen::Vector3d u = zone.axis.direction.unitOrthogonal();
   const Eigen::Vector3d v = zone.axis.direction.cross(u);
   const double h = 1e-6;
@@ -91,14 +58,14 @@ void expect_stationary(const Points& points, const MinZoneCylinder& zone) {
   add(zone.outer, zone.outer_radius_mm, 1.0);
   add(zone.inner, zone.inner_radius_mm, -1.0);
   EXPECT_LT(balance.cwiseAbs().maxCoeff(), 1e-7);
-  EXPECT_NEAR(zone_about(points, zone.axis), zone.width_mm(), 1e-12);
+  EXPECT_NEAR(test::zone_about(points, zone.axis), zone.width_mm(), 1e-12);
 }
 
 TEST(MinZoneCylinder, CarriesMultipliersThatProveItStationary) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points =
-        random_cylinder(seed, {3 + static_cast<int>(seed % 3), 5 + static_cast<int>(seed % 4)});
+    const Points3 points = test::random_cylinder(
+        seed, 3, {3 + static_cast<int>(seed % 3), 5 + static_cast<int>(seed % 4)});
     const auto zone = min_zone_cylinder(points, Eigen::Vector3d::UnitZ());
     ASSERT_TRUE(zone.has_value());
     EXPECT_EQ(zone->certificate.kind, Certificate::Kind::kLocal) << zone->certificate.reason;
@@ -112,7 +79,7 @@ TEST(MinZoneCylinder, CarriesMultipliersThatProveItStationary) {
 TEST(MinZoneCylinder, IsNotBeatenByRandomAxesNearby) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = random_cylinder(seed, {});
+    const Points3 points = test::random_cylinder(seed, 3, {});
     const auto zone = min_zone_cylinder(points, Eigen::Vector3d::UnitZ());
     ASSERT_TRUE(zone.has_value());
     core::KeyedNoise noise(seed, {5});
@@ -122,7 +89,7 @@ TEST(MinZoneCylinder, IsNotBeatenByRandomAxesNearby) {
       axis.point_mm += size * Eigen::Vector3d(noise.normal(), noise.normal(), 0.0);
       axis.direction += size / 35.0 * Eigen::Vector3d(noise.normal(), noise.normal(), 0.0);
       axis.direction.normalize();
-      ASSERT_GE(zone_about(points, axis), zone->width_mm() - 1e-13);
+      ASSERT_GE(test::zone_about(points, axis), zone->width_mm() - 1e-13);
     }
   }
 }
@@ -130,16 +97,16 @@ TEST(MinZoneCylinder, IsNotBeatenByRandomAxesNearby) {
 TEST(MinZoneCylinder, DoesNotDependOnPlaceOrientationOrderOrScale) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = random_cylinder(seed, {});
+    const Points3 points = test::random_cylinder(seed, 3, {});
     const double width = min_zone_cylinder(points)->width_mm();
     const Eigen::Isometry3d place = random_place(seed, 300.0);
-    Points moved;
-    Points scaled;
+    Points3 moved;
+    Points3 scaled;
     for (const auto& p : points) {
       moved.emplace_back(place * p);
       scaled.emplace_back(0.01 * p);
     }
-    const Points reversed(points.rbegin(), points.rend());
+    const Points3 reversed(points.rbegin(), points.rend());
     const auto found = min_zone_cylinder(moved);
     ASSERT_TRUE(found.has_value());
     EXPECT_NEAR(found->width_mm(), width, 1e-11);
@@ -158,7 +125,7 @@ TEST(MinZoneCylinder, ReachesOptimaWithFiveContacts) {
   for (const double half_length : {5.0, 1.0, 0.25}) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
       SCOPED_TRACE(seed);
-      const Points points = random_cylinder(seed, {3, 7, half_length, 0.00125});
+      const Points3 points = test::random_cylinder(seed, 3, {3, 7, half_length, 0.00125});
       const auto zone = min_zone_cylinder(points, Eigen::Vector3d::UnitZ());
       ASSERT_TRUE(zone.has_value());
       EXPECT_EQ(zone->certificate.kind, Certificate::Kind::kLocal) << zone->certificate.reason;
@@ -171,8 +138,8 @@ TEST(MinZoneCylinder, ReachesOptimaWithFiveContacts) {
 
 /// Two contacts of its first minimum carry 5e-6; behind them a valley 2 um long leads to another
 /// minimum, 1.2e-8 mm lower. Seed 19 of the benchmark's sets of 24 points.
-const Points& valley() {
-  static const Points points = {
+const Points3& valley() {
+  static const Points3 points = {
       {24.517644878, -4.616975467, 10.041672081}, {16.457705324, 19.791000887, 10.522323154},
       {1.962844038, 25.794428197, 10.561877946},  {-19.491368530, 16.366436463, 10.221759863},
       {-24.706328434, 3.714756518, 9.913564885},  {-14.075276033, -19.701029911, 9.470677152},
@@ -205,7 +172,7 @@ TEST(MinZoneCylinder, GoesToTheBetterEndOfAValleyThatWeakContactsClose) {
 
 TEST(MinZoneCylinder, FindsThePlantedContactsOfALargeSet) {
   // All points well inside the zone but six that hold it.
-  Points points = random_cylinder(9, {40, 500, 35.0, 0.0});
+  Points3 points = test::random_cylinder(9, 3, {40, 500, 35.0, 0.0});
   core::KeyedNoise noise(9, {6});
   for (auto& p : points) {
     const double r = 25.0 + 0.002 * (2.0 * noise.uniform() - 1.0);
@@ -225,17 +192,17 @@ TEST(MinZoneCylinder, FindsThePlantedContactsOfALargeSet) {
 TEST(MinZoneCylinder, RefusesWhatHasNoAxis) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
   EXPECT_EQ(min_zone_cylinder({}).error().code, core::Code::kNoPoints);
-  EXPECT_EQ(min_zone_cylinder(Points{z, 2 * z, 3 * z, 4 * z}).error().code,
+  EXPECT_EQ(min_zone_cylinder(Points3{z, 2 * z, 3 * z, 4 * z}).error().code,
             core::Code::kTooFewPoints);
-  EXPECT_EQ(min_zone_cylinder(Points{z, 2 * z, 3 * z, 4 * z, 5 * z, 6 * z}).error().code,
+  EXPECT_EQ(min_zone_cylinder(Points3{z, 2 * z, 3 * z, 4 * z, 5 * z, 6 * z}).error().code,
             core::Code::kCollinear);
-  Points ring;
+  Points3 ring;
   for (int k = 0; k < 12; ++k)
     ring.emplace_back(25 * std::cos(0.5 * k), 25 * std::sin(0.5 * k), 10.0);
   const auto single = min_zone_cylinder(ring);
   EXPECT_EQ(single.error().code, core::Code::kRank);
   EXPECT_NE(single.error().what.find("roundness"), std::string::npos);
-  Points infinite = random_cylinder(1, {});
+  Points3 infinite = test::random_cylinder(1, 3, {});
   infinite[17].y() = std::numeric_limits<double>::infinity();
   const auto bad = min_zone_cylinder(infinite);
   EXPECT_EQ(bad.error().code, core::Code::kNotFinite);
@@ -245,9 +212,9 @@ TEST(MinZoneCylinder, RefusesWhatHasNoAxis) {
 TEST(LsCylinder, IsExactOnPointsOfACylinder) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    const Points points = random_cylinder(seed, {3, 6, 20.0, 0.0});
+    const Points3 points = test::random_cylinder(seed, 3, {3, 6, 20.0, 0.0});
     const Eigen::Isometry3d place = random_place(seed, 500.0);
-    Points moved;
+    Points3 moved;
     for (const auto& p : points) moved.emplace_back(place * p);
     const auto ls = ls_cylinder(moved);
     ASSERT_TRUE(ls.has_value());

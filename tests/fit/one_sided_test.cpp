@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <limits>
 #include <string>
@@ -20,6 +19,7 @@
 #include "fit/one_sided_center.h"
 #include "fit/one_sided_cylinder.h"
 #include "fit/zone_fit.h"
+#include "tests/fit/oracles/dial.h"
 
 namespace rondure::fit {
 namespace {
@@ -166,7 +166,7 @@ Space regular_layers(std::uint64_t seed) {
 
 // The figure of docs/accuracy.md.
 TEST(OneSidedCylinder, SaysHowOftenRegularLayersLeaveItWithoutCertificate) {
-  const std::uint64_t sets = std::getenv("RONDURE_FULL") != nullptr ? 400 : 40;
+  const std::uint64_t sets = test::full() ? 400 : 40;
   std::uint64_t without = 0;
   for (std::uint64_t seed = 1; seed <= sets; ++seed) {
     SCOPED_TRACE(seed);

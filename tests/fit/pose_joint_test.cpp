@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
 
@@ -16,13 +15,12 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "fit/zone_fit.h"
+#include "tests/fit/oracles/dial.h"
 
 namespace rondure::fit {
 namespace {
 
 using Eigen::Vector3d;
-
-bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
 
 /// What is measured and how. Form and wobble in um.
 struct Study {
@@ -82,7 +80,7 @@ class RandomForm {
 };
 
 /// A part touched in two poses of a fixture that wobbles, and what a perfect fixture had given.
-struct Case {
+struct TwoPoses {
   std::vector<JointPose> poses;
   std::vector<Eigen::Isometry3d> truth;
   std::vector<Vector3d> perfect_B;
@@ -95,8 +93,8 @@ bool sees(const Study& study, int pose, double angle, double q) {
   return from <= core::kTwoPi / 4.0 + study.overlap_deg * core::kDegree + 1e-9;
 }
 
-Case simulate(const Study& study, std::uint64_t seed) {
-  Case made;
+TwoPoses simulate(const Study& study, std::uint64_t seed) {
+  TwoPoses made;
   const RandomForm form(seed, study.form_um, study.waves);
   core::KeyedNoise noise(seed, {12});
   Eigen::Isometry3d X_BP = Eigen::Isometry3d::Identity();
@@ -157,7 +155,7 @@ Errors study_errors(const Study& study, int seeds, int draws) {
   int covered = 0;
   double condition = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const Case made = simulate(study, static_cast<std::uint64_t>(seed));
+    const TwoPoses made = simulate(study, static_cast<std::uint64_t>(seed));
     PoseJointOptions options;
     options.touch_mm = study.noise_um * 1e-3;
     options.draws = draws;
@@ -178,7 +176,7 @@ Errors study_errors(const Study& study, int seeds, int draws) {
 
 TEST(PoseJoint, AWobbleAsLargeAsTheFormIsTakenOut) {
   const Study study;  // half shells that overlap by 30 deg on each side, 5 layers of 24
-  const Errors errors = study_errors(study, full() ? 200 : 40, 0);
+  const Errors errors = study_errors(study, test::full() ? 200 : 40, 0);
   fmt::print("naive {:.0f} %, joint {:.2f} %, 95 % of parts {:.2f} %\n",
              100.0 * errors.naive_median, 100.0 * errors.joint_median, 100.0 * errors.joint_95);
   EXPECT_GT(errors.naive_median, 0.5);
@@ -208,13 +206,13 @@ TEST(PoseJoint, WhatOverlapTouchesAndNoiseDoToIt) {
   studies.emplace_back("two ends, 3 layers of 7 shared", ends);
   for (const auto& [name, study] : studies) {
     SCOPED_TRACE(name);
-    const Errors errors = study_errors(study, full() ? 100 : 3, full() ? 50 : 10);
+    const Errors errors = study_errors(study, test::full() ? 100 : 3, test::full() ? 50 : 10);
     fmt::print("{:32} naive {:5.1f} %  joint {:5.2f} %  95 % {:5.2f} %  within 2 u {:.0f} %\n",
                name, 100.0 * errors.naive_median, 100.0 * errors.joint_median,
                100.0 * errors.joint_95, 100.0 * errors.covered, errors.condition);
     EXPECT_LT(errors.joint_median, 0.25);
     EXPECT_LT(5.0 * errors.joint_median, errors.naive_median);
-    if (full()) {
+    if (test::full()) {
       // Half shells that only meet do not keep this: a shift of one looks like form (67 %,
       // docs/several-poses.md).
       EXPECT_GT(errors.covered, 0.80);
@@ -226,9 +224,9 @@ TEST(PoseJoint, ErrorsOfThePosesLieWithinTheirUncertainty) {
   int inside = 0;
   int all = 0;
   int above = 0;
-  const int seeds = full() ? 500 : 20;
+  const int seeds = test::full() ? 500 : 20;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const Case made = simulate(Study{}, static_cast<std::uint64_t>(seed));
+    const TwoPoses made = simulate(Study{}, static_cast<std::uint64_t>(seed));
     PoseJointOptions options;
     options.draws = 0;
     const auto found = pose_joint(made.poses, options);
@@ -257,9 +255,9 @@ TEST(PoseJoint, ErrorsOfThePosesLieWithinTheirUncertainty) {
 
 /// The same minimum by other means: derivatives by differences, the height of each spot an unknown
 /// of its own, plain Gauss-Newton with QR.
-class Oracle {
+class JointOracle {
  public:
-  Oracle(const std::vector<JointPose>& poses, double touch_mm, double form_mm, int lobes)
+  JointOracle(const std::vector<JointPose>& poses, double touch_mm, double form_mm, int lobes)
       : poses_(poses), touch_(touch_mm), form_(form_mm), lobes_(lobes) {
     for (const auto& pose : poses) {
       for (const auto& touch : pose.touches) {
@@ -370,14 +368,14 @@ TEST(PoseJoint, GaussNewtonWithDifferencesAndEverySpotAnUnknownAgrees) {
     Study study;
     study.layers = 3;
     study.points = 10;
-    Case made = simulate(study, static_cast<std::uint64_t>(seed));
+    TwoPoses made = simulate(study, static_cast<std::uint64_t>(seed));
     PoseJointOptions options;
     options.lobes = 3;
     options.draws = 0;
     const auto found = pose_joint(made.poses, options);
     ASSERT_TRUE(found) << found.error().what;
     const auto start = ls_cylinder(found->naive_B_mm, Vector3d::UnitZ());
-    const Oracle oracle(made.poses, options.touch_mm, found->form_mm, options.lobes);
+    const JointOracle oracle(made.poses, options.touch_mm, found->form_mm, options.lobes);
     const auto points = oracle.corrected(start->axis, start->radius_mm);
     double moved = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -389,7 +387,7 @@ TEST(PoseJoint, GaussNewtonWithDifferencesAndEverySpotAnUnknownAgrees) {
 }
 
 TEST(PoseJoint, ResultDoesNotChangeWhenTheMachineFrameIsMoved) {
-  const Case made = simulate(Study{}, 5);
+  const TwoPoses made = simulate(Study{}, 5);
   auto moved = made.poses;
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.rotate(Eigen::AngleAxisd(0.7, Vector3d(1.0, 2.0, -0.5).normalized()));
@@ -409,7 +407,7 @@ TEST(PoseJoint, ResultDoesNotChangeWhenTheMachineFrameIsMoved) {
 }
 
 TEST(PoseJoint, OrderOfThePosesOnlyTurnsTheSignOfWhatIsBetweenThem) {
-  const Case made = simulate(Study{}, 6);
+  const TwoPoses made = simulate(Study{}, 6);
   const auto a = pose_joint(made.poses);
   const auto b = pose_joint(std::vector<JointPose>{made.poses[1], made.poses[0]});
   ASSERT_TRUE(a && b);
@@ -418,7 +416,7 @@ TEST(PoseJoint, OrderOfThePosesOnlyTurnsTheSignOfWhatIsBetweenThem) {
 }
 
 TEST(PoseJoint, EverythingTwiceAsLargeGivesTwiceTheResult) {
-  const Case made = simulate(Study{}, 7);
+  const TwoPoses made = simulate(Study{}, 7);
   auto larger = made.poses;
   for (auto& pose : larger) {
     pose.X_WB.translation() *= 2.0;
@@ -439,7 +437,7 @@ TEST(PoseJoint, EverythingTwiceAsLargeGivesTwiceTheResult) {
 TEST(PoseJoint, KinematicsWithoutErrorAreLeftAlone) {
   Study study;
   study.wobble_um = 0.0;
-  const Case made = simulate(study, 8);
+  const TwoPoses made = simulate(study, 8);
   const auto found = pose_joint(made.poses);
   ASSERT_TRUE(found) << found.error().what;
   EXPECT_DOUBLE_EQ(found->naive_mm, found->joint_mm);
@@ -466,7 +464,7 @@ TEST(PoseJoint, ShiftAlongAndTurnAboutTheAxisAreThoseOfTheKinematics) {
 TEST(PoseJoint, AFixtureWorseThanStatedIsTold) {
   Study study;
   study.wobble_um = 20.0;
-  Case made = simulate(study, 10);
+  TwoPoses made = simulate(study, 10);
   for (auto& pose : made.poses) {
     for (double& u : pose.prior) u *= 0.1;
   }
@@ -478,7 +476,7 @@ TEST(PoseJoint, AFixtureWorseThanStatedIsTold) {
 
 /// The touches of pose 2 that `keep` keeps, seen in the body.
 template <class Keep>
-std::vector<JointPose> thinned(const Case& made, const Keep& keep) {
+std::vector<JointPose> thinned(const TwoPoses& made, const Keep& keep) {
   auto poses = made.poses;
   auto& touches = poses[1].touches;
   touches.erase(std::remove_if(touches.begin(), touches.end(),
@@ -490,7 +488,7 @@ std::vector<JointPose> thinned(const Case& made, const Keep& keep) {
 }
 
 TEST(PoseJoint, ASingleLayerInAPoseIsRefusedWithItsCure) {
-  const Case made = simulate(Study{}, 11);
+  const TwoPoses made = simulate(Study{}, 11);
   const auto found =
       pose_joint(thinned(made, [](const Vector3d& p) { return std::abs(p.z() - 55.0) < 5.0; }));
   ASSERT_FALSE(found);
@@ -512,7 +510,7 @@ TEST(PoseJoint, ANarrowArcInAPoseIsRefusedWithItsCure) {
 }
 
 TEST(PoseJoint, BadInputIsRefusedWithItsPlace) {
-  const Case made = simulate(Study{}, 13);
+  const TwoPoses made = simulate(Study{}, 13);
   EXPECT_EQ(pose_joint(std::span(made.poses).first(1)).error().code, core::Code::kTooFewPoints);
   auto few = made.poses;
   few[1].touches.resize(3);

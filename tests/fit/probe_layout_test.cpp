@@ -19,11 +19,11 @@ using core::kDegree;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 /// Order, then |G| and g of layouts A, B and R*.
-struct Row {
+struct PrintedOrder {
   int k;
   double ga, na, gb, nb, gr, nr;
 };
-constexpr std::array<Row, 51> kTable = {{
+constexpr std::array<PrintedOrder, 51> kTable = {{
     {0, 107.6467, 0.71, 0.9962, 1.74, 0.7649, 2.09},
     {1, 0.0000, kNone, 0.0000, kNone, 0.0000, kNone},
     {2, 109.6281, 0.70, 1.9942, 0.87, 1.6298, 0.98},
@@ -86,7 +86,7 @@ TEST(ProbeLayout, HasTheTransferAndGainOfTheTable) {
       EXPECT_NEAR(layout.gain(k), gain, 5.1e-3) << "harmonic " << k;
     }
   };
-  for (const Row& row : kTable) {
+  for (const PrintedOrder& row : kTable) {
     expect(published_layout_a(), row.k, row.ga, row.na);
     expect(published_layout_b(), row.k, row.gb, row.nb);
     expect(reference_layout(), row.k, row.gr, row.nr);

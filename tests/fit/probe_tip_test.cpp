@@ -10,18 +10,18 @@
 namespace rondure::fit {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
+using Points3 = std::vector<Eigen::Vector3d>;
 
 TEST(ProbeTip, ReproducesTheWorkedExampleOfTheReferenceSphere) {
-  const Points tips = {{100, 50, 44.4994},
-                       {114.4988, 50, 30},
-                       {100, 64.4991, 30},
-                       {85.5003, 50, 30},
-                       {100, 35.5015, 30},
-                       {107.2497, 57.2497, 40.252624},
-                       {92.75045, 57.24955, 40.252412},
-                       {92.7506, 42.7506, 40.2522},
-                       {107.24955, 42.75045, 40.252412}};
+  const Points3 tips = {{100, 50, 44.4994},
+                        {114.4988, 50, 30},
+                        {100, 64.4991, 30},
+                        {85.5003, 50, 30},
+                        {100, 35.5015, 30},
+                        {107.2497, 57.2497, 40.252624},
+                        {92.75045, 57.24955, 40.252412},
+                        {92.7506, 42.7506, 40.2522},
+                        {107.24955, 42.75045, 40.252412}};
   const auto tip = qualify_tip(tips, 12.5006);
   ASSERT_TRUE(tip.has_value());
   EXPECT_NEAR((tip->sphere_center_mm - Eigen::Vector3d(99.999800, 50.000300, 30.000219)).norm(),
@@ -43,7 +43,7 @@ TEST(ProbeTip, StatesTheScatterOfItsRadius) {
   const int runs = 2000;
   for (int run = 0; run < runs; ++run) {
     core::KeyedNoise noise(static_cast<std::uint64_t>(run), {7});
-    Points tips;
+    Points3 tips;
     for (int k = 0; k < 13; ++k) {
       const double z = 1.0 - k / 13.0;
       const double a = 2.4 * k;
@@ -60,11 +60,11 @@ TEST(ProbeTip, StatesTheScatterOfItsRadius) {
 }
 
 TEST(ProbeTip, RefusesTouchesOnOneCircleAndTooFew) {
-  Points ring;
+  Points3 ring;
   for (int k = 0; k < 8; ++k)
     ring.emplace_back(14.5 * std::cos(0.7 * k), 14.5 * std::sin(0.7 * k), 30.0);
   EXPECT_EQ(qualify_tip(ring, 12.5).error().code, core::Code::kRank);
-  EXPECT_EQ(qualify_tip(Points{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}}, 0.5).error().code,
+  EXPECT_EQ(qualify_tip(Points3{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}}, 0.5).error().code,
             core::Code::kTooFewPoints);
 }
 

@@ -7,18 +7,13 @@
 
 #include "core/noise.h"
 #include "core/units.h"
+#include "tests/fit/spec_cases.h"
 
 namespace rondure::fit {
 namespace {
 
 using Eigen::Vector3d;
-
-Vector3d draw(core::KeyedNoise& random, double size) {
-  const auto one = [&] { return size * (2.0 * random.uniform() - 1.0); };
-  const double x = one();
-  const double y = one();
-  return {x, y, one()};
-}
+using test::draw;
 
 Eigen::Isometry3d random_motion(core::KeyedNoise& random) {
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();

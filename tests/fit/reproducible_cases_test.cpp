@@ -13,12 +13,12 @@
 #include "fit/center_search.h"
 #include "fit/ls_cylinder.h"
 #include "fit/min_zone_cylinder.h"
-#include "spec_cases.h"
+#include "tests/fit/spec_cases.h"
 
 namespace rondure::fit {
 namespace {
 
-struct Case {
+struct PrintedCase {
   char surface;
   int form_um;
   int sigma_um;
@@ -28,7 +28,7 @@ struct Case {
   double mz_um;
 };
 
-constexpr std::array<Case, 27> kCases = {{
+constexpr std::array<PrintedCase, 27> kCases = {{
     {'A', 5, 0, 2360.5, 1066.0, 3.6347, 3.1802},    {'A', 5, 1, 2358.5, 1068.0, 5.5244, 4.7252},
     {'A', 5, 2, 2362.5, 1063.9, 9.1944, 7.2068},    {'A', 10, 0, 2359.9, 1066.6, 7.2694, 6.3605},
     {'A', 10, 1, 2359.1, 1067.4, 8.7778, 7.2310},   {'A', 10, 2, 2355.2, 1071.3, 12.4974, 11.6219},
@@ -77,10 +77,10 @@ double walk(const std::vector<Eigen::Vector3d>& points, double step,
   }
 }
 
-class ReproducibleCase : public testing::TestWithParam<Case> {};
+class ReproducibleCase : public testing::TestWithParam<PrintedCase> {};
 
 TEST_P(ReproducibleCase, GivesThePrintedZones) {
-  const Case& c = GetParam();
+  const PrintedCase& c = GetParam();
   const auto points = test::spec_points(c.surface, c.form_um, c.sigma_um);
   const auto zone = min_zone_cylinder(points, Eigen::Vector3d::UnitZ());
   ASSERT_TRUE(zone.has_value());
@@ -96,7 +96,7 @@ TEST_P(ReproducibleCase, GivesThePrintedZones) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Section12, ReproducibleCase, testing::ValuesIn(kCases),
-                         [](const testing::TestParamInfo<Case>& set) {
+                         [](const testing::TestParamInfo<PrintedCase>& set) {
                            return std::string(1, set.param.surface) + "_form" +
                                   std::to_string(set.param.form_um) + "_sigma" +
                                   std::to_string(set.param.sigma_um);

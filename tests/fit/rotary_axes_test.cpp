@@ -17,16 +17,26 @@
 #include "fit/ball_setup.h"
 #include "fit/chi_square.h"
 #include "fit/published_axes.h"
+#include "tests/fit/oracles/dial.h"
 #include "tests/fit/rotary_cases.h"
+#include "tests/fit/spec_cases.h"
 
 namespace rondure::fit {
 namespace {
 
-using namespace testing;
 using core::Code;
 using core::kDegree;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using test::angles_deg;
+using test::circle_of;
+using test::draw;
+using test::example_balls;
+using test::example_errors;
+using test::hanging;
+using test::kUm;
+using test::kUrad;
+using test::measured;
 using ::testing::HasSubstr;
 
 constexpr double kDeg45 = 45.0 * kDegree;
@@ -45,15 +55,9 @@ std::vector<std::string> letters(std::size_t n) {
   return out;
 }
 
-Vector3d draw(core::KeyedNoise& random, double size) {
-  const double x = size * (2.0 * random.uniform() - 1.0);
-  const double y = size * (2.0 * random.uniform() - 1.0);
-  return {x, y, size * (2.0 * random.uniform() - 1.0)};
-}
-
 Vector6 no_errors(double /*angle*/) { return Vector6::Zero(); }
 
-RotaryMeasurement example(const Probing& probing) {
+RotaryMeasurement example(const test::Probing& probing) {
   return measured(kC, example_balls(), circle_of(24), example_errors, probing);
 }
 
@@ -412,8 +416,9 @@ std::vector<Vector3d> five_balls() {
 
 Vector6 fixture_errors(double phi) {
   Vector6 out;
-  out << wave(phi, 3, 2, 0.4), wave(phi, 20, 1, 0.2), wave(phi, 15, 1, 1.0) + wave(phi, 2, 3, 0.1),
-      wave(phi, 10, 1, 0.3), wave(phi, 90, 1, 0.5), wave(phi, 70, 1, -0.4);
+  out << test::wave(phi, 3, 2, 0.4), test::wave(phi, 20, 1, 0.2),
+      test::wave(phi, 15, 1, 1.0) + test::wave(phi, 2, 3, 0.1), test::wave(phi, 10, 1, 0.3),
+      test::wave(phi, 90, 1, 0.5), test::wave(phi, 70, 1, -0.4);
   out.head<3>() *= kUm;
   out.tail<3>() *= kUrad;
   return out;
@@ -769,7 +774,7 @@ TEST(RotaryModel, FourierAndPolynomialFitTheirOwnCurves) {
                             [](double phi) {
                               Vector6 out = fixture_errors(phi);
                               out(0) = 4.0 * kUm * phi * phi * phi;
-                              out(2) = wave(phi, 15, 1, 1.0) * kUm;
+                              out(2) = test::wave(phi, 15, 1, 1.0) * kUm;
                               return out;
                             },
                             {.noisy = false, .references = 0});
@@ -781,7 +786,7 @@ TEST(RotaryModel, FourierAndPolynomialFitTheirOwnCurves) {
     const double phi = deg * kDegree;
     EXPECT_LT((model->at(phi)->values() - example_errors(phi)).norm(), 1e-10);
     EXPECT_NEAR(arc_model->at(phi)->t_mm.x(), 4.0 * kUm * phi * phi * phi, 1e-10);
-    EXPECT_NEAR(arc_model->at(phi)->t_mm.z(), wave(phi, 15, 1, 1.0) * kUm, 1e-10);
+    EXPECT_NEAR(arc_model->at(phi)->t_mm.z(), test::wave(phi, 15, 1, 1.0) * kUm, 1e-10);
     // Least squares of 24 stations by 17 coefficients is never wider than a single station.
     EXPECT_LT(model->at(phi)->sigma()(2), 1.05 * study->stations[0].errors.sigma()(2));
   }
@@ -900,7 +905,7 @@ TEST(RotaryAxes, WorkedExampleWithoutNoise) {
 }
 
 TEST(RotaryAxes, WorkedExampleWithNoise) {
-  const int runs = full() ? 400 : 60;
+  const int runs = test::full() ? 400 : 60;
   Vector6 squares = Vector6::Zero();
   Vector6 squares_at_0 = Vector6::Zero();
   double s0 = 0.0;
@@ -928,7 +933,7 @@ TEST(RotaryAxes, WorkedExampleWithNoise) {
       EXPECT_LT((d / kUm - Vector3d(-0.55, -0.11, 0.0)).norm(), 1.5);  // "one noisy run"
     }
   }
-  const double share = full() ? 0.015 : 0.04;
+  const double share = test::full() ? 0.015 : 0.04;
   const std::array<double, 6> std_all = {1.34, 1.33, 0.46, 5.85, 5.87, 7.04};
   for (int k = 0; k < 6; ++k) {
     const double expected = std_all[static_cast<std::size_t>(k)];
@@ -1087,15 +1092,15 @@ struct RandomAxis {
     Vector6 out;
     out << d - turn * d, e - turn * e;
     for (int k = 0; k < 6; ++k) {
-      out(k) += testing::wave(phi, wave(k, 0), 2, wave(k, 1));
-      out(k) += testing::wave(phi, wave(k, 2), 3, wave(k, 3));
+      out(k) += test::wave(phi, wave(k, 0), 2, wave(k, 1));
+      out(k) += test::wave(phi, wave(k, 2), 3, wave(k, 3));
     }
     return out;
   }
 };
 
 TEST(RotaryAxes, StatedIntervalsHoldTheTrueErrorsOfSimulatedAxes) {
-  const std::uint64_t axes = full() ? 1000 : 60;
+  const std::uint64_t axes = test::full() ? 1000 : 60;
   Coverage stations;
   Coverage between;
   Coverage place;
@@ -1124,13 +1129,13 @@ TEST(RotaryAxes, StatedIntervalsHoldTheTrueErrorsOfSimulatedAxes) {
       place.count(study->offset->e_rad(k) - truth.e(k), study->offset->e_u_rad(k));
     }
   }
-  const double slack = full() ? 0.0 : 1.5;
+  const double slack = test::full() ? 0.0 : 1.5;
   for (const Coverage* one : {&stations, &between}) {
     EXPECT_GE(one->share(), 93.0 - slack);
     EXPECT_LE(one->share(), 97.0 + slack);
   }
-  EXPECT_GE(place.share(), full() ? 93.0 : 86.0);
-  EXPECT_LE(place.share(), full() ? 97.0 : 100.0);
+  EXPECT_GE(place.share(), test::full() ? 93.0 : 86.0);
+  EXPECT_LE(place.share(), test::full() ? 97.0 : 100.0);
   std::printf(
       "%llu axes: inside 95 %% intervals: stations %.2f %%, between them %.2f %%, place of "
       "the axis (full circles) %.2f %%\n",

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,15 +16,13 @@
 
 // Rotary axes with known errors, and the worked example of the method specification.
 
-namespace rondure::fit::testing {
+namespace rondure::test {
 
 inline constexpr double kUm = core::kMicrometre;
 inline constexpr double kUrad = 1e-6;
 
-inline bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
-
 /// True (t; w) at an angle from the reference; zero at 0.
-using TrueErrors = std::function<Vector6(double)>;
+using TrueErrors = std::function<fit::Vector6(double)>;
 
 /// Balls of setups (L, H) of a hanging head.
 inline std::vector<Eigen::Vector3d> hanging(const std::vector<std::array<double, 2>>& setups) {
@@ -51,20 +48,21 @@ struct Probing {
 
 /// Balls named "a", "b", ... at all stations.
 /// @param p0_mm  In the reference pose, relative to the origin of the axis.
-inline RotaryMeasurement measured(const RotaryAxis& axis, const std::vector<Eigen::Vector3d>& p0_mm,
-                                  const std::vector<double>& stations_rad, const TrueErrors& truth,
-                                  const Probing& probing) {
+inline fit::RotaryMeasurement measured(const fit::RotaryAxis& axis,
+                                       const std::vector<Eigen::Vector3d>& p0_mm,
+                                       const std::vector<double>& stations_rad,
+                                       const TrueErrors& truth, const Probing& probing) {
   core::KeyedNoise noise(probing.seed, {5});
   const double size = probing.noisy ? probing.u_mm : 0.0;
   const auto ball = [&](std::size_t i, const Eigen::Vector3d& place, double sigma, double u) {
     const double x = sigma * noise.normal();
     const double y = sigma * noise.normal();
     const double z = sigma * noise.normal();
-    return BallCentre{std::string(1, static_cast<char>('a' + i)),
-                      axis.origin_mm + place + Eigen::Vector3d(x, y, z),
-                      Eigen::Vector3d::Constant(u)};
+    return fit::BallCentre{std::string(1, static_cast<char>('a' + i)),
+                           axis.origin_mm + place + Eigen::Vector3d(x, y, z),
+                           Eigen::Vector3d::Constant(u)};
   };
-  RotaryMeasurement out;
+  fit::RotaryMeasurement out;
   out.axis = axis;
   for (int r = 0; r < std::max(1, probing.references); ++r) {
     out.references.emplace_back();
@@ -75,10 +73,10 @@ inline RotaryMeasurement measured(const RotaryAxis& axis, const std::vector<Eige
     }
   }
   for (const double angle : stations_rad) {
-    RotaryPose pose;
+    fit::RotaryPose pose;
     pose.angle_rad = angle;
-    const Vector6 x = truth(angle);
-    const Eigen::Isometry3d motion = error_motion(x.head<3>(), x.tail<3>());
+    const fit::Vector6 x = truth(angle);
+    const Eigen::Isometry3d motion = fit::error_motion(x.head<3>(), x.tail<3>());
     for (std::size_t i = 0; i < p0_mm.size(); ++i)
       pose.balls.push_back(ball(i, motion * (axis.turn(angle) * p0_mm[i]), size, probing.u_mm));
     out.stations.push_back(std::move(pose));
@@ -92,11 +90,11 @@ inline double wave(double phi, double a, int k, double q) {
 }
 
 /// Section 10: offset (12, -20) um, tilt (60, -35) urad and motion errors of the C axis.
-inline Vector6 example_errors(double c) {
+inline fit::Vector6 example_errors(double c) {
   const Eigen::Vector3d d(12.0, -20.0, 0.0);
   const Eigen::Vector3d e(60.0, -35.0, 0.0);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(c, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  Vector6 out;
+  fit::Vector6 out;
   out << d - turn * d, e - turn * e;
   out(0) += wave(c, 1.5, 2, 0.3);
   out(1) += wave(c, 1.2, 2, 1.9) + wave(c, 0.4, 3, 0.0);
@@ -115,4 +113,4 @@ inline std::vector<Eigen::Vector3d> example_balls() {
 
 inline std::vector<double> circle_of(int n) { return angles_deg(0.0, 360.0 * (n - 1) / n, n); }
 
-}  // namespace rondure::fit::testing
+}  // namespace rondure::test

@@ -15,10 +15,11 @@
 namespace rondure::fit {
 namespace {
 
+using core::kMicrometre;
 using Values = std::vector<double>;
 
-constexpr double kUm = core::kMicrometre;
-constexpr double kPrinted = 0.5e-6 * kUm;  // half a unit of the sixth decimal of a micrometre
+constexpr double kPrinted =
+    0.5e-6 * kMicrometre;  // half a unit of the sixth decimal of a micrometre
 
 RoundnessOptions with_cutoff(std::optional<double> cutoff) {
   RoundnessOptions options;
@@ -49,11 +50,11 @@ TEST(Roundness, ReproducesTheTableOfTheSpecification) {
   for (const Printed& row : table) {
     SCOPED_TRACE(row.cutoff.value_or(0.0));
     const auto out = spec_evaluation(row.cutoff);
-    EXPECT_NEAR(out.values[0].total_mm, row.total * kUm, kPrinted);
-    EXPECT_NEAR(out.values[0].parameters->peak_mm, row.peak * kUm, kPrinted);
-    EXPECT_NEAR(out.values[0].parameters->valley_mm, row.valley * kUm, kPrinted);
-    EXPECT_NEAR(out.values[0].parameters->rms_mm, row.rms * kUm, kPrinted);
-    EXPECT_NEAR(out.values[1].total_mm, row.zone * kUm, kPrinted);
+    EXPECT_NEAR(out.values[0].total_mm, row.total * kMicrometre, kPrinted);
+    EXPECT_NEAR(out.values[0].parameters->peak_mm, row.peak * kMicrometre, kPrinted);
+    EXPECT_NEAR(out.values[0].parameters->valley_mm, row.valley * kMicrometre, kPrinted);
+    EXPECT_NEAR(out.values[0].parameters->rms_mm, row.rms * kMicrometre, kPrinted);
+    EXPECT_NEAR(out.values[1].total_mm, row.zone * kMicrometre, kPrinted);
     EXPECT_LE(out.values[1].total_mm, out.values[0].total_mm);
     EXPECT_EQ(out.values[1].certificate.kind, Certificate::Kind::kGlobal);
     EXPECT_LT(out.values[1].certificate.gap_mm, 1e-16);
@@ -62,10 +63,10 @@ TEST(Roundness, ReproducesTheTableOfTheSpecification) {
 
 TEST(Roundness, ReproducesCentresContactsAndHarmonicsOfTheSpecification) {
   const auto out = spec_evaluation(50.0);
-  EXPECT_NEAR(out.values[0].center_mm.x(), 9.997228 * kUm, kPrinted);
-  EXPECT_NEAR(out.values[0].center_mm.y(), -4.998614 * kUm, kPrinted);
-  EXPECT_NEAR(out.values[1].center_mm.x(), 10.126291 * kUm, kPrinted);
-  EXPECT_NEAR(out.values[1].center_mm.y(), -3.247782 * kUm, kPrinted);
+  EXPECT_NEAR(out.values[0].center_mm.x(), 9.997228 * kMicrometre, kPrinted);
+  EXPECT_NEAR(out.values[0].center_mm.y(), -4.998614 * kMicrometre, kPrinted);
+  EXPECT_NEAR(out.values[1].center_mm.x(), 10.126291 * kMicrometre, kPrinted);
+  EXPECT_NEAR(out.values[1].center_mm.y(), -3.247782 * kMicrometre, kPrinted);
   const auto degrees = [&](const std::vector<std::size_t>& rows, std::size_t i) {
     return out.theta_rad[rows.at(i)] / core::kDegree;
   };
@@ -78,7 +79,7 @@ TEST(Roundness, ReproducesCentresContactsAndHarmonicsOfTheSpecification) {
   const std::pair<std::size_t, double> printed[] = {
       {2, 2.996675}, {16, 0.465741}, {40, 0.128343}, {60, 0.147427}, {150, 0.000586}};
   for (const auto& [k, amplitude] : printed) {
-    EXPECT_NEAR(filtered->harmonics[k - 1].amplitude_mm, amplitude * kUm, kPrinted) << k;
+    EXPECT_NEAR(filtered->harmonics[k - 1].amplitude_mm, amplitude * kMicrometre, kPrinted) << k;
   }
 }
 
@@ -98,11 +99,11 @@ TEST(Roundness, ReproducesTheExactPointsOfTheSpecification) {
   const auto ls = roundness_of_points(points, CircleReference::kLs);
   const auto mz = roundness_of_points(points, CircleReference::kMz);
   ASSERT_TRUE(ls && mz);
-  EXPECT_NEAR(ls->total_mm, 12.505564 * kUm, kPrinted);
-  EXPECT_NEAR(ls->parameters->peak_mm, 5.680446 * kUm, kPrinted);
-  EXPECT_NEAR(ls->parameters->valley_mm, 6.825118 * kUm, kPrinted);
-  EXPECT_NEAR(ls->parameters->rms_mm, 2.684337 * kUm, kPrinted);
-  EXPECT_NEAR(mz->total_mm, 10.663316 * kUm, kPrinted);
+  EXPECT_NEAR(ls->total_mm, 12.505564 * kMicrometre, kPrinted);
+  EXPECT_NEAR(ls->parameters->peak_mm, 5.680446 * kMicrometre, kPrinted);
+  EXPECT_NEAR(ls->parameters->valley_mm, 6.825118 * kMicrometre, kPrinted);
+  EXPECT_NEAR(ls->parameters->rms_mm, 2.684337 * kMicrometre, kPrinted);
+  EXPECT_NEAR(mz->total_mm, 10.663316 * kMicrometre, kPrinted);
 }
 
 TEST(Roundness, ReproducesTheArcOfTheSpecification) {
@@ -110,10 +111,10 @@ TEST(Roundness, ReproducesTheArcOfTheSpecification) {
   for (int i = -170; i <= 170; ++i) theta.push_back(core::kTwoPi * i / 1024.0);
   const auto out = evaluate_profile(theta, test::spec_profile(theta), with_cutoff(std::nullopt));
   ASSERT_TRUE(out.has_value());
-  EXPECT_NEAR(out->values[0].total_mm, 4.261628 * kUm, kPrinted);
-  EXPECT_NEAR(out->values[0].parameters->rms_mm, 0.812042 * kUm, kPrinted);
-  EXPECT_NEAR(out->values[0].center_mm.x(), 24.503 * kUm, 0.5e-3 * kUm);
-  EXPECT_NEAR(out->values[0].center_mm.y(), -5.379 * kUm, 0.5e-3 * kUm);
+  EXPECT_NEAR(out->values[0].total_mm, 4.261628 * kMicrometre, kPrinted);
+  EXPECT_NEAR(out->values[0].parameters->rms_mm, 0.812042 * kMicrometre, kPrinted);
+  EXPECT_NEAR(out->values[0].center_mm.x(), 24.503 * kMicrometre, 0.5e-3 * kMicrometre);
+  EXPECT_NEAR(out->values[0].center_mm.y(), -5.379 * kMicrometre, 0.5e-3 * kMicrometre);
   ASSERT_EQ(out->warnings.size(), 1U);
   EXPECT_EQ(out->warnings[0].code, core::Code::kNotFullSection);
   EXPECT_TRUE(out->harmonics.harmonics.empty());
@@ -326,7 +327,7 @@ TEST(RoundnessEvaluation, OfPointsFarAwayIsThatOfTheirProfile) {
   std::vector<Eigen::Vector2d> points;
   Values form;
   for (const double t : theta) {
-    form.push_back(test::spec_form_um(t) * kUm);
+    form.push_back(test::spec_form_um(t) * kMicrometre);
     points.emplace_back(400.0 + (25.0 + form.back()) * std::cos(t),
                         -300.0 + (25.0 + form.back()) * std::sin(t));
   }

@@ -3,6 +3,7 @@
 // Points of the method specification, cylindricity sections 12.2 and 13, and helpers for seeded
 // sets.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -11,6 +12,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
+#include "fit/axis.h"
 
 namespace rondure::test {
 
@@ -72,6 +74,51 @@ inline std::vector<Eigen::Vector3d> spec_points(char surface, int form_um, int s
     }
   }
   return points;
+}
+
+/// A vector of a cube of half side `size`.
+inline Eigen::Vector3d draw(core::KeyedNoise& random, double size) {
+  const double x = size * (2.0 * random.uniform() - 1.0);
+  const double y = size * (2.0 * random.uniform() - 1.0);
+  return {x, y, size * (2.0 * random.uniform() - 1.0)};
+}
+
+/// What random_cylinder() makes: layers of a radius of 25 mm about z, bent towards x.
+struct CylinderKind {
+  int layers = 4;
+  int points = 7;
+  double half_length_mm = 35.0;
+  double noise_mm = 0.003;
+  double arc_deg = 360.0;
+  double bend_mm = 0.0;
+};
+
+/// @param stream  Of random numbers: another one, other points of the same seed.
+inline std::vector<Eigen::Vector3d> random_cylinder(std::uint64_t seed, std::uint64_t stream,
+                                                    const CylinderKind& kind) {
+  core::KeyedNoise noise(seed, {stream});
+  std::vector<Eigen::Vector3d> points;
+  for (int j = 0; j < kind.layers; ++j) {
+    for (int k = 0; k < kind.points; ++k) {
+      const double theta = kind.arc_deg * core::kDegree * (k + 0.4 * noise.uniform()) / kind.points;
+      const double u = 2.0 * j / (kind.layers - 1) - 1.0;
+      const double r = 25.0 + kind.noise_mm * noise.normal();
+      points.emplace_back(r * std::cos(theta) + kind.bend_mm * u * u, r * std::sin(theta),
+                          kind.half_length_mm * u);
+    }
+  }
+  return points;
+}
+
+/// Width of the zone of the points about an axis [mm].
+inline double zone_about(const std::vector<Eigen::Vector3d>& points, const fit::Axis& axis) {
+  double low = 1e300;
+  double high = 0.0;
+  for (const auto& p : points) {
+    low = std::min(low, fit::distance_mm(axis, p));
+    high = std::max(high, fit::distance_mm(axis, p));
+  }
+  return high - low;
 }
 
 inline std::vector<Eigen::Vector2d> flat(const std::vector<Eigen::Vector3d>& points) {

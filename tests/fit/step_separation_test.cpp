@@ -19,7 +19,7 @@ using core::kTwoPi;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr int kSamples = 512;
+constexpr int kTurnSamples = 512;
 
 /// Motion in the direction of the probe [um], without harmonics 0 and 1.
 double motion_um(double a) {
@@ -29,8 +29,8 @@ double motion_um(double a) {
 
 std::vector<double> trace(const SpindleCase& c, double step, double sign) {
   std::vector<double> out;
-  for (int n = 0; n < kSamples; ++n) {
-    const double a = kTwoPi * n / kSamples;
+  for (int n = 0; n < kTurnSamples; ++n) {
+    const double a = kTwoPi * n / kTurnSamples;
     out.push_back((sum_of(c.profile, a + step) + sign * motion_um(a)) * kMicrometre);
   }
   return out;
@@ -48,7 +48,7 @@ double largest_motion_error_um(const StepSeparation& r) {
   double worst = 0.0;
   for (std::size_t n = 0; n < r.motion_mm.size(); ++n)
     worst = std::max(worst, std::abs(r.motion_mm[n] / kMicrometre -
-                                     motion_um(kTwoPi * static_cast<double>(n) / kSamples)));
+                                     motion_um(kTwoPi * static_cast<double>(n) / kTurnSamples)));
   return worst;
 }
 
@@ -99,17 +99,17 @@ TEST(MultiStep, AgreesWithReversalAndThreeProbes) {
   c.arm.crank_radius_mm = 0.0;
   const ProbeLayout layout = reference_layout();
   ThreeProbeOptions options;
-  options.samples = kSamples;
+  options.samples = kTurnSamples;
   options.noise_mm = 0.0;
-  const auto three =
-      separate_three_probe(readings_at(c, layout, uniform_alpha(kSamples)), c.arm, layout, options);
+  const auto three = separate_three_probe(readings_at(c, layout, uniform_alpha(kTurnSamples)),
+                                          c.arm, layout, options);
   const std::vector<double> steps = {0.0, 50.0 * kDegree, 115.0 * kDegree};
   std::vector<std::vector<double>> traces;
   for (const double step : steps) traces.push_back(trace(c, step, 1.0));
   const auto stepped = separate_multi_step(steps, traces);
   const auto reversed = separate_reversal(trace(c, 0.0, 1.0), trace(c, 0.0, -1.0));
   ASSERT_TRUE(three && stepped && reversed);
-  for (std::size_t n = 0; n < kSamples; ++n) {
+  for (std::size_t n = 0; n < kTurnSamples; ++n) {
     EXPECT_NEAR(three->profile.r_mm[n], stepped->part.r_mm[n], 1e-13);
     EXPECT_NEAR(three->profile.r_mm[n], reversed->part.r_mm[n], 1e-13);
   }

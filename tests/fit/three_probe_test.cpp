@@ -5,13 +5,13 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "fit/periodic_spline.h"
+#include "tests/fit/oracles/dial.h"
 #include "tests/fit/three_probe_cases.h"
 
 namespace rondure::fit {
@@ -24,8 +24,6 @@ using core::kTwoPi;
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
 
 ThreeProbeOptions exact_options(int samples, int highest = 50) {
   ThreeProbeOptions out;
@@ -153,7 +151,7 @@ TEST(ThreeProbe, FollowsTheDynamicCase) {
 }
 
 TEST(ThreeProbe, RecoversPlantedPartsWhateverTheMotion) {
-  for (int seed = 0; seed < (full() ? 200 : 20); ++seed) {
+  for (int seed = 0; seed < (test::full() ? 200 : 20); ++seed) {
     SCOPED_TRACE(seed);
     core::KeyedNoise random(7, {static_cast<std::uint64_t>(seed)});
     const auto between = [&](double low, double high) {
@@ -180,7 +178,7 @@ TEST(ThreeProbe, RecoversPlantedPartsWhateverTheMotion) {
 }
 
 TEST(ThreeProbe, NoiseGainIsThatOfTheFormula) {
-  const int runs = full() ? 5000 : 400;
+  const int runs = test::full() ? 5000 : 400;
   const SpindleCase c;
   const ProbeLayout layout = published_layout_b();
   constexpr int kSamples = 128;
@@ -219,7 +217,7 @@ TEST(ThreeProbe, NoiseGainIsThatOfTheFormula) {
   }
   // Standard deviation of a variance estimate from 2 * runs values: 1 / sqrt(runs), half of it for
   // its root; 4 of them where the runs are few.
-  const double tolerance = full() ? 0.05 : 4.0 * 0.5 / std::sqrt(runs);
+  const double tolerance = test::full() ? 0.05 : 4.0 * 0.5 / std::sqrt(runs);
   for (int k = 2; k <= 20; ++k) {
     const double predicted = layout.gain(k) * kNoise_um * std::sqrt(2.0 / kSamples);
     EXPECT_NEAR(std::sqrt(power[static_cast<std::size_t>(k)]) / predicted, 1.0, tolerance)

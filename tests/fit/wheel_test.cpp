@@ -12,17 +12,17 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "tests/fit/oracles/dial.h"
 #include "tests/fit/wheel_cases.h"
 
 namespace rondure::fit {
 namespace {
 
-using testing::arc_points;
-using testing::example_1;
-using testing::example_2;
-using testing::full;
+using test::arc_points;
+using test::example_1;
+using test::example_2;
+using test::Points2;
 using ::testing::HasSubstr;
-using testing::Points;
 
 // Points are printed to 1e-6 mm: half a digit of each reaches a centre kappa times.
 constexpr double kDigit = 1.01e-6;
@@ -51,7 +51,7 @@ TEST(FourPointCenter, GivesEveryRowOfWorkedExample1) {
       {{1, 6, 3, 7}, 11.998832, -6.997160, 67.5002, 92.390724, 100.000000, 1.1278},
       {{3, 6, 8, 2}, 12.004590, -6.999909, 22.5001, 92.391648, 70.709971, 3.2906},
   }};
-  const Points points = example_1();
+  const Points2 points = example_1();
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const Row& row : rows) {
     SCOPED_TRACE(row.x);
@@ -86,7 +86,7 @@ TEST(FourPointCenter, AmplifiesNoiseByKappa) {
     double squares = 0.0;
     double kappa = 0.0;
     for (int i = 0; i < draws; ++i) {
-      Points points;
+      Points2 points;
       for (const double deg : {0.0, 180.0, angle, angle + 180.0}) {
         const double r = 50.0 + kSigma * noise.normal();
         points.emplace_back(r * std::cos(deg * core::kDegree), r * std::sin(deg * core::kDegree));
@@ -266,7 +266,7 @@ TEST(Wheel, ScattersAsTheTableOfTheMethodSays) {
                  << row.arc_deg << " deg, " << name_of(row.choice) << ", " << name_of(row.mean));
     WheelOptions options = plain(row.mean);
     options.quadruples.choice = row.choice;
-    const Scatter found = scatter_of(row.arc_deg, options, full() ? 4000 : 1000);
+    const Scatter found = scatter_of(row.arc_deg, options, test::full() ? 4000 : 1000);
     EXPECT_NEAR(found.center_um, row.center_um, 0.1 * row.center_um);
     EXPECT_NEAR(found.radius_um, row.radius_um, 0.1 * row.radius_um);
   }
@@ -284,7 +284,7 @@ TEST(Wheel, ScattersSeveralTimesMoreWithSixRandomQuadruples) {
     SCOPED_TRACE(row.arc_deg);
     WheelOptions options = plain();
     options.quadruples.choice = QuadrupleChoice::kRandom;
-    const Scatter found = scatter_of(row.arc_deg, options, full() ? 20000 : 4000);
+    const Scatter found = scatter_of(row.arc_deg, options, test::full() ? 20000 : 4000);
     const double share = 0.1 + row.own_scatter;
     EXPECT_NEAR(found.center_um, row.center_um, share * row.center_um);
     EXPECT_NEAR(found.radius_um, row.radius_um, share * row.radius_um);
@@ -295,14 +295,14 @@ TEST(Wheel, MovesTurnsAndGrowsWithItsPointsAndKnowsNoOrder) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
     const double arc = seed % 2 == 0 ? 360.0 : 110.0;
-    const Points points = arc_points(9 + seed % 8, arc, 40.0, 2e-3, seed);
+    const Points2 points = arc_points(9 + seed % 8, arc, 40.0, 2e-3, seed);
     const auto base = measure_wheel(points, {});
     ASSERT_TRUE(base) << base.error().what;
     core::KeyedNoise noise(seed, {5});
     const Eigen::Vector2d shift(500.0 * noise.normal(), 500.0 * noise.normal());
     const Eigen::Rotation2Dd turn(core::kTwoPi * noise.uniform());
     const double scale = 0.5 + noise.uniform();
-    Points moved;
+    Points2 moved;
     for (const auto& p : points) moved.emplace_back(shift + scale * (turn * p));
     std::rotate(moved.begin(), moved.begin() + 3, moved.end());
     std::swap(moved[0], moved[4]);
@@ -322,7 +322,7 @@ TEST(Wheel, FindsAnExactCircleExactlyAndHoldsItsUncertainty) {
   ASSERT_TRUE(exact) << exact.error().what;
   EXPECT_LT((exact->center_mm - Eigen::Vector2d(5.0, -3.0)).norm(), 1e-9);
   EXPECT_NEAR(exact->radius_mm, 60.0, 1e-9);
-  const int runs = full() ? 2000 : 300;
+  const int runs = test::full() ? 2000 : 300;
   int inside = 0;
   for (int run = 0; run < runs; ++run) {
     WheelOptions options;
@@ -337,7 +337,7 @@ TEST(Wheel, FindsAnExactCircleExactlyAndHoldsItsUncertainty) {
 }
 
 TEST(Wheel, KeepsAWornSectorAndDropsALoneChip) {
-  Points points = arc_points(36, 360.0, 50.0, 1e-3, 9);
+  Points2 points = arc_points(36, 360.0, 50.0, 1e-3, 9);
   for (std::size_t i = 10; i < 15; ++i) points[i] *= (50.0 - 0.03) / 50.0;
   points[25] *= 50.2 / 50.0;
   WheelOptions options;
@@ -352,7 +352,7 @@ TEST(Wheel, KeepsAWornSectorAndDropsALoneChip) {
   EXPECT_GT(m->deviation_mm, 0.028);
 }
 
-core::Error refused(const Points& points, const WheelOptions& options = {}) {
+core::Error refused(const Points2& points, const WheelOptions& options = {}) {
   const auto m = measure_wheel(points, options);
   if (m) ADD_FAILURE() << "accepted";
   return m ? core::Error{} : m.error();
@@ -360,19 +360,19 @@ core::Error refused(const Points& points, const WheelOptions& options = {}) {
 
 TEST(Wheel, RefusesPointsThatAreNoWheel) {
   using core::Code;
-  const Points good = arc_points(12, 360.0, 50.0, 1e-3, 1);
+  const Points2 good = arc_points(12, 360.0, 50.0, 1e-3, 1);
   EXPECT_EQ(refused({good.begin(), good.begin() + 7}).code, Code::kTooFewPoints);
   EXPECT_EQ(refused({}).code, Code::kTooFewPoints);
-  Points same = {good.begin(), good.begin() + 6};
+  Points2 same = {good.begin(), good.begin() + 6};
   for (int i = 0; i < 6; ++i) same.push_back(good[0]);
   const auto few = refused(same);
   EXPECT_EQ(few.code, Code::kTooFewPoints);
   EXPECT_THAT(few.what, HasSubstr("6 of 12 points"));
-  Points bad = good;
+  Points2 bad = good;
   bad[7].y() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refused(bad).code, Code::kNotFinite);
   EXPECT_THAT(refused(bad).what, HasSubstr("point 7"));
-  Points line;
+  Points2 line;
   for (int i = 0; i < 10; ++i) line.emplace_back(i, 2.0 * i);
   EXPECT_EQ(refused(line).code, Code::kCollinear);
   EXPECT_EQ(refused(arc_points(12, 15.0, 50.0, 1e-4, 1)).code, Code::kShortArc);
@@ -408,7 +408,7 @@ TEST(Wheel, EvaluatesAShortArcWhenToldToAndWarns) {
 
 TEST(Wheel, RefusesTooManyOutliers) {
   // Without the two chips seven points would stay.
-  Points points = arc_points(9, 360.0, 50.0, 5e-4, 2);
+  Points2 points = arc_points(9, 360.0, 50.0, 5e-4, 2);
   points[0] *= 1.002;
   points[4] *= 1.002;
   WheelOptions options;

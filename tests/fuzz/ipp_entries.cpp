@@ -10,7 +10,13 @@
 namespace rondure::fuzz {
 namespace {
 
-using namespace cmm::ipp;
+using cmm::ipp::LineCutter;
+using cmm::ipp::Manner;
+using cmm::ipp::parse_command;
+using cmm::ipp::parse_response;
+using cmm::ipp::Response;
+using cmm::ipp::Server;
+using cmm::ipp::ServerOptions;
 
 /// Keeps account of what the server says.
 class Account {

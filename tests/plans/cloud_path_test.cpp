@@ -15,17 +15,15 @@
 #include "plans/feature_planner.h"
 #include "plans/plan_reach.h"
 #include "plans/reach_advice.h"
+#include "tests/plans/random_inspection.h"
 
 namespace rondure::plans {
 namespace {
 
 using Eigen::Vector3d;
+using test::between;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-double between(core::KeyedNoise& random, double low, double high) {
-  return low + (high - low) * random.uniform();
-}
 
 Plan plain_plan() {
   Plan plan;

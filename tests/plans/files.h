@@ -4,10 +4,15 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "plans/plan.h"
+#include "plans/runner.h"
+#include "record/journal.h"
 #include "record/points_csv.h"
 
 namespace rondure::plans::testing {
@@ -19,6 +24,9 @@ inline std::filesystem::path example(const std::string& name) {
 
 /// Set RONDURE_REWRITE=1 to rewrite the committed files that tests compare with; review the diff.
 inline bool rewriting() { return std::getenv("RONDURE_REWRITE") != nullptr; }
+
+/// Long counts run with RONDURE_FULL=1.
+inline bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
 
 inline std::string bytes_of(const std::filesystem::path& path) {
   return record::read_file(path).value_or("");
@@ -40,6 +48,30 @@ inline std::string lines_of(const PlanOrProblems& result) {
   if (result) return out;
   for (const core::Error& problem : result.error()) out += core::to_line(problem) + "\n";
   return out;
+}
+
+/// An example that is there and without problems.
+inline Plan plan_of(const std::string& example_name) {
+  auto plan = read_plan(example(example_name));
+  EXPECT_TRUE(plan) << lines_of(plan);
+  return std::move(plan).value();  // throws: the test fails, the others go on
+}
+
+/// A run of the same name and start, whatever the test.
+inline RunOptions options_for(const std::filesystem::path& directory) {
+  RunOptions options;
+  options.directory = directory;
+  options.run_id = "run";
+  options.plan_file = "plan.json";
+  options.started_utc = "2026-11-21T02:33:02Z";
+  return options;
+}
+
+/// The record in a journal, or a failed test.
+inline record::RunRecord journal_of(const std::filesystem::path& directory) {
+  auto read = record::read_journal(directory);
+  EXPECT_TRUE(read) << (read ? "" : read.error().what);
+  return read ? std::move(read->record) : record::RunRecord();
 }
 
 }  // namespace rondure::plans::testing

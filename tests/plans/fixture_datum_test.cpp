@@ -20,6 +20,7 @@ namespace {
 using Eigen::Vector3d;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using testing::options_for;
 
 /// The spool in a world without errors but for where the fixture stands.
 Plan plan_with_base(const Vector3d& offset_mm, const Vector3d& rotation_deg) {
@@ -39,14 +40,6 @@ Plan plan_with_base(const Vector3d& offset_mm, const Vector3d& rotation_deg) {
     plan->simulation->fixture.base_rotation_deg[i] = rotation_deg(k);
   }
   return std::move(*plan);
-}
-
-RunOptions options_for(const std::filesystem::path& directory) {
-  RunOptions options;
-  options.directory = directory;
-  options.run_id = "run";
-  options.started_utc = "2026-11-21T02:33:02Z";
-  return options;
 }
 
 struct Result {

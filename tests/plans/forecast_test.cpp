@@ -18,12 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
-
-Plan plan_of(const std::string& example) {
-  auto plan = read_plan(testing::example(example));
-  EXPECT_TRUE(plan) << testing::lines_of(plan);
-  return std::move(plan).value();  // throws: the test fails, the others go on
-}
+using testing::plan_of;
 
 /// The plan in a world without errors.
 Plan ideal(Plan plan) {

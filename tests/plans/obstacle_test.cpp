@@ -6,15 +6,13 @@
 
 #include "core/noise.h"
 #include "core/units.h"
+#include "tests/plans/random_inspection.h"
 
 namespace rondure::plans {
 namespace {
 
 using Eigen::Vector3d;
-
-double between(core::KeyedNoise& random, double low, double high) {
-  return low + (high - low) * random.uniform();
-}
+using test::between;
 
 Vector3d vector(core::KeyedNoise& random, double size) {
   return {between(random, -size, size), between(random, -size, size), between(random, -size, size)};

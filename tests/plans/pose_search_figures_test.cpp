@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,13 +11,14 @@
 
 #include "core/units.h"
 #include "random_inspection.h"
+#include "tests/plans/files.h"
 
 namespace rondure::plans {
 namespace {
 
 constexpr double kSpan = 70.0;  // axial span of the sample [mm]
 
-std::uint64_t parts() { return std::getenv("RONDURE_FULL") != nullptr ? 200 : 20; }
+std::uint64_t parts() { return testing::full() ? 200 : 20; }
 
 /// Minimum, median and maximum of one column.
 struct Column {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -18,6 +17,7 @@
 #include "plans/expected_record.h"
 #include "plans/forecast.h"
 #include "random_inspection.h"
+#include "tests/plans/files.h"
 
 namespace rondure::plans {
 namespace {
@@ -27,8 +27,6 @@ using reports::PredictedStatement;
 using reports::Prediction;
 using reports::PredictionOptions;
 using ::testing::HasSubstr;
-
-bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
 
 /// A plan, and what the form of the parts is that are inspected by it.
 struct Drawn {
@@ -191,9 +189,9 @@ struct Found {
 
 /// Runs until the mean width of each measurand is known to 10 %, or to 4 % with RONDURE_FULL=1.
 std::map<Measurand, Found> run_many(const Drawn& drawn, double cloud_s, std::uint64_t seed) {
-  const int least = full() ? 8 : 6;
-  const int most = full() ? 200 : 40;
-  const double enough_1 = full() ? 0.04 : 0.10;
+  const int least = testing::full() ? 8 : 6;
+  const int most = testing::full() ? 200 : 40;
+  const double enough_1 = testing::full() ? 0.04 : 0.10;
   std::map<Measurand, Found> out;
   for (int k = 0; k < most; ++k) {
     const auto run =
@@ -226,7 +224,7 @@ TEST(Prediction, WidthIsWithinFifteenPercentOfThatOfSimulatedRuns) {
   std::size_t between = 0;
   std::size_t statements = 0;
   std::size_t first_near = 0;
-  for (std::uint64_t seed = 1; seed <= (full() ? 20U : 5U); ++seed) {
+  for (std::uint64_t seed = 1; seed <= (testing::full() ? 20U : 5U); ++seed) {
     SCOPED_TRACE(seed);
     const Drawn plan = drawn(seed);
     const record::RunRecord record = expected(plan.plan);
@@ -248,7 +246,7 @@ TEST(Prediction, WidthIsWithinFifteenPercentOfThatOfSimulatedRuns) {
       ++statements;
       const double first_ratio = said->width_mm() / widths.widths_mm.front();
       if (std::abs(first_ratio - 1.0) <= 0.15) ++first_near;
-      if (!full()) continue;
+      if (!testing::full()) continue;
       std::printf("| %2u | %s | %.3f | %.3f | %.2f | %.2f | %zu | %zu | %zu |\n",
                   static_cast<unsigned>(seed), about == Measurand::kSampledPoints ? "a" : "b",
                   1e3 * said->width_mm(), 1e3 * widths.mean_mm(), ratio, first_ratio,
@@ -259,7 +257,7 @@ TEST(Prediction, WidthIsWithinFifteenPercentOfThatOfSimulatedRuns) {
   const double share = static_cast<double>(between) / static_cast<double>(runs);
   EXPECT_GT(share, 0.7);
   EXPECT_LT(share, 0.9);
-  if (full()) {
+  if (testing::full()) {
     std::printf("%zu widths: %zu within 15 %% of the prediction, %zu within its 8 of 10\n", runs,
                 near, between);
     std::printf("%zu of %zu first runs within 15 %%\n", first_near, statements);

@@ -6,11 +6,17 @@
 
 #include <Eigen/Geometry>
 
+#include "core/noise.h"
 #include "plans/plan.h"
 #include "record/run_record.h"
 #include "reports/evaluation.h"
 
 namespace rondure::test {
+
+/// A number from low to high.
+inline double between(core::KeyedNoise& random, double low, double high) {
+  return low + (high - low) * random.uniform();
+}
 
 /// A plan with a random part of method specification section 12.1: form 5 to 20 um of lobes 2, 3,
 /// 4, 5, 7 with twist, taper, barrel and bend; tilt to 20 deg; 4 x 7 points; probe noise off.

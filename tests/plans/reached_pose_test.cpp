@@ -20,6 +20,7 @@ namespace {
 using core::kDegree;
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
+using testing::options_for;
 
 /// The spool in a fixture that a simulated hand sets to 0.15 deg; the machine is perfect.
 Plan plan_by_hand() {
@@ -42,14 +43,6 @@ Plan plan_by_hand() {
   plan->fixture->reached_pose->setting_uncertainty_deg = 1.0;
   plan->features.front().pose_search.repeats = 1;
   return std::move(*plan);
-}
-
-RunOptions options_for(const std::filesystem::path& directory) {
-  RunOptions options;
-  options.directory = directory;
-  options.run_id = "run";
-  options.started_utc = "2026-11-22T00:33:02Z";
-  return options;
 }
 
 record::RunRecord record_of(const std::filesystem::path& directory) {

@@ -17,14 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-RunOptions options_for(const fs::path& directory) {
-  RunOptions options;
-  options.directory = directory;
-  options.run_id = "run";
-  options.plan_file = "plan.json";
-  return options;
-}
+using testing::options_for;
 
 Plan plan_from(const std::string& text, const fs::path& folder = {}) {
   auto plan = parse_plan(text, folder, "plan.json");
@@ -38,7 +31,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
   return text.replace(at, from.size(), to);
 }
 
-record::RunRecord journal_of(const fs::path& directory) {
+record::RunRecord unbroken_journal_of(const fs::path& directory) {
   auto read = record::read_journal(directory);
   EXPECT_TRUE(read) << (read ? "" : read.error().what);
   if (!read) return {};
@@ -53,7 +46,7 @@ record::RunRecord whole_run(const Plan& plan) {
   options.seed = 99;
   const auto run = run_plan(plan, options);
   EXPECT_TRUE(run && !run->failure);
-  return journal_of(scratch / "run");
+  return unbroken_journal_of(scratch / "run");
 }
 
 /// Leaves file and log of a run that was killed behind the series of its first features.
@@ -81,7 +74,7 @@ void expect_goes_on(const Plan& plan, const fs::path& directory, const record::R
     ASSERT_TRUE(run) << run.error().front().what;
     ASSERT_FALSE(run->failure) << run->failure->what;
   }
-  const auto record = journal_of(directory);
+  const auto record = unbroken_journal_of(directory);
   EXPECT_EQ(record.ending, "finished");
   EXPECT_TRUE(record::measured_bits(record) == record::measured_bits(whole)) << "bits differ";
 }
@@ -119,7 +112,7 @@ TEST_P(ResumeSeries, EndWithTheSameBitsWhereverTheRunWasKilled) {
     SCOPED_TRACE(written);
     const record::Scratch scratch;
     leave_killed(whole, written, scratch / "run");
-    ASSERT_EQ(journal_of(scratch / "run").series.empty(), written == 0);
+    ASSERT_EQ(unbroken_journal_of(scratch / "run").series.empty(), written == 0);
     expect_goes_on(plan, scratch / "run", whole);
   }
 }
@@ -156,7 +149,7 @@ TEST(ResumeSeriesOf, APlanThatAlsoTouchesGoOnWhereverItWasStopped) {
       const auto run = run_plan(plan, options);
       ASSERT_TRUE(run && run->failure);
     }
-    ASSERT_EQ(journal_of(scratch / "run").series.empty(), touches < 13);
+    ASSERT_EQ(unbroken_journal_of(scratch / "run").series.empty(), touches < 13);
     expect_goes_on(plan, scratch / "run", whole);
   }
 }

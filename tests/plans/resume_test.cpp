@@ -2,8 +2,6 @@
 // own death by kill -9 is in tests/app/resume_kill_test.cpp. A sample of touches; all of them with
 // RONDURE_FULL=1.
 
-#include <cstdlib>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,27 +18,13 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
-
-RunOptions options_for(const fs::path& directory) {
-  RunOptions options;
-  options.directory = directory;
-  options.run_id = "run";
-  options.plan_file = "plan.json";
-  options.started_utc = "2026-11-21T02:33:02Z";
-  return options;
-}
+using testing::journal_of;
+using testing::options_for;
+using testing::plan_of;
 
 /// Asks to stop before the touch after the next `touches`.
 void stop_after(RunOptions& options, int touches) {
   options.stop_requested = [left = touches]() mutable { return left-- == 0; };
-}
-
-Plan plan_of(const std::string& example) {
-  auto plan = read_plan(testing::example(example));
-  EXPECT_TRUE(plan) << testing::lines_of(plan);
-  return std::move(plan).value();  // throws: the test fails, the others go on
 }
 
 /// A simulation is more than its text: `change` gives the plan another text as well.
@@ -51,12 +35,6 @@ Plan with(Plan plan, const std::string& from, const std::string& to) {
   auto changed = parse_plan(text.replace(at, from.size(), to), plan.folder, "plan.json");
   EXPECT_TRUE(changed) << testing::lines_of(changed);
   return std::move(changed).value();
-}
-
-record::RunRecord journal_of(const fs::path& directory) {
-  auto read = record::read_journal(directory);
-  EXPECT_TRUE(read) << (read ? "" : read.error().what);
-  return read ? std::move(read->record) : record::RunRecord();
 }
 
 /// The plan without an interruption.
@@ -87,7 +65,8 @@ std::vector<int> touches_to_stop_at(std::size_t all) {
   for (std::size_t k = 0; k < all; ++k) {
     // The borders between qualification, location, first cloud; elsewhere by chance.
     const bool border = k < 2 || k == 13 || k == 19 || k == 20 || k == 47 || k + 1 == all;
-    if (full() || border || core::splitmix64(state) % 60 == 0) out.push_back(static_cast<int>(k));
+    if (testing::full() || border || core::splitmix64(state) % 60 == 0)
+      out.push_back(static_cast<int>(k));
   }
   return out;
 }
@@ -279,7 +258,7 @@ TEST(ResumeChecks, EndTheRunWhenTheFixtureReadsAnotherPoseThanItDid) {
   // In a pose that was reached without a touch in it, and in poses with touches.
   for (const int touches : {13, 30, 120}) {
     for (const double off_deg : {0.11, -0.11}) {
-      if (!full() && (touches == 30) == (off_deg > 0.0)) continue;
+      if (!testing::full() && (touches == 30) == (off_deg > 0.0)) continue;
       SCOPED_TRACE(::testing::Message() << touches << " touches, " << off_deg << " deg");
       const Plan plan = with(
           still, "\"seed\": 20261121",

@@ -99,18 +99,14 @@ Plan over_wire(Plan plan, std::uint16_t port) {
   return plan;
 }
 
-RunOptions options_for(const std::filesystem::path& directory) {
-  RunOptions options;
-  options.directory = directory;
-  options.run_id = "run";
-  options.plan_file = "plan.json";
-  options.started_utc = "2026-11-21T02:33:02Z";
+RunOptions seeded_options(const std::filesystem::path& directory) {
+  RunOptions options = testing::options_for(directory);
   options.seed = kSeed;
   return options;
 }
 
 record::RunRecord run_of(const Plan& plan, const std::filesystem::path& directory) {
-  const auto run = run_plan(plan, options_for(directory));
+  const auto run = run_plan(plan, seeded_options(directory));
   EXPECT_TRUE(run) << (run ? "" : run.error().what);
   if (run && run->failure) ADD_FAILURE() << run->failure->what;
   auto read = record::read_journal(directory);
@@ -144,7 +140,7 @@ TEST(ScanOverWire, HasTheBitsOfTheRunInOneProcessAlsoWhenItIsResumed) {
   const WireServer server(inside, true);
   const Plan plan = over_wire(inside, server.port());
   expect_same(run_of(plan, scratch / "wire"), wanted);
-  RunOptions options = options_for(scratch / "cut");
+  RunOptions options = seeded_options(scratch / "cut");
   options.before_move = [left = 2](const NextMove& move) mutable -> core::Result<void> {
     const bool scan = move.what.find("scan") != std::string::npos;
     if (!scan || left-- > 0) return {};
@@ -155,7 +151,7 @@ TEST(ScanOverWire, HasTheBitsOfTheRunInOneProcessAlsoWhenItIsResumed) {
     ASSERT_TRUE(stopped && stopped->failure);
     ASSERT_EQ(stopped->failure->code, core::Code::kStopped) << stopped->failure->what;
   }
-  const auto resumed = resume_plan(plan, options_for(scratch / "cut"));
+  const auto resumed = resume_plan(plan, seeded_options(scratch / "cut"));
   ASSERT_TRUE(resumed) << resumed.error().front().what;
   ASSERT_FALSE(resumed->failure) << resumed->failure->what;
   const auto record = record::read_journal(scratch / "cut");
@@ -166,7 +162,7 @@ TEST(ScanOverWire, HasTheBitsOfTheRunInOneProcessAlsoWhenItIsResumed) {
 TEST(ScanOverWire, AMachineThatDoesNotScanIsRefusedBeforeItMoves) {
   const WireServer server(shaft(), false);
   const record::Scratch scratch;
-  const auto refused = run_plan(over_wire(shaft(), server.port()), options_for(scratch / "run"));
+  const auto refused = run_plan(over_wire(shaft(), server.port()), seeded_options(scratch / "run"));
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, core::Code::kMachine);
   EXPECT_EQ(refused.error().where, "/features/0/sampling/method");

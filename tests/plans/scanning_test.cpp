@@ -18,6 +18,8 @@ namespace rondure::plans {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::journal_of;
+using testing::options_for;
 
 /// A perfect cylinder that stands straight: radius 25 mm.
 Plan perfect_plan(const std::string& method) {
@@ -151,21 +153,6 @@ TEST(Temperature, SizesAreBroughtToTwentyDegrees) {
   EXPECT_EQ(at_20.record.touches.back().tip_mm, raw.record.touches.back().tip_mm)
       << "the journal keeps what was read";
   EXPECT_EQ(at_20.record.touches.back().scale_temperature_degC, 22.0);
-}
-
-RunOptions options_for(const fs::path& directory) {
-  RunOptions options;
-  options.directory = directory;
-  options.run_id = "run";
-  options.plan_file = "plan.json";
-  options.started_utc = "2026-11-21T02:33:02Z";
-  return options;
-}
-
-record::RunRecord journal_of(const fs::path& directory) {
-  auto read = record::read_journal(directory);
-  EXPECT_TRUE(read) << (read ? "" : read.error().what);
-  return read ? std::move(read->record) : record::RunRecord();
 }
 
 TEST(Scanning, AnInterruptedRunGoesOnWithTheSameBits) {

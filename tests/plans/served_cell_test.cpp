@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <thread>
 #include <vector>
@@ -30,12 +29,6 @@ using cmm::ipp::Item;
 using Eigen::Vector3d;
 
 constexpr double kApproach_mm = 3.0;
-
-Plan spool() {
-  auto plan = read_plan(testing::example("01_spool_simulated.json"));
-  EXPECT_TRUE(plan) << testing::lines_of(plan);
-  return std::move(plan).value();  // throws: the test fails, the others go on
-}
 
 /// The touches of 4 layers of 7 points in a pose, with a way around the part that is free.
 struct Tour {
@@ -141,7 +134,7 @@ std::optional<Vector3d> point_of(const cmm::ipp::Response& response) {
 }
 
 TEST(ServedCell, TouchesOverTheWireHaveTheBitsOfTheMachineInTheSameProcess) {
-  const Plan plan = spool();
+  const Plan plan = testing::plan_of("01_spool_simulated.json");
   const core::Pose pose = example_pose();
   const Tour way = tour(plan, pose);
   const std::vector<Vector3d> wanted = read_directly(plan, way, pose);
@@ -165,7 +158,7 @@ TEST(ServedCell, TouchesOverTheWireHaveTheBitsOfTheMachineInTheSameProcess) {
 }
 
 TEST(ServedCell, ATouchOverTheSocketTakesLessThanAMillisecond) {
-  const Plan plan = spool();
+  const Plan plan = testing::plan_of("01_spool_simulated.json");
   const std::vector<std::string> all = commands(tour(plan, example_pose()), example_pose());
   ServedCell cell(plan, 5);
   cmm::ipp::Server server(cell, server_options(plan));
@@ -194,11 +187,11 @@ TEST(ServedCell, ATouchOverTheSocketTakesLessThanAMillisecond) {
   const double each_ms = took.count() / 28.0;
   std::printf("4 x 7 touches over the socket: %.3f ms a touch\n", each_ms);
   // The figure itself is for a machine at rest; other work beside the tests may take its time.
-  EXPECT_LT(each_ms, std::getenv("RONDURE_FULL") != nullptr ? 1.0 : 20.0);
+  EXPECT_LT(each_ms, testing::full() ? 1.0 : 20.0);
 }
 
 TEST(ServedCell, TurnsWithinTheLimitsOfTheFixtureOnly) {
-  const Plan plan = spool();
+  const Plan plan = testing::plan_of("01_spool_simulated.json");
   ServedCell cell(plan, 5);
   const Eigen::Matrix3d beyond = fixture::body_to_machine({}, {2.0, 0.0}).linear();  // 115 deg
   const std::array<cmm::ipp::Alignment, 2> wanted = {
@@ -217,7 +210,7 @@ TEST(ServedCell, APlanWithoutASimulationCannotBeServed) {
   const auto plan = read_plan(testing::example("09_axle_points_file.json"));
   ASSERT_TRUE(plan.has_value());
   EXPECT_EQ(check_servable(*plan).error().code, core::Code::kMeaning);
-  EXPECT_TRUE(check_servable(spool()));
+  EXPECT_TRUE(check_servable(testing::plan_of("01_spool_simulated.json")));
 }
 
 }  // namespace

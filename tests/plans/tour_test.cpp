@@ -7,20 +7,19 @@
 #include <gtest/gtest.h>
 
 #include "core/noise.h"
+#include "tests/plans/random_inspection.h"
 
 namespace rondure::plans {
 namespace {
 
-double between(core::KeyedNoise& random, double low, double high) {
-  return low + (high - low) * random.uniform();
-}
+using test::between;
 
-struct Case {
+struct TourCase {
   PathGeometry geometry;
   std::vector<Target> targets;
 };
 
-Case random_case(std::uint64_t seed, int most_layers, int most_points) {
+TourCase random_case(std::uint64_t seed, int most_layers, int most_points) {
   core::KeyedNoise random(seed, {1});
   FeaturePlan feature;
   const double from = between(random, -50.0, 20.0);
@@ -29,7 +28,7 @@ Case random_case(std::uint64_t seed, int most_layers, int most_points) {
   feature.sampling.layers = 1 + static_cast<int>(between(random, 0.0, most_layers));
   feature.sampling.points_per_layer = 3 + static_cast<int>(between(random, 0.0, most_points - 2.0));
   feature.sampling.stagger = random.uniform();
-  Case out;
+  TourCase out;
   out.geometry = {0.5 * feature.nominal.diameter_mm, from, to, seed % 3 == 0, 2.0, 3.0, 5.0, 0.0};
   out.targets = *sampling_targets(feature);
   return out;
@@ -45,7 +44,7 @@ TEST(ShortTour, VisitsEveryTargetOnceAndIsNeverLongerThanTheirOwnOrder) {
   int shorter = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
-    const Case c = random_case(seed, 7, 14);
+    const TourCase c = random_case(seed, 7, 14);
     const TourCost cost = bare_cost(c.targets, c.geometry);
     const auto tour = short_tour(c.targets, cost);
     const auto own = own_order(c.targets.size());
@@ -63,7 +62,7 @@ TEST(ShortTour, IsTheBestOfAllOrdersOfSixTargetsAndNearlySoOfEight) {
   int best_found = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
-    Case c = random_case(seed, 4, 6);
+    TourCase c = random_case(seed, 4, 6);
     c.targets.resize(std::min<std::size_t>(c.targets.size(), seed % 2 == 0 ? 6 : 8));
     const TourCost cost = bare_cost(c.targets, c.geometry);
     auto order = own_order(c.targets.size());
@@ -80,7 +79,7 @@ TEST(ShortTour, IsTheBestOfAllOrdersOfSixTargetsAndNearlySoOfEight) {
 }
 
 TEST(ShortTour, IsTheSameForTheSameTargets) {
-  const Case c = random_case(4, 6, 12);
+  const TourCase c = random_case(4, 6, 12);
   const TourCost cost = bare_cost(c.targets, c.geometry);
   EXPECT_EQ(short_tour(c.targets, cost), short_tour(c.targets, cost));
 }

@@ -11,25 +11,23 @@
 #include "cmm/simulated.h"
 #include "core/noise.h"
 #include "core/units.h"
+#include "tests/plans/random_inspection.h"
 
 namespace rondure::plans {
 namespace {
 
 using Eigen::Vector3d;
+using test::between;
 using ::testing::HasSubstr;
 
-double between(core::KeyedNoise& random, double low, double high) {
-  return low + (high - low) * random.uniform();
-}
-
-struct Case {
+struct PathCase {
   FeaturePlan feature;
   PathGeometry geometry;
   std::vector<Target> targets;
 };
 
-Case random_case(core::KeyedNoise& random, bool inside) {
-  Case c;
+PathCase random_case(core::KeyedNoise& random, bool inside) {
+  PathCase c;
   const double from = between(random, -50.0, 20.0);
   const double to = from + between(random, 30.0, 90.0);
   const double diameter = between(random, 24.0, 90.0);
@@ -50,7 +48,7 @@ Case random_case(core::KeyedNoise& random, bool inside) {
 }
 
 /// All moves of a program in the part frame, one polyline a target and the way out.
-std::vector<Polyline> program(const Case& c) {
+std::vector<Polyline> program(const PathCase& c) {
   std::vector<Polyline> ways = {entry_path(c.geometry, c.targets.front())};
   for (std::size_t i = 1; i < c.targets.size(); ++i) {
     ways.push_back(path_between(c.geometry, c.targets[i - 1], c.targets[i]));
@@ -80,7 +78,7 @@ TEST(Travel, EveryPlaceOfEveryPathKeepsItsDistanceFromTheNominalPart) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     core::KeyedNoise random(seed, {1});
-    const Case c = random_case(random, seed % 2 == 1);
+    const PathCase c = random_case(random, seed % 2 == 1);
     if (!check_fits(c.geometry)) continue;
     const double keep_off =
         c.geometry.tip_radius_mm + std::min(c.geometry.approach_mm, c.geometry.clearance_mm) - 1e-9;
@@ -97,7 +95,7 @@ TEST(Travel, EveryPlaceOfEveryPathKeepsItsDistanceFromTheNominalPart) {
 TEST(Travel, PathsJoinTheTargetsInTheirOrder) {
   core::KeyedNoise random(1, {2});
   for (const bool inside : {false, true}) {
-    const Case c = random_case(random, inside);
+    const PathCase c = random_case(random, inside);
     const auto ways = program(c);
     for (std::size_t i = 0; i < c.targets.size(); ++i) {
       EXPECT_EQ(ways[i].back(), pre_touch(c.geometry, c.targets[i]));
@@ -116,7 +114,7 @@ TEST(Travel, PathsJoinTheTargetsInTheirOrder) {
 TEST(Travel, EntryAndExitLieBeyondTheEndPlane) {
   core::KeyedNoise random(1, {3});
   for (const bool inside : {false, true}) {
-    const Case c = random_case(random, inside);
+    const PathCase c = random_case(random, inside);
     const double above =
         c.geometry.to_mm + c.geometry.tip_radius_mm + c.geometry.clearance_mm - 1e-12;
     EXPECT_GE(entry_path(c.geometry, c.targets.front()).front().z(), above);
@@ -137,7 +135,7 @@ struct RealPart {
   Eigen::Isometry3d X_WS;  ///< Frame of the surface, mid-length origin, to machine.
 };
 
-RealPart real_part(core::KeyedNoise& random, const Case& c, const Eigen::Isometry3d& X_WP) {
+RealPart real_part(core::KeyedNoise& random, const PathCase& c, const Eigen::Isometry3d& X_WP) {
   RealPart part;
   part.surface.radius_mm = c.geometry.radius_mm;
   part.surface.half_length_mm = 0.5 * (c.geometry.to_mm - c.geometry.from_mm);
@@ -169,7 +167,7 @@ void follow(cmm::SimulatedMachine& machine, const Eigen::Isometry3d& X_WP, const
   }
 }
 
-void run_program(cmm::SimulatedMachine& machine, const Case& c, const Eigen::Isometry3d& X_WP) {
+void run_program(cmm::SimulatedMachine& machine, const PathCase& c, const Eigen::Isometry3d& X_WP) {
   const auto sky_over = [&](const Vector3d& p_P) {
     Vector3d p = X_WP * p_P;
     p.z() = 500.0;
@@ -179,7 +177,7 @@ void run_program(cmm::SimulatedMachine& machine, const Case& c, const Eigen::Iso
   ASSERT_TRUE(machine.move_to(sky_over(ways.front().front())));
   for (std::size_t i = 0; i < c.targets.size(); ++i) {
     follow(machine, X_WP, ways[i]);
-    if (testing::Test::HasFatalFailure()) return;
+    if (::testing::Test::HasFatalFailure()) return;
     const auto reading =
         machine.touch({static_cast<std::int64_t>(i), X_WP * contact_tip(c.geometry, c.targets[i]),
                        X_WP.linear() * approach_direction(c.geometry, c.targets[i]),
@@ -196,7 +194,7 @@ TEST(Travel, TheSimulatedMachineRunsWholeProgramsOnTiltedPartsWithoutCollision) 
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     core::KeyedNoise random(seed, {4});
-    const Case c = random_case(random, seed % 2 == 1);
+    const PathCase c = random_case(random, seed % 2 == 1);
     if (!check_fits(c.geometry)) continue;
     const Eigen::Isometry3d X_WP = random_pose(random);
     const RealPart part = real_part(random, c, X_WP);

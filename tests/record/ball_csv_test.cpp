@@ -10,7 +10,7 @@ namespace {
 using core::Code;
 using ::testing::HasSubstr;
 
-core::Error refusal(std::string_view text) {
+core::Error ball_refusal(std::string_view text) {
   const auto rows = parse_ball_csv(text, "balls.csv");
   return rows ? core::Error{Code::kInternal, "it was read", {}} : rows.error();
 }
@@ -40,21 +40,23 @@ TEST(BallCsv, ReadsRowsInAnyOrderOfColumns) {
 }
 
 TEST(BallCsv, RefusesMixedUnits) {
-  const auto inch = refusal("axis,station_deg,ball,x_mm,y_inch,z_mm,u_um\nC,0,a,1,2,3,1\n");
+  const auto inch = ball_refusal("axis,station_deg,ball,x_mm,y_inch,z_mm,u_um\nC,0,a,1,2,3,1\n");
   EXPECT_EQ(inch.code, Code::kWrongUnit);
   EXPECT_EQ(inch.where, "balls.csv:1");
   EXPECT_THAT(inch.what, HasSubstr("\"y_inch\" is not in mm; give y_mm"));
-  EXPECT_EQ(refusal("axis,station_rad,ball,x_mm,y_mm,z_mm,u_um\nC,0,a,1,2,3,1\n").code,
+  EXPECT_EQ(ball_refusal("axis,station_rad,ball,x_mm,y_mm,z_mm,u_um\nC,0,a,1,2,3,1\n").code,
             Code::kWrongUnit);
-  EXPECT_EQ(refusal("axis,station_deg,ball,x_mm,y_mm,z_mm,u_mm\nC,0,a,1,2,3,1\n").code,
+  EXPECT_EQ(ball_refusal("axis,station_deg,ball,x_mm,y_mm,z_mm,u_mm\nC,0,a,1,2,3,1\n").code,
             Code::kWrongUnit);
 }
 
 TEST(BallCsv, RefusesWhatIsNotSuchATable) {
-  const auto with = [](std::string_view rows) { return refusal(std::string(kHeader) += rows); };
+  const auto with = [](std::string_view rows) {
+    return ball_refusal(std::string(kHeader) += rows);
+  };
   EXPECT_EQ(with("C,0,a,1,2,3,1\n").what, "it was read");
   EXPECT_EQ(with("").code, Code::kNoPoints);
-  EXPECT_EQ(refusal("").code, Code::kNoPoints);
+  EXPECT_EQ(ball_refusal("").code, Code::kNoPoints);
   EXPECT_THAT(with("C,0,a,1,2,3\n").what, HasSubstr("6 fields"));
   EXPECT_EQ(with("C,0,a,1,2,nan,1\n").code, Code::kNotFinite);
   EXPECT_EQ(with("C,0,a,1,2,nan,1\n").where, "balls.csv:2");
@@ -63,16 +65,16 @@ TEST(BallCsv, RefusesWhatIsNotSuchATable) {
   EXPECT_THAT(with("C,0,,1,2,3,1\n").what, HasSubstr("ball is empty"));
   EXPECT_EQ(with("C,0,a,1,2,3,-1\n").code, Code::kOutOfRange);
   EXPECT_THAT(with("C;0;a;1;2;3;1\n").what, HasSubstr("semicolons"));
-  EXPECT_THAT(refusal("axis,ball,x_mm,y_mm,z_mm,u_um\n").what,
+  EXPECT_THAT(ball_refusal("axis,ball,x_mm,y_mm,z_mm,u_um\n").what,
               HasSubstr("\"station_deg\" is missing"));
-  EXPECT_THAT(refusal("axis,axis,station_deg,ball,x_mm,y_mm,z_mm,u_um\n").what,
+  EXPECT_THAT(ball_refusal("axis,axis,station_deg,ball,x_mm,y_mm,z_mm,u_um\n").what,
               HasSubstr("stands twice"));
-  EXPECT_THAT(refusal("axis,station_deg,ball,x_mm,y_mm,z_mm,ux_um,uy_um\n").what,
+  EXPECT_THAT(ball_refusal("axis,station_deg,ball,x_mm,y_mm,z_mm,ux_um,uy_um\n").what,
               HasSubstr("all of ux_um"));
-  EXPECT_THAT(refusal("axis,station_deg,ball,x_mm,y_mm,z_mm,u_um,temperature\n").what,
+  EXPECT_THAT(ball_refusal("axis,station_deg,ball,x_mm,y_mm,z_mm,u_um,temperature\n").what,
               HasSubstr("\"temperature\" is unknown"));
   EXPECT_THAT(
-      refusal("axis,station_deg,ball,x_mm,y_mm,z_mm,u_um,direction\nC,0,a,1,2,3,1,up\n").what,
+      ball_refusal("axis,station_deg,ball,x_mm,y_mm,z_mm,u_um,direction\nC,0,a,1,2,3,1,up\n").what,
       HasSubstr("direction is \"up\""));
 }
 

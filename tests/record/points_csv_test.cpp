@@ -26,7 +26,7 @@ PointTable points(std::string_view text) {
   return table ? *std::move(table) : PointTable{};
 }
 
-core::Error refusal(std::string_view text) {
+core::Error point_refusal(std::string_view text) {
   const auto table = parse_points_csv(text, "pin.csv");
   EXPECT_FALSE(table) << text;
   return table ? core::Error{} : table.error();
@@ -105,7 +105,7 @@ TEST(PointsCsv, RefusesEverythingElseWithLineValueAndExpectation) {
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.text);
-    const core::Error error = refusal(c.text);
+    const core::Error error = point_refusal(c.text);
     EXPECT_EQ(error.code, c.code) << error.what;
     EXPECT_EQ(error.where, c.where);
     EXPECT_THAT(error.what, HasSubstr(c.words));
@@ -155,18 +155,18 @@ TEST(ProfileCsv, RefusesEverythingElseWithLineValueAndExpectation) {
 
 TEST(PointsCsv, RefusesZeroBytes) {
   using namespace std::string_view_literals;
-  EXPECT_THAT(refusal("x,y\n1,\0002\n"sv).what, HasSubstr("a NUL byte (\"1,\\x002\")"));
-  EXPECT_THAT(refusal("\0x\0,\0y"sv).what, HasSubstr("not as UTF-16"));
+  EXPECT_THAT(point_refusal("x,y\n1,\0002\n"sv).what, HasSubstr("a NUL byte (\"1,\\x002\")"));
+  EXPECT_THAT(point_refusal("\0x\0,\0y"sv).what, HasSubstr("not as UTF-16"));
 }
 
 TEST(PointsCsv, ShowsOnlyTheBeginningOfAHugeLine) {
   const std::string huge(10'000'000, 'q');
   for (const std::string& text : {huge, "x,y\n" + huge, "x,y\n1," + huge}) {
-    const core::Error error = refusal(text);
+    const core::Error error = point_refusal(text);
     EXPECT_LT(error.what.size(), 200U);
     EXPECT_THAT(error.what, HasSubstr("qqq...\""));
   }
-  EXPECT_LT(refusal("x,y\n" + std::string(1'000'000, ',')).what.size(), 200U);
+  EXPECT_LT(point_refusal("x,y\n" + std::string(1'000'000, ',')).what.size(), 200U);
 }
 
 TEST(PointsCsv, DoesNotDependOnTheLocale) {
@@ -223,7 +223,7 @@ TEST(PointsCsv, ReadsDecimalsToTheBitsOfFromChars) {
 TEST(PointsCsv, NumbersTheLinesAmongRowsOfBothKinds) {
   // Plain rows, rows that need a second look, and lines without a row, before the bad one.
   const core::Error error =
-      refusal("x,y,z\n1,2,3\n\n 1 , 2,3\r\n# note\n4,5,6\r\n+1,2,3\n1,2,3,\n");
+      point_refusal("x,y,z\n1,2,3\n\n 1 , 2,3\r\n# note\n4,5,6\r\n+1,2,3\n1,2,3,\n");
   EXPECT_EQ(error.where, "pin.csv:8");
   EXPECT_THAT(error.what, HasSubstr("4 fields"));
 }

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 constexpr std::array<WantedColumn, 3> kWanted = {{{"alpha_deg"}, {"H1_um"}, {"beta_deg", false}}};
 
-core::Error refusal(std::string_view text, std::span<const ColumnName> names = {}) {
+core::Error series_refusal(std::string_view text, std::span<const ColumnName> names = {}) {
   const auto series = parse_series_csv(text, "probes.csv", kWanted, names);
   return series ? core::Error{core::Code::kInternal, "it was read", {}} : series.error();
 }
@@ -40,26 +40,27 @@ TEST(SeriesCsv, TakesNamesOfTheFileAndPassesOverTheRest) {
   ASSERT_TRUE(series) << series.error().what;
   EXPECT_THAT(series->values, ElementsAre(1.0, 2.0, 3.0, 4.0));
   const std::array<ColumnName, 1> foreign = {{{"gamma_deg", "C"}}};
-  EXPECT_EQ(refusal("C\n1\n", foreign).code, core::Code::kBadOption);
+  EXPECT_EQ(series_refusal("C\n1\n", foreign).code, core::Code::kBadOption);
 }
 
 TEST(SeriesCsv, RefusesWhatIsNotSuchATable) {
   using core::Code;
-  const core::Error unit = refusal("alpha_rad,H1_um\n0,1\n");
+  const core::Error unit = series_refusal("alpha_rad,H1_um\n0,1\n");
   EXPECT_EQ(unit.code, Code::kWrongUnit);
   EXPECT_EQ(unit.where, "probes.csv:1");
   EXPECT_THAT(unit.what, HasSubstr("\"alpha_rad\" is not in deg; give alpha_deg"));
-  EXPECT_THAT(refusal("alpha_deg,H9_um\n0,1\n").what, HasSubstr("column \"H9_um\" is unknown"));
-  EXPECT_THAT(refusal("alpha_deg\n0\n").what, HasSubstr("column \"H1_um\" is missing"));
-  EXPECT_THAT(refusal("alpha_deg,H1_um,H1_um\n0,1,1\n").what, HasSubstr("stands twice"));
-  const core::Error empty = refusal("alpha_deg,H1_um\n0,1\n1,\n");
+  EXPECT_THAT(series_refusal("alpha_deg,H9_um\n0,1\n").what,
+              HasSubstr("column \"H9_um\" is unknown"));
+  EXPECT_THAT(series_refusal("alpha_deg\n0\n").what, HasSubstr("column \"H1_um\" is missing"));
+  EXPECT_THAT(series_refusal("alpha_deg,H1_um,H1_um\n0,1,1\n").what, HasSubstr("stands twice"));
+  const core::Error empty = series_refusal("alpha_deg,H1_um\n0,1\n1,\n");
   EXPECT_EQ(empty.where, "probes.csv:3");
   EXPECT_THAT(empty.what, HasSubstr("H1_um is empty"));
-  EXPECT_EQ(refusal("alpha_deg,H1_um\n0,nan\n").code, Code::kNotFinite);
-  EXPECT_THAT(refusal("alpha_deg,H1_um\n0,1,2\n").what, HasSubstr("3 fields"));
-  EXPECT_THAT(refusal("alpha_deg;H1_um\n0;1\n").what, HasSubstr("semicolons"));
-  EXPECT_EQ(refusal("alpha_deg,H1_um\n").code, Code::kNoPoints);
-  EXPECT_EQ(refusal("").code, Code::kNoPoints);
+  EXPECT_EQ(series_refusal("alpha_deg,H1_um\n0,nan\n").code, Code::kNotFinite);
+  EXPECT_THAT(series_refusal("alpha_deg,H1_um\n0,1,2\n").what, HasSubstr("3 fields"));
+  EXPECT_THAT(series_refusal("alpha_deg;H1_um\n0;1\n").what, HasSubstr("semicolons"));
+  EXPECT_EQ(series_refusal("alpha_deg,H1_um\n").code, Code::kNoPoints);
+  EXPECT_EQ(series_refusal("").code, Code::kNoPoints);
 }
 
 TEST(SeriesCsv, KnowsTheUnitAtTheEndOfAName) {

@@ -73,7 +73,7 @@ TEST(UpperCapability, LowerBoundHoldsInNinetyFiveOfHundred) {
   const double upper_point = 0.008 * std::exp(3.0 * 0.3);
   for (const int n : {30, 50, 200}) {
     for (const double index : {0.8, 1.33}) {
-      SCOPED_TRACE(testing::Message() << n << " " << index);
+      SCOPED_TRACE(::testing::Message() << n << " " << index);
       const double limit = 0.008 + index * (upper_point - 0.008);
       int held = 0;
       int modelled = 0;

@@ -35,7 +35,7 @@ int inspections(int few) {
 #endif
 }
 
-constexpr double kRadius = 25.0;
+constexpr double kPartRadius = 25.0;
 constexpr double kHalf = 40.0;
 constexpr std::uint64_t kSeed = 20261122;
 
@@ -46,14 +46,14 @@ double legendre(int degree, double q) {
 }
 
 /// Form of a simulated part [mm].
-class Form {
+class PartForm {
  public:
-  virtual ~Form() = default;
+  virtual ~PartForm() = default;
   [[nodiscard]] virtual double at(double angle, double z) const = 0;
 };
 
 /// The random surfaces of the method specification, cylindricity section 12.1.
-class SpecifiedForm final : public Form {
+class SpecifiedForm final : public PartForm {
  public:
   explicit SpecifiedForm(core::KeyedNoise noise) {
     for (std::size_t k = 0; k < kLobes.size(); ++k) {
@@ -89,7 +89,7 @@ class SpecifiedForm final : public Form {
 };
 
 /// A surface drawn from a spectrum.
-class SpectralForm final : public Form {
+class SpectralForm final : public PartForm {
  public:
   SpectralForm(const FormSpectrum& spectrum, core::KeyedNoise noise) : spectrum_(spectrum) {
     for (std::size_t k = 0; k < 2 * spectrum.terms.size(); ++k) draws_.push_back(noise.normal());
@@ -110,8 +110,8 @@ class SpectralForm final : public Form {
   std::vector<double> draws_;
 };
 
-Vector3d surface_point(const Form& form, double angle, double z) {
-  const double r = kRadius + form.at(angle, z);
+Vector3d surface_point(const PartForm& form, double angle, double z) {
+  const double r = kPartRadius + form.at(angle, z);
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
@@ -120,7 +120,7 @@ double zone_of(const std::vector<Vector3d>& points) {
   return fitter.fit_from(points, fit::Axis{}).width_mm();
 }
 
-double whole_zone(const Form& form) {
+double whole_zone(const PartForm& form) {
   std::vector<Vector3d> points;
   for (int j = 0; j < 21; ++j) {
     for (int i = 0; i < 60; ++i) {
@@ -131,7 +131,7 @@ double whole_zone(const Form& form) {
 }
 
 /// 4 layers of 7 points, 5 mm from the ends, as they are touched: layer by layer.
-std::vector<Vector3d> sampled_points(const Form& form) {
+std::vector<Vector3d> sampled_points(const PartForm& form) {
   std::vector<Vector3d> points;
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 7; ++i) {

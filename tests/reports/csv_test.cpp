@@ -1,4 +1,3 @@
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -7,6 +6,7 @@
 #include "core/numbers.h"
 #include "reports/writers.h"
 #include "synthetic.h"
+#include "tests/reports/page_text.h"
 
 namespace rondure::reports {
 namespace {
@@ -30,16 +30,9 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
 TEST(TouchesCsv, HasARowATouchUnderItsHeader) {
   const Case made = cylinder_case(4, 7, 3);
-  const auto lines = lines_of(write_touches_csv(made.record));
+  const auto lines = testing::lines_of(write_touches_csv(made.record));
   ASSERT_EQ(lines.size(), 2 + made.record.touches.size());
   EXPECT_EQ(lines[0], "# rondure touches, run 01_spool_simulated-20261121T023302Z");
   EXPECT_EQ(lines[1],
@@ -50,7 +43,7 @@ TEST(TouchesCsv, HasARowATouchUnderItsHeader) {
 
 TEST(TouchesCsv, NumbersReadBackToTheSameDouble) {
   const Case made = cylinder_case(4, 7, 3);
-  const auto lines = lines_of(write_touches_csv(made.record));
+  const auto lines = testing::lines_of(write_touches_csv(made.record));
   for (std::size_t i = 0; i < made.record.touches.size(); ++i) {
     const record::Touch& touch = made.record.touches[i];
     const auto fields = fields_of(lines[i + 2]);
@@ -62,7 +55,7 @@ TEST(TouchesCsv, NumbersReadBackToTheSameDouble) {
 }
 
 TEST(TouchesCsv, QualificationTouchesBelongToNoFeature) {
-  const auto lines = lines_of(write_touches_csv(cylinder_case(4, 7, 3).record));
+  const auto lines = testing::lines_of(write_touches_csv(cylinder_case(4, 7, 3).record));
   EXPECT_EQ(fields_of(lines[2])[1], "qualification");
   EXPECT_EQ(fields_of(lines[2])[2], "");
   EXPECT_EQ(fields_of(lines.back())[1], "measure");
@@ -73,7 +66,7 @@ TEST(TouchesCsv, FeatureNamesWithCommasAndQuotesAreQuoted) {
   Case made = cylinder_case(1, 7, 1);
   made.record.features[0].id = "bore, \"left\"";
   made.record.header.run_id = "a\nb";
-  const auto lines = lines_of(write_touches_csv(made.record));
+  const auto lines = testing::lines_of(write_touches_csv(made.record));
   EXPECT_EQ(lines[0], "# rondure touches, run a?b");
   EXPECT_NE(lines.back().find("\"bore, \"\"left\"\"\""), std::string::npos);
   EXPECT_EQ(fields_of(lines.back())[2], "bore, \"left\"");

@@ -56,12 +56,12 @@ Verdict verdict(const DecisionRule& rule, const KnownValue& value) {
   return outcome ? outcome->verdict : Verdict::kVoid;
 }
 
-const std::vector<Kind> kAll = {Kind::kSimpleAcceptance, Kind::kIso14253, Kind::kJcgm106,
-                                Kind::kNToOne, Kind::kGuardBand};
+const std::vector<Kind> kAllRules = {Kind::kSimpleAcceptance, Kind::kIso14253, Kind::kJcgm106,
+                                     Kind::kNToOne, Kind::kGuardBand};
 
 TEST(DecisionRule, FarFromTheToleranceAllRulesAgree) {
   const auto errors = error_sample();
-  for (const Kind kind : kAll) {
+  for (const Kind kind : kAllRules) {
     SCOPED_TRACE(std::string(name_of(kind)));
     EXPECT_EQ(verdict(rule_named(kind), known(5e-3, errors)), Verdict::kConforms);
     EXPECT_EQ(verdict(rule_named(kind), known(15e-3, errors)), Verdict::kDoesNotConform);
@@ -73,7 +73,7 @@ TEST(DecisionRule, AGreaterValueIsNeverJudgedBetter) {
   const auto rank = [](Verdict v) {
     return v == Verdict::kConforms ? 0 : v == Verdict::kUndecided ? 1 : 2;
   };
-  for (const Kind kind : kAll) {
+  for (const Kind kind : kAllRules) {
     SCOPED_TRACE(std::string(name_of(kind)));
     DecisionRule rule = rule_named(kind);
     if (kind == Kind::kJcgm106) rule.prior = Prior{Prior::Kind::kGamma, 6e-3, 2e-3};
@@ -89,7 +89,7 @@ TEST(DecisionRule, AGreaterValueIsNeverJudgedBetter) {
 
 TEST(DecisionRule, TheVerdictChangesAtTheLimitsThatAreStated) {
   const auto errors = error_sample(400);
-  for (const Kind kind : kAll) {
+  for (const Kind kind : kAllRules) {
     SCOPED_TRACE(std::string(name_of(kind)));
     DecisionRule rule = rule_named(kind);
     rule.acceptance_guard_1 = 0.5;
@@ -138,7 +138,7 @@ TEST(DecisionRule, SimpleAcceptanceComparesTheMeasuredValueAndNeedsNoInterval) {
 }
 
 TEST(DecisionRule, WithoutAnIntervalEveryOtherRuleIsVoid) {
-  for (const Kind kind : kAll) {
+  for (const Kind kind : kAllRules) {
     if (kind == Kind::kSimpleAcceptance) continue;
     const auto outcome = apply_rule(rule_named(kind), {5e-3, {}}, kT);
     ASSERT_FALSE(outcome);
@@ -254,7 +254,7 @@ int lot_size() { return std::getenv("RONDURE_FULL") != nullptr ? 50'000 : 1'000;
 TEST(DecisionRisks, RatesOnSimulatedLotsMatchTheStatedGlobalRisks) {
   const auto errors = error_sample(200);
   const Prior prior{Prior::Kind::kGamma, 8e-3, 2.5e-3};
-  for (const Kind kind : kAll) {
+  for (const Kind kind : kAllRules) {
     DecisionRule rule = rule_named(kind);
     rule.prior = prior;
     rule.rejection_guard_1 = -1.0;  // of guard-band: stringent acceptance, relaxed rejection

@@ -50,12 +50,6 @@ Points part(int layers, int points_per_layer, const Form3& form) {
   return out;
 }
 
-Evaluation evaluated(const record::RunRecord& run) {
-  auto out = evaluate(run);
-  EXPECT_TRUE(out) << (out ? "" : out.error().what);
-  return out.value_or(Evaluation{});
-}
-
 /// The study of one characteristic of points of known layers.
 FactorStudy study_of(const Points& points, int layers, const std::string& id = "cylindricity mz") {
   auto run = points_run(points, layers);

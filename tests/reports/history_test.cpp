@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -17,6 +16,7 @@
 #include "record/sha256.h"
 #include "reports/archive_entry.h"
 #include "reports/text.h"
+#include "tests/reports/page_text.h"
 #include "tests/reports/synthetic.h"
 
 namespace rondure::reports {
@@ -62,21 +62,14 @@ std::vector<ArchivedResult> results(int n, std::uint64_t seed = 1) {
   return out;
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> out;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) out.push_back(line);
-  return out;
-}
-
 void expect_plain_80_columns(const std::string& text) {
-  for (const std::string& line : lines_of(text)) {
+  for (const std::string& line : testing::lines_of(text)) {
     EXPECT_LE(columns(line), 80U) << line;
     EXPECT_EQ(printable(line), line);
   }
 }
 
-const std::vector<std::string>& hostile_texts() {
+const std::vector<std::string>& hostile_fields() {
   static const std::vector<std::string> texts = {
       "<script>alert(1)</script>",
       "a\nb\x1b[31mred\r",
@@ -168,12 +161,12 @@ TEST(History, TableAndChartFitATerminal) {
     expect_plain_80_columns(history_table(wide));
     expect_plain_80_columns(history_table(all));
     expect_plain_80_columns(history_chart(run_chart_of(all), false));
-    EXPECT_EQ(lines_of(history_table(all)).size(), static_cast<std::size_t>(n) + 1);
+    EXPECT_EQ(testing::lines_of(history_table(all)).size(), static_cast<std::size_t>(n) + 1);
   }
 }
 
 TEST(History, KeepsHostileTextAsText) {
-  for (const std::string& text : hostile_texts()) {
+  for (const std::string& text : hostile_fields()) {
     SCOPED_TRACE(text.substr(0, 40));
     const auto all = hostile_results(text);
     const RunChart chart = run_chart_of(all);
@@ -182,8 +175,8 @@ TEST(History, KeepsHostileTextAsText) {
     const std::string svg = history_svg(chart);
     EXPECT_THAT(svg, Not(HasSubstr("<script")));
     EXPECT_THAT(svg, Not(HasSubstr("\x1b")));
-    const auto json = nlohmann::json::parse(history_json("archive.db", all, false, chart));
-    EXPECT_EQ(json["results"].size(), all.size());
+    const auto written = nlohmann::json::parse(history_json("archive.db", all, false, chart));
+    EXPECT_EQ(written["results"].size(), all.size());
   }
 }
 
@@ -192,7 +185,7 @@ TEST(History, SvgIsWellFormed) {
   int number = 0;
   std::vector<std::vector<ArchivedResult>> cases = {results(1), results(20), results(100),
                                                     results(1'000)};
-  for (const std::string& text : hostile_texts()) cases.push_back(hostile_results(text));
+  for (const std::string& text : hostile_fields()) cases.push_back(hostile_results(text));
   for (const auto& all : cases) {
     const std::string file = fmt::format("{}-{}.svg", folder, number++);
     ASSERT_TRUE(record::write_file(file, history_svg(run_chart_of(all))));

@@ -24,8 +24,6 @@ namespace {
 using testing::first_unbalanced_tag;
 using testing::shows_nan;
 
-std::string page_of(const Case& made) { return write_html(made.record, made.evaluation); }
-
 bool holds(std::string_view page, std::string_view part) {
   return page.find(part) != std::string_view::npos;
 }

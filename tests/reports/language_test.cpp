@@ -380,7 +380,7 @@ TEST(Told, EverySentenceOfTheTableIsRecognisedAndLeavesNoArgumentOut) {
 
 // ---- The reports -------------------------------------------------------------------------------
 
-std::vector<std::string> texts_of(const Case& made) {
+std::vector<std::string> user_texts_of(const Case& made) {
   const record::Header& h = made.record.header;
   std::vector<std::string> out = {h.part_id,       h.part_name, h.drawing, h.serial,
                                   h.operator_name, h.plan_name, h.run_id,  h.plan_file,
@@ -406,7 +406,7 @@ TEST(ChineseReport, HasNoEnglishThatDoesNotSayThatItIsEnglish) {
   for (const auto& [name, made] : cases) {
     SCOPED_TRACE(name);
     const std::string page = chinese_page_of(made);
-    EXPECT_EQ(testing::english_left(page, texts_of(made)), "");
+    EXPECT_EQ(testing::english_left(page, user_texts_of(made)), "");
     EXPECT_EQ(testing::first_unbalanced_tag(page), "");
     EXPECT_THAT(page, StartsWith("<!DOCTYPE html>\n<html lang=\"zh-Hans\">"));
     EXPECT_EQ(language_of_page(page), Language::kChinese);

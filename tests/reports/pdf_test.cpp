@@ -33,8 +33,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::string page_of(const Case& made) { return write_html(made.record, made.evaluation); }
-
 Pdf pdf_of(const record::RunRecord& record, const std::string& html) {
   auto pdf = write_pdf(record, html);
   EXPECT_TRUE(pdf) << pdf.error().what;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include <gtest/gtest.h>
+
 #include "core/noise.h"
 
 namespace rondure::reports {
@@ -62,6 +64,12 @@ record::RunRecord points_run(const std::vector<Eigen::Vector3d>& points, int lay
     out.touches.push_back(touch);
   }
   return out;
+}
+
+Evaluation evaluated(const record::RunRecord& run) {
+  auto out = evaluate(run);
+  EXPECT_TRUE(out) << (out ? "" : out.error().what);
+  return out.value_or(Evaluation{});
 }
 
 }  // namespace rondure::reports

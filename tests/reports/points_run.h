@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "record/run_record.h"
+#include "reports/evaluation.h"
 
 namespace rondure::reports {
 
@@ -15,5 +16,8 @@ namespace rondure::reports {
 /// A finished run over such points as a file of known layers: a cylinder, or a circle of one layer.
 /// The characteristics ask for every form and reference there is, with a tolerance of 1 mm.
 [[nodiscard]] record::RunRecord points_run(const std::vector<Eigen::Vector3d>& points, int layers);
+
+/// The evaluation of a run, or a failed test.
+[[nodiscard]] Evaluation evaluated(const record::RunRecord& run);
 
 }  // namespace rondure::reports

@@ -26,12 +26,6 @@ using record::Reference;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-Evaluation evaluated(const record::RunRecord& run) {
-  auto out = evaluate(run);
-  EXPECT_TRUE(out) << (out ? "" : out.error().what);
-  return out.value_or(Evaluation{});
-}
-
 /// The characteristics of a feature by their ids.
 std::map<std::string, CharacteristicResult> by_id(const FeatureResult& feature) {
   std::map<std::string, CharacteristicResult> out;

@@ -11,8 +11,8 @@
 namespace rondure::reports {
 namespace {
 
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 std::string summary_of(const Case& made) { return write_summary(made.record, made.evaluation); }
 

@@ -8,6 +8,7 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "reports/facts.h"
+#include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {
@@ -365,5 +366,7 @@ Case hostile_case(const std::string& text) {
   }
   return made;
 }
+
+std::string page_of(const Case& made) { return write_html(made.record, made.evaluation); }
 
 }  // namespace rondure::reports

@@ -33,4 +33,7 @@ struct Case {
 /// cylinder_case(4, 7, 3) whose every text is `text`.
 [[nodiscard]] Case hostile_case(const std::string& text);
 
+/// The HTML report of a case.
+[[nodiscard]] std::string page_of(const Case& made);
+
 }  // namespace rondure::reports

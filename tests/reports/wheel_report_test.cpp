@@ -61,8 +61,7 @@ record::RunRecord wheel_run() {
   run.features = {feature};
   record::Series data;
   data.columns = {{"x", "mm"}, {"z", "mm"}};
-  for (const auto& p : fit::testing::example_1())
-    data.values.insert(data.values.end(), {p.x(), p.y()});
+  for (const auto& p : test::example_1()) data.values.insert(data.values.end(), {p.x(), p.y()});
   run.series = {data};
   return run;
 }
@@ -121,8 +120,8 @@ TEST(WheelReport, ShowsEdgePathMarginAndResidual) {
   EXPECT_THAT(html, HasSubstr("z / mm"));
   EXPECT_THAT(html, HasSubstr("Form left after touch-off"));
   EXPECT_FALSE(testing::shows_nan(html));
-  const auto json = nlohmann::json::parse(write_json(run, *evaluation));
-  const auto& wheel = json["features"][0]["wheel"];
+  const auto written = nlohmann::json::parse(write_json(run, *evaluation));
+  const auto& wheel = written["features"][0]["wheel"];
   EXPECT_NEAR(wheel["radius_mm"], 50.0, 1.1e-6);
   EXPECT_EQ(wheel["path"]["places"], 41);
   EXPECT_NEAR(wheel["path"]["greatest_R_ks"]["value"], 50.0 / 80.0, 1e-6);
@@ -143,9 +142,9 @@ TEST(WheelReport, SaysWhyThereIsNoPathAndStillJudgesTheWheel) {
   const std::string html = write_html(run, *evaluation);
   EXPECT_THAT(html, HasSubstr("No path:"));
   EXPECT_THAT(html, HasSubstr("exceeds the concave radius of curvature 40 mm"));
-  const auto json = nlohmann::json::parse(write_json(run, *evaluation));
-  EXPECT_TRUE(json["features"][0]["wheel"]["path"].is_null());
-  EXPECT_EQ(json["features"][0]["wheel"]["path_refused"]["code"], "gouge");
+  const auto written = nlohmann::json::parse(write_json(run, *evaluation));
+  EXPECT_TRUE(written["features"][0]["wheel"]["path"].is_null());
+  EXPECT_EQ(written["features"][0]["wheel"]["path_refused"]["code"], "gouge");
 }
 
 TEST(WheelReport, LeavesRunOutVoidWithoutTheAxis) {

@@ -20,18 +20,6 @@ namespace {
 constexpr std::size_t kSetup_bytes = 8;
 constexpr std::uint8_t kEndpointIn = 0x80;
 
-/// A transfer that was submitted and not reaped yet.
-struct Transfer {
-  UMockdevIoctlData* urb = nullptr;     ///< struct usbdevfs_urb of the client.
-  UMockdevIoctlData* buffer = nullptr;  ///< Its data.
-  unsigned char type = 0;               ///< USBDEVFS_URB_TYPE_...
-  unsigned char endpoint = 0;
-  int length = 0;
-  bool done = false;
-  int status = 0;
-  int actual = 0;
-};
-
 std::string text_of(UMockdevIoctlData* data, std::size_t from, std::size_t length) {
   guint8* bytes = nullptr;
   gint count = 0;
@@ -69,25 +57,39 @@ std::string hex(const std::string& bytes) {
   return out;
 }
 
+}  // namespace
+
+/// A transfer that was submitted and not reaped yet.
+struct UsbTransfer {
+  UMockdevIoctlData* urb = nullptr;     ///< struct usbdevfs_urb of the client.
+  UMockdevIoctlData* buffer = nullptr;  ///< Its data.
+  unsigned char type = 0;               ///< USBDEVFS_URB_TYPE_...
+  unsigned char endpoint = 0;
+  int length = 0;
+  bool done = false;
+  int status = 0;
+  int actual = 0;
+};
+
 /// One device with its transfers; answers the calls that libusb makes to the kernel.
-class Socket {
+class UsbSocket {
  public:
-  Socket(EmulatedUsb& device, const UsbRefusals& refusals, std::mutex& lock)
+  UsbSocket(EmulatedUsb& device, const UsbRefusals& refusals, std::mutex& lock)
       : device_(device), refusals_(refusals), lock_(lock) {}
-  ~Socket() {
-    for (const Transfer& transfer : transfers_) drop(transfer);
+  ~UsbSocket() {
+    for (const UsbTransfer& transfer : transfers_) drop(transfer);
   }
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
+  UsbSocket(const UsbSocket&) = delete;
+  UsbSocket& operator=(const UsbSocket&) = delete;
 
   static gboolean call(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, gpointer socket) {
-    return static_cast<Socket*>(socket)->answer(client) ? TRUE : FALSE;
+    return static_cast<UsbSocket*>(socket)->answer(client) ? TRUE : FALSE;
   }
   void unplug() { gone_ = true; }
   [[nodiscard]] int detached() const { return detached_; }
 
  private:
-  static void drop(const Transfer& transfer) {
+  static void drop(const UsbTransfer& transfer) {
     if (transfer.buffer != nullptr) umockdev_ioctl_data_unref(transfer.buffer);
     umockdev_ioctl_data_unref(transfer.urb);
   }
@@ -153,7 +155,7 @@ class Socket {
   }
 
   bool submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
-    Transfer transfer;
+    UsbTransfer transfer;
     transfer.urb = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_urb), nullptr);
     if (transfer.urb == nullptr) return complete(client, EFAULT);
     transfer.type = field<unsigned char>(transfer.urb, offsetof(usbdevfs_urb, type));
@@ -168,10 +170,10 @@ class Socket {
     return complete(client, 0);
   }
 
-  static bool is_in(const Transfer& transfer) { return (transfer.endpoint & kEndpointIn) != 0; }
+  static bool is_in(const UsbTransfer& transfer) { return (transfer.endpoint & kEndpointIn) != 0; }
 
   /// Lets the device answer a transfer, if it will.
-  void advance(Transfer& transfer) {
+  void advance(UsbTransfer& transfer) {
     if (transfer.type == USBDEVFS_URB_TYPE_CONTROL) {
       control(transfer);
       return;
@@ -185,7 +187,7 @@ class Socket {
     settle(transfer, device_.out(transfer.endpoint, bytes), 0, false);
   }
 
-  void control(Transfer& transfer) {
+  void control(UsbTransfer& transfer) {
     const std::string setup = text_of(transfer.buffer, 0, kSetup_bytes);
     const auto at = [&](std::size_t i) { return static_cast<unsigned char>(setup[i]); };
     const auto word = [&](std::size_t i) {
@@ -210,7 +212,7 @@ class Socket {
   }
 
   /// Ends a transfer as the device answered.
-  static void settle(Transfer& transfer, const UsbAnswer& answer, std::size_t offset, bool in) {
+  static void settle(UsbTransfer& transfer, const UsbAnswer& answer, std::size_t offset, bool in) {
     if (answer.kind == UsbAnswer::Kind::kWait) return;
     transfer.done = true;
     if (answer.kind == UsbAnswer::Kind::kStall) transfer.status = -EPIPE;
@@ -228,7 +230,7 @@ class Socket {
   }
 
   bool reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
-    for (Transfer& transfer : transfers_) {
+    for (UsbTransfer& transfer : transfers_) {
       if (!transfer.done && gone_) {
         transfer.done = true;
         transfer.status = -ENODEV;
@@ -236,7 +238,7 @@ class Socket {
       if (!transfer.done) advance(transfer);
     }
     const auto done = std::find_if(transfers_.begin(), transfers_.end(),
-                                   [](const Transfer& t) { return t.done; });
+                                   [](const UsbTransfer& t) { return t.done; });
     if (done == transfers_.end()) {
       // libusb asks without a pause (its descriptor is always ready): leave the others some time
       std::this_thread::sleep_for(std::chrono::microseconds(200));
@@ -255,7 +257,7 @@ class Socket {
 
   bool discard(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
     const gulong address = *reinterpret_cast<gulong*>(argument->data);
-    for (Transfer& transfer : transfers_) {
+    for (UsbTransfer& transfer : transfers_) {
       if (transfer.urb->client_addr != address) continue;
       if (!transfer.done) {
         transfer.done = true;
@@ -269,17 +271,15 @@ class Socket {
   EmulatedUsb& device_;
   UsbRefusals refusals_;
   std::mutex& lock_;
-  std::list<Transfer> transfers_;
+  std::list<UsbTransfer> transfers_;
   bool gone_ = false;
   int detached_ = 0;
 };
 
-}  // namespace
-
 struct UsbTestbed::Bed {
   UMockdevTestbed* testbed = umockdev_testbed_new();
   std::mutex& lock;
-  std::list<Socket> sockets;
+  std::list<UsbSocket> sockets;
   std::vector<UMockdevIoctlBase*> handlers;
 
   explicit Bed(std::mutex& shared) : lock(shared) {}
@@ -289,7 +289,7 @@ struct UsbTestbed::Bed {
     for (UMockdevIoctlBase* handler : handlers) g_object_unref(handler);
     g_object_unref(testbed);
   }
-  Socket& at(int address) { return *std::next(sockets.begin(), address - 2); }
+  UsbSocket& at(int address) { return *std::next(sockets.begin(), address - 2); }
 };
 
 UsbTestbed::UsbTestbed(std::mutex& lock) : bed_(std::make_unique<Bed>(lock)) {}
@@ -297,10 +297,10 @@ UsbTestbed::~UsbTestbed() = default;
 
 int UsbTestbed::plug_in(EmulatedUsb& device, const UsbRefusals& refusals) {
   const int address = 2 + static_cast<int>(bed_->sockets.size());
-  Socket& socket = bed_->sockets.emplace_back(device, refusals, bed_->lock);
+  UsbSocket& socket = bed_->sockets.emplace_back(device, refusals, bed_->lock);
   UMockdevIoctlBase* handler = umockdev_ioctl_base_new();
   bed_->handlers.push_back(handler);
-  g_signal_connect(handler, "handle-ioctl", G_CALLBACK(Socket::call), &socket);
+  g_signal_connect(handler, "handle-ioctl", G_CALLBACK(UsbSocket::call), &socket);
   const std::string file = fmt::format("/dev/bus/usb/001/{:03}", address);
   GError* error = nullptr;
   if (umockdev_testbed_attach_ioctl(bed_->testbed, file.c_str(), handler, &error) == FALSE) {

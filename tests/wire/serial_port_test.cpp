@@ -21,7 +21,7 @@ namespace {
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
-constexpr milliseconds kPatience(2000);
+constexpr milliseconds kSerialPatience(2000);
 
 /// The other end of a serial device: a pseudo-terminal.
 class FarEnd {
@@ -71,7 +71,7 @@ TEST(SerialPort, CarriesBytesAsTheyAre) {
   far.say(all);
   std::string came;
   while (came.size() < 256) {
-    const auto more = (*port)->read_some(kPatience);
+    const auto more = (*port)->read_some(kSerialPatience);
     ASSERT_TRUE(more && !more->empty());
     came += *more;
   }
@@ -116,7 +116,7 @@ TEST(SerialPort, TellsThatItWasUnplugged) {
   const auto port = open_serial(far.path());
   ASSERT_TRUE(port);
   far.unplug();
-  const auto gone = (*port)->read_some(kPatience);
+  const auto gone = (*port)->read_some(kSerialPatience);
   ASSERT_FALSE(gone);
   EXPECT_THAT(gone.error().what, HasSubstr("was unplugged"));
   EXPECT_FALSE((*port)->is_open());
@@ -141,8 +141,8 @@ TEST(ByteLines, PutsALineTogetherFromItsPieces) {
   EXPECT_FALSE(*lines->read_line(milliseconds(20)));
   EXPECT_EQ(lines->unfinished(), "@01 1 OK ");
   far.say("IDLE -- 0\r\nnext\n");
-  EXPECT_EQ((*lines->read_line(kPatience))->text, "@01 1 OK IDLE -- 0");
-  const auto next = *lines->read_line(kPatience);
+  EXPECT_EQ((*lines->read_line(kSerialPatience))->text, "@01 1 OK IDLE -- 0");
+  const auto next = *lines->read_line(kSerialPatience);
   EXPECT_EQ(next->text, "next");
   EXPECT_FALSE(next->crlf);
   ASSERT_TRUE(lines->write_line("/1 1"));
@@ -155,7 +155,7 @@ TEST(ByteLines, EndsAtALineWithoutEnd) {
   ASSERT_TRUE(port);
   const auto lines = lines_over(*std::move(port), {.max_line_bytes = 64, .clock = nullptr});
   far.say(std::string(200, 'x'));
-  const auto wild = lines->read_line(kPatience);
+  const auto wild = lines->read_line(kSerialPatience);
   ASSERT_FALSE(wild);
   EXPECT_THAT(wild.error().what, HasSubstr("more than 64 bytes"));
   EXPECT_FALSE(lines->is_open());

@@ -15,7 +15,7 @@ namespace {
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
-constexpr milliseconds kPatience(5000);
+constexpr milliseconds kTcpPatience(5000);
 
 /// A transport of this program and a bare socket at its other end.
 struct Pair {
@@ -27,13 +27,13 @@ Pair connected_pair(const TcpOptions& options = {}) {
   auto listener = TcpListener::open("127.0.0.1", 0, options);
   Pair out;
   out.raw = std::make_unique<RawSocket>(listener->port());
-  out.line = *listener->accept(kPatience);
+  out.line = *listener->accept(kTcpPatience);
   return out;
 }
 
 /// A line that must be there.
 Line read(LineTransport& line) {
-  auto got = line.read_line(kPatience);
+  auto got = line.read_line(kTcpPatience);
   if (!got || !*got) {
     ADD_FAILURE() << (got ? "nothing came" : got.error().what);
     return {};
@@ -46,7 +46,7 @@ TEST(TcpLine, CarriesLinesBothWays) {
   ASSERT_TRUE(listener) << listener.error().what;
   auto client = connect_tcp("localhost", listener->port());
   ASSERT_TRUE(client) << client.error().what;
-  auto server = listener->accept(kPatience);
+  auto server = listener->accept(kTcpPatience);
   ASSERT_TRUE(server && *server);
   ASSERT_TRUE((*client)->write_line("00001 StartSession()"));
   EXPECT_EQ(read(**server).text, "00001 StartSession()");
@@ -99,12 +99,12 @@ TEST(TcpLine, SaysThatTheOtherSideClosed) {
   pair.raw->send("00001 &\r\n");
   pair.raw->close();
   EXPECT_EQ(read(*pair.line).text, "00001 &");  // what came before is not lost
-  const auto gone = pair.line->read_line(kPatience);
+  const auto gone = pair.line->read_line(kTcpPatience);
   ASSERT_FALSE(gone);
   EXPECT_EQ(gone.error().code, core::Code::kMachine);
   EXPECT_THAT(gone.error().what, HasSubstr("closed the connection"));
   EXPECT_FALSE(pair.line->is_open());
-  EXPECT_EQ(pair.line->read_line(kPatience).error(), gone.error());
+  EXPECT_EQ(pair.line->read_line(kTcpPatience).error(), gone.error());
   EXPECT_EQ(pair.line->write_line("00002 EndSession()").error(), gone.error());
 }
 
@@ -112,7 +112,7 @@ TEST(TcpLine, SaysThatTheOtherSideClosedInTheMiddleOfALine) {
   Pair pair = connected_pair();
   pair.raw->send("00001");
   pair.raw->close();
-  const auto gone = pair.line->read_line(kPatience);
+  const auto gone = pair.line->read_line(kTcpPatience);
   ASSERT_FALSE(gone);
   EXPECT_THAT(gone.error().what, HasSubstr("in the middle of a line, after 5 bytes"));
   EXPECT_EQ(pair.line->unfinished(), "00001");
@@ -142,7 +142,7 @@ TEST(TcpLine, TakesALineAtItsLimitAndNoLongerOne) {
   pair.raw->send(std::string(999, 'a') + "\r\n");
   EXPECT_EQ(read(*pair.line).text.size(), 999U);
   pair.raw->send(std::string(1001, 'a') + "\r\n");
-  EXPECT_FALSE(pair.line->read_line(kPatience));
+  EXPECT_FALSE(pair.line->read_line(kTcpPatience));
 }
 
 TEST(TcpLine, GivesUpWritingToWhoNeverReads) {
@@ -191,7 +191,7 @@ TEST(TcpListener, ReportsNobodyWhenNobodyComes) {
   EXPECT_EQ(*nobody, nullptr);
   RawSocket late(listener->port());
   EXPECT_TRUE(late.connected());
-  EXPECT_NE(*listener->accept(kPatience), nullptr);
+  EXPECT_NE(*listener->accept(kTcpPatience), nullptr);
 }
 
 }  // namespace

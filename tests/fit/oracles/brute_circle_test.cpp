@@ -14,7 +14,7 @@
 namespace rondure::test {
 namespace {
 
-constexpr int kSets = 500;
+constexpr int kEnumeratedSets = 500;
 
 Real width(const Points2& points, const Eigen::Vector2d& center) {
   const Reach at = reach_from(points, center.cast<Real>());
@@ -52,7 +52,7 @@ TEST(BruteCircle, EnumeratedOptimaAreNotBeatenOnAGrid) {
 
 TEST(BruteCircle, MinZoneCircleEqualsTheEnumeration) {
   int strips = 0;
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kSets)); ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kEnumeratedSets)); ++seed) {
     SCOPED_TRACE(name_of(kind_of(seed)) + " " + std::to_string(seed));
     const Points2 points = hard_set(seed, 4, 12);
     const auto zone = fit::min_zone_circle(points);
@@ -69,7 +69,7 @@ TEST(BruteCircle, MinZoneCircleEqualsTheEnumeration) {
     EXPECT_EQ(zone->certificate.kind, fit::Certificate::Kind::kGlobal);
     EXPECT_NEAR(zone->width_mm(), static_cast<double>(best), 1e-12);
   }
-  EXPECT_LT(strips, kSets / 20);
+  EXPECT_LT(strips, kEnumeratedSets / 20);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace rondure::test {
 namespace {
 
-constexpr int kSets = 200;
+constexpr int kSolverSets = 200;
 constexpr double kNear = 1e-9;
 
 /// What is measured: full turns and arcs of 90 deg and more, form up to 10 um.
@@ -43,7 +43,7 @@ Part draw_part(std::uint64_t seed, core::KeyedNoise& noise) {
 }
 
 TEST(CeresFits, LsCircle) {
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kSets)); ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kSolverSets)); ++seed) {
     SCOPED_TRACE(seed);
     core::KeyedNoise noise(seed, {111});
     const Part part = draw_part(seed, noise);
@@ -63,7 +63,7 @@ TEST(CeresFits, LsCircle) {
 }
 
 TEST(CeresFits, LsCylinder) {
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kSets)); ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kSolverSets)); ++seed) {
     SCOPED_TRACE(seed);
     core::KeyedNoise noise(seed, {112});
     const Part part = draw_part(seed, noise);

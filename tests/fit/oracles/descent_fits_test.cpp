@@ -16,7 +16,7 @@
 namespace rondure::test {
 namespace {
 
-constexpr int kSets = 100;
+constexpr int kDescents = 100;
 constexpr int kStarts = 6;
 
 /// The best of several descents: from the nominal axis and from random ones around it.
@@ -55,7 +55,7 @@ void expect_local(const Points3& points, const fit::MinZoneCylinder& zone) {
 TEST(DescentFits, ProvenMinZoneCylinderIsTheDescentsBest) {
   fit::MinZoneCylinderOptions options;
   options.scopes = {{fit::AxisScope::Kind::kCone}};
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kSets)); ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kDescents)); ++seed) {
     SCOPED_TRACE(seed);
     const Points3 points = part(seed, core::kTwoPi).points;
     const auto zone = fit::min_zone_cylinder(points, Eigen::Vector3d::UnitZ(), options);
@@ -68,7 +68,7 @@ TEST(DescentFits, ProvenMinZoneCylinderIsTheDescentsBest) {
 }
 
 TEST(DescentFits, MinZoneCylinderOfAnArcIsALocalMinimumOfTheDescent) {
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kSets)); ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kDescents)); ++seed) {
     SCOPED_TRACE(seed);
     const Points3 points = part(seed, (70.0 + static_cast<double>(seed)) * core::kDegree).points;
     const auto zone = fit::min_zone_cylinder(points, Eigen::Vector3d::UnitZ());
@@ -78,7 +78,7 @@ TEST(DescentFits, MinZoneCylinderOfAnArcIsALocalMinimumOfTheDescent) {
 }
 
 TEST(DescentFits, LocalMinZoneCylinderIsALocalMinimumOfTheDescent) {
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(10 * kSets)); ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(10 * kDescents)); ++seed) {
     SCOPED_TRACE(seed);
     const Points3 points = part(seed, core::kTwoPi).points;
     const auto zone = fit::min_zone_cylinder(points, Eigen::Vector3d::UnitZ());

@@ -24,10 +24,7 @@
 namespace rondure::test {
 namespace {
 
-constexpr int kPlanted = 1000;
 constexpr int kCurved = 200;  // drawing them takes longer than fitting them
-constexpr double kPlace = 1e-9;
-constexpr double kDirection = 1e-8;
 
 core::Result<fit::OneSidedCircle> fit_circle(const Points2& points, Reference reference) {
   return reference == Reference::kCircumscribed ? fit::min_circumscribed_circle(points)
@@ -40,7 +37,7 @@ core::Result<fit::OneSidedCylinder> fit_cylinder(const Points3& points, Referenc
                                                 : fit::max_inscribed_cylinder(points, near);
 }
 
-double stated(const Optimum& optimum, Reference reference) {
+double stated_radius(const Optimum& optimum, Reference reference) {
   return reference == Reference::kCircumscribed ? optimum.outer_mm : optimum.inner_mm;
 }
 
@@ -49,11 +46,6 @@ std::vector<std::size_t> sorted_rows(const std::vector<fit::Contact>& contacts) 
   for (const auto& c : contacts) out.push_back(c.index);
   std::sort(out.begin(), out.end());
   return out;
-}
-
-std::vector<std::size_t> sorted(std::vector<std::size_t> rows) {
-  std::sort(rows.begin(), rows.end());
-  return rows;
 }
 
 TEST(OneSided, CircumscribedCircleEqualsTheEnumeration) {
@@ -114,7 +106,7 @@ TEST(OneSided, PlantedCircles) {
       const PlantedCircle set = plant_circle(draw_plot(reference, seed), seed);
       const auto circle = fit_circle(set.points, reference);
       ASSERT_TRUE(circle.has_value()) << circle.error().what;
-      EXPECT_NEAR(circle->radius_mm, stated(set.optimum, reference), kPlace);
+      EXPECT_NEAR(circle->radius_mm, stated_radius(set.optimum, reference), kPlace);
       EXPECT_LT((circle->center_mm - set.center_mm).norm(), kPlace);
       EXPECT_EQ(sorted_rows(circle->contacts), sorted(set.optimum.contacts));
     }
@@ -132,7 +124,7 @@ void expect_planted_cylinders(Reference reference, bool curved) {
     const Eigen::Vector3d near = set.direction + 0.02 * set.direction.unitOrthogonal();
     const auto cylinder = fit_cylinder(set.points, reference, near);
     ASSERT_TRUE(cylinder.has_value()) << cylinder.error().what;
-    EXPECT_NEAR(cylinder->radius_mm, stated(set.optimum, reference), kPlace);
+    EXPECT_NEAR(cylinder->radius_mm, stated_radius(set.optimum, reference), kPlace);
     EXPECT_LT(fit::distance_mm({set.center_mm, set.direction}, cylinder->axis.point_mm), kPlace);
     EXPECT_LT(cylinder->axis.direction.cross(set.direction).norm(), kDirection);
     EXPECT_EQ(sorted_rows(cylinder->contacts), sorted(set.optimum.contacts));
@@ -192,7 +184,8 @@ TEST(OneSided, ShaftsHaveNoWorseOptimumThanTheOneBelowTheLeastSquaresAxis) {
                                         start->axis.direction.cast<Real>(), reference, 0.01L);
       // Several optima may lie close together: the fit's is the best of them or as good.
       const double sign = reference == Reference::kCircumscribed ? 1.0 : -1.0;
-      EXPECT_LE(sign * cylinder->radius_mm, static_cast<double>(truth.at.value_mm(reference)) + 1e-9);
+      EXPECT_LE(sign * cylinder->radius_mm,
+                static_cast<double>(truth.at.value_mm(reference)) + 1e-9);
     }
   }
 }

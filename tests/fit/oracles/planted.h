@@ -16,6 +16,7 @@
 // heights in the kernel of the balance of the tilts; kept when the curvature of the Lagrangian is
 // positive along the one direction that the contacts leave free.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -68,5 +69,15 @@ struct PlantedCylinder {
 /// A draw of sizes for the seed-th set of a loop: radius 1 to 200 mm, discs to bars, form 1e-6 to
 /// 1e-3 of the radius, offset up to 500 mm.
 [[nodiscard]] Plot draw_plot(Reference reference, std::uint64_t seed);
+
+/// Sets that a test of a fit draws, and how near the fit comes to what was planted [mm, rad].
+inline constexpr int kPlanted = 1000;
+inline constexpr double kPlace = 1e-9;
+inline constexpr double kDirection = 1e-8;
+
+inline std::vector<std::size_t> sorted(std::vector<std::size_t> rows) {
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
 
 }  // namespace rondure::test

@@ -11,19 +11,19 @@
 namespace rondure::test {
 namespace {
 
-struct Contacts {
+struct CircleContacts {
   std::vector<double> angle_rad;  ///< The outer ones first.
   Eigen::Index outer = 0;
   double growth = 0.0;
 };
 
-Contacts draw_contacts(Reference reference, core::KeyedNoise& noise) {
+CircleContacts draw_contacts(Reference reference, core::KeyedNoise& noise) {
   const std::size_t contacts = reference == Reference::kMinZone ? 4 : 3;
   const Eigen::Index outer = reference == Reference::kMinZone         ? 2
                              : reference == Reference::kCircumscribed ? 3
                                                                       : 0;
   while (true) {
-    Contacts out;
+    CircleContacts out;
     out.outer = outer;
     Eigen::MatrixXd gradients(2, static_cast<Eigen::Index>(contacts));
     for (std::size_t i = 0; i < contacts; ++i) {
@@ -42,7 +42,7 @@ Contacts draw_contacts(Reference reference, core::KeyedNoise& noise) {
 
 PlantedCircle plant_circle(const Plot& plot, std::uint64_t seed) {
   core::KeyedNoise noise(seed, {81, static_cast<std::uint64_t>(plot.reference)});
-  const Contacts contacts = draw_contacts(plot.reference, noise);
+  const CircleContacts contacts = draw_contacts(plot.reference, noise);
   const Band band = draw_band(plot, contacts.growth * plot.radius_mm / 20.0, noise);
   PlantedCircle out;
   out.optimum = band.optimum(plot.reference);

@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Contacts in the frame of the axis, the outer ones first.
-struct Contacts {
+struct CylinderContacts {
   VectorXd angle_rad;
   VectorXd height_mm;
   Index outer = 0;
@@ -28,10 +28,12 @@ struct Contacts {
   double curvature = 0.0;
 };
 
-double sign_of(const Contacts& contacts, Index i) { return i < contacts.outer ? 1.0 : -1.0; }
+double sign_of(const CylinderContacts& contacts, Index i) {
+  return i < contacts.outer ? 1.0 : -1.0;
+}
 
 /// Columns (n, s n / Z) with the sign of the gradients.
-MatrixXd gradients(const Contacts& contacts, double half_length_mm) {
+MatrixXd gradients(const CylinderContacts& contacts, double half_length_mm) {
   MatrixXd out(4, contacts.angle_rad.size());
   for (Index i = 0; i < out.cols(); ++i) {
     const Eigen::Vector2d n(std::cos(contacts.angle_rad(i)), std::sin(contacts.angle_rad(i)));
@@ -52,9 +54,9 @@ VectorXd draw_angles(Index n, core::KeyedNoise& noise) {
   return out;
 }
 
-std::optional<Contacts> draw_full(const Plot& plot, core::KeyedNoise& noise) {
+std::optional<CylinderContacts> draw_full(const Plot& plot, core::KeyedNoise& noise) {
   const Index n = plot.reference == Reference::kMinZone ? 6 : 5;
-  Contacts out{draw_angles(n, noise), VectorXd(n), draw_outer(plot.reference, n, noise)};
+  CylinderContacts out{draw_angles(n, noise), VectorXd(n), draw_outer(plot.reference, n, noise)};
   for (Index i = 0; i < n; ++i)
     out.height_mm(i) = plot.half_length_mm * (2.0 * noise.uniform() - 1);
   const auto witness = weigh(gradients(out, plot.half_length_mm), out.outer);
@@ -64,7 +66,7 @@ std::optional<Contacts> draw_full(const Plot& plot, core::KeyedNoise& noise) {
 }
 
 /// Multipliers that balance the normals: a point of the solutions' line, by chance.
-VectorXd balanced(const Contacts& contacts, core::KeyedNoise& noise) {
+VectorXd balanced(const CylinderContacts& contacts, core::KeyedNoise& noise) {
   const Index n = contacts.angle_rad.size();
   MatrixXd rows = MatrixXd::Zero(4, n);
   for (Index i = 0; i < n; ++i) {
@@ -80,7 +82,7 @@ VectorXd balanced(const Contacts& contacts, core::KeyedNoise& noise) {
 }
 
 /// Heights that balance the tilts for these multipliers, between -Z and Z.
-VectorXd level(const Contacts& contacts, const VectorXd& weights, double half_length_mm,
+VectorXd level(const CylinderContacts& contacts, const VectorXd& weights, double half_length_mm,
                core::KeyedNoise& noise) {
   MatrixXd rows(2, weights.size());
   for (Index i = 0; i < weights.size(); ++i) {
@@ -105,9 +107,9 @@ double bend(double angle_rad, double height_mm, double radius_mm, double half_le
   return side * side / radius_mm - radius_mm * std::pow(n.dot(tilt), 2);
 }
 
-std::optional<Contacts> draw_curved(const Plot& plot, core::KeyedNoise& noise) {
+std::optional<CylinderContacts> draw_curved(const Plot& plot, core::KeyedNoise& noise) {
   const Index n = plot.reference == Reference::kMinZone ? 5 : 4;
-  Contacts out{draw_angles(n, noise), VectorXd(n), draw_outer(plot.reference, n, noise)};
+  CylinderContacts out{draw_angles(n, noise), VectorXd(n), draw_outer(plot.reference, n, noise)};
   const VectorXd weights = balanced(out, noise);
   if (weights.minCoeff() < 0.05) return std::nullopt;
   out.height_mm = level(out, weights, plot.half_length_mm, noise);
@@ -133,7 +135,7 @@ std::optional<Contacts> draw_curved(const Plot& plot, core::KeyedNoise& noise) {
 }
 
 /// Most that the form may be: a small part of the ball in which no other optimum lies.
-double ball(const Plot& plot, const Contacts& contacts) {
+double ball(const Plot& plot, const CylinderContacts& contacts) {
   const double bent = 1.0 / plot.radius_mm + plot.radius_mm / std::pow(plot.half_length_mm, 2);
   if (!plot.curved) return contacts.growth / (20.0 * bent);
   return 0.1 * contacts.curvature * contacts.growth / (bent * bent);
@@ -157,7 +159,7 @@ Eigen::Isometry3d draw_place(double offset_mm, core::KeyedNoise& noise) {
 PlantedCylinder plant_cylinder(const Plot& plot, std::uint64_t seed) {
   core::KeyedNoise noise(seed,
                          {82, static_cast<std::uint64_t>(plot.reference), plot.curved ? 1U : 0U});
-  std::optional<Contacts> contacts;
+  std::optional<CylinderContacts> contacts;
   while (!contacts) contacts = plot.curved ? draw_curved(plot, noise) : draw_full(plot, noise);
   const Band band = draw_band(plot, ball(plot, *contacts), noise);
   PlantedCylinder out;

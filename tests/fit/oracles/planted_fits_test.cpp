@@ -16,15 +16,6 @@
 namespace rondure::test {
 namespace {
 
-constexpr int kSets = 1000;
-constexpr double kPlace = 1e-9;
-constexpr double kDirection = 1e-8;
-
-std::vector<std::size_t> sorted(std::vector<std::size_t> indices) {
-  std::sort(indices.begin(), indices.end());
-  return indices;
-}
-
 /// The rows of contacts, those of two sides together.
 std::vector<std::size_t> rows(const std::vector<fit::Contact>& a,
                               const std::vector<fit::Contact>& b = {}) {
@@ -49,7 +40,7 @@ void expect_axis(const PlantedCylinder& set, const fit::Axis& axis) {
 }
 
 TEST(PlantedFits, MinZoneCircle) {
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kSets)); ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kPlanted)); ++seed) {
     SCOPED_TRACE(seed);
     const PlantedCircle set = plant_circle(draw_plot(Reference::kMinZone, seed), seed);
     const auto zone = fit::min_zone_circle(set.points);
@@ -63,7 +54,7 @@ TEST(PlantedFits, MinZoneCircle) {
 }
 
 void expect_min_zone_cylinders(bool curved) {
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kSets)); ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kPlanted)); ++seed) {
     SCOPED_TRACE(seed);
     Plot plot = draw_plot(Reference::kMinZone, seed);
     plot.curved = curved;

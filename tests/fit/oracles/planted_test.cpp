@@ -32,7 +32,7 @@ Plot plot_of(const Kind& kind, std::uint64_t seed) {
   return plot;
 }
 
-Real stated(const Optimum& optimum, Reference reference) {
+Real stated_value(const Optimum& optimum, Reference reference) {
   return Extremes{optimum.inner_mm, optimum.outer_mm}.value_mm(reference);
 }
 
@@ -69,7 +69,7 @@ TEST(Planted, CirclesHoldTheirPointsAndGrowAsStated) {
       const Eigen::Vector2d moved = step / step.cwiseAbs().maxCoeff() * size;
       const Real grown =
           extremes(set.points, (set.center_mm + moved).cast<Real>()).value_mm(plot.reference) -
-          stated(set.optimum, plot.reference);
+          stated_value(set.optimum, plot.reference);
       EXPECT_GE(grown, 0.4L * set.optimum.growth * size - 10.0L * unit);
     }
   }
@@ -89,7 +89,7 @@ void expect_growth(const PlantedCylinder& set, const Plot& plot, std::uint64_t s
     const Real grown = extremes(set.points, (set.center_mm + x(0) * u + x(1) * v).cast<Real>(),
                                 (set.direction + tilt).cast<Real>())
                            .value_mm(plot.reference) -
-                       stated(set.optimum, plot.reference);
+                       stated_value(set.optimum, plot.reference);
     // max|x| is not invariant under a turn of u and v: within a factor of sqrt 2.
     const double size = x.cwiseAbs().maxCoeff();
     const double least = plot.curved ? 0.0 : 0.5 * set.optimum.growth * size;
@@ -121,7 +121,7 @@ TEST(Planted, DescentFindsPlantedCircles) {
         descend(set.points, (set.center_mm + Eigen::Vector2d(away, away)).cast<Real>(),
                 plot.reference, away);
     EXPECT_NEAR(static_cast<double>(found.at.value_mm(plot.reference) -
-                                    stated(set.optimum, plot.reference)),
+                                    stated_value(set.optimum, plot.reference)),
                 0.0, 1e-12);
     EXPECT_LT((found.center_mm.cast<double>() - set.center_mm).norm(), 1e-10);
   }
@@ -139,7 +139,7 @@ TEST(Planted, DescentFindsPlantedCylinders) {
                 (set.direction + away / plot.half_length_mm * set.direction.cross(u)).cast<Real>(),
                 plot.reference, away);
     EXPECT_NEAR(static_cast<double>(found.at.value_mm(plot.reference) -
-                                    stated(set.optimum, plot.reference)),
+                                    stated_value(set.optimum, plot.reference)),
                 0.0, 3e-12);
   }
 }
