@@ -6,12 +6,8 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 . "$here/.ci/packages.sh"
 ensure_packages $rondure_build_packages
-
-(cd "$here" && build release OFF rondure) >"/tmp/rondure-build.$$" 2>&1 || {
-  cat "/tmp/rondure-build.$$" >&2
-  exit 2
-}
-rm -f "/tmp/rondure-build.$$"
+(cd "$here" && build release OFF rondure)
+trap - INT
 
 if [ $# -gt 0 ]; then
   exec "$here/build/release/rondure" "$@"

@@ -9,19 +9,18 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 . .ci/packages.sh
-ensure_packages $rondure_build_packages $rondure_test_packages
-
 sanitized="core wire record fixture cmm fit fuzz"
 case "${1:-}" in
-  "") ;;
+  "" | --sanitizers) ;;
   --full) export RONDURE_FULL=1 ;;
-  --sanitizers)
-    build asan ON all
-    exec ctest --preset asan
-    ;;
   *) echo "usage: ./test.sh [--full|--sanitizers]" >&2; exit 2 ;;
 esac
 
+ensure_packages $rondure_build_packages $rondure_test_packages
+if [ "${1:-}" = --sanitizers ]; then
+  build asan ON all
+  exec ctest --preset asan
+fi
 # Everything else is tested also where there is no Chromium.
 (ensure_packages $rondure_browser_packages) || echo "Without these packages the browser tests are skipped." >&2
 build release ON all

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/analysis_verbs.h"
+#include "app/command_documents.h"
 #include "app/indicators.h"
 #include "app/rotary_axes_command.h"
 #include "app/terminal.h"
@@ -465,6 +466,21 @@ void add_devices(CLI::App& app, DevicesArguments& arguments) {
       "docs/indicators.md");
 }
 
+void add_completion(CLI::App& app, std::string& shell) {
+  auto* verb = app.add_subcommand("completion", "Prints the completion script of a shell");
+  verb->add_option("SHELL", shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  verb->footer(
+      "\nExample: source <(rondure completion bash)\n"
+      "The Debian package installs all three.");
+}
+
+void add_manual(CLI::App& app) {
+  app.add_subcommand("manual", "Prints the manual page, for man")
+      ->footer("\nExample: rondure manual | man -l -");
+}
+
 /// Help and version go to standard output, everything else is a mistake in the arguments.
 int explain(const CLI::App& app, const CLI::ParseError& error,
             const std::vector<std::string>& words) {
@@ -495,9 +511,15 @@ int explain(const CLI::App& app, const CLI::ParseError& error,
   return kBadInput;
 }
 
+int printed(const std::string& text) {
+  say(text);
+  return kAllWell;
+}
+
 int main_of(int argc, char** argv) {
   CLI::App app{"Rondure: cylindricity inspection with a CMM and a two-axis fixture", "rondure"};
-  app.set_version_flag("--version", std::string(core::kVersion));
+  app.set_version_flag("--version",
+                       fmt::format("rondure {} (commit {})", core::kVersion, core::commit()));
   app.require_subcommand(1);
   app.footer(kExits);
   ValidateArguments validate_arguments;
@@ -519,6 +541,7 @@ int main_of(int argc, char** argv) {
   VerifyArguments verify_arguments;
   CompareArguments compare_arguments;
   HistoryArguments history_arguments;
+  std::string shell;
   add_validate(app, validate_arguments);
   add_plan(app, plan_arguments);
   add_run(app, run_arguments);
@@ -538,6 +561,8 @@ int main_of(int argc, char** argv) {
   add_design_probes(app, design_arguments);
   add_devices(app, devices_arguments);
   add_record(app, record_arguments);
+  add_completion(app, shell);
+  add_manual(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -561,6 +586,8 @@ int main_of(int argc, char** argv) {
   if (app.got_subcommand("sign")) return sign(sign_arguments);
   if (app.got_subcommand("devices")) return devices(devices_arguments);
   if (app.got_subcommand("record")) return record_readings(record_arguments);
+  if (app.got_subcommand("completion")) return printed(completion_script(app, shell));
+  if (app.got_subcommand("manual")) return printed(manual_page(app));
   return verify(verify_arguments);
 }
 

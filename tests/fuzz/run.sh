@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # Searches for inputs that upset a target, with libFuzzer under the address and undefined-behaviour
-# sanitizers. Needs clang (Debian: clang-14, libclang-rt-14-dev).
+# sanitizers of clang.
 #   tests/fuzz/run.sh ipp_server|ipp_grammar [RUNS]     RUNS: 1000000 by default
 # What it finds lies in build/fuzz as crash-*; the target run with that file shows it again.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 target=${1:?which target: ipp_server or ipp_grammar}
 runs=${2:-1000000}
+. .ci/packages.sh
+ensure_packages $rondure_build_packages $rondure_test_packages $rondure_fuzz_packages
 flags="-fsanitize=address,undefined,fuzzer-no-link -fno-sanitize-recover=all"
-cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++-14 \
+cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=/usr/bin/clang++-14 \
   -DCMAKE_CXX_FLAGS="$flags" -DRONDURE_FUZZERS=ON >/dev/null
 cmake --build build/fuzz --target "fuzz_$target" >/dev/null
 corpus=build/fuzz/corpus_$target

@@ -1,0 +1,344 @@
+#include "app/command_documents.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "core/version.h"
+
+namespace rondure::app {
+namespace {
+
+/// A verb as it is typed ("run", "fit roundness"; empty: the program alone) and what it takes.
+struct VerbEntry {
+  std::string words;
+  const CLI::App* table;
+};
+
+std::vector<const CLI::App*> inner_verbs(const CLI::App& of) {
+  return of.get_subcommands([](const CLI::App*) { return true; });
+}
+
+/// The program alone, its verbs, and theirs.
+std::vector<VerbEntry> all_verbs(const CLI::App& program) {
+  std::vector<VerbEntry> out = {{"", &program}};
+  for (const CLI::App* verb : inner_verbs(program)) {
+    out.push_back({verb->get_name(), verb});
+    for (const CLI::App* inner : inner_verbs(*verb)) {
+      out.push_back({verb->get_name() + " " + inner->get_name(), inner});
+    }
+  }
+  return out;
+}
+
+std::vector<const CLI::Option*> named_options(const CLI::App& verb) {
+  return verb.get_options([](const CLI::Option* option) { return option->nonpositional(); });
+}
+
+std::vector<const CLI::Option*> positionals(const CLI::App& verb) {
+  return verb.get_options([](const CLI::Option* option) { return option->get_positional(); });
+}
+
+bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
+
+/// "--out"; "-h" has a long name too.
+std::string long_name(const CLI::Option& option) { return "--" + option.get_lnames().front(); }
+
+/// The words that a value is one of; empty: any value. CLI11 keeps them in the type:
+/// "TEXT:{ls,mz}".
+std::vector<std::string> listed_words(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const auto open = type.find('{');
+  const auto close = type.find('}', open);
+  if (close == std::string::npos) return {};
+  return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
+}
+
+/// "DIR" of "DIR", "LIST" of "LIST:{html,pdf}".
+std::string value_name(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  return type.substr(0, type.find(':'));
+}
+
+/// Verbs and listed words that may stand where a word without dashes is typed.
+std::vector<std::string> plain_words(const CLI::App& verb) {
+  std::vector<std::string> out;
+  for (const CLI::App* inner : inner_verbs(verb)) out.push_back(inner->get_name());
+  for (const CLI::Option* option : positionals(verb)) {
+    for (std::string& word : listed_words(*option)) out.push_back(std::move(word));
+  }
+  return out;
+}
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// `text` with a backslash before each of `special`.
+std::string with_backslashes(std::string_view text, std::string_view special) {
+  std::string out;
+  for (const char c : text) {
+    if (special.find(c) != std::string_view::npos) out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+/// For a shell word in single quotes.
+std::string single_quoted(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out;
+}
+
+/// Branches of a case statement that find the verb in the words typed so far: `line` makes one of
+/// the patterns, each a verb and the next word, and of what the verb becomes.
+template <typename Line>
+std::string verb_branches(const std::vector<VerbEntry>& verbs, const Line& line) {
+  std::string out;
+  for (const VerbEntry& verb : verbs) {
+    std::vector<std::string> patterns;
+    for (const CLI::App* inner : inner_verbs(*verb.table)) {
+      patterns.push_back(fmt::format("'{} {}'", verb.words, inner->get_name()));
+    }
+    if (!patterns.empty()) out += line(patterns, verb.words.empty() ? "$word" : "$verb $word");
+  }
+  return out;
+}
+
+// ---- bash
+
+std::string bash_completion(const std::vector<VerbEntry>& verbs) {
+  std::string values, options, names;
+  for (const VerbEntry& verb : verbs) {
+    std::vector<std::string> words;
+    for (const CLI::Option* option : named_options(*verb.table)) {
+      words.push_back(long_name(*option));
+      if (takes_value(*option)) {
+        values += fmt::format("    '{} {}') words='{}' ;;\n", verb.words, words.back(),
+                              fmt::join(listed_words(*option), " "));
+      }
+    }
+    options += fmt::format("        '{}') words='{}' ;;\n", verb.words, fmt::join(words, " "));
+    const std::vector<std::string> plain = plain_words(*verb.table);
+    if (plain.empty()) continue;
+    names += fmt::format("        '{}') words='{}' ;;\n", verb.words, fmt::join(plain, " "));
+  }
+  const std::string found =
+      verb_branches(verbs, [](const std::vector<std::string>& patterns, const char* becomes) {
+        return fmt::format("      {}) verb=\"{}\" ;;\n", fmt::join(patterns, " | "), becomes);
+      });
+  return fmt::format(
+      "# Completion of rondure {} for bash: rondure completion bash\n"
+      "_rondure() {{\n"
+      "  local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD - 1]}}\n"
+      "  local verb= word words=\n"
+      "  for word in \"${{COMP_WORDS[@]:1:COMP_CWORD - 1}}\"; do\n"
+      "    case \"$verb $word\" in\n"
+      "{}"
+      "    esac\n"
+      "  done\n"
+      "  case \"$verb $previous\" in\n"
+      "{}"
+      "    *)\n"
+      "      if [[ $current == -* ]]; then\n"
+      "        case \"$verb\" in\n{}        esac\n"
+      "      else\n"
+      "        case \"$verb\" in\n{}        esac\n"
+      "      fi ;;\n"
+      "  esac\n"
+      "  COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
+      "}}\n"
+      "complete -o default -F _rondure rondure\n",
+      core::kVersion, found, values, options, names);
+}
+
+// ---- zsh
+
+std::string zsh_option(const CLI::Option& option) {
+  std::string out = fmt::format("{}[{}]", long_name(option),
+                                with_backslashes(one_line(option.get_description()), "\\[]"));
+  if (option.get_items_expected_max() > 1) out.insert(0, "*");
+  if (takes_value(option)) {
+    const std::vector<std::string> words = listed_words(option);
+    out += fmt::format(
+        ":{}:{}", with_backslashes(value_name(option), ":"),
+        words.empty() ? std::string("_files") : fmt::format("({})", fmt::join(words, " ")));
+  }
+  return out;
+}
+
+std::string zsh_completion(const std::vector<VerbEntry>& verbs) {
+  std::string branches;
+  for (const VerbEntry& verb : verbs) {
+    branches += fmt::format("    '{}') _arguments", verb.words);
+    for (const CLI::Option* option : named_options(*verb.table)) {
+      branches += fmt::format(" \\\n      '{}'", single_quoted(zsh_option(*option)));
+    }
+    const std::vector<std::string> plain = plain_words(*verb.table);
+    const std::string words =
+        plain.empty() ? std::string() : fmt::format("\"names:name:({})\" ", fmt::join(plain, " "));
+    const char* files = verb.words.empty() ? "" : "\"files:file:_files\"";
+    branches += fmt::format(" \\\n      '*: :{{ _alternative {}{} }}' ;;\n", words, files);
+  }
+  const std::string found =
+      verb_branches(verbs, [](const std::vector<std::string>& patterns, const char* becomes) {
+        return fmt::format("      {}) verb=\"{}\" ;;\n", fmt::join(patterns, " | "), becomes);
+      });
+  return fmt::format(
+      "#compdef rondure\n"
+      "# Completion of rondure {} for zsh: rondure completion zsh\n"
+      "_rondure() {{\n"
+      "  local verb= word\n"
+      "  for word in \"${{(@)words[2,CURRENT-1]}}\"; do\n"
+      "    case \"$verb $word\" in\n"
+      "{}"
+      "    esac\n"
+      "  done\n"
+      "  case \"$verb\" in\n"
+      "{}"
+      "  esac\n"
+      "}}\n"
+      "if [ \"$funcstack[1]\" = _rondure ]; then _rondure \"$@\"; else compdef _rondure rondure; "
+      "fi\n",
+      core::kVersion, found, branches);
+}
+
+// ---- fish
+
+std::string fish_completion(const std::vector<VerbEntry>& verbs) {
+  std::string out = fmt::format(
+      "# Completion of rondure {} for fish: rondure completion fish\n"
+      "function __rondure_at --description 'Whether the words typed so far name this verb'\n"
+      "  set -l verb ''\n"
+      "  for word in (commandline -opc)[2..]\n"
+      "    switch \"$verb $word\"\n"
+      "{}"
+      "    end\n"
+      "  end\n"
+      "  test \"$verb\" = \"$argv[1]\"\n"
+      "end\n",
+      core::kVersion,
+      verb_branches(verbs, [](const std::vector<std::string>& patterns, const char* becomes) {
+        return fmt::format("      case {}\n        set verb \"{}\"\n", fmt::join(patterns, " "),
+                           becomes);
+      }));
+  for (const VerbEntry& verb : verbs) {
+    const std::string head =
+        fmt::format("complete -c rondure -n '__rondure_at \"{}\"'", verb.words);
+    for (const CLI::App* inner : inner_verbs(*verb.table)) {
+      out += fmt::format("{}{} -a {} -d '{}'\n", head, verb.words.empty() ? " -f" : "",
+                         inner->get_name(),
+                         with_backslashes(one_line(inner->get_description()), "\\'"));
+    }
+    for (const CLI::Option* option : positionals(*verb.table)) {
+      for (const std::string& word : listed_words(*option)) {
+        out += fmt::format("{} -a {}\n", head, word);
+      }
+    }
+    for (const CLI::Option* option : named_options(*verb.table)) {
+      const std::vector<std::string> words = listed_words(*option);
+      std::string value;
+      if (takes_value(*option))
+        value = words.empty() ? " -r" : fmt::format(" -x -a '{}'", fmt::join(words, " "));
+      out += fmt::format("{} -l {}{} -d '{}'\n", head, option->get_lnames().front(), value,
+                         with_backslashes(one_line(option->get_description()), "\\'"));
+    }
+  }
+  return out;
+}
+
+// ---- the manual page
+
+/// A line of text in roff: nothing in it is a request.
+std::string roff(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool first = out.empty() || out.back() == '\n';
+    if (first && (c == '.' || c == '\'')) out += "\\&";
+    if (c == '\\') {
+      out += "\\e";
+    } else if (c == '-') {
+      out += "\\-";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+/// Text whose lines stay as they are.
+std::string roff_lines(std::string text) {
+  while (!text.empty() && text.front() == '\n') text.erase(0, 1);
+  return text.empty() ? "" : fmt::format(".PP\n.nf\n{}\n.fi\n", roff(text));
+}
+
+std::string synopsis(const VerbEntry& verb) {
+  std::string out = "rondure " + verb.words;
+  if (!named_options(*verb.table).empty()) out += " [OPTIONS]";
+  for (const CLI::Option* option : positionals(*verb.table)) {
+    const std::string name = option->get_name(true);
+    out += option->get_required() ? " " + name : fmt::format(" [{}]", name);
+  }
+  return out;
+}
+
+std::string described(const CLI::Option& option) {
+  const bool named = option.nonpositional();
+  const std::string value = named && takes_value(option) ? value_name(option) : "";
+  std::string out = fmt::format(".TP\n\\fB{}\\fR{}\n{}\n",
+                                roff(named ? long_name(option) : option.get_name(true)),
+                                value.empty() ? "" : fmt::format(" \\fI{}\\fR", roff(value)),
+                                roff(one_line(option.get_description())));
+  const std::vector<std::string> words = listed_words(option);
+  if (!words.empty())
+    out += fmt::format("One of {}.\n", roff(fmt::format("{}", fmt::join(words, ", "))));
+  return out;
+}
+
+}  // namespace
+
+std::string manual_page(const CLI::App& program) {
+  std::string out = fmt::format(
+      ".TH RONDURE 1 \"\" \"rondure {}\" \"User Commands\"\n"
+      ".SH NAME\nrondure \\- cylindricity inspection with a CMM and a two\\-axis fixture\n"
+      ".SH SYNOPSIS\n.B rondure\n.I VERB\n[\\fIOPTIONS\\fR] [\\fIARGUMENTS\\fR]\n"
+      ".SH DESCRIPTION\n"
+      "A plan in JSON says what to inspect. The program turns the fixture through poses, drives "
+      "the\n"
+      "probe of a real or simulated machine over layers of points, evaluates them, and writes a\n"
+      "conformance report whose every digit can be recomputed from the recorded touches.\n"
+      ".SH VERBS\n",
+      core::kVersion);
+  for (const VerbEntry& verb : all_verbs(program)) {
+    if (verb.words.empty()) continue;
+    out += fmt::format(".SS \"{}\"\n{}.\n", roff(synopsis(verb)),
+                       roff(one_line(verb.table->get_description())));
+    for (const CLI::Option* option : positionals(*verb.table)) out += described(*option);
+    for (const CLI::Option* option : named_options(*verb.table)) {
+      if (long_name(*option) != "--help") out += described(*option);
+    }
+    out += roff_lines(verb.table->get_footer());
+  }
+  out += ".SH EXIT STATUS\n" + roff_lines(program.get_footer());
+  out +=
+      ".SH FILES\n"
+      ".TP\n.I /usr/share/rondure/plans/examples\nPlans to start from, each a lesson.\n"
+      ".TP\n.I /usr/share/rondure/plans/schema/plan.schema.json\n"
+      "The schema of a plan, for editors that complete and explain keys.\n"
+      ".TP\n.I /usr/share/doc/rondure\nWhat every key, number and formula means.\n";
+  return out;
+}
+
+std::string completion_script(const CLI::App& program, const std::string& shell) {
+  const std::vector<VerbEntry> verbs = all_verbs(program);
+  if (shell == "zsh") return zsh_completion(verbs);
+  if (shell == "fish") return fish_completion(verbs);
+  return bash_completion(verbs);
+}
+
+}  // namespace rondure::app

@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# debian.sh BUILD_FOLDER: both Debian packages are made; lintian finds no error in them, and what was promised is inside.
+set -euo pipefail
+build=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cpack --config "$build/CPackConfig.cmake" -B "$folder" >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
+ls -l "$folder"/*.deb
+lintian --allow-root --fail-on error --tag-display-limit 0 "$folder"/*.deb
+dpkg-deb --info "$folder"/rondure_*.deb
+for package in "$folder"/*.deb; do dpkg-deb -x "$package" "$folder/root"; done
+for file in bin/rondure lib/udev/rules.d/60-rondure.rules lib/cmake/rondure/rondureConfig.cmake lib/librondure_fit.a \
+  include/rondure/fit/min_zone_cylinder.h share/man/man1/rondure.1.gz share/bash-completion/completions/rondure \
+  share/zsh/vendor-completions/_rondure share/fish/vendor_completions.d/rondure.fish \
+  share/rondure/plans/schema/plan.schema.json share/doc/rondure/docs/plan.md share/doc/rondure/copyright; do
+  [ -s "$folder/root/usr/$file" ] || { echo "missing: /usr/$file"; exit 1; }
+done
+cd "$folder"
+for plan in root/usr/share/rondure/plans/examples/*.json; do root/usr/bin/rondure validate "$plan"; done
+root/usr/bin/rondure run root/usr/share/rondure/plans/examples/09_axle_points_file.json --out run --archive none --quiet
+root/usr/bin/rondure verify run
