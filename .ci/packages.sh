@@ -35,7 +35,7 @@ show_progress() {
   while read -r percent text; do
     if [ -t 2 ]; then
       printf '\r\033[K%.79s' "$text" >&2
-    elif [ "$percent" -ge $((told + 10)) ]; then
+    elif [ "$percent" -ge $((told + 10)) ] || [ "$percent" -lt "$told" ]; then
       told=$((percent / 10 * 10))
       printf '%s\n' "$text" >&2
     fi
@@ -71,14 +71,15 @@ ensure_packages() {
   echo "Installing $count Debian packages and what they need:$missing" | fold -s -w 79 >&2
   # Finishes what an earlier call left half done. A package list may name files that are no longer there, so it is
   # fetched first; where only some other source fails, installing may still work, and decides.
-  local proxies apt="apt-get -q -o DPkg::Lock::Timeout=300 -o APT::Status-Fd=1"
+  local proxies apt="apt-get -q -o DPkg::Lock::Timeout=300"
   proxies=$(env | grep -iE '^(https?|no)_proxy=' || true)  # sudo keeps none
   if ! {
     $sudo env DEBIAN_FRONTEND=noninteractive dpkg --configure -a </dev/null
     $sudo env DEBIAN_FRONTEND=noninteractive $proxies $apt update </dev/null
-    $sudo env DEBIAN_FRONTEND=noninteractive $proxies $apt install -y --no-install-recommends $missing </dev/null
+    $sudo env DEBIAN_FRONTEND=noninteractive $proxies $apt -o APT::Status-Fd=1 install -y --no-install-recommends $missing </dev/null
   } 2>&1 | tee -a "$log" |
-    sed -un 's/^dlstatus:[^:]*:\([0-9]*\)[^:]*:.*/\1 Downloading packages: \1 %/p
+    sed -un 's/^Need to get \(.*\) of archives.$/0 Downloading \1/p
+             s/^dlstatus:[^:]*:\([0-9]*\)[^:]*:.*/\1 Downloading packages: \1 %/p
              s/^pmstatus:\([^:]*\):\([0-9]*\)[^:]*:.*/\2 Installing packages: \2 % (\1)/p' | show_progress; then
     echo "Installing failed; nothing was built. Start again when the cause is gone; what was downloaded is kept." >&2
     explain_failure "$log" '^(E|Err)[:0-9]'
@@ -111,14 +112,15 @@ build() {
   rm -f "$log"
 }
 
-# Reads lines "DONE TOTAL" of ninja. Builds of less than two seconds stay silent.
+# Reads lines "DONE TOTAL" of ninja. Builds of less than two seconds stay silent; the first tenth foretells nothing.
 build_progress() {  # PRESET START
   local done total left percent
   while read -r done total; do
     left=$(((SECONDS - $2) * (total - done) / done)) percent=$((100 * done / total))
     [ $((SECONDS - $2)) -ge 2 ] || continue
-    [ "$left" -ge 60 ] && left="about $(((left + 30) / 60)) min left" || left="less than 1 min left"
-    echo "$percent Building $1: [$done/$total] $percent %, $left"
+    [ "$left" -ge 60 ] && left=", about $(((left + 30) / 60)) min left" || left=", less than 1 min left"
+    [ "$percent" -ge 10 ] || left=""
+    echo "$percent Building $1: [$done/$total] $percent %$left"
   done
 }
 

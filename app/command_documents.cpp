@@ -95,19 +95,26 @@ std::string single_quoted(std::string_view text) {
   return out;
 }
 
-/// Branches of a case statement that find the verb in the words typed so far: `line` makes one of
-/// the patterns, each a verb and the next word, and of what the verb becomes.
-template <typename Line>
-std::string verb_branches(const std::vector<VerbEntry>& verbs, const Line& line) {
+/// Branches of a case statement that find the verb in the words typed so far. `branch` takes the
+/// patterns, each a verb and the next word, and what the verb becomes.
+std::string verb_branches(const std::vector<VerbEntry>& verbs, const char* branch,
+                          const char* between) {
   std::string out;
   for (const VerbEntry& verb : verbs) {
     std::vector<std::string> patterns;
     for (const CLI::App* inner : inner_verbs(*verb.table)) {
       patterns.push_back(fmt::format("'{} {}'", verb.words, inner->get_name()));
     }
-    if (!patterns.empty()) out += line(patterns, verb.words.empty() ? "$word" : "$verb $word");
+    if (patterns.empty()) continue;
+    out += fmt::format(fmt::runtime(branch), fmt::join(patterns, between),
+                       verb.words.empty() ? "$word" : "$verb $word");
   }
   return out;
+}
+
+/// Of bash and zsh.
+std::string shell_branches(const std::vector<VerbEntry>& verbs) {
+  return verb_branches(verbs, "      {}) verb=\"{}\" ;;\n", " | ");
 }
 
 // ---- bash
@@ -128,10 +135,6 @@ std::string bash_completion(const std::vector<VerbEntry>& verbs) {
     if (plain.empty()) continue;
     names += fmt::format("        '{}') words='{}' ;;\n", verb.words, fmt::join(plain, " "));
   }
-  const std::string found =
-      verb_branches(verbs, [](const std::vector<std::string>& patterns, const char* becomes) {
-        return fmt::format("      {}) verb=\"{}\" ;;\n", fmt::join(patterns, " | "), becomes);
-      });
   return fmt::format(
       "# Completion of rondure {} for bash: rondure completion bash\n"
       "_rondure() {{\n"
@@ -154,7 +157,7 @@ std::string bash_completion(const std::vector<VerbEntry>& verbs) {
       "  COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
       "}}\n"
       "complete -o default -F _rondure rondure\n",
-      core::kVersion, found, values, options, names);
+      core::kVersion, shell_branches(verbs), values, options, names);
 }
 
 // ---- zsh
@@ -185,10 +188,6 @@ std::string zsh_completion(const std::vector<VerbEntry>& verbs) {
     const char* files = verb.words.empty() ? "" : "\"files:file:_files\"";
     branches += fmt::format(" \\\n      '*: :{{ _alternative {}{} }}' ;;\n", words, files);
   }
-  const std::string found =
-      verb_branches(verbs, [](const std::vector<std::string>& patterns, const char* becomes) {
-        return fmt::format("      {}) verb=\"{}\" ;;\n", fmt::join(patterns, " | "), becomes);
-      });
   return fmt::format(
       "#compdef rondure\n"
       "# Completion of rondure {} for zsh: rondure completion zsh\n"
@@ -205,7 +204,7 @@ std::string zsh_completion(const std::vector<VerbEntry>& verbs) {
       "}}\n"
       "if [ \"$funcstack[1]\" = _rondure ]; then _rondure \"$@\"; else compdef _rondure rondure; "
       "fi\n",
-      core::kVersion, found, branches);
+      core::kVersion, shell_branches(verbs), branches);
 }
 
 // ---- fish
@@ -222,11 +221,7 @@ std::string fish_completion(const std::vector<VerbEntry>& verbs) {
       "  end\n"
       "  test \"$verb\" = \"$argv[1]\"\n"
       "end\n",
-      core::kVersion,
-      verb_branches(verbs, [](const std::vector<std::string>& patterns, const char* becomes) {
-        return fmt::format("      case {}\n        set verb \"{}\"\n", fmt::join(patterns, " "),
-                           becomes);
-      }));
+      core::kVersion, verb_branches(verbs, "      case {}\n        set verb \"{}\"\n", " "));
   for (const VerbEntry& verb : verbs) {
     const std::string head =
         fmt::format("complete -c rondure -n '__rondure_at \"{}\"'", verb.words);

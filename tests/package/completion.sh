@@ -46,5 +46,5 @@ zsh -f -c "
   _arguments() { print -rl -- \"\$@\"; }
   words=(rondure fit roundness ''); CURRENT=4
   _rondure" >"$folder/arguments"
-grep -q -- '^--cutoff-upr\[' "$folder/arguments"
-! grep -q -- '^--resume\[' "$folder/arguments"
+grep -q -- '--cutoff-upr\[' "$folder/arguments"
+! grep -q -- '--resume\[' "$folder/arguments"
