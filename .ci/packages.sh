@@ -14,10 +14,10 @@ rondure_fuzz_packages="clang-14 libclang-rt-14-dev"
 
 # The first lines of a log that say why something failed, or its last ones; then where the whole log lies.
 explain_failure() {  # LOG PATTERN
-  { grep -m 1 -A 4 -E "$2" "$1" || tail -n 12 "$1"; } >&2
   if grep -qi 'no space left on device' "$1"; then
     echo "The disk is full. Free some space and start again; the next call goes on from here." >&2
   fi
+  { grep -m 1 -A 4 -E "$2" "$1" || tail -n 12 "$1"; } >&2
   echo "The whole log: $1" >&2
 }
 
@@ -78,7 +78,8 @@ ensure_packages() {
     $sudo env DEBIAN_FRONTEND=noninteractive $proxies $apt update </dev/null
     $sudo env DEBIAN_FRONTEND=noninteractive $proxies $apt -o APT::Status-Fd=1 install -y --no-install-recommends $missing </dev/null
   } 2>&1 | tee -a "$log" |
-    sed -un 's/^dlstatus:[^:]*:\([0-9]*\)[^:]*:.*/\1 Downloading packages: \1 %/p
+    sed -un 's/^Need to get \(.*\) of archives.$/0 Downloading \1/p
+             s/^dlstatus:[^:]*:\([0-9]*\)[^:]*:.*/\1 Downloading packages: \1 %/p
              s/^pmstatus:\([^:]*\):\([0-9]*\)[^:]*:.*/\2 Installing packages: \2 % (\1)/p' | show_progress; then
     echo "Installing failed; nothing was built. Start again when the cause is gone; what was downloaded is kept." >&2
     explain_failure "$log" '^(E|Err)[:0-9]'
