@@ -158,6 +158,9 @@ std::vector<record::Setting> settings_of(const Plan& plan) {
   SettingList declared("uncertainty/");
   describe(declared, uncertainty);
   for (record::Setting& setting : declared.take()) out.push_back(std::move(setting));
+  if (uncertainty.thermal && plan.part.expansion_per_K) {
+    out.push_back({"uncertainty/thermal/expansion_per_K", *plan.part.expansion_per_K, ""});
+  }
   // A group without a key of its own is declared all the same.
   const auto given = [&](const char* name, bool there) {
     if (there) out.push_back({"uncertainty/declared", std::nullopt, name});

@@ -21,6 +21,7 @@ struct PriorPlan {
 struct DecisionRulePlan {
   std::string rule = "simple-acceptance";
   std::string measurand = "sampled-points";  ///< Or "whole-surface".
+  std::string judge = "as-read";             ///< Or "corrected".
   double guard_factor = 1.0;                 ///< Of "iso-14253-1".
   double consumer_risk_percent = 5.0;        ///< Of "jcgm-106".
   double producer_risk_percent = 5.0;        ///< Of "jcgm-106".
@@ -43,6 +44,8 @@ struct LobeInfluencePlan {
 
 struct ProbeInfluencesPlan {
   std::optional<double> repeatability_um;  ///< None: from the repeats of the run.
+  double degrees_of_freedom = 0.0;         ///< Behind it; 0: known.
+  double correlation_length_mm = 0.0;      ///< Of a scan; 0: each touch anew.
   std::vector<LobeInfluencePlan> lobes;
   double form_limit_um = 0.0;
   std::optional<double> tip_radius_um;  ///< None: from the qualification of the run.
@@ -91,6 +94,7 @@ struct UncertaintyPlan {
   int most_trials = 10'000;
   double tolerance_um = 0.0;
   int budget_trials = 1000;
+  double expected_spots = 0.5;
   std::uint64_t seed = 1;
   std::optional<ProbeInfluencesPlan> probe;
   std::optional<MachineInfluencesPlan> machine;

@@ -48,6 +48,11 @@ void describe(Visitor& v, DecisionRulePlan& p) {
          {.one_of = {"sampled-points", "whole-surface"},
           .meaning = "What the verdict is about: the surface at the sampled points, or the whole "
                      "surface under the form spectrum."});
+  v.text("judge", p.judge,
+         {.one_of = {"as-read", "corrected"},
+          .meaning = "as-read: a value that was read above the tolerance never conforms, whatever "
+                     "the correction for noise says. corrected: only the corrected value and its "
+                     "interval count, by agreement of both parties; the report says so."});
   v.number("guard_factor", p.guard_factor,
            range(0.0, 10.0, "iso-14253-1: guard band in parts of the interval beside the value."));
   const auto risk = [](std::string_view meaning) {
@@ -86,6 +91,14 @@ void describe(Visitor& v, ProbeInfluencesPlan& p) {
            range(0.0, 1000.0,
                  "Standard deviation of one touch; normal. Left out: that of the repeated touches "
                  "of the run."));
+  v.number("degrees_of_freedom", p.degrees_of_freedom,
+           range(0.0, 1e6,
+                 "How many stand behind repeatability_um; left out or 0: it is known exactly. "
+                 "Repeats of the run bring their own."));
+  v.number("correlation_length_mm", p.correlation_length_mm,
+           range(0.0, 1000.0,
+                 "Of a scan: way along the surface over which the errors of neighbouring points "
+                 "lose their likeness (to 1/e). 0: each point anew."));
   v.list("lobes", p.lobes, {.meaning = "How the pre-travel changes with the direction."});
   v.number("form_limit_um", p.form_limit_um,
            range(0.0, 1000.0,
@@ -178,6 +191,12 @@ void describe(Visitor& v, UncertaintyPlan& p) {
           {.at_least = 0,
            .at_most = 1'000'000,
            .meaning = "Trials of each influence alone; 0: no budget."});
+  v.number(
+      "expected_spots", p.expected_spots,
+      {.at_least = 0.01,
+       .at_most = 10.0,
+       .meaning = "Points that stand out by themselves (burrs, dirt, scratches) and that a part "
+                  "is expected to have: they are form and are never smoothed away."});
   v.whole("seed", p.seed,
           {.at_least = 0, .at_most = 9007199254740991.0, .meaning = "Same seed, same numbers."});
   v.object("probe", p.probe, {.meaning = "Declared influences of the probe."});

@@ -73,7 +73,7 @@ record::ArchiveResult result_of(const FeatureResult& feature, const Characterist
   out.reference = reference_of(asked);
   out.filter = feature.analysis ? feature.analysis->filter_text() : "unfiltered";
   out.sampling = feature.analysis ? feature.analysis->sampling_text() : sampling_of(feature, asked);
-  out.value = found.value_mm();
+  if (found.value) out.value = found.value->quoted_mm();
   out.upper_limit = asked.tolerance_mm;
   out.verdict = name_of(found.verdict);
   out.certificate = fit::name_of(certificate_of(feature, asked));

@@ -171,13 +171,6 @@ void judge(const Circumstances& by, const FeatureResult& result, CharacteristicR
   apply(by.rule, out);
 }
 
-/// A whole surface cannot be better than some of its points.
-bool contradicts_itself(const UncertaintyStatus& known) {
-  const UncertaintyStatement* sampled = known.about(Measurand::kSampledPoints);
-  const UncertaintyStatement* whole = known.about(Measurand::kWholeSurface);
-  return sampled != nullptr && whole != nullptr && whole->high_mm < sampled->low_mm;
-}
-
 }  // namespace
 
 void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
@@ -194,13 +187,6 @@ void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
   const double tolerance_mm = *out.characteristic.tolerance_mm;
   KnownValue known{out.value->value_mm(), std::nullopt};
   if (const UncertaintyStatement* statement = out.value->statement()) known.statement = *statement;
-  if (rule->needs_interval() && contradicts_itself(out.value->uncertainty())) {
-    out.reason =
-        "the interval of the whole surface lies below that of the sampled points, which are part "
-        "of "
-        "it: the stated form spectrum contradicts the data";
-    return;
-  }
   auto outcome = apply_rule(*rule, known, tolerance_mm);
   if (!outcome) {
     const std::string& why = out.value->uncertainty().why();

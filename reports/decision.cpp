@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "reports/decision_risks.h"
+#include "reports/stated_value.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -63,39 +64,48 @@ Limits limits_of(const DecisionRule& rule, const KnownValue& value, double toler
   return out;
 }
 
+/// A length in um, one digit beyond those that the uncertainty warrants.
+std::string in_digits(const KnownValue& value, double length_mm) {
+  const int decimals = value.statement ? decimals_for(value.statement->expanded_mm()) + 1 : 3;
+  return fixed(micrometres(length_mm), decimals);
+}
+
 /// "7.958 um is within the tolerance of 12 um by 4.042 um".
-std::string simple_sentence(const std::string& value, const Limits& limits, double tolerance_mm) {
+std::string simple_sentence(const std::string& text, const KnownValue& value, const Limits& limits,
+                            double tolerance_mm) {
   const bool within = limits.compared_mm <= tolerance_mm;
-  return fmt::format("{} is {} the tolerance of {:g} um by {:.3f} um", value,
+  return fmt::format("{} is {} the tolerance of {:g} um by {} um", text,
                      within ? "within" : "above", micrometres(tolerance_mm),
-                     micrometres(std::abs(tolerance_mm - limits.compared_mm)));
+                     in_digits(value, std::abs(tolerance_mm - limits.compared_mm)));
 }
 
-std::string corrected_value(const Limits& limits) {
-  return fmt::format("the corrected value {:.3f} um", micrometres(limits.compared_mm));
+std::string corrected_value(const KnownValue& value, const Limits& limits) {
+  return fmt::format("the corrected value {} um", in_digits(value, limits.compared_mm));
 }
 
-std::string guarded_sentence(const Limits& limits, double tolerance_mm, Verdict verdict) {
-  const std::string value = corrected_value(limits);
+std::string guarded_sentence(const KnownValue& known, const Limits& limits, double tolerance_mm,
+                             Verdict verdict) {
+  const std::string value = corrected_value(known, limits);
+  const std::string acceptance = in_digits(known, limits.acceptance_mm);
+  const std::string rejection = in_digits(known, limits.rejection_mm);
   if (verdict == Verdict::kConforms) {
     return fmt::format(
-        "{} is within the acceptance limit of {:.3f} um (tolerance {:g} um, guard "
-        "band {:.3f} um)",
-        value, micrometres(limits.acceptance_mm), micrometres(tolerance_mm),
-        micrometres(tolerance_mm - limits.acceptance_mm));
+        "{} is within the acceptance limit of {} um (tolerance {:g} um, guard "
+        "band {} um)",
+        value, acceptance, micrometres(tolerance_mm),
+        in_digits(known, tolerance_mm - limits.acceptance_mm));
   }
   if (verdict == Verdict::kDoesNotConform) {
     return fmt::format(
-        "{} is above the rejection limit of {:.3f} um (tolerance {:g} um, guard "
-        "band {:.3f} um)",
-        value, micrometres(limits.rejection_mm), micrometres(tolerance_mm),
-        micrometres(limits.rejection_mm - tolerance_mm));
+        "{} is above the rejection limit of {} um (tolerance {:g} um, guard "
+        "band {} um)",
+        value, rejection, micrometres(tolerance_mm),
+        in_digits(known, limits.rejection_mm - tolerance_mm));
   }
   return fmt::format(
-      "{} lies between the acceptance limit of {:.3f} um and the rejection limit of "
-      "{:.3f} um about the tolerance of {:g} um: neither is proven",
-      value, micrometres(limits.acceptance_mm), micrometres(limits.rejection_mm),
-      micrometres(tolerance_mm));
+      "{} lies between the acceptance limit of {} um and the rejection limit of "
+      "{} um about the tolerance of {:g} um: neither is proven",
+      value, acceptance, rejection, micrometres(tolerance_mm));
 }
 
 std::string probability_sentence(const DecisionRule& rule, double p_1, Verdict verdict) {
@@ -133,19 +143,21 @@ std::optional<std::string> obstacle(const DecisionRule& rule, const KnownValue& 
   return std::nullopt;
 }
 
-std::string verdict_sentence(const DecisionRule& rule, const Limits& limits, double tolerance_mm,
+std::string verdict_sentence(const DecisionRule& rule, const KnownValue& value,
+                             const Limits& limits, double tolerance_mm,
                              const RuleOutcome& outcome) {
   switch (rule.kind) {
     case DecisionRule::Kind::kSimpleAcceptance:
-      return simple_sentence(fmt::format("{:.3f} um", micrometres(limits.compared_mm)), limits,
-                             tolerance_mm);
+      return simple_sentence(fmt::format("{}{} um", value.statement ? "the value as read, " : "",
+                                         in_digits(value, limits.compared_mm)),
+                             value, limits, tolerance_mm);
     case DecisionRule::Kind::kNToOne:
-      return simple_sentence(corrected_value(limits), limits, tolerance_mm);
+      return simple_sentence(corrected_value(value, limits), value, limits, tolerance_mm);
     case DecisionRule::Kind::kJcgm106:
       return probability_sentence(rule, *outcome.conformance_1, outcome.verdict);
     case DecisionRule::Kind::kIso14253:
     case DecisionRule::Kind::kGuardBand:
-      return guarded_sentence(limits, tolerance_mm, outcome.verdict);
+      return guarded_sentence(value, limits, tolerance_mm, outcome.verdict);
   }
   return {};
 }
@@ -178,7 +190,20 @@ core::Result<RuleOutcome> apply_rule(const DecisionRule& rule, const KnownValue&
                   : p <= rule.producer_risk_1     ? Verdict::kDoesNotConform
                                                   : Verdict::kUndecided;
   }
-  out.sentence = verdict_sentence(rule, limits, tolerance_mm, out);
+  const bool read_above = value.measured_mm > tolerance_mm && !rule.judge_corrected;
+  if (rule.needs_interval() && read_above && out.verdict == Verdict::kConforms) {
+    out.verdict = Verdict::kUndecided;
+    out.sentence = fmt::format(
+        "read above the limit: {} um, the tolerance is {:g} um; the corrected value, {} um, is "
+        "below: neither is proven",
+        in_digits(value, value.measured_mm), micrometres(tolerance_mm),
+        in_digits(value, limits.compared_mm));
+    return out;
+  }
+  out.sentence = verdict_sentence(rule, value, limits, tolerance_mm, out);
+  if (rule.needs_interval() && rule.judge_corrected) {
+    out.sentence += "; corrected values are judged, by agreement";
+  }
   return out;
 }
 

@@ -28,6 +28,9 @@ struct DecisionRule {
   enum class Kind { kSimpleAcceptance, kIso14253, kJcgm106, kNToOne, kGuardBand };
   Kind kind = Kind::kSimpleAcceptance;
   Measurand measurand = Measurand::kSampledPoints;  ///< What the verdict is about.
+  /// false: a value as read above the tolerance never conforms. true: by agreement of the parties
+  /// only the corrected value counts.
+  bool judge_corrected = false;
   double guard_factor = 1.0;      ///< kIso14253: guard band in parts of the interval.
   double consumer_risk_1 = 0.05;  ///< kJcgm106: of an accepted part, at most.
   double producer_risk_1 = 0.05;  ///< kJcgm106: of a rejected part, at most.
@@ -57,7 +60,7 @@ struct DecisionRule {
 
 /// What is known of a value.
 struct KnownValue {
-  double measured_mm = 0.0;  ///< Of the points as measured, not corrected.
+  double measured_mm = 0.0;  ///< Of the points as read, not corrected.
   std::optional<UncertaintyStatement> statement = {};
 };
 
@@ -91,6 +94,8 @@ struct RuleOutcome {
 ///   JCGM 106           P >= 1 - R_c conforms, P <= R_p does not, else undecided
 ///   N:1                only where T >= N (hi - lo): y <= T conforms, else does not
 ///   guard band         y <= T - a U conforms, y > T + r U does not, else undecided
+/// Whatever the rule, a value as read above T does not conform unless corrected values are judged:
+/// the correction grows with the noise that the party declares whom it favours.
 /// @param tolerance_mm  T, > 0.
 /// @return  kMeaning, with the reason for a void verdict: no interval for the measurand of the
 ///          rule, N:1 does not apply, the prior leaves the measurement no weight.

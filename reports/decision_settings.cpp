@@ -46,6 +46,7 @@ core::Result<DecisionRule> rule_of(const record::RunRecord& record) {
     return record::word_in(record.settings, path(key)).value_or(std::string());
   };
   if (word("measurand") == "whole-surface") out.measurand = Measurand::kWholeSurface;
+  out.judge_corrected = word("judge") == "corrected";
   out.guard_factor = number("guard_factor", out.guard_factor);
   out.consumer_risk_1 = 0.01 * number("consumer_risk_percent", 5.0);
   out.producer_risk_1 = 0.01 * number("producer_risk_percent", 5.0);

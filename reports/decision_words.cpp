@@ -64,6 +64,13 @@ std::string_view name_of(Prior::Kind kind) {
   return kind == Prior::Kind::kNormal ? "normal" : "gamma";
 }
 
-std::string in_words(const DecisionRule& rule) { return formula(rule) + prior_in_words(rule); }
+std::string in_words(const DecisionRule& rule) {
+  std::string out = formula(rule);
+  if (rule.needs_interval()) {
+    out += rule.judge_corrected ? "; corrected values are judged, whatever was read"
+                                : "; a value as read above T never conforms";
+  }
+  return out + prior_in_words(rule);
+}
 
 }  // namespace rondure::reports

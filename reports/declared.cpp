@@ -57,10 +57,14 @@ std::optional<ProbeInfluences> probe_influences(const record::RunRecord& record,
   const SettingGroup said(record, "probe/");
   ProbeInfluences out;
   out.form_limit_mm = said.number("form_limit_um") * core::kMicrometre;
+  out.correlation_length_mm = said.number("correlation_length_mm");
   if (const auto repeatability_um = said.given("repeatability_um")) {
     out.repeatability_mm = *repeatability_um * core::kMicrometre;
+    out.degrees_of_freedom = said.number("degrees_of_freedom");
   } else if (out.form_limit_mm == 0.0) {  // a limit contains it
+    out.repeatability_known = result.repeat_sigma_mm.has_value();
     out.repeatability_mm = result.repeat_sigma_mm.value_or(0.0);
+    for (const CloudPoint& point : result.cloud) out.degrees_of_freedom += point.repeats - 1;
   }
   const auto tip_um = said.given("tip_radius_um");
   out.tip_radius_mm = tip_um ? *tip_um * core::kMicrometre : (probe ? probe->radius_sigma_mm : 0.0);
@@ -121,7 +125,9 @@ std::optional<ThermalInfluences> thermal_influences(const record::RunRecord& rec
   const record::Feature& feature = result.feature;
   ThermalInfluences out;
   out.temperature_K = feature.number("temperature_uncertainty_K").value_or(0.0);
-  out.expansion_1_K = feature.number("part_expansion_per_K").value_or(0.0);
+  // Points of a file bring no temperatures to correct by, but drift as the part does.
+  out.expansion_1_K =
+      feature.number("part_expansion_per_K").value_or(said.number("expansion_per_K"));
   out.expansion_uncertainty_1_K = feature.number("part_expansion_uncertainty_per_K").value_or(0.0);
   if (result.temperatures) out.from_reference_K = result.temperatures->mean_degC - 20.0;
   out.drift_K = said.number("drift_K");
@@ -168,6 +174,7 @@ UncertaintyOptions options_of(const SettingGroup& said) {
   out.most_trials = static_cast<int>(said.number("most_trials"));
   out.tolerance_mm = said.number("tolerance_um") * core::kMicrometre;
   out.budget_trials = static_cast<int>(said.number("budget_trials"));
+  out.expected_spots = said.given("expected_spots").value_or(out.expected_spots);
   out.seed = static_cast<std::uint64_t>(said.number("seed"));
   return out;
 }

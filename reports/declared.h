@@ -40,9 +40,8 @@ struct UncertaintyQuestion {
 [[nodiscard]] core::Result<FormCloud> surface_cloud(const record::RunRecord& record,
                                                     const FeatureResult& result);
 
-/// The declared spectrum on a cloud, or the part's own; nothing where none was asked for, or where
-/// all that the part shows may be noise.
-/// @return  kSampling of own_spectrum().
+/// The declared spectrum on a cloud, or none of its own terms where the part's own was asked for;
+/// nothing where nobody asked.
 [[nodiscard]] core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
                                                                     const Declared& declared,
                                                                     const record::Feature& feature);

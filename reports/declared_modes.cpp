@@ -79,6 +79,15 @@ void ModeCollector::probe(const ProbeInfluences& probe) {
     add_each(Distribution::kNormal, [&](std::size_t i) {
       return probe.repeatability_mm / std::sqrt(static_cast<double>(cloud_.points[i].repeats));
     });
+    PointError& error = found.point_errors.back();
+    error.degrees_of_freedom = probe.degrees_of_freedom;
+    if (probe.correlation_length_mm > 0.0) {
+      error.likeness_1 = column([&](std::size_t i) {
+        if (i == 0) return 0.0;
+        const double way_mm = (positions_[i] - positions_[i - 1]).norm();
+        return std::exp(-way_mm / probe.correlation_length_mm);
+      });
+    }
   }
   begin("probe-lobing");
   for (const cmm::PretravelLobe& lobe : probe.lobes) {

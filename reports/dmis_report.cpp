@@ -74,7 +74,7 @@ std::string characteristic_block(const CharacteristicResult& result, const std::
   text += comment(label, result.value->sentence());
   text += fmt::format("T({})=TOL/{},{}\n", label, word, decimal(*asked.tolerance_mm));
   text += fmt::format("OUTPUT/FA({}),TA({})\n", feature, label);
-  text += fmt::format("TA({})=TOL/{},{},{}\n", label, word, decimal(result.value->value_mm()),
+  text += fmt::format("TA({})=TOL/{},{},{}\n", label, word, decimal(result.value->quoted_mm()),
                       result.verdict == Verdict::kConforms ? "INTOL" : "OUTOL");
   return text;
 }

@@ -43,9 +43,18 @@ ErrorModel::ErrorModel(const FormCloud& cloud, const Influences& influences) {
     if (!columns_.middleCols(mode.column, width).isZero(0.0)) modes_.push_back(mode);
   }
   point_variance_ = VectorXd::Zero(n);
+  double doubt = 0.0;  // of the variance, squared
   for (const PointError& error : point_errors_) {
-    point_variance_ += error.sigma_mm.cwiseAbs2();
+    const VectorXd variance = error.sigma_mm.cwiseAbs2();
+    point_variance_ += variance;
+    if (error.degrees_of_freedom > 0.0) {
+      doubt += variance.mean() * variance.mean() / error.degrees_of_freedom;
+    }
   }
+  if (doubt > 0.0) {
+    degrees_of_freedom_ = point_variance_.mean() * point_variance_.mean() / doubt;
+  }
+  if (influences.probe) correlation_mm_ = influences.probe->correlation_length_mm;
 }
 
 bool ErrorModel::acts(std::size_t influence) const {
@@ -69,8 +78,15 @@ void ErrorModel::draw(core::KeyedNoise& noise, const std::optional<std::size_t>&
   }
   for (const PointError& error : point_errors_) {
     if (only && error.influence != *only) continue;
+    double before = 0.0;
     for (Index i = 0; i < errors_mm.size(); ++i) {
-      errors_mm[i] += error.sigma_mm[i] * draw_one(error.distribution, noise);
+      double now = draw_one(error.distribution, noise);
+      if (error.likeness_1.size() > 0) {
+        const double like = error.likeness_1[i];
+        now = like * before + std::sqrt(1.0 - like * like) * now;
+      }
+      errors_mm[i] += error.sigma_mm[i] * now;
+      before = now;
     }
   }
 }

@@ -31,7 +31,10 @@ struct ErrorMode {
 struct PointError {
   std::size_t influence = 0;
   Distribution distribution = Distribution::kNormal;
-  Eigen::VectorXd sigma_mm;  ///< Standard deviation, one a point.
+  Eigen::VectorXd sigma_mm;         ///< Standard deviation, one a point.
+  double degrees_of_freedom = 0.0;  ///< Behind it; 0: known.
+  /// Likeness of each point's error to that of the point before; empty: each point anew.
+  Eigen::VectorXd likeness_1 = {};
 };
 
 /// What the declared influences do to each point, along its normal, to first order.
@@ -58,6 +61,10 @@ class ErrorModel {
   [[nodiscard]] const Eigen::MatrixXd& columns() const { return columns_; }
   /// Variance of the errors that each point has for itself [mm^2].
   [[nodiscard]] const Eigen::VectorXd& point_variance_mm2() const { return point_variance_; }
+  /// Degrees of freedom of it (Welch and Satterthwaite); 0: known.
+  [[nodiscard]] double degrees_of_freedom() const { return degrees_of_freedom_; }
+  /// Way over which the errors of neighbours are alike [mm]; 0: each point anew.
+  [[nodiscard]] double correlation_mm() const { return correlation_mm_; }
 
   /// Whether an influence moves any form: some were declared as zero, some move the part as a
   /// whole.
@@ -73,6 +80,8 @@ class ErrorModel {
   std::vector<PointError> point_errors_;
   Eigen::MatrixXd columns_;
   Eigen::VectorXd point_variance_;
+  double degrees_of_freedom_ = 0.0;
+  double correlation_mm_ = 0.0;
 };
 
 }  // namespace rondure::reports

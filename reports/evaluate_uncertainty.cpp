@@ -86,19 +86,7 @@ core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
                                                       const record::Feature& feature) {
   if (!declared.spectrum) return std::optional<FormSpectrum>();
   FormSpectrum out = *declared.spectrum;
-  if (out.terms.empty()) {
-    int repeats = cloud.points.front().repeats;
-    for (const FormPoint& point : cloud.points) repeats = std::min(repeats, point.repeats);
-    const double touch_mm =
-        declared.influences.probe ? declared.influences.probe->repeatability_mm : 0.0;
-    auto own = own_spectrum(cloud, touch_mm / std::sqrt(static_cast<double>(repeats)));
-    if (!own) return core::fail(own.error());
-    const bool shows_form =
-        std::any_of(own->terms.begin(), own->terms.end(),
-                    [](const FormTerm& term) { return term.amplitude_mm > 0.0; });
-    if (!shows_form) return std::optional<FormSpectrum>();  // all of it may be noise
-    return std::optional<FormSpectrum>(*std::move(own));
-  }
+  if (out.terms.empty()) return std::optional<FormSpectrum>(std::move(out));
   if (cloud.kind == FormKind::kRoundness) {
     std::erase_if(out.terms, [](const FormTerm& term) { return term.degree > 0; });
     if (out.terms.empty()) return std::optional<FormSpectrum>();

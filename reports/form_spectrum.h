@@ -22,7 +22,7 @@ struct FormTerm {
 /// The stated form spectrum of a surface: which forms it may have, and how large. It is what says
 /// something about the surface between the points; without one there is no statement about it.
 struct FormSpectrum {
-  std::vector<FormTerm> terms;
+  std::vector<FormTerm> terms;  ///< None: what a dense cloud shows by itself.
   /// Whether the amplitudes are known as such; else their ratios are, and the size common to all is
   /// estimated from the deviations.
   bool absolute = false;
@@ -40,17 +40,7 @@ struct FormSpectrum {
 [[nodiscard]] Eigen::MatrixXd spectrum_columns(const FormSpectrum& spectrum,
                                                std::span<const FormPoint> points);
 
-/// An even grid of the whole surface: at least five points to the shortest undulation and to each
-/// degree of the highest polynomial, ends included.
-[[nodiscard]] std::vector<FormPoint> whole_surface(const FormSpectrum& spectrum, FormKind kind);
-
-/// The spectrum of a part's own harmonics, for dense sections: every harmonic up to points/7 of the
-/// thinnest layer (49 of a cylinder, 199 of a section at most) with degrees up to layers - 1 (3 at
-/// most); its power less that of the noise.
-///
-/// @param noise_mm  Standard deviation of a deviation.
-/// @return kSampling when a layer has fewer than 14 points or a gap of an undulation, or a cylinder
-///         fewer than 3 layers: then a spectrum must be declared.
-[[nodiscard]] core::Result<FormSpectrum> own_spectrum(const FormCloud& cloud, double noise_mm);
+/// Places of a grid that is fine enough for a spectrum.
+[[nodiscard]] std::size_t grid_places(const FormSpectrum& spectrum, FormKind kind);
 
 }  // namespace rondure::reports

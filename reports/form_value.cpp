@@ -59,7 +59,12 @@ double FormValue::of(const Eigen::VectorXd& deviations_mm) {
 
 double FormValue::of_circle() {
   if (reference_ == Reference::kMinimumZone) {
-    return circles_.fit_from(plane_, Eigen::Vector2d::Zero()).width_mm();
+    auto circle = circles_.fit_from(plane_, center_);
+    if (circle.ending != fit::ZoneEnding::kConverged) {
+      circle = circles_.fit_from(plane_, Eigen::Vector2d::Zero());
+    }
+    center_ = circle.place;
+    return circle.width_mm();
   }
   if (reference_ == Reference::kLeastSquares) {
     const auto circle = fit::ls_circle(plane_);
@@ -71,7 +76,14 @@ double FormValue::of_circle() {
 
 double FormValue::of_cylinder() {
   const fit::Axis axis;
-  if (reference_ == Reference::kMinimumZone) return cylinders_.fit_from(space_, axis).width_mm();
+  if (reference_ == Reference::kMinimumZone) {
+    auto cylinder = cylinders_.fit_from(space_, start_);
+    if (cylinder.ending != fit::ZoneEnding::kConverged) {
+      cylinder = cylinders_.fit_from(space_, axis);
+    }
+    start_ = cylinder.place;
+    return cylinder.width_mm();
+  }
   if (reference_ == Reference::kLeastSquares) {
     const auto cylinder = fit::ls_cylinder(space_, axis.direction);
     return cylinder ? cylinder->deviation_mm : kNone;

@@ -12,9 +12,10 @@
 namespace rondure::reports {
 
 /// The form value of given places with varying deviations, about the reference of a cloud, without
-/// proof: for loops. Minimum zones take no memory after the first call. Searches start at the axis
-/// the angles count about; those for one-sided cylinders, of which few points have several close to
-/// one another, at the best one of the deviations of the cloud.
+/// proof: for loops. Minimum zones take no memory after the first call. Searches start where the
+/// one before ended; those for one-sided cylinders, of which few points have several close to one
+/// another, at the best one of the deviations of the cloud. An object gives the same bits for the
+/// same calls in the same order.
 class FormValue {
  public:
   /// @param cloud   Kind, reference and radius are taken of it, the places are not.
@@ -30,7 +31,8 @@ class FormValue {
 
   FormKind kind_;
   record::Reference reference_;
-  fit::Axis start_ = {};  ///< Of searches for a cylinder.
+  fit::Axis start_ = {};                              ///< Of searches for a cylinder.
+  Eigen::Vector2d center_ = Eigen::Vector2d::Zero();  ///< Of searches for a circle.
   double radius_;
   std::vector<Eigen::Vector3d> directions_;  ///< cos, sin, height.
   std::vector<Eigen::Vector2d> plane_;

@@ -69,7 +69,7 @@ std::string form_symbol(record::Form form) {
 
 std::string tolerance_bar(const CharacteristicResult& result, double tolerance_mm) {
   constexpr double kWidth = 150.0;
-  const double value_mm = result.value->value_mm();
+  const double value_mm = result.value->quoted_mm();
   const UncertaintyStatement* known = result.value->statement();
   const auto& outcome = result.outcome;
   double end_mm = std::max(1.25 * tolerance_mm, 1.05 * value_mm);

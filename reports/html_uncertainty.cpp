@@ -62,6 +62,26 @@ std::string bias_entries(const UncertaintyResult& u) {
   return html;
 }
 
+/// What the form model found in the cloud.
+std::string finding_entry(const UncertaintyResult& u) {
+  const FormFinding& found = u.finding;
+  std::string note = tr("means over the draws; spots are form and are never smoothed away");
+  if (!found.spot_rows.empty()) {
+    std::string rows;
+    for (const std::size_t row : found.spot_rows) {
+      rows += fmt::format("{}{}", rows.empty() ? "" : ", ", row + 1);
+    }
+    note += trf("; spots at points {}", rows);
+  }
+  for (const std::string& said : u.notes) note += "; " + in_sentence(said);
+  return entry(tr("Made of"),
+               with_note(trf("noise {} µm a point, rougher form {} µm, {} undulations, {} spots",
+                             fixed(1e3 * found.noise_mm, 3), fixed(1e3 * found.unresolved_mm, 3),
+                             fixed(found.groups, 1), fixed(found.spots, 1)),
+                         note),
+               "wide-key");
+}
+
 std::string declaration(const std::vector<InfluenceStatement>& influences) {
   std::string rows;
   for (const bool covered : {true, false}) {
@@ -87,14 +107,14 @@ std::string value_part(const CharacteristicResult& result) {
                                  trf("{}. Monte Carlo of {} trials (JCGM 101).",
                                      in_sentence(result.value->sentence()), u.trials));
   html += R"(<dl class="keys">)";
-  html += entry(tr("As measured, not corrected"), um(u.uncorrected_mm) + " µm");
+  html += entry(tr("As read, not corrected"), um(u.uncorrected_mm) + " µm");
   html +=
       statement_entry(tr("At the sampled points, free of noise"), u.sampled, status.coverage_1());
   if (u.whole) {
     html += statement_entry(tr("Of the whole surface"), *u.whole, status.coverage_1());
     html += entry(tr("Form spectrum of it"), in_sentence(u.spectrum_source), "wide-key");
   }
-  html += bias_entries(u) + "</dl>";
+  html += bias_entries(u) + finding_entry(u) + "</dl>";
   if (const std::string bars = budget_bars(u.budget); !bars.empty()) {
     html += fmt::format(
         R"(<figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)", bars,

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -73,30 +74,30 @@ std::string tolerance_frame(const record::Characteristic& asked) {
 std::string bar_cell(const CharacteristicResult& result) {
   const auto& limit = result.characteristic.tolerance_mm;
   if (!result.value || !limit || !(*limit > 0.0)) return "<td></td>";
-  return fmt::format(R"(<td>{}<div class="note">{}</div></td>)", tolerance_bar(result, *limit),
-                     trf("{} % of the limit", fixed(100.0 * result.value->value_mm() / *limit, 0)));
+  return fmt::format(
+      R"(<td>{}<div class="note">{}</div></td>)", tolerance_bar(result, *limit),
+      trf("{} % of the limit", fixed(100.0 * result.value->quoted_mm() / *limit, 0)));
 }
 
-/// The value, with its interval below where there is one.
+/// The value that decides; with an interval its estimate, that interval and the value as read.
 std::string value_cell(const StatedValue& value) {
-  const UncertaintyStatement* known = value.statement();
-  const int decimals = known == nullptr ? 3 : decimals_for(known->expanded_mm());
-  const auto number = [&](double mm) { return fixed(mm / core::kMicrometre, decimals); };
   std::string html =
-      fmt::format(R"(<span class="value">{}</span> µm)",
-                  known == nullptr ? um(value.value_mm()) : number(value.value_mm()));
-  if (known != nullptr) {
-    html += fmt::format(R"(<div class="note">[{}, {}]</div>)", number(known->low_mm),
-                        number(known->high_mm));
+      fmt::format(R"(<span class="value">{}</span> µm)", value.in_digits(value.quoted_mm()));
+  if (const UncertaintyStatement* known = value.statement()) {
+    html += fmt::format(R"(<div class="note">[{}, {}]</div><div class="note">{}</div>)",
+                        value.in_digits(known->low_mm), value.in_digits(known->high_mm),
+                        trf("as read {}", value.in_digits(value.value_mm())));
   }
   return html;
 }
 
-/// A probability that was counted in trials: none of n is less than one of n.
+/// A probability that was counted in trials, no finer than they tell.
 std::string percent(double share_1, double trials) {
-  if (share_1 * trials < 0.5) return trf("below {:.2g} %", 100.0 / trials);
-  if ((1.0 - share_1) * trials < 0.5) return trf("above {:.6g} %", 100.0 - 100.0 / trials);
-  return fmt::format("{:.4g} %", 100.0 * share_1);
+  const double finest = std::pow(10.0, std::ceil(std::log10(100.0 / trials)));  // in percent
+  if (share_1 * trials < 0.5) return trf("below {:g} %", finest);
+  if ((1.0 - share_1) * trials < 0.5) return trf("above {:g} %", 100.0 - finest);
+  const int decimals = std::max(0, -static_cast<int>(std::lround(std::log10(finest))));
+  return fixed(100.0 * share_1, decimals) + " %";
 }
 
 /// Probability of conformance and risks; empty without an interval.

@@ -25,6 +25,8 @@ core::Result<void> check_numbers(const Numbers& numbers, bool signs) {
 
 core::Result<void> check_probe(const ProbeInfluences& probe) {
   Numbers numbers = {{"probe repeatability_mm", probe.repeatability_mm},
+                     {"probe degrees_of_freedom", probe.degrees_of_freedom},
+                     {"probe correlation_length_mm", probe.correlation_length_mm},
                      {"probing form_limit_mm", probe.form_limit_mm},
                      {"tip_radius_mm", probe.tip_radius_mm}};
   for (const cmm::PretravelLobe& lobe : probe.lobes) {
@@ -110,9 +112,16 @@ class Declaration {
 void say_probe(const std::optional<ProbeInfluences>& declared, Declaration& out) {
   const ProbeInfluences probe = declared.value_or(ProbeInfluences{});
   out.group(declared.has_value());
-  out.line("probe-repeatability",
-           fmt::format("standard deviation {:.4g} um of a touch, normal, each touch anew",
-                       kUm * probe.repeatability_mm));
+  std::string repeatability =
+      fmt::format("standard deviation {:.4g} um of a touch, ", kUm * probe.repeatability_mm);
+  repeatability += probe.degrees_of_freedom > 0.0
+                       ? fmt::format("{:.4g} degrees of freedom, ", probe.degrees_of_freedom)
+                       : std::string("known, ");
+  repeatability +=
+      probe.correlation_length_mm > 0.0
+          ? fmt::format("normal, correlated over {:.4g} mm", probe.correlation_length_mm)
+          : std::string("normal, each touch anew");
+  out.line("probe-repeatability", repeatability);
   std::string lobes;
   for (const cmm::PretravelLobe& lobe : probe.lobes) {
     lobes += fmt::format("{}{} lobes of amplitude {:.4g} um", lobes.empty() ? "" : ", ", lobe.order,
@@ -170,9 +179,15 @@ void say_thermal(const std::optional<ThermalInfluences>& declared, Declaration& 
            fmt::format("mean part temperature {:.4g} K, expansion {:.4g} /K, normal; moves radii, "
                        "no form",
                        thermal.temperature_K, thermal.expansion_uncertainty_1_K));
-  out.line("temperature-drift",
-           fmt::format("at most {:.4g} K from the first to the last touch, rectangular",
-                       thermal.drift_K));
+  if (thermal.drift_K > 0.0 && thermal.expansion_1_K == 0.0) {
+    out.never("temperature-drift",
+              fmt::format("{:.4g} K declared, but no expansion of the part (part.expansion_per_K)",
+                          thermal.drift_K));
+  } else {
+    out.line("temperature-drift",
+             fmt::format("at most {:.4g} K from the first to the last touch, rectangular",
+                         thermal.drift_K));
+  }
   out.line("machine-drift",
            fmt::format("at most {:.4g}, {:.4g}, {:.4g} um from the first to the last touch, "
                        "rectangular",

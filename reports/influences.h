@@ -16,6 +16,12 @@ struct ProbeInfluences {
   /// Standard deviation of a single touch along its approach [mm]; normal. The mean of q repeats
   /// has it divided by sqrt(q).
   double repeatability_mm = 0.0;
+  bool repeatability_known = true;  ///< false: nobody declared or found it.
+  /// Degrees of freedom that stand behind it; 0: it is known.
+  double degrees_of_freedom = 0.0;
+  /// Way along the surface over which the errors of touches that follow one another lose 1/e of
+  /// their likeness [mm]: of a scan. 0: each touch anew.
+  double correlation_length_mm = 0.0;
   /// Lobes of the pre-travel: order and amplitude [mm]. The phase is taken as unknown (uniform),
   /// whatever stands in `phase_rad`.
   std::vector<cmm::PretravelLobe> lobes;

@@ -19,6 +19,7 @@ Json characteristic_json(const CharacteristicResult& result) {
           {"symbol", symbol_of(asked)},
           {"reference", reference_of(asked)},
           {"value_um", optional_um(result.value_mm())},
+          {"quoted_um", result.value ? Json(in_um(result.value->quoted_mm())) : Json(nullptr)},
           {"tolerance_um", optional_um(asked.tolerance_mm)},
           {"verdict", name_of(result.verdict)},
           {"reason", result.reason},

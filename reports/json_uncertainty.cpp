@@ -12,6 +12,14 @@ Json statement_json(const UncertaintyStatement& s) {
           {"numerical_tolerance_um", in_um(s.numerical_tolerance_mm)}};
 }
 
+Json finding_json(const FormFinding& finding) {
+  return {{"noise_um", in_um(finding.noise_mm)},
+          {"unresolved_um", in_um(finding.unresolved_mm)},
+          {"groups", finding.groups},
+          {"spots", finding.spots},
+          {"spot_rows", finding.spot_rows}};
+}
+
 Json budget_json(const BudgetLine& line) {
   return {{"name", line.name},
           {"measurand", name_of(line.measurand)},
@@ -42,6 +50,8 @@ Json uncertainty_json(const CharacteristicResult& result) {
           {"noise_inflation_um", in_um(u.noise_inflation_mm)},
           {"sampling_loss_um", optional_um(u.sampling_loss_mm)},
           {"form_spectrum", u.spectrum_source},
+          {"finding", finding_json(u.finding)},
+          {"notes", u.notes},
           {"trials", u.trials},
           {"tolerance_reached", u.tolerance_reached},
           {"budget", list_json(u.budget, budget_json)},

@@ -12,24 +12,28 @@ constexpr Translation kSentenceTexts[] = {
     {"there is no result", "没有结果"},
     {"the run did not finish", "检测未完成"},
     // Verdicts
-    {"{} is {} the tolerance of {:g} um by {:.3f} um", "{} {}公差 {} um，相差 {} um"},
+    {"{} is {} the tolerance of {:g} um by {} um", "{} {}公差 {} um，相差 {} um"},
     {"within", "未超出"},
     {"above", "超出"},
-    {"the corrected value {:.3f} um", "修正值 {} um"},
-    {"{} is within the acceptance limit of {:.3f} um (tolerance {:g} um, guard band {:.3f} um)",
+    {"the corrected value {} um", "修正值 {} um"},
+    {"the value as read, {} um", "测得值 {} um"},
+    {"read above the limit: {} um, the tolerance is {:g} um; the corrected value, {} um, is below: "
+     "neither is proven",
+     "测得值 {} um 超出公差 {} um，而修正值 {} um 未超出：合格与不合格均未得到证明"},
+    {"{}; corrected values are judged, by agreement", "{}；按双方约定，以修正值判定"},
+    {"{}; corrected values are judged, whatever was read", "{}；以修正值判定，不论测得值如何"},
+    {"{}; a value as read above T never conforms", "{}；测得值超出 T 时不判为合格"},
+    {"{} is within the acceptance limit of {} um (tolerance {:g} um, guard band {} um)",
      "{} 未超出接收限 {} um（公差 {} um，保护带 {} um）"},
-    {"{} is above the rejection limit of {:.3f} um (tolerance {:g} um, guard band {:.3f} um)",
+    {"{} is above the rejection limit of {} um (tolerance {:g} um, guard band {} um)",
      "{} 超出拒收限 {} um（公差 {} um，保护带 {} um）"},
-    {"{} lies between the acceptance limit of {:.3f} um and the rejection limit of {:.3f} um about "
+    {"{} lies between the acceptance limit of {} um and the rejection limit of {} um about "
      "the tolerance of {:g} um: neither is proven",
      "{} 位于公差 {3} um 附近的接收限 {1} um 与拒收限 {2} um 之间：合格与不合格均未得到证明"},
     {"the probability of conformance is {:.4g} %", "合格概率为 {} %"},
     {"{}, at least {:g} %", "{}，不低于 {} %"},
     {"{}, at most {:g} %", "{}，不高于 {} %"},
     {"{}, between {:g} % and {:g} %", "{}，介于 {} % 和 {} % 之间"},
-    {"the interval of the whole surface lies below that of the sampled points, which are part of "
-     "it: the stated form spectrum contradicts the data",
-     "整个表面的区间低于采样点处的区间，而采样点是其一部分：所述形状谱与数据矛盾"},
     {"the rule {} needs the interval {}, which was not computed",
      "规则 {} 需要{}的包含区间，但未计算"},
     {"the rule {:g}:1 does not apply: the tolerance of {:g} um is {:.3g} times the interval of "
@@ -217,7 +221,9 @@ constexpr Translation kSentenceTexts[] = {
     {"intervals of clouds merged from several poses are not computed; what the fixture leaves in "
      "the value is told beside it",
      "不计算多位姿合并点云的区间；夹具对该值的残余影响另行说明"},
-    {"own harmonics 0..{} of {} layers, {} points", "{1} 层自身的 0..{0} 次谐波，{2} 点"},
+    {"what {} points in {} layers show: up to {} undulations and degree {}; what they do not "
+     "resolve, up to {} undulations",
+     "{1} 层 {0} 点所反映的形状：至 {2} UPR、轴向 {3} 次；未能分辨的部分至 {4} UPR"},
     {"declared in the plan: {}", "方案中声明：{}"},
     {"{:g} UPR {:g} um", "{} UPR {} um"},
     {"{:g} UPR of degree {} {:g} um", "{} UPR（{} 次）{} um"},
@@ -243,8 +249,15 @@ constexpr Translation kSentenceTexts[] = {
     {"contact", "接触"},
     {"probing-strategy", "探测策略"},
     {"sampling", "采样"},
-    {"standard deviation {:.4g} um of a touch, normal, each touch anew",
-     "单次触测标准差 {} um，正态分布，各次独立"},
+    {"standard deviation {:.4g} um of a touch, known, normal, each touch anew",
+     "单次触测标准差 {} um，已知，正态分布，各次独立"},
+    {"standard deviation {:.4g} um of a touch, {:.4g} degrees of freedom, normal, each touch anew",
+     "单次触测标准差 {} um，自由度 {}，正态分布，各次独立"},
+    {"standard deviation {:.4g} um of a touch, known, normal, correlated over {:.4g} mm",
+     "单次触测标准差 {} um，已知，正态分布，相关长度 {} mm"},
+    {"standard deviation {:.4g} um of a touch, {:.4g} degrees of freedom, normal, correlated over "
+     "{:.4g} mm",
+     "单次触测标准差 {} um，自由度 {}，正态分布，相关长度 {} mm"},
     {"{} lobes of amplitude {:.4g} um", "{} 瓣，幅值 {} um"},
     {"{}, phase unknown, uniform", "{}，相位未知，均匀分布"},
     {"P_FTU {:.4g} um (ISO 10360-5): normal, standard deviation P / 3.93",
@@ -258,6 +271,8 @@ constexpr Translation kSentenceTexts[] = {
     {"ISO 10360-2 {:.4g} um + {:.4g} um/m, rectangular", "ISO 10360-2 {} um + {} um/m，矩形分布"},
     {"mean part temperature {:.4g} K, expansion {:.4g} /K, normal; moves radii, no form",
      "工件平均温度 {} K，膨胀系数 {} /K，正态分布；只影响半径，不影响形状"},
+    {"{:.4g} K declared, but no expansion of the part (part.expansion_per_K)",
+     "声明了 {} K，但未声明工件膨胀系数 (part.expansion_per_K)"},
     {"at most {:.4g} K from the first to the last touch, rectangular",
      "从首次到末次触测至多 {} K，矩形分布"},
     {"at most {:.4g}, {:.4g}, {:.4g} um from the first to the last touch, rectangular",
@@ -338,7 +353,31 @@ constexpr Translation kSentenceTexts[] = {
      "tilt of the part, not its form; the minimum zone below is free of it",
      "最终位姿的 f = {} um 大于区域 {} um "
      "的两倍：它反映工件的倾斜而非形状；下面的最小区域不受其影响"},
-    // Why there is no interval
+    // Why there is no interval, and what is noted beside one
+    {"the correction of {:.3g} um is more than the declared errors can make ({:.3g} um): no "
+     "interval is stated",
+     "修正量 {} um 大于所声明误差可能造成的量 ({} um)：不给出区间"},
+    {"the form model does not explain the value as read: it would read {:.3f} +- {:.3f} um, {:.3f} "
+     "um were read; no interval is stated",
+     "形状模型不能解释测得值：模型应得 {} ± {} um，实得 {} um；不给出区间"},
+    {"the residual scatter is {:.3g} um, declared were {:.3g} um: declare what the touches show; "
+     "no interval is stated",
+     "残余离散为 {} um，声明为 {} um：请按触测结果声明；不给出区间"},
+    {"{:.0f} % of the points stand out: no smooth form stands behind these points; no interval is "
+     "stated",
+     "{} % 的点突出：这些点背后没有平滑的形状；不给出区间"},
+    {"too few points to show whether the declared noise is larger than the real one",
+     "点数太少，不能判断所声明的噪声是否大于实际噪声"},
+    {"no noise of a touch is known: declare probe.repeatability_um or a form limit, or touch each "
+     "point twice",
+     "触测噪声未知：请声明 probe.repeatability_um 或形状误差限，或对每点触测两次"},
+    {"no noise of a touch is known: declare probe.repeatability_um or a form limit, or touch each "
+     "point twice; the value lies between {:.2f} and {:.2f} um, without a probability",
+     "触测噪声未知：请声明 probe.repeatability_um 或形状误差限，或对每点触测两次；值介于 {} 与 {} um "
+     "之间，无概率"},
+    {"{} layers of {} points{} do not tell the form between them: {} layers of {} points, all the "
+     "way round, at least; or declare a form spectrum",
+     "{} 层、每层 {} 点{}不能反映其间的形状：至少需要 {} 层、每层整圈 {} 点；或声明形状谱"},
     {"in {} of {} trials the points have no such reference",
      "{1} 次试验中有 {0} 次各点没有此评定基准"},
     {"{} points are more than {}, the limit of the trials; give every n-th point",

@@ -17,6 +17,7 @@ constexpr Translation kSummaryTexts[] = {
     {", sparse sampling {} um", "，稀疏采样 {} um"},
     {"; most of the spread {}: {} ({:.0f} %)", "；{}的主要来源：{} ({:.0f} %)"},
     {"bias", "偏差"},
+    {"note", "注"},
     {"no value", "无值"},
     {"limit {} um", "公差 {} um"},
     {"no limit", "无公差"},

@@ -52,7 +52,7 @@ PredictionOptions affordable(const FormCloud& cloud, const FormSpectrum& form, b
   auto cost = static_cast<double>(cloud.points.size());
   if (whole) {
     const double coefficients = 2.0 * static_cast<double>(form.terms.size());
-    cost += static_cast<double>(whole_surface(form, cloud.kind).size()) * (1.0 + coefficients / 40);
+    cost += static_cast<double>(grid_places(form, cloud.kind)) * (1.0 + coefficients / 40);
   }
   const bool one_sided = asked.reference == record::Reference::kMinimumCircumscribed ||
                          asked.reference == record::Reference::kMaximumInscribed;
@@ -165,8 +165,8 @@ UncertaintyOptions trials_of(const UncertaintyOptions& declared, const Predictio
                              int inspection) {
   UncertaintyOptions out = declared;
   out.tolerance_mm = 0.0;
-  out.block_trials = options.trials / 2;
-  out.least_trials = 2 * out.block_trials;
+  out.chains = 2;
+  out.least_trials = options.trials;
   out.most_trials = options.trials;
   out.budget_trials = options.budget_trials;
   out.seed = options.seed + static_cast<std::uint64_t>(inspection);

@@ -191,7 +191,7 @@ void add_measured(QifDraft& draft, const PlacedResult& placed) {
   if (has_reference(asked)) add_algorithm(node, asked.reference);
   if (draft.device) add_references(node, "MeasurementDeviceIds", {*draft.device});
   if (!result.value || !std::isfinite(result.value->value_mm())) return;
-  pugi::xml_node value = add(node, "Value", decimal(result.value->value_mm()));
+  pugi::xml_node value = add(node, "Value", decimal(result.value->quoted_mm()));
   if (const UncertaintyStatement* known = result.value->statement()) {
     set(value, "combinedUncertainty", decimal(known->standard_uncertainty_mm));
   }

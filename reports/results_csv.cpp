@@ -26,13 +26,15 @@ std::string write_results_csv(const record::RunRecord& record, const Evaluation&
                   csv_field(header.part_id), csv_field(header.serial));
   std::string text =
       "run,started_utc,part,serial,feature,characteristic,symbol,reference,value_um,tolerance_um,"
-      "verdict,reason,verification_operator,low_um,high_um\n";
+      "verdict,reason,verification_operator,quoted_um,low_um,high_um\n";
   for (const FeatureResult& feature : evaluation.features) {
     for (const CharacteristicResult& result : feature.characteristics) {
       const record::Characteristic& asked = result.characteristic;
       const UncertaintyStatement* known = result.value ? result.value->statement() : nullptr;
       const std::string interval =
-          known == nullptr ? "," : um_field(known->low_mm) + "," + um_field(known->high_mm);
+          known == nullptr ? ",,"
+                           : um_field(known->estimate_mm) + "," + um_field(known->low_mm) + "," +
+                                 um_field(known->high_mm);
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", head, csv_field(feature.feature.id),
                           csv_field(asked.id), symbol_of(asked), reference_of(asked),
                           um_field(result.value_mm()), um_field(asked.tolerance_mm),

@@ -10,14 +10,6 @@
 #include "reports/text.h"
 
 namespace rondure::reports {
-namespace {
-
-std::string um_text(double length_mm, int decimals) {
-  return fixed(length_mm / core::kMicrometre, decimals);
-}
-
-}  // namespace
-
 ValueOperator::ValueOperator(ReferenceTerm reference, FilterTerm filter, SamplingTerm sampling,
                              TipTerm tip, TemperatureTerm temperature)
     : words_(fmt::format("{}; {}; {}; {}; {}", reference.words(), filter.words(), sampling.words(),
@@ -50,12 +42,17 @@ StatedValue::StatedValue(std::string symbol, double value_mm, ValueOperator valu
       uncertainty_(std::move(uncertainty)),
       measurand_(measurand) {}
 
+std::string StatedValue::in_digits(double length_mm) const {
+  const UncertaintyStatement* known = statement();
+  if (known == nullptr) return um(length_mm);
+  return fixed(length_mm / core::kMicrometre, decimals_for(known->expanded_mm()));
+}
+
 std::string StatedValue::value_text() const {
   const UncertaintyStatement* known = statement();
   if (known == nullptr) return um(value_mm_) + " um";
-  const int decimals = decimals_for(known->expanded_mm());
-  return fmt::format("{} um [{}, {}]", um_text(value_mm_, decimals),
-                     um_text(known->low_mm, decimals), um_text(known->high_mm, decimals));
+  return fmt::format("{} um [{}, {}]", in_digits(known->estimate_mm), in_digits(known->low_mm),
+                     in_digits(known->high_mm));
 }
 
 std::string StatedValue::operator_text() const {
@@ -68,7 +65,12 @@ std::string StatedValue::operator_text() const {
 }
 
 std::string StatedValue::sentence() const {
-  return fmt::format("{} = {} ({})", symbol_, value_text(), operator_text());
+  const UncertaintyStatement* known = statement();
+  if (known == nullptr) return fmt::format("{} = {} ({})", symbol_, value_text(), operator_text());
+  return fmt::format("{} = {} um, {:g} % [{}, {}]; as read {} um ({})", symbol_,
+                     in_digits(known->estimate_mm), 100.0 * uncertainty_.coverage_1(),
+                     in_digits(known->low_mm), in_digits(known->high_mm), in_digits(value_mm_),
+                     operator_text());
 }
 
 int decimals_for(double expanded_mm) {

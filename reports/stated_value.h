@@ -64,8 +64,14 @@ class StatedValue {
   StatedValue(std::string symbol, double value_mm, ValueOperator value_operator,
               UncertaintyStatus uncertainty, Measurand measurand = Measurand::kSampledPoints);
 
-  /// As measured: not corrected for any bias [mm].
+  /// As read: not corrected for any bias [mm].
   [[nodiscard]] double value_mm() const { return value_mm_; }
+  /// What is quoted: the estimate, which lies in the interval; as read where there is none [mm].
+  [[nodiscard]] double quoted_mm() const {
+    return statement() == nullptr ? value_mm_ : statement()->estimate_mm;
+  }
+  /// A length with as many decimals of a micrometre as the interval warrants; three without one.
+  [[nodiscard]] std::string in_digits(double length_mm) const;
   [[nodiscard]] const ValueOperator& value_operator() const { return operator_; }
   [[nodiscard]] const UncertaintyStatus& uncertainty() const { return uncertainty_; }
   /// What the interval printed beside the value is about.
@@ -75,11 +81,12 @@ class StatedValue {
     return uncertainty_.about(measurand_);
   }
 
-  /// "8.31 um [7.60, 9.40]": as many digits as the interval allows, three without one.
+  /// "8.31 um [7.60, 9.40]": the estimate with its interval; as read, "8.312 um", without one.
   [[nodiscard]] std::string value_text() const;
   /// "MZCY; unfiltered; ...; at the sampled points", with "no uncertainty stated" where it is so.
   [[nodiscard]] std::string operator_text() const;
-  /// "CYLt = 8.31 um [7.60, 9.40] (MZCY; unfiltered; ...; at the sampled points)".
+  /// "CYLt = 8.31 um, 95 % [7.60, 9.40]; as read 8.35 um (MZCY; unfiltered; ...; at the sampled
+  /// points)".
   [[nodiscard]] std::string sentence() const;
 
  private:

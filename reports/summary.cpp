@@ -73,9 +73,10 @@ void add_head(std::string& out, const record::RunRecord& record, const Evaluatio
 void add_uncertainty(std::string& out, const StatedValue& value) {
   const UncertaintyResult& u = *value.uncertainty().result();
   const auto line = [&](const std::string& name, const UncertaintyStatement& s) {
+    const auto number = [&](double mm) { return fixed(1e3 * mm, decimals_for(s.expanded_mm())); };
     add_wrapped(out, name,
-                trf("{} um, {:g} % within [{}, {}] um {}", um(s.estimate_mm),
-                    100.0 * value.uncertainty().coverage_1(), um(s.low_mm), um(s.high_mm),
+                trf("{} um, {:g} % within [{}, {}] um {}", number(s.estimate_mm),
+                    100.0 * value.uncertainty().coverage_1(), number(s.low_mm), number(s.high_mm),
                     tr(name_of(s.measurand))));
   };
   line("    " + tr("corrected"), u.sampled);
@@ -90,12 +91,14 @@ void add_uncertainty(std::string& out, const StatedValue& value) {
                 tr(most->name), 100.0 * most->share_1);
   }
   add_wrapped(out, "    " + tr("bias"), bias);
+  for (const std::string& note : u.notes) add_wrapped(out, "    " + tr("note"), words(note));
 }
 
 /// "  CYLt MZCY     8.300 um   limit 10.000 um   conforms   id".
 void add_characteristic(std::string& out, const CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
-  const std::string value = result.value ? um(result.value->value_mm()) + " um" : tr("no value");
+  const std::string value =
+      result.value ? result.value->in_digits(result.value->quoted_mm()) + " um" : tr("no value");
   const std::string limit =
       asked.tolerance_mm ? trf("limit {} um", um(*asked.tolerance_mm)) : tr("no limit");
   std::string line =

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/form_trials.h"
+#include "reports/form_chains.h"
 
 namespace rondure::reports {
 namespace {
@@ -28,37 +28,49 @@ double spread_of(std::span<const double> values, double mean) {
 }
 
 /// Estimate, standard uncertainty and interval of trials: JCGM 101 sections 7.6 and 7.7.
-UncertaintyStatement statement_of(std::span<const double> trials, double coverage) {
+UncertaintyStatement statement_of(std::vector<double> trials, double coverage) {
   UncertaintyStatement out;
   out.estimate_mm = mean_of(trials);
   out.standard_uncertainty_mm = spread_of(trials, out.estimate_mm);
-  std::vector<double> sorted(trials.begin(), trials.end());
-  std::sort(sorted.begin(), sorted.end());
-  const auto inside =
-      static_cast<std::size_t>(std::floor(coverage * static_cast<double>(sorted.size()) + 0.5));
-  const std::size_t below = (sorted.size() - inside + 1) / 2;  // 1-based rank of the low end
-  const std::size_t low = std::max<std::size_t>(below, 1) - 1;
-  out.low_mm = sorted[low];
-  out.high_mm = sorted[std::min(low + inside, sorted.size() - 1)];
-  out.values_mm = std::move(sorted);
+  std::sort(trials.begin(), trials.end());
+  const auto count = static_cast<double>(trials.size());
+  const double rank = std::round(0.5 * (1.0 - coverage) * (count + 1.0));
+  const auto beyond = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
+  out.low_mm = trials[beyond];
+  out.high_mm = trials[trials.size() - 1 - beyond];
+  if (out.estimate_mm < out.low_mm || out.estimate_mm > out.high_mm) {  // a few far trials
+    out.estimate_mm = trials[trials.size() / 2];
+  }
+  out.values_mm = std::move(trials);
   return out;
 }
 
-/// JCGM 101 section 7.9.4: twice the standard deviation of the mean of the blocks, of the worst of
+using ValuesOf = std::vector<double> ChainValues::*;
+
+std::vector<double> all_of(const FormChains& chains, ValuesOf values) {
+  std::vector<double> out;
+  for (const ChainValues& chain : chains.values()) {
+    out.insert(out.end(), (chain.*values).begin(), (chain.*values).end());
+  }
+  return out;
+}
+
+/// JCGM 101 section 7.9.4: twice the standard deviation of the mean of the chains, of the worst of
 /// the four numbers.
-double tolerance_reached(std::span<const double> trials, std::size_t block, double coverage) {
+double left_open(const FormChains& chains, ValuesOf values, double coverage) {
+  if (chains.values().size() < 2 || (chains.values().front().*values).empty()) return 0.0;
   std::vector<std::vector<double>> numbers(4);
-  for (std::size_t first = 0; first + block <= trials.size(); first += block) {
-    const auto one = statement_of(trials.subspan(first, block), coverage);
+  for (const ChainValues& chain : chains.values()) {
+    const auto one = statement_of(chain.*values, coverage);
     numbers[0].push_back(one.estimate_mm);
     numbers[1].push_back(one.standard_uncertainty_mm);
     numbers[2].push_back(one.low_mm);
     numbers[3].push_back(one.high_mm);
   }
   double worst = 0.0;
-  for (const auto& of_blocks : numbers) {
-    const double spread = spread_of(of_blocks, mean_of(of_blocks));
-    worst = std::max(worst, 2.0 * spread / std::sqrt(static_cast<double>(of_blocks.size())));
+  for (const auto& of_chains : numbers) {
+    const double spread = spread_of(of_chains, mean_of(of_chains));
+    worst = std::max(worst, 2.0 * spread / std::sqrt(static_cast<double>(of_chains.size())));
   }
   return worst;
 }
@@ -101,9 +113,10 @@ core::Result<void> check_options(const UncertaintyOptions& options) {
   if (!(options.tolerance_mm >= 0.0 && std::isfinite(options.tolerance_mm))) {
     return bad("tolerance_mm", options.tolerance_mm, ">= 0");
   }
-  if (options.block_trials < 100) return bad("block_trials", options.block_trials, ">= 100");
-  if (options.least_trials < 2 * options.block_trials) {
-    return bad("least_trials", options.least_trials, ">= two blocks");
+  if (options.chains < 1 || options.chains > 64) return bad("chains", options.chains, "in 1..64");
+  if (options.least_trials < 100) return bad("least_trials", options.least_trials, ">= 100");
+  if (!(options.expected_spots >= 0.01 && options.expected_spots <= 10.0)) {
+    return bad("expected_spots", options.expected_spots, "in 0.01..10");
   }
   if (options.most_trials < options.least_trials || options.most_trials > 10'000'000) {
     return bad("most_trials", options.most_trials, "in least_trials..10000000");
@@ -125,7 +138,7 @@ core::Result<void> check_all(const FormCloud& cloud, const Influences& influence
                              const UncertaintyOptions& options) {
   if (const auto good = check_cloud(cloud); !good) return good;
   if (const auto good = check_influences(influences); !good) return good;
-  if (spectrum) {
+  if (spectrum && !spectrum->terms.empty()) {
     if (const auto good = check_spectrum(*spectrum, cloud.kind); !good) return good;
   }
   return check_options(options);
@@ -146,57 +159,135 @@ core::Result<void> check_values(const std::vector<double>& values) {
       fmt::format("in {} of {} trials the points have no such reference", lost, values.size()));
 }
 
-core::Result<void> check_values(const FormTrials& trials) {
-  if (auto good = check_values(trials.sampled()); !good) return good;
-  return check_values(trials.whole());
+core::Result<void> check_values(const FormChains& chains) {
+  if (auto good = check_values(all_of(chains, &ChainValues::sampled_mm)); !good) return good;
+  return check_values(all_of(chains, &ChainValues::whole_mm));
 }
 
-/// Runs blocks until the numbers stand still. Source: JCGM 101 section 7.9.
-core::Result<UncertaintyResult> run_trials(FormTrials& trials, const UncertaintyOptions& options) {
+constexpr std::size_t kManyPoints = 20'000;
+constexpr int kTrialsOfMany = 1000;
+
+/// Draws until the numbers stand still. Source: JCGM 101 section 7.9.
+core::Result<UncertaintyResult> run_chains(FormChains& chains, const UncertaintyOptions& options,
+                                           std::size_t points) {
   UncertaintyResult out;
-  const auto block = static_cast<std::size_t>(options.block_trials);
-  const auto least = static_cast<std::size_t>(options.least_trials);
-  const auto most = static_cast<std::size_t>(options.most_trials);
-  const auto open = [&](const std::vector<double>& values) {
-    return tolerance_reached(values, block, options.coverage);
+  const int most_asked =
+      points > kManyPoints ? std::min(options.most_trials, kTrialsOfMany) : options.most_trials;
+  const auto each = [&](int trials) {
+    return static_cast<std::size_t>((trials + options.chains - 1) / options.chains);
   };
-  trials.run(options.tolerance_mm > 0.0 ? least : most);
-  if (const auto good = check_values(trials); !good) return core::fail(good.error());
+  const std::size_t most = each(most_asked);
+  const std::size_t least = std::min(each(options.least_trials), most);
+  const std::size_t budget = options.budget_trials > 0 ? each(options.budget_trials) : 0;
+  chains.run(options.tolerance_mm > 0.0 ? least : most, budget);
+  if (const auto good = check_values(chains); !good) return core::fail(good.error());
   while (options.tolerance_mm > 0.0) {
-    const double worst =
-        std::max(open(trials.sampled()), trials.whole().empty() ? 0.0 : open(trials.whole()));
-    out.tolerance_reached = worst <= options.tolerance_mm;
-    if (out.tolerance_reached || trials.sampled().size() >= most) break;
-    trials.run(std::min(block, most - trials.sampled().size()));
-    if (const auto good = check_values(trials); !good) return core::fail(good.error());
+    const double worst = std::max(left_open(chains, &ChainValues::sampled_mm, options.coverage),
+                                  left_open(chains, &ChainValues::whole_mm, options.coverage));
+    out.tolerance_reached = options.chains > 1 && worst <= options.tolerance_mm;
+    const std::size_t done = chains.values().front().sampled_mm.size();
+    if (out.tolerance_reached || done >= most) break;
+    chains.run(std::min(std::max<std::size_t>(least / 2, 1), most - done), budget);
+    if (const auto good = check_values(chains); !good) return core::fail(good.error());
   }
-  out.uncorrected_mm = trials.uncorrected_mm();
-  out.sampled = statement_of(trials.sampled(), options.coverage);
-  out.sampled.numerical_tolerance_mm = open(trials.sampled());
+  out.uncorrected_mm = chains.uncorrected_mm();
+  out.sampled = statement_of(all_of(chains, &ChainValues::sampled_mm), options.coverage);
+  out.sampled.numerical_tolerance_mm =
+      left_open(chains, &ChainValues::sampled_mm, options.coverage);
   out.noise_inflation_mm = out.uncorrected_mm - out.sampled.estimate_mm;
-  if (!trials.whole().empty()) {
-    out.whole = statement_of(trials.whole(), options.coverage);
+  if (!chains.values().front().whole_mm.empty()) {
+    out.whole = statement_of(all_of(chains, &ChainValues::whole_mm), options.coverage);
     out.whole->measurand = Measurand::kWholeSurface;
-    out.whole->numerical_tolerance_mm = open(trials.whole());
+    out.whole->numerical_tolerance_mm = left_open(chains, &ChainValues::whole_mm, options.coverage);
     out.sampling_loss_mm = out.sampled.estimate_mm - out.whole->estimate_mm;
   }
-  out.trials = static_cast<int>(trials.sampled().size());
+  out.trials = static_cast<int>(out.sampled.values_mm.size());
   return out;
 }
 
-/// What the form between the points leaves open, were there no other influence.
-BudgetLine sampling_line(const FormCloud& cloud, const FormSpectrum& spectrum,
-                         const UncertaintyOptions& options) {
-  const ErrorModel nothing(cloud, Influences{});
-  FormTrials trials(cloud, nothing, spectrum, options.seed, threads_of(options));
-  trials.run(static_cast<std::size_t>(options.budget_trials));
-  BudgetLine line;
-  line.name = "sampling";
-  line.measurand = Measurand::kWholeSurface;
-  const double mean = mean_of(trials.whole());
-  line.standard_uncertainty_mm = spread_of(trials.whole(), mean);
-  line.shift_mm = trials.uncorrected_mm() - mean;
-  return line;
+/// What the draws found the cloud to be made of.
+FormFinding finding_of(const FormChains& chains, std::size_t points) {
+  FormFinding out;
+  std::vector<int> counts(points, 0);
+  double draws = 0.0;
+  for (const ChainValues& chain : chains.values()) {
+    draws += static_cast<double>(chain.sampled_mm.size());
+    out.noise_mm += chain.noise_mm;
+    out.unresolved_mm += chain.unresolved_mm;
+    out.groups += chain.groups;
+    out.spots += chain.spots;
+    for (std::size_t i = 0; i < points; ++i) counts[i] += chain.spot_counts[i];
+  }
+  for (double* sum : {&out.noise_mm, &out.unresolved_mm, &out.groups, &out.spots}) *sum /= draws;
+  for (std::size_t i = 0; i < points; ++i) {
+    if (counts[i] > 0.5 * draws) out.spot_rows.push_back(i);
+  }
+  return out;
+}
+
+constexpr double kMostFlagged = 0.2;    // of the points of a cloud
+constexpr double kErrorLimit = 0.975;   // quantile of what declared errors can make
+constexpr double kReadLimit = 4.0;      // standard deviations of what the model would read
+constexpr double kScatterLimit = 4.0;   // the same, of the residual scatter
+constexpr double kFewResiduals = 40.0;  // below them nothing shows a noise declared too large
+
+tl::unexpected<core::Error> void_interval(Code code, std::string why) {
+  return core::fail(code, std::move(why));
+}
+
+/// The correction is not larger than the declared errors can make it.
+core::Result<void> guard_correction(const FormChains& chains, const UncertaintyResult& found) {
+  std::vector<double> errors = all_of(chains, &ChainValues::of_errors_mm);
+  std::erase_if(errors, [](double value) { return !std::isfinite(value); });
+  if (errors.empty()) return {};
+  std::sort(errors.begin(), errors.end());
+  const auto rank = static_cast<std::size_t>(kErrorLimit * static_cast<double>(errors.size()));
+  const double most = errors[std::min(rank, errors.size() - 1)];
+  // Round-off of the fits is not a correction.
+  if (found.noise_inflation_mm <= most + 1e-6) return {};
+  return void_interval(Code::kInconsistent,
+                       fmt::format("the correction of {:.3g} um is more than the declared errors "
+                                   "can make ({:.3g} um): no interval is stated",
+                                   1e3 * found.noise_inflation_mm, 1e3 * most));
+}
+
+/// The model would read what was read.
+core::Result<void> guard_reading(const FormChains& chains, const UncertaintyResult& found) {
+  std::vector<double> read = all_of(chains, &ChainValues::read_mm);
+  std::erase_if(read, [](double value) { return !std::isfinite(value); });
+  if (read.size() < 8) return {};
+  const double mean = mean_of(read);
+  const double spread = spread_of(read, mean);
+  if (std::abs(found.uncorrected_mm - mean) <= kReadLimit * spread + 1e-6) return {};
+  return void_interval(
+      Code::kInconsistent,
+      fmt::format("the form model does not explain the value as read: it would read {:.3f} +- "
+                  "{:.3f} um, {:.3f} um were read; no interval is stated",
+                  1e3 * mean, 1e3 * spread, 1e3 * found.uncorrected_mm));
+}
+
+/// The points do not scatter less than declared. Notes it where nothing could show that.
+core::Result<void> guard_scatter(const FormChains& chains, std::size_t points,
+                                 UncertaintyResult& found) {
+  double scatter = 0.0;
+  double draws = 0.0;
+  for (const ChainValues& chain : chains.values()) {
+    scatter += chain.scatter_1;
+    draws += chain.resolved;
+  }
+  const double count = static_cast<double>(points) - found.finding.spots;
+  if (count - 2.0 * found.finding.groups < kFewResiduals) {
+    found.notes.push_back(
+        "too few points to show whether the declared noise is larger than the real one");
+  }
+  if (draws == 0.0) return {};
+  scatter /= draws;
+  if (scatter >= 1.0 - kScatterLimit * std::sqrt(2.0 / count)) return {};
+  return void_interval(
+      Code::kInconsistent,
+      fmt::format("the residual scatter is {:.3g} um, declared were {:.3g} um: declare what the "
+                  "touches show; no interval is stated",
+                  1e3 * std::sqrt(scatter) * found.finding.noise_mm, 1e3 * found.finding.noise_mm));
 }
 
 /// Each line's share of the lines of (a); sampling's of all.
@@ -218,28 +309,111 @@ void share_out(std::vector<BudgetLine>& budget) {
   });
 }
 
-core::Result<std::vector<BudgetLine>> budget_of(FormTrials& trials, const ErrorModel& errors,
-                                                const FormCloud& cloud,
-                                                const std::optional<FormSpectrum>& spectrum,
+core::Result<std::vector<BudgetLine>> budget_of(const FormChains& chains, const ErrorModel& errors,
                                                 const UncertaintyOptions& options) {
   std::vector<BudgetLine> budget;
   if (options.budget_trials == 0) return budget;
-  const auto changes = trials.changes(static_cast<std::size_t>(options.budget_trials));
-  for (const std::vector<double>& values : changes) {
-    if (auto good = check_values(values); !good) return core::fail(good.error());
-  }
-  for (std::size_t k = 0; k < changes.size(); ++k) {
+  for (std::size_t k = 0; k < errors.names().size(); ++k) {
+    std::vector<double> changes;
+    for (const ChainValues& chain : chains.values()) {
+      changes.insert(changes.end(), chain.changes_mm[k].begin(), chain.changes_mm[k].end());
+    }
+    if (auto good = check_values(changes); !good) return core::fail(good.error());
     BudgetLine line;
     line.name = errors.names()[k];
-    if (!changes[k].empty()) {
-      line.shift_mm = mean_of(changes[k]);
-      line.standard_uncertainty_mm = spread_of(changes[k], line.shift_mm);
+    if (!changes.empty()) {
+      line.shift_mm = mean_of(changes);
+      line.standard_uncertainty_mm = spread_of(changes, line.shift_mm);
     }
     budget.push_back(line);
   }
-  if (spectrum) budget.push_back(sampling_line(cloud, *spectrum, options));
+  const std::vector<double> whole = all_of(chains, &ChainValues::whole_mm);
+  if (!whole.empty()) {  // what the form between the points leaves open
+    std::vector<double> loss = all_of(chains, &ChainValues::sampled_mm);
+    for (std::size_t t = 0; t < loss.size(); ++t) loss[t] -= whole[t];
+    BudgetLine line;
+    line.name = "sampling";
+    line.measurand = Measurand::kWholeSurface;
+    line.shift_mm = mean_of(loss);
+    line.standard_uncertainty_mm = spread_of(loss, line.shift_mm);
+    budget.push_back(line);
+  }
   share_out(budget);
   return budget;
+}
+
+constexpr int kDenseLayers = 3;
+constexpr int kDensePoints = 14;  // of a layer
+
+/// The ends of the surface; kSampling where a cloud cannot show its own spectrum.
+core::Result<std::optional<WholeExtent>> extent_of(const FormCloud& cloud, const FormModel& model,
+                                                   const std::optional<FormSpectrum>& spectrum) {
+  if (!spectrum) return std::optional<WholeExtent>();
+  WholeExtent out;
+  out.low_mm = spectrum->low_mm;
+  out.high_mm = spectrum->high_mm;
+  out.declared = !spectrum->terms.empty();
+  if (out.declared) return std::optional<WholeExtent>(out);
+  const PointLayout& layout = model.columns().layout();
+  const bool section = cloud.kind == FormKind::kRoundness;
+  if (!layout.layered || layout.arc_rad || (!section && layout.layers < kDenseLayers) ||
+      layout.points_per_layer < kDensePoints) {
+    return void_interval(
+        Code::kSampling,
+        fmt::format("{} layers of {} points{} do not tell the form between them: {} layers of {} "
+                    "points, all the way round, at least; or declare a form spectrum",
+                    layout.layers, layout.points_per_layer,
+                    layout.arc_rad ? " on a part of the turn" : "", section ? 1 : kDenseLayers,
+                    kDensePoints));
+  }
+  if (section) return std::optional<WholeExtent>(out);
+  const auto [low, high] = std::minmax_element(
+      cloud.points.begin(), cloud.points.end(),
+      [](const FormPoint& a, const FormPoint& b) { return a.height_mm < b.height_mm; });
+  out.low_mm = low->height_mm;
+  out.high_mm = high->height_mm;
+  return std::optional<WholeExtent>(out);
+}
+
+/// "own undulations 0..13 and degrees 0..3 of 4 layers, 112 points; rougher form up to 39".
+std::string source_of(const FormModel& model, const FormSpectrum& spectrum) {
+  if (!spectrum.terms.empty()) return spectrum.source;
+  const FormColumns& columns = model.columns();
+  return fmt::format(
+      "what {} points in {} layers show: up to {} undulations and degree {}; what they do not "
+      "resolve, up to {} undulations",
+      model.points(), columns.layout().layers, columns.most_undulations(), columns.most_degree(),
+      3 * columns.most_undulations());
+}
+
+/// Whether nothing at all is known of the errors of single touches.
+bool noise_is_unknown(const ErrorModel& errors, const Influences& influences) {
+  if (!errors.point_variance_mm2().isZero(0.0)) return false;
+  return !influences.probe || !influences.probe->repeatability_known;
+}
+
+/// Without a known noise there is no interval: only bounds. The lower one takes all that the model
+/// does not follow for noise.
+tl::unexpected<core::Error> only_bounds(const FormCloud& cloud, const Influences& influences,
+                                        const FormModel& model, const UncertaintyOptions& options) {
+  std::string bounds;
+  Influences all_noise = influences;
+  all_noise.probe = influences.probe.value_or(ProbeInfluences{});
+  all_noise.probe->repeatability_mm = model.residual_mm();
+  if (all_noise.probe->repeatability_mm > 0.0) {
+    const ErrorModel errors(cloud, all_noise);
+    const FormModel lowest(cloud, errors, nullptr, options.expected_spots);
+    FormChains chains(cloud, errors, lowest, std::nullopt, options.seed, 1, 1);
+    chains.run(200, 0);
+    const double low = mean_of(chains.values().front().sampled_mm);
+    bounds =
+        fmt::format("; the value lies between {:.2f} and {:.2f} um, without a probability",
+                    1e3 * std::min(low, chains.uncorrected_mm()), 1e3 * chains.uncorrected_mm());
+  }
+  return void_interval(Code::kMeaning,
+                       "no noise of a touch is known: declare probe.repeatability_um or a form "
+                       "limit, or touch each point twice" +
+                           bounds);
 }
 
 }  // namespace
@@ -256,15 +430,38 @@ core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
     return core::fail(good.error());
   }
   const ErrorModel errors(cloud, influences);
-  FormTrials trials(cloud, errors, spectrum, options.seed, threads_of(options));
-  auto found = run_trials(trials, options);
+  const bool declared = spectrum && !spectrum->terms.empty();
+  const FormModel model(cloud, errors, declared ? &*spectrum : nullptr, options.expected_spots);
+  if (noise_is_unknown(errors, influences)) return only_bounds(cloud, influences, model, options);
+  if (model.flagged_share() > kMostFlagged) {
+    return void_interval(Code::kOutliers,
+                         fmt::format("{:.0f} % of the points stand out: no smooth form stands "
+                                     "behind these points; no interval is stated",
+                                     100.0 * model.flagged_share()));
+  }
+  const auto extent = extent_of(cloud, model, spectrum);
+  if (!extent) return core::fail(extent.error());
+  FormChains chains(cloud, errors, model, *extent, options.seed, options.chains,
+                    threads_of(options));
+  auto found = run_chains(chains, options, cloud.points.size());
   if (!found) return found;
   UncertaintyResult& out = *found;
-  auto budget = budget_of(trials, errors, cloud, spectrum, options);
+  out.finding = finding_of(chains, cloud.points.size());
+  if (const auto good = guard_scatter(chains, cloud.points.size(), out); !good) {
+    return core::fail(good.error());
+  }
+  // The bound holds where the value is a seminorm of the deviations.
+  const bool two_sided = cloud.reference == record::Reference::kMinimumZone ||
+                         cloud.reference == record::Reference::kLeastSquares;
+  if (two_sided) {
+    if (const auto good = guard_correction(chains, out); !good) return core::fail(good.error());
+  }
+  if (const auto good = guard_reading(chains, out); !good) return core::fail(good.error());
+  auto budget = budget_of(chains, errors, options);
   if (!budget) return core::fail(budget.error());
   out.budget = *std::move(budget);
   out.declaration = influence_statements(influences);
-  if (spectrum) out.spectrum_source = spectrum->source;
+  if (spectrum) out.spectrum_source = source_of(model, *spectrum);
   return found;
 }
 

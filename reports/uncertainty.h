@@ -18,13 +18,14 @@ struct UncertaintyOptions {
   /// Trials stop when twice the standard deviation of each printed number is below this [mm], JCGM
   /// 101 section 7.9; 0: when the most trials are done.
   double tolerance_mm = 0.0;
-  int block_trials = 1000;   ///< Trials between two looks at the tolerance; >= 100.
-  int least_trials = 2000;   ///< At least two blocks, so that they can be compared.
-  int most_trials = 10000;   ///< >= least_trials, <= 10 000 000.
+  int chains = 8;            ///< Of draws; compared with one another, 1..64. One has no comparison.
+  int least_trials = 2000;   ///< >= 100; shared among the chains.
+  int most_trials = 10000;   ///< >= least_trials, <= 10 000 000; 1000 above 20 000 points.
   int budget_trials = 1000;  ///< Of each influence alone, >= 2; 0: no budget.
-  double coverage = 0.95;    ///< Probability of the interval, 0.5..0.999.
-  std::uint64_t seed = 1;    ///< Same seed, same numbers, at any number of threads.
-  int threads = 0;           ///< 0: as many as the processor has.
+  double expected_spots = 0.5;  ///< Points of a part that stand out by themselves, 0.01..10.
+  double coverage = 0.95;       ///< Probability of the interval, 0.5..0.999.
+  std::uint64_t seed = 1;       ///< Same seed, same numbers, at any number of threads.
+  int threads = 0;              ///< 0: as many as the processor has.
 };
 
 /// What a statement is about. Never mixed.
@@ -38,11 +39,11 @@ enum class Measurand {
 /// A value with its interval.
 struct UncertaintyStatement {
   Measurand measurand = Measurand::kSampledPoints;
-  double estimate_mm = 0.0;  ///< Corrected for the bias: mean of the trials.
+  double estimate_mm = 0.0;  ///< Corrected for the bias: mean of the trials. In the interval.
   double low_mm = 0.0;       ///< Coverage interval, as much outside on either side.
   double high_mm = 0.0;
   double standard_uncertainty_mm = 0.0;  ///< Standard deviation of the trials.
-  /// Twice the standard deviation of the mean of the blocks, the largest of estimate, standard
+  /// Twice the standard deviation of the mean of the chains, the largest of estimate, standard
   /// uncertainty, low and high [mm]: what the number of trials leaves open.
   double numerical_tolerance_mm = 0.0;
   std::vector<double> values_mm;  ///< Of the trials, ascending: the whole distribution.
@@ -60,17 +61,28 @@ struct BudgetLine {
   double share_1 = 0.0;                  ///< Of the sum of the squares of the spreads, 0..1.
 };
 
+/// What the cloud was found to be made of: means over the draws.
+struct FormFinding {
+  double noise_mm = 0.0;       ///< Standard deviation of the error of a point.
+  double unresolved_mm = 0.0;  ///< Of form rougher than the columns.
+  double groups = 0.0;         ///< Undulations (of a degree along the axis) that are there.
+  double spots = 0.0;          ///< Points that stand out by themselves: burrs, dirt, scratches.
+  std::vector<std::size_t> spot_rows;  ///< Of the cloud: spots in more than half of the draws.
+};
+
 /// The uncertainty of one form value.
 struct UncertaintyResult {
-  double uncorrected_mm = 0.0;                ///< The value of the points as measured.
+  double uncorrected_mm = 0.0;                ///< The value of the points as read.
   UncertaintyStatement sampled;               ///< (a)
   std::optional<UncertaintyStatement> whole;  ///< (b), where a spectrum was stated.
   /// Expected inflation by noise: uncorrected minus estimate (a) [mm]; commonly > 0.
   double noise_inflation_mm = 0.0;
-  /// Expected loss by sparse sampling: estimate (a) minus estimate (b) [mm]; commonly < 0. Hence
+  /// Expected loss by sparse sampling: estimate (a) minus estimate (b) [mm]; <= 0. Hence
   /// uncorrected = estimate (b) + inflation + loss.
   std::optional<double> sampling_loss_mm;
-  std::string spectrum_source;                  ///< Of (b); empty without.
+  std::string spectrum_source;  ///< Of (b); empty without.
+  FormFinding finding;
+  std::vector<std::string> notes;               ///< To be read beside the interval.
   std::vector<BudgetLine> budget;               ///< Ranked by spread, the largest first.
   std::vector<InfluenceStatement> declaration;  ///< Covered and not covered.
   int trials = 0;
@@ -79,21 +91,24 @@ struct UncertaintyResult {
 
 /// Uncertainty of a form value by propagating distributions (Monte Carlo).
 ///
-/// The deviations are form + errors; adding errors to them again would inflate twice. So each trial
-/// makes a part (form of the estimated size) and an inspection (errors of every influence), has the
-/// form estimated from it exactly as from the real deviations, and lays the error of that estimate
-/// onto the real estimate: a form that may stand behind the data. Its minimum zone is one value of
-/// the distribution. (a) takes the forms of the points as independent; (b) as of the spectrum.
+/// The deviations are form + declared errors; what is declared is noise, all else is form. A model
+/// of the form (undulations times degrees in bands of a common size, what is rougher, single spots)
+/// is learnt from the one cloud, and forms that may stand behind the deviations are drawn from it
+/// by Gibbs sampling. Their values are the distribution: (a) at the points, (b) of the same form on
+/// the whole surface.
 ///
 /// @param cloud       >= 4 (section) or 6 (cylinder) points that determine place and size;
 /// measured,
 ///                    or nominal with deviations made by somebody else.
-/// @param spectrum    For (b); none: no statement about the whole surface.
-/// @return  kTooFewPoints, kNotFinite (row), kRank, kBadOption. Same input, same bits, on one kind
-///          of processor. 28 points: some 10 us a trial of (a), 40 us of (b).
+/// @param spectrum    For (b); without terms what the cloud shows by itself, for which it must be
+///                    dense; none: no statement about the whole surface.
+/// @return  kTooFewPoints, kNotFinite (row), kRank, kBadOption; kSampling (too sparse for its own
+///          spectrum); kMeaning (no noise known); kOutliers, kInconsistent (the data contradict the
+///          model or the declaration: a void, with its reason). Same input, same bits, at any
+///          number of threads on one kind of processor.
 /// Sources: JCGM 101:2008 (propagation of distributions, 7.9 adaptive trials); ISO/TS 15530-4:2008
-/// (declaration); A. G. Journel, C. J. Huijbregts, Mining Geostatistics, 1978 (conditioning a draw
-/// by the error of its own estimate). The method in words: docs/uncertainty.md.
+/// (declaration); E. I. George, R. E. McCulloch, JASA 88 (1993) 881 (variables that are there or
+/// not). The method in words: docs/uncertainty.md.
 [[nodiscard]] core::Result<UncertaintyResult> measurement_uncertainty(
     const FormCloud& cloud, const Influences& influences,
     const std::optional<FormSpectrum>& spectrum = std::nullopt,

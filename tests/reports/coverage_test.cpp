@@ -253,7 +253,6 @@ constexpr const char* kHead =
 
 UncertaintyOptions few_trials() {
   UncertaintyOptions options;
-  options.block_trials = 100;
   options.least_trials = 200;
   options.most_trials = full() ? 1000 : 200;
   options.budget_trials = 0;
