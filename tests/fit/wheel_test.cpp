@@ -426,8 +426,10 @@ TEST(Wheel, RefusesPointsThatAreNoWheel) {
   options.nominal_radius_mm = 100.0;
   EXPECT_EQ(refused(good, options).code, Code::kOutOfRange);
   options = {};
-  options.quadruples.count = 5;
-  EXPECT_EQ(refused(good, options).code, Code::kBadOption);
+  for (const std::size_t count : {5UL, 5001UL, 2'000'000'000UL}) {
+    options.quadruples.count = count;
+    EXPECT_EQ(refused(good, options).code, Code::kBadOption);
+  }
   options = {};
   options.outliers.scales = 3.0;
   options.robust = true;
