@@ -79,11 +79,12 @@ std::string stability_table(const fit::ContourStudy& study, const fit::Stability
 
 }  // namespace
 
-std::string contour_json(const fit::ContourStudy& study, const fit::ContourStudyOptions& options,
-                         std::span<const std::string> names) {
+nlohmann::ordered_json contour_json(const fit::ContourStudy& study,
+                                    const fit::ContourStudyOptions& options,
+                                    std::span<const std::string> names) {
   nlohmann::ordered_json out = {{"shape", "contour"}};
   out.update(reports::contour_document(study, options, names));
-  return out.dump(1) + "\n";
+  return out;
 }
 
 std::string contour_table(const fit::ContourStudy& study, const fit::ContourStudyOptions& options,

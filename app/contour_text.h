@@ -3,15 +3,17 @@
 #include <span>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "fit/contour_study.h"
 
 namespace rondure::app {
 
-/// A study of crank pins as JSON (docs/contour.md), one line feed at the end.
+/// A study of crank pins as JSON (docs/contour.md).
 /// @param names  One a part.
-[[nodiscard]] std::string contour_json(const fit::ContourStudy& study,
-                                       const fit::ContourStudyOptions& options,
-                                       std::span<const std::string> names);
+[[nodiscard]] nlohmann::ordered_json contour_json(const fit::ContourStudy& study,
+                                                  const fit::ContourStudyOptions& options,
+                                                  std::span<const std::string> names);
 /// The same for a person.
 [[nodiscard]] std::string contour_table(const fit::ContourStudy& study,
                                         const fit::ContourStudyOptions& options,

@@ -1,8 +1,12 @@
 #include "app/fit_shapes.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "core/units.h"
 #include "fit/ls_circle.h"
 #include "fit/ls_cylinder.h"
 #include "fit/ls_line.h"
@@ -13,6 +17,7 @@
 #include "fit/min_zone_sphere.h"
 #include "fit/one_sided_center.h"
 #include "fit/one_sided_cylinder.h"
+#include "fit/points.h"
 
 namespace rondure::app {
 namespace {
@@ -106,7 +111,19 @@ core::Result<FitReference> as_reference(const core::Result<Fit>& fit, const Conv
   return convert(*fit);
 }
 
+/// Says that what is not seen can only add: of points seen along the axis, about their centre.
+void warn_of_arc(Plane points, const Eigen::Vector2d& center_mm, Collector& collector) {
+  const double gap_rad = fit::largest_gap_rad(points, center_mm);
+  const double step_rad = core::kTwoPi / static_cast<double>(points.size());
+  if (gap_rad <= std::max(90.0 * core::kDegree, 1.5 * step_rad) * (1.0 + 1e-6)) return;
+  collector.warn(core::Code::kNotFullSection,
+                 fmt::format("the points leave {:.0f} deg of the turn unseen: the deviations are "
+                             "those of an arc, and minimum zones are lower bounds of the whole",
+                             gap_rad / core::kDegree));
+}
+
 core::Result<FitOutcome> fit_circle(Plane points, Collector collector) {
+  if (const auto ls = fit::ls_circle(points)) warn_of_arc(points, ls->center_mm, collector);
   if (collector.wants("ls")) {
     collector.add("ls", "LSCI", as_reference(fit::ls_circle(points), [](const auto& f) {
                     return least_squares(f, place_of(f.center_mm));
@@ -166,6 +183,13 @@ core::Result<FitOutcome> fit_cylinder(Space points, Collector collector) {
   const auto ls = fit::ls_cylinder(points);
   if (!ls) return core::fail(ls.error());
   if (collector.wants("ls")) collector.add("ls", "LSCY", least_squares(*ls, place_of(ls->axis)));
+  std::vector<Eigen::Vector2d> seen;
+  seen.reserve(points.size());
+  const auto across = fit::across(ls->axis.direction);
+  for (const Eigen::Vector3d& p : points) {
+    seen.emplace_back(across.transpose() * (p - ls->axis.point_mm));
+  }
+  warn_of_arc(seen, Eigen::Vector2d::Zero(), collector);
   const Eigen::Vector3d near = ls->axis.direction;
   if (collector.wants("mz")) {
     // All directions, or, where that takes too long, those about the least-squares axis.

@@ -98,7 +98,7 @@ std::string reference_lines(const FitOutcome::Entry& entry) {
 
 }  // namespace
 
-std::string fit_json(const FitOutcome& outcome) {
+nlohmann::ordered_json fit_json(const FitOutcome& outcome) {
   Json out = {{"shape", outcome.shape}, {"points", outcome.points}};
   for (const FitOutcome::Entry& entry : outcome.references) {
     out[entry.name] = entry.found ? reference_json(*entry.found) : Json(nullptr);
@@ -107,7 +107,7 @@ std::string fit_json(const FitOutcome& outcome) {
   for (const core::Error& w : outcome.warnings) {
     out["warnings"].push_back({{"code", core::code_name(w.code)}, {"what", w.what}});
   }
-  return out.dump(1) + "\n";
+  return out;
 }
 
 std::string fit_table(const FitOutcome& outcome) {

@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <Eigen/Core>
 
 #include "core/error.h"
@@ -48,8 +50,8 @@ struct FitOutcome {
   std::vector<core::Error> warnings;
 };
 
-/// The JSON contract of DESIGN.md ("JSON of fit"), one line feed at the end.
-[[nodiscard]] std::string fit_json(const FitOutcome& outcome);
+/// The JSON contract of DESIGN.md ("JSON of fit").
+[[nodiscard]] nlohmann::ordered_json fit_json(const FitOutcome& outcome);
 /// The same for a person.
 [[nodiscard]] std::string fit_table(const FitOutcome& outcome);
 

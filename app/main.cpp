@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <new>
@@ -511,6 +512,22 @@ int explain(const CLI::App& app, const CLI::ParseError& error,
   return kBadInput;
 }
 
+/// Numbers on the command line have the limit of those in files; "nan" and "inf" are none.
+void limit_numbers(CLI::App& app) {
+  constexpr std::array<std::string_view, 7> kNumbers = {"FLOAT", "LO,HI", "X,Y,Z", "N[,N]",
+                                                        "X,Z",   "X0,X1", "A,B"};
+  for (CLI::Option* option : app.get_options()) {
+    const std::string type = option->get_type_name();
+    if (std::find(kNumbers.begin(), kNumbers.end(), type) == kNumbers.end()) continue;
+    option->check([](const std::string& text) {
+      return core::parse_number(text)
+                 ? std::string()
+                 : fmt::format("{} is no number up to {:g}", text, core::kGreatestNumber);
+    });
+  }
+  for (CLI::App* verb : app.get_subcommands([](CLI::App*) { return true; })) limit_numbers(*verb);
+}
+
 int printed(const std::string& text) {
   say(text);
   return kAllWell;
@@ -563,6 +580,7 @@ int main_of(int argc, char** argv) {
   add_record(app, record_arguments);
   add_completion(app, shell);
   add_manual(app);
+  limit_numbers(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

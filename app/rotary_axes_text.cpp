@@ -235,11 +235,11 @@ std::string axis_table(const RotaryFacts& facts) {
 
 }  // namespace
 
-std::string rotary_axes_json(std::span<const RotaryFacts> axes) {
+nlohmann::ordered_json rotary_axes_json(std::span<const RotaryFacts> axes) {
   Json out;
   out["axes"] = Json::array();
   for (const RotaryFacts& facts : axes) out["axes"].push_back(axis_json(facts));
-  return out.dump(1) + "\n";
+  return out;
 }
 
 std::string rotary_axes_table(std::span<const RotaryFacts> axes) {

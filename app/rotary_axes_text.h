@@ -4,6 +4,8 @@
 #include <span>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "fit/rotary_axes.h"
 #include "fit/rotary_model.h"
 
@@ -18,8 +20,8 @@ struct RotaryFacts {
   Eigen::Vector3d place_mm = Eigen::Vector3d::Zero();  ///< Whose point uncertainty is stated.
 };
 
-/// As JSON (docs/rotary-axes.md), and for a person within 80 columns; one line feed at the end.
-[[nodiscard]] std::string rotary_axes_json(std::span<const RotaryFacts> axes);
+/// As JSON (docs/rotary-axes.md), and for a person within 80 columns.
+[[nodiscard]] nlohmann::ordered_json rotary_axes_json(std::span<const RotaryFacts> axes);
 [[nodiscard]] std::string rotary_axes_table(std::span<const RotaryFacts> axes);
 
 }  // namespace rondure::app

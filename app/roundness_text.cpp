@@ -149,7 +149,7 @@ std::string harmonic_lines(const fit::HarmonicTable& table) {
 
 }  // namespace
 
-std::string roundness_json(const fit::RoundnessEvaluation& evaluation, bool polar) {
+nlohmann::ordered_json roundness_json(const fit::RoundnessEvaluation& evaluation, bool polar) {
   Json out = {{"shape", "roundness"},
               {"points", evaluation.points},
               {"model", polar ? "profile" : "points"},
@@ -168,7 +168,7 @@ std::string roundness_json(const fit::RoundnessEvaluation& evaluation, bool pola
   for (const core::Error& w : evaluation.warnings) {
     out["warnings"].push_back({{"code", core::code_name(w.code)}, {"what", w.what}});
   }
-  return out.dump(1) + "\n";
+  return out;
 }
 
 std::string roundness_table(const fit::RoundnessEvaluation& evaluation, bool polar) {

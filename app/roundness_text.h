@@ -3,14 +3,17 @@
 #include <span>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "fit/filter_selftest.h"
 #include "fit/roundness_evaluation.h"
 
 namespace rondure::app {
 
-/// A roundness evaluation as JSON (keys with their units), one line feed at the end.
+/// A roundness evaluation as JSON (keys with their units).
 /// @param polar  The input was theta_deg,r_um: centres are offsets, radii a level.
-[[nodiscard]] std::string roundness_json(const fit::RoundnessEvaluation& evaluation, bool polar);
+[[nodiscard]] nlohmann::ordered_json roundness_json(const fit::RoundnessEvaluation& evaluation,
+                                                    bool polar);
 /// The same for a person.
 [[nodiscard]] std::string roundness_table(const fit::RoundnessEvaluation& evaluation, bool polar);
 

@@ -83,7 +83,7 @@ std::string layout_line(const std::string& name, const fit::ProbeLayout& layout,
 
 }  // namespace
 
-std::string spindle_json(const reports::SpindleFacts& facts) {
+nlohmann::ordered_json spindle_json(const reports::SpindleFacts& facts) {
   Json out = reports::separation_json(facts);
   out["warnings"] = Json::array();
   const auto add = [&](const std::vector<core::Error>& warnings) {
@@ -92,7 +92,7 @@ std::string spindle_json(const reports::SpindleFacts& facts) {
   };
   add(facts.separation.warnings);
   add(facts.roundness.warnings);
-  return out.dump(1) + "\n";
+  return out;
 }
 
 std::string spindle_table(const reports::SpindleFacts& facts) {
@@ -123,8 +123,8 @@ std::string spindle_table(const reports::SpindleFacts& facts) {
   return out + harmonic_lines(s);
 }
 
-std::string layouts_json(std::span<const fit::DesignedLayout> layouts,
-                         const fit::LayoutSearch& search) {
+nlohmann::ordered_json layouts_json(std::span<const fit::DesignedLayout> layouts,
+                                    const fit::LayoutSearch& search) {
   Json out;
   out["first_order"] = search.first;
   out["last_order"] = search.last;
@@ -133,7 +133,7 @@ std::string layouts_json(std::span<const fit::DesignedLayout> layouts,
     out["layouts"].push_back(layout_json(designed.layout, search));
   for (const NamedLayout& known : known_layouts())
     out["for_comparison"][known.name] = layout_json(known.layout, search);
-  return out.dump(1) + "\n";
+  return out;
 }
 
 std::string layouts_table(std::span<const fit::DesignedLayout> layouts,

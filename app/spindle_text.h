@@ -3,18 +3,20 @@
 #include <span>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "fit/probe_layout.h"
 #include "reports/spindle_result.h"
 
 namespace rondure::app {
 
-/// A three-probe separation as JSON (docs/spindle.md), and for a person; one line feed at the end.
-[[nodiscard]] std::string spindle_json(const reports::SpindleFacts& facts);
+/// A three-probe separation as JSON (docs/spindle.md), and for a person.
+[[nodiscard]] nlohmann::ordered_json spindle_json(const reports::SpindleFacts& facts);
 [[nodiscard]] std::string spindle_table(const reports::SpindleFacts& facts);
 
 /// Designed layouts with the two of the source and the reference beside them.
-[[nodiscard]] std::string layouts_json(std::span<const fit::DesignedLayout> layouts,
-                                       const fit::LayoutSearch& search);
+[[nodiscard]] nlohmann::ordered_json layouts_json(std::span<const fit::DesignedLayout> layouts,
+                                                  const fit::LayoutSearch& search);
 [[nodiscard]] std::string layouts_table(std::span<const fit::DesignedLayout> layouts,
                                         const fit::LayoutSearch& search);
 

@@ -3,7 +3,9 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "app/answer.h"
 #include "app/contour_files.h"
 #include "app/contour_mapping.h"
 #include "app/contour_text.h"
@@ -116,13 +118,14 @@ int contour(const ContourArguments& arguments) {
   auto study = fit::contour_study(input->parts, options);
   if (!study) return refuse(named(study.error(), arguments));
   for (core::Error& warning : study->warnings) warning = named(warning, arguments);
+  const auto found = contour_json(*study, options, input->names);
+  if (const auto finite = check_finite(found); !finite) return refuse(finite.error());
   if (!arguments.curves.empty()) {
     const auto written = record::write_file(arguments.curves, reports::contour_curves_csv(*study));
     if (!written) return refuse(written.error());
   }
-  say(arguments.json ? contour_json(*study, options, input->names)
-                     : contour_table(*study, options, input->names));
-  return kAllWell;
+  return answer(found, arguments.json,
+                [&] { return contour_table(*study, options, input->names); });
 }
 
 }  // namespace rondure::app

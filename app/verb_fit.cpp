@@ -1,7 +1,9 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "app/answer.h"
 #include "app/fit_shapes.h"
 #include "app/fit_text.h"
 #include "app/terminal.h"
@@ -41,8 +43,7 @@ int fit(const FitArguments& arguments) {
     complain(error.at(error.where.empty() ? arguments.file : error.where));
     return kBadInput;
   }
-  say(arguments.json ? fit_json(*outcome) : fit_table(*outcome));
-  return kAllWell;
+  return answer(fit_json(*outcome), arguments.json, [&] { return fit_table(*outcome); });
 }
 
 }  // namespace rondure::app

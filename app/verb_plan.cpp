@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/answer.h"
 #include "app/forecast_text.h"
 #include "app/length_word.h"
 #include "app/prediction.h"
@@ -72,16 +73,15 @@ core::Result<Outlook> look_ahead(const plans::Plan& plan, const plans::Forecast&
   return out;
 }
 
-void print(const plans::Plan& plan, const plans::Forecast& forecast, const Outlook& outlook,
-           bool json) {
-  if (json) {
-    nlohmann::ordered_json out = forecast_json(plan, forecast);
-    out["prediction"] = prediction_json(plan, outlook.predicted);
-    if (outlook.target_mm) {
-      out["target"] = search_json(plan, outlook.searches, *outlook.target_mm);
-    }
-    return say(out.dump(2) + "\n");
-  }
+nlohmann::ordered_json document_of(const plans::Plan& plan, const plans::Forecast& forecast,
+                                   const Outlook& outlook) {
+  nlohmann::ordered_json out = forecast_json(plan, forecast);
+  out["prediction"] = prediction_json(plan, outlook.predicted);
+  if (outlook.target_mm) out["target"] = search_json(plan, outlook.searches, *outlook.target_mm);
+  return out;
+}
+
+void print(const plans::Plan& plan, const plans::Forecast& forecast, const Outlook& outlook) {
   say(forecast_table(plan, forecast));
   say(prediction_table(plan, outlook.predicted));
   if (outlook.target_mm) say(search_table(plan, outlook.searches, *outlook.target_mm));
@@ -115,7 +115,13 @@ int plan(const PlanArguments& arguments) {
   }
   const auto outlook = look_ahead(*read, *forecast, target_mm);
   if (!outlook) return refuse({outlook.error()}, arguments);
-  print(*read, *forecast, *outlook, arguments.json);
+  const auto document = document_of(*read, *forecast, *outlook);
+  if (auto finite = check_finite(document); !finite) return refuse({finite.error()}, arguments);
+  if (arguments.json) {
+    say(document.dump(2) + "\n");
+  } else {
+    print(*read, *forecast, *outlook);
+  }
   return target_met(*outlook) ? kAllWell : kBadInput;
 }
 

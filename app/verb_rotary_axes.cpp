@@ -1,7 +1,9 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "app/answer.h"
 #include "app/rotary_axes_command.h"
 #include "app/rotary_axes_files.h"
 #include "app/rotary_axes_text.h"
@@ -62,8 +64,8 @@ int rotary_axes(const RotaryAxesArguments& arguments) {
     complain(facts.error());
     return kBadInput;
   }
-  say(arguments.json ? rotary_axes_json(*facts) : rotary_axes_table(*facts));
-  return kAllWell;
+  return answer(rotary_axes_json(*facts), arguments.json,
+                [&] { return rotary_axes_table(*facts); });
 }
 
 }  // namespace rondure::app

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "app/answer.h"
 #include "app/roundness_text.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
@@ -140,8 +142,8 @@ int roundness(const RoundnessArguments& arguments) {
     complain(placed(out.error(), arguments.file));
     return kBadInput;
   }
-  say(arguments.json ? roundness_json(*out, table->polar) : roundness_table(*out, table->polar));
-  return kAllWell;
+  return answer(roundness_json(*out, table->polar), arguments.json,
+                [&] { return roundness_table(*out, table->polar); });
 }
 
 int selftest_filters(const SelfTestArguments& arguments) {

@@ -3,7 +3,9 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "app/answer.h"
 #include "app/spindle_text.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
@@ -92,8 +94,7 @@ int spindle(const SpindleArguments& arguments) {
     complain(facts.error());
     return kBadInput;
   }
-  say(arguments.json ? spindle_json(*facts) : spindle_table(*facts));
-  return kAllWell;
+  return answer(spindle_json(*facts), arguments.json, [&] { return spindle_table(*facts); });
 }
 
 int design_probes(const DesignArguments& arguments) {
@@ -107,8 +108,8 @@ int design_probes(const DesignArguments& arguments) {
     complain(found.error());
     return kBadInput;
   }
-  say(arguments.json ? layouts_json(*found, *search) : layouts_table(*found, *search));
-  return kAllWell;
+  return answer(layouts_json(*found, *search), arguments.json,
+                [&] { return layouts_table(*found, *search); });
 }
 
 }  // namespace rondure::app

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/answer.h"
 #include "app/surface_words.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
@@ -127,15 +128,18 @@ int wheel(const WheelArguments& arguments) {
   if (!points) return refuse(points.error(), arguments.file);
   const auto evaluation = fit::evaluate_wheel(*points, *task);
   if (!evaluation) return refuse(evaluation.error(), arguments.file);
+  const auto found = reports::wheel_json(*evaluation, *task);
+  if (const auto finite = check_finite(found); !finite) {
+    return refuse(finite.error(), arguments.file);
+  }
   if (evaluation->path) {
     if (auto written = write_files(arguments, *evaluation->path); !written) {
       return refuse(written.error(), {});
     }
   }
   // The wheel is measured even where the surface cannot be ground with it.
-  say(arguments.json ? reports::wheel_json(*evaluation, *task).dump(1) + "\n"
-                     : wheel_table(*evaluation, *task));
-  return evaluation->refused ? refuse(*evaluation->refused, {}) : kAllWell;
+  const int status = answer(found, arguments.json, [&] { return wheel_table(*evaluation, *task); });
+  return evaluation->refused ? refuse(*evaluation->refused, {}) : status;
 }
 
 }  // namespace rondure::app

@@ -41,11 +41,14 @@ std::string center_lines(const fit::WheelMeasurement& m) {
 
 std::string runout_line(const fit::WheelMeasurement& m) {
   if (!m.runout) return fmt::format("  run-out   not stated: {}\n", m.runout_absent);
-  return fmt::format(
-      "  run-out   FIM {:.3f} um about the axis ({:.6f}, {:.6f}) mm; eccentricity {:.3f} um; "
-      "effective radius {:.6f} mm\n",
-      um(m.runout->fim_mm), m.runout->axis_mm.x(), m.runout->axis_mm.y(),
-      um(m.runout->eccentricity_mm), m.runout->effective_radius_mm);
+  const std::string& bound = m.runout->bound_because;
+  const std::string_view at_least = bound.empty() ? "" : "at least ";
+  const std::string out = fmt::format(
+      "  run-out   FIM {}{:.3f} um about the axis ({:.6f}, {:.6f}) mm; eccentricity {:.3f} um; "
+      "effective radius {}{:.6f} mm\n",
+      at_least, um(m.runout->fim_mm), m.runout->axis_mm.x(), m.runout->axis_mm.y(),
+      um(m.runout->eccentricity_mm), at_least, m.runout->effective_radius_mm);
+  return bound.empty() ? out : out + fmt::format("            a bound: {}\n", bound);
 }
 
 std::string path_lines(const fit::WheelEvaluation& e) {
@@ -67,9 +70,10 @@ std::string path_lines(const fit::WheelEvaluation& e) {
 std::string overcut_line(const fit::WheelEvaluation& e) {
   if (e.radius != fit::RadiusChoice::kMean || !e.wheel.runout) return {};
   return fmt::format(
-      "  overcut   {:.3f} um: the highest point cuts deeper than the mean radius; --radius "
+      "  overcut   {}{:.3f} um: the highest point cuts deeper than the mean radius; --radius "
       "effective "
       "takes it into account\n",
+      e.wheel.runout->bound_because.empty() ? "" : "at least ",
       um(e.wheel.runout->effective_radius_mm - e.wheel.radius_mm));
 }
 

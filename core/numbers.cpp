@@ -19,7 +19,7 @@ std::optional<double> parse_number(std::string_view text) {
   // from_chars knows no plus sign; behind one there must be no other sign.
   if (last - first > 1 && *first == '+' && first[1] != '-') ++first;
   const auto end = std::from_chars(first, last, value);
-  if (end.ec != std::errc() || end.ptr != last || !std::isfinite(value)) return std::nullopt;
+  if (end.ec != std::errc() || end.ptr != last || !is_measurable(value)) return std::nullopt;
   return value;
 }
 

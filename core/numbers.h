@@ -6,11 +6,22 @@
 
 namespace rondure::core {
 
+/// Nothing that is measured, declared or kept is greater, in its own unit: 1e9 mm are 1000 km, 1e9
+/// deg near 3 million turns, 1e9 s 30 years. Squares and products of such numbers stay far from
+/// the end of what a double holds, and differences of 1 nm can still be told.
+inline constexpr double kGreatestNumber = 1e9;
+
+/// Finite, and no greater in size than kGreatestNumber.
+[[nodiscard]] inline bool is_measurable(double value) {
+  return value >= -kGreatestNumber && value <= kGreatestNumber;
+}
+
 /// The shortest text that reads back to the same double ("0.1", "1e-09"); never a locale's comma.
 /// `value` must be finite.
 [[nodiscard]] std::string shortest(double value);
 
-/// Reads the whole of `text` as one finite number, or nothing. Spaces around it are not accepted.
+/// Reads the whole of `text` as one number that is_measurable(), or nothing. Spaces around it are
+/// not accepted.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
 /// The multiple of 1 / steps_per_unit next to `value` (half to even), as the double next to that

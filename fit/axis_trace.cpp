@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "fit/periodic_spline.h"
 
@@ -38,15 +39,16 @@ core::Result<void> check(const AxisTrace& trace, const AxisTraceOptions& options
         fmt::format("{} samples of the axes; at least {} are needed", n, kLeastTurnSamples));
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (std::isfinite(trace.c_rad[i]) && std::isfinite(trace.c_error_rad[i]) &&
-        std::isfinite(trace.x_error_mm[i])) {
+    if (core::is_measurable(trace.c_rad[i]) && core::is_measurable(trace.c_error_rad[i]) &&
+        core::is_measurable(trace.x_error_mm[i])) {
       continue;
     }
     return core::fail(
         core::Code::kNotFinite,
         fmt::format("row {} of the axes is (C {} rad, error of C {} rad, error of X {} "
-                    "mm); all must be finite numbers",
-                    i, trace.c_rad[i], trace.c_error_rad[i], trace.x_error_mm[i]));
+                    "mm); all must be finite numbers up to {:g}",
+                    i, trace.c_rad[i], trace.c_error_rad[i], trace.x_error_mm[i],
+                    core::kGreatestNumber));
   }
   return {};
 }

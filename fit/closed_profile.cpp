@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "fit/periodic_spline.h"
 
@@ -35,11 +36,11 @@ core::Result<void> check_values(std::span<const double> theta, std::span<const d
                                   theta.size(), r.size()));
   }
   for (std::size_t i = 0; i < theta.size(); ++i) {
-    if (std::isfinite(theta[i]) && std::isfinite(r[i])) continue;
+    if (core::is_measurable(theta[i]) && core::is_measurable(r[i])) continue;
     return core::fail(core::Code::kNotFinite,
                       fmt::format("row {} is (angle {} rad, radius {} mm); both must be finite "
-                                  "numbers",
-                                  i, theta[i], r[i]));
+                                  "numbers up to {:g}",
+                                  i, theta[i], r[i], core::kGreatestNumber));
   }
   return {};
 }

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "fit/closed_profile.h"
 #include "fit/dft.h"
@@ -29,10 +30,10 @@ core::Result<void> check_values(std::span<const double> deviation_mm) {
                                   deviation_mm.size(), kLeastContourPoints));
   }
   for (std::size_t i = 0; i < deviation_mm.size(); ++i) {
-    if (std::isfinite(deviation_mm[i])) continue;
-    return core::fail(
-        core::Code::kNotFinite,
-        fmt::format("row {} is {} mm; a finite number is needed", i, deviation_mm[i]));
+    if (core::is_measurable(deviation_mm[i])) continue;
+    return core::fail(core::Code::kNotFinite,
+                      fmt::format("row {} is {} mm; a finite number up to {:g} is needed", i,
+                                  deviation_mm[i], core::kGreatestNumber));
   }
   return {};
 }

@@ -1,5 +1,6 @@
 #include "fit/contour_study.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -10,6 +11,7 @@ namespace rondure::fit {
 namespace {
 
 constexpr double kSamplesPerUndulation = 6.0;
+constexpr std::size_t kMostSamples = 100'000;  ///< Of a turn; gauges give some thousands.
 constexpr double kLargeOffset = 2.0 * core::kDegree;
 
 MeasuredContourOptions gauge_options(const ContourStudyOptions& options, bool main) {
@@ -225,6 +227,11 @@ core::Result<ContourPartResult> contour_part(const ContourPart& part,
 
 core::Result<ContourStudy> contour_study(std::span<const ContourPart> parts,
                                          const ContourStudyOptions& options) {
+  if (std::max(options.samples, options.axes.samples) > kMostSamples) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("{} samples of a contour and {} of the axes; the limit is {}",
+                                  options.samples, options.axes.samples, kMostSamples));
+  }
   if (parts.empty()) {
     return core::fail(core::Code::kNoPoints, "no part is given; at least one is needed");
   }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "fit/closed_profile.h"
 #include "fit/dft.h"
@@ -40,11 +41,11 @@ core::Result<void> check(std::span<const double> angle, std::span<const double> 
                                   kLeastContourPoints));
   }
   for (std::size_t i = 0; i < angle.size(); ++i) {
-    if (std::isfinite(angle[i]) && std::isfinite(deviation[i])) continue;
+    if (core::is_measurable(angle[i]) && core::is_measurable(deviation[i])) continue;
     return core::fail(core::Code::kNotFinite,
                       fmt::format("row {} of the contour is ({} rad, {} mm); both must be finite "
-                                  "numbers",
-                                  i, angle[i], deviation[i]));
+                                  "numbers up to {:g}",
+                                  i, angle[i], deviation[i], core::kGreatestNumber));
   }
   return {};
 }

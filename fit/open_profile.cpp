@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include "core/numbers.h"
+
 namespace rondure::fit {
 namespace {
 
@@ -37,10 +39,10 @@ core::Result<void> check(std::span<const double> x, std::span<const double> r,
         fmt::format("the cut-off is {}; a positive wavelength is needed", options.cutoff));
   }
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (!std::isfinite(x[i]) || !std::isfinite(r[i])) {
-      return core::fail(
-          core::Code::kNotFinite,
-          fmt::format("row {} is ({}, {}); finite numbers are needed", i, x[i], r[i]));
+    if (!core::is_measurable(x[i]) || !core::is_measurable(r[i])) {
+      return core::fail(core::Code::kNotFinite,
+                        fmt::format("row {} is ({}, {}); finite numbers up to {:g} are needed", i,
+                                    x[i], r[i], core::kGreatestNumber));
     }
     if (i > 0 && x[i] <= x[i - 1]) {
       return core::fail(core::Code::kBadOption,

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 
 namespace rondure::fit {
@@ -20,11 +21,17 @@ template <class Vector>
 core::Result<void> check(std::span<const Vector> points_mm) {
   if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
   for (std::size_t i = 0; i < points_mm.size(); ++i) {
-    if (!points_mm[i].allFinite()) {
+    if ((points_mm[i].array().abs() <= core::kGreatestNumber).all()) continue;
+    if (points_mm[i].allFinite()) {
       return core::fail(
-          core::Code::kNotFinite,
-          fmt::format("a coordinate of point {} (counted from 0) is not a finite number", i));
+          core::Code::kOutOfRange,
+          fmt::format("a coordinate of point {} (counted from 0) is {:g} mm; at most {:g} mm can "
+                      "be computed with",
+                      i, points_mm[i].cwiseAbs().maxCoeff(), core::kGreatestNumber));
     }
+    return core::fail(
+        core::Code::kNotFinite,
+        fmt::format("a coordinate of point {} (counted from 0) is not a finite number", i));
   }
   return {};
 }

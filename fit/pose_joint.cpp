@@ -10,6 +10,7 @@
 #include "core/decompositions.h"
 #include "core/noise.h"
 #include "fit/ls_cylinder.h"
+#include "fit/points.h"
 #include "fit/pose_joint_model.h"
 #include "fit/zone_fit.h"
 
@@ -58,7 +59,7 @@ core::Result<void> check(std::span<const JointPose> poses, const PoseJointOption
                   fmt::format("pose {}: prior uncertainty {} of an error, at least 0", k + 1, u));
     }
     for (std::size_t i = 0; i < pose.touches.size(); ++i) {
-      if (pose.touches[i].tip_W_mm.allFinite()) continue;
+      if (check_points(std::span(&pose.touches[i].tip_W_mm, 1))) continue;
       return fail(Code::kNotFinite, fmt::format("pose {}: touch {} is not a number", k + 1, i));
     }
   }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "fit/dft.h"
 #include "fit/robust_filter.h"
 
@@ -171,9 +172,10 @@ core::Result<FilteredProfile> filter_closed(std::span<const double> r_mm,
     return core::fail(core::Code::kNoPoints, "the profile is empty; there is nothing to filter");
   }
   for (std::size_t i = 0; i < r_mm.size(); ++i) {
-    if (std::isfinite(r_mm[i])) continue;
+    if (core::is_measurable(r_mm[i])) continue;
     return core::fail(core::Code::kNotFinite,
-                      fmt::format("row {} is {} mm; a finite number is needed", i, r_mm[i]));
+                      fmt::format("row {} is {} mm; a finite number up to {:g} is needed", i,
+                                  r_mm[i], core::kGreatestNumber));
   }
   const auto sampling = check_sampling(r_mm.size(), options);
   if (!sampling) return core::fail(sampling.error());

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <Eigen/SVD>
 
+#include "fit/points.h"
+
 namespace rondure::fit {
 namespace {
 
@@ -55,8 +57,9 @@ core::Result<Registration> rigid_registration(std::span<const Eigen::Vector3d> f
   }
   const Eigen::Matrix3Xd from = columns(from_mm);
   const Eigen::Matrix3Xd to = columns(to_mm);
-  if (!from.allFinite() || !to.allFinite()) {
-    return core::fail(core::Code::kNotFinite, "a point to be registered is not a finite number");
+  if (!check_points(from_mm) || !check_points(to_mm)) {
+    return core::fail(core::Code::kNotFinite,
+                      "a point to be registered is not a finite number up to 1e9 mm");
   }
   if (on_one_line(from)) {
     return core::fail(core::Code::kCollinear,

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "fit/points.h"
 #include "fit/registration.h"
 
 namespace rondure::fit {
@@ -29,9 +31,10 @@ core::Result<void> check_balls(std::span<const BallCentre> balls, const std::str
                                bool exact_allowed) {
   std::set<std::string> seen;
   for (const BallCentre& ball : balls) {
-    if (!ball.centre_mm.allFinite() || !ball.u_mm.allFinite()) {
+    if (!check_points(std::span(&ball.centre_mm, 1)) || !check_points(std::span(&ball.u_mm, 1))) {
       return core::fail(Code::kNotFinite,
-                        fmt::format("ball {} {}: centre or u is not finite", ball.ball, place));
+                        fmt::format("ball {} {}: centre or u is not a finite number up to {:g} mm",
+                                    ball.ball, place, core::kGreatestNumber));
     }
     const double least = ball.u_mm.minCoeff();
     if (least < 0.0 || (least == 0.0 && !exact_allowed)) {
@@ -48,8 +51,8 @@ core::Result<void> check_balls(std::span<const BallCentre> balls, const std::str
 }
 
 core::Result<void> check_axis(const RotaryMeasurement& m) {
-  if (!m.axis.direction.allFinite() || !m.axis.origin_mm.allFinite() ||
-      !std::isfinite(m.reference_rad)) {
+  if (!m.axis.direction.allFinite() || !check_points(std::span(&m.axis.origin_mm, 1)) ||
+      !core::is_measurable(m.reference_rad)) {
     return core::fail(Code::kNotFinite, "axis, origin or reference angle is not finite");
   }
   if (std::abs(m.axis.direction.norm() - 1.0) > 1e-6) {
@@ -77,7 +80,7 @@ bool repeats(const RotaryPose& a, const RotaryPose& b) {
 core::Result<void> check_station(const RotaryMeasurement& m, std::size_t index,
                                  const std::set<std::string>& known) {
   const RotaryPose& station = m.stations[index];
-  if (!std::isfinite(station.angle_rad)) {
+  if (!core::is_measurable(station.angle_rad)) {
     return core::fail(Code::kNotFinite,
                       fmt::format("the angle of station {} is not finite", index + 1));
   }

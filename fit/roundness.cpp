@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/decompositions.h"
+#include "core/numbers.h"
 #include "fit/ls_circle.h"
 #include "fit/min_zone_circle.h"
 #include "fit/one_sided_center.h"
@@ -95,10 +96,10 @@ core::Result<void> check_profile(std::span<const double> theta, std::span<const 
         fmt::format("{} points; this reference circle needs at least {}", theta.size(), least));
   }
   for (std::size_t i = 0; i < theta.size(); ++i) {
-    if (std::isfinite(theta[i]) && std::isfinite(r[i])) continue;
-    return core::fail(
-        core::Code::kNotFinite,
-        fmt::format("row {} is ({} rad, {} mm); finite numbers are needed", i, theta[i], r[i]));
+    if (core::is_measurable(theta[i]) && core::is_measurable(r[i])) continue;
+    return core::fail(core::Code::kNotFinite,
+                      fmt::format("row {} is ({} rad, {} mm); finite numbers up to {:g} are needed",
+                                  i, theta[i], r[i], core::kGreatestNumber));
   }
   return {};
 }

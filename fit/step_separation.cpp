@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "fit/dft.h"
 
@@ -21,8 +22,9 @@ core::Result<void> check_trace(std::span<const double> trace, std::size_t count)
                                                    trace.size(), count));
   }
   for (std::size_t n = 0; n < count; ++n) {
-    if (!std::isfinite(trace[n])) {
-      return core::fail(Code::kNotFinite, fmt::format("row {} holds no finite number", n));
+    if (!core::is_measurable(trace[n])) {
+      return core::fail(Code::kNotFinite, fmt::format("row {} holds no finite number up to {:g}", n,
+                                                      core::kGreatestNumber));
     }
   }
   return {};

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "fit/periodic_spline.h"
 #include "fit/three_probe_parts.h"
@@ -16,6 +17,8 @@ using core::kTwoPi;
 
 constexpr double kUniform = 1e-6;      ///< Of a step: closer to uniform needs no interpolation.
 constexpr double kMissingSteps = 1.5;  ///< A revolution may lack so many samples at its end.
+/// Of all revolutions together; the separation holds some 100 bytes for each.
+constexpr double kMostSamples = 1e7;
 
 core::Result<void> check_rows(const ProbeReadings& readings, const ThreeProbeOptions& options) {
   const std::size_t rows = readings.alpha_rad.size();
@@ -32,17 +35,19 @@ core::Result<void> check_rows(const ProbeReadings& readings, const ThreeProbeOpt
                                                "needs the same length",
                                                readings.beta_rad.size(), rows));
   }
-  const auto needed = static_cast<std::size_t>(2 * options.highest + 2);
+  const std::size_t needed = 2 * static_cast<std::size_t>(options.highest) + 2;
   if (rows < needed) {
     return refuse(Code::kSampling,
                   fmt::format("{} readings do not carry {} undulations; at least {} are needed",
                               rows, options.highest, needed));
   }
   for (std::size_t m = 0; m < rows; ++m) {
-    bool finite = std::isfinite(readings.alpha_rad[m]);
-    for (const auto& h : readings.h_mm) finite = finite && std::isfinite(h[m]);
-    if (!readings.beta_rad.empty()) finite = finite && std::isfinite(readings.beta_rad[m]);
-    if (!finite) return refuse(Code::kNotFinite, fmt::format("row {} holds no finite number", m));
+    bool finite = core::is_measurable(readings.alpha_rad[m]);
+    for (const auto& h : readings.h_mm) finite = finite && core::is_measurable(h[m]);
+    if (!readings.beta_rad.empty()) finite = finite && core::is_measurable(readings.beta_rad[m]);
+    if (!finite)
+      return refuse(Code::kNotFinite, fmt::format("row {} holds no finite number up to {:g}", m,
+                                                  core::kGreatestNumber));
   }
   return {};
 }
@@ -72,11 +77,29 @@ struct Extent {
   std::size_t rows = 0;
 };
 
-core::Result<Extent> whole_revolutions(const std::vector<double>& theta) {
+core::Result<Extent> whole_revolutions(const std::vector<double>& theta,
+                                       const ThreeProbeOptions& options) {
   const double covered = theta.back() - theta.front();
   const double step = covered / static_cast<double>(theta.size() - 1);
   Extent out;
-  out.revolutions = static_cast<int>(std::floor((covered + kMissingSteps * step) / kTwoPi));
+  const double revolutions = std::floor((covered + kMissingSteps * step) / kTwoPi);
+  const double each = static_cast<double>(theta.size()) / std::max(revolutions, 1.0);
+  const double needed = 2.0 * options.highest + 2.0;
+  if (each < needed) {
+    return core::fail(
+        Code::kSampling,
+        fmt::format("{} readings over {:.0f} revolutions are {:.1f} a revolution; {} undulations "
+                    "need at least {:.0f}: is the angle in deg?",
+                    theta.size(), revolutions, each, options.highest, needed));
+  }
+  if (options.resample && revolutions * options.samples > kMostSamples) {
+    return core::fail(
+        Code::kBadOption,
+        fmt::format("{:.0f} revolutions of {} samples are {:.3g}, the limit is {:g}: "
+                    "take fewer samples a revolution",
+                    revolutions, options.samples, revolutions * options.samples, kMostSamples));
+  }
+  out.revolutions = static_cast<int>(revolutions);
   if (out.revolutions < 1) {
     return core::fail(Code::kNotFullSection,
                       fmt::format("the readings cover {:.3f} deg on the part; a full revolution is "
@@ -168,7 +191,7 @@ core::Result<ProbeSamples> sample_readings(const ProbeReadings& readings, const 
   if (auto sound = check_rows(readings, options); !sound) return core::fail(sound.error());
   const auto theta = travel(readings, arm, options.resample);
   if (!theta) return core::fail(theta.error());
-  const auto extent = whole_revolutions(*theta);
+  const auto extent = whole_revolutions(*theta, options);
   if (!extent) return core::fail(extent.error());
   const auto turns = static_cast<std::size_t>(extent->revolutions);
   ProbeSamples out;

@@ -21,6 +21,7 @@ constexpr double kLeastArc = 20.0 * core::kDegree;
 constexpr double kShortArc = 90.0 * core::kDegree;
 constexpr double kLeastRadius = 0.5;        ///< mm; less suggests metres
 constexpr double kGreatestRadius = 1000.0;  ///< mm; more suggests micrometres
+constexpr double kUnseen = 60.0 * core::kDegree;
 constexpr double kNominalShare = 0.05;
 constexpr double kCorrelationLimit = 2.0;
 
@@ -61,8 +62,9 @@ core::Result<void> check_options(const WheelOptions& options) {
                       "run-out cannot be stated in envelope mode: the turning wheel shows the "
                       "circle it sweeps about its axis; measure it indexed, or give no axis");
   }
-  if (options.axis_mm && !options.axis_mm->allFinite()) {
-    return core::fail(core::Code::kBadOption, "the spindle axis is not a finite point");
+  if (options.axis_mm && !check_points(std::span(&*options.axis_mm, 1))) {
+    return core::fail(core::Code::kBadOption,
+                      "the spindle axis is not a finite point within 1e9 mm");
   }
   if (options.nominal_radius_mm && !(*options.nominal_radius_mm > 0.0)) {
     return core::fail(
@@ -153,7 +155,21 @@ void fill_scatter(WheelMeasurement& out) {
   out.expected_scatter_mm = out.spread_mm * out.centers.rms_kappa();
 }
 
-void fill_runout(const Points& used, const WheelOptions& options, WheelMeasurement& out) {
+/// Least and greatest distance from the axis.
+std::pair<double, double> reach_of(std::span<const Eigen::Vector2d> points_mm,
+                                   const Eigen::Vector2d& axis_mm) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  for (const Eigen::Vector2d& p : points_mm) {
+    const double distance = (p - axis_mm).norm();
+    low = std::min(low, distance);
+    high = std::max(high, distance);
+  }
+  return {low, high};
+}
+
+void fill_runout(std::span<const Eigen::Vector2d> all, const Points& used,
+                 const WheelOptions& options, WheelMeasurement& out) {
   if (out.mode == WheelMode::kEnvelope) {
     out.runout_absent = "envelope mode: the points lie on the circle swept about the axis";
     return;
@@ -162,14 +178,27 @@ void fill_runout(const Points& used, const WheelOptions& options, WheelMeasureme
     out.runout_absent = "the spindle axis is not given: roundness only";
     return;
   }
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
-  for (const Eigen::Vector2d& p : used) {
-    const double distance = (p - *options.axis_mm).norm();
-    low = std::min(low, distance);
-    high = std::max(high, distance);
+  const auto [low, high] = reach_of(used, *options.axis_mm);
+  const auto [lowest, highest] = reach_of(all, *options.axis_mm);
+  WheelRunout& found = out.runout.emplace();
+  found.axis_mm = *options.axis_mm;
+  found.fim_mm = high - low;
+  found.eccentricity_mm = (out.center_mm - *options.axis_mm).norm();
+  found.effective_radius_mm = high;
+  found.fim_with_dropped_mm = highest - lowest;
+  found.effective_radius_with_dropped_mm = highest;
+  if (!out.sees_whole_turn()) {
+    found.bound_because = fmt::format(
+        "the points leave {:.0f} deg of the turn unseen, more than {:.0f} deg: run-out is at least "
+        "{:.3f} um; measure the whole turn",
+        out.order.largest_gap_rad / core::kDegree, kUnseen / core::kDegree,
+        found.fim_mm / core::kMicrometre);
+  } else if (found.fim_with_dropped_mm > found.fim_mm) {
+    found.bound_because = fmt::format(
+        "run-out is {:.3f} um without the points that were dropped and {:.3f} um with them: a "
+        "proud point is run-out; clean the wheel there and measure it again",
+        found.fim_mm / core::kMicrometre, found.fim_with_dropped_mm / core::kMicrometre);
   }
-  out.runout = {*options.axis_mm, high - low, (out.center_mm - *options.axis_mm).norm(), high};
 }
 
 void warn(WheelMeasurement& out) {
@@ -243,9 +272,13 @@ std::string_view name_of(WheelMean mean) {
   return mean == WheelMean::kAsPublished ? "as-published" : "weighted";
 }
 
+bool WheelMeasurement::sees_whole_turn() const {
+  return order.largest_gap_rad <= kUnseen * (1.0 + 1e-9);
+}
+
 std::optional<double> WheelMeasurement::effective_radius_mm() const {
   if (mode == WheelMode::kEnvelope) return radius_mm;
-  if (runout) return runout->effective_radius_mm;
+  if (runout && runout->bound_because.empty()) return runout->effective_radius_mm;
   return std::nullopt;
 }
 
@@ -277,7 +310,7 @@ core::Result<WheelMeasurement> measure_wheel(std::span<const Eigen::Vector2d> po
     out.deviations_mm.push_back((p - out.center_mm).norm() - out.radius_mm);
   }
   fill_scatter(out);
-  fill_runout(used, options, out);
+  fill_runout(points_mm, used, options, out);
   if (options.minimum_zone) {
     if (auto zone = min_zone_circle(used)) out.zone = *std::move(zone);
   }

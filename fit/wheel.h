@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -53,6 +54,12 @@ struct WheelRunout {
   double fim_mm = 0.0;               ///< Full indicator movement: max - min distance from the axis.
   double eccentricity_mm = 0.0;      ///< Distance of the profile's centre from the axis.
   double effective_radius_mm = 0.0;  ///< Largest distance from the axis: what cuts.
+  /// The same two with the points that were dropped: a proud point is run-out, and cuts.
+  double fim_with_dropped_mm = 0.0;
+  double effective_radius_with_dropped_mm = 0.0;
+  /// Why `fim_mm` and `effective_radius_mm` are no more than lower bounds: points that see too
+  /// little of the turn, or a dropped one that adds to them. Empty when they are values.
+  std::string bound_because;
 };
 
 /// A grinding wheel's centre and radius.
@@ -81,7 +88,11 @@ struct WheelMeasurement {
   std::string_view runout_absent;     ///< Why there is none; empty when there is.
   std::vector<core::Error> warnings;
 
-  /// The radius that cuts: farthest from the axis (kIndexed with axis), or R itself (kEnvelope).
+  /// Whether neighbouring points are close enough all round to see run-out and roundness: no gap
+  /// above 60 deg. A wider one can hide more than 7 % of what an eccentricity makes.
+  [[nodiscard]] bool sees_whole_turn() const;
+  /// The radius that cuts: farthest from the axis (kIndexed with axis; nothing where that is a
+  /// bound), or R itself (kEnvelope).
   [[nodiscard]] std::optional<double> effective_radius_mm() const;
 };
 

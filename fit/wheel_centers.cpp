@@ -125,6 +125,11 @@ WheelCenters select_random(std::span<const Eigen::Vector2d> points_mm, double ra
 }
 
 core::Result<void> check(const QuadrupleOptions& options) {
+  if (options.count > kMostQuadruples) {
+    return core::fail(
+        core::Code::kBadOption,
+        fmt::format("{} centres are asked for; the limit is {}", options.count, kMostQuadruples));
+  }
   if (options.count < kLeastCenters) {
     return core::fail(core::Code::kBadOption,
                       fmt::format("{} centres are asked for; a wheel centre is combined from at "

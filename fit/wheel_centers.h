@@ -56,7 +56,7 @@ enum class QuadrupleChoice {
 /// Limits and choice of select_centers().
 struct QuadrupleOptions {
   QuadrupleChoice choice = QuadrupleChoice::kAll;
-  std::size_t count = 6;                         ///< Of kBest and kRandom, >= 6.
+  std::size_t count = 6;                         ///< Of kBest and kRandom, 6 to 5000.
   std::uint64_t seed = 1;                        ///< Of drawn subsets.
   double least_chord_mm = 1e-3;                  ///< A shorter chord has no direction, > 0.
   double least_chord_per_radius = 0.05;          ///< The same as a share of the radius, 0 to 1.

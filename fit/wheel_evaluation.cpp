@@ -8,6 +8,10 @@ namespace {
 core::Result<double> radius_of(const WheelMeasurement& wheel, RadiusChoice choice) {
   if (choice == RadiusChoice::kMean) return wheel.radius_mm;
   if (const auto effective = wheel.effective_radius_mm()) return *effective;
+  if (wheel.runout) {
+    return core::fail(core::Code::kMeaning,
+                      "the effective radius is a lower bound only: " + wheel.runout->bound_because);
+  }
   return core::fail(core::Code::kMeaning,
                     "the effective radius is not known without the spindle axis; give the axis, "
                     "measure in envelope mode, or take the mean radius");

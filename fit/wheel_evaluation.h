@@ -48,7 +48,8 @@ struct WheelEvaluation {
 /// Measures the wheel, then computes path and forecast.
 ///
 /// @return the errors of measure_wheel(). A path that cannot be given is no error: see `refused`
-///         (those of wheel_path(); kMeaning for an effective radius that is not known).
+///         (those of wheel_path(); kMeaning for an effective radius that is not known, or known as
+///         a bound).
 [[nodiscard]] core::Result<WheelEvaluation> evaluate_wheel(
     std::span<const Eigen::Vector2d> points_mm, const WheelTask& task);
 

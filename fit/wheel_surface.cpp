@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
+
 namespace rondure::fit {
 namespace {
 
@@ -68,7 +70,7 @@ core::Result<core::OpenSpline> spline_of(std::vector<double> x_mm, std::vector<d
                                   kLeastRows, x_mm.size(), z_mm.size()));
   }
   for (std::size_t i = 0; i < x_mm.size(); ++i) {
-    if (!std::isfinite(x_mm[i]) || !std::isfinite(z_mm[i])) {
+    if (!core::is_measurable(x_mm[i]) || !core::is_measurable(z_mm[i])) {
       return core::fail(
           core::Code::kNotFinite,
           fmt::format("row {} (counted from 0) of the table is not a finite number", i));

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
+
 namespace rondure::record {
 namespace {
 
@@ -102,11 +104,18 @@ std::optional<core::Error> explain_field(std::string_view field, std::string_vie
   const char* const end = digits.data() + digits.size();
   const auto [stop, problem] = std::from_chars(digits.data(), end, value);
   const bool whole = !digits.empty() && stop == end;
-  if (whole && problem == std::errc() && std::isfinite(value)) return std::nullopt;
+  if (whole && problem == std::errc() && core::is_measurable(value)) return std::nullopt;
   if (whole && problem == std::errc::result_out_of_range) {
     return core::Error{core::Code::kNotFinite,
                        fmt::format("{} is {}, beyond the range of numbers (4.9e-324 to 1.8e308)",
                                    column, quoted_text(field)),
+                       {}};
+  }
+  if (whole && problem == std::errc() && std::isfinite(value)) {
+    return core::Error{core::Code::kOutOfRange,
+                       fmt::format("{} is {} {}, beyond the limit of {:g} {} for any number; is it "
+                                   "a mark for a missing value? Remove the row",
+                                   column, field, unit, core::kGreatestNumber, unit),
                        {}};
   }
   if (whole && problem == std::errc()) {

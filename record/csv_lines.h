@@ -50,7 +50,7 @@ class CsvLines {
 /// What spreadsheets and editors do to a table, or nothing.
 [[nodiscard]] std::optional<core::Error> foreign_format(std::string_view line);
 
-/// What is wrong with one field that has to be a finite number, or nothing.
+/// What is wrong with one field that has to be a number core::is_measurable(), or nothing.
 [[nodiscard]] std::optional<core::Error> explain_field(std::string_view field,
                                                        std::string_view column,
                                                        std::string_view unit);

@@ -16,6 +16,7 @@
 #include "record/database.h"
 #include "record/journal.h"
 #include "record/journal_log.h"
+#include "record/journal_reader.h"
 #include "record/journal_rows.h"
 #include "record/run_lock.h"
 
@@ -75,6 +76,7 @@ struct Journal::Impl {
   }
 
   void insert(const Touch& touch) {
+    require_touch(touch);
     statements->touch = touch;
     statements->purpose = name_of(touch.purpose);
     statements->insert_touch.execute(true);

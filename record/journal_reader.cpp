@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <initializer_list>
 #include <optional>
@@ -13,6 +14,7 @@
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
+#include "core/numbers.h"
 #include "record/journal_schema.h"
 #include "record/journal_seal.h"
 #include "record/journal_series.h"
@@ -122,6 +124,7 @@ void read_header(soci::session& sql, RunRecord& record) {
       into(h.temperature_min_degC), into(h.temperature_max_degC), into(record.ending),
       into(failure[0], failed), into(failure[1]), into(failure[2]);
   if (!sql.got_data()) throw Contradiction("its table header is empty");
+  require_numbers("header.temperature_degC", {h.temperature_min_degC, h.temperature_max_degC});
   h.simulated = simulated != 0;
   h.seed = seed_from(seed);
   if (failed == soci::i_ok) {
@@ -136,6 +139,8 @@ void read_artefact(soci::session& sql, RunRecord& record) {
       into(artefact.radius_mm), into(artefact.nominal_tip_radius_mm),
       into(artefact.radius_tolerance_mm), into(artefact.form_limit_mm);
   if (!sql.got_data()) throw Contradiction("its table artefact is empty");
+  require_numbers("artefact", {artefact.radius_mm, artefact.nominal_tip_radius_mm,
+                               artefact.radius_tolerance_mm, artefact.form_limit_mm});
 }
 
 void read_features(soci::session& sql, RunRecord& record) {
@@ -167,6 +172,8 @@ void read_features(soci::session& sql, RunRecord& record) {
               {Strategy::kGuided, Strategy::kRefined, Strategy::kAsPublished, Strategy::kVirtual,
                Strategy::kPointsFile, Strategy::kSeries, Strategy::kMerged, Strategy::kStations});
     row.tip_radius_mm = tip_given == soci::i_ok ? std::optional(tip_radius_mm) : std::nullopt;
+    require_number("feature.nominal_diameter_mm", row.nominal_diameter_mm);
+    require_number("feature.tip_radius_mm", row.tip_radius_mm.value_or(0.0));
     record.features.push_back(row);
   }
 }
@@ -179,6 +186,7 @@ void read_search_steps(soci::session& sql, RunRecord& record) {
   rows.execute();
   while (rows.fetch()) {
     require_feature(record, feature, 0, "search_step");
+    require_number("search_step.step_deg", step_deg);
     record.features[static_cast<std::size_t>(feature)].search_steps_deg.push_back(step_deg);
   }
 }
@@ -208,6 +216,7 @@ void read_characteristics(soci::session& sql, RunRecord& record) {
                           {Reference::kLeastSquares, Reference::kMinimumZone,
                            Reference::kMinimumCircumscribed, Reference::kMaximumInscribed});
     row.tolerance_mm = given == soci::i_ok ? std::optional(tolerance_mm) : std::nullopt;
+    require_number("characteristic.tolerance_mm", row.tolerance_mm.value_or(0.0));
     record.features[static_cast<std::size_t>(feature)].characteristics.push_back(row);
   }
 }
@@ -225,6 +234,8 @@ void read_poses(soci::session& sql, RunRecord& record) {
   rows.execute();
   while (rows.fetch()) {
     require_feature(record, row.feature, 0, "pose");
+    require_numbers("pose", {row.commanded.alpha_rad, row.commanded.beta_rad, row.reached.alpha_rad,
+                             row.reached.beta_rad, row.time_s});
     row.final_cloud = final_cloud != 0;
     record.poses.push_back(row);
   }
@@ -255,6 +266,7 @@ void read_touches(soci::session& sql, RunRecord& record, std::int64_t version) {
   rows.execute();
   while (rows.fetch()) {
     row.purpose = purpose_of(purpose);
+    require_touch(row);
     const bool check = row.purpose == Touch::Purpose::kCheck;
     if (check != (row.id < 0)) {
       throw Contradiction(fmt::format("touch {} has the purpose {}", row.id, purpose));
@@ -271,6 +283,7 @@ void read_decisions(soci::session& sql, RunRecord& record) {
   rows.execute();
   while (rows.fetch()) {
     require_feature(record, row.feature, -1, "decision");
+    require_number("decision.time_s", row.time_s);
     record.decisions.push_back(row);
   }
 }
@@ -282,6 +295,7 @@ void read_truths(soci::session& sql, RunRecord& record) {
   rows.execute();
   while (rows.fetch()) {
     require_feature(record, row.feature, 0, "truth");
+    require_number("truth.cylt_mm", row.cylt_mm);
     record.truths.push_back(row);
   }
 }
@@ -295,6 +309,31 @@ void read_results(soci::session& sql, RunRecord& record) {
 }
 
 }  // namespace
+
+void require_number(std::string_view column, double value) {
+  if (core::is_measurable(value)) return;
+  if (std::isnan(value)) throw Contradiction(fmt::format("{} is not a number (NaN)", column));
+  throw Contradiction(fmt::format("{} holds {:g}, beyond the limit of {:g} for any number", column,
+                                  value, core::kGreatestNumber));
+}
+
+void require_numbers(std::string_view column, std::initializer_list<double> values) {
+  for (const double value : values) require_number(column, value);
+}
+
+void require_touch(const Touch& touch) {
+  const std::array<std::pair<std::string_view, double>, 9> numbers = {
+      {{"touch.tip_x_mm", touch.tip_mm.x()},
+       {"touch.tip_y_mm", touch.tip_mm.y()},
+       {"touch.tip_z_mm", touch.tip_mm.z()},
+       {"touch.approach_x", touch.approach.x()},
+       {"touch.approach_y", touch.approach.y()},
+       {"touch.approach_z", touch.approach.z()},
+       {"touch.temperature_degC", touch.temperature_degC},
+       {"touch.time_s", touch.time_s},
+       {"touch.scale_temperature_degC", touch.scale_temperature_degC}}};
+  for (const auto& [column, value] : numbers) require_number(column, value);
+}
 
 ReadJournal read_tables(soci::session& sql) {
   ReadJournal journal;

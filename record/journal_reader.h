@@ -1,6 +1,8 @@
 #pragma once
 
+#include <initializer_list>
 #include <stdexcept>
+#include <string_view>
 
 #include <soci/soci.h>
 
@@ -19,6 +21,11 @@ struct Contradiction : std::runtime_error {
 struct Damage : Contradiction {
   using Contradiction::Contradiction;
 };
+
+/// Throws Contradiction unless a stored number is one that core::is_measurable().
+void require_number(std::string_view column, double value);
+void require_numbers(std::string_view column, std::initializer_list<double> values);
+void require_touch(const Touch& touch);
 
 /// Reads and checks every table of an open journal. Throws soci::soci_error and the two above.
 [[nodiscard]] ReadJournal read_tables(soci::session& sql);

@@ -37,10 +37,10 @@ void require_series(const Series& series) {
                                          series.values.size(), series.columns.size()));
   }
   const auto bad = std::find_if_not(series.values.begin(), series.values.end(),
-                                    [](double value) { return std::isfinite(value); });
+                                    [](double value) { return core::is_measurable(value); });
   if (bad == series.values.end()) return;
   const auto at = static_cast<std::size_t>(bad - series.values.begin());
-  throw std::runtime_error(fmt::format("{} of series {} is not a finite number in row {}",
+  throw std::runtime_error(fmt::format("{} of series {} is not a finite number up to 1e9 in row {}",
                                        series.columns[at % series.columns.size()].name, series.name,
                                        at / series.columns.size()));
 }
@@ -100,6 +100,7 @@ void read_settings(soci::session& sql, RunRecord& record, std::int64_t version) 
   rows.execute();
   while (rows.fetch()) {
     row.number = given == soci::i_ok ? std::optional(number) : std::nullopt;
+    require_number("setting.number", row.number.value_or(0.0));
     const bool whole_run = feature == kWholeRun && version >= kFirstRunSettingVersion;
     (whole_run ? record.settings : feature_at(record, feature, "setting").settings).push_back(row);
   }
@@ -137,6 +138,7 @@ void read_harmonic_limits(soci::session& sql, RunRecord& record) {
       throw Contradiction(
           fmt::format("table harmonic_limit names characteristic {}, which is missing", owner));
     }
+    require_number("harmonic_limit.amplitude_mm", row.amplitude_mm);
     found->second->harmonic_limits.push_back(row);
   }
 }
@@ -148,8 +150,9 @@ void take_block(std::string_view text, std::int64_t rows, Series& series) {
     const std::size_t end = std::min(text.find_first_of(",\n"), text.size());
     const auto value = core::parse_number(text.substr(0, end));
     if (!value) {
-      throw Damage(fmt::format("it is damaged: a block of series {} holds {}, no number",
-                               quoted_text(series.name), quoted_text(text.substr(0, end))));
+      throw Damage(fmt::format("it is damaged: a block of series {} holds {}, no number up to {:g}",
+                               quoted_text(series.name), quoted_text(text.substr(0, end)),
+                               core::kGreatestNumber));
     }
     series.values.push_back(*value);
     text.remove_prefix(std::min(end + 1, text.size()));
@@ -247,6 +250,7 @@ void read_truth_values(soci::session& sql, RunRecord& record) {
   rows.execute();
   while (rows.fetch()) {
     (void)feature_at(record, row.feature, "truth_value");
+    require_number("truth_value.value", row.value);
     record.truth_values.push_back(row);
   }
 }

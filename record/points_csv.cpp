@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "record/csv_lines.h"
 
 namespace rondure::record {
@@ -131,7 +131,7 @@ std::size_t read_plain_row(std::string_view text, const Columns& columns,
     if (at != end && *at == ' ') ++at;
     double& value = point_mm[static_cast<Eigen::Index>(columns.fields[i])];
     const auto [stop, problem] = read_number(at, end, value);
-    if (problem != std::errc() || !std::isfinite(value)) return 0;
+    if (problem != std::errc() || !core::is_measurable(value)) return 0;
     at = stop;
   }
   if (at != end && *at == '\r') ++at;
@@ -155,7 +155,7 @@ bool read_row(std::string_view line, const Columns& columns, Eigen::Vector3d& po
     }
     double& value = point_mm[static_cast<Eigen::Index>(columns.fields[i])];
     const auto [stop, problem] = std::from_chars(at, end, value);
-    if (problem != std::errc() || !std::isfinite(value)) return false;
+    if (problem != std::errc() || !core::is_measurable(value)) return false;
     at = stop;
     skip_blanks();
   }

@@ -1,6 +1,7 @@
 #include "reports/analysis.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -39,10 +40,16 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     out.reason = value.error().what;
     return;
   }
+  if (!std::isfinite(value->value_mm)) {
+    out.reason = "the computation gave no finite number";
+    return;
+  }
   out.value.emplace(symbol_of(asked), value->value_mm, result.analysis->operator_of(asked),
                     UncertaintyStatus::none("intervals are computed of touches and points only"));
   if (value->limit_mm) asked.tolerance_mm = value->limit_mm;
-  if (value->void_because) {
+  const bool proves =
+      value->lower_bound && asked.tolerance_mm && value->value_mm > *asked.tolerance_mm;
+  if (value->void_because && !proves) {
     out.reason = *value->void_because;
   } else if (record.ending != "finished") {
     out.reason = "the run did not finish";

@@ -23,6 +23,9 @@ struct AnalysisValue {
   std::optional<double> limit_mm;           ///< In place of the tolerance: the line of a mask.
   std::string detail;                       ///< Joins the reason, e.g. "harmonic 5".
   std::optional<std::string> void_because;  ///< Why the value proves nothing.
+  /// With `void_because`: the true value is not below `value_mm`, so that above the tolerance it
+  /// does prove something.
+  bool lower_bound = false;
 };
 
 /// A line of the terminal's summary: at most 13 characters of name, then text.

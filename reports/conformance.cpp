@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/units.h"
 #include "reports/declared.h"
 #include "reports/deviation.h"
 #include "reports/facts.h"
@@ -108,6 +109,16 @@ std::optional<std::string> reason_for_void(const record::RunRecord& record,
                                                               ? record::Shape::kCircle
                                                               : record::Shape::kCylinder));
   }
+  // A zone of some points is never wider than that of all: above the tolerance it proves enough.
+  const bool too_wide = characteristic.reference == record::Reference::kMinimumZone &&
+                        characteristic.tolerance_mm &&
+                        value.value_mm > *characteristic.tolerance_mm;
+  if (value.unseen_rad > 0.0 && !too_wide) {
+    return fmt::format(
+        "the points leave {:.0f} deg of the turn unseen: what is there can only add to the "
+        "deviation; measure the whole turn",
+        value.unseen_rad / core::kDegree);
+  }
   if (record.ending != "finished") return "the run did not finish";
   if (result.feature.strategy == record::Strategy::kPointsFile) return std::nullopt;
   if (auto fault = probe_fault(record, probe)) return fault;
@@ -157,6 +168,10 @@ void judge(const Circumstances& by, const FeatureResult& result, CharacteristicR
   out.verdict = Verdict::kVoid;
   if (!value) {
     out.reason = value.error().what;
+    return;
+  }
+  if (!std::isfinite(value->value_mm)) {
+    out.reason = "the computation gave no finite number";
     return;
   }
   out.value.emplace(symbol_of(out.characteristic), value->value_mm,

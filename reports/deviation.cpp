@@ -1,6 +1,12 @@
 #include "reports/deviation.h"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
+
+#include "core/units.h"
 
 namespace rondure::reports {
 namespace {
@@ -16,6 +22,38 @@ template <class Fit>
 core::Result<Deviation> one_sided_deviation(const core::Result<Fit>& fit) {
   if (!fit) return core::fail(fit.error());
   return certified_deviation(fit->deviation_mm, *fit);
+}
+
+/// See Deviation::unseen_rad.
+/// @param a_turn  Points that share a turn among them, were they evenly spread.
+double unseen(std::vector<double> angles_rad, std::size_t a_turn) {
+  if (angles_rad.size() < 3) return 0.0;
+  std::sort(angles_rad.begin(), angles_rad.end());
+  double gap = angles_rad.front() + core::kTwoPi - angles_rad.back();
+  for (std::size_t i = 1; i < angles_rad.size(); ++i) {
+    gap = std::max(gap, angles_rad[i] - angles_rad[i - 1]);
+  }
+  const double allowed =
+      std::max(0.25 * core::kTwoPi, 1.5 * core::kTwoPi / static_cast<double>(a_turn));
+  return gap > allowed * (1.0 + 1e-6) ? gap : 0.0;
+}
+
+double unseen_in(const FeatureResult& result, const LayerResult& layer) {
+  std::vector<double> angles_rad;
+  for (const std::size_t row : layer.rows) {
+    if (row < result.cloud.size()) angles_rad.push_back(result.cloud[row].angle_rad);
+  }
+  const std::size_t count = angles_rad.size();
+  return unseen(std::move(angles_rad), count);
+}
+
+/// Of all points together, seen along the axis.
+double unseen_in(const FeatureResult& result) {
+  std::vector<double> angles_rad;
+  for (const CloudPoint& point : result.cloud) angles_rad.push_back(point.angle_rad);
+  std::size_t a_turn = result.layers.empty() ? result.cloud.size() : 1;
+  for (const LayerResult& layer : result.layers) a_turn = std::max(a_turn, layer.rows.size());
+  return unseen(std::move(angles_rad), a_turn);
 }
 
 /// The deviation about one reference; without that reference, why there is none.
@@ -35,9 +73,7 @@ core::Result<Deviation> section_deviation(const LayerResult& layer, Reference re
   return not_fitted();
 }
 
-}  // namespace
-
-core::Result<Deviation> cylinder_deviation(const FeatureResult& result, Reference reference) {
+core::Result<Deviation> deviation_about(const FeatureResult& result, Reference reference) {
   if (!result.mz_cylinder || !result.ls_cylinder) return not_fitted();
   switch (reference) {
     case Reference::kLeastSquares:
@@ -50,6 +86,14 @@ core::Result<Deviation> cylinder_deviation(const FeatureResult& result, Referenc
       return one_sided_deviation(result.mi_cylinder);
   }
   return not_fitted();
+}
+
+}  // namespace
+
+core::Result<Deviation> cylinder_deviation(const FeatureResult& result, Reference reference) {
+  auto out = deviation_about(result, reference);
+  if (out) out->unseen_rad = unseen_in(result);
+  return out;
 }
 
 core::Result<Deviation> worst_section(const FeatureResult& result, Reference reference) {
@@ -67,6 +111,7 @@ core::Result<Deviation> worst_section(const FeatureResult& result, Reference ref
       out.layer = &layer;
     }
     if (layer.mz->exact_fit) out.exact_fit = true;
+    out.unseen_rad = std::max(out.unseen_rad, unseen_in(result, layer));
     if (!section->certified) out.certified = false;
   }
   return out;

@@ -12,6 +12,9 @@ struct Deviation {
   bool certified = true;   ///< A certificate stands behind the reference; least squares needs none.
   bool exact_fit = false;  ///< 0 by construction.
   const LayerResult* layer = nullptr;  ///< RONt: the section it is of.
+  /// Widest part of the turn without a point, where it is too wide for a value: above 90 deg, and
+  /// above one and a half steps of evenly spread points. Else 0.
+  double unseen_rad = 0.0;
 };
 
 /// CYLt about a reference. Without that reference: why there is none.

@@ -107,18 +107,46 @@ core::Result<AnalysisValue> departure(const fit::WheelMeasurement& m,
   return out;
 }
 
-core::Result<AnalysisValue> roundness(const fit::WheelMeasurement& m, record::Reference reference) {
+/// What the points about the whole turn and the dropped ones leave of a roundness.
+/// @param with_dropped_mm  Roundness of all points.
+/// @param zone  A minimum zone: that of some points is never wider than that of all.
+AnalysisValue bounded(AnalysisValue value, const fit::WheelMeasurement& m, double with_dropped_mm,
+                      bool zone) {
+  if (!m.sees_whole_turn()) {
+    value.void_because = fmt::format(
+        "the points leave {:.0f} deg of the turn unseen: what is there can only add to the "
+        "deviation; measure the whole turn",
+        m.order.largest_gap_rad / kDegree);
+    value.lower_bound = zone;
+  } else if (with_dropped_mm > value.value_mm) {
+    value.void_because = fmt::format(
+        "the roundness is {} um without the points that were dropped and {} um with "
+        "them: clean the wheel there and measure it again",
+        um(value.value_mm), um(with_dropped_mm));
+    value.lower_bound = true;
+  }
+  return value;
+}
+
+core::Result<AnalysisValue> roundness(const WheelFacts& facts, record::Reference reference) {
+  const fit::WheelMeasurement& m = facts.evaluation.wheel;
+  const bool dropped = !m.dropped.empty();
   if (reference == record::Reference::kLeastSquares) {
-    return AnalysisValue{m.check.deviation_mm, {}, {}, {}};
+    const auto all = dropped ? fit::ls_circle(facts.points_mm) : m.check;
+    if (!all) return core::fail(all.error());
+    return bounded({m.check.deviation_mm, {}, {}, {}, false}, m, all->deviation_mm, false);
   }
   if (reference != record::Reference::kMinimumZone) {
     return core::fail(core::Code::kReferenceAbsent,
                       "roundness of a wheel has the references mz, ls");
   }
   if (!m.zone) return core::fail(core::Code::kNotConverged, "there is no minimum zone");
-  AnalysisValue out{m.zone->width_mm(), {}, {}, {}};
+  const auto all = dropped ? fit::min_zone_circle(facts.points_mm) : *m.zone;
+  if (!all) return core::fail(all.error());
+  AnalysisValue out = bounded({m.zone->width_mm(), {}, {}, {}, false}, m, all->width_mm(), true);
   if (m.zone->certificate.kind != fit::Certificate::Kind::kGlobal) {
     out.void_because = "the minimum zone is not proven: " + m.zone->certificate.reason;
+    out.lower_bound = false;
   }
   return out;
 }
@@ -132,10 +160,22 @@ core::Result<AnalysisValue> WheelResult::value_of(
     return departure(m, facts_.task.wheel.nominal_radius_mm);
   }
   if (characteristic.form == record::Form::kRoundness) {
-    return roundness(m, characteristic.reference);
+    return roundness(facts_, characteristic.reference);
   }
   if (!m.runout) return core::fail(core::Code::kNoAxis, std::string(m.runout_absent));
-  return AnalysisValue{m.runout->fim_mm, {}, {}, {}};
+  AnalysisValue out{m.runout->fim_mm, {}, {}, {}, false};
+  if (!m.runout->bound_because.empty()) {
+    // All points within the tolerance settle it, where the whole turn is seen.
+    if (m.sees_whole_turn() && characteristic.tolerance_mm &&
+        m.runout->fim_with_dropped_mm <= *characteristic.tolerance_mm) {
+      out.value_mm = m.runout->fim_with_dropped_mm;
+      out.detail = "with the points that were dropped";
+    } else {
+      out.void_because = m.runout->bound_because;
+      out.lower_bound = true;
+    }
+  }
+  return out;
 }
 
 ValueOperator WheelResult::operator_of(const record::Characteristic& characteristic) const {
@@ -174,8 +214,11 @@ std::vector<SummaryLine> WheelResult::summary() const {
                             m.radius_mm, um(m.radius_uncertainty_mm), um(m.deviation_mm),
                             m.center_mm.x(), m.center_mm.y())}};
   if (m.runout) {
-    out.push_back({"run-out", fmt::format("{} um; effective radius {:.6f} mm", um(m.runout->fim_mm),
-                                          m.runout->effective_radius_mm)});
+    const std::string& bound = m.runout->bound_because;
+    out.push_back({"run-out",
+                   bound.empty() ? fmt::format("{} um; effective radius {:.6f} mm",
+                                               um(m.runout->fim_mm), m.runout->effective_radius_mm)
+                                 : fmt::format("at least {} um: {}", um(m.runout->fim_mm), bound)});
   }
   const auto& e = facts_.evaluation;
   if (e.path) {

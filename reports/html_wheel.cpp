@@ -39,10 +39,14 @@ std::string runout_entry(const fit::WheelMeasurement& m) {
   if (!m.runout) {
     return entry(tr("Radial run-out"), with_note(tr("not stated"), plain_words(m.runout_absent)));
   }
-  return entry(tr("Radial run-out"), with_note(um(m.runout->fim_mm) + " µm",
-                                               trf("eccentricity {} µm; effective radius {} mm",
-                                                   um(m.runout->eccentricity_mm),
-                                                   fixed(m.runout->effective_radius_mm, 6))));
+  const std::string fim = um(m.runout->fim_mm) + " µm";
+  if (const std::string& bound = m.runout->bound_because; !bound.empty()) {
+    return entry(tr("Radial run-out"), with_note("≥ " + fim, in_sentence(bound)));
+  }
+  return entry(
+      tr("Radial run-out"),
+      with_note(fim, trf("eccentricity {} µm; effective radius {} mm",
+                         um(m.runout->eccentricity_mm), fixed(m.runout->effective_radius_mm, 6))));
 }
 
 std::string center_entries(const fit::WheelMeasurement& m) {
@@ -143,7 +147,8 @@ std::string path_part(const WheelFacts& facts) {
     html += fmt::format(
         R"(<p class="note">{}</p>)",
         trf("The path is for the mean radius: the farthest point from the axis cuts {} µm deeper.",
-            um(e.wheel.runout->effective_radius_mm - e.wheel.radius_mm)));
+            (e.wheel.runout->bound_because.empty() ? "" : "≥ ") +
+                um(e.wheel.runout->effective_radius_mm - e.wheel.radius_mm)));
   }
   html += wheel_path_plot(*e.path) + load_chart(*e.path, facts.task.path->options.load_limit);
   return html + forecast_part(*e.forecast);

@@ -86,6 +86,9 @@ constexpr Translation kSentenceTexts[] = {
      "探测形状误差 {} um 超出限值 {} um"},
     {"the temperature is not known", "温度未知"},
     {"temperature {:.2f} degC is outside {:g}..{:g} degC", "温度 {} degC 超出 {}..{} degC"},
+    {"the points leave {:.0f} deg of the turn unseen: what is there can only add to the deviation; "
+     "measure the whole turn",
+     "整转中有 {} deg 未测到：未测处只会使偏差更大；请测量整转"},
     // Operators
     {"{} = {} ({})", "{} = {}（{}）"},
     {"{}; {}; no uncertainty stated", "{}；{}；未给出不确定度"},
@@ -156,6 +159,19 @@ constexpr Translation kSentenceTexts[] = {
     {"envelope mode: the points lie on the circle swept about the axis",
      "包络模式：各点位于绕轴扫成的圆上"},
     {"the spindle axis is not given: roundness only", "未给出主轴轴线：仅评定圆度"},
+    {"the points leave {:.0f} deg of the turn unseen, more than {:.0f} deg: run-out is at least "
+     "{:.3f} um; measure the whole turn",
+     "整转中有 {} deg 未测到，超过 {} deg：跳动至少为 {} um；请测量整转"},
+    {"run-out is {:.3f} um without the points that were dropped and {:.3f} um with them: a proud "
+     "point is run-out; clean the wheel there and measure it again",
+     "不计被剔除的点时跳动为 {} um，计入时为 {} um：凸点也是跳动；请清洁该处后重测"},
+    {"the roundness is {} um without the points that were dropped and {} um with them: clean the "
+     "wheel there and measure it again",
+     "不计被剔除的点时圆度为 {} um，计入时为 {} um：请清洁该处后重测"},
+    {"with the points that were dropped", "计入被剔除的点"},
+    {"at least {} um: {}", "至少 {} um：{}"},
+    {"the effective radius is a lower bound only: {}", "有效半径只是下限：{}"},
+    {"the computation gave no finite number", "计算未得到有限的数值"},
     // Crank pins
     {"part {}", "工件 {:s}"},
     {"stability index {:.4f}", "稳定性指数 {}"},

@@ -40,9 +40,18 @@ Json limits(const fit::WheelOptions& o) {
 
 Json runout(const fit::WheelMeasurement& m) {
   if (!m.runout) return nullptr;
-  return {{"axis_mm", point(m.runout->axis_mm)},
-          {"fim_um", micrometres(m.runout->fim_mm)},
-          {"eccentricity_um", micrometres(m.runout->eccentricity_mm)}};
+  const fit::WheelRunout& found = *m.runout;
+  Json out = {{"axis_mm", point(found.axis_mm)}};
+  if (found.bound_because.empty()) {
+    out["fim_um"] = micrometres(found.fim_mm);
+  } else {
+    out["fim_at_least_um"] = micrometres(found.fim_mm);
+    out["fim_with_dropped_um"] = micrometres(found.fim_with_dropped_mm);
+    out["effective_radius_at_least_mm"] = found.effective_radius_mm;
+    out["bound_because"] = found.bound_because;
+  }
+  out["eccentricity_um"] = micrometres(found.eccentricity_mm);
+  return out;
 }
 
 Json zone(const fit::WheelMeasurement& m) {

@@ -212,9 +212,12 @@ TEST(FitJson, AReferenceThatDoesNotExistIsNullWithItsReason) {
   const json found = fit("circle", file);
   EXPECT_TRUE(found.at("mi").is_null());
   EXPECT_FALSE(found.at("mc").is_null());
-  ASSERT_EQ(found["warnings"].size(), 1U);
-  EXPECT_EQ(found["warnings"][0]["code"], "reference-absent");
+  ASSERT_EQ(found["warnings"].size(), 2U);
+  EXPECT_EQ(found["warnings"][0]["code"], "not-full-section");
   EXPECT_THAT(found["warnings"][0]["what"].get<std::string>(),
+              ::testing::HasSubstr("leave 217 deg of the turn unseen"));
+  EXPECT_EQ(found["warnings"][1]["code"], "reference-absent");
+  EXPECT_THAT(found["warnings"][1]["what"].get<std::string>(),
               ::testing::HasSubstr("no maximum inscribed circle"));
 }
 

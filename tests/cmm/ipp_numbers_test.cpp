@@ -17,7 +17,7 @@ TEST(IppNumbers, AreWrittenShort) {
   EXPECT_EQ(wire_number(0.1), "0.1");
   EXPECT_EQ(wire_number(1e-10), "1e-10");
   EXPECT_EQ(wire_number(0.1 + 0.2), "0.3");  // 17 digits
-  EXPECT_EQ(read_number(wire_number(-1.5e20)), -1.5e20);
+  EXPECT_EQ(read_number(wire_number(-1.5e-20)), -1.5e-20);
 }
 
 int digits(const std::string& text) {
@@ -43,7 +43,7 @@ TEST(IppNumbers, WhatIsOnTheGridTravelsUnchangedInSixteenDigits) {
 TEST(IppNumbers, AnyDoubleTravelsInSixteenDigitsNearly) {
   std::mt19937_64 random(12);
   std::uniform_real_distribution<double> mantissa(-1.0, 1.0);
-  std::uniform_int_distribution<int> exponent(-300, 300);
+  std::uniform_int_distribution<int> exponent(-300, 9);
   for (int i = 0; i < 20000; ++i) {
     const double value = mantissa(random) * std::pow(10.0, exponent(random));
     SCOPED_TRACE(value);
@@ -59,12 +59,30 @@ TEST(IppNumbers, ReadsTheFormsOfTheGrammarAndNoOther) {
   EXPECT_EQ(read_number(".5"), 0.5);
   EXPECT_EQ(read_number("-2.6E01"), -26.0);
   EXPECT_EQ(read_number("1e+003"), 1000.0);
-  EXPECT_EQ(read_number("1234567890.123456"), 1234567890.123456);
-  for (const char* text : {"", "+", ".", "-.", "+-1", "1e", "1e+", "1e1234", "1e999", "1 ", " 1",
-                           "0x1", "inf", "nan", "1.2.3", "1,5", "12345678901234567", "e5"}) {
+  EXPECT_EQ(read_number("123456789.1234567"), 123456789.1234567);
+  for (const char* text : {"",
+                           "+",
+                           ".",
+                           "-.",
+                           "+-1",
+                           "1e",
+                           "1e+",
+                           "1e1234",
+                           "1e999",
+                           "1 ",
+                           " 1",
+                           "0x1",
+                           "inf",
+                           "nan",
+                           "1.2.3",
+                           "1,5",
+                           "1.2345678901234567",
+                           "e5",
+                           "1e10",
+                           "-1e155"}) {
     EXPECT_EQ(read_number(text), std::nullopt) << text;
   }
-  EXPECT_EQ(read_number("12345678901234567", 20), 12345678901234567.0);
+  EXPECT_EQ(read_number("1.2345678901234567", 20), 1.2345678901234567);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ TEST(Numbers, ReadBackTheSameBits) {
     const std::uint64_t bits = splitmix64(state);
     double value = 0.0;
     std::memcpy(&value, &bits, sizeof value);
-    if (!(value - value == 0.0)) continue;  // NaN and infinity have no text
+    if (!is_measurable(value)) continue;  // no reader takes it
     const auto back = parse_number(shortest(value));
     ASSERT_TRUE(back.has_value());
     EXPECT_EQ(std::memcmp(&*back, &value, sizeof value), 0) << shortest(value);
@@ -27,10 +27,11 @@ TEST(Numbers, ReadBackTheSameBits) {
 }
 
 TEST(Numbers, RefuseWhatIsNotOneFiniteNumber) {
-  for (const char* text :
-       {"", "+", "+-1", "1,5", "1 ", " 1", "nan", "inf", "1e999", "0x10", "1.5mm", "--1"}) {
+  for (const char* text : {"", "+", "+-1", "1,5", "1 ", " 1", "nan", "inf", "1e999", "0x10",
+                           "1.5mm", "--1", "1e155", "-1e10", "1000000001"}) {
     EXPECT_FALSE(parse_number(text).has_value()) << text;
   }
+  EXPECT_EQ(parse_number("-1e9"), -kGreatestNumber);
   EXPECT_EQ(parse_number("+1.5"), 1.5);
   EXPECT_EQ(parse_number("-2e-3"), -2e-3);
 }

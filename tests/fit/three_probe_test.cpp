@@ -472,6 +472,19 @@ TEST(ThreeProbe, RefusesWhatCannotBeSeparated) {
   bad = good;
   for (double& a : bad.alpha_rad) a *= 0.9;
   EXPECT_EQ(code(bad, c.arm), Code::kNotFullSection);
+  bad = good;
+  bad.h_mm[0][3] = 1e155;
+  EXPECT_EQ(code(bad, c.arm), Code::kNotFinite) << "finite, and of no use";
+  // Angles in a wrong unit, as thousands of turns: memory for them is not asked for.
+  bad = good;
+  for (double& a : bad.alpha_rad) a *= 1e5;
+  EXPECT_EQ(code(bad, SwingArm{}), Code::kSampling);
+  ThreeProbeOptions many = exact_options(512);
+  many.samples = 2'000'000'000;
+  EXPECT_EQ(code(good, c.arm, many), Code::kBadOption);
+  many = exact_options(512);
+  many.highest = 2'000'000'000;
+  EXPECT_EQ(code(good, c.arm, many), Code::kSampling);
   EXPECT_EQ(code(good, {400.0, 299.88, 24.56}), Code::kOutOfRange) << "R >= Lc";
   EXPECT_EQ(code(good, {49.0, 0.0, 24.56}), Code::kOutOfRange);
   EXPECT_EQ(code(good, {49.0, 299880.0, 24560.0}), Code::kUnits) << "um for mm";

@@ -100,6 +100,48 @@ TEST(FourPointCenter, AmplifiesNoiseByKappa) {
   }
 }
 
+TEST(Wheel, RunOutOfAPartialArcIsABound) {
+  // Eccentricity 5.85 um: run-out 11.7 um; an arc of 60 deg sees a part of it.
+  const Eigen::Vector2d axis(12.0, -7.0);
+  WheelOptions options;
+  options.axis_mm = axis;
+  for (const double arc_deg : {60.0, 200.0, 299.0, 301.0, 360.0}) {
+    SCOPED_TRACE(arc_deg);
+    const auto points =
+        test::arc_points(24, arc_deg, 50.0, 0.0, 1, axis + Eigen::Vector2d(0, 5.85e-3));
+    const auto m = measure_wheel(points, options);
+    ASSERT_TRUE(m) << m.error().what;
+    ASSERT_TRUE(m->runout);
+    EXPECT_LE(m->runout->fim_mm, 11.7e-3 + 1e-9);
+    const bool whole = arc_deg > 300.0;
+    EXPECT_EQ(m->sees_whole_turn(), whole);
+    EXPECT_EQ(m->runout->bound_because.empty(), whole) << m->runout->bound_because;
+    EXPECT_EQ(m->effective_radius_mm().has_value(), whole);
+    if (!whole) continue;
+    EXPECT_GT(m->runout->fim_mm, 0.93 * 11.7e-3);
+  }
+}
+
+TEST(Wheel, AProudPointIsRunOutThoughItWasDropped) {
+  const Eigen::Vector2d axis(12.0, -7.0);
+  for (const double proud_um : {46.0, -46.0}) {
+    SCOPED_TRACE(proud_um);
+    auto points = test::arc_points(16, 360.0, 50.0, 2e-4, 3, axis);
+    points[5] += proud_um * core::kMicrometre * (points[5] - axis).normalized();
+    WheelOptions options;
+    options.axis_mm = axis;
+    options.robust = true;
+    const auto m = measure_wheel(points, options);
+    ASSERT_TRUE(m) << m.error().what;
+    ASSERT_EQ(m->dropped.size(), 1U);
+    EXPECT_LT(m->runout->fim_mm, 2e-3);
+    EXPECT_NEAR(m->runout->fim_with_dropped_mm, 46e-3, 1e-3);
+    EXPECT_NEAR(m->runout->effective_radius_with_dropped_mm, proud_um > 0 ? 50.046 : 50.0, 1e-3);
+    EXPECT_THAT(m->runout->bound_because, ::testing::HasSubstr("a proud point is run-out"));
+    EXPECT_FALSE(m->effective_radius_mm());
+  }
+}
+
 TEST(Wheel, GivesTheCenterRadiusAndRoundnessOfWorkedExample1) {
   const auto mean = measure_wheel(example_1(), plain());
   ASSERT_TRUE(mean) << mean.error().what;
@@ -384,8 +426,10 @@ TEST(Wheel, RefusesPointsThatAreNoWheel) {
   options.nominal_radius_mm = 100.0;
   EXPECT_EQ(refused(good, options).code, Code::kOutOfRange);
   options = {};
-  options.quadruples.count = 5;
-  EXPECT_EQ(refused(good, options).code, Code::kBadOption);
+  for (const std::size_t count : {5UL, 5001UL, 2'000'000'000UL}) {
+    options.quadruples.count = count;
+    EXPECT_EQ(refused(good, options).code, Code::kBadOption);
+  }
   options = {};
   options.outliers.scales = 3.0;
   options.robust = true;

@@ -59,6 +59,8 @@ TEST(BallCsv, RefusesWhatIsNotSuchATable) {
   EXPECT_EQ(ball_refusal("").code, Code::kNoPoints);
   EXPECT_THAT(with("C,0,a,1,2,3\n").what, HasSubstr("6 fields"));
   EXPECT_EQ(with("C,0,a,1,2,nan,1\n").code, Code::kNotFinite);
+  EXPECT_THAT(with("C,0,a,1,2,-1e155,1\n").what, HasSubstr("z_mm is -1e155 mm, beyond the limit"));
+  EXPECT_THAT(with("C,1e10,a,1,2,3,1\n").what, HasSubstr("station_deg is 1e10 deg, beyond"));
   EXPECT_EQ(with("C,0,a,1,2,nan,1\n").where, "balls.csv:2");
   EXPECT_THAT(with("C,0,a,1,,3,1\n").what, HasSubstr("y_mm is empty"));
   EXPECT_THAT(with("C,home,a,1,2,3,1\n").what, HasSubstr("or the word reference"));

@@ -160,6 +160,18 @@ TEST(Journal, RefusesAnIndefiniteTolerance) {
   EXPECT_THAT(scratch.names(), IsEmpty());
 }
 
+TEST(Journal, TakesNoTouchThatItWouldNotReadAgain) {
+  const Scratch scratch;
+  auto journal = open_journal(scratch / "run");
+  Touch touch = touch_number(1);
+  touch.tip_mm.y() = 1e155;
+  const auto added = journal.add(touch);
+  ASSERT_FALSE(added);
+  EXPECT_THAT(added.error().what,
+              HasSubstr("touch.tip_y_mm holds 1e+155, beyond the limit of 1e+09"));
+  EXPECT_TRUE(journal.add(touch_number(1)));
+}
+
 TEST(Journal, RefusesAPlaceWhereNothingCanBeMade) {
   // The superuser may write in any directory: below a device nobody can.
   const auto refused = Journal::create("/dev/null/run", {}, {}, {});

@@ -5,10 +5,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <sstream>
 
 #include "core/noise.h"
+#include "core/numbers.h"
 
 namespace rondure::record {
 namespace {
@@ -21,20 +21,12 @@ class Numbers {
   explicit Numbers(std::uint64_t seed) : state_(seed) {}
 
   double real() {
-    constexpr std::array<double, 10> kHard = {-0.0,
-                                              0.0,
-                                              3.0,
-                                              -1e308,
-                                              5e-324,
-                                              0.1,
-                                              9007199254740993.0,
-                                              std::numeric_limits<double>::infinity(),
-                                              -std::numeric_limits<double>::infinity(),
-                                              std::numeric_limits<double>::max()};
+    constexpr std::array<double, 8> kHard = {
+        -0.0, 0.0, 3.0, -1e9, 5e-324, 0.1, 900719925.4740993, core::kGreatestNumber};
     if (whole(3) == 0) return kHard[static_cast<std::size_t>(whole(kHard.size()))];
     while (true) {
       const auto value = std::bit_cast<double>(core::splitmix64(state_));
-      if (!std::isnan(value)) return value;
+      if (core::is_measurable(value)) return value;
     }
   }
   int whole(std::uint64_t below) { return static_cast<int>(core::splitmix64(state_) % below); }
@@ -126,11 +118,6 @@ Touch sample_touch(Numbers& n, std::int64_t id) {
 /// What analyses leave: settings, a mask, series longer than a block, hidden truth.
 void add_series(std::uint64_t seed, RunRecord& r) {
   Numbers n(seed ^ 0x5e41e5U);
-  const auto finite = [&] {
-    double value = n.real();
-    while (!std::isfinite(value)) value = n.real();
-    return value;
-  };
   Feature& feature = r.features.back();
   feature.settings = {{"phi2_deg", n.real(), ""},
                       {"mode", std::nullopt, n.text()},
@@ -140,8 +127,8 @@ void add_series(std::uint64_t seed, RunRecord& r) {
   feature.characteristics.front().harmonic_limits = {{2, n.whole(50), n.real()}, {3, 7, n.real()}};
   const int index = static_cast<int>(r.features.size()) - 1;
   Series data{index, "data", Series::Role::kData, {{"alpha_deg", "deg"}, {"H1_um", "um"}}, {}};
-  for (int i = 0; i < 2 * 300; ++i) data.values.push_back(finite());
-  r.series = {data, {index, "profile", Series::Role::kTruth, {{n.text(), ""}}, {finite(), -0.0}}};
+  for (int i = 0; i < 2 * 300; ++i) data.values.push_back(n.real());
+  r.series = {data, {index, "profile", Series::Role::kTruth, {{n.text(), ""}}, {n.real(), -0.0}}};
   r.truth_values = {{index, "RONt_um", n.real()}, {0, n.text(), n.real()}};
 }
 

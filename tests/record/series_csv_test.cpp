@@ -57,6 +57,10 @@ TEST(SeriesCsv, RefusesWhatIsNotSuchATable) {
   EXPECT_EQ(empty.where, "probes.csv:3");
   EXPECT_THAT(empty.what, HasSubstr("H1_um is empty"));
   EXPECT_EQ(series_refusal("alpha_deg,H1_um\n0,nan\n").code, Code::kNotFinite);
+  const core::Error huge = series_refusal("alpha_deg,H1_um\n0,1\n0,1e155\n");
+  EXPECT_EQ(huge.code, Code::kOutOfRange);
+  EXPECT_EQ(huge.where, "probes.csv:3");
+  EXPECT_THAT(huge.what, HasSubstr("H1_um is 1e155 um, beyond the limit of 1e+09 um"));
   EXPECT_THAT(series_refusal("alpha_deg,H1_um\n0,1,2\n").what, HasSubstr("3 fields"));
   EXPECT_THAT(series_refusal("alpha_deg;H1_um\n0;1\n").what, HasSubstr("semicolons"));
   EXPECT_EQ(series_refusal("alpha_deg,H1_um\n").code, Code::kNoPoints);

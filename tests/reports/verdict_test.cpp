@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/units.h"
 #include "fixture/calibration.h"
 #include "reports/conformance.h"
 #include "reports/declared.h"
@@ -97,6 +98,27 @@ TEST(Verdict, OfASoundRunFollowsTheRuleAndTheValueCarriesItsInterval) {
     EXPECT_EQ(*result.outcome->conformance_1, 1.0);
     EXPECT_THAT(result.value->sentence(), HasSubstr("(MZCY; unfiltered; 4 x 7 points; r_tip 2.0000 "
                                                     "mm; 20.0 degC; at the sampled points)"));
+  }
+}
+
+// What the points do not see can only add: a partial arc conforms to nothing.
+TEST(Verdict, OfAPartialArcIsVoidUnlessItFailsAlready) {
+  for (const auto form : {record::Form::kCylindricity, record::Form::kRoundness}) {
+    for (const double arc_deg : {60.0, 180.0, 260.0, 360.0}) {
+      SCOPED_TRACE(arc_deg);
+      RunRecord run = points_run(rough_part(3, 4, 40, arc_deg * core::kDegree), 4);
+      run.header.decision_rule = "simple-acceptance";
+      auto& asked = run.features[0].characteristics;
+      asked = {{"form", form, record::Reference::kMinimumZone, 20e-3, ""}};
+      const CharacteristicResult result = result_of(run);
+      EXPECT_EQ(result.verdict, arc_deg == 360.0 ? Verdict::kConforms : Verdict::kVoid);
+      if (arc_deg == 360.0) continue;
+      EXPECT_THAT(result.reason, HasSubstr("deg of the turn unseen"));
+      asked[0].tolerance_mm = 1e-4;
+      EXPECT_EQ(result_of(run).verdict, Verdict::kDoesNotConform);
+      asked[0].reference = record::Reference::kLeastSquares;
+      EXPECT_EQ(result_of(run).verdict, Verdict::kVoid) << "least squares proves no bound";
+    }
   }
 }
 

@@ -109,6 +109,57 @@ TEST(WheelReport, IsVoidWithItsReasonOnEveryPath) {
   }
 }
 
+/// The wheel of wheel_run() with other points.
+record::RunRecord run_of(const test::Points2& points) {
+  auto run = wheel_run();
+  run.series.front().values.clear();
+  for (const auto& p : points) {
+    run.series.front().values.insert(run.series.front().values.end(), {p.x(), p.y()});
+  }
+  return run;
+}
+
+// 8 points on 60 deg show 5.6 um of 11.7: within 10 um they prove nothing, above 5 um they do.
+TEST(WheelReport, APartialArcConformsToNothing) {
+  auto run = run_of(test::arc_points(8, 60.0, 50.0, 0.0, 1, {12.02, -6.99415}));
+  auto& asked = run.features.front().characteristics;
+  asked[1].tolerance_mm = 0.010;
+  asked[2].tolerance_mm = 0.010;
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation) << evaluation.error().what;
+  const auto& results = evaluation->features.at(0).characteristics;
+  for (const std::size_t i : {1, 2}) {
+    SCOPED_TRACE(i);
+    EXPECT_EQ(results[i].verdict, Verdict::kVoid);
+    EXPECT_THAT(results[i].reason, HasSubstr("300 deg of the turn unseen"));
+  }
+  EXPECT_LT(results[1].value_mm().value(), 0.0117);
+  EXPECT_THAT(write_html(run, *evaluation), HasSubstr("≥ "));
+  asked[1].tolerance_mm = 0.002;
+  EXPECT_EQ(evaluate(run)->features.at(0).characteristics[1].verdict, Verdict::kDoesNotConform);
+}
+
+TEST(WheelReport, WhatARobustRuleLeavesDoesNotPassForTheWheel) {
+  auto points = test::arc_points(16, 360.0, 50.0, 2e-4, 3, {12.02, -7.0});
+  points[5] += 0.046 * (points[5] - Eigen::Vector2d(12.02, -7.0)).normalized();
+  auto run = run_of(points);
+  run.features.front().settings.push_back(word("robust", "on"));
+  auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation) << evaluation.error().what;
+  for (const std::size_t i : {1, 2}) {
+    SCOPED_TRACE(i);
+    const auto& result = evaluation->features.at(0).characteristics[i];
+    EXPECT_EQ(result.verdict, Verdict::kVoid);
+    EXPECT_THAT(result.reason, HasSubstr("without the points that were dropped"));
+  }
+  // Within the tolerance with the point, too: that is a value.
+  run.features.front().characteristics[1].tolerance_mm = 0.060;
+  evaluation = evaluate(run);
+  const auto& wide = evaluation->features.at(0).characteristics[1];
+  EXPECT_EQ(wide.verdict, Verdict::kConforms);
+  EXPECT_NEAR(wide.value_mm().value(), 0.046, 1e-3);
+}
+
 TEST(WheelReport, ShowsEdgePathMarginAndResidual) {
   const auto run = wheel_run();
   const auto evaluation = evaluate(run);

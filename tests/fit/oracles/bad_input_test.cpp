@@ -12,6 +12,8 @@
 #include "core/units.h"
 #include "fit/ls_circle.h"
 #include "fit/ls_cylinder.h"
+#include "fit/ls_line.h"
+#include "fit/ls_sphere.h"
 #include "fit/min_zone_circle.h"
 #include "fit/min_zone_cylinder.h"
 
@@ -100,6 +102,21 @@ TEST(BadInput, NotFiniteNamesTheRow) {
       points[kBadRow](axis) = bad;
       expect_refused(cylinder_fits(), points, core::Code::kNotFinite, std::to_string(kBadRow));
     }
+  }
+}
+
+TEST(BadInput, FiniteButHugeNamesTheRow) {
+  for (const double huge : {1e155, -1e100, 1e10}) {
+    Points2 points = circle(24);
+    points[kBadRow].x() = huge;
+    expect_refused(circle_fits(), points, core::Code::kOutOfRange, std::to_string(kBadRow));
+    Points3 spatial = layers(3, 10.0);
+    spatial[kBadRow].z() = huge;
+    expect_refused(cylinder_fits(), spatial, core::Code::kOutOfRange, std::to_string(kBadRow));
+    expect_refused<Points3>(
+        {{"ls_line", [](const Points3& p) { return outcome(fit::ls_line(p)); }},
+         {"ls_sphere", [](const Points3& p) { return outcome(fit::ls_sphere(p)); }}},
+        spatial, core::Code::kOutOfRange, "at most 1e+09 mm");
   }
 }
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/result.h"
+
+namespace rondure::app {
+
+/// @return kNotFinite naming the first number of a document that is not finite (JSON would write
+///         it as null, a table as nan), or nothing.
+[[nodiscard]] core::Result<void> check_finite(const nlohmann::ordered_json& found);
+
+/// Prints what was found, as JSON or as the table for a person. With a number that is not finite
+/// nothing is printed but the error.
+/// @return The exit status of the verb.
+[[nodiscard]] int answer(const nlohmann::ordered_json& found, bool as_json,
+                         const std::function<std::string()>& table);
+
+}  // namespace rondure::app
