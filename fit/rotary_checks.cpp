@@ -129,6 +129,7 @@ std::string_view unit_hint(double ratio) {
 
 constexpr double kRotationLimit = 0.1;    // rad
 constexpr double kNeighbourLimit = 1e-3;  // rad: no axis that is measured does so at one station
+constexpr double kNeighbourDoubt = 1e-4;  // rad: a wrong label, or a local error of the axis
 
 /// What a station turned from the reference.
 struct MeasuredTurn {
@@ -171,9 +172,6 @@ double upper_median(std::vector<double> values) {
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
-
-/// Coarse stations of an axis with large errors depart from their neighbours, too.
-double misfit_limit(double others_rad) { return std::max(kNeighbourLimit, 5.0 * others_rad); }
 
 /// Rotation about its own axis that a station has left.
 struct OwnTurn {
@@ -219,12 +217,12 @@ std::vector<double> departures(const std::vector<OwnTurn>& turns, std::size_t sk
   return out;
 }
 
-/// The station beyond the limit without which the others fit each other best.
-std::optional<std::size_t> worst_fit(const std::vector<OwnTurn>& turns) {
+/// The station beyond a limit without which the others fit each other best.
+std::optional<std::size_t> worst_fit(const std::vector<OwnTurn>& turns, double limit_rad) {
   std::optional<std::size_t> out;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < turns.size(); ++i) {
-    if (std::abs(departure(turns, i, turns.size())) <= kNeighbourLimit) continue;
+    if (std::abs(departure(turns, i, turns.size())) <= limit_rad) continue;
     const auto others = departures(turns, i);
     const double squares = std::inner_product(others.begin(), others.end(), others.begin(), 0.0);
     if (squares >= least) continue;
@@ -239,10 +237,14 @@ struct Misfit {
   OwnTurn turn;
   double off_rad = 0.0;
   double others_rad = 0.0;  ///< Greatest departure of those that fit.
+  double limit_rad = 0.0;
 };
 
-/// All stations, at most a third, that do not fit the others of their direction of approach.
-std::vector<Misfit> misfits(const std::vector<OwnTurn>& all, double reference_rad) {
+/// All stations, at most a third, that do not fit the others of their direction of approach: they
+/// are off by more than `least_rad` and five times the others, as coarse stations of an axis with
+/// large errors depart from each other, too.
+std::vector<Misfit> misfits(const std::vector<OwnTurn>& all, double reference_rad,
+                            double least_rad) {
   const auto by_angle = [](const OwnTurn& a, const OwnTurn& b) {
     return a.angle_rad < b.angle_rad;
   };
@@ -256,20 +258,21 @@ std::vector<Misfit> misfits(const std::vector<OwnTurn>& all, double reference_ra
     std::stable_sort(fitting.begin(), fitting.end(), by_angle);
     std::vector<OwnTurn> left_out;
     for (std::size_t most = fitting.size() / 3; most > 0; --most) {
-      const auto worst = worst_fit(fitting);
+      const auto worst = worst_fit(fitting, least_rad);
       if (!worst) break;
       left_out.push_back(fitting[*worst]);
       fitting.erase(fitting.begin() + static_cast<std::ptrdiff_t>(*worst));
     }
     const auto usual = departures(fitting, fitting.size());
     const double others = *std::max_element(usual.begin(), usual.end());
+    const double limit = std::max(least_rad, 5.0 * others);
     for (const OwnTurn& one : left_out) {
       const auto place = std::upper_bound(fitting.begin(), fitting.end(), one, by_angle);
       const auto index = static_cast<std::size_t>(place - fitting.begin());
       auto with = fitting;
       with.insert(with.begin() + static_cast<std::ptrdiff_t>(index), one);
       const double off = departure(with, index, with.size());
-      if (std::abs(off) > misfit_limit(others)) out.push_back({one, off, others});
+      if (std::abs(off) > limit) out.push_back({one, off, others, limit});
     }
   }
   return out;
@@ -285,7 +288,7 @@ core::Error misfit_error(const std::vector<Misfit>& found, double reference_rad)
     what += fmt::format(
         "{} does not fit its neighbours: {:.0f} urad about the axis beside {:.0f} "
         "of the others, limit {:.0f}; a label of {:.4g} deg would fit",
-        name, one.off_rad * 1e6, one.others_rad * 1e6, misfit_limit(one.others_rad) * 1e6,
+        name, one.off_rad * 1e6, one.others_rad * 1e6, one.limit_rad * 1e6,
         deg(one.turn.angle_rad + one.off_rad));
   }
   return {Code::kInconsistent, what + ". Correct the angle, or measure there again", {}};
@@ -400,7 +403,7 @@ core::Result<void> check_sense(const RotaryMeasurement& measurement,
       const Vector3d rest = rotation_vector(one.turn * measurement.axis.turn(angle).transpose());
       own.push_back({one.angle_rad, one.approach, rest.dot(measurement.axis.direction)});
     }
-    const auto found = misfits(own, measurement.reference_rad);
+    const auto found = misfits(own, measurement.reference_rad, kNeighbourLimit);
     if (!found.empty()) return core::fail(misfit_error(found, measurement.reference_rad));
   }
   const std::string_view cure = !other_fits            ? "no other reading fits"
@@ -428,16 +431,21 @@ core::Result<void> check_distances(const RotaryMeasurement& measurement,
   return {};
 }
 
-core::Result<void> check_neighbours(std::span<const RotaryStation> stations, const RotaryAxis& axis,
-                                    double reference_rad) {
+core::Result<std::vector<core::Error>> check_neighbours(std::span<const RotaryStation> stations,
+                                                        const RotaryAxis& axis,
+                                                        double reference_rad) {
   std::vector<OwnTurn> own;
   for (const RotaryStation& station : stations) {
     if (station.undetermined) continue;
     own.push_back({station.angle_rad, station.approach, station.errors.w_rad.dot(axis.direction)});
   }
-  const auto found = misfits(own, reference_rad);
-  if (found.empty()) return {};
-  return core::fail(misfit_error(found, reference_rad));
+  const auto found = misfits(own, reference_rad, kNeighbourLimit);
+  if (!found.empty()) return core::fail(misfit_error(found, reference_rad));
+  auto doubted = misfits(own, reference_rad, kNeighbourDoubt);
+  // The reference may have been approached from the other side.
+  std::erase_if(doubted, [](const Misfit& one) { return one.turn.reference; });
+  if (doubted.empty()) return std::vector<core::Error>();
+  return std::vector<core::Error>{misfit_error(doubted, reference_rad)};
 }
 
 core::Result<bool> check_periodicity(std::span<const RotaryStation> stations) {

@@ -32,8 +32,9 @@ namespace rondure::fit {
 /// No station lies more than 1 mrad about the axis, and five times what the others do, off the line
 /// through its neighbours; the reference pose is one of them. If one does, says which angle it
 /// should have been labelled with.
-[[nodiscard]] core::Result<void> check_neighbours(std::span<const RotaryStation> stations,
-                                                  const RotaryAxis& axis, double reference_rad);
+/// @return A warning for stations beyond 0.1 mrad.
+[[nodiscard]] core::Result<std::vector<core::Error>> check_neighbours(
+    std::span<const RotaryStation> stations, const RotaryAxis& axis, double reference_rad);
 
 /// Stations whole turns apart, approached alike, agree within 4 standard uncertainties.
 /// @return Whether there were any.

@@ -1233,7 +1233,14 @@ TEST(RotaryAxes, NamesTheStationWhoseLabelIsWrong) {
       EXPECT_EQ(refused.what.find("station", 5), std::string::npos) << refused.what;
     }
   }
-  auto m = good();  // two of them
+  auto m = good();  // too little to be told from a local error
+  m.stations[4].angle_rad += 0.02 * kDegree;
+  const auto doubted = identify_rotary_axis(m);
+  ASSERT_TRUE(doubted) << doubted.error().what;
+  ASSERT_EQ(doubted->warnings.size(), 1U);
+  EXPECT_THAT(doubted->warnings[0].what, HasSubstr("station -29.98 deg does not fit"));
+  EXPECT_TRUE(identify_rotary_axis(good())->warnings.empty());
+  m = good();  // two of them
   m.stations[3].angle_rad += 1.0 * kDegree;
   m.stations[9].angle_rad -= 2.0 * kDegree;
   EXPECT_THAT(refusal(m).what, HasSubstr("station -44 deg"));
