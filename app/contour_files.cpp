@@ -73,7 +73,8 @@ core::Result<void> read_axes(const std::string& file, const std::vector<ContourC
   Columns& c = *columns;
   fit::AxisTrace& trace = out.part.trace;
   if (c[0] && c[1] && c[2]) {
-    trace = {*std::move(c[0]), *std::move(c[1]), *std::move(c[2])};
+    trace = {*std::move(c[0]), *std::move(c[1]), *std::move(c[2]), {}};
+    if (c[4]) trace.x_mm = *std::move(c[4]);
     return {};
   }
   if (!(c[3] && c[4] && c[5] && c[6])) {
@@ -85,6 +86,7 @@ core::Result<void> read_axes(const std::string& file, const std::vector<ContourC
   }
   out.positions = true;
   trace.c_rad = *c[3];
+  trace.x_mm = *c[4];
   for (std::size_t i = 0; i < c[3]->size(); ++i) {
     trace.c_error_rad.push_back(std::remainder((*c[5])[i] - (*c[3])[i], core::kTwoPi));
     trace.x_error_mm.push_back((*c[6])[i] - (*c[4])[i]);

@@ -22,8 +22,9 @@ struct ContourImport {
   bool positions = false;  ///< Commanded and actual positions: their differences need no sign.
 };
 
-/// Reads a part. Quantities without a mapping have the columns c_deg, c_error_deg, x_error_mm (or
-/// alpha_cmd_deg, d_cmd_mm, alpha_act_deg, d_act_mm, whose differences are the errors); angle_deg
+/// Reads a part. Quantities without a mapping have the columns c_deg, c_error_deg, x_error_mm (with
+/// d_cmd_mm, if it was recorded; or alpha_cmd_deg, d_cmd_mm, alpha_act_deg, d_act_mm, whose
+/// differences are the errors); angle_deg
 /// and deviation_um of pin and main journal.
 ///
 /// @return What parse_series_csv() refuses, with file and line; kMissingKey where neither set of

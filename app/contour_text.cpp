@@ -38,6 +38,9 @@ std::string part_lines(const fit::ContourPartResult& part, const std::string& na
   std::string out = fmt::format("  part {}\n", name);
   out += line("t, total", part.pin.contour.error_mm);
   out += line("f, following the axes", part.following.error_mm);
+  if (part.axes.x_mm.empty()) {
+    out.insert(out.size() - 1, "   stroke-unchecked: no positions of X");
+  }
   out += line("n, not following", part.direct.rest_mm);
   if (part.main) out += line("main journal", part.main->contour.error_mm);
   const fit::ContourSeparation& d = part.direct;

@@ -296,7 +296,8 @@ void add_contour(CLI::App& fit_verb, ContourArguments& arguments) {
   add_contour_settings(*verb, arguments);
   verb->footer(
       "\nColumns without a mapping (CSV, a header line, a row a sample):\n"
-      "  axes   c_deg, c_error_deg, x_error_mm: C position and the errors of both axes, or\n"
+      "  axes   c_deg, c_error_deg, x_error_mm: C position and the errors of both axes, with\n"
+      "         d_cmd_mm, if recorded, to check crank, wheel and the zero of C; or\n"
       "         alpha_cmd_deg, d_cmd_mm, alpha_act_deg, d_act_mm: positions, 360 deg at least\n"
       "  pin, main   angle_deg, deviation_um: one turn, steps of at most 1 deg\n"
       "Quantities of a mapping: c, c_error, x_error, alpha_cmd, d_cmd, alpha_act, d_act, angle,\n"

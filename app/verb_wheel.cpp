@@ -44,7 +44,9 @@ core::Result<Points> load_wheel(const std::string& file) {
 fit::WheelOptions measuring_options(const WheelArguments& a) {
   fit::WheelOptions out;
   out.mode = a.mode == "envelope" ? fit::WheelMode::kEnvelope : fit::WheelMode::kIndexed;
-  if (a.center == "as-published") out.mean = fit::WheelMean::kAsPublished;
+  for (const auto mean : {fit::WheelMean::kAsPublished, fit::WheelMean::kWeighted}) {
+    if (fit::name_of(mean) == a.center) out.mean = mean;
+  }
   using Choice = fit::QuadrupleChoice;
   for (const auto choice : {Choice::kAll, Choice::kBest, Choice::kRandom}) {
     if (fit::name_of(choice) == a.quadruples) out.quadruples.choice = choice;
@@ -88,6 +90,12 @@ core::Result<fit::WheelPathOptions> path_options(const WheelArguments& a,
 
 core::Result<fit::WheelTask> task_of(const WheelArguments& a) {
   fit::WheelTask out{measuring_options(a), {}};
+  if (a.center == "least-squares" && a.quadruples != "all") {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("--quadruples {} has no effect on a least-squares centre; add "
+                                  "--center as-published or weighted",
+                                  a.quadruples));
+  }
   if (a.surface.empty()) {
     if (a.path.empty() && a.gcode.empty() && a.removal.empty()) return out;
     return core::fail(core::Code::kBadOption,

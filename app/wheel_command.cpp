@@ -25,10 +25,12 @@ void add_measuring(CLI::App& verb, WheelArguments& arguments) {
   verb.add_option("--nominal-radius-mm", arguments.nominal_radius_mm,
                   "R must be within 5 % of it; also the path without compensation");
   verb.add_option("--center", arguments.center,
-                  "weighted (default) by the conditioning, or as-published: the plain mean")
-      ->check(CLI::IsMember({"weighted", "as-published"}));
+                  "least-squares (default), or a mean of four-point centres: as-published, the\n"
+                  "plain one, or weighted by the conditioning")
+      ->check(CLI::IsMember({"least-squares", "as-published", "weighted"}));
   verb.add_option("--quadruples", arguments.quadruples,
-                  "all (default), best, or random: as published, without a kappa limit")
+                  "Of those means: all (default), best, or random: as published, without a kappa\n"
+                  "limit")
       ->check(CLI::IsMember({"all", "best", "random"}));
   verb.add_option("--count", arguments.count,
                   "Quadruples of best and random (default: 6, at least)");

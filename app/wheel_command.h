@@ -17,7 +17,7 @@ struct WheelArguments {
   std::string mode;
   std::vector<double> axis_mm;  ///< x, z; empty: not known.
   std::optional<double> nominal_radius_mm;
-  std::string center = "weighted";
+  std::string center = "least-squares";
   std::string quadruples = "all";
   std::size_t count = 6;
   std::uint64_t seed = 1;

@@ -9,15 +9,34 @@
 namespace rondure::app {
 namespace {
 
+std::string center_words(const fit::WheelMeasurement& m) {
+  if (m.mean == fit::WheelMean::kLeastSquares) return "least squares";
+  return fmt::format("{} of {} quadruples",
+                     m.mean == fit::WheelMean::kWeighted ? "weighted mean" : "mean",
+                     m.centers.accepted.size());
+}
+
+/// The other centre, that of the quadruples or that of least squares.
+std::string check_words(const fit::WheelMeasurement& m) {
+  if (m.mean == fit::WheelMean::kLeastSquares) {
+    return fmt::format("weighted mean of {} quadruples ({:.6f}, {:.6f}) mm",
+                       m.centers.accepted.size(), m.quadruple_center_mm.x(),
+                       m.quadruple_center_mm.y());
+  }
+  return fmt::format("geometric least squares ({:.6f}, {:.6f}) mm, R {:.6f} mm, PV {:.3f} um",
+                     m.check.center_mm.x(), m.check.center_mm.y(), m.check.radius_mm,
+                     um(m.check.deviation_mm));
+}
+
 std::string circle_lines(const fit::WheelMeasurement& m) {
   std::string out = fmt::format(
       "wheel, {} points, {} mode\n"
-      "  centre    ({:.6f}, {:.6f}) mm, {} of {} quadruples\n"
+      "  centre    ({:.6f}, {:.6f}) mm, u {:.3f} um, {}\n"
       "  radius    R {:.6f} mm, u(R) {:.3f} um\n"
       "  spread    s_r {:.3f} um, PV {:.3f} um about the centre",
-      m.points, name_of(m.mode), m.center_mm.x(), m.center_mm.y(),
-      m.mean == fit::WheelMean::kWeighted ? "weighted mean" : "mean", m.centers.accepted.size(),
-      m.radius_mm, um(m.radius_uncertainty_mm), um(m.spread_mm), um(m.deviation_mm));
+      m.points, name_of(m.mode), m.center_mm.x(), m.center_mm.y(), um(m.center_uncertainty_mm),
+      center_words(m), m.radius_mm, um(m.radius_uncertainty_mm), um(m.spread_mm),
+      um(m.deviation_mm));
   if (m.zone) out += fmt::format(", minimum zone {:.3f} um", um(m.zone->width_mm()));
   out += fmt::format(
       "\n  arc       {:.1f} deg covered; a point error shows {:.2f} times in the centre, {:.2f} in "
@@ -32,11 +51,11 @@ std::string center_lines(const fit::WheelMeasurement& m) {
       "  centres   scatter {:.3f} um (noise alone {:.3f} um), farthest {:.3f} um; kappa {:.3f} to "
       "{:.3f}\n"
       "  refused   {} for a short chord, {} for parallel chords, {} for kappa{}\n"
-      "  check     geometric least squares ({:.6f}, {:.6f}) mm, R {:.6f} mm, PV {:.3f} um\n",
+      "  check     {}\n",
       um(m.center_scatter_mm), um(m.expected_scatter_mm), um(m.farthest_center_mm), c.best_kappa(),
       c.worst_kappa(), c.short_chord, c.parallel_chords, c.ill_conditioned,
       std::isfinite(c.kappa_limit) ? fmt::format(" above {:.3g}", c.kappa_limit) : "",
-      m.check.center_mm.x(), m.check.center_mm.y(), m.check.radius_mm, um(m.check.deviation_mm));
+      check_words(m));
 }
 
 std::string runout_line(const fit::WheelMeasurement& m) {

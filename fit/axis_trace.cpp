@@ -22,11 +22,13 @@ constexpr double kLargeMeanX = 0.1;  ///< mm
 
 core::Result<void> check(const AxisTrace& trace, const AxisTraceOptions& options) {
   const std::size_t n = trace.c_rad.size();
-  if (trace.c_error_rad.size() != n || trace.x_error_mm.size() != n) {
-    return core::fail(core::Code::kMeaning,
-                      fmt::format("{} positions of C, {} errors of C and {} errors of X; one row "
-                                  "each for all three",
-                                  n, trace.c_error_rad.size(), trace.x_error_mm.size()));
+  if (trace.c_error_rad.size() != n || trace.x_error_mm.size() != n ||
+      (!trace.x_mm.empty() && trace.x_mm.size() != n)) {
+    return core::fail(
+        core::Code::kMeaning,
+        fmt::format("{} positions of C, {} errors of C, {} errors and {} positions of X; one row "
+                    "each for all that are given",
+                    n, trace.c_error_rad.size(), trace.x_error_mm.size(), trace.x_mm.size()));
   }
   for (const int sign : {options.error_sign, options.c_direction}) {
     if (sign == 1 || sign == -1) continue;
@@ -39,22 +41,28 @@ core::Result<void> check(const AxisTrace& trace, const AxisTraceOptions& options
         fmt::format("{} samples of the axes; at least {} are needed", n, kLeastTurnSamples));
   }
   for (std::size_t i = 0; i < n; ++i) {
+    const double x = trace.x_mm.empty() ? 0.0 : trace.x_mm[i];
     if (core::is_measurable(trace.c_rad[i]) && core::is_measurable(trace.c_error_rad[i]) &&
-        core::is_measurable(trace.x_error_mm[i])) {
+        core::is_measurable(trace.x_error_mm[i]) && core::is_measurable(x)) {
       continue;
     }
     return core::fail(
         core::Code::kNotFinite,
-        fmt::format("row {} of the axes is (C {} rad, error of C {} rad, error of X {} "
+        fmt::format("row {} of the axes is (C {} rad, error of C {} rad, X {} mm, error of X {} "
                     "mm); all must be finite numbers up to {:g}",
-                    i, trace.c_rad[i], trace.c_error_rad[i], trace.x_error_mm[i],
+                    i, trace.c_rad[i], trace.c_error_rad[i], x, trace.x_error_mm[i],
                     core::kGreatestNumber));
   }
   return {};
 }
 
 /// The trace in the sense and sign of the method, continuous, alpha ascending.
-AxisTrace oriented(const AxisTrace& trace, const AxisTraceOptions& options) {
+struct Oriented {
+  AxisTrace rows;
+  bool reversed = false;  ///< The row recorded last comes first.
+};
+
+Oriented oriented(const AxisTrace& trace, const AxisTraceOptions& options) {
   AxisTrace out = trace;
   const double sense = options.c_direction;
   const double sign = options.error_sign;
@@ -68,12 +76,13 @@ AxisTrace oriented(const AxisTrace& trace, const AxisTraceOptions& options) {
       out.c_rad[i] = out.c_rad[i - 1] + std::remainder(step, core::kTwoPi);
     }
   }
-  if (out.c_rad.back() < out.c_rad.front()) {
-    std::reverse(out.c_rad.begin(), out.c_rad.end());
-    std::reverse(out.c_error_rad.begin(), out.c_error_rad.end());
-    std::reverse(out.x_error_mm.begin(), out.x_error_mm.end());
+  const bool reversed = out.c_rad.back() < out.c_rad.front();
+  if (reversed) {
+    for (auto* column : {&out.c_rad, &out.c_error_rad, &out.x_error_mm, &out.x_mm}) {
+      std::reverse(column->begin(), column->end());
+    }
   }
-  return out;
+  return {std::move(out), reversed};
 }
 
 /// @param reversed  Rows of the caller run the other way.
@@ -115,7 +124,8 @@ std::size_t first_at(const std::vector<double>& alpha, double angle) {
       std::lower_bound(alpha.begin(), alpha.end(), angle - core::kSameAngle) - alpha.begin());
 }
 
-core::Result<Cut> cut_of(const std::vector<double>& alpha) {
+/// @param reversed  The turn recorded last is the one with the least angles.
+core::Result<Cut> cut_of(const std::vector<double>& alpha, bool reversed) {
   const double span = alpha.back() - alpha.front();
   const double step = span / static_cast<double>(alpha.size() - 1);
   if (span + 1.5 * step < core::kTwoPi) {
@@ -128,17 +138,26 @@ core::Result<Cut> cut_of(const std::vector<double>& alpha) {
                         : ""));
   }
   Cut cut;
-  const double last = core::kTwoPi * std::floor((alpha.back() + core::kSameAngle) / core::kTwoPi);
-  if (last - core::kTwoPi >= alpha.front() - core::kSameAngle) {
-    cut.start_rad = last - core::kTwoPi;
-    cut.margins = cut.start_rad - kMargin >= alpha.front() && last + kMargin <= alpha.back();
+  // A turn is whole when the sample after the last one recorded would close it.
+  const double lowest = alpha.front() - core::kSameAngle - (reversed ? step : 0.0);
+  const double highest = alpha.back() + core::kSameAngle + (reversed ? 0.0 : step);
+  cut.start_rad = reversed ? core::kTwoPi * std::ceil(lowest / core::kTwoPi)
+                           : core::kTwoPi * (std::floor(highest / core::kTwoPi) - 1.0);
+  if (cut.start_rad >= lowest && cut.start_rad + core::kTwoPi <= highest) {
+    cut.margins = cut.start_rad - kMargin >= alpha.front() &&
+                  cut.start_rad + core::kTwoPi + kMargin <= alpha.back();
   } else {
-    cut.start_rad = alpha.back() + step - core::kTwoPi;  // closed: the next sample is the first one
-    cut.start_rad = alpha[std::min(first_at(alpha, cut.start_rad - 0.5 * step), alpha.size() - 1)];
+    // No turn from 0 to 0: the last 360 deg, closed.
+    const double start = alpha.back() + step - core::kTwoPi;
+    cut.start_rad = reversed
+                        ? alpha.front()
+                        : alpha[std::min(first_at(alpha, start - 0.5 * step), alpha.size() - 1)];
   }
   const double reserve = cut.margins ? kMargin : 0.0;
-  cut.first = first_at(alpha, cut.start_rad - reserve);
-  cut.end = first_at(alpha, cut.start_rad + core::kTwoPi + reserve);
+  // Of both ends of the turn the row recorded first counts.
+  const double open = reversed && cut.start_rad < alpha.front() ? 2.0 * core::kSameAngle : 0.0;
+  cut.first = first_at(alpha, cut.start_rad - reserve + open);
+  cut.end = first_at(alpha, cut.start_rad + core::kTwoPi + reserve + open);
   return cut;
 }
 
@@ -206,12 +225,11 @@ core::Result<AxisTurn> last_turn(const AxisTrace& trace, const AxisTraceOptions&
                       fmt::format("the axes on {} angles are asked for; at least {} are needed",
                                   options.samples, kLeastTurnSamples));
   }
-  const AxisTrace rows = oriented(trace, options);
-  const bool reversed = options.c_direction * trace.c_rad[0] != rows.c_rad[0];
+  const auto [rows, reversed] = oriented(trace, options);
   if (auto checked = check_steps(rows.c_rad, reversed); !checked) {
     return core::fail(checked.error());
   }
-  const auto cut = cut_of(rows.c_rad);
+  const auto cut = cut_of(rows.c_rad, reversed);
   if (!cut) return core::fail(cut.error());
   AxisTurn out;
   const double span = rows.c_rad.back() - rows.c_rad.front();
@@ -220,6 +238,7 @@ core::Result<AxisTurn> last_turn(const AxisTrace& trace, const AxisTraceOptions&
   out.turns = (span + step) / core::kTwoPi;
   out.errors.c_rad = on_uniform(rows.c_rad, rows.c_error_rad, *cut, options.samples);
   out.errors.x_mm = on_uniform(rows.c_rad, rows.x_error_mm, *cut, options.samples);
+  if (!rows.x_mm.empty()) out.x_mm = on_uniform(rows.c_rad, rows.x_mm, *cut, options.samples);
   warn_of_units(out);
   return out;
 }

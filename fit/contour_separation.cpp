@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kPlacesPerSample = 16;
 constexpr int kNewtonSteps = 20;
+constexpr double kLargeOffset = 2.0 * core::kDegree;
 
 double mean_product(std::span<const double> a, std::span<const double> b) {
   assert(a.size() == b.size() && a.size() >= 16);
@@ -31,7 +32,11 @@ class CrossCorrelation {
     const auto f = spectrum(pair.following_mm);
     const double scale = 2.0 / std::pow(static_cast<double>(pair.total_mm.size()), 2);
     terms_.resize(std::max(terms_.size(), t.size()));
-    for (std::size_t k = 1; k < t.size(); ++k) terms_[k] += scale * t[k] * std::conj(f[k]);
+    powers_.resize(terms_.size());
+    for (std::size_t k = 1; k < t.size(); ++k) {
+      terms_[k] += scale * t[k] * std::conj(f[k]);
+      powers_[k] += scale * std::norm(f[k]);
+    }
     norm_total_ += mean_product(pair.total_mm, pair.total_mm);
     norm_following_ += mean_product(pair.following_mm, pair.following_mm);
   }
@@ -63,6 +68,21 @@ class CrossCorrelation {
     return out;
   }
 
+  /// The rest n = t - f(turned) puts k |n_k conj(f_k)| into the slope at harmonic k, in a phase
+  /// that nobody knows; f alone bends the correlation by the sum of k^2 |f_k|^2. What all parts
+  /// have in common adds up before it is squared.
+  [[nodiscard]] double uncertainty(double angle) const {
+    double variance = 0.0;
+    double bend = 0.0;
+    for (std::size_t k = 1; k < terms_.size(); ++k) {
+      const auto number = static_cast<double>(k);
+      const Complex rest = terms_[k] * std::polar(1.0, number * angle) - powers_[k];
+      variance += 0.5 * number * number * std::norm(rest);
+      bend += number * number * powers_[k];
+    }
+    return bend > 0.0 ? std::sqrt(variance) / bend : 0.0;
+  }
+
   [[nodiscard]] double normalised(double value) const {
     const double norm = std::sqrt(norm_total_ * norm_following_);
     return norm > 0.0 ? value / norm : 0.0;
@@ -70,6 +90,7 @@ class CrossCorrelation {
 
  private:
   std::vector<Complex> terms_;
+  std::vector<double> powers_;  ///< Of f, in the scale of the terms.
   double norm_total_ = 0.0;
   double norm_following_ = 0.0;
 };
@@ -145,7 +166,12 @@ CorrelationOffset correlation_offset(std::span<const CurvePair> pairs, double wi
     if (std::abs(move) < 1e-12) break;
   }
   out.correlation = correlation.normalised(correlation.at(out.angle_rad).value);
+  out.u_rad = correlation.uncertainty(out.angle_rad);
   return out;
+}
+
+bool CorrelationOffset::alignment_suspect() const {
+  return std::abs(angle_rad) > kLargeOffset && std::abs(angle_rad) > 3.0 * u_rad;
 }
 
 SenseEvidence sense_evidence(std::span<const CurvePair> pairs) {

@@ -42,8 +42,14 @@ struct ContourSeparation {
 /// alignment.
 struct CorrelationOffset {
   double angle_rad = 0.0;
+  /// Standard uncertainty of the angle by the rest: what its amplitudes make of it in any phase.
+  double u_rad = 0.0;
   double correlation = 0.0;  ///< There, of all pairs together.
   bool at_edge = false;      ///< The greatest value lies at the end of the window.
+
+  /// A rest of any phase would not turn the curve so far: 3 standard uncertainties, and more than
+  /// 2 deg.
+  [[nodiscard]] bool alignment_suspect() const;
 };
 
 /// A total error and the following part to be turned onto it.

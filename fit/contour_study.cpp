@@ -7,12 +7,15 @@
 
 #include <fmt/format.h>
 
+#include "fit/dft.h"
+
 namespace rondure::fit {
 namespace {
 
 constexpr double kSamplesPerUndulation = 6.0;
 constexpr std::size_t kMostSamples = 100'000;  ///< Of a turn; gauges give some thousands.
-constexpr double kLargeOffset = 2.0 * core::kDegree;
+constexpr double kStrokeLimit = 0.05;          ///< mm
+constexpr double kPositionLimit = 0.02;        ///< mm, rms
 
 MeasuredContourOptions gauge_options(const ContourStudyOptions& options, bool main) {
   MeasuredContourOptions out;
@@ -59,12 +62,51 @@ void warn_of_undercut(ContourPartResult& part) {
        {}});
 }
 
+/// Holds the positions of X that were recorded against those the geometry asks for.
+core::Result<void> check_positions(const AxisTurn& axes, const CrankGeometry& geometry) {
+  const std::size_t n = axes.x_mm.size();
+  if (n == 0) return {};
+  std::vector<double> ideal(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    ideal[i] =
+        wheel_position_mm(geometry, core::kTwoPi * static_cast<double>(i) / static_cast<double>(n));
+  }
+  const double stroke = peak_to_valley(axes.x_mm);
+  const double expected = peak_to_valley(ideal);
+  const auto stated = spectrum(ideal);
+  double mean = 0.0;
+  for (std::size_t i = 0; i < n; ++i) mean += (axes.x_mm[i] - ideal[i]) / static_cast<double>(n);
+  for (std::size_t i = 0; i < n; ++i) ideal[i] = axes.x_mm[i] - ideal[i] - mean;
+  const double off = rms_of(ideal);
+  if (std::abs(stroke - expected) <= kStrokeLimit && off <= kPositionLimit) return {};
+  // d = R cos(alpha) + Lc - R^2/(4 Lc) (1 - cos(2 alpha)) ...: the first harmonic holds crank
+  // radius and zero, the second one R^2/Lc.
+  const auto f = spectrum(axes.x_mm);
+  const double radius = 2.0 * std::abs(f[1]) / static_cast<double>(n);
+  const double length = geometry.center_distance_mm() * std::abs(stated[2]) /
+                        std::max(std::abs(f[2]), 1e-9) *
+                        std::pow(radius / geometry.crank_radius_mm, 2);
+  return core::fail(
+      core::Code::kInconsistent,
+      fmt::format("the recorded X positions contradict the geometry: stroke {:.3f} mm, expected "
+                  "{:.3f} mm (limit {} mm), and {:.3f} mm rms off the ideal motion (limit {} mm). "
+                  "They fit a crank radius of {:.3f} mm (stated {:g}), wheel and pin radii of "
+                  "{:.0f} mm together (stated {:g}) and C turned by {:.2f} deg: correct these, the "
+                  "zero of C or the column of X",
+                  stroke, expected, kStrokeLimit, off, kPositionLimit, radius,
+                  geometry.crank_radius_mm, length, geometry.center_distance_mm(),
+                  -std::arg(f[1]) / core::kDegree));
+}
+
 /// f from the axes alone.
 core::Result<void> follow(const ContourPart& part, const ContourStudyOptions& options,
                           ContourPartResult& out) {
   auto axes = last_turn(part.trace, options.axes);
   if (!axes) return core::fail(axes.error());
   out.axes = *std::move(axes);
+  if (auto checked = check_positions(out.axes, options.geometry); !checked) {
+    return core::fail(checked.error());
+  }
   if (auto checked = check_axis_sampling(out.axes, options.error.filter); !checked) {
     return core::fail(checked.error());
   }
@@ -185,12 +227,13 @@ void diagnose(ContourStudy& study, const ContourStudyOptions& options) {
              "the given one ({:.2f}); c_direction {} rather than {}, or the gauge turns the "
              "other way?",
              sense.mirrored, sense.as_given, -options.axes.c_direction, options.axes.c_direction));
-  } else if (std::abs(study.offset.angle_rad) > kLargeOffset || study.offset.at_edge) {
+  } else if (study.offset.alignment_suspect()) {
     warn(core::Code::kAlignment,
-         fmt::format("correlation would turn the following part by {}{:.2f} deg, more than 2 deg: "
-                     "is the phase offset of the gauge right? Nothing was turned for that",
+         fmt::format("correlation would turn the following part by {}{:.2f} deg, more than 2 deg "
+                     "and 3 times what the rest explains ({:.2f} deg): is the phase offset of the "
+                     "gauge right? Nothing was turned for that",
                      study.offset.at_edge ? "at least " : "",
-                     study.offset.angle_rad / core::kDegree));
+                     study.offset.angle_rad / core::kDegree, study.offset.u_rad / core::kDegree));
   }
 }
 

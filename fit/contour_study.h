@@ -101,9 +101,11 @@ struct ContourStudy {
 ///
 /// @return kNoPoints without parts; last_turn()'s, ground_contour()'s, contour_error()'s and
 ///         measured_contour()'s errors, with `where` "parts/i/axes|pin|main"; kSampling where the
-///         control has no two samples an undulation at the cut-off. Warnings besides theirs:
-///         kUndersampled below 6 samples an undulation, kUndercut, kAlignment for a correlation
-///         offset above 2 deg, kSense for axis errors that oppose the contour.
+///         control has no two samples an undulation at the cut-off; kInconsistent where recorded
+///         positions of X contradict crank, wheel or the zero of C (stroke 0.05 mm, 0.02 mm rms).
+///         Warnings besides theirs: kUndersampled below 6 samples an undulation, kUndercut,
+///         kAlignment for a correlation offset that the rest does not explain, kSense for axis
+///         errors that oppose the contour.
 /// Source: methods, contour sections 6 to 9.
 [[nodiscard]] core::Result<ContourStudy> contour_study(std::span<const ContourPart> parts,
                                                        const ContourStudyOptions& options = {});

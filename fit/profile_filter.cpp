@@ -111,7 +111,13 @@ double FilterOptions::highest_cutoff_upr() const {
 }
 
 core::Result<Sampling> check_sampling(std::size_t points, const FilterOptions& options) {
-  if (options.filter == ProfileFilter::kNone) return Sampling{};
+  if (options.filter == ProfileFilter::kNone) {
+    if (options.pass == PassBand::kLow) return Sampling{};
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("a {} pass without a filter: nothing would be taken away; name a "
+                                  "filter, e.g. gaussian, or leave the pass at low",
+                                  name_of(options.pass)));
+  }
   const double highest = options.highest_cutoff_upr();
   for (const double cutoff : {options.cutoff_upr, highest}) {
     if (positive(cutoff)) continue;

@@ -52,10 +52,10 @@ struct Sampling {
 
 /// Checks the cut-offs of a filter against the number of points measured.
 ///
-/// @return kBadOption for a cut-off that is not a positive number, a band whose limits are not in
-///         order, and a cut-off at or above half the number of points (nothing could be told
-///         apart); kSampling for fewer than 7 points per undulation, unless the options override
-///         it.
+/// @return kBadOption for a high pass or a band without a filter, a cut-off that is not a positive
+///         number, a band whose limits are not in order, and a cut-off at or above half the number
+///         of points (nothing could be told apart); kSampling for fewer than 7 points per
+///         undulation, unless the options override it.
 [[nodiscard]] core::Result<Sampling> check_sampling(std::size_t points,
                                                     const FilterOptions& options);
 

@@ -351,6 +351,9 @@ core::Result<void> conclude(const RotaryMeasurement& m, const RotaryOptions& opt
   study.table.curve = options.curve;
   study.table.reference_covariance = reference_covariance(m, study.reference);
   scale_uncertainties(study);
+  auto doubts = check_neighbours(study.stations, m.axis, m.reference_rad);
+  if (!doubts) return core::fail(doubts.error());
+  study.warnings = *std::move(doubts);
   const auto periodic = check_periodicity(study.stations);
   if (!periodic) return core::fail(periodic.error());
   study.periodicity_checked = *periodic;

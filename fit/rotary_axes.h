@@ -99,9 +99,10 @@ struct RotaryStudy {
 ///
 /// @return kMissingKey (no reference), kUnknownKey (ball), kRepeatedKey (station, ball), kBadOption
 ///         (axis not a unit vector, u not positive), kNotFinite, kPoseRange, kTooFewPoints and
-///         kCollinear (check_setup), kUnits, kSense (more than 0.1 rad of rotation left: sense or
-///         unit of the angles), kInconsistent (distances between balls drift, 0 and 360 deg
-///         differ), kRank (no station determined). O(stations * balls).
+///         kCollinear (check_setup), kUnits, kSense (more than 0.1 rad of rotation left, or another
+///         sense or unit of the angles fits better), kInconsistent (a station does not fit its
+///         neighbours, distances between balls drift, 0 and 360 deg differ), kRank (no station
+///         determined). O(stations * balls).
 /// Sources: CN105479268A (ball setups); B. K. P. Horn, J. Opt. Soc. Am. A 4 (1987); W. Baarda
 /// (1968) for redundancy numbers; ISO 230-1, ISO 230-7 for the names.
 [[nodiscard]] core::Result<RotaryStudy> identify_rotary_axis(const RotaryMeasurement& measurement,

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -126,21 +130,33 @@ std::string_view unit_hint(double ratio) {
   return "balls are confused or units are mixed";
 }
 
+constexpr double kRotationLimit = 0.1;    // rad
+constexpr double kNeighbourLimit = 1e-3;  // rad: no axis that is measured does so at one station
+constexpr double kNeighbourDoubt = 1e-4;  // rad: a wrong label, or a local error of the axis
+
+/// What a station turned from the reference.
+struct MeasuredTurn {
+  double angle_rad = 0.0;
+  Approach approach = Approach::kUnknown;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+};
+
 /// Rotation left when the true angle of each station is hypothesis(angle from the reference).
 template <class Hypothesis>
-double rotation_left(const std::vector<std::pair<double, Eigen::Matrix3d>>& turns,
-                     const RotaryAxis& axis, const Hypothesis& hypothesis) {
+double rotation_left(const std::vector<MeasuredTurn>& turns, const RotaryMeasurement& m,
+                     const Hypothesis& hypothesis) {
   double out = 0.0;
-  for (const auto& [angle, turn] : turns) {
-    out = std::max(out, rotation_vector(turn * axis.turn(hypothesis(angle)).transpose()).norm());
+  for (const MeasuredTurn& one : turns) {
+    const double angle = hypothesis(one.angle_rad - m.reference_rad);
+    out = std::max(out, rotation_vector(one.turn * m.axis.turn(angle).transpose()).norm());
   }
   return out;
 }
 
 /// Measured turn from the reference at each station that shows one.
-std::vector<std::pair<double, Eigen::Matrix3d>> measured_turns(
-    const RotaryMeasurement& m, std::span<const BallCentre> reference) {
-  std::vector<std::pair<double, Eigen::Matrix3d>> out;
+std::vector<MeasuredTurn> measured_turns(const RotaryMeasurement& m,
+                                         std::span<const BallCentre> reference) {
+  std::vector<MeasuredTurn> out;
   for (const RotaryPose& station : m.stations) {
     std::vector<Vector3d> from;
     std::vector<Vector3d> to;
@@ -149,7 +165,7 @@ std::vector<std::pair<double, Eigen::Matrix3d>> measured_turns(
       to.push_back(ball.centre_mm);
     }
     const auto found = rigid_registration(from, to);
-    if (found) out.emplace_back(station.angle_rad - m.reference_rad, found->motion.linear());
+    if (found) out.push_back({station.angle_rad, station.approach, found->motion.linear()});
   }
   return out;
 }
@@ -158,6 +174,127 @@ double upper_median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// Rotation about its own axis that a station has left.
+struct OwnTurn {
+  double angle_rad = 0.0;
+  Approach approach = Approach::kUnknown;
+  double left_rad = 0.0;
+  bool reference = false;
+};
+
+/// How far a station lies off the line through its neighbours, `skipped` not counted; at an end off
+/// the nearest one or the line through two, whichever is less.
+/// @param turns  By angle.
+double departure(const std::vector<OwnTurn>& turns, std::size_t i, std::size_t skipped) {
+  std::vector<const OwnTurn*> below;
+  std::vector<const OwnTurn*> above;
+  for (std::size_t k = i; k-- > 0 && below.size() < 2;) {
+    if (k != skipped) below.push_back(&turns[k]);
+  }
+  for (std::size_t k = i + 1; k < turns.size() && above.size() < 2; ++k) {
+    if (k != skipped) above.push_back(&turns[k]);
+  }
+  const auto off_line = [&](const OwnTurn& a, const OwnTurn& b) {
+    const double apart = b.angle_rad - a.angle_rad;
+    const double share =
+        std::abs(apart) > core::kSameAngle ? (turns[i].angle_rad - a.angle_rad) / apart : 0.5;
+    return turns[i].left_rad - a.left_rad - share * (b.left_rad - a.left_rad);
+  };
+  if (!below.empty() && !above.empty()) return off_line(*below[0], *above[0]);
+  const auto& side = below.empty() ? above : below;
+  if (side.empty()) return 0.0;
+  const double step = turns[i].left_rad - side[0]->left_rad;
+  if (side.size() < 2) return step;
+  const double line = off_line(*side[1], *side[0]);
+  return std::abs(line) < std::abs(step) ? line : step;
+}
+
+/// Departures of all but `skipped`.
+std::vector<double> departures(const std::vector<OwnTurn>& turns, std::size_t skipped) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    if (i != skipped) out.push_back(std::abs(departure(turns, i, skipped)));
+  }
+  return out;
+}
+
+/// The station beyond a limit without which the others fit each other best.
+std::optional<std::size_t> worst_fit(const std::vector<OwnTurn>& turns, double limit_rad) {
+  std::optional<std::size_t> out;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    if (std::abs(departure(turns, i, turns.size())) <= limit_rad) continue;
+    const auto others = departures(turns, i);
+    const double squares = std::inner_product(others.begin(), others.end(), others.begin(), 0.0);
+    if (squares >= least) continue;
+    least = squares;
+    out = i;
+  }
+  return out;
+}
+
+/// A station that does not fit its neighbours.
+struct Misfit {
+  OwnTurn turn;
+  double off_rad = 0.0;
+  double others_rad = 0.0;  ///< Greatest departure of those that fit.
+  double limit_rad = 0.0;
+};
+
+/// All stations, at most a third, that do not fit the others of their direction of approach: they
+/// are off by more than `least_rad` and five times the others, as coarse stations of an axis with
+/// large errors depart from each other, too.
+std::vector<Misfit> misfits(const std::vector<OwnTurn>& all, double reference_rad,
+                            double least_rad) {
+  const auto by_angle = [](const OwnTurn& a, const OwnTurn& b) {
+    return a.angle_rad < b.angle_rad;
+  };
+  std::vector<Misfit> out;
+  for (const Approach approach : {Approach::kUnknown, Approach::kForward, Approach::kBackward}) {
+    std::vector<OwnTurn> fitting;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(fitting),
+                 [&](const OwnTurn& one) { return one.approach == approach; });
+    if (fitting.size() < 2) continue;
+    fitting.push_back({reference_rad, approach, 0.0, true});
+    std::stable_sort(fitting.begin(), fitting.end(), by_angle);
+    std::vector<OwnTurn> left_out;
+    for (std::size_t most = fitting.size() / 3; most > 0; --most) {
+      const auto worst = worst_fit(fitting, least_rad);
+      if (!worst) break;
+      left_out.push_back(fitting[*worst]);
+      fitting.erase(fitting.begin() + static_cast<std::ptrdiff_t>(*worst));
+    }
+    const auto usual = departures(fitting, fitting.size());
+    const double others = *std::max_element(usual.begin(), usual.end());
+    const double limit = std::max(least_rad, 5.0 * others);
+    for (const OwnTurn& one : left_out) {
+      const auto place = std::upper_bound(fitting.begin(), fitting.end(), one, by_angle);
+      const auto index = static_cast<std::size_t>(place - fitting.begin());
+      auto with = fitting;
+      with.insert(with.begin() + static_cast<std::ptrdiff_t>(index), one);
+      const double off = departure(with, index, with.size());
+      if (std::abs(off) > limit) out.push_back({one, off, others, limit});
+    }
+  }
+  return out;
+}
+
+core::Error misfit_error(const std::vector<Misfit>& found, double reference_rad) {
+  std::string what;
+  for (const Misfit& one : found) {
+    if (!what.empty()) what += "; ";
+    const std::string name = one.turn.reference
+                                 ? fmt::format("the reference pose ({:g} deg)", deg(reference_rad))
+                                 : fmt::format("station {:g} deg", deg(one.turn.angle_rad));
+    what += fmt::format(
+        "{} does not fit its neighbours: {:.0f} urad about the axis beside {:.0f} "
+        "of the others, limit {:.0f}; a label of {:.4g} deg would fit",
+        name, one.off_rad * 1e6, one.others_rad * 1e6, one.limit_rad * 1e6,
+        deg(one.turn.angle_rad + one.off_rad));
+  }
+  return {Code::kInconsistent, what + ". Correct the angle, or measure there again", {}};
 }
 
 /// Changes of one distance against the reference, in the order of measurement.
@@ -249,21 +386,40 @@ core::Result<void> check_sizes(const RotaryMeasurement& measurement,
 
 core::Result<void> check_sense(const RotaryMeasurement& measurement,
                                std::span<const BallCentre> reference) {
-  constexpr double kLimit = 0.1;  // rad
   const auto turns = measured_turns(measurement, reference);
   const auto left = [&](const auto& hypothesis) {
-    return rotation_left(turns, measurement.axis, hypothesis);
+    return rotation_left(turns, measurement, hypothesis);
   };
   const double stated = left([](double a) { return a; });
-  if (stated <= kLimit) return {};
+  const double opposite = left([](double a) { return -a; });
+  const double from_degrees = left([](double a) { return a * core::kDegree; });
+  const double from_radians = left([](double a) { return a / core::kDegree; });
+  // Over a few degrees a wrong sense or unit leaves less than the limit, but far more than the
+  // right one.
+  const double best = std::min({opposite, from_degrees, from_radians});
+  const bool other_fits = stated > kNeighbourLimit && 10.0 * best < stated;
+  if (stated <= kRotationLimit && !other_fits) return {};
+  if (!other_fits) {
+    std::vector<OwnTurn> own;
+    for (const MeasuredTurn& one : turns) {
+      const double angle = one.angle_rad - measurement.reference_rad;
+      const Vector3d rest = rotation_vector(one.turn * measurement.axis.turn(angle).transpose());
+      own.push_back({one.angle_rad, one.approach, rest.dot(measurement.axis.direction)});
+    }
+    const auto found = misfits(own, measurement.reference_rad, kNeighbourLimit);
+    if (!found.empty()) return core::fail(misfit_error(found, measurement.reference_rad));
+  }
+  const std::string_view cure = !other_fits            ? "no other reading fits"
+                                : best == opposite     ? "turn the sign of the angles"
+                                : best == from_radians ? "the angles are in radians: give degrees"
+                                                       : "the angles are in degrees: give radians";
   return core::fail(
       Code::kSense,
-      fmt::format("the balls turned otherwise than stated: {:.3f} rad of rotation are left, limit "
-                  "{:g}. Hypotheses: angles in the opposite sense leave {:.3g} rad, degrees read "
-                  "for radians {:.3g} rad, radians read for degrees {:.3g} rad",
-                  stated, kLimit, left([](double a) { return -a; }),
-                  left([](double a) { return a * core::kDegree; }),
-                  left([](double a) { return a / core::kDegree; })));
+      fmt::format("the balls turned otherwise than stated: {:.3g} rad of rotation are left, limit "
+                  "{:g}, or ten times what another reading leaves. Hypotheses: angles in the "
+                  "opposite sense leave {:.3g} rad, degrees read for radians {:.3g} rad, radians "
+                  "read for degrees {:.3g} rad; {}",
+                  stated, kRotationLimit, opposite, from_degrees, from_radians, cure));
 }
 
 core::Result<void> check_distances(const RotaryMeasurement& measurement,
@@ -276,6 +432,23 @@ core::Result<void> check_distances(const RotaryMeasurement& measurement,
     }
   }
   return {};
+}
+
+core::Result<std::vector<core::Error>> check_neighbours(std::span<const RotaryStation> stations,
+                                                        const RotaryAxis& axis,
+                                                        double reference_rad) {
+  std::vector<OwnTurn> own;
+  for (const RotaryStation& station : stations) {
+    if (station.undetermined) continue;
+    own.push_back({station.angle_rad, station.approach, station.errors.w_rad.dot(axis.direction)});
+  }
+  const auto found = misfits(own, reference_rad, kNeighbourLimit);
+  if (!found.empty()) return core::fail(misfit_error(found, reference_rad));
+  auto doubted = misfits(own, reference_rad, kNeighbourDoubt);
+  // The reference may have been approached from the other side.
+  std::erase_if(doubted, [](const Misfit& one) { return one.turn.reference; });
+  if (doubted.empty()) return std::vector<core::Error>();
+  return std::vector<core::Error>{misfit_error(doubted, reference_rad)};
 }
 
 core::Result<bool> check_periodicity(std::span<const RotaryStation> stations) {

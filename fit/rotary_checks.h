@@ -17,8 +17,9 @@ namespace rondure::fit {
 [[nodiscard]] core::Result<void> check_sizes(const RotaryMeasurement& measurement,
                                              std::span<const BallCentre> reference);
 
-/// The body turned as stated: at most 0.1 rad of rotation are left at any station. If not, says
-/// what is left under the other hypotheses: opposite sense, degrees for radians.
+/// The body turned as stated: at most 0.1 rad of rotation are left at any station, and neither the
+/// opposite sense nor degrees for radians leave ten times less. If not, names the stations whose
+/// label is wrong where the others fit each other, or says what the other hypotheses leave.
 [[nodiscard]] core::Result<void> check_sense(const RotaryMeasurement& measurement,
                                              std::span<const BallCentre> reference);
 
@@ -27,6 +28,13 @@ namespace rondure::fit {
 /// drift.
 [[nodiscard]] core::Result<void> check_distances(const RotaryMeasurement& measurement,
                                                  std::span<const BallCentre> reference);
+
+/// No station lies more than 1 mrad about the axis, and five times what the others do, off the line
+/// through its neighbours; the reference pose is one of them. If one does, says which angle it
+/// should have been labelled with.
+/// @return A warning for stations beyond 0.1 mrad.
+[[nodiscard]] core::Result<std::vector<core::Error>> check_neighbours(
+    std::span<const RotaryStation> stations, const RotaryAxis& axis, double reference_rad);
 
 /// Stations whole turns apart, approached alike, agree within 4 standard uncertainties.
 /// @return Whether there were any.

@@ -82,13 +82,13 @@ core::Result<void> check_gap(RoundnessEvaluation& out) {
 
 /// The filtered profile of `measured`; without a filter the profile itself.
 core::Result<void> fill_filtered(RoundnessEvaluation& out) {
+  const auto sampling = check_sampling(out.measured.r_mm.size(), out.filter);
+  if (!sampling) return core::fail(sampling.error());
   if (out.filter.filter == ProfileFilter::kNone) {
     out.theta_rad = out.measured.theta_rad;
     out.r_mm = out.measured.r_mm;
     return {};
   }
-  const auto sampling = check_sampling(out.measured.r_mm.size(), out.filter);
-  if (!sampling) return core::fail(sampling.error());
   out.sampling = *sampling;
   if (auto checked = check_gap(out); !checked) return checked;
   if (out.sampling.overridden) {

@@ -114,16 +114,49 @@ Eigen::Vector2d combined(const WheelCenters& centers, WheelMean mean) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double weights = 0.0;
   for (const FourPointCenter& c : centers.accepted) {
-    const double weight = mean == WheelMean::kWeighted ? 1.0 / (c.kappa * c.kappa) : 1.0;
+    const double weight = mean == WheelMean::kAsPublished ? 1.0 : 1.0 / (c.kappa * c.kappa);
     sum += weight * (c.center_mm - origin);
     weights += weight;
   }
   return origin + sum / weights;
 }
 
+/// What a unit of noise along the radius of every point does to the mean of the quadruples' centres
+/// and to the mean distance from it, weights held. A point B of the chord AB moves its bisector by
+/// the radius, A by as much the other way: a . dS = +-R.
+CircleFactors quadruple_factors(const Points& used, const WheelMeasurement& m) {
+  std::vector<Eigen::Vector2d> moves(used.size(), Eigen::Vector2d::Zero());
+  double weights = 0.0;
+  for (const FourPointCenter& c : m.centers.accepted) {
+    const double weight = m.mean == WheelMean::kWeighted ? 1.0 / (c.kappa * c.kappa) : 1.0;
+    weights += weight;
+    const Eigen::Vector2d ab = used[c.rows[1]] - used[c.rows[0]];
+    const Eigen::Vector2d cd = used[c.rows[3]] - used[c.rows[2]];
+    const double scale = weight * m.radius_mm / (ab.x() * cd.y() - ab.y() * cd.x());
+    const Eigen::Vector2d by_ab(scale * cd.y(), -scale * cd.x());
+    const Eigen::Vector2d by_cd(-scale * ab.y(), scale * ab.x());
+    moves[c.rows[0]] -= by_ab;
+    moves[c.rows[1]] += by_ab;
+    moves[c.rows[2]] -= by_cd;
+    moves[c.rows[3]] += by_cd;
+  }
+  const auto n = static_cast<double>(used.size());
+  Eigen::Vector2d mean_direction = Eigen::Vector2d::Zero();
+  for (const auto& p : used) mean_direction += (p - m.center_mm).normalized() / n;
+  double center = 0.0;
+  double radius = 0.0;
+  for (const Eigen::Vector2d& move : moves) {
+    center += move.squaredNorm() / (weights * weights);
+    radius += std::pow(1.0 / n - mean_direction.dot(move) / weights, 2);
+  }
+  return {std::sqrt(center), std::sqrt(radius)};
+}
+
 /// Centre, radius and everything about them, from the points that are used.
 void fill_circle(const Points& used, WheelMeasurement& out) {
-  out.center_mm = combined(out.centers, out.mean);
+  const bool least_squares = out.mean == WheelMean::kLeastSquares;
+  out.quadruple_center_mm = combined(out.centers, out.mean);
+  out.center_mm = least_squares ? out.check.center_mm : out.quadruple_center_mm;
   const auto n = static_cast<double>(used.size());
   std::vector<double> distances;
   for (const auto& p : used) distances.push_back((p - out.center_mm).norm());
@@ -138,15 +171,17 @@ void fill_circle(const Points& used, WheelMeasurement& out) {
     squares += residuals.back() * residuals.back();
   }
   out.spread_mm = std::sqrt(squares / (n - 3.0));
-  out.factors = circle_factors(out.order.angles_rad);
+  out.factors = least_squares ? circle_factors(out.order.angles_rad) : quadruple_factors(used, out);
   out.correlation = correlation_time(residuals, out.order.closed());
-  out.radius_uncertainty_mm = out.spread_mm * out.factors.radius * std::sqrt(out.correlation);
+  const double one = out.spread_mm * std::sqrt(out.correlation);
+  out.center_uncertainty_mm = one * out.factors.center;
+  out.radius_uncertainty_mm = one * out.factors.radius;
 }
 
 void fill_scatter(WheelMeasurement& out) {
   double squares = 0.0;
   for (const FourPointCenter& c : out.centers.accepted) {
-    const double distance = (c.center_mm - out.center_mm).norm();
+    const double distance = (c.center_mm - out.quadruple_center_mm).norm();
     squares += distance * distance;
     out.farthest_center_mm = std::max(out.farthest_center_mm, distance);
   }
@@ -212,14 +247,15 @@ void warn(WheelMeasurement& out) {
                     "shows {:.2f} times in the centre and {:.2f} times in the radius",
                     coverage / core::kDegree, out.factors.center, out.factors.radius));
   }
-  const double apart = (out.center_mm - out.check.center_mm).norm();
+  const double apart = (out.quadruple_center_mm - out.check.center_mm).norm();
   const double limit = 3.0 * out.centers.rms_kappa() * out.spread_mm /
                            std::sqrt(static_cast<double>(out.centers.accepted.size())) +
                        1e-4;
   if (apart > limit) {
     add(core::Code::kCenterDisagrees,
-        fmt::format("the centre is {:.3f} um from the geometric least-squares centre, more than "
-                    "noise explains ({:.3f} um): take more or better spread points",
+        fmt::format("the mean of the quadruples is {:.3f} um from the geometric least-squares "
+                    "centre, more than noise explains ({:.3f} um): take more or better spread "
+                    "points",
                     apart / core::kMicrometre, limit / core::kMicrometre));
   }
   if (out.mode == WheelMode::kIndexed && !out.runout) {
@@ -234,16 +270,51 @@ void warn(WheelMeasurement& out) {
   }
 }
 
-/// Drops outliers from `rows` and `used`, and chooses the quadruples again where there were any.
-core::Result<void> make_robust(const OutlierOptions& options, const QuadrupleOptions& quadruples,
-                               std::vector<std::size_t>& rows, Points& used,
-                               WheelMeasurement& out) {
+core::Result<Outliers> outliers_of(const OutlierOptions& options,
+                                   const QuadrupleOptions& quadruples, const Points& used,
+                                   const WheelMeasurement& out) {
   // A chip spoils two or three of six centres and their median with them: all are asked.
   QuadrupleOptions every = quadruples;
   every.choice = QuadrupleChoice::kAll;
   const auto all = select_centers(used, out.check.radius_mm, every);
   if (!all) return core::fail(all.error());
-  const auto outliers = find_outliers(used, all->accepted, options);
+  return find_outliers(used, all->accepted, options);
+}
+
+/// Says which points the robust variant would drop; they stay.
+void name_outliers(const OutlierOptions& options, const QuadrupleOptions& quadruples,
+                   const Points& used, WheelMeasurement& out) {
+  constexpr std::size_t kNamed = 5;
+  const auto outliers = outliers_of(options, quadruples, used, out);
+  if (!outliers) {
+    if (outliers.error().code == core::Code::kOutliers) out.warnings.push_back(outliers.error());
+    return;
+  }
+  for (const core::Error& warning : outliers->warnings) {
+    if (warning.code == core::Code::kLocalForm) out.warnings.push_back(warning);
+  }
+  const std::vector<DroppedPoint>& gross = outliers->dropped;
+  if (gross.empty()) return;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(gross.size(), kNamed); ++i) {
+    names += fmt::format("{}{} ({:+.2f} um)", i > 0 ? ", " : "", gross[i].row,
+                         gross[i].deviation_mm / core::kMicrometre);
+  }
+  if (gross.size() > kNamed) names += fmt::format(" and {} more", gross.size() - kNamed);
+  out.warnings.push_back(
+      {core::Code::kOutliers,
+       fmt::format("{} of {} points lie more than {:g} scales of {:.2f} um off and count in centre "
+                   "and radius: {}, counted from 0; look at them, or take the robust variant",
+                   gross.size(), used.size(), options.scales,
+                   outliers->scale_mm / core::kMicrometre, names),
+       {}});
+}
+
+/// Drops outliers from `rows` and `used`, and chooses the quadruples again where there were any.
+core::Result<void> make_robust(const OutlierOptions& options, const QuadrupleOptions& quadruples,
+                               std::vector<std::size_t>& rows, Points& used,
+                               WheelMeasurement& out) {
+  const auto outliers = outliers_of(options, quadruples, used, out);
   if (!outliers) return core::fail(outliers.error());
   out.outlier_scale_mm = outliers->scale_mm;
   out.warnings = outliers->warnings;
@@ -269,7 +340,15 @@ std::string_view name_of(WheelMode mode) {
 }
 
 std::string_view name_of(WheelMean mean) {
-  return mean == WheelMean::kAsPublished ? "as-published" : "weighted";
+  switch (mean) {
+    case WheelMean::kLeastSquares:
+      return "least-squares";
+    case WheelMean::kAsPublished:
+      return "as-published";
+    case WheelMean::kWeighted:
+      return "weighted";
+  }
+  return "least-squares";
 }
 
 bool WheelMeasurement::sees_whole_turn() const {
@@ -300,6 +379,8 @@ core::Result<WheelMeasurement> measure_wheel(std::span<const Eigen::Vector2d> po
   if (options.robust) {
     auto done = make_robust(options.outliers, options.quadruples, rows, used, out);
     if (!done) return core::fail(done.error());
+  } else {
+    name_outliers(options.outliers, options.quadruples, used, out);
   }
   fill_circle(used, out);
   for (std::size_t& row : out.order.rows) row = rows[row];

@@ -27,20 +27,21 @@ enum class WheelMode {
 /// "indexed", "envelope".
 [[nodiscard]] std::string_view name_of(WheelMode mode);
 
-/// How the centres of the quadruples become one.
+/// Where the centre comes from.
 enum class WheelMean {
-  kAsPublished,  ///< Their mean: the "direct least squares" of the patent.
-  kWeighted,     ///< Weighted by 1/kappa^2.
+  kLeastSquares,  ///< Geometric least squares of all points.
+  kAsPublished,   ///< Mean of the centres of quadruples: the "direct least squares" of the patent.
+  kWeighted,      ///< The same, weighted by 1/kappa^2.
 };
-/// "as-published", "weighted".
+/// "least-squares", "as-published", "weighted".
 [[nodiscard]] std::string_view name_of(WheelMean mean);
 
 /// Settings of measure_wheel(). A value outside its range gives Code::kBadOption.
 struct WheelOptions {
   WheelMode mode = WheelMode::kIndexed;
-  WheelMean mean = WheelMean::kWeighted;
-  QuadrupleOptions quadruples;
-  bool robust = false;  ///< Drop isolated outliers first.
+  WheelMean mean = WheelMean::kLeastSquares;
+  QuadrupleOptions quadruples;  ///< With kLeastSquares only beside the centre, as an indicator.
+  bool robust = false;          ///< Drop isolated outliers first.
   OutlierOptions outliers;
   std::optional<Eigen::Vector2d> axis_mm;   ///< Spindle axis, from calibration or kEnvelope [mm].
   std::optional<double> nominal_radius_mm;  ///< R must be within 5 % of it.
@@ -65,23 +66,26 @@ struct WheelRunout {
 /// A grinding wheel's centre and radius.
 struct WheelMeasurement {
   WheelMode mode = WheelMode::kIndexed;
-  WheelMean mean = WheelMean::kWeighted;
+  WheelMean mean = WheelMean::kLeastSquares;
   std::size_t points = 0;  ///< Given, with those dropped.
   std::vector<DroppedPoint> dropped;
   double outlier_scale_mm = 0.0;                        ///< Of the robust variant; 0 without it.
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  ///< S
   double radius_mm = 0.0;                               ///< R, mean distance of the points from S.
-  double radius_uncertainty_mm = 0.0;                   ///< u(R), standard: s_r a_R sqrt(tau).
-  double spread_mm = 0.0;             ///< s_r, standard deviation of the distances, n - 3.
-  double deviation_mm = 0.0;          ///< PV of the distances: roundness about S, not run-out.
-  std::vector<double> deviations_mm;  ///< Distance from S minus R, of every given point.
-  AngularOrder order;                 ///< Of the points used, about S; rows of the given points.
-  CircleFactors factors;
-  double correlation = 1.0;           ///< tau
-  WheelCenters centers;               ///< Rows of the given points.
-  double center_scatter_mm = 0.0;     ///< s_c of the quadruple centres; an indicator only.
+  double center_uncertainty_mm = 0.0;  ///< u(S), both coordinates: s_r factors.center sqrt(tau).
+  double radius_uncertainty_mm = 0.0;  ///< u(R), standard: s_r factors.radius sqrt(tau).
+  double spread_mm = 0.0;              ///< s_r, standard deviation of the distances, n - 3.
+  double deviation_mm = 0.0;           ///< PV of the distances: roundness about S, not run-out.
+  std::vector<double> deviations_mm;   ///< Distance from S minus R, of every given point.
+  AngularOrder order;                  ///< Of the points used, about S; rows of the given points.
+  CircleFactors factors;               ///< Of the centre and radius that are given.
+  double correlation = 1.0;            ///< tau
+  WheelCenters centers;                ///< Rows of the given points.
+  /// Mean of their centres: plain with kAsPublished, else weighted.
+  Eigen::Vector2d quadruple_center_mm = Eigen::Vector2d::Zero();
+  double center_scatter_mm = 0.0;     ///< s_c about that mean; an indicator only.
   double expected_scatter_mm = 0.0;   ///< s_r rms(kappa): what noise alone gives.
-  double farthest_center_mm = 0.0;    ///< Of a quadruple centre from S.
+  double farthest_center_mm = 0.0;    ///< Of a quadruple centre from their mean.
   LsCircle check;                     ///< Geometric least squares of the same points.
   std::optional<MinZoneCircle> zone;  ///< Minimum-zone roundness.
   std::optional<WheelRunout> runout;  ///< kIndexed with an axis; absent otherwise.
@@ -96,8 +100,9 @@ struct WheelMeasurement {
   [[nodiscard]] std::optional<double> effective_radius_mm() const;
 };
 
-/// Measures a wheel from points of its edge: centres of quadruples by perpendicular bisectors, one
-/// centre of them, mean distance, spread, and run-out where the spindle axis is known.
+/// Measures a wheel from points of its edge: centre by least squares, or by perpendicular bisectors
+/// of quadruples, mean distance, spread, and run-out where the spindle axis is known. Without
+/// `robust` points beyond 5 scales count, and a warning names them.
 ///
 /// @param points_mm  n >= 8 points (x, z) of the wheel's plane [mm].
 /// @return kNotFinite (row), kTooFewPoints (fewer than 8 that are more than 1 um apart),

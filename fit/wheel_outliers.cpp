@@ -67,8 +67,8 @@ core::Result<void> check_count(const Outliers& out, std::size_t n) {
   if (dropped <= n / 4 && n - dropped >= kLeastLeft) return {};
   return core::fail(
       core::Code::kOutliers,
-      fmt::format("{} of {} points lie more than 5 scales of {:.2f} um off; at most {} may be "
-                  "dropped, and {} must stay: clean the wheel or measure without robust",
+      fmt::format("{} of {} points lie more than 5 scales of {:.2f} um off; at most {} could be "
+                  "dropped, and {} must stay: clean the wheel",
                   dropped, n, out.scale_mm / core::kMicrometre, n / 4, kLeastLeft));
 }
 

@@ -20,8 +20,8 @@ using core::Code;
 
 constexpr std::array<std::string_view, 3> kContourForms = {"contour-deviation", "contour-spread",
                                                            "harmonic-limits"};
-constexpr std::array<record::WantedColumn, 3> kAxes = {
-    {{"c_deg"}, {"c_error_deg"}, {"x_error_mm"}}};
+constexpr std::array<record::WantedColumn, 4> kAxes = {
+    {{"c_deg"}, {"c_error_deg"}, {"x_error_mm"}, {"d_cmd_mm", false}}};
 constexpr std::array<record::WantedColumn, 2> kGauge = {{{"angle_deg"}, {"deviation_um"}}};
 
 std::vector<SeriesFile> contour_files(const FeaturePlan& feature) {

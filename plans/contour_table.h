@@ -14,7 +14,8 @@ void describe(Visitor& v, ContourPartPlan& p) {
   v.text("axes", p.axes,
          {.required = true,
           .empty_allowed = false,
-          .meaning = "CSV of the control, columns c_deg,c_error_deg,x_error_mm; relative to the "
+          .meaning = "CSV of the control, columns c_deg,c_error_deg,x_error_mm, with d_cmd_mm "
+                     "(commanded X) to check crank, wheel and the zero of C; relative to the "
                      "plan."});
   v.text("pin", p.pin,
          {.required = true,

@@ -109,6 +109,11 @@ void check_surface(const GroundSurfacePlan& s, const Checker& checker) {
 void check_wheel(const FeaturePlan& feature, const std::string& where, Findings& findings) {
   const Checker checker{where, findings};
   check_axis(feature, checker);
+  if (feature.wheel->quadruples != "all" && feature.wheel->center == "least-squares") {
+    checker.contradiction("quadruples",
+                          "has no effect: the centre is that of least squares; remove it, or say "
+                          "center as-published or weighted");
+  }
   if (feature.wheel->surface) check_surface(*feature.wheel->surface, checker);
 }
 

@@ -36,8 +36,8 @@ struct WheelPlan {
   std::optional<double> nominal_radius_mm;
   std::optional<double> axis_x_mm;  ///< Both or none.
   std::optional<double> axis_z_mm;
-  std::string center = "weighted";  ///< "weighted", "as-published".
-  std::string quadruples = "all";   ///< "all", "best", "random".
+  std::string center = "least-squares";  ///< "least-squares", "as-published", "weighted".
+  std::string quadruples = "all";        ///< "all", "best", "random".
   int count = 6;
   std::optional<double> kappa_limit;
   std::string robust = "off";         ///< "off", "on".

@@ -101,9 +101,9 @@ void describe(Visitor& v, WheelPlan& p) {
            wheel_specs::place_mm("Spindle axis, from calibration; run-out needs it."));
   v.number("axis_z_mm", p.axis_z_mm, wheel_specs::place_mm("The same, z."));
   v.text("center", p.center,
-         {.one_of = {"weighted", "as-published"},
-          .meaning = "How centres of quadruples become one: weighted by conditioning, or their "
-                     "plain mean as published."});
+         {.one_of = {"least-squares", "as-published", "weighted"},
+          .meaning = "least-squares: of all points. as-published: plain mean of the centres of "
+                     "quadruples; weighted: the same, by conditioning."});
   v.text("quadruples", p.quadruples,
          {.one_of = {"all", "best", "random"},
           .meaning = "all; best: the `count` best conditioned; random: as published."});

@@ -52,14 +52,16 @@ Json gauge_json(const fit::MeasuredContour& measured) {
 }
 
 Json part_json(const fit::ContourPartResult& part, const std::string& name) {
-  Json out = {
-      {"name", name},
-      {"axes", {{"samples_per_turn", part.axes.samples_per_turn}, {"turns", part.axes.turns}}},
-      {"regularity", part.ground.regularity},
-      {"undercut", part.ground.undercut},
-      {"total", gauge_json(part.pin)},
-      {"following", contour_json(part.following)},
-      {"rest", curve_json(part.direct.rest_mm)}};
+  Json out = {{"name", name},
+              {"axes",
+               {{"samples_per_turn", part.axes.samples_per_turn},
+                {"turns", part.axes.turns},
+                {"stroke_checked", !part.axes.x_mm.empty()}}},
+              {"regularity", part.ground.regularity},
+              {"undercut", part.ground.undercut},
+              {"total", gauge_json(part.pin)},
+              {"following", contour_json(part.following)},
+              {"rest", curve_json(part.direct.rest_mm)}};
   out["main"] = part.main ? gauge_json(*part.main) : Json(nullptr);
   out["balance_um2"] = {{"total", in_um2(part.direct.total_mm2)},
                         {"following", in_um2(part.direct.following_mm2)},
@@ -188,6 +190,7 @@ Json contour_document(const fit::ContourStudy& study, const fit::ContourStudyOpt
       {"x_error", repeatability_json(study.x_error, um, "um", limits)}};
   out["amplitude_ratio_following_rest"] = study.amplitude_ratio;
   out["diagnosis"] = {{"correlation_offset_deg", in_deg(study.offset.angle_rad)},
+                      {"correlation_offset_u_deg", in_deg(study.offset.u_rad)},
                       {"correlation_total_following", study.sense.as_given},
                       {"correlation_total_mirrored_following", study.sense.mirrored}};
   out["verdicts"] = contour_verdicts(study, limits);

@@ -74,7 +74,7 @@ std::vector<fit::ContourPart> parts_of(const record::RunRecord& record, int inde
     if (axes == nullptr || pin == nullptr) return out;
     fit::ContourPart part;
     part.trace = {scaled(*axes, "c_deg", kDegree), scaled(*axes, "c_error_deg", kDegree),
-                  scaled(*axes, "x_error_mm", 1.0)};
+                  scaled(*axes, "x_error_mm", 1.0), scaled(*axes, "d_cmd_mm", 1.0)};
     part.pin = gauge_of(*pin);
     const auto* const main = record.data_of(index, fmt::format("main {}", i));
     if (main != nullptr) part.main = gauge_of(*main);

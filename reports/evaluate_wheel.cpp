@@ -19,7 +19,9 @@ using core::kMicrometre;
 fit::WheelOptions wheel_options(const record::Feature& feature, std::uint64_t seed) {
   fit::WheelOptions out;
   if (feature.word("mode") == "envelope") out.mode = fit::WheelMode::kEnvelope;
-  if (feature.word("center") == "as-published") out.mean = fit::WheelMean::kAsPublished;
+  for (const auto mean : {fit::WheelMean::kAsPublished, fit::WheelMean::kWeighted}) {
+    if (feature.word("center") == fit::name_of(mean)) out.mean = mean;
+  }
   if (feature.word("quadruples") == "best") out.quadruples.choice = fit::QuadrupleChoice::kBest;
   if (feature.word("quadruples") == "random") {
     out.quadruples.choice = fit::QuadrupleChoice::kRandom;
@@ -186,8 +188,10 @@ ValueOperator WheelResult::operator_of(const record::Characteristic& characteris
   if (characteristic.form == record::Form::kRunOut) {
     reference = "full indicator movement about the given axis";
   } else if (characteristic.form != record::Form::kRoundness) {
-    reference = fmt::format("mean distance from the centre ({} mean of {} quadruples)",
-                            fit::name_of(m.mean), m.centers.accepted.size());
+    reference = m.mean == fit::WheelMean::kLeastSquares
+                    ? "mean distance from the least-squares centre"
+                    : fmt::format("mean distance from the centre ({} mean of {} quadruples)",
+                                  fit::name_of(m.mean), m.centers.accepted.size());
   }
   return {ReferenceTerm(reference), FilterTerm(filter_text()), SamplingTerm(points),
           TipTerm("points as given"), TemperatureTerm("temperature not recorded")};

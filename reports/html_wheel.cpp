@@ -24,9 +24,13 @@ std::string radius_entries(const WheelFacts& facts) {
             "lead");
   html += entry(
       tr("Centre (x, z)"),
-      with_note(
-          fmt::format("{}, {} mm", fixed(m.center_mm.x(), 6), fixed(m.center_mm.y(), 6)),
-          trf("{} mean of {} quadruples", tr(fit::name_of(m.mean)), m.centers.accepted.size())));
+      with_note(fmt::format("{}, {} mm", fixed(m.center_mm.x(), 6), fixed(m.center_mm.y(), 6)),
+                fmt::format("{}, u {} µm",
+                            m.mean == fit::WheelMean::kLeastSquares
+                                ? tr("least squares")
+                                : trf("{} mean of {} quadruples", tr(fit::name_of(m.mean)),
+                                      m.centers.accepted.size()),
+                            um(m.center_uncertainty_mm))));
   html += entry(
       tr("Distances"),
       with_note(fmt::format("PV {} µm", um(m.deviation_mm)),
@@ -64,7 +68,10 @@ std::string center_entries(const fit::WheelMeasurement& m) {
                               fixed(c.best_kappa(), 2), fixed(c.worst_kappa(), 2))));
   html += entry(tr("Quadruples refused"), trf("{} short chords, {} parallel, {} ill-conditioned",
                                               c.short_chord, c.parallel_chords, c.ill_conditioned));
-  const double apart = (m.center_mm - m.check.center_mm).norm();
+  const double apart = (m.quadruple_center_mm - m.check.center_mm).norm();
+  if (m.mean == fit::WheelMean::kLeastSquares) {
+    return html + entry(tr("Check: mean of the quadruples"), trf("centre {} µm apart", um(apart)));
+  }
   return html + entry(tr("Check: least squares"),
                       with_note(fmt::format("R {} mm", fixed(m.check.radius_mm, 6)),
                                 trf("centre {} µm apart", um(apart))));

@@ -83,6 +83,8 @@ constexpr Translation kAnalysisTexts[] = {
     {"Quadruples refused", "舍弃的四点组"},
     {"{} short chords, {} parallel, {} ill-conditioned", "短弦 {}，平行 {}，病态 {}"},
     {"Check: least squares", "核对：最小二乘"},
+    {"Check: mean of the quadruples", "核对：四点组均值"},
+    {"least squares", "最小二乘"},
     {"centre {} µm apart", "圆心相距 {} µm"},
     {"The surface is nowhere hollow.", "表面无凹处。"},
     {"R k<sub>s</sub> reaches {} at x = {} mm, where the concave radius is {} mm; at 1 the wheel "
@@ -118,10 +120,10 @@ constexpr Translation kAnalysisTexts[] = {
     {"Edge of the wheel: deviations about the mean circle", "砂轮边缘：相对平均圆的偏差"},
     {"Deviations about the mean circle, magnified {}×; the line guides the eye only. Orange and "
      "blue: farthest and nearest point. In the middle, magnified alike: centres of the quadruples "
-     "(grey), their mean (cross){}{}.",
+     "(grey), the centre (cross){}{}.",
      "相对平均圆的偏差，放大 {} "
      "倍；连线仅为引导视线。橙色和蓝色：最远点和最近点。中部按同一倍数放大：各四点组的圆心（灰色）"
-     "及其均值（十字）{}{}。"},
+     "及圆心（十字）{}{}。"},
     {", the spindle axis (orange; drawn at the edge when farther off)",
      "，主轴轴线（橙色；超出时画在边缘）"},
     {"; crosses on the edge: dropped points", "；边缘上的叉号：剔除的点"},

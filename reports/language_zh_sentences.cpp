@@ -143,6 +143,7 @@ constexpr Translation kSentenceTexts[] = {
      "最大 {}，位于第 {} 次谐波；轮廓可知到 {} um（均方根，一倍标准不确定度）"},
     {"profile_peak_to_valley_um", "轮廓峰谷值 (um)"},
     // Wheel
+    {"mean distance from the least-squares centre", "到最小二乘圆心的平均距离"},
     {"mean distance from the centre ({} mean of {} quadruples)",
      "到圆心的平均距离（{1} 组四点的{0}均值）"},
     {"full indicator movement about the given axis", "相对给定轴线的全跳动读数 (FIM)"},

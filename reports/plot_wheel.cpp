@@ -218,7 +218,7 @@ std::string wheel_edge_plot(const fit::WheelMeasurement& wheel,
       "<figure>{}<figcaption>{}</figcaption></figure>", svg.str(),
       trf("Deviations about the mean circle, magnified {}×; the line guides the eye only. Orange "
           "and blue: farthest and nearest point. In the middle, magnified alike: centres of the "
-          "quadruples (grey), their mean (cross){}{}.",
+          "quadruples (grey), the centre (cross){}{}.",
           fixed(view.px_per_mm * wheel.radius_mm / kEdgeMean, 0),
           wheel.runout ? tr(", the spindle axis (orange; drawn at the edge when farther off)")
                        : std::string(),

@@ -12,6 +12,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/units.h"
+#include "fit/crank_motion.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 
@@ -126,9 +128,10 @@ TEST_F(ContourVerb, TakesPositionsInPlaceOfErrors) {
     const auto a = line.find(',');
     const auto b = line.find(',', a + 1);
     const double c = std::stod(line.substr(0, a));
-    text += line.substr(0, a) + ",300," +
-            std::to_string(c + std::stod(line.substr(a + 1, b - a - 1))) + "," +
-            std::to_string(300.0 + std::stod(line.substr(b + 1))) + "\n";
+    const double x = fit::wheel_position_mm({}, c * core::kDegree);
+    text += fmt::format("{},{:.6f},{:.6f},{:.6f}\n", line.substr(0, a), x,
+                        c + std::stod(line.substr(a + 1, b - a - 1)),
+                        x + std::stod(line.substr(b + 1)));
   }
   write(folder_ / "positions.csv", text);
   const auto out =
@@ -137,6 +140,11 @@ TEST_F(ContourVerb, TakesPositionsInPlaceOfErrors) {
   const auto document = nlohmann::json::parse(out.out);
   EXPECT_NEAR(document["parts"][0]["following"]["pv_um"], 7.0430, 5e-3);  // six decimals of a mm
   EXPECT_EQ(document["settings"]["error_sign"], 1);
+  EXPECT_EQ(document["parts"][0]["axes"]["stroke_checked"], true);
+  const auto other = with_axes((folder_ / "positions.csv").string(), {"--crank-radius-mm", "45"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("They fit a crank radius of 49.000 mm (stated 45)"));
+  EXPECT_THAT(with_axes(one("axes")).out, HasSubstr("stroke-unchecked"));
 }
 
 TEST_F(ContourVerb, WritesTheCurves) {

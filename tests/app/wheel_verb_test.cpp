@@ -45,7 +45,9 @@ TEST(WheelVerb, GivesTheNumbersOfTheWorkedExamplesAsJson) {
   const auto two = fit_wheel({kExample2, "--mode", "indexed", "--robust", "--json"});
   ASSERT_EQ(two.status, 0) << two.err;
   const auto robust = nlohmann::json::parse(two.out);
-  EXPECT_NEAR(robust["radius_mm"], 75.012473, 1.1e-6);
+  EXPECT_EQ(robust["center_by"], "least-squares");
+  EXPECT_NEAR(robust["center_mm"][0], 0.500655, 1.1e-6);
+  EXPECT_NEAR(robust["radius_mm"], 75.012471, 1.1e-6);
   EXPECT_EQ(robust["dropped"][0]["row"], 4);
   EXPECT_TRUE(robust["runout"].is_null());
   EXPECT_NE(robust["runout_absent"], "");
@@ -130,6 +132,7 @@ TEST(WheelVerb, NamesWhatIsWrongWithTheInput) {
   const std::string good = read(kExample1);
   EXPECT_THAT(said(good, {"--nominal-radius-mm", "60"}), HasSubstr("[out-of-range]"));
   EXPECT_THAT(said(good, {"--path", "p.csv"}), HasSubstr("need --surface"));
+  EXPECT_THAT(said(good, {"--quadruples", "best"}), HasSubstr("add --center as-published"));
   EXPECT_THAT(said(good, {"--surface", "asphere:R=abc"}), HasSubstr("R is \"abc\""));
   EXPECT_THAT(said(good, {"--surface", "asphere:Q=3"}), HasSubstr("there is \"Q=3\""));
   EXPECT_THAT(said(good, {"--surface", "sphere:3"}), HasSubstr("are known"));

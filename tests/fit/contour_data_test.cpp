@@ -18,11 +18,12 @@ namespace {
 using core::kDegree;
 using core::kMicrometre;
 
-double worst_x_error(const AxisTurn& turn) {
+/// @param sense  -1: the errors lie over -alpha.
+double worst_x_error(const AxisTurn& turn, double sense = 1.0) {
   double out = 0.0;
   const std::size_t n = turn.errors.x_mm.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const double expected = test::spec_x_um(test::turn_angle(i, n)) * kMicrometre;
+    const double expected = test::spec_x_um(sense * test::turn_angle(i, n)) * kMicrometre;
     out = std::max(out, std::abs(turn.errors.x_mm[i] - expected));
   }
   return out;
@@ -51,6 +52,29 @@ TEST(AxisTrace, TakesTheLastTurn) {
   auto trace = test::spec_trace(300, 3.5, 0.5);
   for (std::size_t i = 0; i < 400; ++i) trace.x_error_mm[i] += 0.05;
   EXPECT_LT(worst_x_error(last_turn(trace).value()), 2e-3 * kMicrometre);
+}
+
+TEST(AxisTrace, TakesTheTurnRecordedLastInEitherDirection) {
+  for (const double turns : {1.0, 2.0, 2.7, 3.0}) {
+    for (const double start : {0.0, 0.1, 2.0}) {
+      for (const bool falling : {false, true}) {
+        for (const int direction : {1, -1}) {
+          SCOPED_TRACE(testing::Message() << turns << " turns from " << start << ", direction "
+                                          << direction << (falling ? ", C falls" : ""));
+          auto trace = test::spec_trace(300, turns, start);
+          if (falling) {
+            for (double& c : trace.c_rad) c = -c;
+          }
+          // The last whole turn from 0 lies in these rows.
+          const std::size_t last = start == 0.0 && turns == std::floor(turns) ? 300 : 600;
+          for (std::size_t i = 0; i + last < trace.c_rad.size(); ++i) trace.x_error_mm[i] += 0.05;
+          const auto turn = last_turn(trace, {.c_direction = direction});
+          ASSERT_TRUE(turn) << turn.error().what;
+          EXPECT_LT(worst_x_error(*turn, falling ? -direction : direction), 2e-3 * kMicrometre);
+        }
+      }
+    }
+  }
 }
 
 TEST(AxisTrace, ReadsATraceThatRunsBackwards) {

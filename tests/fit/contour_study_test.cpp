@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -320,6 +322,86 @@ TEST(ContourStudy, WarnsOfAMirroredSenseWithItsEvidence) {
   auto options = spec_options();
   options.gauge_direction = -1;
   EXPECT_FALSE(contour_study(parts, options).value().sense.sense_suspect());
+}
+
+/// Positions of X as an axis records them that grinds another crank, with another zero.
+void add_positions(AxisTrace& trace, const CrankGeometry& geometry, double zero_rad) {
+  for (const double c : trace.c_rad) {
+    trace.x_mm.push_back(wheel_position_mm(geometry, c - zero_rad) + 12.0);
+  }
+}
+
+TEST(ContourStudy, RefusesPositionsThatContradictCrankWheelOrZero) {
+  struct Case {
+    CrankGeometry geometry;
+    double zero_deg;
+    std::string named;
+  };
+  for (const Case& wrong : {Case{{45.0, 299.88, 24.56}, 0.0, "crank radius of 45.000 mm"},
+                            Case{{49.0, 200.0, 24.56}, 0.0, "pin radii of 22"},
+                            Case{{49.0, 299.88, 24.56}, 0.1, "C turned by 0.10 deg"}}) {
+    SCOPED_TRACE(wrong.named);
+    auto parts = spec_parts();
+    for (ContourPart& part : parts) {
+      add_positions(part.trace, wrong.geometry, wrong.zero_deg * kDegree);
+    }
+    const auto refused = contour_study(parts, spec_options());
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, core::Code::kInconsistent);
+    EXPECT_EQ(refused.error().where, "parts/0/axes");
+    EXPECT_NE(refused.error().what.find(wrong.named), std::string::npos) << refused.error().what;
+  }
+  auto parts = spec_parts();
+  for (ContourPart& part : parts) add_positions(part.trace, CrankGeometry{}, 0.0);
+  EXPECT_TRUE(contour_study(parts, spec_options()));
+}
+
+/// One pin whose axis errors and rest are random; the gauge stands `turned_rad` beside its zero.
+ContourStudy random_pin(std::uint64_t seed, double rest_share, double turned_rad) {
+  ContourPart part;
+  const auto errors = test::random_errors(seed, 1440);
+  for (std::size_t i = 0; i < 1440; ++i) part.trace.c_rad.push_back(test::turn_angle(i, 1440));
+  part.trace.c_error_rad = errors.c_rad;
+  part.trace.x_error_mm = errors.x_mm;
+  auto r = ground_contour(CrankGeometry{}, errors).value().r_mm;
+  for (double& v : r) v -= 24.56;
+  const auto following = contour_error(r, 24.56).value();
+  core::KeyedNoise noise(seed, {48});
+  std::vector<double> rest(kPoints);
+  for (int k = 2; k < 8; ++k) {
+    const double amplitude = noise.normal();
+    const double phase = core::kTwoPi * noise.uniform();
+    for (std::size_t m = 0; m < kPoints; ++m) {
+      rest[m] += amplitude * std::cos(k * test::turn_angle(m, kPoints) - phase);
+    }
+  }
+  const double scale = rest_share * following.rms_mm / rms_of(rest);
+  for (double& v : rest) v *= scale;
+  part.pin = rows_of(turned_curve(sum(following.error_mm, rest), turned_rad));
+  ContourStudyOptions options;
+  options.prefiltered = true;
+  return contour_study({{part}}, options).value();
+}
+
+TEST(ContourStudy, DoubtsTheAlignmentOnlyBeyondWhatTheRestExplains) {
+  int turned_far = 0;
+  int aligned_doubted = 0;
+  int turned_doubted = 0;
+  for (std::uint64_t seed = 1; seed <= 33; ++seed) {
+    const auto doubted = [](const ContourStudy& study) {
+      return std::any_of(study.warnings.begin(), study.warnings.end(),
+                         [](const auto& w) { return w.code == core::Code::kAlignment; });
+    };
+    const auto aligned = random_pin(seed, 1.5, 0.0);
+    turned_far += std::abs(aligned.offset.angle_rad) > 2.0 * kDegree ? 1 : 0;
+    aligned_doubted += doubted(aligned) ? 1 : 0;
+    turned_doubted += doubted(random_pin(seed, 0.1, 5.0 * kDegree)) ? 1 : 0;
+  }
+  std::printf("33 aligned pins: correlation beyond 2 deg %d, doubted %d; turned by 5 deg: %d\n",
+              turned_far, aligned_doubted, turned_doubted);
+  EXPECT_GT(turned_far, 10);
+  EXPECT_LE(aligned_doubted, 1);
+  EXPECT_GE(turned_doubted, 30);
 }
 
 TEST(ContourStudy, CDirectionMirrorsTheFollowingPart) {

@@ -297,6 +297,16 @@ TEST(ProfileFilter, RefusesCutOffsThatMeanNothing) {
   EXPECT_EQ(empty.error().code, core::Code::kBadOption);
 }
 
+TEST(ProfileFilter, RefusesAHighPassWithoutAFilter) {
+  const Profile r = rough_profile(17, 100);
+  EXPECT_TRUE(filter_closed(r, {ProfileFilter::kNone, PassBand::kLow}));
+  for (const PassBand pass : {PassBand::kHigh, PassBand::kBand}) {
+    const auto out = filter_closed(r, {ProfileFilter::kNone, pass});
+    ASSERT_FALSE(out.has_value());
+    EXPECT_EQ(out.error().code, core::Code::kBadOption);
+  }
+}
+
 TEST(ProfileFilter, NamesTheRowThatIsNotANumber) {
   Profile r = rough_profile(18, 400);
   r[17] = std::numeric_limits<double>::quiet_NaN();

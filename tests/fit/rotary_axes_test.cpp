@@ -7,7 +7,9 @@
 #include <cstdio>
 #include <limits>
 #include <numeric>
+#include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
@@ -1211,6 +1213,54 @@ TEST(RotaryAxes, SaysWhenTheAnglesHaveTheWrongSenseOrUnit) {
   m = good();
   for (RotaryPose& pose : m.stations) pose.angle_rad *= kDegree;
   EXPECT_THAT(refusal(m).what, HasSubstr("radians read for degrees 0.000"));
+}
+
+TEST(RotaryAxes, NamesTheStationWhoseLabelIsWrong) {
+  for (std::size_t station = 0; station < 13; ++station) {
+    for (const double off_deg : {0.1, -1.0, 9.0}) {
+      SCOPED_TRACE(::testing::Message() << station << ", " << off_deg << " deg");
+      auto m = good();
+      RotaryPose& wrong = m.stations[station];
+      const double true_deg = wrong.angle_rad / kDegree;
+      wrong.angle_rad += off_deg * kDegree;
+      const auto refused = refusal(m);
+      EXPECT_EQ(refused.code, Code::kInconsistent);
+      EXPECT_THAT(refused.what, ::testing::StartsWith(fmt::format("station {:g} deg does not fit",
+                                                                  wrong.angle_rad / kDegree)));
+      const auto at = refused.what.find("a label of ");
+      ASSERT_NE(at, std::string::npos) << refused.what;
+      EXPECT_NEAR(std::stod(refused.what.substr(at + 11)), true_deg, 0.02);
+      EXPECT_EQ(refused.what.find("station", 5), std::string::npos) << refused.what;
+    }
+  }
+  auto m = good();  // too little to be told from a local error
+  m.stations[4].angle_rad += 0.02 * kDegree;
+  const auto doubted = identify_rotary_axis(m);
+  ASSERT_TRUE(doubted) << doubted.error().what;
+  ASSERT_EQ(doubted->warnings.size(), 1U);
+  EXPECT_THAT(doubted->warnings[0].what, HasSubstr("station -29.98 deg does not fit"));
+  EXPECT_TRUE(identify_rotary_axis(good())->warnings.empty());
+  m = good();  // two of them
+  m.stations[3].angle_rad += 1.0 * kDegree;
+  m.stations[9].angle_rad -= 2.0 * kDegree;
+  EXPECT_THAT(refusal(m).what, HasSubstr("station -44 deg"));
+  EXPECT_THAT(refusal(m).what, HasSubstr("station 43 deg"));
+  m = good();  // all of them: counted from another zero than the reference
+  for (RotaryPose& pose : m.stations) pose.angle_rad += 1.0 * kDegree;
+  EXPECT_THAT(refusal(m).what, HasSubstr("the reference pose (0 deg) does not fit"));
+}
+
+TEST(RotaryAxes, RecognisesSenseAndRadiansOverAFewDegrees) {
+  const auto narrow = [](double factor) {
+    auto m = measured(kA, five_balls(), angles_deg(-2, 2, 9), fixture_errors, {.seed = 1});
+    for (RotaryPose& pose : m.stations) pose.angle_rad *= factor;
+    return m;
+  };
+  ASSERT_TRUE(identify_rotary_axis(narrow(1.0)));
+  EXPECT_EQ(refusal(narrow(kDegree)).code, Code::kSense);
+  EXPECT_THAT(refusal(narrow(kDegree)).what, HasSubstr("in radians: give degrees"));
+  EXPECT_EQ(refusal(narrow(-1.0)).code, Code::kSense);
+  EXPECT_THAT(refusal(narrow(-1.0)).what, HasSubstr("turn the sign"));
 }
 
 TEST(RotaryAxes, RefusesBallsThatMoveOrGrow) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -378,6 +379,76 @@ TEST(Wheel, FindsAnExactCircleExactlyAndHoldsItsUncertainty) {
   EXPECT_LT(inside, runs * 995 / 1000);
 }
 
+/// Root mean squares of the errors of centre and radius over their stated uncertainties.
+struct Stated {
+  double center = 0.0;
+  double radius = 0.0;
+};
+
+Stated stated(std::size_t n, double arc_deg, WheelOptions options, int runs) {
+  options.minimum_zone = false;
+  Stated out;
+  for (int run = 0; run < runs; ++run) {
+    const auto seed = static_cast<std::uint64_t>(run);
+    options.quadruples.seed = 9000 + seed;
+    const auto m = measure_wheel(arc_points(n, arc_deg, 50.0, 2e-3, 900 + seed), options);
+    if (!m) {
+      ADD_FAILURE() << m.error().what;
+      return {};
+    }
+    out.center += std::pow(m->center_mm.norm() / m->center_uncertainty_mm, 2) / runs;
+    out.radius += std::pow((m->radius_mm - 50.0) / m->radius_uncertainty_mm, 2) / runs;
+  }
+  return {std::sqrt(out.center), std::sqrt(out.radius)};
+}
+
+TEST(Wheel, StatesTheUncertaintyOfTheCentreItGives) {
+  struct Row {
+    std::size_t points;
+    WheelMean mean;
+    QuadrupleChoice choice;
+  };
+  using Choice = QuadrupleChoice;
+  for (const Row& row :
+       {Row{16, WheelMean::kLeastSquares, Choice::kAll},
+        Row{100, WheelMean::kLeastSquares, Choice::kAll},
+        Row{20000, WheelMean::kLeastSquares, Choice::kAll},
+        Row{16, WheelMean::kWeighted, Choice::kAll}, Row{20000, WheelMean::kWeighted, Choice::kAll},
+        Row{16, WheelMean::kAsPublished, Choice::kBest},
+        Row{2000, WheelMean::kAsPublished, Choice::kAll}}) {
+    for (const double arc_deg : {360.0, 120.0}) {
+      SCOPED_TRACE(::testing::Message() << row.points << " points, " << arc_deg << " deg, "
+                                        << name_of(row.mean) << ", " << name_of(row.choice));
+      WheelOptions options = plain(row.mean);
+      options.quadruples.choice = row.choice;
+      const Stated found = stated(row.points, arc_deg, options, row.points > 1000 ? 60 : 600);
+      const double slack = row.points > 1000 ? 0.25 : 0.15;
+      std::printf("%6zu points, %3.0f deg, %s, %s: centre %.2f, radius %.2f\n", row.points, arc_deg,
+                  std::string(name_of(row.mean)).c_str(), std::string(name_of(row.choice)).c_str(),
+                  found.center, found.radius);
+      EXPECT_NEAR(found.center, 1.0, slack);
+      EXPECT_NEAR(found.radius, 1.0, slack);
+    }
+  }
+}
+
+TEST(Wheel, NamesGrossPointsThatItKeeps) {
+  const auto m = measure_wheel(example_2(), {});
+  ASSERT_TRUE(m) << m.error().what;
+  EXPECT_TRUE(m->dropped.empty());
+  const auto found = std::find_if(m->warnings.begin(), m->warnings.end(), [](const core::Error& w) {
+    return w.code == core::Code::kOutliers;
+  });
+  ASSERT_NE(found, m->warnings.end());
+  EXPECT_THAT(found->what, HasSubstr("1 of 12 points"));
+  EXPECT_THAT(found->what, HasSubstr("4 (+53."));
+  EXPECT_FALSE(warned(*measure_wheel(example_1(), {}), core::Code::kOutliers));
+  Points2 many = arc_points(9, 360.0, 50.0, 5e-4, 2);
+  many[0] *= 1.002;
+  many[4] *= 1.002;
+  EXPECT_TRUE(warned(*measure_wheel(many, {}), core::Code::kOutliers));
+}
+
 TEST(Wheel, KeepsAWornSectorAndDropsALoneChip) {
   Points2 points = arc_points(36, 360.0, 50.0, 1e-3, 9);
   for (std::size_t i = 10; i < 15; ++i) points[i] *= (50.0 - 0.03) / 50.0;
@@ -462,8 +533,8 @@ TEST(Wheel, RefusesTooManyOutliers) {
 
 TEST(Wheel, TakesFiveThousandDrawnQuadruplesOfManyPoints) {
   const auto points = arc_points(200, 300.0, 80.0, 2e-3, 4);
-  const auto a = measure_wheel(points, {});
-  const auto b = measure_wheel(points, {});
+  const auto a = measure_wheel(points, plain(WheelMean::kWeighted));
+  const auto b = measure_wheel(points, plain(WheelMean::kWeighted));
   ASSERT_TRUE(a && b);
   const auto& c = a->centers;
   EXPECT_EQ(c.accepted.size() + c.short_chord + c.parallel_chords + c.ill_conditioned, 5000U);
