@@ -41,12 +41,24 @@ core::Result<void> check_options(const ThreeProbeOptions& options) {
   return {};
 }
 
+/// Of the weighted sum of the mean revolution. What it gains from one revolution to the next is
+/// drift of a probe, or a part that grows: a ramp in time, as the work angle, that would stand in
+/// every harmonic.
 Spectrum weighted_spectrum(const ProbeSamples& samples, const ProbeLayout& layout) {
   const auto& w = layout.weights();
   std::vector<double> sum(samples.count);
-  for (std::size_t n = 0; n < samples.count; ++n) {
-    sum[n] = samples.mean_mm[0][n] + w[1] * samples.mean_mm[1][n] + w[2] * samples.mean_mm[2][n];
+  double drift = 0.0;  // of a revolution
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& h = samples.h_mm[i];
+    const std::size_t last = h.size() - samples.count;
+    for (std::size_t n = 0; n < samples.count; ++n) {
+      sum[n] += w[i] * samples.mean_mm[i][n];
+      drift += w[i] * (h[last + n] - h[n]) / static_cast<double>(samples.count);
+    }
   }
+  drift /= std::max(1, samples.revolutions - 1);
+  for (std::size_t n = 0; n < samples.count; ++n)
+    sum[n] -= drift * (samples.alpha_rad[n] - samples.alpha_rad[0]) / core::kTwoPi;
   return spectrum(sum);
 }
 

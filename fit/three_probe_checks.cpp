@@ -240,7 +240,7 @@ void find_contradictions(const ProbeReadings& readings, const ProbeSamples& samp
     contradict(result, Code::kInconsistent,
                fmt::format("the weighted sum holds {:.4g} um at one undulation, where it must "
                            "vanish (limit {:.4g} um): a probe angle, a probe gain or the angle on "
-                           "the part is wrong",
+                           "the part is wrong, or a probe drifts within the revolution",
                            result.first_harmonic_mm / core::kMicrometre,
                            result.first_harmonic_limit_mm / core::kMicrometre));
   }

@@ -563,6 +563,24 @@ TEST(ThreeProbe, NamesAGrossReadingButNotAScratch) {
   }
 }
 
+TEST(ThreeProbe, ProbesThatDriftFromTurnToTurnLeaveTheProfile) {
+  SpindleCase c;
+  const ProbeLayout layout = reference_layout();
+  auto readings = readings_at(c, layout, uniform_alpha(1024, 4));
+  add_noise(readings, 0.02, 5);
+  const auto still = separate_three_probe(readings, c.arm, layout);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t m = 0; m < readings.alpha_rad.size(); ++m) {
+      readings.h_mm[i][m] +=
+          0.1 * kMicrometre * static_cast<double>(i) * readings.alpha_rad[m] / kTwoPi;
+    }
+  }
+  const auto drifting = separate_three_probe(readings, c.arm, layout);
+  EXPECT_THAT(drifting->contradictions, IsEmpty());
+  for (std::size_t n = 0; n < 1024; ++n)
+    ASSERT_NEAR(drifting->profile.r_mm[n], still->profile.r_mm[n], 0.01 * kMicrometre);
+}
+
 TEST(ThreeProbe, AWrongGainShowsBesideChatter) {
   SpindleCase c;
   c.profile.push_back({1, 6.0, 0.6});
