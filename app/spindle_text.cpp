@@ -115,8 +115,13 @@ std::string spindle_table(const reports::SpindleFacts& facts) {
   out += fmt::format("  noise     {:.5f} um a reading ({}); profile known to {:.5f} um rms\n",
                      um(s.noise_mm), s.noise_estimated ? "estimated" : "stated",
                      um(s.profile_sigma_mm));
-  out += fmt::format("  check     {:.5f} um at one undulation, limit {:.5f} um\n",
-                     um(s.first_harmonic_mm), um(s.first_harmonic_limit_mm));
+  out += fmt::format(
+      "  check     {:.5f} um at one undulation, limit {:.5f} um; {}\n", um(s.first_harmonic_mm),
+      um(s.first_harmonic_limit_mm),
+      s.least_error_shown < 0.1
+          ? fmt::format("shows a probe gain from {:.2g} % off, an angle from {:.2g} deg",
+                        100.0 * s.least_error_shown, deg(s.least_error_shown))
+          : std::string("blind to gains and angles: mount 5 to 20 um off centre"));
   for (const auto* warnings : {&s.warnings, &facts.roundness.warnings}) {
     for (const core::Error& w : *warnings) out += fmt::format("  warning   {}\n", core::to_line(w));
   }

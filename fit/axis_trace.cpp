@@ -9,6 +9,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
+#include "fit/dft.h"
 #include "fit/periodic_spline.h"
 
 namespace rondure::fit {
@@ -182,12 +183,15 @@ std::vector<double> on_uniform(const std::vector<double>& alpha, const std::vect
     value.push_back(v);
   }
   const PeriodicSpline spline(std::move(angle), std::move(value));
-  std::vector<double> out(samples);
-  for (std::size_t m = 0; m < samples; ++m) {
-    const double at = core::kTwoPi * static_cast<double>(m) / static_cast<double>(samples);
-    out[m] = spline(cut.margins ? scale * (at + cut.start_rad - origin) : at);
+  const double step =
+      (alpha[cut.end - 1] - alpha[cut.first]) / static_cast<double>(cut.end - cut.first - 1);
+  const auto each_turn = static_cast<std::size_t>(std::lround(core::kTwoPi / step));
+  std::vector<double> fine(finer_count(each_turn, samples));
+  for (std::size_t m = 0; m < fine.size(); ++m) {
+    const double at = core::kTwoPi * static_cast<double>(m) / static_cast<double>(fine.size());
+    fine[m] = spline(cut.margins ? scale * (at + cut.start_rad - origin) : at);
   }
-  return out;
+  return decimated(fine, samples);
 }
 
 void warn_of_units(AxisTurn& turn) {

@@ -1,8 +1,11 @@
 #include "fit/dft.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <memory>
 #include <mutex>
+#include <numbers>
 
 #include <fftw3.h>
 
@@ -56,6 +59,26 @@ std::vector<double> series_of(std::span<const Complex> half, std::size_t count) 
   execute([&] { return fftw_plan_dft_c2r_1d(size, raw(in), out.data(), kFlags); });
   for (double& x : out) x /= static_cast<double>(count);
   return out;
+}
+
+double last_untouched(std::size_t count, double kept) {
+  return std::max(kept, 0.375 * static_cast<double>(count));
+}
+
+std::vector<double> decimated(std::span<const double> series, std::size_t count, double kept) {
+  assert(series.size() % count == 0);
+  if (series.size() == count) return {series.begin(), series.end()};
+  auto f = spectrum(series);
+  f.resize(count / 2 + 1);
+  const double first = last_untouched(count, kept);
+  const double last = 0.5 * static_cast<double>(count);
+  const double scale = static_cast<double>(count) / static_cast<double>(series.size());
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    // A step instead of the cosine would ring along the whole turn where its ends do not meet.
+    const double beyond = (static_cast<double>(k) - first) / (last - first);
+    f[k] *= scale * (beyond > 0.0 ? 0.5 + 0.5 * std::cos(std::numbers::pi * beyond) : 1.0);
+  }
+  return series_of(f, count);
 }
 
 }  // namespace rondure::fit

@@ -20,4 +20,17 @@ using Spectrum = std::vector<Complex>;
 /// @param half  floor(N/2) + 1 values; the imaginary parts of k = 0 and k = N/2 are not looked at.
 [[nodiscard]] std::vector<double> series_of(std::span<const Complex> half, std::size_t count);
 
+/// A periodic series on fewer samples, without what those cannot carry: undulations up to `kept`
+/// and 3/8 of `count` stay as they are, a raised cosine takes the rest away up to count/2, so that
+/// none comes back as a lower one. The mean of white noise falls with all values, not with those
+/// kept.
+///
+/// @param series  count times a whole number of values.
+/// @param kept    Highest undulation needed whole; < count/2.
+[[nodiscard]] std::vector<double> decimated(std::span<const double> series, std::size_t count,
+                                            double kept = 0.0);
+
+/// The last undulation that decimated() leaves as it is.
+[[nodiscard]] double last_untouched(std::size_t count, double kept);
+
 }  // namespace rondure::fit

@@ -105,12 +105,7 @@ std::vector<double> resampled_radii(const ParallelCurve& curve, std::size_t samp
     beta.push_back(angle);
     r.push_back(radius);
   }
-  const PeriodicSpline spline(std::move(beta), std::move(r));
-  std::vector<double> out(samples);
-  for (std::size_t m = 0; m < samples; ++m) {
-    out[m] = spline(core::kTwoPi * static_cast<double>(m) / static_cast<double>(samples));
-  }
-  return out;
+  return even_samples(std::move(beta), std::move(r), samples);
 }
 
 core::Result<AxisErrors> filtered(const AxisErrors& errors, double cutoff_upr) {

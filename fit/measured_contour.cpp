@@ -19,8 +19,9 @@ constexpr double kLargestGap = 1.0 * core::kDegree;
 constexpr double kMissingGap = 1.6;
 constexpr double kFilteredRms = 0.01 * core::kMicrometre;
 constexpr double kFilteredShare = 0.01;
-constexpr double kRoundOff = 1e-8;   ///< Amplitude that rounding to 0.001 um leaves [mm].
-constexpr double kLeastLine = 20.0;  ///< Harmonics.
+constexpr double kFilterTraceFrom = 3.0;  ///< Times the cut-off.
+constexpr double kRoundOff = 1e-8;        ///< Amplitude that rounding to 0.001 um leaves [mm].
+constexpr double kLeastLine = 20.0;       ///< Harmonics.
 constexpr double kLeastRange = 0.05 * core::kMicrometre;
 constexpr double kGreatestRange = 1.0;  ///< mm
 
@@ -112,7 +113,7 @@ void warn(MeasuredContour& out, core::Code code, std::string what) {
 void warn_of_filter(MeasuredContour& out, const MeasuredContourOptions& options) {
   const FilterTrace& trace = out.filter;
   const double upper_um = trace.upper_rms_mm / core::kMicrometre;
-  const double from = 3.0 * options.error.filter.cutoff_upr;
+  const double from = kFilterTraceFrom * options.error.filter.cutoff_upr;
   if (trace.filtered && !options.error.filtered_already) {
     warn(out, core::Code::kFilteredTwice,
          fmt::format("above {} UPR only {:.2g} um rms are left{}: the gauge seems to have filtered "
@@ -130,6 +131,21 @@ void warn_of_filter(MeasuredContour& out, const MeasuredContourOptions& options)
                      "without prefiltered the filter would be applied",
                      upper_um, from));
   }
+}
+
+/// Without a filter the samples are one: what they do not carry is missing.
+void warn_of_loss(MeasuredContour& out, std::span<const double> all_rows,
+                  const MeasuredContourOptions& options) {
+  if (options.error.filter.filter != ProfileFilter::kNone && !options.error.filtered_already)
+    return;
+  const double untouched = last_untouched(options.samples, 0.0);
+  const double lost = filter_trace(all_rows, untouched / kFilterTraceFrom, 0.0).upper_rms_mm;
+  if (all_rows.size() <= options.samples || lost < kFilteredRms) return;
+  warn(out, core::Code::kUndersampled,
+       fmt::format(
+           "{:.2g} um rms of the contour lie above {:.0f} UPR, which {} samples do not carry "
+           "whole; ask for more samples, or filter",
+           lost / core::kMicrometre, untouched, options.samples));
 }
 
 void warn_of_rows(MeasuredContour& out, const AngularProfile& profile) {
@@ -161,7 +177,7 @@ FilterTrace filter_trace(std::span<const double> deviation_mm, double cutoff_upr
     amplitude[k] = 2.0 * std::abs(f[k]) / static_cast<double>(deviation_mm.size());
     const double square = 0.5 * amplitude[k] * amplitude[k];
     form += square;
-    if (static_cast<double>(k) > 3.0 * cutoff_upr) upper += square;
+    if (static_cast<double>(k) > kFilterTraceFrom * cutoff_upr) upper += square;
   }
   FilterTrace out;
   out.upper_rms_mm = std::sqrt(upper);
@@ -191,20 +207,20 @@ core::Result<MeasuredContour> measured_contour(std::span<const double> angle_rad
     const auto sampling = check_sampling(angle_rad.size(), options.error.filter);
     if (!sampling) return core::fail(sampling.error());
   }
-  const PeriodicSpline spline(profile->theta_rad, profile->r_mm);
-  std::vector<double> even(options.samples);
-  for (std::size_t m = 0; m < even.size(); ++m) {
-    even[m] = spline(core::kTwoPi * static_cast<double>(m) / static_cast<double>(even.size()));
-  }
+  const std::vector<double> even = even_samples(profile->theta_rad, profile->r_mm, options.samples);
   auto contour = contour_error(even, options.nominal_mm, options.error);
   if (!contour) return core::fail(contour.error());
   MeasuredContour out;
   out.contour = *std::move(contour);
   out.rows = angle_rad.size();
   out.largest_gap_rad = profile->largest_gap_rad;
+  // A filter of the gauge shows on all rows; fewer samples would hide what is up there.
+  const std::vector<double> all_rows = even_samples(
+      profile->theta_rad, profile->r_mm, std::max(options.samples, profile->r_mm.size()));
   out.filter =
-      filter_trace(even, options.error.filter.cutoff_upr, 0.5 * static_cast<double>(out.rows));
+      filter_trace(all_rows, options.error.filter.cutoff_upr, 0.5 * static_cast<double>(out.rows));
   warn_of_filter(out, options);
+  warn_of_loss(out, all_rows, options);
   warn_of_rows(out, *profile);
   return out;
 }

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/units.h"
+#include "fit/dft.h"
 
 namespace rondure::fit {
 namespace {
@@ -74,6 +77,27 @@ double PeriodicSpline::operator()(double theta_rad) const {
   const double a = 1.0 - b;
   return a * values_[i] + b * values_[i + 1] +
          ((a * a * a - a) * second_[i] + (b * b * b - b) * second_[i + 1]) * h * h / 6.0;
+}
+
+std::size_t finer_count(std::size_t points, std::size_t count) {
+  return points > count ? count * ((2 * points + count - 1) / count) : count;
+}
+
+std::vector<double> even_samples(std::vector<double> theta_rad, std::vector<double> values,
+                                 std::size_t count, double kept) {
+  std::vector<double> fine(finer_count(theta_rad.size(), count));
+  const PeriodicSpline spline(std::move(theta_rad), std::move(values));
+  for (std::size_t n = 0; n < fine.size(); ++n) {
+    fine[n] = spline(core::kTwoPi * static_cast<double>(n) / static_cast<double>(fine.size()));
+  }
+  return decimated(fine, count, kept);
+}
+
+double spline_transmission(double undulations_per_point) {
+  // M. Unser, IEEE Signal Processing Magazine 16 (1999) 22: the cardinal cubic spline.
+  const double angle = std::numbers::pi * undulations_per_point;
+  if (angle == 0.0) return 1.0;
+  return 3.0 * std::pow(std::sin(angle) / angle, 4) / (2.0 + std::cos(2.0 * angle));
 }
 
 }  // namespace rondure::fit

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace rondure::fit {
@@ -20,5 +21,19 @@ class PeriodicSpline {
   std::vector<double> values_;
   std::vector<double> second_;  ///< Second derivatives at the points.
 };
+
+/// A closed curve at the angles 2 pi n / count, by the spline through its points; where these are
+/// more than `count`, by the spline on finer samples and decimated().
+/// @param kept  As decimated().
+[[nodiscard]] std::vector<double> even_samples(std::vector<double> theta_rad,
+                                               std::vector<double> values, std::size_t count,
+                                               double kept = 0.0);
+
+/// Whole multiple of `count` samples on which a spline through so many points loses nothing.
+[[nodiscard]] std::size_t finer_count(std::size_t points, std::size_t count);
+
+/// What the spline through even points leaves of an undulation: near 1 for many points each, 0.49
+/// at two.
+[[nodiscard]] double spline_transmission(double undulations_per_point);
 
 }  // namespace rondure::fit

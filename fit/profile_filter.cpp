@@ -64,6 +64,7 @@ core::Result<FilteredProfile> robust(std::span<const double> r, const FilterOpti
     auto line = robust_mean_line(r, options.cutoff_upr);
     if (!line) return core::fail(line.error());
     out.iterations = line->iterations;
+    out.scale_floored = line->scale_floored;
     out.r_mm = options.pass == PassBand::kLow ? std::move(line->r_mm) : difference(r, line->r_mm);
     return out;
   }
@@ -72,6 +73,7 @@ core::Result<FilteredProfile> robust(std::span<const double> r, const FilterOpti
   const auto lower = robust_mean_line(upper->r_mm, options.cutoff_upr);
   if (!lower) return core::fail(lower.error());
   out.iterations = upper->iterations + lower->iterations;
+  out.scale_floored = upper->scale_floored || lower->scale_floored;
   out.r_mm = difference(upper->r_mm, lower->r_mm);
   return out;
 }

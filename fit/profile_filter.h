@@ -63,7 +63,8 @@ struct Sampling {
 struct FilteredProfile {
   std::vector<double> r_mm;
   Sampling sampling;
-  int iterations = 0;  ///< Of the robust filter; 0 for the linear ones.
+  int iterations = 0;          ///< Of the robust filter; 0 for the linear ones.
+  bool scale_floored = false;  ///< Of the robust filter: see RobustMeanLine.
 };
 
 /// Transmission of the Gaussian low pass at harmonic n: 2^-(n/fc)^2 = exp(-ln 2 (n/fc)^2).

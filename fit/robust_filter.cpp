@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -23,6 +24,17 @@ constexpr double kStandardised = 4.4478;  // 3 standard deviations: median|e| = 
 constexpr double kSettledStep = 1e-9;
 /// Weight of a neighbourhood below which its mean is round-off of the transform.
 constexpr double kLeastWeight = 1e-6;
+/// The floor of the scale over the largest change of the mean line by one more filtering. A spike
+/// lifts the first line by a bump b, of which the second filtering takes (1 - 1/sqrt(2)) b; at
+/// twice b the points beside the spike stay inside, and what the filter takes from smooth
+/// undulations has a weight above 0.95.
+constexpr double kFloor = 2.0 / (1.0 - 1.0 / std::numbers::sqrt2);
+
+/// Where the scale of the residuals comes from.
+enum class Scale {
+  kMedian,   ///< The standard's.
+  kFloored,  ///< The same, not below what the filter itself takes from its mean line.
+};
 
 std::vector<double> gaussian_mean(std::span<const double> r, double cutoff) {
   auto f = spectrum(r);
@@ -59,14 +71,18 @@ double greatest_step(std::span<const double> a, std::span<const double> b) {
 }
 
 /// The iteration, for a profile whose mean is 0.
-core::Result<RobustMeanLine> settled_line(const std::vector<double>& r, double cutoff_upr) {
-  RobustMeanLine out{gaussian_mean(r, cutoff_upr), 0};
+core::Result<RobustMeanLine> settled_line(const std::vector<double>& r, double cutoff_upr,
+                                          Scale scale) {
+  RobustMeanLine out{gaussian_mean(r, cutoff_upr), 0, scale == Scale::kFloored};
   const auto [low, high] = std::minmax_element(r.begin(), r.end());
   const double round_off = 64.0 * std::numeric_limits<double>::epsilon() * (*high - *low);
   std::vector<double> weighted(r.size());
   while (out.iterations < kIterationLimit) {
     ++out.iterations;
-    const double c = kStandardised * median_distance(r, out.r_mm);
+    double c = kStandardised * median_distance(r, out.r_mm);
+    if (scale == Scale::kFloored) {
+      c = std::max(c, kFloor * greatest_step(out.r_mm, gaussian_mean(out.r_mm, cutoff_upr)));
+    }
     if (c <= round_off) return out;  // half of the profile is its own mean line
     const auto delta = weights(r, out.r_mm, c);
     for (std::size_t i = 0; i < delta.size(); ++i) weighted[i] = delta[i] * r[i];
@@ -100,7 +116,10 @@ core::Result<RobustMeanLine> robust_mean_line(std::span<const double> r_mm, doub
       std::accumulate(r_mm.begin(), r_mm.end(), 0.0) / static_cast<double>(r_mm.size());
   std::vector<double> r(r_mm.begin(), r_mm.end());
   for (double& value : r) value -= mean;
-  auto line = settled_line(r, cutoff_upr);
+  auto line = settled_line(r, cutoff_upr, Scale::kMedian);
+  // A smooth profile leaves residuals that are not noise but what the filter takes from its
+  // undulations: their median says nothing of the places where these are largest.
+  if (!line) line = settled_line(r, cutoff_upr, Scale::kFloored);
   if (!line) return line;
   for (double& value : line->r_mm) value += mean;
   return line;

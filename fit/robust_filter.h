@@ -11,6 +11,7 @@ namespace rondure::fit {
 struct RobustMeanLine {
   std::vector<double> r_mm;
   int iterations = 0;
+  bool scale_floored = false;  ///< c was kept above what the filter takes from its own mean line.
 };
 
 /// Robust Gaussian regression of order 0 of a closed profile (ISO 16610-31): minimises
@@ -21,9 +22,14 @@ struct RobustMeanLine {
 /// delta = (1 - ((r - w)/c)^2)^2 where |r - w| <= c and 0 beyond, c = 4.4478 median|r - w|. The
 /// convolutions are products of spectra, so they do not end anywhere.
 ///
+/// A smooth profile has no scale of that kind: its residuals are what the filter takes from its
+/// undulations, and a c of their median calls whole undulations outliers. Where the iteration does
+/// not settle for that reason it is repeated with c >= 6.83 max|w - conv(s, w)|; `scale_floored`.
+///
 /// @param r_mm        Finite values at uniform angles [mm].
 /// @param cutoff_upr  > 0, below half the number of values.
-/// @return kNotConverged after 3000 iterations, or where outliers fill a whole undulation.
+/// @return kNotConverged where neither settles within 3000 iterations, or outliers fill a whole
+///         undulation.
 [[nodiscard]] core::Result<RobustMeanLine> robust_mean_line(std::span<const double> r_mm,
                                                             double cutoff_upr);
 

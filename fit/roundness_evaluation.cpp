@@ -106,6 +106,11 @@ core::Result<void> fill_filtered(RoundnessEvaluation& out) {
   out.interpolated = even->interpolated;
   out.resampling_error_mm = even->error_mm;
   out.filter_iterations = filtered->iterations;
+  if (filtered->scale_floored) {
+    warn(out, core::Code::kNotConverged,
+         "the median scale of the robust filter did not settle: the profile is smoother than the "
+         "filter's own attenuation; the scale was kept above that (docs/filters.md)");
+  }
   for (std::size_t i = 0; i < filtered->r_mm.size(); ++i) {
     out.theta_rad.push_back(even->profile.angle_rad(i));
   }

@@ -20,7 +20,6 @@ constexpr int kSecondOrderPasses = 5;
 constexpr double kSecondOrderDone_mm = 1e-9;
 constexpr double kPhaseFrom = 3.0;     ///< Standard uncertainties of an amplitude.
 constexpr double kBelowProbes = 1e-5;  ///< Of the readings: no probe is that linear.
-constexpr double kSwingTolerance_rad = 0.05 * core::kDegree;
 
 core::Result<void> check_options(const ThreeProbeOptions& options) {
   const auto refuse = [](std::string what) {
@@ -42,35 +41,25 @@ core::Result<void> check_options(const ThreeProbeOptions& options) {
   return {};
 }
 
+/// Of the weighted sum of the mean revolution. What it gains from one revolution to the next is
+/// drift of a probe, or a part that grows: a ramp in time, as the work angle, that would stand in
+/// every harmonic.
 Spectrum weighted_spectrum(const ProbeSamples& samples, const ProbeLayout& layout) {
   const auto& w = layout.weights();
   std::vector<double> sum(samples.count);
-  for (std::size_t n = 0; n < samples.count; ++n) {
-    sum[n] = samples.mean_mm[0][n] + w[1] * samples.mean_mm[1][n] + w[2] * samples.mean_mm[2][n];
+  double drift = 0.0;  // of a revolution
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& h = samples.h_mm[i];
+    const std::size_t last = h.size() - samples.count;
+    for (std::size_t n = 0; n < samples.count; ++n) {
+      sum[n] += w[i] * samples.mean_mm[i][n];
+      drift += w[i] * (h[last + n] - h[n]) / static_cast<double>(samples.count);
+    }
   }
+  drift /= std::max(1, samples.revolutions - 1);
+  for (std::size_t n = 0; n < samples.count; ++n)
+    sum[n] -= drift * (samples.alpha_rad[n] - samples.alpha_rad[0]) / core::kTwoPi;
   return spectrum(sum);
-}
-
-/// Readings that stand behind one sample of the mean revolution, times N.
-double independent_values(const ProbeSamples& samples) {
-  const auto turns = static_cast<double>(samples.revolutions);
-  return std::min(static_cast<double>(samples.count) * turns, static_cast<double>(samples.rows));
-}
-
-/// The noise of a reading from the harmonics that nobody asks for: there the weighted sum holds the
-/// part's short undulations too, so that this is an upper estimate.
-double estimated_noise_mm(const Spectrum& sum, const ProbeSamples& samples, double weight_norm,
-                          int highest) {
-  double power = 0.0;
-  std::size_t bins = 0;
-  for (auto k = static_cast<std::size_t>(highest) + 1; 2 * k < samples.count; ++k, ++bins) {
-    power += std::norm(sum[k]);
-  }
-  if (bins == 0) return 0.0;
-  const auto n = static_cast<double>(samples.count);
-  // |F(k)|^2 is N s_mean^2 for white noise of the mean revolution.
-  const double mean_sigma = std::sqrt(power / static_cast<double>(bins) / n) / weight_norm;
-  return mean_sigma * std::sqrt(independent_values(samples) / n);
 }
 
 /// What decides over the recovery of a harmonic.
@@ -78,7 +67,7 @@ struct Guard {
   const ThreeProbeOptions& options;
   const ProbeLayout& layout;
   double noise_mm = 0.0;
-  double values = 1.0;  ///< Independent values behind an amplitude.
+  double values = 1.0;  ///< Readings of a probe behind an amplitude.
 
   [[nodiscard]] RecoveredHarmonic look_at(int order) const {
     RecoveredHarmonic out;
@@ -138,13 +127,22 @@ void judge_residual(const Spectrum& sum, const Spectrum& part, const ProbeSample
         recovered ? sum[k] - part[k] * result.layout.transfer(static_cast<int>(k)) : sum[k];
     power += 2.0 * std::norm(left) / (n * n);
   }
-  for (const auto& h : samples.mean_mm) {
-    for (const double value : h) largest = std::max(largest, std::abs(value));
+  for (const auto& h : samples.mean_mm) {  // the zeros of the probes are no displacement
+    const auto [low, high] = std::minmax_element(h.begin(), h.end());
+    largest = std::max(largest, 0.5 * (*high - *low));
   }
   result.residual_rms_mm = std::sqrt(power) / norm;
   result.first_harmonic_mm = 2.0 * std::abs(sum[1]) / n / norm;
-  result.first_harmonic_limit_mm = std::max(
-      3.0 * result.noise_mm * std::sqrt(2.0 / independent_values(samples)), kBelowProbes * largest);
+  result.first_harmonic_limit_mm =
+      std::max(3.0 * result.noise_mm * std::sqrt(2.0 / static_cast<double>(samples.rows)),
+               kBelowProbes * largest);
+  // A gain error g of probe i leaves |c w_i g| there; twice the limit stands out of any noise.
+  const auto& w = result.layout.weights();
+  const double least_weight = std::min({w[0], std::abs(w[1]), std::abs(w[2])});
+  if (result.eccentricity_mm > 0.0) {
+    result.least_error_shown =
+        2.0 * result.first_harmonic_limit_mm * norm / (result.eccentricity_mm * least_weight);
+  }
 }
 
 double largest_motion_mm(const CentreMotion& motion) {
@@ -198,39 +196,12 @@ void warn_of_sampling(const ProbeSamples& samples, const ThreeProbeOptions& opti
   }
 }
 
-/// Readings that contradict the geometry stated.
-void warn_of_geometry(const ProbeReadings& readings, const SwingArm& arm,
-                      const ThreeProbeOptions& options, ThreeProbeResult& result) {
-  if (result.first_harmonic_mm > result.first_harmonic_limit_mm) {
-    add(result, Code::kInconsistent,
-        fmt::format("the weighted sum holds {:.4g} um at one undulation, where it must vanish "
-                    "(limit {:.4g} um): a probe angle, a probe gain or the angle on the part is "
-                    "wrong",
-                    result.first_harmonic_mm / core::kMicrometre,
-                    result.first_harmonic_limit_mm / core::kMicrometre));
-  }
-  double swing = 0.0;
-  for (std::size_t m = 0; m < readings.beta_rad.size(); ++m)
-    swing = std::max(swing, std::abs(readings.beta_rad[m] - arm.beta_rad(readings.alpha_rad[m])));
-  if (swing > kSwingTolerance_rad) {
-    add(result, Code::kInconsistent,
-        fmt::format("the measured swing differs from that of the stated radii by up to {:.3f} deg "
-                    "(limit 0.05 deg)",
-                    swing / core::kDegree));
-  }
-  if (!options.resample && arm.swings()) {
-    add(result, Code::kInconsistent,
-        "the readings were taken as uniform in the angle on the part (no resampling): with a "
-        "swinging arm the profile is grossly wrong");
-  }
-}
-
 /// A.8, where the options want it: repeats recovery and motion with corrected readings.
 void refine_second_order(double part_radius_mm, const Guard& guard, ProbeSamples& samples,
                          Spectrum& sum, Spectrum& part, ThreeProbeResult& result) {
   using SecondOrder = ThreeProbeOptions::SecondOrder;
   const SecondOrder asked = guard.options.second_order;
-  const bool large = largest_motion_mm(result.mean_motion_before) > kSecondOrderFrom_mm;
+  const bool large = largest_motion_mm(motion_without_zeros(result)) > kSecondOrderFrom_mm;
   if (asked == SecondOrder::kOff || (asked == SecondOrder::kAuto && !large)) return;
   if (!(part_radius_mm > 0.0)) {
     add(result, Code::kInconsistent,
@@ -275,17 +246,26 @@ core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& reading
   result.alpha_rad = samples.alpha_rad;
   result.beta_rad = samples.beta_rad;
   Spectrum sum = weighted_spectrum(samples, layout);
-  result.noise_estimated = !options.noise_mm.has_value();
-  result.noise_mm = options.noise_mm.value_or(
-      estimated_noise_mm(sum, samples, layout.weight_norm(), options.highest));
-  const Guard guard{options, layout, result.noise_mm, independent_values(samples)};
+  const auto noise = options.noise_mm ? options.noise_mm
+                                      : estimated_noise_mm(samples, sum, layout, options.highest);
+  if (!noise) {
+    return core::fail(
+        Code::kSampling,
+        fmt::format("one revolution of {} samples holds no harmonic above {} from which the noise "
+                    "of a reading could be estimated: state it, record a second revolution or take "
+                    "at least {} samples",
+                    samples.count, options.highest, 4 * options.highest));
+  }
+  result.noise_estimated = !options.noise_mm;
+  result.noise_mm = *noise;
+  const Guard guard{options, layout, result.noise_mm, static_cast<double>(samples.rows)};
   Spectrum part = recover(sum, guard, samples.count, samples.start_rad, result);
   separate_motion(samples, part, options, result);
   refine_second_order(arm.pin_radius_mm, guard, samples, sum, part, result);
   judge_residual(sum, part, samples, result);
   warn_of_loss(options, result);
   warn_of_sampling(samples, options, result);
-  warn_of_geometry(readings, arm, options, result);
+  find_contradictions(readings, samples, arm, options, result);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <complex>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -65,7 +66,7 @@ struct ThreeProbeResult {
   ProbeLayout layout;
   int revolutions = 1;
   std::size_t readings = 0;            ///< Rows that were used.
-  bool interpolated = false;           ///< Brought to uniform theta by periodic cubic splines.
+  bool interpolated = false;           ///< Brought to uniform theta: even_samples().
   UniformProfile profile = {};         ///< r(theta) without harmonics 0 and 1.
   std::vector<double> alpha_rad = {};  ///< Work angle of each sample, in the first revolution.
   std::vector<double> beta_rad = {};
@@ -80,31 +81,39 @@ struct ThreeProbeResult {
   double eccentricity_rad = 0.0;         ///< Its direction on the part: a cos + b sin, atan2(b, a).
 
   double noise_mm = 0.0;          ///< s: stated or estimated.
-  bool noise_estimated = false;   ///< From what the weighted sum holds above the highest harmonic.
+  bool noise_estimated = false;   ///< From the scatter of the revolutions; of one, from what the
+                                  ///< weighted sum holds above the highest harmonic.
   double profile_sigma_mm = 0.0;  ///< rms standard uncertainty of r.
   /// What the weighted sum holds at k = 1, where it must vanish, over the weight norm; above its
   /// limit (3 standard uncertainties) angles, gains or theta are wrong. Below it proves nothing.
   double first_harmonic_mm = 0.0;
   double first_harmonic_limit_mm = 0.0;
+  /// The relative gain error (or angle error [rad]) of any one probe that the eccentricity surely
+  /// lifts above that limit; a smaller one may pass unseen. Infinite without eccentricity.
+  double least_error_shown = std::numeric_limits<double>::infinity();
   double residual_rms_mm =
       0.0;  ///< Of the redundant equation, over the weight norm, without k = 0.
   int second_order_passes = 0;
+  /// Readings that contradict the stated probes, arm or angles, and readings that are none; they
+  /// stand in `warnings`, too. With one of them part and motion are not to be judged.
+  std::vector<core::Error> contradictions = {};
   std::vector<core::Error> warnings = {};
 };
 
 /// Separates the form of a part from the motion of its centre with three probes.
 ///
-/// theta = alpha + beta; each reading is interpolated at N uniform theta by a periodic spline (over
-/// all revolutions), the revolutions are averaged, H = H1 + k2 H2 + k3 H3 is divided by G(k) with
-/// the true angles in the frequency domain, and the motion follows from H_i(theta) - r(theta +
-/// Phi_i) by least squares over the three probes. A best c e^{j alpha} + c0 e^{-j beta}
-/// (eccentricity, probe zeros) is taken out of the motion.
+/// theta = alpha + beta; each reading is brought to N uniform theta by a periodic spline (over all
+/// revolutions; more than N readings a revolution through a low pass, which uses them all and keeps
+/// undulations from N/2 on from coming back as lower ones), the revolutions are averaged, H = H1 +
+/// k2 H2 + k3 H3 is divided by G(k) with the true angles in the frequency domain, and the motion
+/// follows from H_i(theta) - r(theta + Phi_i) by least squares over the three probes. A best c e^{j
+/// alpha} + c0 e^{-j beta} (eccentricity, probe zeros) is taken out of the motion.
 ///
 /// @return kRank (layout); check_swing_arm()'s errors; kSampling (lengths differ, too few readings,
-///         highest beyond N/2 - 1); kNotFinite (row); kAngleOrder (theta not increasing, row);
-///         kNotFullSection (less than one revolution); kUnits (angles that run over one turn in
-///         radians and are far from a turn in degrees are the caller's to see); kBadOption.
-///         O(M log M): 1e5 samples in some 20 ms.
+///         highest beyond N/2 - 1, or nothing to estimate the noise from); kNotFinite (row);
+///         kAngleOrder (theta not increasing, row); kNotFullSection (less than one revolution);
+///         kUnits (angles that run over one turn in radians and are far from a turn in degrees are
+///         the caller's to see); kBadOption. O(M log M): 1e5 samples in some 20 ms.
 /// Source: methods, roundness A.2 to A.8.
 [[nodiscard]] core::Result<ThreeProbeResult> separate_three_probe(
     const ProbeReadings& readings, const SwingArm& arm, const ProbeLayout& layout,

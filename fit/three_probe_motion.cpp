@@ -141,20 +141,42 @@ void separate_motion(const ProbeSamples& samples, const Spectrum& spectrum,
   result.eccentricity_rad = -std::arg(eccentric[0]);
 }
 
+CentreMotion motion_without_zeros(const ThreeProbeResult& result) {
+  CentreMotion out = result.mean_motion_before;
+  const std::size_t count = out.x_mm.size();
+  const auto swing = [&](std::size_t n) { return std::polar(1.0, -result.beta_rad[n]); };
+  Complex sum;
+  Complex zeros;
+  for (std::size_t n = 0; n < count; ++n) {
+    const double before = n > 0 ? result.alpha_rad[n - 1] : result.alpha_rad.back() - core::kTwoPi;
+    const double after =
+        n + 1 < count ? result.alpha_rad[n + 1] : result.alpha_rad.front() + core::kTwoPi;
+    sum += (after - before) * Complex(out.y_mm[n], -out.x_mm[n]);
+    zeros += (after - before) * swing(n);
+  }
+  for (std::size_t n = 0; n < count; ++n) {
+    const Complex zero = sum / zeros * swing(n);
+    out.y_mm[n] -= zero.real();
+    out.x_mm[n] += zero.imag();
+  }
+  return out;
+}
+
 double correct_second_order(const ProbeSamples& measured, const Spectrum& spectrum,
                             const ThreeProbeResult& result, double part_radius_mm,
                             ProbeSamples& samples) {
   constexpr int kInnerPasses = 4;
   const std::size_t count = measured.count;
   const auto angles = result.layout.angles_rad();
+  const CentreMotion motion = motion_without_zeros(result);
   double largest = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     std::array<std::vector<double>, 4> r;  // Taylor to the third order: shifts are some 1e-3 rad
     for (int d = 0; d < 4; ++d)
       r[static_cast<std::size_t>(d)] = series_of(shifted(spectrum, angles[i], d), count);
     for (std::size_t n = 0; n < count; ++n) {
-      const double x = result.mean_motion_before.x_mm[n];
-      const double y = result.mean_motion_before.y_mm[n];
+      const double x = motion.x_mm[n];
+      const double y = motion.y_mm[n];
       const double direction = angles[i] + samples.beta_rad[n];
       const double along = y * std::cos(direction) + x * std::sin(direction);
       const double across = x * std::cos(direction) - y * std::sin(direction);

@@ -3,6 +3,7 @@
 #include <array>
 #include <complex>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "fit/three_probe.h"
@@ -22,7 +23,8 @@ struct ProbeSamples {
   std::array<std::vector<double>, 3> mean_mm;  ///< Mean revolution.
   std::vector<double> alpha_rad;               ///< Of the first revolution.
   std::vector<double> beta_rad;
-  double largest_gap_rad = 0.0;  ///< Between neighbouring readings in theta.
+  std::vector<double> theta_rad;  ///< Of every reading used.
+  double largest_gap_rad = 0.0;   ///< Between neighbouring readings in theta.
 };
 
 /// A.6: checks, unwraps, interpolates, averages.
@@ -36,14 +38,32 @@ struct ProbeSamples {
 void separate_motion(const ProbeSamples& samples, const std::vector<std::complex<double>>& spectrum,
                      const ThreeProbeOptions& options, ThreeProbeResult& result);
 
+/// The mean motion with eccentricity, without probe zeros: c0 e^{-j beta} with the mean over the
+/// work angle, to which no other synchronous motion adds. A constant displacement of the centre
+/// looks the same and goes with it.
+[[nodiscard]] CentreMotion motion_without_zeros(const ThreeProbeResult& result);
+
 /// A.8: subtracts from each reading of the mean revolution what the linear equations neglect, given
-/// the present profile and motion; the readings of all revolutions move alike.
-/// The motion is that before eccentricity and zeros are taken out: zeros of the probes count as
-/// motion here, so master the probes within some um where the second order matters.
+/// the present profile and motion; the readings of all revolutions move alike. The motion is that
+/// of motion_without_zeros(): a probe zero displaces nothing.
 /// @return Largest correction [mm].
 double correct_second_order(const ProbeSamples& measured,
                             const std::vector<std::complex<double>>& spectrum,
                             const ThreeProbeResult& result, double part_radius_mm,
                             ProbeSamples& samples);
+
+/// The standard deviation of a reading from the spectrum of the weighted sum: with several
+/// revolutions from their scatter, which neither part nor motion enters; with one from the
+/// median of the harmonics above the highest, which hold a rough part's undulations too. Nothing
+/// where there is one revolution and no such harmonic.
+[[nodiscard]] std::optional<double> estimated_noise_mm(const ProbeSamples& samples,
+                                                       const std::vector<std::complex<double>>& sum,
+                                                       const ProbeLayout& layout, int highest);
+
+/// Adds what contradicts the stated geometry or is no reading of the surface: see
+/// ThreeProbeResult::contradictions.
+void find_contradictions(const ProbeReadings& readings, const ProbeSamples& samples,
+                         const SwingArm& arm, const ThreeProbeOptions& options,
+                         ThreeProbeResult& result);
 
 }  // namespace rondure::fit

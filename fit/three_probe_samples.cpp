@@ -122,7 +122,7 @@ bool is_uniform(const std::vector<double>& theta, const Extent& extent) {
 }
 
 void interpolate(const ProbeReadings& readings, const std::vector<double>& theta,
-                 const Extent& extent, ProbeSamples& out) {
+                 const Extent& extent, int highest, ProbeSamples& out) {
   // One period spans all revolutions, so that a motion that does not repeat stays smooth inside.
   std::vector<double> scaled(extent.rows);
   for (std::size_t m = 0; m < extent.rows; ++m)
@@ -130,12 +130,9 @@ void interpolate(const ProbeReadings& readings, const std::vector<double>& theta
   const std::size_t total = out.count * static_cast<std::size_t>(extent.revolutions);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& h = readings.h_mm[i];
-    const PeriodicSpline spline(
-        scaled,
-        std::vector<double>(h.begin(), h.begin() + static_cast<std::ptrdiff_t>(extent.rows)));
-    out.h_mm[i].resize(total);
-    for (std::size_t n = 0; n < total; ++n)
-      out.h_mm[i][n] = spline(kTwoPi * static_cast<double>(n) / static_cast<double>(total));
+    out.h_mm[i] =
+        even_samples(scaled, {h.begin(), h.begin() + static_cast<std::ptrdiff_t>(extent.rows)},
+                     total, static_cast<double>(highest) * extent.revolutions);
   }
   out.interpolated = true;
 }
@@ -209,10 +206,11 @@ core::Result<ProbeSamples> sample_readings(const ProbeReadings& readings, const 
   if (as_they_are) {
     take_rows(readings, extent->rows, out);
   } else {
-    interpolate(readings, *theta, *extent, out);
+    interpolate(readings, *theta, *extent, options.highest, out);
   }
   place_samples(readings, *theta, arm, out);
   average(out);
+  out.theta_rad.assign(theta->begin(), theta->begin() + static_cast<std::ptrdiff_t>(extent->rows));
   return out;
 }
 

@@ -46,10 +46,12 @@ void describe_swing_arm(Visitor& v, SpindlePlan& p) {
 
 template <class Visitor>
 void describe_recovery(Visitor& v, SpindlePlan& p) {
-  v.whole("samples", p.samples,
-          {.at_least = 8,
-           .at_most = 1'000'000,
-           .meaning = "Samples of a revolution, uniform in the angle on the part."});
+  v.whole(
+      "samples", p.samples,
+      {.at_least = 8,
+       .at_most = 1'000'000,
+       .meaning = "Samples of a revolution, uniform in the angle on the part. More readings are "
+                  "low-passed to them: all count, none alias."});
   v.whole("highest_order", p.highest_order,
           {.at_least = 2,
            .at_most = 10'000,
@@ -71,8 +73,8 @@ void describe_recovery(Visitor& v, SpindlePlan& p) {
   v.number("probe_noise_um", p.probe_noise_um,
            {.at_least = 0.0,
             .at_most = 1000.0,
-            .meaning = "Standard deviation of one reading; left out: estimated from the readings "
-                       "beyond highest_order."});
+            .meaning = "Standard deviation of one reading; left out: estimated from the scatter "
+                       "of the revolutions, of one from the harmonics beyond highest_order."});
 }
 
 template <class Visitor>

@@ -77,6 +77,7 @@ Json separation_json(const SpindleFacts& facts) {
   json["profile_u_um"] = in_um(s.profile_sigma_mm);
   json["first_harmonic_um"] = in_um(s.first_harmonic_mm);
   json["first_harmonic_limit_um"] = in_um(s.first_harmonic_limit_mm);
+  json["least_error_shown"] = s.least_error_shown < 1.0 ? Json(s.least_error_shown) : Json(nullptr);
   json["residual_rms_um"] = in_um(s.residual_rms_mm);
   json["second_order_passes"] = s.second_order_passes;
   json["unrecovered"] = s.unrecovered;

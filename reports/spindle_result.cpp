@@ -37,8 +37,15 @@ const fit::Roundness* roundness_about(const fit::RoundnessEvaluation& evaluation
   return nullptr;
 }
 
+/// Readings that contradict what is stated, or are none, falsify everything.
+std::optional<std::string> contradiction_of(const SpindleFacts& facts) {
+  if (facts.separation.contradictions.empty()) return std::nullopt;
+  return facts.separation.contradictions.front().what;
+}
+
 /// Harmonics that were dropped falsify part and motion.
 std::optional<std::string> loss_of(const SpindleFacts& facts) {
+  if (auto contradiction = contradiction_of(facts)) return contradiction;
   if (facts.separation.unrecovered.empty()) return std::nullopt;
   return fmt::format("{} harmonics were not recovered", facts.separation.unrecovered.size());
 }
@@ -61,6 +68,7 @@ core::Result<AnalysisValue> roundness_value(const SpindleFacts& facts,
 core::Result<AnalysisValue> mask_value(const SpindleFacts& facts,
                                        const record::Characteristic& asked) {
   AnalysisValue out;
+  out.void_because = contradiction_of(facts);
   double worst = -1.0;
   for (const record::HarmonicLimit& line : asked.harmonic_limits) {
     for (const fit::RecoveredHarmonic& h : facts.separation.harmonics) {
@@ -101,7 +109,8 @@ core::Result<AnalysisValue> motion_value(const SpindleFacts& facts, Form form) {
                         "one revolution shows no asynchronous motion; record more");
     }
     greater(*facts.x.asynchronous_mm, *facts.y.asynchronous_mm);
-    return out;  // does not depend on the part
+    out.void_because = contradiction_of(facts);  // does not depend on the part
+    return out;
   }
   out.void_because = loss_of(facts);
   return out;

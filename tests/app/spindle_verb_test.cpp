@@ -1,5 +1,9 @@
 // rondure fit spindle, rondure design-probes, and spindle plans with data from a file.
+#include <algorithm>
 #include <map>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -101,18 +105,18 @@ TEST(DesignProbes, NamesTheLayoutsBesideTheKnownOnes) {
 }
 
 /// A plan that reads the file of the dynamic case.
-std::string plan_with_file(const std::string& more) {
+std::string plan_with_file(const std::string& more, const std::string& file = data_file()) {
   return R"({"plan": {"name": "Pin", "revision": "A"}, "part": {"id": "P"}, "features": [{
     "id": "pin", "type": "spindle", "spindle": {"layout": "reference", "crank_radius_mm": 49,
     "wheel_radius_mm": 299.88, "pin_radius_mm": 24.56, "probe_noise_um": 0.001},
     "source": {"file": ")" +
-         data_file() + R"("}, "characteristics": [)" + more + R"(]}]})";
+         file + R"("}, "characteristics": [)" + more + R"(]}]})";
 }
 
 class SpindlePlan : public ::testing::Test {
  protected:
-  Outcome run(const std::string& characteristics) {
-    write(folder_ / "plan.json", plan_with_file(characteristics));
+  Outcome run(const std::string& characteristics, const std::string& file = data_file()) {
+    write(folder_ / "plan.json", plan_with_file(characteristics, file));
     return rondure({"run", (folder_ / "plan.json").string(), "--out", (folder_ / "run").string(),
                     "--archive", "none"});
   }
@@ -151,6 +155,53 @@ TEST_F(SpindlePlan, JudgesVerifiesAndTellsEveryChange) {
   const Outcome changed = verify();
   EXPECT_EQ(changed.status, 1);
   EXPECT_THAT(changed.out + changed.err, HasSubstr("series_block"));
+}
+
+/// The file with the reading H1 of every row through a function of row and value.
+template <class Change>
+std::string changed_readings(const Change& change) {
+  std::istringstream lines(read(data_file()));
+  std::string out;
+  std::size_t row = 0;
+  std::size_t column = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> cells;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+    const auto header = std::find(cells.begin(), cells.end(), "H1_um");
+    if (header != cells.end()) {
+      column = static_cast<std::size_t>(header - cells.begin());
+    } else if (!cells.empty() && line.front() != '#') {
+      cells.at(column) = std::to_string(change(row++, std::stod(cells.at(column))));
+    }
+    std::string joined;
+    for (const std::string& cell : cells) joined += (joined.empty() ? "" : ",") + cell;
+    out += joined + "\n";
+  }
+  return out;
+}
+
+TEST_F(SpindlePlan, VoidsWhatReadingsContradict) {
+  const std::string file = (folder_ / "readings.csv").string();
+  const std::string asked =
+      R"({"id": "RONt", "form": "roundness", "reference": "ls", "tolerance_um": 100},
+         {"id": "sync", "form": "motion-synchronous", "tolerance_um": 100},
+         {"id": "mask", "form": "harmonic-limits", "harmonic_limits":
+           [{"from": 2, "to": 50, "amplitude_um": 100}]})";
+  const auto verdicts = [&](const std::string& reason) {
+    fs::remove_all(folder_ / "run");
+    EXPECT_EQ(run(asked, file).status, 1);
+    const json report = json::parse(read(folder_ / "run" / "report.json"));
+    for (const json& one : report.at("features").at(0).at("characteristics")) {
+      EXPECT_EQ(one.at("verdict"), "void") << one;
+      EXPECT_THAT(one.at("reason"), HasSubstr(reason));
+    }
+  };
+  write(file,
+        changed_readings([](std::size_t row, double h) { return row == 517 ? h + 30.0 : h; }));
+  verdicts("probe 1 row 517");
+  write(file, changed_readings([](std::size_t, double h) { return 1.01 * h; }));
+  verdicts("a probe gain");
 }
 
 TEST_F(SpindlePlan, IsRefusedWhenItGuesses) {

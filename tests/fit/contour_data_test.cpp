@@ -85,6 +85,13 @@ TEST(AxisTrace, ReadsATraceThatRunsBackwards) {
   EXPECT_LT(worst_x_error(last_turn(trace).value()), 2e-3 * kMicrometre);
 }
 
+TEST(AxisTrace, RippleBeyondTheSamplesDoesNotComeBack) {
+  auto trace = test::spec_trace(7200, 1.0, 0.0);
+  for (std::size_t i = 0; i < trace.c_rad.size(); ++i)
+    trace.x_error_mm[i] += kMicrometre * std::cos(1430.0 * test::turn_angle(i, 7200));
+  EXPECT_LT(worst_x_error(last_turn(trace).value()), 1e-3 * kMicrometre);
+}
+
 TEST(AxisTrace, NamesTheRowWhereCGoesBackOrSamplesAreMissing) {
   auto trace = test::spec_trace(300);
   std::swap(trace.c_rad[100], trace.c_rad[101]);
@@ -172,6 +179,25 @@ TEST(MeasuredContour, DoubtsAFilterThatLeftEverything) {
   const auto out = measured_contour(gauge.angle, gauge.deviation, options).value();
   ASSERT_EQ(out.warnings.size(), 1U);
   EXPECT_EQ(out.warnings[0].code, core::Code::kFilteredTwice);
+}
+
+TEST(MeasuredContour, ChatterBeyondTheSamplesDoesNotComeBackAsALowUndulation) {
+  std::vector<double> angle;
+  std::vector<double> deviation;
+  for (std::size_t i = 0; i < 7200; ++i) {
+    angle.push_back(test::turn_angle(i, 7200));
+    deviation.push_back(kMicrometre *
+                        (3.0 * std::cos(2.0 * angle.back()) + std::cos(1430.0 * angle.back())));
+  }
+  MeasuredContourOptions options;
+  const auto filtered = measured_contour(angle, deviation, options).value();
+  EXPECT_NEAR(filtered.contour.peak_to_valley_mm, 6.0 * std::exp2(-0.0016) * kMicrometre,
+              2e-3 * kMicrometre);
+  EXPECT_TRUE(filtered.warnings.empty());
+  options.error.filter.filter = ProfileFilter::kNone;
+  const auto bare = measured_contour(angle, deviation, options).value();
+  ASSERT_EQ(bare.warnings.size(), 1U);
+  EXPECT_EQ(bare.warnings.front().code, core::Code::kUndersampled);
 }
 
 TEST(MeasuredContour, FollowsOffsetAndDirection) {

@@ -141,6 +141,40 @@ TEST(ProfileFilter, RobustGaussianKeepsItsLineUnderABurr) {
   EXPECT_LT(moved(ProfileFilter::kRobustGaussian), 0.0004);
 }
 
+TEST(ProfileFilter, RobustGaussianTakesSmoothProfilesWithSpikes) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    core::KeyedNoise noise(seed, {31});
+    const Profile theta = test::uniform_angles(1440);
+    Profile clean;
+    for (const double t : theta) {
+      clean.push_back(1e-3 *
+                      (3.0 * std::cos(2.0 * t) + std::cos(3.0 * t + static_cast<double>(seed)) +
+                       0.3 * std::cos(7.0 * t - 1.0)));
+    }
+    Profile spiked = clean;
+    for (int spike = 0; spike < 5; ++spike) {
+      const auto at = static_cast<std::size_t>(1440.0 * noise.uniform());
+      spiked[at] += (noise.uniform() < 0.5 ? -1e-3 : 1e-3) * (10.0 + 20.0 * noise.uniform());
+    }
+    for (const double cutoff : {15.0, 50.0, 150.0}) {
+      SCOPED_TRACE(std::to_string(seed) + " at " + std::to_string(cutoff));
+      const auto line =
+          filter_closed(spiked, {ProfileFilter::kRobustGaussian, PassBand::kLow, cutoff});
+      ASSERT_TRUE(line.has_value()) << line.error().what;
+      const Profile truth = low(clean, ProfileFilter::kGaussian, cutoff);
+      const Profile linear = low(spiked, ProfileFilter::kGaussian, cutoff);
+      double off = 0.0;
+      double pulled = 0.0;
+      for (std::size_t i = 0; i < truth.size(); ++i) {
+        off = std::max(off, std::abs(line->r_mm[i] - truth[i]));
+        pulled = std::max(pulled, std::abs(linear[i] - truth[i]));
+      }
+      EXPECT_LT(off, 1e-4);  // 0.1 um
+      EXPECT_GT(pulled, 3.0 * off);
+    }
+  }
+}
+
 /// Two first-order stages y' = a (x - y), stepped exactly for a piecewise linear input until
 /// periodic.
 Profile two_rc_by_hand(const Profile& r, double cutoff) {

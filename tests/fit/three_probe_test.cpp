@@ -2,11 +2,13 @@
 // hard input. Long counts with RONDURE_FULL=1.
 #include "fit/three_probe.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <limits>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -426,6 +428,178 @@ TEST(ThreeProbe, AWrongAngleShowsAtOneUndulation) {
   const auto right = separate_three_probe(readings_at(c, layout, uniform_theta(c.arm, 1024)), c.arm,
                                           layout, options);
   EXPECT_THAT(right->warnings, IsEmpty());
+}
+
+/// Adds white noise to all readings.
+void add_noise(ProbeReadings& readings, double noise_um, std::uint64_t seed) {
+  core::KeyedNoise noise(seed, {5});
+  for (auto& h : readings.h_mm) {
+    for (double& value : h) value += noise_um * kMicrometre * noise.normal();
+  }
+}
+
+TEST(ThreeProbe, ChatterBeyondTheSamplesDoesNotComeBackAsALowUndulation) {
+  for (const double crank : {0.0, 49.0}) {
+    SpindleCase c;
+    c.arm.crank_radius_mm = crank;
+    c.profile = {{2, 3.0, 0.3}, {1000, 1.0, 0.4}};
+    const auto r = separate_three_probe(readings_at(c, reference_layout(), uniform_alpha(7200)),
+                                        c.arm, reference_layout(), exact_options(1024));
+    ASSERT_TRUE(r) << r.error().what;
+    for (const RecoveredHarmonic& h : r->harmonics)
+      EXPECT_NEAR(h.amplitude_mm / kMicrometre, h.order == 2 ? 3.0 : 0.0, 1e-4) << h.order;
+  }
+}
+
+TEST(ThreeProbe, StatesTheUncertaintyOfEveryReadingUsed) {
+  constexpr double kNoise_um = 0.05;
+  const ProbeLayout layout = reference_layout();
+  SpindleCase c;
+  while (c.profile.back().order > 16) c.profile.pop_back();
+  for (const int rows : {150, 256, 512, 1024, 1500, 7200}) {
+    for (const int turns : {1, 3}) {
+      SCOPED_TRACE(::testing::Message() << rows << " readings, " << turns << " revolutions");
+      const auto clean = readings_at(c, layout, uniform_alpha(rows, turns));
+      const auto truth = separate_three_probe(clean, c.arm, layout, exact_options(1024));
+      double error = 0.0;
+      double stated = 0.0;
+      constexpr int kRuns = 20;
+      for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+        ProbeReadings readings = clean;
+        add_noise(readings, kNoise_um, seed);
+        const auto r = separate_three_probe(readings, c.arm, layout);
+        ASSERT_TRUE(r && truth);
+        EXPECT_TRUE(r->noise_estimated);
+        std::vector<double> apart;
+        for (std::size_t n = 0; n < r->profile.r_mm.size(); ++n)
+          apart.push_back((r->profile.r_mm[n] - truth->profile.r_mm[n]) / kMicrometre);
+        error += std::pow(rms(apart), 2) / kRuns;
+        stated += std::pow(r->profile_sigma_mm / kMicrometre, 2) / kRuns;
+      }
+      double power = 0.0;
+      for (int k = 2; k <= 50; ++k) power += 2.0 * std::pow(layout.gain(k) * kNoise_um, 2);
+      const double least = std::sqrt(power / (rows * turns));
+      std::printf("%5d readings, %d revolutions: error %.3f of the least, %.3f of that stated\n",
+                  rows, turns, std::sqrt(error) / least, std::sqrt(error / stated));
+      EXPECT_NEAR(std::sqrt(error) / least, 1.0, 0.1);
+      EXPECT_NEAR(std::sqrt(error / stated), 1.0, 0.1);
+    }
+  }
+}
+
+TEST(ThreeProbe, DoesNotInventANoise) {
+  const SpindleCase c;
+  const ProbeLayout layout = reference_layout();
+  ThreeProbeOptions options = exact_options(102);
+  options.noise_mm.reset();
+  const auto readings = readings_at(c, layout, uniform_theta(c.arm, 102));
+  EXPECT_EQ(separate_three_probe(readings, c.arm, layout, options).error().code, Code::kSampling);
+  auto twice = readings_at(c, layout, uniform_alpha(1024, 2));
+  add_noise(twice, 0.05, 1);
+  options = exact_options(1024);
+  options.noise_mm = 0.02 * kMicrometre;
+  EXPECT_THAT(separate_three_probe(twice, c.arm, layout, options)->warnings.back().what,
+              HasSubstr("0.02 um are stated"));
+  options.noise_mm = 0.05 * kMicrometre;
+  EXPECT_THAT(separate_three_probe(twice, c.arm, layout, options)->warnings, IsEmpty());
+}
+
+TEST(ThreeProbe, ProbeZerosDisplaceNothingInTheSecondOrder) {
+  for (const ProbeLayout& layout : {published_layout_a(), reference_layout()}) {
+    SpindleCase c;
+    c.profile.push_back({1, 12.0, 0.6});  // above 10 um: the correction is on
+    const auto readings = readings_at(c, layout, uniform_alpha(1024));
+    auto unmastered = readings;
+    const std::array<double, 3> zeros = {0.4, -0.25, 0.3};
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (double& h : unmastered.h_mm[i]) h += zeros[i];
+    }
+    const auto a = separate_three_probe(readings, c.arm, layout, exact_options(1024));
+    const auto b = separate_three_probe(unmastered, c.arm, layout, exact_options(1024));
+    ASSERT_TRUE(a && b);
+    EXPECT_GT(a->second_order_passes, 0);
+    EXPECT_EQ(a->second_order_passes, b->second_order_passes);
+    for (std::size_t n = 0; n < 1024; ++n) {
+      ASSERT_NEAR(a->profile.r_mm[n], b->profile.r_mm[n], 1e-3 * kMicrometre);
+      ASSERT_NEAR(a->mean_motion.x_mm[n], b->mean_motion.x_mm[n], 1e-3 * kMicrometre);
+      ASSERT_NEAR(a->mean_motion.y_mm[n], b->mean_motion.y_mm[n], 1e-3 * kMicrometre);
+    }
+  }
+}
+
+TEST(ThreeProbe, NamesAGrossReadingButNotAScratch) {
+  const SpindleCase c;
+  const ProbeLayout layout = reference_layout();
+  for (const int turns : {1, 3}) {
+    auto readings = readings_at(c, layout, uniform_alpha(1024, turns));
+    add_noise(readings, 0.02, 3);
+    EXPECT_THAT(separate_three_probe(readings, c.arm, layout)->contradictions, IsEmpty());
+
+    const std::size_t last = readings.alpha_rad.size() - 1;
+    for (const std::size_t row : {std::size_t{0}, std::size_t{1}, std::size_t{517}, last}) {
+      auto gross = readings;
+      // At the ends the neighbours of one side have to do.
+      gross.h_mm[1][row] += (row == 0 || row == last ? 2.0 : 0.5) * kMicrometre;
+      const auto found = separate_three_probe(gross, c.arm, layout)->contradictions;
+      ASSERT_EQ(found.size(), 1U) << row;
+      EXPECT_EQ(found.front().code, Code::kOutliers);
+      EXPECT_THAT(found.front().what,
+                  HasSubstr("1 reading is more than 8 standard deviations off"));
+      const std::size_t named = std::clamp(row, std::size_t{2}, last - 2);
+      EXPECT_THAT(found.front().what, HasSubstr(fmt::format("probe 2 row {} (", named)));
+    }
+
+    auto scratched = readings;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t m = 0; m < scratched.alpha_rad.size(); ++m) {
+        const double a = scratched.alpha_rad[m];
+        const double at =
+            std::remainder(a + c.arm.beta_rad(a) + layout.angles_rad()[i] - 2.0, kTwoPi);
+        if (std::abs(at) < 0.006) scratched.h_mm[i][m] -= 5.0 * kMicrometre;
+      }
+    }
+    const auto seen = separate_three_probe(scratched, c.arm, layout)->contradictions;
+    for (const core::Error& one : seen) EXPECT_NE(one.code, Code::kOutliers) << one.what;
+  }
+}
+
+TEST(ThreeProbe, ProbesThatDriftFromTurnToTurnLeaveTheProfile) {
+  SpindleCase c;
+  const ProbeLayout layout = reference_layout();
+  auto readings = readings_at(c, layout, uniform_alpha(1024, 4));
+  add_noise(readings, 0.02, 5);
+  const auto still = separate_three_probe(readings, c.arm, layout);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t m = 0; m < readings.alpha_rad.size(); ++m) {
+      readings.h_mm[i][m] +=
+          0.1 * kMicrometre * static_cast<double>(i) * readings.alpha_rad[m] / kTwoPi;
+    }
+  }
+  const auto drifting = separate_three_probe(readings, c.arm, layout);
+  EXPECT_THAT(drifting->contradictions, IsEmpty());
+  for (std::size_t n = 0; n < 1024; ++n)
+    ASSERT_NEAR(drifting->profile.r_mm[n], still->profile.r_mm[n], 0.01 * kMicrometre);
+}
+
+TEST(ThreeProbe, AWrongGainShowsBesideChatter) {
+  SpindleCase c;
+  c.profile.push_back({1, 6.0, 0.6});
+  c.profile.push_back({90, 0.5, 0.6});
+  const ProbeLayout layout = reference_layout();
+  for (const int turns : {1, 4}) {
+    auto readings = readings_at(c, layout, uniform_alpha(1024, turns));
+    auto wrong = readings;
+    for (double& h : wrong.h_mm[1]) h *= 1.01;
+    add_noise(readings, 0.02, 8);
+    add_noise(wrong, 0.02, 8);
+    const auto right = separate_three_probe(readings, c.arm, layout);
+    EXPECT_THAT(right->contradictions, IsEmpty());
+    EXPECT_LT(right->least_error_shown, 0.01);
+    EXPECT_GT(right->least_error_shown, 5e-4);
+    const auto found = separate_three_probe(wrong, c.arm, layout)->contradictions;
+    ASSERT_EQ(found.size(), 1U) << turns;
+    EXPECT_THAT(found.front().what, HasSubstr("a probe gain"));
+  }
 }
 
 TEST(ThreeProbe, SeparatesAHundredThousandSamples) {
