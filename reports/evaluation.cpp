@@ -149,9 +149,11 @@ std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record,
   const Eigen::Matrix3d turn = rotation(visit.reached);
   const Eigen::Vector3d nominal = turn * Eigen::Vector3d::UnitZ();
   if (!circle) return nominal;
-  // One section shows no tilt; the touches that located the part do.
-  for (const record::PoseVisit& other : record.poses) {
-    if (other.feature != visit.feature) continue;
+  // One section shows no tilt; the touches that located the part do: the last ones before the
+  // section, since the part may have been located again.
+  for (auto other_at = record.poses.rbegin(); other_at != record.poses.rend(); ++other_at) {
+    const record::PoseVisit& other = *other_at;
+    if (other.feature != visit.feature || other.id > visit.id) continue;
     std::vector<Eigen::Vector3d> tips;
     for (const Touch& touch : record.touches) {
       if (touch.purpose == Touch::Purpose::kLocate && touch.pose == other.id)
@@ -309,12 +311,12 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     evaluate_merged(record, index, probe, result);
     return result;
   }
-  // A part that was located again while its final cloud was repeated has two: the later one counts.
-  const auto last = std::find_if(
-      record.poses.rbegin(), record.poses.rend(),
-      [&](const record::PoseVisit& visit) { return visit.feature == index && visit.final_cloud; });
+  const auto last =
+      std::find_if(record.poses.begin(), record.poses.end(), [&](const record::PoseVisit& visit) {
+        return visit.feature == index && is_final(record, visit);
+      });
   evaluate_poses(record, index, result);
-  if (last == record.poses.rend()) {
+  if (last == record.poses.end()) {
     result.failure =
         core::Error{core::Code::kNoPoints,
                     record.failure ? "not measured to its end: " + record.failure->what
