@@ -41,7 +41,7 @@ core::Result<void> check_reading(const record::PoseVisit& known, const core::Pos
 }
 
 cmm::TouchReading reading_of(const record::Touch& touch) {
-  return {touch.tip_mm, touch.temperature_degC, touch.time_s};
+  return {touch.tip_mm, touch.temperature_degC, touch.time_s, 0.0, touch.scale_temperature_degC};
 }
 
 }  // namespace

@@ -261,16 +261,6 @@ core::Pose levelling(const fixture::Kinematics& kinematics, const core::Pose& re
   return fixture::levelling_pose(kinematics, t);
 }
 
-void take_temperatures(const std::vector<const Touch*>& touches, FeatureResult& result) {
-  Temperatures out{touches.front()->temperature_degC, touches.front()->temperature_degC, 0.0};
-  for (const Touch* touch : touches) {
-    out.least_degC = std::min(out.least_degC, touch->temperature_degC);
-    out.greatest_degC = std::max(out.greatest_degC, touch->temperature_degC);
-    out.mean_degC += touch->temperature_degC / static_cast<double>(touches.size());
-  }
-  result.temperatures = out;
-}
-
 /// A cylinder that several poses show: in the body frame, whose z its axis is near.
 void evaluate_merged(const RunRecord& record, int index, const std::optional<fit::ProbeTip>& probe,
                      FeatureResult& result) {
@@ -330,7 +320,8 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     result.failure = core::Error{core::Code::kNoPoints, "the final cloud holds no touches", {}};
     return result;
   }
-  if (result.feature.strategy != record::Strategy::kPointsFile) take_temperatures(touches, result);
+  const bool touched = result.feature.strategy != record::Strategy::kPointsFile;
+  result.temperatures = temperatures_of(record, touched ? touches : decltype(touches){});
   result.thermal = thermal_correction(record, index, last->id);
   if (result.thermal && result.tip_radius_mm) {
     const ThermalCorrection& c = *result.thermal;
@@ -344,7 +335,7 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
   }
   if (result.failure) return result;
   evaluate_repeats(touches, direction, result);
-  if (result.mz_cylinder && result.feature.strategy != record::Strategy::kPointsFile) {
+  if (result.mz_cylinder && touched) {
     result.levelling_pose =
         levelling(kinematics, last->reached, result.mz_cylinder->axis.direction);
   }
