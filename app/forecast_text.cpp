@@ -27,6 +27,8 @@ const char* name_of(ForecastStage::Kind kind) {
       return "qualification";
     case ForecastStage::Kind::kBase:
       return "fixture base";
+    case ForecastStage::Kind::kRing:
+      return "reached pose";
     case ForecastStage::Kind::kLocation:
       return "location";
     case ForecastStage::Kind::kCloud:
@@ -58,11 +60,15 @@ std::string row_of(const plans::Plan& plan, const ForecastStage& stage) {
              stage.time_s);
 }
 
-/// Stages of a grid search that look alike.
+/// Stages of a grid search that look alike: its clouds, and the spheres on the ring before each.
 std::size_t alike_from(const std::vector<ForecastStage>& stages, std::size_t first) {
   std::size_t end = first;
-  while (end < stages.size() && stages[end].kind == ForecastStage::Kind::kCloud &&
-         !stages[end].final_cloud && stages[end].feature == stages[first].feature) {
+  const auto searches = [](const ForecastStage& stage) {
+    return stage.kind == ForecastStage::Kind::kRing ||
+           (stage.kind == ForecastStage::Kind::kCloud && !stage.final_cloud);
+  };
+  while (end < stages.size() && searches(stages[end]) &&
+         stages[end].feature == stages[first].feature) {
     ++end;
   }
   return end - first;
@@ -77,13 +83,15 @@ std::string rows(const plans::Plan& plan, const std::vector<ForecastStage>& stag
       continue;
     }
     ForecastStage sum;
+    int clouds = 0;
     for (std::size_t k = 0; k < alike; ++k, ++i) {
+      clouds += stages[i].kind == ForecastStage::Kind::kCloud ? 1 : 0;
       sum.touches += stages[i].touches;
       sum.path_mm += stages[i].path_mm;
       sum.time_s += stages[i].time_s;
     }
-    out += row(fmt::format("{} clouds", alike), feature_of(plan, stages[i - 1]),
-               fmt::format("{} poses", alike), sum.touches, sum.path_mm, sum.time_s);
+    out += row(fmt::format("{} clouds", clouds), feature_of(plan, stages[i - 1]),
+               fmt::format("{} poses", clouds), sum.touches, sum.path_mm, sum.time_s);
   }
   return out;
 }
@@ -91,14 +99,16 @@ std::string rows(const plans::Plan& plan, const std::vector<ForecastStage>& stag
 /// What one pose more costs, for a search that levels the real part.
 std::string further_poses(const plans::Plan& plan, const plans::Forecast& forecast) {
   std::string out;
+  ForecastStage ring;  // touched in every pose, before its cloud
   for (const ForecastStage& stage : forecast.stages) {
+    if (stage.kind == ForecastStage::Kind::kRing) ring = stage;
     if (!stage.final_cloud) continue;
     const plans::FeaturePlan& feature = plan.features[static_cast<std::size_t>(stage.feature)];
     const std::string& strategy = feature.pose_search.strategy;
     if (feature.type == "circle" || strategy == "virtual") continue;
     out += fmt::format("  {}: each further pose {} touches, {:.0f} mm, {}\n", feature.id,
-                       stage.touches, stage.path_mm / stage.times,
-                       clock_text(stage.time_s / stage.times));
+                       stage.touches + ring.touches, stage.path_mm / stage.times + ring.path_mm,
+                       clock_text(stage.time_s / stage.times + ring.time_s));
   }
   if (out.empty()) return out;
   return "A part that sits beside its nominal place needs poses more than these:\n" + out;
@@ -149,7 +159,7 @@ std::string forecast_table(const plans::Plan& plan, const plans::Forecast& forec
              forecast.path_mm, forecast.time_s);
   const std::string further = further_poses(plan, forecast);
   if (!further.empty()) out += "\n" + further;
-  return out + "\nEvery target can be reached. Nothing has moved.\n";
+  return out + "\nEvery target can be reached where the plan puts the part. Nothing has moved.\n";
 }
 
 ordered_json forecast_json(const plans::Plan& plan, const plans::Forecast& forecast) {

@@ -15,6 +15,10 @@ Vector3d rounded(const Vector3d& v, double steps_per_unit) {
           core::on_grid(v.z(), steps_per_unit)};
 }
 
+std::optional<double> on_grid_degC(const std::optional<double>& degC) {
+  return degC ? std::optional(core::on_grid(*degC, kStepsPerKelvin)) : std::nullopt;
+}
+
 }  // namespace
 
 Vector3d on_grid_mm(const Vector3d& p_mm) { return rounded(p_mm, kStepsPerMm); }
@@ -52,10 +56,10 @@ ScanCircleCommand on_grid(const ScanCircleCommand& command) {
 TouchReading on_grid(const TouchReading& reading) {
   TouchReading out = reading;
   out.tip_W_mm = on_grid_mm(reading.tip_W_mm);
-  out.temperature_degC = core::on_grid(reading.temperature_degC, kStepsPerKelvin);
+  out.temperature_degC = on_grid_degC(reading.temperature_degC);
   out.time_s = core::on_grid(reading.time_s, kStepsPerSecond);
   out.tip_radius_mm = core::on_grid(reading.tip_radius_mm, kStepsPerMm);
-  out.scale_temperature_degC = core::on_grid(reading.scale_temperature_degC, kStepsPerKelvin);
+  out.scale_temperature_degC = on_grid_degC(reading.scale_temperature_degC);
   return out;
 }
 

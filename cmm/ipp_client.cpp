@@ -71,12 +71,11 @@ core::Result<void> IppMachine::connect() {
 }
 
 std::string IppMachine::description() const {
-  return fmt::format("I++ DME {} machine {} at {}, tool {}, touch speed {:.7g} mm/s{}",
-                     identity_.version,
-                     identity_.machine_class.empty() ? "of unknown class" : identity_.machine_class,
-                     dialogue_->session().peer(), options_.tool.empty() ? tool_ : options_.tool,
-                     options_.speeds.touch_mm_s,
-                     knows_temperature() ? "" : ", gives no part temperature: 20 degC assumed");
+  return fmt::format(
+      "I++ DME {} machine {} at {}, tool {}, touch speed {:.7g} mm/s{}", identity_.version,
+      identity_.machine_class.empty() ? "of unknown class" : identity_.machine_class,
+      dialogue_->session().peer(), options_.tool.empty() ? tool_ : options_.tool,
+      options_.speeds.touch_mm_s, knows_temperature() ? "" : ", gives no part temperature");
 }
 
 Capabilities IppMachine::capabilities() const {
@@ -252,9 +251,9 @@ core::Result<TouchReading> IppMachine::reading_of(const Reply& reply) {
   if (point->time_s) server_time_s_ = *point->time_s;
   TouchReading out;
   out.tip_W_mm = point->tip_W_mm;
-  out.temperature_degC = temperature_degC_.value_or(kAssumed_degC);
+  out.temperature_degC = temperature_degC_;
   if (point->scale_temperature_degC) scale_temperature_degC_ = point->scale_temperature_degC;
-  out.scale_temperature_degC = scale_temperature_degC_.value_or(out.temperature_degC);
+  out.scale_temperature_degC = scale_temperature_degC_;
   out.time_s = time_s();
   out.tip_radius_mm = point->tip_radius_mm.value_or(0.0);
   return on_grid(out);

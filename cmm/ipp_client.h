@@ -17,9 +17,6 @@
 
 namespace rondure::cmm {
 
-/// Temperature of a part for which the machine gives none.
-inline constexpr double kAssumed_degC = 20.0;
-
 /// How a machine behind I++ DME is used, and what is special about its server.
 struct IppMachineOptions {
   std::string tool;  ///< Taken when the machine is homed; "": the tool that is active stays.
@@ -48,8 +45,8 @@ struct IppMachineOptions {
 /// lost every command is kMachine; recover() connects again.
 ///
 /// time_s() is the time since the connection was opened, unless the server gives its own with each
-/// point; the points of a scan carry the time of the last touch then. A part temperature that the
-/// server does not give reads 20 degC; see knows_temperature().
+/// point; the points of a scan carry the time of the last touch then. Temperatures that the
+/// server does not give are absent; see knows_temperature().
 class IppMachine final : public Machine {
  public:
   /// Makes the connection; also called by recover() when it was lost.

@@ -82,8 +82,8 @@ core::Result<std::vector<TouchReading>> IppMachine::readings_of(const Reply& rep
   std::vector<TouchReading> out;
   out.reserve(tips->size());
   TouchReading reading;
-  reading.temperature_degC = temperature_degC_.value_or(kAssumed_degC);
-  reading.scale_temperature_degC = scale_temperature_degC_.value_or(reading.temperature_degC);
+  reading.temperature_degC = temperature_degC_;
+  reading.scale_temperature_degC = scale_temperature_degC_;
   reading.time_s = time_s();
   for (const Vector3d& tip : *tips) {
     reading.tip_W_mm = tip;

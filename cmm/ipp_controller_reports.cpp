@@ -80,10 +80,9 @@ Outcome Controller::temperature_sensors(const Arguments& arguments) {
 Outcome Controller::read_temperature(const Arguments& arguments) {
   const auto sensor = arguments.size() == 1 ? string_of(arguments[0]) : std::nullopt;
   if (!sensor) return wrong_arguments("(\"sensor\")");
-  const double part_degC =
-      last_reading_ ? last_reading_->temperature_degC : options_.temperature_degC;
-  const double scale_degC =
-      last_reading_ ? last_reading_->scale_temperature_degC : options_.temperature_degC;
+  const TouchReading last = last_reading_.value_or(TouchReading());
+  const double part_degC = last.temperature_degC.value_or(options_.temperature_degC);
+  const double scale_degC = last.scale_temperature_degC.value_or(options_.temperature_degC);
   if (*sensor == "Part") return one_line(call_item("ReadTemperatureSensor", {part_degC}));
   if (*sensor == "Scale") return one_line(call_item("ReadTemperatureSensor", {scale_degC}));
   return refusal(kNotRecognized, fmt::format("there is no sensor \"{}\"", *sensor));
@@ -132,8 +131,12 @@ std::vector<double> Controller::report_values(const std::string& name, const Tou
   if (name == "ER") {
     return {reading.tip_radius_mm > 0.0 ? reading.tip_radius_mm : options_.tip_radius_mm};
   }
-  if (name == "Part.Temperature") return {reading.temperature_degC};
-  if (name == "Scale.Temperature") return {reading.scale_temperature_degC};
+  if (name == "Part.Temperature") {
+    return {reading.temperature_degC.value_or(options_.temperature_degC)};
+  }
+  if (name == "Scale.Temperature") {
+    return {reading.scale_temperature_degC.value_or(options_.temperature_degC)};
+  }
   if (name == "Time") return {reading.time_s};
   return {0.0};  // Q: every simulated point is good
 }

@@ -112,7 +112,8 @@ std::optional<Item> Controller::property(const std::string& name) const {
     return value ? std::optional<Item>(number(*value)) : std::nullopt;
   }
   if (name == "Part.Temperature") {
-    return number(last_reading_ ? last_reading_->temperature_degC : options_.temperature_degC);
+    return number(last_reading_.value_or(TouchReading())
+                      .temperature_degC.value_or(options_.temperature_degC));
   }
   if (name == "Part.XpanCoefficient") return number(expansion_);
   if (name == "Simulation.NextTouch") return number(static_cast<double>(next_touch_));

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,11 +36,11 @@ struct TouchCommand {
 /// What a touch, or one point of a scan, gave.
 struct TouchReading {
   Eigen::Vector3d tip_W_mm =
-      Eigen::Vector3d::Zero();     ///< Tip centre at the trigger, machine frame, as read.
-  double temperature_degC = 20.0;  ///< Of the part.
-  double time_s = 0.0;             ///< Machine clock at the trigger.
-  double tip_radius_mm = 0.0;      ///< Effective radius the machine works with; 0: it says none.
-  double scale_temperature_degC = 20.0;  ///< Of the scales of the machine.
+      Eigen::Vector3d::Zero();             ///< Tip centre at the trigger, machine frame, as read.
+  std::optional<double> temperature_degC;  ///< Of the part; none: nobody measured it.
+  double time_s = 0.0;                     ///< Machine clock at the trigger.
+  double tip_radius_mm = 0.0;  ///< Effective radius the machine works with; 0: it says none.
+  std::optional<double> scale_temperature_degC;  ///< Of the scales of the machine; none: as above.
 };
 
 /// One circle to scan on a round surface, at the scan speed.

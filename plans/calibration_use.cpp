@@ -13,7 +13,8 @@ namespace {
 constexpr const char* kCalibrationPointer = "/fixture/calibration";
 constexpr const char* kCalibrationFilePointer = "/fixture/calibration/file";
 
-fixture::CalibrationDemand demand_of(const FixturePlan& plan, std::string_view run_utc) {
+fixture::CalibrationDemand demand_of(const Plan& whole, std::string_view run_utc) {
+  const FixturePlan& plan = *whole.fixture;
   const fixture::FixtureLimits limits = limits_of(plan);
   fixture::CalibrationDemand out;
   out.fixture_id = plan.id;
@@ -22,6 +23,10 @@ fixture::CalibrationDemand demand_of(const FixturePlan& plan, std::string_view r
   if (const auto& limit = plan.calibration->max_residual_um) {
     out.max_residual_mm = *limit * core::kMicrometre;
   }
+  const EnvironmentPlan environment = whole.environment.value_or(EnvironmentPlan());
+  out.min_degC = environment.min_degC;
+  out.max_degC = environment.max_degC;
+  out.assumed_degC = environment.assumed_degC;
   out.lowest = {limits.min_alpha_rad, limits.min_beta_rad};
   out.highest = {limits.max_alpha_rad, limits.max_beta_rad};
   out.axis_point_mm = vector3(plan.axis_point_mm);
@@ -45,8 +50,7 @@ core::Result<std::optional<UsedCalibration>> used_calibration(const Plan& plan,
                       calibration.error().where + ": " + calibration.error().what,
                       kCalibrationFilePointer);
   }
-  if (auto usable = fixture::check_calibration(*calibration, demand_of(*plan.fixture, run_utc));
-      !usable) {
+  if (auto usable = fixture::check_calibration(*calibration, demand_of(plan, run_utc)); !usable) {
     return core::fail(usable.error().at(kCalibrationPointer));
   }
   return UsedCalibration{*std::move(calibration), *std::move(text)};

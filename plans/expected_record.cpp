@@ -12,6 +12,7 @@ record::Touch touch_of(const ForecastTouch& touch, int pose, int repeat) {
   out.point = touch.target.point;
   out.repeat = repeat;
   out.tip_mm = touch.tip_W_mm;
+  out.temperature_degC = out.scale_temperature_degC = 20.0;
   return out;
 }
 

@@ -14,6 +14,7 @@
 #include "plans/plan_reach.h"
 #include "plans/pose_search.h"
 #include "plans/qualification.h"
+#include "plans/reached_pose.h"
 #include "plans/rotary_poses.h"
 #include "plans/run_head.h"
 
@@ -73,6 +74,37 @@ fixture::SimulatedFixture ideal_fixture(const Plan& plan) {
   options.kinematics = nominal_kinematics(*plan.fixture);
   options.limits = limits_of(*plan.fixture);
   return fixture::SimulatedFixture(options);
+}
+
+core::Result<void> add_spheres(const core::Result<std::vector<TouchStep>>& steps,
+                               ForecastStage stage, Tally& tally) {
+  if (!steps) return core::fail(steps.error());
+  if (steps->empty()) return {};
+  for (const TouchStep& step : *steps) {
+    if (step.row.point == 0) tally.rise(stage);  // from the sphere before
+    tally.move(stage, step.way_W);
+    tally.touch(stage, step.command.expected_tip_W_mm, step.command.approach_mm);
+  }
+  tally.rise(stage);
+  tally.add(std::move(stage));
+  return {};
+}
+
+ForecastStage stage_of(ForecastStage::Kind kind) {
+  ForecastStage out;
+  out.kind = kind;
+  return out;
+}
+
+/// The spheres that show how a hand has set a pose.
+core::Result<void> add_ring(const Plan& plan, int feature, const core::Pose& commanded,
+                            Tally& tally) {
+  ForecastStage stage = stage_of(ForecastStage::Kind::kRing);
+  stage.feature = feature;
+  stage.pose = commanded;
+  return add_spheres(reached_pose_steps(plan, nominal_kinematics(*plan.fixture),
+                                        nominal_seat(*plan.fixture), feature, commanded),
+                     std::move(stage), tally);
 }
 
 /// A feature on the nominal part: the pose search sees ideal touches.
@@ -189,7 +221,7 @@ class NominalSession final : public PoseSession {
     if (!reached) return core::fail(reached.error());
     reached_ = *reached;
     ++tally_.forecast().poses;
-    return {};
+    return add_ring(plan_, index_, commanded, tally_);
   }
 
   core::Result<void> touch(const std::vector<Target>& targets, ForecastStage::Kind kind) {
@@ -259,22 +291,6 @@ class NominalSession final : public PoseSession {
   core::Pose reached_;
 };
 
-core::Result<void> add_spheres(const core::Result<std::vector<TouchStep>>& steps,
-                               ForecastStage::Kind kind, Tally& tally) {
-  if (!steps) return core::fail(steps.error());
-  if (steps->empty()) return {};
-  ForecastStage stage;
-  stage.kind = kind;
-  for (const TouchStep& step : *steps) {
-    if (step.row.point == 0) tally.rise(stage);  // from the sphere before
-    tally.move(stage, step.way_W);
-    tally.touch(stage, step.command.expected_tip_W_mm, step.command.approach_mm);
-  }
-  tally.rise(stage);
-  tally.add(std::move(stage));
-  return {};
-}
-
 /// The poses of a calibration of the fixture, a stage each.
 core::Result<void> add_calibration(const Plan& plan, std::size_t feature, Tally& tally) {
   const auto visits = rotary_visits(plan, feature);
@@ -282,6 +298,9 @@ core::Result<void> add_calibration(const Plan& plan, std::size_t feature, Tally&
   for (const RotaryVisit& visit : *visits) {
     const Eigen::Isometry3d X_WB =
         fixture::body_to_machine(nominal_kinematics(*plan.fixture), visit.pose);
+    if (auto added = add_ring(plan, static_cast<int>(feature), visit.pose, tally); !added) {
+      return added;
+    }
     ForecastStage stage;
     stage.feature = static_cast<int>(feature);
     stage.pose = visit.pose;
@@ -308,10 +327,11 @@ core::Result<Forecast> forecast(const Plan& plan) {
   if (!touches_anything(plan)) return out;
   Tally tally(*plan.machine, out);
   using Kind = ForecastStage::Kind;
-  if (auto added = add_spheres(qualification_steps(plan), Kind::kQualification, tally); !added) {
+  if (auto added = add_spheres(qualification_steps(plan), stage_of(Kind::kQualification), tally);
+      !added) {
     return core::fail(added.error().at("/probe/qualification"));
   }
-  if (auto added = add_spheres(datum_steps(plan), Kind::kBase, tally); !added) {
+  if (auto added = add_spheres(datum_steps(plan), stage_of(Kind::kBase), tally); !added) {
     return core::fail(added.error());
   }
   for (std::size_t i = 0; i < plan.features.size(); ++i) {

@@ -22,9 +22,9 @@ struct ForecastTouch {
 };
 
 /// One stage of a run: the touches of the reference sphere, of the spheres on the base of the
-/// fixture, or a cloud in a pose.
+/// fixture or on its ring, or a cloud in a pose.
 struct ForecastStage {
-  enum class Kind { kQualification, kBase, kLocation, kCloud };
+  enum class Kind { kQualification, kBase, kRing, kLocation, kCloud };
   Kind kind = Kind::kCloud;
   int feature = -1;          ///< Index; -1 for spheres.
   core::Pose pose;           ///< As the fixture would read it.

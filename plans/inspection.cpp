@@ -172,7 +172,7 @@ core::Result<void> FeatureSession::keep_as_final() {
     keep_merged_truth();
     return {};
   }
-  if (truth_.empty() || context_.past.knows_truth(index_)) return {};
+  if (truth_.empty()) return {};
   // Only a comparison for simulations: a truth that cannot be evaluated must not end the run.
   std::optional<double> zone_mm;
   if (feature_.type == "circle") {
@@ -183,7 +183,7 @@ core::Result<void> FeatureSession::keep_as_final() {
   } else if (const auto zone = fit::min_zone_cylinder(truth_, expected_axis())) {
     zone_mm = zone->width_mm();
   }
-  if (!zone_mm) return {};
+  if (!zone_mm || ++truths_ <= context_.past.truths_of(index_)) return {};
   return context_.journal.add(record::SimulationTruth{index_, *zone_mm});
 }
 

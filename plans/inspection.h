@@ -183,6 +183,7 @@ class FeatureSession final : public PoseSession {
   int repeat_ = 0;
   int visits_ = 0;
   std::vector<Eigen::Vector3d> truth_;  ///< Noise-free tips of the last first cloud of a pose.
+  std::ptrdiff_t truths_ = 0;           ///< Final clouds so far that have one.
   std::vector<Target> all_targets_;     ///< Of a cloud that several poses make; otherwise empty.
   std::vector<Eigen::Vector3d> merged_truth_B_;  ///< Its noise-free tips, in the true body frame.
 };

@@ -54,9 +54,9 @@ const record::Decision* Past::next_decision() {
   return nullptr;
 }
 
-bool Past::knows_truth(int feature) const {
-  return std::any_of(run_.truths.begin(), run_.truths.end(),
-                     [&](const auto& truth) { return truth.feature == feature; });
+std::ptrdiff_t Past::truths_of(int feature) const {
+  return std::count_if(run_.truths.begin(), run_.truths.end(),
+                       [&](const auto& truth) { return truth.feature == feature; });
 }
 
 bool Past::relocated_behind(std::int64_t touches) const {

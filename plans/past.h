@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -30,8 +31,8 @@ class Past {
   /// The decision that comes next, or nullptr. Decisions about the whole run are passed over:
   /// those are of earlier interruptions.
   [[nodiscard]] const record::Decision* next_decision();
-  /// Whether the hidden truth of a feature is in the journal.
-  [[nodiscard]] bool knows_truth(int feature) const;
+  /// Hidden truths of a feature in the journal: one for each of its final clouds.
+  [[nodiscard]] std::ptrdiff_t truths_of(int feature) const;
   /// Whether the part was located again behind that many touches.
   [[nodiscard]] bool relocated_behind(std::int64_t touches) const;
   /// Whether a feature went on behind the present step without a touch: it decided or turned.

@@ -133,6 +133,7 @@ struct EnvironmentPlan {
   double min_degC = 18.0;
   double max_degC = 22.0;
   double temperature_uncertainty_K = 0.1;
+  std::optional<double> assumed_degC;  ///< Of part and scales where nobody measures it.
 };
 
 struct NominalPlan {
@@ -285,7 +286,7 @@ struct Plan {
   std::optional<MachinePlan> machine;  ///< Needed when a feature is touched, not read from a file.
   std::optional<FixturePlan> fixture;
   std::optional<ProbePlan> probe;
-  EnvironmentPlan environment;
+  std::optional<EnvironmentPlan> environment;  ///< None: its defaults, for what is touched.
   std::vector<FeaturePlan> features;
   DecisionRulePlan decision_rule;
   std::optional<UncertaintyPlan> uncertainty;

@@ -45,8 +45,18 @@ void check_travel(double min_deg, double max_deg, std::string_view axis, Finding
 }
 
 void check_environment(const Plan& plan, Findings& findings) {
-  const EnvironmentPlan& environment = plan.environment;
-  if (!findings.sound("/environment") || environment.min_degC < environment.max_degC) return;
+  if (!plan.environment || !findings.sound("/environment")) return;
+  const EnvironmentPlan& environment = *plan.environment;
+  const double assumed_degC = environment.assumed_degC.value_or(environment.min_degC);
+  if (environment.min_degC < environment.max_degC) {
+    if (assumed_degC >= environment.min_degC && assumed_degC <= environment.max_degC) return;
+    findings.meaning(
+        Code::kMeaning, "/environment/assumed_degC",
+        fmt::format("{} degC is outside the limits {}..{} degC of this plan; every result would "
+                    "be void",
+                    plain(assumed_degC), plain(environment.min_degC), plain(environment.max_degC)));
+    return;
+  }
   findings.meaning(Code::kMeaning, "/environment",
                    fmt::format("min_degC {} is not below max_degC {}; every temperature would make "
                                "the result void",

@@ -342,7 +342,12 @@ void describe(Visitor& v, EnvironmentPlan& p) {
   v.number("temperature_uncertainty_K", p.temperature_uncertainty_K,
            {.at_least = 0.0,
             .at_most = 5.0,
-            .meaning = "Standard uncertainty of a measured temperature."});
+            .meaning = "Standard uncertainty of a measured or assumed temperature."});
+  v.number("assumed_degC", p.assumed_degC,
+           {.at_least = 10.0,
+            .at_most = 40.0,
+            .meaning = "Temperature of part and scales where no sensor gives one; reports print it "
+                       "as declared. Left out: what nobody measured makes the result void."});
 }
 
 template <class Visitor>
@@ -592,7 +597,8 @@ void describe(Visitor& v, Plan& p) {
            {.meaning = "The two-axis fixture. Needed when a feature is touched."});
   v.object("probe", p.probe, {.meaning = "The touch probe. Needed when a feature is touched."});
   v.object("environment", p.environment,
-           {.meaning = "Temperature limits outside which a result is void."});
+           {.meaning = "Temperature limits outside which a result is void. They hold for points of "
+                       "files and series only where this object stands."});
   v.list("features", p.features,
          {.required = true, .empty_allowed = false, .meaning = "What is measured, in this order."});
   v.object("decision_rule", p.decision_rule,

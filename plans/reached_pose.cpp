@@ -110,23 +110,23 @@ core::Result<void> check_pose(const ReachedPosePlan& plan,
 
 }  // namespace
 
-core::Result<std::vector<TouchStep>> reached_pose_steps(const RunContext& context, int feature,
+core::Result<std::vector<TouchStep>> reached_pose_steps(const Plan& plan,
+                                                        const fixture::Kinematics& kinematics,
+                                                        const Eigen::Isometry3d& X_BP, int feature,
                                                         const core::Pose& asked) {
   std::vector<TouchStep> out;
-  const Plan& plan = context.plan;
   if (!plan.fixture->reached_pose) return out;
   const ReachedPosePlan& wanted = *plan.fixture->reached_pose;
   const FeaturePlan& of = plan.features[static_cast<std::size_t>(feature)];
-  const Eigen::Isometry3d X_WB = fixture::body_to_machine(context.cell->kinematics(), asked);
-  const Eigen::Isometry3d X_WP = X_WB * context.cell->nominal_part();
+  const Eigen::Isometry3d X_WB = fixture::body_to_machine(kinematics, asked);
+  const Eigen::Isometry3d X_WP = X_WB * X_BP;
   const Scene scene(plan, of);
   const PathGeometry geometry = path_geometry(plan, of, plan.part.location_uncertainty_mm);
   const std::size_t of_base = plan.fixture->datum ? plan.fixture->datum->spheres.size() : 0;
   for (std::size_t i = 0; i < wanted.spheres.size(); ++i) {
     const Vector3d center_B = vector3(wanted.spheres[i].center_mm);
-    auto steps =
-        sphere_steps(plan, {X_WB * center_B, 0.5 * wanted.sphere_diameter_mm, wanted.points,
-                            setting_room_mm(wanted, context.cell->kinematics(), center_B)});
+    auto steps = sphere_steps(plan, {X_WB * center_B, 0.5 * wanted.sphere_diameter_mm,
+                                     wanted.points, setting_room_mm(wanted, kinematics, center_B)});
     if (!steps) return core::fail(steps.error().at(kReachedPosePointer));
     if (auto clear = check_ways(scene, {X_WP, X_WP}, geometry, *steps, i); !clear) {
       return core::fail(clear.error());

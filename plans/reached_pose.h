@@ -15,11 +15,13 @@ namespace rondure::plans {
 
 /// How the spheres on the ring are touched when the fixture stands about in a pose: each from park
 /// height down to the pole, around, up again; `row.layer` counts on from the spheres of the base.
+/// @param kinematics  As far as the axes of the fixture are known.
+/// @param X_BP        Nominal part frame in the body frame.
 /// @return Empty without `fixture.reached_pose`; kUnreachable, naming the sphere, when the tool
 ///         would come too near to part, ring or anything else the plan knows. Nothing moves.
-[[nodiscard]] core::Result<std::vector<TouchStep>> reached_pose_steps(const RunContext& context,
-                                                                      int feature,
-                                                                      const core::Pose& asked);
+[[nodiscard]] core::Result<std::vector<TouchStep>> reached_pose_steps(
+    const Plan& plan, const fixture::Kinematics& kinematics, const Eigen::Isometry3d& X_BP,
+    int feature, const core::Pose& asked);
 
 /// The pose in which the spheres were found: least squares of the directions between them, so that
 /// errors of the place of the axes do not count.

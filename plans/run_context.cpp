@@ -41,7 +41,7 @@ core::Result<void> check_reading(const record::PoseVisit& known, const core::Pos
 }
 
 cmm::TouchReading reading_of(const record::Touch& touch) {
-  return {touch.tip_mm, touch.temperature_degC, touch.time_s};
+  return {touch.tip_mm, touch.temperature_degC, touch.time_s, 0.0, touch.scale_temperature_degC};
 }
 
 }  // namespace
@@ -250,7 +250,8 @@ core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& 
     const std::string what = "turn the fixture to " + in_degrees(commanded);
     if (auto go = ask({NextMove::Kind::kTurn, what, {}, {}}); !go) return core::fail(go.error());
   }
-  const auto steps = reached_pose_steps(*this, feature, commanded);  // before anybody turns it
+  const auto steps =  // before anybody turns it
+      reached_pose_steps(plan, cell->kinematics(), cell->nominal_part(), feature, commanded);
   if (!steps) return core::fail(steps.error());
   auto reached = recalling() ? cell->recall_turn(commanded) : cell->turn_to(commanded);
   if (reached && !steps->empty()) reached = measure_reached_pose(*this, *steps, commanded);

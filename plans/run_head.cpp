@@ -143,7 +143,8 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
     add("scale_expansion_uncertainty_per_K", plan.machine->scale_expansion_uncertainty_per_K);
   }
   if (plan.part.expansion_per_K || plan.machine->scale_expansion_per_K) {
-    add("temperature_uncertainty_K", plan.environment.temperature_uncertainty_K);
+    add("temperature_uncertainty_K",
+        plan.environment.value_or(EnvironmentPlan()).temperature_uncertainty_K);
   }
   return out;
 }
@@ -153,6 +154,12 @@ std::vector<record::Setting> settings_of(const Plan& plan) {
   SettingList list("decision_rule/");
   describe(list, rule);
   std::vector<record::Setting> out = list.take();
+  if (plan.environment) {
+    out.push_back({"environment/declared", std::nullopt, "limits"});
+    if (const auto& degC = plan.environment->assumed_degC) {
+      out.push_back({"environment/assumed_degC", *degC, ""});
+    }
+  }
   if (!plan.uncertainty) return out;
   UncertaintyPlan uncertainty = *plan.uncertainty;
   SettingList declared("uncertainty/");
@@ -192,8 +199,9 @@ record::Header header_of(const Plan& plan, const RunOptions& options, std::uint6
   out.decision_rule = plan.decision_rule.rule;
   out.simulated = simulates_anything(plan);
   out.seed = out.simulated ? seed : 0;
-  out.temperature_min_degC = plan.environment.min_degC;
-  out.temperature_max_degC = plan.environment.max_degC;
+  const EnvironmentPlan environment = plan.environment.value_or(EnvironmentPlan());
+  out.temperature_min_degC = environment.min_degC;
+  out.temperature_max_degC = environment.max_degC;
   return out;
 }
 

@@ -74,7 +74,8 @@ core::Result<std::vector<record::Touch>> RunContext::recall_scan(ScanStep step) 
   }
   TouchStep first;
   first.scan = step.command;
-  first.scan_end = {known.back().tip_mm, known.back().temperature_degC, known.back().time_s};
+  const record::Touch& end = known.back();
+  first.scan_end = {end.tip_mm, end.temperature_degC, end.time_s, 0.0, end.scale_temperature_degC};
   first.command = cmm::scan_point(cmm::on_grid(step.command), 0);
   first.row = known.front();
   first.entry_W = std::move(step.entry_W);

@@ -79,6 +79,8 @@ struct Journal::Impl {
     require_touch(touch);
     statements->touch = touch;
     statements->purpose = name_of(touch.purpose);
+    statements->temperature_degC.take(touch.temperature_degC, "temperature_degC");
+    statements->scale_temperature_degC.take(touch.scale_temperature_degC, "scale_temperature_degC");
     statements->insert_touch.execute(true);
     chain->append("touch", touch.id);
   }

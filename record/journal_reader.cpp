@@ -15,6 +15,7 @@
 #include <soci/sqlite3/soci-sqlite3.h>
 
 #include "core/numbers.h"
+#include "record/journal_rows.h"
 #include "record/journal_schema.h"
 #include "record/journal_seal.h"
 #include "record/journal_series.h"
@@ -253,19 +254,24 @@ Touch::Purpose purpose_of(const std::string& word) {
 void read_touches(soci::session& sql, RunRecord& record, std::int64_t version) {
   Touch row;
   std::string purpose;
+  Measured temperature;
+  Measured scales;
   // Before version 3 nothing was brought to 20 degC, and nobody asked how warm the scales were.
   const std::string query = fmt::format(
       "select id, purpose, pose, layer, point, repeat, tip_x_mm, tip_y_mm, tip_z_mm, approach_x, "
       "approach_y, approach_z, temperature_degC, time_s, {} from touch order by id",
-      version < 3 ? "20.0" : "scale_temperature_degC");
+      version < 3 ? "null" : "scale_temperature_degC");
   soci::statement rows =
       (sql.prepare << query, into(row.id), into(purpose), into(row.pose), into(row.layer),
        into(row.point), into(row.repeat), into(row.tip_mm.x()), into(row.tip_mm.y()),
        into(row.tip_mm.z()), into(row.approach.x()), into(row.approach.y()), into(row.approach.z()),
-       into(row.temperature_degC), into(row.time_s), into(row.scale_temperature_degC));
+       into(temperature.value, temperature.given), into(row.time_s),
+       into(scales.value, scales.given));
   rows.execute();
   while (rows.fetch()) {
     row.purpose = purpose_of(purpose);
+    row.temperature_degC = temperature.get();
+    row.scale_temperature_degC = scales.get();
     require_touch(row);
     const bool check = row.purpose == Touch::Purpose::kCheck;
     if (check != (row.id < 0)) {

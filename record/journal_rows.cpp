@@ -85,6 +85,15 @@ void insert_feature(soci::session& sql, int id, const Feature& f) {
 
 }  // namespace
 
+void Measured::take(const std::optional<double>& number, const std::string& name) {
+  value = number_or_zero(number, name);
+  given = number ? soci::i_ok : soci::i_null;
+}
+
+std::optional<double> Measured::get() const {
+  return given == soci::i_ok ? std::optional(value) : std::nullopt;
+}
+
 Statements::Statements(soci::session& sql)
     : insert_touch((
           sql.prepare << "insert into touch values (:id, :purpose, :pose, :layer, :point, :repeat, "
@@ -92,7 +101,8 @@ Statements::Statements(soci::session& sql)
           use(touch.id), use(purpose), use(touch.pose), use(touch.layer), use(touch.point),
           use(touch.repeat), use(touch.tip_mm.x()), use(touch.tip_mm.y()), use(touch.tip_mm.z()),
           use(touch.approach.x()), use(touch.approach.y()), use(touch.approach.z()),
-          use(touch.temperature_degC), use(touch.time_s), use(touch.scale_temperature_degC))),
+          use(temperature_degC.value, temperature_degC.given), use(touch.time_s),
+          use(scale_temperature_degC.value, scale_temperature_degC.given))),
       insert_pose((sql.prepare << "insert into pose values (:id, :feature, :ca, :cb, :ra, :rb, "
                                   ":final, :time)",
                    use(pose.id), use(pose.feature), use(pose.commanded.alpha_rad),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -11,10 +12,22 @@
 
 namespace rondure::record {
 
+/// A number that is bound with its indicator, null where nobody measured it.
+struct Measured {
+  double value = 0.0;
+  soci::indicator given = soci::i_null;
+
+  /// @throws  std::runtime_error of NaN, which SQLite would take for null.
+  void take(const std::optional<double>& number, const std::string& name);
+  [[nodiscard]] std::optional<double> get() const;
+};
+
 /// The statements that run during a measurement: prepared once, bound to the rows beside them.
 struct Statements {
   Touch touch;
   std::string purpose;
+  Measured temperature_degC;
+  Measured scale_temperature_degC;
   PoseVisit pose;
   int final_cloud = 0;
   Decision decision;

@@ -8,7 +8,7 @@ namespace {
 
 // Numbers that were measured have the type `any`: a column of type `real` would lose the sign of
 // -0.0, because SQLite packs whole numbers there as integers.
-constexpr std::array<Table, 19> kTables = {{
+constexpr std::array<Table, 20> kTables = {{
     {"header",
      R"(create table header (
   id integer primary key check (id = 0),
@@ -123,7 +123,26 @@ constexpr std::array<Table, 19> kTables = {{
   time_s any not null,
   scale_temperature_degC any not null
 ) strict)",
-     3},
+     3, kFirstUnmeasuredVersion - 1},
+    {"touch",
+     R"(create table touch (
+  id integer primary key,
+  purpose text not null,
+  pose integer not null,
+  layer integer not null,
+  point integer not null,
+  repeat integer not null,
+  tip_x_mm any not null,
+  tip_y_mm any not null,
+  tip_z_mm any not null,
+  approach_x any not null,
+  approach_y any not null,
+  approach_z any not null,
+  temperature_degC any,
+  time_s any not null,
+  scale_temperature_degC any
+) strict)",
+     kFirstUnmeasuredVersion},
     {"decision",
      R"(create table decision (
   id integer primary key,

@@ -173,9 +173,9 @@ struct Touch {
   int repeat = 0;  ///< 0-based.
   Eigen::Vector3d tip_mm = Eigen::Vector3d::Zero();    ///< Tip centre, machine frame.
   Eigen::Vector3d approach = Eigen::Vector3d::Zero();  ///< Unit direction of the approach.
-  double temperature_degC = 20.0;                      ///< Of the part.
+  std::optional<double> temperature_degC;              ///< Of the part; none: not measured.
   double time_s = 0.0;                                 ///< Machine clock.
-  double scale_temperature_degC = 20.0;                ///< Of the scales of the machine.
+  std::optional<double> scale_temperature_degC;        ///< Of the scales of the machine.
 };
 
 /// "qualification", "locate", "measure", "check".

@@ -44,7 +44,8 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     out.reason = "the computation gave no finite number";
     return;
   }
-  out.value.emplace(symbol_of(asked), value->value_mm, result.analysis->operator_of(asked),
+  out.value.emplace(symbol_of(asked), value->value_mm,
+                    result.analysis->operator_of(asked, temperature_words(result)),
                     UncertaintyStatus::none("intervals are computed of touches and points only"));
   if (value->limit_mm) asked.tolerance_mm = value->limit_mm;
   const bool proves =
@@ -53,6 +54,8 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     out.reason = *value->void_because;
   } else if (record.ending != "finished") {
     out.reason = "the run did not finish";
+  } else if (auto fault = temperature_fault(record, result)) {
+    out.reason = *std::move(fault);
   } else {
     apply(rule, out);
     out.reason += joined(value->detail);
@@ -79,6 +82,7 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
                                 const std::optional<fit::ProbeTip>& probe) {
   FeatureResult result;
   result.feature = record.features[static_cast<std::size_t>(index)];
+  result.temperatures = temperatures_of(record, {});         // series carry none
   if (result.feature.shape == record::Shape::kRotaryAxes) {  // of touches
     if (probe) result.tip_radius_mm = probe->radius_mm;
     evaluate_rotary(record, index, result);

@@ -46,9 +46,9 @@ class AnalysisResult {
   /// The value of a characteristic, or why there is none.
   [[nodiscard]] virtual core::Result<AnalysisValue> value_of(
       const record::Characteristic& characteristic) const = 0;
-  /// How that value came about: "LSCI; gaussian low pass 50 UPR; ...".
-  [[nodiscard]] virtual ValueOperator operator_of(
-      const record::Characteristic& characteristic) const = 0;
+  /// How that value came about: "LSCI; gaussian low pass 50 UPR; ...; 20.3 degC".
+  [[nodiscard]] virtual ValueOperator operator_of(const record::Characteristic& characteristic,
+                                                  const std::string& temperature) const = 0;
   /// The filter, and what was recorded, as the archive keeps them.
   [[nodiscard]] virtual std::string filter_text() const = 0;
   [[nodiscard]] virtual std::string sampling_text() const = 0;
@@ -70,8 +70,8 @@ class AnalysisResult {
                                               const std::optional<fit::ProbeTip>& probe);
 
 /// Fills the characteristics of such a feature under the rule. Void without a result, without the
-/// value, where the value proves nothing, when the run did not finish, or when the rule needs an
-/// interval: of series none is computed yet.
+/// value, outside the temperature limits, where the value proves nothing, when the run did not
+/// finish, or when the rule needs an interval: of series none is computed yet.
 void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
                      FeatureResult& result);
 

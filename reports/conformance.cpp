@@ -47,15 +47,6 @@ std::string sampling_words(const FeatureResult& result,
   return text;
 }
 
-std::string temperature_words(const FeatureResult& result) {
-  if (!result.temperatures) return "temperature not recorded";
-  const std::string text = fmt::format("{:.1f} degC", result.temperatures->mean_degC);
-  if (!result.thermal) return text;
-  return fmt::format("{} brought to 20 degC, {:.2f} um a metre with U = {:.2f} um (k = 2)", text,
-                     1e6 * (result.thermal->factor - 1.0),
-                     2e6 * result.thermal->factor_uncertainty);
-}
-
 std::string tip_words(const FeatureResult& result) {
   return result.tip_radius_mm ? fmt::format("r_tip {:.4f} mm", *result.tip_radius_mm)
                               : "r_tip unknown";
@@ -86,17 +77,6 @@ std::optional<std::string> probe_fault(const record::RunRecord& record,
   return std::nullopt;
 }
 
-std::optional<std::string> temperature_fault(const record::Header& header,
-                                             const FeatureResult& result) {
-  if (!result.temperatures) return "the temperature is not known";
-  for (const double value : {result.temperatures->least_degC, result.temperatures->greatest_degC}) {
-    if (value >= header.temperature_min_degC && value <= header.temperature_max_degC) continue;
-    return fmt::format("temperature {:.2f} degC is outside {:g}..{:g} degC", value,
-                       header.temperature_min_degC, header.temperature_max_degC);
-  }
-  return std::nullopt;
-}
-
 /// Why a characteristic with a value is void all the same.
 std::optional<std::string> reason_for_void(const record::RunRecord& record,
                                            const std::optional<fit::ProbeTip>& probe,
@@ -120,9 +100,10 @@ std::optional<std::string> reason_for_void(const record::RunRecord& record,
         value.unseen_rad / core::kDegree);
   }
   if (record.ending != "finished") return "the run did not finish";
-  if (result.feature.strategy == record::Strategy::kPointsFile) return std::nullopt;
-  if (auto fault = probe_fault(record, probe)) return fault;
-  return temperature_fault(record.header, result);
+  if (result.feature.strategy != record::Strategy::kPointsFile) {
+    if (auto fault = probe_fault(record, probe)) return fault;
+  }
+  return temperature_fault(record, result);
 }
 
 /// What stands behind a verdict besides the feature itself.
@@ -187,6 +168,44 @@ void judge(const Circumstances& by, const FeatureResult& result, CharacteristicR
 }
 
 }  // namespace
+
+std::string temperature_words(const FeatureResult& result) {
+  if (!result.temperatures) return "temperature not recorded";
+  const double mean_degC = result.temperatures->mean_degC;
+  const std::string text = result.temperatures->declared
+                               ? fmt::format("{:.1f} degC declared, not measured", mean_degC)
+                               : fmt::format("{:.1f} degC", mean_degC);
+  if (!result.thermal) return text;
+  return fmt::format("{} brought to 20 degC, {:.2f} um a metre with U = {:.2f} um (k = 2)", text,
+                     1e6 * (result.thermal->factor - 1.0),
+                     2e6 * result.thermal->factor_uncertainty);
+}
+
+std::optional<std::string> temperature_fault(const record::RunRecord& record,
+                                             const FeatureResult& result) {
+  const record::Header& header = record.header;
+  const bool touched = result.feature.strategy != record::Strategy::kPointsFile &&
+                       result.feature.strategy != record::Strategy::kSeries;
+  if (!touched && !record::word_in(record.settings, "environment/declared")) return std::nullopt;
+  if (!result.temperatures) {
+    return fmt::format(
+        "the temperature was not measured, the limits are {:g}..{:g} degC: use a sensor that the "
+        "machine reports, or declare environment.assumed_degC in the plan",
+        header.temperature_min_degC, header.temperature_max_degC);
+  }
+  for (const double value : {result.temperatures->least_degC, result.temperatures->greatest_degC}) {
+    if (value >= header.temperature_min_degC && value <= header.temperature_max_degC) continue;
+    return fmt::format("temperature {:.2f} degC is outside {:g}..{:g} degC", value,
+                       header.temperature_min_degC, header.temperature_max_degC);
+  }
+  const bool cloud = touched && !result.analysis;
+  if (cloud && asks_for_20_degC(result.feature) && !result.thermal) {
+    return "the temperature of the scales was not measured, so nothing is brought to 20 degC: use "
+           "a sensor that the machine reports, declare environment.assumed_degC, or leave "
+           "scale_expansion_per_K out";
+  }
+  return std::nullopt;
+}
 
 void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
   out.verdict = Verdict::kVoid;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "record/run_record.h"
@@ -17,6 +18,16 @@ namespace rondure::reports {
 /// @param probe  The qualification of the run; a touched feature without a sound one is void.
 void decide(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
             const std::optional<fit::ProbeTip>& probe, FeatureResult& result);
+
+/// How warm the part was: "20.3 degC", "20.0 degC declared, not measured", "temperature not
+/// recorded"; with what bringing it to 20 degC did.
+[[nodiscard]] std::string temperature_words(const FeatureResult& result);
+
+/// Why temperature makes a result void: outside the limits, or neither measured nor declared. The
+/// limits hold for all that is touched, and for points of files and series where the plan has the
+/// object `environment`.
+[[nodiscard]] std::optional<std::string> temperature_fault(const record::RunRecord& record,
+                                                           const FeatureResult& result);
 
 /// Applies the rule to a characteristic whose value is stated and sound.
 void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out);

@@ -168,7 +168,8 @@ std::string ContourResult::sampling_text() const {
                      facts_.options.samples);
 }
 
-ValueOperator ContourResult::operator_of(const record::Characteristic& asked) const {
+ValueOperator ContourResult::operator_of(const record::Characteristic& asked,
+                                         const std::string& temperature) const {
   const std::string what = asked.form == Form::kContourSpread
                                ? "standard deviation of the parts about their mean contour"
                            : asked.form == Form::kHarmonicLimits
@@ -178,7 +179,7 @@ ValueOperator ContourResult::operator_of(const record::Characteristic& asked) co
       facts_.options.error.base == fit::BaseCircle::kLimacon ? "limacon" : "geometric";
   return {ReferenceTerm(fmt::format("{}; base circle {}", what, base)), FilterTerm(filter_text()),
           SamplingTerm(sampling_text()), TipTerm("readings as given"),
-          TemperatureTerm("temperature not recorded")};
+          TemperatureTerm(temperature)};
 }
 
 nlohmann::ordered_json ContourResult::json() const {

@@ -66,19 +66,14 @@ PoseMeans means_of(const RunRecord& record, int visit) {
   return out;
 }
 
-Temperatures temperatures_of(const RunRecord& record,
-                             const std::vector<const record::PoseVisit*>& visits) {
-  Temperatures out;
-  std::size_t count = 0;
+std::vector<const Touch*> touches_in(const RunRecord& record,
+                                     const std::vector<const record::PoseVisit*>& visits) {
+  std::vector<const Touch*> out;
   for (const Touch& touch : record.touches) {
     const bool ours = std::any_of(visits.begin(), visits.end(), [&](const auto* visit) {
       return touch.purpose == Touch::Purpose::kMeasure && touch.pose == visit->id;
     });
-    if (!ours) continue;
-    const double t = touch.temperature_degC;
-    out.least_degC = count == 0 ? t : std::min(out.least_degC, t);
-    out.greatest_degC = count == 0 ? t : std::max(out.greatest_degC, t);
-    out.mean_degC += (t - out.mean_degC) / static_cast<double>(++count);
+    if (ours) out.push_back(&touch);
   }
   return out;
 }
@@ -143,7 +138,7 @@ core::Result<MergedCloud> merged_cloud(const RunRecord& record, int index,
                       fmt::format("{} of {} poses were measured{}", visits.size(), planned,
                                   record.failure ? ": " + record.failure->what : std::string()));
   }
-  out.temperatures = temperatures_of(record, visits);
+  out.temperatures = temperatures_of(record, touches_in(record, visits));
   out.merged.joint = feature.word("merge") != "kinematics";
   out.merged.touch_mm = touch_uncertainty_mm(out, probe);
   if (poses.front().prior[0] == 0.0 && poses.front().prior[3] == 0.0) {

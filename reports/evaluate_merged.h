@@ -16,7 +16,7 @@ struct MergedCloud {
   std::vector<CloudPoint> points;  ///< One for each pose and target it reached.
   MergedPoses merged;
   std::optional<double> sigma_mm;  ///< Pooled standard deviation of a single touch.
-  Temperatures temperatures;
+  std::optional<Temperatures> temperatures;
 };
 
 /// Takes the touches of each pose to the body frame with the inverse of the fixture's motion and,

@@ -37,7 +37,6 @@ struct Measurement {
   double touch_sigma_mm = 0.0;
   double machine_u_mm = 0.0;
   std::size_t touches = 0;
-  double temperature_degC = 0.0;  ///< Mean.
 
   [[nodiscard]] Vector3d u_mm(const fit::BallCenter& center) const {
     const Vector3d variance = std::pow(touch_sigma_mm, 2) * center.cofactor.diagonal();
@@ -95,8 +94,6 @@ core::Result<Measurement> measure(const record::RunRecord& record, int index, do
       if (touch.purpose != record::Touch::Purpose::kMeasure || touch.pose != visit.id) continue;
       tips[touch.layer].push_back(touch.tip_mm);
       ++out.touches;
-      out.temperature_degC +=
-          (touch.temperature_degC - out.temperature_degC) / static_cast<double>(out.touches);
     }
     VisitBalls balls{visit.commanded, visit.reached, {}};
     for (const auto& [ball, points] : tips) {
@@ -112,6 +109,18 @@ core::Result<Measurement> measure(const record::RunRecord& record, int index, do
   if (freedoms <= 0) return core::fail(core::Code::kNoPoints, "no ball was touched");
   // Touches without any scatter, as of a simulation without errors, still have their digits.
   out.touch_sigma_mm = std::max(1e-9, std::sqrt(squares_mm2 / freedoms));
+  return out;
+}
+
+std::vector<const record::Touch*> ball_touches(const record::RunRecord& record, int index) {
+  std::vector<const record::Touch*> out;
+  for (const record::Touch& touch : record.touches) {
+    if (touch.purpose != record::Touch::Purpose::kMeasure || touch.pose < 0) continue;
+    const auto owner =
+        std::find_if(record.poses.begin(), record.poses.end(),
+                     [&](const record::PoseVisit& visit) { return visit.id == touch.pose; });
+    if (owner != record.poses.end() && owner->feature == index) out.push_back(&touch);
+  }
   return out;
 }
 
@@ -306,7 +315,6 @@ core::Result<RotaryFacts> facts_of(const record::RunRecord& record, int index, d
   RotaryFacts facts;
   fixture::Calibration& c = facts.calibration;
   if (auto dated = date_calibration(record, index, c); !dated) return core::fail(dated.error());
-  c.temperature_degC = measured->temperature_degC;
   auto alpha = study_of(*measured, Role::kAlpha, Vector3d::UnitX(), c.axis_point_mm);
   if (!alpha)
     return core::fail(alpha.error().code, fmt::format("axis alpha: {}", alpha.error().what));
@@ -353,6 +361,7 @@ void warn_rotary(const RotaryFacts& facts, std::vector<core::Error>& warnings) {
 }  // namespace
 
 void evaluate_rotary(const record::RunRecord& record, int index, FeatureResult& result) {
+  result.temperatures = temperatures_of(record, ball_touches(record, index));
   if (record.ending != "finished") {
     result.failure = core::Error{
         core::Code::kNoPoints,
@@ -369,6 +378,9 @@ void evaluate_rotary(const record::RunRecord& record, int index, FeatureResult& 
   if (!facts) {
     result.failure = facts.error();
     return;
+  }
+  if (result.temperatures && !result.temperatures->declared) {
+    facts->calibration.temperature_degC = result.temperatures->mean_degC;
   }
   warn_rotary(*facts, result.warnings);
   result.analysis = std::make_shared<RotaryResult>(*std::move(facts));

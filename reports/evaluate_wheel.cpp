@@ -180,7 +180,8 @@ core::Result<AnalysisValue> WheelResult::value_of(
   return out;
 }
 
-ValueOperator WheelResult::operator_of(const record::Characteristic& characteristic) const {
+ValueOperator WheelResult::operator_of(const record::Characteristic& characteristic,
+                                       const std::string& temperature) const {
   const fit::WheelMeasurement& m = facts_.evaluation.wheel;
   const std::string points = fmt::format("{} of {} points, {} mode", m.points - m.dropped.size(),
                                          m.points, fit::name_of(m.mode));
@@ -194,7 +195,7 @@ ValueOperator WheelResult::operator_of(const record::Characteristic& characteris
                                   fit::name_of(m.mean), m.centers.accepted.size());
   }
   return {ReferenceTerm(reference), FilterTerm(filter_text()), SamplingTerm(points),
-          TipTerm("points as given"), TemperatureTerm("temperature not recorded")};
+          TipTerm("points as given"), TemperatureTerm(temperature)};
 }
 
 std::string WheelResult::filter_text() const {

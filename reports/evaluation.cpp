@@ -149,9 +149,11 @@ std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record,
   const Eigen::Matrix3d turn = rotation(visit.reached);
   const Eigen::Vector3d nominal = turn * Eigen::Vector3d::UnitZ();
   if (!circle) return nominal;
-  // One section shows no tilt; the touches that located the part do.
-  for (const record::PoseVisit& other : record.poses) {
-    if (other.feature != visit.feature) continue;
+  // One section shows no tilt; the touches that located the part do: the last ones before the
+  // section, since the part may have been located again.
+  for (auto other_at = record.poses.rbegin(); other_at != record.poses.rend(); ++other_at) {
+    const record::PoseVisit& other = *other_at;
+    if (other.feature != visit.feature || other.id > visit.id) continue;
     std::vector<Eigen::Vector3d> tips;
     for (const Touch& touch : record.touches) {
       if (touch.purpose == Touch::Purpose::kLocate && touch.pose == other.id)
@@ -259,16 +261,6 @@ core::Pose levelling(const fixture::Kinematics& kinematics, const core::Pose& re
   return fixture::levelling_pose(kinematics, t);
 }
 
-void take_temperatures(const std::vector<const Touch*>& touches, FeatureResult& result) {
-  Temperatures out{touches.front()->temperature_degC, touches.front()->temperature_degC, 0.0};
-  for (const Touch* touch : touches) {
-    out.least_degC = std::min(out.least_degC, touch->temperature_degC);
-    out.greatest_degC = std::max(out.greatest_degC, touch->temperature_degC);
-    out.mean_degC += touch->temperature_degC / static_cast<double>(touches.size());
-  }
-  result.temperatures = out;
-}
-
 /// A cylinder that several poses show: in the body frame, whose z its axis is near.
 void evaluate_merged(const RunRecord& record, int index, const std::optional<fit::ProbeTip>& probe,
                      FeatureResult& result) {
@@ -309,12 +301,12 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     evaluate_merged(record, index, probe, result);
     return result;
   }
-  // A part that was located again while its final cloud was repeated has two: the later one counts.
-  const auto last = std::find_if(
-      record.poses.rbegin(), record.poses.rend(),
-      [&](const record::PoseVisit& visit) { return visit.feature == index && visit.final_cloud; });
+  const auto last =
+      std::find_if(record.poses.begin(), record.poses.end(), [&](const record::PoseVisit& visit) {
+        return visit.feature == index && is_final(record, visit);
+      });
   evaluate_poses(record, index, result);
-  if (last == record.poses.rend()) {
+  if (last == record.poses.end()) {
     result.failure =
         core::Error{core::Code::kNoPoints,
                     record.failure ? "not measured to its end: " + record.failure->what
@@ -328,7 +320,8 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     result.failure = core::Error{core::Code::kNoPoints, "the final cloud holds no touches", {}};
     return result;
   }
-  if (result.feature.strategy != record::Strategy::kPointsFile) take_temperatures(touches, result);
+  const bool touched = result.feature.strategy != record::Strategy::kPointsFile;
+  result.temperatures = temperatures_of(record, touched ? touches : decltype(touches){});
   result.thermal = thermal_correction(record, index, last->id);
   if (result.thermal && result.tip_radius_mm) {
     const ThermalCorrection& c = *result.thermal;
@@ -342,7 +335,7 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
   }
   if (result.failure) return result;
   evaluate_repeats(touches, direction, result);
-  if (result.mz_cylinder && result.feature.strategy != record::Strategy::kPointsFile) {
+  if (result.mz_cylinder && touched) {
     result.levelling_pose =
         levelling(kinematics, last->reached, result.mz_cylinder->axis.direction);
   }

@@ -88,13 +88,6 @@ struct CharacteristicResult {
   }
 };
 
-/// Part temperature while the final cloud was touched.
-struct Temperatures {
-  double least_degC = 0.0;
-  double greatest_degC = 0.0;
-  double mean_degC = 0.0;
-};
-
 /// The calibration of the fixture that a run used.
 struct FixtureUse {
   std::string id;
@@ -124,8 +117,8 @@ struct FeatureResult {
   std::optional<double> repeat_sigma_mm;     ///< Pooled standard deviation of a single touch.
   std::optional<double> repeat_zone_mean_mm;  ///< Mean of the zones of the single repeats.
   std::optional<double> repeat_zone_sd_mm;
-  std::optional<Temperatures> temperatures;   ///< Of the final cloud; none for points of a file.
-  std::shared_ptr<const MergedPoses> merged;  ///< Of the strategy "merged".
+  std::optional<Temperatures> temperatures;        ///< Of the final cloud; none: not known.
+  std::shared_ptr<const MergedPoses> merged;       ///< Of the strategy "merged".
   std::shared_ptr<const AnalysisResult> analysis;  ///< Of a feature whose data are series.
   std::optional<ThermalCorrection> thermal;        ///< All above is at 20 degC; none: as measured.
   std::vector<CharacteristicResult> characteristics;
@@ -136,7 +129,7 @@ struct FeatureResult {
 /// What a record says: a pure function of it.
 struct Evaluation {
   std::optional<fit::ProbeTip> probe;
-  std::optional<FixtureUse> fixture;  ///< None: taken as nominal.
+  std::optional<FixtureUse> fixture;                 ///< None: taken as nominal.
   core::Result<DecisionRule> rule = DecisionRule();  ///< Of the run, or why it is not known.
   std::vector<FeatureResult> features;
   Verdict verdict = Verdict::kVoid;  ///< The worst of all toleranced characteristics.

@@ -165,10 +165,12 @@ const PoseValue* final_pose_of(const FeatureResult& feature) {
 }
 
 const record::SimulationTruth* truth_of(const record::RunRecord& record, std::size_t index) {
+  // A part that was located again while its final cloud was repeated has two: the later counts.
+  const record::SimulationTruth* last = nullptr;
   for (const record::SimulationTruth& truth : record.truths) {
-    if (truth.feature >= 0 && static_cast<std::size_t>(truth.feature) == index) return &truth;
+    if (truth.feature >= 0 && static_cast<std::size_t>(truth.feature) == index) last = &truth;
   }
-  return nullptr;
+  return last;
 }
 
 std::string pattern_of(const FeatureResult& feature) {

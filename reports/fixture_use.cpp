@@ -23,6 +23,11 @@ fixture::CalibrationDemand demand_of(const record::RunRecord& record) {
   if (const auto limit = number("fixture/max_residual_um")) {
     out.max_residual_mm = *limit * core::kMicrometre;
   }
+  if (record.header.temperature_min_degC < record.header.temperature_max_degC) {
+    out.min_degC = record.header.temperature_min_degC;
+    out.max_degC = record.header.temperature_max_degC;
+  }
+  out.assumed_degC = assumed_degC(record);
   out.lowest = {angle("fixture/min_alpha_deg"), angle("fixture/min_beta_deg")};
   out.highest = {angle("fixture/max_alpha_deg"), angle("fixture/max_beta_deg")};
   out.axis_point_mm = vector_in(record, "fixture/axis_point_mm");

@@ -335,7 +335,8 @@ void FormModel::find_bands() {
         shared += product * product / (n * n) / group.width;
       }
     }
-    if (like) {
+    // An error that vanishes in the noise of the coefficient takes no form away.
+    if (like && shared > noise_mm2_ / n) {
       --bands_[group.band].groups;
       group.band = bands_.size();
       FormBand own;

@@ -138,9 +138,14 @@ std::string data_entries(const FeatureResult& feature) {
                                 ? trf("{} µm standard deviation", um(*feature.repeat_zone_sd_mm))
                                 : std::string()));
   }
-  if (!from_file)
+  if (feature.temperatures || !from_file) {
     html += entry(tr("Mean temperature"),
-                  feature.temperatures ? fixed(feature.temperatures->mean_degC, 2) + " °C" : "–");
+                  !feature.temperatures
+                      ? tr("not measured")
+                      : fixed(feature.temperatures->mean_degC, 2) + " °C" +
+                            (feature.temperatures->declared ? ", " + tr("declared, not measured")
+                                                            : std::string()));
+  }
   html += dense_entry(feature);
   if (feature.thermal) {
     html += entry(tr("Brought to 20 °C"),

@@ -299,6 +299,9 @@ Json feature_json(const FeatureResult& feature) {
   json["repeat_zone_sd_um"] = optional_um(feature.repeat_zone_sd_mm);
   json["mean_temperature_degC"] =
       feature.temperatures ? Json(feature.temperatures->mean_degC) : Json(nullptr);
+  json["temperature_source"] = !feature.temperatures            ? Json(nullptr)
+                               : feature.temperatures->declared ? Json("declared")
+                                                                : Json("measured");
   json["temperature_correction"] = thermal_json(feature.thermal);
   json["layers"] = list_json(feature.layers,
                              [&](const LayerResult& layer) { return layer_json(layer, feature); });

@@ -152,6 +152,8 @@ constexpr Translation kPageTexts[] = {
     {"{} µm mean", "平均 {} µm"},
     {"{} µm standard deviation", "标准差 {} µm"},
     {"Mean temperature", "平均温度"},
+    {"not measured", "未测量"},
+    {"declared, not measured", "声明值，未测量"},
     {"Brought to 20 °C", "换算到 20 °C"},
     {"{} µm a metre", "每米 {} µm"},
     {"U = {} µm a metre (k = 2); part {} °C, scales {} °C",

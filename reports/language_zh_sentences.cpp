@@ -84,7 +84,15 @@ constexpr Translation kSentenceTexts[] = {
      "测头有效半径 {0} mm 与 {2} mm 之差不在 {1} um 以内"},
     {"the probing form {:.3f} um is above its limit of {:g} um",
      "探测形状误差 {} um 超出限值 {} um"},
-    {"the temperature is not known", "温度未知"},
+    {"the temperature was not measured, the limits are {:g}..{:g} degC: use a sensor that the "
+     "machine reports, or declare environment.assumed_degC in the plan",
+     "温度未测量，限值为 {}..{} degC：请使用测量机可报告的传感器，或在计划中声明 "
+     "environment.assumed_degC"},
+    {"the temperature of the scales was not measured, so nothing is brought to 20 degC: use a "
+     "sensor that the machine reports, declare environment.assumed_degC, or leave "
+     "scale_expansion_per_K out",
+     "光栅尺温度未测量，因此未换算到 20 degC：请使用测量机可报告的传感器，声明 "
+     "environment.assumed_degC，或删去 scale_expansion_per_K"},
     {"temperature {:.2f} degC is outside {:g}..{:g} degC", "温度 {} degC 超出 {}..{} degC"},
     {"the points leave {:.0f} deg of the turn unseen: what is there can only add to the deviation; "
      "measure the whole turn",
@@ -214,6 +222,7 @@ constexpr Translation kSentenceTexts[] = {
      "拟合未使用的 {1} 个位姿中的 {0} 个球心"},
     {"sphere fits with the certified radius", "以证书半径拟合球"},
     {"{:.1f} degC", "{} degC"},
+    {"{:.1f} degC declared, not measured", "{} degC（声明值，未测量）"},
     {"{} um rms before compensation", "补偿前均方根 {} um"},
     {"{} balls, {} poses, {} touches", "{} 个球，{} 个位姿，{} 次触测"},
     {"{}, valid until {}", "{:s}，有效期至 {}"},

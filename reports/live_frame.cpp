@@ -88,7 +88,10 @@ void LivePainter::look_at_poses(const record::PoseVisit& present) {
   for (const record::PoseVisit& visit : record_.poses) {
     if (visit.feature != present.feature) continue;
     const bool grew = visit.id == present.id || visit.id == grew_;
-    if (!grew && poses_.count(visit.id) == 1) continue;
+    if (const auto known = poses_.find(visit.id); !grew && known != poses_.end()) {
+      known->second.final_pose = is_final(record_, visit);
+      continue;
+    }
     const auto value = value_of_pose(record_, visit, strategy_of(record_, visit));
     if (value) poses_[visit.id] = *value;
   }

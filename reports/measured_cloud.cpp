@@ -1,5 +1,6 @@
 #include "reports/measured_cloud.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -72,13 +73,23 @@ PoseValue pose_value(const std::vector<Eigen::Vector2d>& section, record::Strate
   return out;
 }
 
+bool is_final(const record::RunRecord& record, const record::PoseVisit& visit) {
+  if (!visit.final_cloud) return false;
+  const auto strategy = record.features[static_cast<std::size_t>(visit.feature)].strategy;
+  if (strategy == record::Strategy::kMerged) return true;
+  return std::none_of(
+      record.poses.begin(), record.poses.end(), [&](const record::PoseVisit& other) {
+        return other.final_cloud && other.feature == visit.feature && other.id > visit.id;
+      });
+}
+
 std::optional<PoseValue> value_of_pose(const record::RunRecord& record,
                                        const record::PoseVisit& visit, record::Strategy strategy) {
   const auto cloud = averaged(touches_of(record, visit.id));
   if (cloud.empty()) return std::nullopt;
   PoseValue value = pose_value(projected(tips_of(cloud), Eigen::Matrix3d::Identity()), strategy);
   value.pose = visit.reached;
-  value.final_pose = visit.final_cloud;
+  value.final_pose = is_final(record, visit);
   return value;
 }
 

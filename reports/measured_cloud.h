@@ -33,6 +33,10 @@ namespace rondure::reports {
 [[nodiscard]] PoseValue pose_value(const std::vector<Eigen::Vector2d>& section,
                                    record::Strategy strategy);
 
+/// Whether the cloud of a pose is evaluated. A part that was located again while its final cloud
+/// was repeated has two that are marked: the later one counts. Of merged poses all do.
+[[nodiscard]] bool is_final(const record::RunRecord& record, const record::PoseVisit& visit);
+
 /// f of a pose from its own touches; nothing when there are none.
 [[nodiscard]] std::optional<PoseValue> value_of_pose(const record::RunRecord& record,
                                                      const record::PoseVisit& visit,

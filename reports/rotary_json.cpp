@@ -73,7 +73,7 @@ Json RotaryResult::json() const {
   Json json = {{"fixture", c.fixture_id},
                {"measured_utc", c.measured_utc},
                {"expires_utc", c.expires_utc},
-               {"temperature_degC", c.temperature_degC},
+               {"temperature_degC", c.temperature_degC ? Json(*c.temperature_degC) : Json(nullptr)},
                {"balls", facts_.balls.size()},
                {"poses", facts_.poses},
                {"touches", facts_.touches},

@@ -25,7 +25,8 @@ core::Result<AnalysisValue> RotaryResult::value_of(
   return out;
 }
 
-ValueOperator RotaryResult::operator_of(const record::Characteristic& characteristic) const {
+ValueOperator RotaryResult::operator_of(const record::Characteristic& characteristic,
+                                        const std::string& temperature) const {
   const fixture::Verification& v = facts_.calibration.verification;
   const bool rms = characteristic.form == record::Form::kFixtureResidualRms;
   return {ReferenceTerm(fmt::format("{} distance of balls in combined poses from where the "
@@ -34,8 +35,7 @@ ValueOperator RotaryResult::operator_of(const record::Characteristic& characteri
           FilterTerm(filter_text()),
           SamplingTerm(fmt::format("{} ball centres in {} poses that the fit did not use", v.points,
                                    v.poses)),
-          TipTerm("sphere fits with the certified radius"),
-          TemperatureTerm(fmt::format("{:.1f} degC", facts_.calibration.temperature_degC))};
+          TipTerm("sphere fits with the certified radius"), TemperatureTerm(temperature)};
 }
 
 std::string RotaryResult::filter_text() const { return "unfiltered"; }

@@ -146,7 +146,8 @@ std::string SpindleResult::sampling_text() const {
                      facts_.separation.profile.r_mm.size());
 }
 
-ValueOperator SpindleResult::operator_of(const record::Characteristic& asked) const {
+ValueOperator SpindleResult::operator_of(const record::Characteristic& asked,
+                                         const std::string& temperature) const {
   const bool part = asked.form == Form::kRoundness || asked.form == Form::kRoundnessRms;
   const fit::ThreeProbeResult& s = facts_.separation;
   const auto angles = s.layout.angles_rad();
@@ -163,8 +164,7 @@ ValueOperator SpindleResult::operator_of(const record::Characteristic& asked) co
           FilterTerm(part         ? filter_text()
                      : unfiltered ? "before the filter"
                                   : "unfiltered"),
-          SamplingTerm(how), TipTerm("displacement probes"),
-          TemperatureTerm("temperature not recorded")};
+          SamplingTerm(how), TipTerm("displacement probes"), TemperatureTerm(temperature)};
 }
 
 std::vector<SummaryLine> SpindleResult::summary() const {

@@ -1,10 +1,27 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "record/run_record.h"
 
 namespace rondure::reports {
+
+/// Part temperature while a cloud was touched.
+struct Temperatures {
+  double least_degC = 0.0;
+  double greatest_degC = 0.0;
+  double mean_degC = 0.0;
+  bool declared = false;  ///< environment.assumed_degC of the plan stands for some or all.
+};
+
+/// What the plan declares of temperatures that nobody measured.
+[[nodiscard]] std::optional<double> assumed_degC(const record::RunRecord& record);
+
+/// Part temperature of the touches; of none (a file), what the plan declares. Nothing where one was
+/// not measured and none is declared.
+[[nodiscard]] std::optional<Temperatures> temperatures_of(
+    const record::RunRecord& record, const std::vector<const record::Touch*>& touches);
 
 /// Bringing a feature to 20 degC, the reference temperature of ISO 1. The journal keeps what was
 /// read; this is done in the evaluation:
@@ -22,11 +39,15 @@ struct ThermalCorrection {
   double factor_uncertainty = 0.0;
 };
 
+/// Whether a feature is to be brought to 20 degC.
+[[nodiscard]] bool asks_for_20_degC(const record::Feature& feature);
+
 /// The record with its tip centres brought to 20 degC; nothing when no feature asks for it.
 /// Qualification touches follow the scales alone: the reference sphere is taken as at 20 degC.
 [[nodiscard]] std::optional<record::RunRecord> compensated(const record::RunRecord& record);
 
-/// What compensated() does to a feature's cloud in one pose; nothing when the feature does not ask.
+/// What compensated() does to a feature's cloud in one pose; nothing when the feature does not ask,
+/// or when a temperature that it needs was neither measured nor declared.
 [[nodiscard]] std::optional<ThermalCorrection> thermal_correction(const record::RunRecord& record,
                                                                   int feature, int pose);
 

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,8 @@ namespace rondure::reports {
 namespace {
 
 std::string number(double value) { return std::isfinite(value) ? core::shortest(value) : ""; }
+
+std::string measured(const std::optional<double>& value) { return value ? number(*value) : ""; }
 
 }  // namespace
 
@@ -32,14 +35,13 @@ std::string write_touches_csv(const record::RunRecord& record) {
     text += fmt::format("{},{},{},{},{},{},{}", touch.id, record::name_of(touch.purpose),
                         feature == feature_of_pose.end() ? "" : feature->second, touch.pose,
                         touch.layer, touch.point, touch.repeat);
-    for (const double value :
-         {touch.tip_mm.x(), touch.tip_mm.y(), touch.tip_mm.z(), touch.approach.x(),
-          touch.approach.y(), touch.approach.z(), touch.temperature_degC, touch.time_s,
-          touch.scale_temperature_degC}) {
+    for (const double value : {touch.tip_mm.x(), touch.tip_mm.y(), touch.tip_mm.z(),
+                               touch.approach.x(), touch.approach.y(), touch.approach.z()}) {
       text += ',';
       text += number(value);
     }
-    text += '\n';
+    text += fmt::format(",{},{},{}\n", measured(touch.temperature_degC), number(touch.time_s),
+                        measured(touch.scale_temperature_degC));
   }
   return text;
 }

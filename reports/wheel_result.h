@@ -25,8 +25,8 @@ class WheelResult final : public AnalysisResult {
 
   [[nodiscard]] core::Result<AnalysisValue> value_of(
       const record::Characteristic& characteristic) const override;
-  [[nodiscard]] ValueOperator operator_of(
-      const record::Characteristic& characteristic) const override;
+  [[nodiscard]] ValueOperator operator_of(const record::Characteristic& characteristic,
+                                          const std::string& temperature) const override;
   [[nodiscard]] std::string filter_text() const override;
   [[nodiscard]] std::string sampling_text() const override;
   [[nodiscard]] nlohmann::ordered_json json() const override;

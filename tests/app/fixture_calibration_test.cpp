@@ -114,6 +114,10 @@ TEST_F(CalibratedFixture, IsRefusedWhereItDoesNotHold) {
        "the calibration of the fixture holds for -60..60 deg"},
       {good, {{"/fixture/calibration/max_residual_um", 0.01}}, "the plan allows 0.01 um"},
       {good, {{"/fixture/axis_point_mm", {0, 0, 151}}}, "refer to axis_point_mm"},
+      {with("/temperature_degC", 35.0), {}, "made at 35.00 degC, the plan allows 18..22 degC"},
+      {with("/temperature_degC", nullptr),
+       {},
+       "the temperature of the calibration was not measured"},
       {"", {}, "the text is no JSON"}};
   for (const Case& c : cases) {
     SCOPED_TRACE(c.words);
@@ -124,6 +128,21 @@ TEST_F(CalibratedFixture, IsRefusedWhereItDoesNotHold) {
     EXPECT_EQ(ran.status, 2);
     EXPECT_THAT(ran.err, HasSubstr(c.words));
     EXPECT_FALSE(fs::exists(folder / "run"));
+  }
+}
+
+TEST_F(CalibratedFixture, IsVoidOutsideTheTemperatureLimits) {
+  const TemporaryFolder folder;
+  json plan = json::parse(read(example("03_calibrate_fixture.json")));
+  plan["simulation"]["temperature_degC"] = 35.0;
+  write(folder / "plan.json", plan.dump());
+  const Outcome ran =
+      rondure({"run", folder / "plan.json", "--out", folder / "run", "--format", "json"});
+  EXPECT_EQ(ran.status, 1) << ran.out << ran.err;
+  const json report = json::parse(read(folder / "run" / "report.json"));
+  for (const json& characteristic : report.at("/features/0/characteristics"_json_pointer)) {
+    EXPECT_EQ(characteristic.at("verdict"), "void");
+    EXPECT_EQ(characteristic.at("reason"), "temperature 35.00 degC is outside 18..22 degC");
   }
 }
 

@@ -190,12 +190,26 @@ TEST(IppClientTraps, MatchesTheReportByNameAndPointsIjkOutOfThePart) {
   EXPECT_EQ(reading->tip_W_mm, Vector3d(27.25, 0.5, 10.0));
   EXPECT_EQ(reading->tip_radius_mm, 3.0);
   EXPECT_EQ(reading->temperature_degC, 20.5);
+  EXPECT_FALSE(reading->scale_temperature_degC) << "that of the part is another";
   EXPECT_EQ(machine->position_W_mm(), Vector3d(30.0, 0.0, 10.0));
   EXPECT_THAT(server.heard,
               ElementsAre("GoTo(X(30), Y(0), Z(10))",
                           "SetProp(Tool.PtMeasPar.Approach(3), Tool.PtMeasPar.Search(4), "
                           "Tool.PtMeasPar.Retract(-1))",
                           "PtMeas(X(27), Y(0), Z(10), IJK(1,0,0))"));
+}
+
+TEST(IppClientTraps, GivesNoTemperatureThatTheServerDoesNotGive) {
+  Controller server;
+  server.override_with("GetProp(Part", {"! Error(3, 0510, \"GetProp\", \"Bad property\")"});
+  const auto machine = server.homed();
+  EXPECT_FALSE(machine->knows_temperature());
+  EXPECT_THAT(machine->description(), HasSubstr("gives no part temperature"));
+  ASSERT_TRUE(machine->move_to({30.0, 0.0, 10.0}));
+  const auto reading = machine->touch(touch_from_x());
+  ASSERT_TRUE(reading) << reading.error().what;
+  EXPECT_FALSE(reading->temperature_degC);
+  EXPECT_FALSE(reading->scale_temperature_degC);
 }
 
 TEST(IppClientTraps, GoesBackItselfWhereANegativeRetractIsRefused) {

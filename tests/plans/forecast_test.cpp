@@ -118,6 +118,36 @@ INSTANTIATE_TEST_SUITE_P(Strategies, ForecastOf,
                                            "11_pose_search_as_published.json",
                                            "13_pose_search_virtual.json"));
 
+/// The plan in a fixture that a hand sets: three spheres on the ring show each pose.
+Plan by_hand(Plan plan) {
+  plan.fixture->driver = "manual";
+  plan.fixture->reached_pose.emplace().spheres = {
+      {{70.0, 0.0, -40.0}}, {{-35.0, 60.0, -40.0}}, {{-35.0, -60.0, -40.0}}};
+  return plan;
+}
+
+TEST(Forecast, TellsTheSpheresOnTheRingOfAFixtureThatAHandSets) {
+  for (const char* example : {"01_spool_simulated.json", "11_pose_search_as_published.json"}) {
+    SCOPED_TRACE(example);
+    const Plan plan = by_hand(ideal(plan_of(example)));
+    const auto forecast = plans::forecast(plan);
+    ASSERT_TRUE(forecast) << forecast.error().what;
+    const Followed run = follow(plan);
+    EXPECT_EQ(static_cast<std::size_t>(forecast->touches), run.record.touches.size());
+    EXPECT_EQ(static_cast<std::size_t>(forecast->poses), run.record.poses.size());
+    EXPECT_NEAR(clock_at_end(plan, run) / forecast->time_s, 1.0, 1e-4);
+  }
+}
+
+TEST(Forecast, RefusesAPoseWhoseSpheresOnTheRingCannotBeReached) {
+  Plan plan = by_hand(ideal(plan_of("01_spool_simulated.json")));
+  plan.fixture->reached_pose->spheres[0].center_mm = {20.0, 0.0, -40.0};  // inside the part
+  const auto forecast = plans::forecast(plan);
+  ASSERT_FALSE(forecast);
+  EXPECT_EQ(forecast.error().code, core::Code::kUnreachable);
+  EXPECT_THAT(forecast.error().what, HasSubstr("sphere 1 on the ring"));
+}
+
 TEST(Forecast, TellsTheTimeOfARunOnARealPartWithinTwoPercent) {
   for (const char* example : {"13_pose_search_virtual.json", "08_shaft_scanned.json"}) {
     SCOPED_TRACE(example);

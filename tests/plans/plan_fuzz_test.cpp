@@ -29,7 +29,8 @@ void expect_measurable(const Plan& plan) {
   }
   EXPECT_TRUE(plan.machine && plan.fixture && plan.probe && plan.simulation);
   EXPECT_GT(plan.probe->tip_diameter_mm, 0.0);
-  EXPECT_LT(plan.environment.min_degC, plan.environment.max_degC);
+  const EnvironmentPlan environment = plan.environment.value_or(EnvironmentPlan());
+  EXPECT_LT(environment.min_degC, environment.max_degC);
 }
 
 // A plan, or at least one problem that can be shown on one line of UTF-8.

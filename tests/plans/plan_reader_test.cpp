@@ -89,8 +89,19 @@ TEST(PlanReader, AKeyLeftOutHasTheDefaultOfItsStruct) {
   EXPECT_EQ(result->features[0].sampling.layers, defaults.sampling.layers);
   EXPECT_EQ(result->features[0].pose_search.steps_deg, defaults.pose_search.steps_deg);
   EXPECT_EQ(result->machine->park_mm, MachinePlan().park_mm);
-  EXPECT_EQ(result->environment.max_degC, EnvironmentPlan().max_degC);
+  EXPECT_FALSE(result->environment) << "its defaults hold for what is touched";
   EXPECT_EQ(result->reports.formats, ReportsPlan().formats);
+}
+
+TEST(PlanReader, AnAssumedTemperatureLiesWithinTheLimits) {
+  const std::string limits = kMachines + R"("environment": {"max_degC": 23, "assumed_degC": )";
+  const PlanOrProblems result = parse(touched("", limits + "22.5},"));
+  ASSERT_TRUE(result) << lines_of(result);
+  EXPECT_EQ(result->environment->assumed_degC, 22.5);
+  const core::Error problem = only_problem(touched("", limits + "24},"));
+  EXPECT_EQ(problem.where, "/environment/assumed_degC");
+  EXPECT_EQ(problem.what,
+            "24 degC is outside the limits 18..23 degC of this plan; every result would be void");
 }
 
 TEST(PlanReader, AnArrayInThePlanReplacesTheDefault) {

@@ -214,6 +214,10 @@ TEST(ResumeRelocates, APartThatHasMovedAndMeasuresItsCloudAnew) {
     EXPECT_EQ(record.ending, "finished");
     EXPECT_EQ(final_touches(record), 5U * 28U);
     EXPECT_GT(record.touches.size(), whole.record.touches.size());
+    const auto marked =
+        std::count_if(record.poses.begin(), record.poses.end(),
+                      [](const record::PoseVisit& visit) { return visit.final_cloud; });
+    EXPECT_EQ(static_cast<std::ptrdiff_t>(record.truths.size()), marked) << "one of each placement";
     EXPECT_TRUE(std::any_of(
         record.decisions.begin(), record.decisions.end(), [&](const record::Decision& d) {
           return d.feature == -1 &&

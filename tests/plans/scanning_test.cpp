@@ -130,7 +130,7 @@ TEST(Scanning, KeywayAndBurrAreSeen) {
 
 TEST(Temperature, SizesAreBroughtToTwentyDegrees) {
   Plan plan = perfect_plan("touch");
-  plan.environment.max_degC = 25.0;
+  plan.environment.emplace().max_degC = 25.0;
   plan.simulation->temperature_degC = 23.0;
   plan.simulation->part.expansion_per_K = 12e-6;
   plan.simulation->machine.scale_expansion_per_K = 8e-6;

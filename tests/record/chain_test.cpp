@@ -97,7 +97,7 @@ TEST_F(InterruptedRun, IsWhole) {
   const auto read = read_journal(scratch / "run");
   ASSERT_TRUE(read) << read.error().what;
   EXPECT_THAT(read->broken, IsEmpty());
-  EXPECT_EQ(read->version, 4);
+  EXPECT_EQ(read->version, 5);
   EXPECT_EQ(every_bit(read->record), every_bit(run));
 }
 
@@ -250,13 +250,13 @@ TEST_F(InterruptedRun, DoesNotGoOnWhenItWasChangedOrSealedOrIsHeldOpen) {
   meddle(other / "changed/journal.db", "delete from touch where id = 3");
   EXPECT_THAT(refusal(other / "changed"), HasSubstr("touch 3 was removed after it was written"));
   EXPECT_THAT(refusal(other / "absent"), HasSubstr("there is no journal.db"));
-  for (const std::string version : {"1", "2", "3"}) {
+  for (const std::string version : {"1", "2", "3", "4"}) {
     const fs::path old = other / ("old " + version);
     fs::create_directory(old);
     fs::copy_file(fs::path(RONDURE_SOURCE_DIR) / ("tests/data/journal_v" + version) / "journal.db",
                   old / "journal.db");
     meddle(old / "journal.db", "delete from seal");
-    EXPECT_THAT(refusal(old), HasSubstr("version " + version + ", a run goes on in version 4"));
+    EXPECT_THAT(refusal(old), HasSubstr("version " + version + ", a run goes on in version 5"));
   }
 
   const auto first = Journal::reopen(scratch / "run");

@@ -161,5 +161,33 @@ TEST(JournalSettings, OfTheWholeRunAreAbsentInVersion3WhichIsStillReadAndChecked
   EXPECT_THAT(changed.error().what, HasSubstr("table setting names feature -1"));
 }
 
+TEST(JournalTouches, AllHaveATemperatureInVersion4WhichIsStillReadAndChecked) {
+  const auto read = read_journal(fs::path(RONDURE_SOURCE_DIR) / "tests/data/journal_v4");
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(read->version, 4);
+  EXPECT_TRUE(read->record.sealed);
+  EXPECT_THAT(read->broken, IsEmpty());
+  ASSERT_FALSE(read->record.touches.empty());
+  for (const Touch& touch : read->record.touches) {
+    EXPECT_EQ(touch.temperature_degC, 20.0);
+    EXPECT_EQ(touch.scale_temperature_degC, 20.0);
+  }
+}
+
+TEST(JournalTouches, KeepThatNobodyMeasuredATemperature) {
+  const Scratch scratch;
+  RunRecord run = sample_run(3, 3);
+  run.touches[0].temperature_degC.reset();
+  run.touches[1].temperature_degC = 20.5;
+  run.touches[1].scale_temperature_degC.reset();
+  ASSERT_TRUE(write_run(scratch / "run", run));
+  const auto read = read_journal(scratch / "run");
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_THAT(read->broken, IsEmpty());
+  EXPECT_FALSE(read->record.touches[0].temperature_degC);
+  EXPECT_EQ(read->record.touches[1].temperature_degC, 20.5);
+  EXPECT_FALSE(read->record.touches[1].scale_temperature_degC);
+}
+
 }  // namespace
 }  // namespace rondure::record

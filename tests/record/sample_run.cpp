@@ -109,9 +109,9 @@ Touch sample_touch(Numbers& n, std::int64_t id) {
   touch.repeat = n.whole(3);
   touch.tip_mm = n.vector();
   touch.approach = n.vector();
-  touch.temperature_degC = n.real();
+  if (n.whole(5) > 0) touch.temperature_degC = n.real();
   touch.time_s = n.real();
-  touch.scale_temperature_degC = n.real();
+  if (n.whole(5) > 0) touch.scale_temperature_degC = n.real();
   return touch;
 }
 
@@ -136,6 +136,9 @@ void add_series(std::uint64_t seed, RunRecord& r) {
 class Bits {
  public:
   Bits& operator<<(double value) { return *this << std::bit_cast<std::int64_t>(value); }
+  Bits& operator<<(const std::optional<double>& value) {
+    return *this << value.has_value() << value.value_or(0.0);
+  }
   Bits& operator<<(const std::string& text) {
     out_ << text.size() << ':' << text << ' ';
     return *this;

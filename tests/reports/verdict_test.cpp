@@ -69,8 +69,14 @@ RunRecord touched_run(const std::string& rule) {
                   {"uncertainty/seed", 1.0, ""},
                   {"uncertainty/probe/repeatability_um", 0.5, ""},
                   {"uncertainty/declared", std::nullopt, "probe"}};
+  for (record::Touch& touch : run.touches) touch.temperature_degC = 20.0;
   add_qualification(run);
   return run;
+}
+
+/// Nobody measured a temperature.
+void forget_temperatures(RunRecord& run) {
+  for (record::Touch& touch : run.touches) touch.temperature_degC.reset();
 }
 
 CharacteristicResult result_of(const RunRecord& run) {
@@ -122,6 +128,20 @@ TEST(Verdict, OfAPartialArcIsVoidUnlessItFailsAlready) {
   }
 }
 
+TEST(Verdict, PrintsADeclaredTemperatureAsDeclared) {
+  RunRecord run = touched_run("iso-14253-1");
+  forget_temperatures(run);
+  run.settings.push_back({"environment/assumed_degC", 20.5, ""});
+  const CharacteristicResult touched = result_of(run);
+  EXPECT_EQ(touched.verdict, Verdict::kConforms) << touched.reason;
+  EXPECT_THAT(touched.value->sentence(), HasSubstr("20.5 degC declared, not measured"));
+  run.settings.push_back({"environment/declared", std::nullopt, "limits"});
+  run.features[0].strategy = record::Strategy::kPointsFile;
+  const CharacteristicResult read = result_of(run);
+  EXPECT_EQ(read.verdict, Verdict::kConforms) << read.reason;
+  EXPECT_THAT(read.value->sentence(), HasSubstr("20.5 degC declared, not measured"));
+}
+
 TEST(Verdict, EveryReferenceHasItsInterval) {
   for (const auto form : {record::Form::kCylindricity, record::Form::kRoundness}) {
     for (const auto reference :
@@ -156,6 +176,7 @@ void add_calibration(RunRecord& run, const std::function<void(fixture::Calibrati
   calibration.fixture_id = "F-01";
   calibration.measured_utc = "2026-11-01T08:00:00Z";
   calibration.expires_utc = "2027-11-01T08:00:00Z";
+  calibration.temperature_degC = 20.5;
   calibration.alpha = stations();
   calibration.beta = stations();
   calibration.verification = {6, 30, 0.6e-3, 1.4e-3, 9e-6, 0.5e-3, 42e-3, 90e-3};
@@ -218,6 +239,35 @@ std::vector<VoidPath> void_paths() {
          for (record::Touch& t : r.touches) t.temperature_degC = 22.5;
        },
        "temperature 22.50 degC is outside 18..22 degC"},
+      {"temperature not measured", forget_temperatures,
+       "the temperature was not measured, the limits are 18..22 degC: use a sensor that the "
+       "machine reports, or declare environment.assumed_degC in the plan"},
+      {"one temperature not measured", [](RunRecord& r) { r.touches[3].temperature_degC.reset(); },
+       "the temperature was not measured"},
+      {"temperature of a circle not measured",
+       [](RunRecord& r) {
+         forget_temperatures(r);
+         r.features[0].shape = record::Shape::kCircle;
+         r.features[0].characteristics[0].form = record::Form::kRoundness;
+       },
+       "the temperature was not measured"},
+      {"declared temperature outside",
+       [](RunRecord& r) {
+         forget_temperatures(r);
+         r.settings.push_back({"environment/assumed_degC", 22.5, ""});
+       },
+       "temperature 22.50 degC is outside 18..22 degC"},
+      {"scales not measured",
+       [](RunRecord& r) {
+         r.features[0].settings.push_back({"scale_expansion_per_K", 8e-6, ""});
+       },
+       "the temperature of the scales was not measured"},
+      {"points of a file under limits",
+       [](RunRecord& r) {
+         r.features[0].strategy = record::Strategy::kPointsFile;
+         r.settings.push_back({"environment/declared", std::nullopt, "limits"});
+       },
+       "the temperature was not measured"},
       {"unknown rule", [](RunRecord& r) { r.header.decision_rule = "coin"; },
        "does not know the decision rule"},
       {"no final cloud",
@@ -272,6 +322,12 @@ std::vector<VoidPath> void_paths() {
       {"calibration with too much left",
        [](RunRecord& r) { add_calibration(r, [](auto& c) { c.verification.max_mm = 6e-3; }); },
        "the plan allows 5 um"},
+      {"calibration made too warm",
+       [](RunRecord& r) { add_calibration(r, [](auto& c) { c.temperature_degC = 35.0; }); },
+       "made at 35.00 degC, the plan allows 18..22 degC"},
+      {"calibration without a temperature",
+       [](RunRecord& r) { add_calibration(r, [](auto& c) { c.temperature_degC.reset(); }); },
+       "the temperature of the calibration was not measured"},
       {"calibration that cannot be read",
        [](RunRecord& r) {
          r.settings.push_back({"fixture/calibration", std::nullopt, "{"});
@@ -395,7 +451,7 @@ TEST(Verdict, IsVoidWithoutCertificateOrTemperatureOrWithoutTheIntervalOfWhatWas
   const std::vector<Path> paths = {
       {"no certificate stands behind the minimum zone",
        [](FeatureResult& f) { f.mz_cylinder->certificate.kind = fit::Certificate::Kind::kNone; }},
-      {"the temperature is not known", [](FeatureResult& f) { f.temperatures.reset(); }},
+      {"the temperature was not measured", [](FeatureResult& f) { f.temperatures.reset(); }},
       {"nothing was touched",
        [](FeatureResult& f) {
          f.failure = core::Error{core::Code::kNoPoints, "nothing was touched", {}};
