@@ -335,9 +335,9 @@ void require_touch(const Touch& touch) {
        {"touch.approach_x", touch.approach.x()},
        {"touch.approach_y", touch.approach.y()},
        {"touch.approach_z", touch.approach.z()},
-       {"touch.temperature_degC", touch.temperature_degC},
+       {"touch.temperature_degC", touch.temperature_degC.value_or(0.0)},
        {"touch.time_s", touch.time_s},
-       {"touch.scale_temperature_degC", touch.scale_temperature_degC}}};
+       {"touch.scale_temperature_degC", touch.scale_temperature_degC.value_or(0.0)}}};
   for (const auto& [column, value] : numbers) require_number(column, value);
 }
 

@@ -112,16 +112,18 @@ class Declaration {
 void say_probe(const std::optional<ProbeInfluences>& declared, Declaration& out) {
   const ProbeInfluences probe = declared.value_or(ProbeInfluences{});
   out.group(declared.has_value());
+  const double sigma_um = kUm * probe.repeatability_mm;
   std::string repeatability =
-      fmt::format("standard deviation {:.4g} um of a touch, ", kUm * probe.repeatability_mm);
-  repeatability += probe.degrees_of_freedom > 0.0
-                       ? fmt::format("{:.4g} degrees of freedom, ", probe.degrees_of_freedom)
-                       : std::string("known, ");
-  repeatability +=
-      probe.correlation_length_mm > 0.0
-          ? fmt::format("normal, correlated over {:.4g} mm", probe.correlation_length_mm)
-          : std::string("normal, each touch anew");
-  out.line("probe-repeatability", repeatability);
+      fmt::format("standard deviation {:.4g} um of a touch, normal", sigma_um);
+  if (probe.degrees_of_freedom > 0.0) {
+    repeatability =
+        fmt::format("{}; {:.4g} degrees of freedom", repeatability, probe.degrees_of_freedom);
+  }
+  repeatability = probe.correlation_length_mm > 0.0
+                      ? fmt::format("{}; neighbours alike over {:.4g} mm", repeatability,
+                                    probe.correlation_length_mm)
+                      : fmt::format("{}; each touch anew", repeatability);
+  out.limit("probe-repeatability", probe.repeatability_known, repeatability);
   std::string lobes;
   for (const cmm::PretravelLobe& lobe : probe.lobes) {
     lobes += fmt::format("{}{} lobes of amplitude {:.4g} um", lobes.empty() ? "" : ", ", lobe.order,

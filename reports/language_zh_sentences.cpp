@@ -275,15 +275,10 @@ constexpr Translation kSentenceTexts[] = {
     {"contact", "接触"},
     {"probing-strategy", "探测策略"},
     {"sampling", "采样"},
-    {"standard deviation {:.4g} um of a touch, known, normal, each touch anew",
-     "单次触测标准差 {} um，已知，正态分布，各次独立"},
-    {"standard deviation {:.4g} um of a touch, {:.4g} degrees of freedom, normal, each touch anew",
-     "单次触测标准差 {} um，自由度 {}，正态分布，各次独立"},
-    {"standard deviation {:.4g} um of a touch, known, normal, correlated over {:.4g} mm",
-     "单次触测标准差 {} um，已知，正态分布，相关长度 {} mm"},
-    {"standard deviation {:.4g} um of a touch, {:.4g} degrees of freedom, normal, correlated over "
-     "{:.4g} mm",
-     "单次触测标准差 {} um，自由度 {}，正态分布，相关长度 {} mm"},
+    {"standard deviation {:.4g} um of a touch, normal", "单次触测标准差 {} um，正态分布"},
+    {"{}; {:.4g} degrees of freedom", "{}；自由度 {}"},
+    {"{}; neighbours alike over {:.4g} mm", "{}；相邻点在 {} mm 内相关"},
+    {"{}; each touch anew", "{}；各次独立"},
     {"{} lobes of amplitude {:.4g} um", "{} 瓣，幅值 {} um"},
     {"{}, phase unknown, uniform", "{}，相位未知，均匀分布"},
     {"P_FTU {:.4g} um (ISO 10360-5): normal, standard deviation P / 3.93",
@@ -397,10 +392,8 @@ constexpr Translation kSentenceTexts[] = {
     {"no noise of a touch is known: declare probe.repeatability_um or a form limit, or touch each "
      "point twice",
      "触测噪声未知：请声明 probe.repeatability_um 或形状误差限，或对每点触测两次"},
-    {"no noise of a touch is known: declare probe.repeatability_um or a form limit, or touch each "
-     "point twice; the value lies between {:.2f} and {:.2f} um, without a probability",
-     "触测噪声未知：请声明 probe.repeatability_um 或形状误差限，或对每点触测两次；值介于 {} 与 {} um "
-     "之间，无概率"},
+    {"{}; the value lies between {:.2f} and {:.2f} um, without a probability",
+     "{}；值介于 {} 与 {} um 之间，无概率"},
     {"{} layers of {} points{} do not tell the form between them: {} layers of {} points, all the "
      "way round, at least; or declare a form spectrum",
      "{} 层、每层 {} 点{}不能反映其间的形状：至少需要 {} 层、每层整圈 {} 点；或声明形状谱"},

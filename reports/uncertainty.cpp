@@ -396,7 +396,9 @@ bool noise_is_unknown(const ErrorModel& errors, const Influences& influences) {
 /// does not follow for noise.
 tl::unexpected<core::Error> only_bounds(const FormCloud& cloud, const Influences& influences,
                                         const FormModel& model, const UncertaintyOptions& options) {
-  std::string bounds;
+  std::string why =
+      "no noise of a touch is known: declare probe.repeatability_um or a form limit, or touch each "
+      "point twice";
   Influences all_noise = influences;
   all_noise.probe = influences.probe.value_or(ProbeInfluences{});
   all_noise.probe->repeatability_mm = model.residual_mm();
@@ -406,14 +408,10 @@ tl::unexpected<core::Error> only_bounds(const FormCloud& cloud, const Influences
     FormChains chains(cloud, errors, lowest, std::nullopt, options.seed, 1, 1);
     chains.run(200, 0);
     const double low = mean_of(chains.values().front().sampled_mm);
-    bounds =
-        fmt::format("; the value lies between {:.2f} and {:.2f} um, without a probability",
-                    1e3 * std::min(low, chains.uncorrected_mm()), 1e3 * chains.uncorrected_mm());
+    why = fmt::format("{}; the value lies between {:.2f} and {:.2f} um, without a probability", why,
+                      1e3 * std::min(low, chains.uncorrected_mm()), 1e3 * chains.uncorrected_mm());
   }
-  return void_interval(Code::kMeaning,
-                       "no noise of a touch is known: declare probe.repeatability_um or a form "
-                       "limit, or touch each point twice" +
-                           bounds);
+  return void_interval(Code::kMeaning, std::move(why));
 }
 
 }  // namespace

@@ -92,6 +92,7 @@ TEST(DecisionRule, TheVerdictChangesAtTheLimitsThatAreStated) {
   for (const Kind kind : kAllRules) {
     SCOPED_TRACE(std::string(name_of(kind)));
     DecisionRule rule = rule_named(kind);
+    rule.judge_corrected = true;  // else what was read decides as well
     rule.acceptance_guard_1 = 0.5;
     if (kind == Kind::kJcgm106) rule.prior = Prior{Prior::Kind::kGamma, 6e-3, 2e-3};
     const auto at = apply_rule(rule, known(9e-3, errors), kT);
@@ -104,6 +105,29 @@ TEST(DecisionRule, TheVerdictChangesAtTheLimitsThatAreStated) {
               Verdict::kDoesNotConform);
     EXPECT_EQ(verdict(rule, known(at->rejection_mm - bias + kStep, errors)),
               Verdict::kDoesNotConform);
+  }
+}
+
+// 10.2 um were read, 8 um are left of them after a correction for noise that the supplier declared.
+TEST(DecisionRule, AValueReadAboveTheToleranceConformsOnlyWhereCorrectedValuesAreAgreedUpon) {
+  const auto errors = error_sample(400);
+  for (const Kind kind : kAllRules) {
+    if (kind == Kind::kSimpleAcceptance) continue;
+    SCOPED_TRACE(std::string(name_of(kind)));
+    KnownValue value = known(5e-3, errors);
+    value.measured_mm = 10.2e-3;
+    DecisionRule rule = rule_named(kind);
+    const auto by_default = apply_rule(rule, value, kT);
+    ASSERT_TRUE(by_default);
+    EXPECT_EQ(by_default->verdict, Verdict::kUndecided);
+    EXPECT_THAT(by_default->sentence, HasSubstr("read above the limit"));
+    EXPECT_THAT(in_words(rule), HasSubstr("a value as read above T never conforms"));
+    rule.judge_corrected = true;
+    const auto agreed = apply_rule(rule, value, kT);
+    ASSERT_TRUE(agreed);
+    EXPECT_EQ(agreed->verdict, Verdict::kConforms);
+    EXPECT_THAT(agreed->sentence, HasSubstr("corrected values are judged"));
+    EXPECT_THAT(in_words(rule), HasSubstr("corrected values are judged"));
   }
 }
 
@@ -149,7 +173,7 @@ TEST(DecisionRule, WithoutAnIntervalEveryOtherRuleIsVoid) {
 TEST(DecisionRule, NToOneIsVoidWhereTheIntervalIsTooWide) {
   const auto errors = error_sample();  // the interval is some 1.95 um wide: 5.1 : 1
   DecisionRule rule = rule_named(Kind::kNToOne);
-  EXPECT_EQ(verdict(rule, known(9.9e-3, errors)), Verdict::kConforms);
+  EXPECT_EQ(verdict(rule, known(9.6e-3, errors)), Verdict::kConforms);
   rule.ratio = 10.0;
   const auto outcome = apply_rule(rule, known(9.9e-3, errors), kT);
   ASSERT_FALSE(outcome);

@@ -103,7 +103,7 @@ TEST(ResultsCsv, HasARowACharacteristic) {
   std::getline(lines, line);
   EXPECT_EQ(line,
             "run,started_utc,part,serial,feature,characteristic,symbol,reference,value_um,"
-            "tolerance_um,verdict,reason,verification_operator,low_um,high_um");
+            "tolerance_um,verdict,reason,verification_operator,quoted_um,low_um,high_um");
   std::getline(lines, line);
   EXPECT_THAT(line,
               ::testing::StartsWith("01_spool_simulated-20261121T023302Z,2026-11-21T02:33:02Z,"

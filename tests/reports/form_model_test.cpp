@@ -230,7 +230,7 @@ TEST(FormModel, VoidsPointsWithoutASmoothForm) {
   FormCloud cloud = dense(0.1 * kUm, 1);
   core::KeyedNoise noise(7, {2});
   for (FormPoint& p : cloud.points) {
-    if (noise.uniform() < 0.3) p.deviation_mm += kUm * (20.0 + 20.0 * noise.uniform());
+    if (noise.uniform() < 0.28) p.deviation_mm += kUm * 100.0 * (noise.uniform() - 0.5);
   }
   const auto result = measurement_uncertainty(cloud, noise_of(0.1 * kUm), std::nullopt, some(200));
   ASSERT_FALSE(result) << result->finding.spots << " spots";

@@ -180,7 +180,7 @@ TEST_P(Hostile, StaysTextInTables) {
   const std::string results = write_results_csv(made_.record, made_.evaluation);
   const auto rows = rows_of(results);
   ASSERT_EQ(rows.size(), 4U);
-  for (const auto& row : rows) ASSERT_EQ(row.size(), 15U);
+  for (const auto& row : rows) ASSERT_EQ(row.size(), 16U);
   for (const std::size_t column : {0, 1, 2, 3, 4, 5, 11}) expect_field(rows[1][column]);
   EXPECT_FALSE(has_control(results, "\n\t"));
 }
