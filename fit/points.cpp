@@ -9,25 +9,26 @@
 
 #include <fmt/format.h>
 
-#include "core/numbers.h"
 #include "core/units.h"
 
 namespace rondure::fit {
 namespace {
 
 constexpr std::size_t kMostDistinct = 8;
+/// Beyond 10 km a coordinate itself is rounded by more than the 1e-9 mm that results are held to.
+constexpr double kGreatestLength = 1e7;
 
 template <class Vector>
 core::Result<void> check(std::span<const Vector> points_mm) {
   if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
   for (std::size_t i = 0; i < points_mm.size(); ++i) {
-    if ((points_mm[i].array().abs() <= core::kGreatestNumber).all()) continue;
+    if ((points_mm[i].array().abs() <= kGreatestLength).all()) continue;
     if (points_mm[i].allFinite()) {
       return core::fail(
           core::Code::kOutOfRange,
           fmt::format("a coordinate of point {} (counted from 0) is {:g} mm; at most {:g} mm can "
                       "be computed with",
-                      i, points_mm[i].cwiseAbs().maxCoeff(), core::kGreatestNumber));
+                      i, points_mm[i].cwiseAbs().maxCoeff(), kGreatestLength));
     }
     return core::fail(
         core::Code::kNotFinite,

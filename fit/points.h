@@ -12,7 +12,7 @@ using PlanePoints = std::span<const Eigen::Vector2d>;
 using SpacePoints = std::span<const Eigen::Vector3d>;
 
 /// Checks every fitter makes first: at least one point, every coordinate finite and at most
-/// core::kGreatestNumber.
+/// 1e7 mm.
 /// @return kNoPoints, or kNotFinite or kOutOfRange naming the row.
 [[nodiscard]] core::Result<void> check_points(std::span<const Eigen::Vector2d> points_mm);
 [[nodiscard]] core::Result<void> check_points(std::span<const Eigen::Vector3d> points_mm);

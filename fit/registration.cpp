@@ -59,7 +59,7 @@ core::Result<Registration> rigid_registration(std::span<const Eigen::Vector3d> f
   const Eigen::Matrix3Xd to = columns(to_mm);
   if (!check_points(from_mm) || !check_points(to_mm)) {
     return core::fail(core::Code::kNotFinite,
-                      "a point to be registered is not a finite number up to 1e9 mm");
+                      "a point to be registered is not a finite number up to 1e7 mm");
   }
   if (on_one_line(from)) {
     return core::fail(core::Code::kCollinear,

@@ -37,8 +37,8 @@ core::Result<void> check_balls(std::span<const BallCentre> balls, const std::str
   for (const BallCentre& ball : balls) {
     if (!check_points(std::span(&ball.centre_mm, 1)) || !check_points(std::span(&ball.u_mm, 1))) {
       return core::fail(Code::kNotFinite,
-                        fmt::format("ball {} {}: centre or u is not a finite number up to {:g} mm",
-                                    ball.ball, place, core::kGreatestNumber));
+                        fmt::format("ball {} {}: centre or u is not a finite number up to 1e7 mm",
+                                    ball.ball, place));
     }
     const double least = ball.u_mm.minCoeff();
     if (least < 0.0 || (least == 0.0 && !exact_allowed)) {

@@ -64,7 +64,7 @@ core::Result<void> check_options(const WheelOptions& options) {
   }
   if (options.axis_mm && !check_points(std::span(&*options.axis_mm, 1))) {
     return core::fail(core::Code::kBadOption,
-                      "the spindle axis is not a finite point within 1e9 mm");
+                      "the spindle axis is not a finite point within 1e7 mm");
   }
   if (options.nominal_radius_mm && !(*options.nominal_radius_mm > 0.0)) {
     return core::fail(
