@@ -70,7 +70,7 @@ struct Prediction {
 /// is half the tolerance; without a tolerance ten times the standard deviation of a point.
 /// Repeatability of a touch: as declared; where the run would find it from its repeats: what the
 /// form limit of the qualification just lets pass (P / 3.93), at most that. With one touch a point
-/// the run finds none, and so does the prediction.
+/// the run finds none, and then there is no interval.
 ///
 /// @param expected  A record without errors: places, repeats and times of the touches, settings.
 /// @param feature   Index into its features.
