@@ -47,10 +47,7 @@ Json reference_json(const FitReference& found) {
   if (!found.inner.empty() || found.inner_radius_mm) {
     out["contacts"]["inner"] = rows_json(found.inner);
   }
-  out["certificate"] = {{"kind", fit::name_of(found.certificate->kind)},
-                        {"scope", found.certificate->scope},
-                        {"gap_mm", found.certificate->gap_mm},
-                        {"reason", found.certificate->reason}};
+  out["certificate"] = certificate_json(*found.certificate);
   return out;
 }
 
@@ -81,10 +78,7 @@ std::string proof_lines(const FitReference& found) {
   std::string out = "    contacts";
   for (const auto& c : found.outer) out += fmt::format(" +{}", c.index);
   for (const auto& c : found.inner) out += fmt::format(" -{}", c.index);
-  const fit::Certificate& certificate = *found.certificate;
-  out += fmt::format(" (+ outer, - inner, rows from 0)\n    certificate {}, {}, gap {:.1e} mm",
-                     fit::name_of(certificate.kind), certificate.scope, certificate.gap_mm);
-  if (!certificate.reason.empty()) out += "; " + certificate.reason;
+  out += " (+ outer, - inner, rows from 0)\n    " + certificate_text(*found.certificate);
   return out + "\n";
 }
 
@@ -97,6 +91,23 @@ std::string reference_lines(const FitOutcome::Entry& entry) {
 }
 
 }  // namespace
+
+Json certificate_json(const fit::Certificate& certificate) {
+  const bool proven = certificate.kind != fit::Certificate::Kind::kNone;
+  return {{"kind", fit::name_of(certificate.kind)},
+          {"scope", certificate.scope},
+          {"gap_mm", proven ? Json(certificate.gap_mm) : Json(nullptr)},
+          {"reason", certificate.reason}};
+}
+
+std::string certificate_text(const fit::Certificate& certificate) {
+  std::string out =
+      fmt::format("certificate {}, {}", fit::name_of(certificate.kind), certificate.scope);
+  if (certificate.kind != fit::Certificate::Kind::kNone) {
+    out += fmt::format(", gap {:.1e} mm", certificate.gap_mm);
+  }
+  return certificate.reason.empty() ? out : out + "; " + certificate.reason;
+}
 
 nlohmann::ordered_json fit_json(const FitOutcome& outcome) {
   Json out = {{"shape", outcome.shape}, {"points", outcome.points}};

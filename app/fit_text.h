@@ -50,6 +50,11 @@ struct FitOutcome {
   std::vector<core::Error> warnings;
 };
 
+/// A certificate as JSON, and as "certificate global, all centres, gap 1.0e-15 mm; reason". Without
+/// a proof there is no gap: null, and nothing.
+[[nodiscard]] nlohmann::ordered_json certificate_json(const fit::Certificate& certificate);
+[[nodiscard]] std::string certificate_text(const fit::Certificate& certificate);
+
 /// The JSON contract of DESIGN.md ("JSON of fit").
 [[nodiscard]] nlohmann::ordered_json fit_json(const FitOutcome& outcome);
 /// The same for a person.

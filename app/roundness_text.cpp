@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/fit_text.h"
 #include "app/length_word.h"
 
 namespace rondure::app {
@@ -49,10 +50,7 @@ Json value_json(const fit::RoundnessEvaluation& evaluation, const fit::Roundness
     out["contacts_deg"]["outer"] = contact_angles(evaluation, value.outer);
   if (value.reference != fit::CircleReference::kMc)
     out["contacts_deg"]["inner"] = contact_angles(evaluation, value.inner);
-  out["certificate"] = {{"kind", fit::name_of(value.certificate.kind)},
-                        {"scope", value.certificate.scope},
-                        {"gap_mm", value.certificate.gap_mm},
-                        {"reason", value.certificate.reason}};
+  out["certificate"] = certificate_json(value.certificate);
   return out;
 }
 
@@ -116,9 +114,7 @@ std::string value_lines(const fit::RoundnessEvaluation& evaluation, const fit::R
   if (!value.inner.empty())
     out += ", inner" + degrees_list(contact_angles(evaluation, value.inner));
   out += "\n";
-  out += fmt::format("    certificate {}, {}, gap {:.1e} mm", fit::name_of(value.certificate.kind),
-                     value.certificate.scope, value.certificate.gap_mm);
-  if (!value.certificate.reason.empty()) out += "; " + value.certificate.reason;
+  out += "    " + certificate_text(value.certificate);
   return out + "\n";
 }
 

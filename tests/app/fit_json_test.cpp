@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "core/units.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 
@@ -219,6 +221,27 @@ TEST(FitJson, AReferenceThatDoesNotExistIsNullWithItsReason) {
   EXPECT_EQ(found["warnings"][1]["code"], "reference-absent");
   EXPECT_THAT(found["warnings"][1]["what"].get<std::string>(),
               ::testing::HasSubstr("no maximum inscribed circle"));
+}
+
+TEST(FitJson, WithoutAProofThereIsNoGap) {
+  const TemporaryFolder directory;
+  const auto file = directory.path() / "ball.csv";
+  {
+    std::ofstream out(file);
+    out << "x,y,z\n";
+    for (int k = 0; k < 32; ++k) {  // exact: no contact tells the optimum from its neighbours
+      const double across = 0.1 + core::kTwoPi * (k / 4) / 8.0;
+      const double up = std::array{-1.0, -0.3, 0.4, 1.1}[static_cast<std::size_t>(k % 4)];
+      out << fmt::format("{},{},{}\n", 25.0 * std::cos(across) * std::cos(up),
+                         25.0 * std::sin(across) * std::cos(up), 25.0 * std::sin(up));
+    }
+  }
+  const json found = fit("sphere", file);
+  ASSERT_EQ(found["mz"]["certificate"]["kind"], "none");
+  EXPECT_TRUE(found["mz"]["certificate"]["gap_mm"].is_null());
+  const Outcome table = rondure({"fit", "sphere", file});
+  EXPECT_EQ(table.status, 0);
+  EXPECT_THAT(table.out, ::testing::Not(::testing::HasSubstr("inf")));
 }
 
 TEST(FitJson, OneReferenceLeavesTheOthersOut) {
