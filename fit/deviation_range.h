@@ -17,8 +17,8 @@ struct DeviationRange {
 
 /// Radii that differ by less are the same reference: no gauge tells them apart.
 inline constexpr double kSameRadius = 1e-6;
-/// Deviations that differ by less need no word.
-inline constexpr double kSameDeviation = 1e-5;
+/// Deviations that differ by less need no word: about most circles 1 nm of radius moves some nm.
+inline constexpr double kSameDeviation = 1e-4;
 
 /// The range of a profile, in the linear model of its rows: over all centres whose circumscribed or
 /// inscribed radius is as good as the optimum to kSameRadius. Two opposite values can hold a circle

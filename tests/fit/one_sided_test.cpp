@@ -276,7 +276,7 @@ TEST(OneSidedCylinder, SaysThatACylinderAcrossAnArcIsSmaller) {
   for (int k = 0; k < 33; ++k) {
     const double angle = (8.0 * (k / 3) - 40.0) * core::kDegree;
     const double r = 30.0 + 0.01 * std::cos(3.0 * angle);
-    arc.emplace_back(r * std::cos(angle), r * std::sin(angle), 6.0 * (k % 3));
+    arc.emplace_back(r * std::cos(angle), r * std::sin(angle), 12.0 * (k % 3));
   }
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   const CylinderProofOptions options{

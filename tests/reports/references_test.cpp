@@ -84,7 +84,7 @@ TEST(References, ReportedRadiiAreThoseOfTheSurface) {
     EXPECT_EQ(stated["mc"]["contacts"]["outer"].size(), feature.mc_cylinder->contacts.size());
     EXPECT_FALSE(stated["mc"]["contacts"].contains("inner"));
     EXPECT_EQ(stated["mi"]["axis"]["direction"].size(), 3U);
-    EXPECT_EQ(stated["mi"]["certificate"]["kind"], "local");
+    EXPECT_EQ(stated["mi"]["certificate"]["kind"], "global");
   }
 }
 
