@@ -148,7 +148,9 @@ core::Result<FitOutcome> fit_circle(Plane points, Collector collector) {
   }
   if (collector.wants("mi")) {
     collector.add("mi", "MICI", as_reference(fit::max_inscribed_circle(points), [](const auto& f) {
-                    return one_sided(f, place_of(f.center_mm), false);
+                    FitReference out = one_sided(f, place_of(f.center_mm), false);
+                    out.range = f.range;
+                    return out;
                   }));
   }
   return collector.take();
@@ -191,25 +193,38 @@ core::Result<FitOutcome> fit_cylinder(Space points, Collector collector) {
   }
   warn_of_arc(seen, Eigen::Vector2d::Zero(), collector);
   const Eigen::Vector3d near = ls->axis.direction;
+  // All directions, or, where that takes too long, those about the least-squares axis.
+  const fit::AxisScope all{fit::AxisScope::Kind::kHalfSphere};
+  const fit::AxisScope cone{fit::AxisScope::Kind::kCone, near};
+  const fit::CylinderProofOptions proof{.scopes = {all, cone}, .search = {}};
+  const auto warn_of_other = [&](const core::Result<fit::OneSidedCylinder>& f) {
+    if (!f || !f->other) return;
+    collector.warn(
+        core::Code::kSeveralOptima,
+        fmt::format("another cylinder of radius {:.6f} mm is better; its axis leans by "
+                    "{:.3g} deg and lies {:.3g} mm off: it is not the one next to the "
+                    "least-squares axis",
+                    f->other->radius_mm, f->other->lean_rad / core::kDegree, f->other->apart_mm));
+  };
   if (collector.wants("mz")) {
-    // All directions, or, where that takes too long, those about the least-squares axis.
-    const fit::AxisScope all{fit::AxisScope::Kind::kHalfSphere};
-    const fit::AxisScope cone{fit::AxisScope::Kind::kCone, near};
-    const auto mz = fit::min_zone_cylinder(points, near, {.scopes = {all, cone}, .search = {}});
+    const auto mz = fit::min_zone_cylinder(points, near, proof);
     collector.add("mz", "MZCY", as_reference(mz, [](const auto& f) {
                     return minimum_zone(f, place_of(f.axis));
                   }));
   }
   if (collector.wants("mc")) {
-    collector.add("mc", "MCCY",
-                  as_reference(fit::min_circumscribed_cylinder(points, near),
-                               [](const auto& f) { return one_sided(f, place_of(f.axis), true); }));
+    const auto mc = fit::min_circumscribed_cylinder(points, near, proof);
+    collector.add("mc", "MCCY", as_reference(mc, [](const auto& f) {
+                    return one_sided(f, place_of(f.axis), true);
+                  }));
+    warn_of_other(mc);
   }
   if (collector.wants("mi")) {
-    collector.add("mi", "MICY",
-                  as_reference(fit::max_inscribed_cylinder(points, near), [](const auto& f) {
+    const auto mi = fit::max_inscribed_cylinder(points, near, proof);
+    collector.add("mi", "MICY", as_reference(mi, [](const auto& f) {
                     return one_sided(f, place_of(f.axis), false);
                   }));
+    warn_of_other(mi);
   }
   return collector.take();
 }

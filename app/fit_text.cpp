@@ -38,6 +38,7 @@ Json reference_json(const FitReference& found) {
   put("outer_radius_mm", found.outer_radius_mm);
   put("diameter_mm", found.diameter_mm);
   out["deviation_mm"] = found.deviation_mm;
+  if (found.range) out["deviation_range_mm"] = {found.range->low_mm, found.range->high_mm};
   put("rms_mm", found.rms_mm);
   if (!found.certificate) return out;
   out["contacts"] = Json::object();
@@ -86,6 +87,10 @@ std::string reference_lines(const FitOutcome::Entry& entry) {
   if (!entry.found) return fmt::format("  {}  does not exist for these points\n", entry.title);
   const FitReference& found = *entry.found;
   std::string out = fmt::format("  {}  deviation {:.4f} um", entry.title, um(found.deviation_mm));
+  if (found.range) {
+    out += fmt::format(", not unique: {:.4f} to {:.4f} um", um(found.range->low_mm),
+                       um(found.range->high_mm));
+  }
   if (found.rms_mm) out += fmt::format(", rms {:.4f} um", um(*found.rms_mm));
   return out + "\n" + place_line(found.place) + radii_line(found) + proof_lines(found);
 }

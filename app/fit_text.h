@@ -13,6 +13,7 @@
 #include "fit/axis.h"
 #include "fit/certificate.h"
 #include "fit/contacts.h"
+#include "fit/deviation_range.h"
 
 namespace rondure::app {
 
@@ -35,6 +36,7 @@ struct FitReference {
   std::vector<fit::Contact> outer;
   std::vector<fit::Contact> inner;
   std::optional<fit::Certificate> certificate;  ///< All but least squares.
+  std::optional<fit::DeviationRange> range;     ///< Of an inscribed circle that is not unique.
 };
 
 /// What `rondure fit` found of one set of points.

@@ -43,6 +43,7 @@ Json value_json(const fit::RoundnessEvaluation& evaluation, const fit::Roundness
     out["RONv_um"] = um(value.parameters->valley_mm);
     out["RONq_um"] = um(value.parameters->rms_mm);
   }
+  if (value.range) out["RONt_range_um"] = {um(value.range->low_mm), um(value.range->high_mm)};
   out["center_mm"] = {value.center_mm.x(), value.center_mm.y()};
   out["radius_mm"] = value.radius_mm;
   if (value.reference == fit::CircleReference::kLs) return out;
@@ -102,6 +103,10 @@ std::string value_lines(const fit::RoundnessEvaluation& evaluation, const fit::R
     out += fmt::format(", RONp {:.4f} um, RONv {:.4f} um, RONq {:.4f} um",
                        um(value.parameters->peak_mm), um(value.parameters->valley_mm),
                        um(value.parameters->rms_mm));
+  }
+  if (value.range) {
+    out += fmt::format(", not unique: {:.4f} to {:.4f} um", um(value.range->low_mm),
+                       um(value.range->high_mm));
   }
   out += polar ? fmt::format("\n    centre off by ({:.4f}, {:.4f}) um\n", um(value.center_mm.x()),
                              um(value.center_mm.y()))

@@ -33,7 +33,7 @@ template <class Set>
 
 /// The value as a report states it: proven global or marked as not proven.
 [[nodiscard]] inline auto reported_zone(const CylinderSet& set) {
-  fit::MinZoneCylinderOptions options;
+  fit::CylinderProofOptions options;
   options.scopes = {{fit::AxisScope::Kind::kHalfSphere},
                     {fit::AxisScope::Kind::kCone, set.start_direction}};
   return fit::min_zone_cylinder(set.points_mm, set.start_direction, options);

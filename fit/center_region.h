@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "fit/zone_program.h"
+
 namespace rondure::fit {
 
 /// Where in the plane the centre of a narrow zone can be.
@@ -30,5 +32,16 @@ struct CenterRegion {
 /// @param width_mm   > 0, already rounded outward. O(n) a pivot, some eight pivots.
 [[nodiscard]] CenterRegion center_region(std::span<const Eigen::Vector2d> points_mm,
                                          double width_mm);
+
+/// Narrows a square of centres to those about which every point is within `radius_mm` (minimum
+/// circumscribed), or none is (maximum inscribed): distances are bounded by their growth from the
+/// middle of the square, for the points near the extreme there.
+///
+/// @param weights    One of them is 0.
+/// @param radius_mm  Already rounded outward.
+/// @return kEmpty or kSquare; sharp where the middle is near the best centre.
+[[nodiscard]] CenterRegion one_sided_region(std::span<const Eigen::Vector2d> points_mm,
+                                            const ZoneWeights& weights, double radius_mm,
+                                            const Eigen::Vector2d& center_mm, double half_side_mm);
 
 }  // namespace rondure::fit

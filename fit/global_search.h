@@ -9,6 +9,7 @@
 #include "fit/axis.h"
 #include "fit/axis_cover.h"
 #include "fit/certificate.h"
+#include "fit/zone_program.h"
 
 namespace rondure::fit {
 
@@ -20,30 +21,41 @@ struct GlobalSearchOptions {
 };
 
 /// Searches of one proof: each but the first starts from the better place that the last one met.
-inline constexpr int kRestartLimit = 20;
+inline constexpr int kRestartLimit = 200;
 
-/// What a zone is compared with: the solver's result.
+/// Where a maximum inscribed reference is sought: past the points it would grow without bound.
+struct AxisReach {
+  Axis about;             ///< The least-squares axis.
+  double limit_mm = 0.0;  ///< How far from it, over the length of the points.
+};
+
+/// What a zone is compared with: the solver's result. What is minimised is
+/// outer weight * max r - inner weight * min r: the width of a minimum zone, the radius of a
+/// circumscribed reference, that of an inscribed one with its sign changed.
 struct ZoneClaim {
-  double width_mm = 0.0;
+  double value_mm = 0.0;
   double growth = 0.0;  ///< sigma: first-order growth per mm, of the contacts below.
   std::span<const Contact> outer;
   std::span<const Contact> inner;
+  ZoneWeights weights = kMinimumZone;
+  AxisReach reach = {};  ///< Of axes, maximum inscribed only.
 };
 
 /// Outcome of a search through all centres, or all axes of a scope.
 template <class Place>
 struct GlobalSearch {
-  bool proven = false;          ///< No narrower zone exists; else see `better`, then `reason`.
-  double lower_mm = 0.0;        ///< Proven: no zone of the scope is narrower than this [mm].
-  std::optional<Place> better;  ///< A place with a narrower zone: solve again from there.
+  bool proven = false;          ///< Nothing better exists; else see `better`, then `reason`.
+  double lower_mm = 0.0;        ///< Proven: no value of the scope is below this [mm].
+  std::optional<Place> better;  ///< A place with a lower value: solve again from there.
   int boxes = 0;                ///< Boxes bounded.
   std::string reason;           ///< Why it is not proven.
 };
 
-/// Proves that no centre of the plane has a narrower zone, or finds one that has.
+/// Proves that no centre of the plane has a lower value than the claim, or finds one that has.
+/// Minimum zones and maximum inscribed circles; of these the centres inside the hull of the points.
 ///
-/// The centres that can hold a narrower zone lie in one square (center_region.h). It is searched by
-/// branch and bound (zone_box.h); around the optimum itself first-order growth, less the
+/// The centres that can be better lie in one square (center_region.h). It is searched by branch and
+/// bound (zone_box.h); around the optimum itself first-order growth, less the
 /// curvature K e^2 that could oppose it, closes a square of its own.
 ///
 /// @param points_mm  The data of the claim.
@@ -53,7 +65,8 @@ struct GlobalSearch {
     std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
     const ZoneClaim& claim, const GlobalSearchOptions& options = {});
 
-/// Proves that no axis whose direction is in one of `directions` has a narrower zone, or finds one.
+/// Proves that no axis whose direction is in one of `directions` has a lower value than the claim,
+/// or finds one. Of maximum inscribed cylinders: no axis within the reach of the claim.
 ///
 /// Branch and bound over directions. Turning a box of directions to its middle moves no point by
 /// more than |z| sin + rho (1 - cos) of its opening, so the projected points leave a square of

@@ -29,9 +29,11 @@ struct LsCircle {
 [[nodiscard]] core::Result<LsCircle> algebraic_start(std::span<const Eigen::Vector2d> points_mm);
 
 /// Least-squares circle in the sense of ISO 12181 (LSCI): minimises the sum of squared radial
-/// distances by damped Gauss-Newton from the algebraic circle.
+/// distances by damped Gauss-Newton from the algebraic circle; where that does not settle, as on
+/// flat arcs, in the coefficients of A (x^2 + y^2) + B x + C y + D = 0.
 ///
 /// @return as algebraic_circle(), and kNotConverged.
+/// Source of the second: N. Chernov, C. Lesort, J. Math. Imaging Vis. 23 (2005) 239-252.
 [[nodiscard]] core::Result<LsCircle> ls_circle(std::span<const Eigen::Vector2d> points_mm);
 
 }  // namespace rondure::fit

@@ -7,10 +7,10 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
-#include "core/units.h"
 #include "fit/axis.h"
+#include "fit/axis_scope.h"
 #include "fit/certificate.h"
-#include "fit/global_search.h"
+#include "fit/zone_ending.h"
 
 namespace rondure::fit {
 
@@ -22,26 +22,11 @@ struct MinZoneCylinder {
   std::vector<Contact> outer;  ///< Points on the outer cylinder that carry the minimum.
   std::vector<Contact> inner;
   Certificate certificate;
-  int programmes = 0;  ///< Linear programmes solved by the descent.
+  int programmes = 0;  ///< Linear programmes solved: of every start and every restart.
   int boxes = 0;       ///< Boxes of directions the global search bounded.
+  ZoneEnding ending = ZoneEnding::kLimit;  ///< Of the descent that led to the axis.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
-};
-
-/// Directions searched for a narrower zone.
-struct AxisScope {
-  enum class Kind { kCone, kHalfSphere };
-  Kind kind = Kind::kHalfSphere;
-  Eigen::Vector3d nominal = Eigen::Vector3d::UnitZ();  ///< Middle of the cone.
-  double cone_rad = 10.0 * core::kDegree;              ///< Half angle of the cone, below 80 deg.
-};
-
-/// How far a minimum-zone cylinder is proven.
-struct MinZoneCylinderOptions {
-  /// Scopes tried in order until one is proven. Empty: the local proof only, for values inside
-  /// loops.
-  std::vector<AxisScope> scopes;
-  GlobalSearchOptions search;
 };
 
 /// Finds the minimum-zone cylinder: the least cylindricity deviation CYLt of the points (ISO 1101).
@@ -60,6 +45,6 @@ struct MinZoneCylinderOptions {
 [[nodiscard]] core::Result<MinZoneCylinder> min_zone_cylinder(
     std::span<const Eigen::Vector3d> points_mm,
     const std::optional<Eigen::Vector3d>& near_direction = std::nullopt,
-    const MinZoneCylinderOptions& options = {});
+    const CylinderProofOptions& options = {});
 
 }  // namespace rondure::fit

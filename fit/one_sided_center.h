@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "core/result.h"
 #include "fit/certificate.h"
 #include "fit/contacts.h"
+#include "fit/deviation_range.h"
+#include "fit/global_search.h"
 
 namespace rondure::fit {
 
@@ -19,6 +22,9 @@ struct OneSidedCenter {
   double deviation_mm = 0.0;      ///< Radial peak to valley about the centre [mm].
   std::vector<Contact> contacts;  ///< Points on it that carry it; multipliers sum to 1.
   Certificate certificate;
+  /// Where several inscribed circles are as large to kSameRadius and the deviation about them
+  /// differs: from the least to the greatest.
+  std::optional<DeviationRange> range;
 };
 using OneSidedCircle = OneSidedCenter<2>;
 using OneSidedSphere = OneSidedCenter<3>;
@@ -34,12 +40,24 @@ using OneSidedSphere = OneSidedCenter<3>;
 [[nodiscard]] core::Result<OneSidedSphere> min_circumscribed_sphere(
     std::span<const Eigen::Vector3d> points_mm);
 
-/// Maximum inscribed circle (MICI), sphere: the largest without a point inside, next to the
-/// least-squares one, as the standards mean it. Several may exist; the certificate is local.
+/// How far a maximum inscribed circle is proven.
+struct InscribedOptions {
+  /// Search all centres, for a reported value; false inside loops: the local proof only.
+  bool global = true;
+  GlobalSearchOptions search;
+};
+
+/// Maximum inscribed circle (MICI), sphere: the largest without a point inside, with its centre
+/// inside the hull of the points.
+///
+/// The descent starts at the least-squares circle; then all centres inside the hull are searched
+/// for a larger circle (global_search.h), which becomes the new start. Of a sphere the result is
+/// the one next to the least-squares sphere, its certificate local.
 ///
 /// @return also kReferenceAbsent where the points leave a gap through which it grows without bound.
+/// Sources: ISO 12181-1; methods, cylindricity section 11.4, certificates section 2.
 [[nodiscard]] core::Result<OneSidedCircle> max_inscribed_circle(
-    std::span<const Eigen::Vector2d> points_mm);
+    std::span<const Eigen::Vector2d> points_mm, const InscribedOptions& options = {});
 [[nodiscard]] core::Result<OneSidedSphere> max_inscribed_sphere(
     std::span<const Eigen::Vector3d> points_mm);
 

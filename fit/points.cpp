@@ -118,4 +118,39 @@ double largest_gap_rad(std::span<const Eigen::Vector2d> points_mm,
   return gap;
 }
 
+std::vector<Eigen::Vector2d> convex_hull(std::span<const Eigen::Vector2d> points_mm) {
+  std::vector<Eigen::Vector2d> sorted(points_mm.begin(), points_mm.end());
+  std::sort(sorted.begin(), sorted.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  // A. Andrew's chain: the lower side from left to right, the upper one back.
+  std::vector<Eigen::Vector2d> hull;
+  const auto turns_right = [&](const Eigen::Vector2d& next) {
+    const Eigen::Vector2d a = hull.back() - hull[hull.size() - 2];
+    const Eigen::Vector2d b = next - hull.back();
+    return a.x() * b.y() - a.y() * b.x() <= 0.0;
+  };
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t first = hull.size();
+    for (const Eigen::Vector2d& p : sorted) {
+      while (hull.size() >= first + 2 && turns_right(p)) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();  // it begins the other side
+    std::reverse(sorted.begin(), sorted.end());
+  }
+  return hull;
+}
+
+bool meets_hull(std::span<const Eigen::Vector2d> hull_mm, const Eigen::Vector2d& center_mm,
+                double half_side_mm) {
+  for (std::size_t i = 0; i < hull_mm.size(); ++i) {
+    const Eigen::Vector2d& from = hull_mm[i];
+    const Eigen::Vector2d side = hull_mm[(i + 1) % hull_mm.size()] - from;
+    const Eigen::Vector2d out(side.y(), -side.x());
+    if (out.dot(center_mm - from) > half_side_mm * out.lpNorm<1>()) return false;
+  }
+  return true;
+}
+
 }  // namespace rondure::fit

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -42,5 +43,13 @@ void sample_points(std::span<const Eigen::Vector3d> points_mm, std::span<Eigen::
 /// Largest angle without a point, seen from a centre [rad]; 2 pi for a single direction.
 [[nodiscard]] double largest_gap_rad(std::span<const Eigen::Vector2d> points_mm,
                                      const Eigen::Vector2d& center_mm);
+
+/// Corners of the convex hull, counter-clockwise. O(n log n).
+[[nodiscard]] std::vector<Eigen::Vector2d> convex_hull(std::span<const Eigen::Vector2d> points_mm);
+
+/// Whether a square (half side 0: a point) may reach into a hull; false only where a side of the
+/// hull separates them.
+[[nodiscard]] bool meets_hull(std::span<const Eigen::Vector2d> hull_mm,
+                              const Eigen::Vector2d& center_mm, double half_side_mm);
 
 }  // namespace rondure::fit

@@ -80,6 +80,7 @@ core::Result<Roundness> one_sided_points(std::span<const Eigen::Vector2d> points
   out.total_mm = circle->deviation_mm;
   (outside ? out.outer : out.inner) = rows_of(circle->contacts);
   out.certificate = circle->certificate;
+  out.range = circle->range;
   return out;
 }
 
@@ -205,6 +206,7 @@ core::Result<Roundness> program_profile(std::span<const double> theta, std::span
   const double reached = weights.outer * high - weights.inner * low;
   out.certificate = {Certificate::Kind::kGlobal, "all centres, limacon model",
                      std::max(0.0, reached - step->value), ""};
+  if (!zone) out.range = deviation_range(rows, step->step, weights);
   return out;
 }
 

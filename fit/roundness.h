@@ -10,6 +10,7 @@
 
 #include "core/result.h"
 #include "fit/certificate.h"
+#include "fit/deviation_range.h"
 #include "fit/form_parameters.h"
 
 namespace rondure::fit {
@@ -37,6 +38,9 @@ struct Roundness {
   std::vector<std::size_t> outer;  ///< Rows that carry the outer circle of kMz, the circle of kMc.
   std::vector<std::size_t> inner;  ///< Those of the inner circle of kMz, the circle of kMi.
   Certificate certificate;         ///< kNone for kLs.
+  /// Of kMc and kMi where several circles are as good and RONt differs: `total_mm` is about one of
+  /// them.
+  std::optional<DeviationRange> range;
 
   /// Distance of the centre from the origin of the profile [mm].
   [[nodiscard]] double eccentricity_mm() const { return center_mm.norm(); }

@@ -180,6 +180,15 @@ std::vector<double> cells_of_rows(std::span<const double> theta) {
 core::Result<void> add_value(RoundnessEvaluation& out, CircleReference reference,
                              core::Result<Roundness> value) {
   if (value) {
+    if (value->range) {
+      warn(
+          out, core::Code::kSeveralOptima,
+          fmt::format(
+              "the {} circle is not unique: about circles whose radius agrees to 1 nm RONt "
+              "is anything from {:.4f} to {:.4f} um",
+              reference == CircleReference::kMc ? "minimum circumscribed" : "maximum inscribed",
+              value->range->low_mm / core::kMicrometre, value->range->high_mm / core::kMicrometre));
+    }
     out.values.push_back(*std::move(value));
     return {};
   }

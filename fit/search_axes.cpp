@@ -4,7 +4,6 @@
 #include <limits>
 #include <optional>
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include "fit/center_region.h"
@@ -60,7 +59,7 @@ class AxisSearcher {
   }
 
   GlobalSearch<Axis> run(std::span<const DirectionBox> directions) {
-    out_.lower_mm = claim_.width_mm;
+    out_.lower_mm = claim_.value_mm;
     boxes_.assign(directions.begin(), directions.end());
     while (!boxes_.empty() && !out_.better) {
       if (out_.boxes >= options_.max_boxes) return give_up();
@@ -91,6 +90,38 @@ class AxisSearcher {
     return most;
   }
 
+  /// Centres whose value is not above the claim, when no distance moves by more than `move`.
+  [[nodiscard]] CenterRegion region_of(const View& view, std::span<const Eigen::Vector2d> flat,
+                                       double move) const {
+    const ZoneWeights& weights = claim_.weights;
+    if (weights.outer > 0.0 && weights.inner > 0.0)
+      return center_region(flat, claim_.value_mm + 2.0 * move);
+    if (weights.outer > 0.0) {
+      const double radius = claim_.value_mm + move;
+      return one_sided_region(flat, weights, radius, Eigen::Vector2d::Zero(),
+                              radius + flat.front().norm());
+    }
+    // Where the middle of the reach crosses; it leans by 10 deg at most, and so do the axes.
+    const Axis& about = claim_.reach.about;
+    const Eigen::Vector3d point = view.frame.transpose() * (about.point_mm - axis_.point_mm);
+    const Eigen::Vector3d along = view.frame.transpose() * about.direction;
+    const Eigen::Vector2d crossing = (point - point.z() / along.z() * along).head<2>();
+    const double limit = 1.1 * claim_.reach.limit_mm + crossing.lpNorm<Eigen::Infinity>();
+    return one_sided_region(flat, weights, std::max(0.0, -claim_.value_mm - move),
+                            Eigen::Vector2d::Zero(), limit);
+  }
+
+  [[nodiscard]] double value_of(double low, double high) const {
+    return claim_.weights.outer * high - claim_.weights.inner * low;
+  }
+
+  [[nodiscard]] ZoneBoxBound bound(const View& view, const ZoneBox& square) const {
+    if (claim_.weights.outer > 0.0 && claim_.weights.inner > 0.0) {
+      return bound_zone_box<4>(view.points, square, claim_.value_mm, options_.tolerance_mm, slack_);
+    }
+    return bound_one_sided_box<4>(view.points, square, claim_.weights, slack_);
+  }
+
   /// Projects along the middle of the box and bounds the centres that are left.
   [[nodiscard]] View look(const DirectionBox& box) const {
     View view;
@@ -104,8 +135,7 @@ class AxisSearcher {
       flat.emplace_back(view.points.back().head<2>());
     }
     const double opening = box.opening_rad();
-    const double raised = claim_.width_mm + 2.0 * turning_move(view, opening) + 2.0 * slack_;
-    const CenterRegion region = center_region(flat, raised);
+    const CenterRegion region = region_of(view, flat, turning_move(view, opening) + slack_);
     view.excluded = region.kind == CenterRegion::Kind::kEmpty;
     view.bounded = region.kind == CenterRegion::Kind::kSquare;
     if (!view.bounded) return view;
@@ -140,19 +170,21 @@ class AxisSearcher {
     if (!open) return;
     const ZoneBoxBound& found = *open;
     const Axis candidate = axis_of(view, found);
-    if (zone_of(chosen_, candidate).width >= claim_.width_mm) return split(box);
+    if (zone_of(chosen_, candidate).value >= claim_.value_mm) return split(box);
     const Zone zone = zone_of(points_, candidate);
-    if (zone.width < claim_.width_mm - slack_) {
+    if (zone.value < claim_.value_mm - slack_) {
       out_.better = Axis{candidate.point_mm + axis_.point_mm, candidate.direction};
       return;
     }
     // Points the search has not looked at may exclude the box as it is.
     bool more = false;
-    for (const std::size_t row : {zone.far, zone.near}) {
-      if (!rows_.add(row)) continue;
+    const auto take = [&](std::size_t row, double weight) {
+      if (weight == 0.0 || !rows_.add(row)) return;
       chosen_.push_back(points_[row]);
       more = true;
-    }
+    };
+    take(zone.far, claim_.weights.outer);
+    take(zone.near, claim_.weights.inner);
     if (more) {
       boxes_.push_front(box);
     } else {
@@ -171,9 +203,8 @@ class AxisSearcher {
                                          const ZoneBox& square, int levels = kSquareLevels) {
     if (closed_by_growth(box, view, square)) return std::nullopt;
     ++out_.boxes;
-    const ZoneBoxBound found =
-        bound_zone_box<4>(view.points, square, claim_.width_mm, options_.tolerance_mm, slack_);
-    if (found.lower_mm >= claim_.width_mm - options_.tolerance_mm) {
+    const ZoneBoxBound found = bound(view, square);
+    if (found.lower_mm >= claim_.value_mm - options_.tolerance_mm) {
       out_.lower_mm = std::min(out_.lower_mm, found.lower_mm);
       return std::nullopt;
     }
@@ -202,10 +233,10 @@ class AxisSearcher {
   struct Zone {
     std::size_t far = 0;
     std::size_t near = 0;
-    double width = 0.0;
+    double value = 0.0;
   };
 
-  [[nodiscard]] static Zone zone_of(SpacePoints points, const Axis& axis) {
+  [[nodiscard]] Zone zone_of(SpacePoints points, const Axis& axis) const {
     Zone out;
     double low = std::numeric_limits<double>::infinity();
     double high = 0.0;
@@ -221,14 +252,13 @@ class AxisSearcher {
         out.near = i;
       }
     }
-    out.width = std::sqrt(high) - std::sqrt(low);
+    out.value = value_of(std::sqrt(low), std::sqrt(high));
     return out;
   }
 
   [[nodiscard]] double least_bound(const DirectionBox& box, const View& view) const {
-    if (closed_by_growth(box, view, view.box)) return claim_.width_mm;
-    return bound_zone_box<4>(view.points, view.box, claim_.width_mm, options_.tolerance_mm, slack_)
-        .lower_mm;
+    if (closed_by_growth(box, view, view.box)) return claim_.value_mm;
+    return bound(view, view.box).lower_mm;
   }
 
   GlobalSearch<Axis> give_up() {
@@ -237,8 +267,8 @@ class AxisSearcher {
       if (view.excluded) continue;
       out_.lower_mm = view.bounded ? std::min(out_.lower_mm, least_bound(box, view)) : 0.0;
     }
-    out_.reason = fmt::format("{} boxes of directions were left after {}; lower bound {:.9g} mm",
-                              boxes_.size(), out_.boxes, out_.lower_mm);
+    out_.reason = left_open("boxes of directions", boxes_.size(), out_.boxes, out_.lower_mm,
+                            claim_.value_mm, claim_.weights);
     return out_;
   }
 

@@ -3,8 +3,6 @@
 #include <deque>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "fit/center_region.h"
 #include "fit/global_search.h"
 #include "fit/points.h"
@@ -23,7 +21,7 @@ double closed_half_side(double growth, double inner_radius) {
 struct ExtremePoints {
   std::size_t far = 0;
   std::size_t near = 0;
-  double width = 0.0;
+  double value = 0.0;
 };
 
 class CenterSearcher {
@@ -49,10 +47,8 @@ class CenterSearcher {
   }
 
   GlobalSearch<Eigen::Vector2d> run() {
-    out_.lower_mm = claim_.width_mm;
-    std::vector<Eigen::Vector2d> flat;
-    for (const Eigen::Vector3d& p : chosen_) flat.emplace_back(p.head<2>());
-    const CenterRegion region = center_region(flat, claim_.width_mm + 2.0 * slack_);
+    out_.lower_mm = claim_.value_mm;
+    const CenterRegion region = first_region();
     if (region.kind != CenterRegion::Kind::kSquare) {
       out_.lower_mm = 0.0;
       out_.reason = "the points do not bound the centre: the narrowest zone may be a strip";
@@ -76,8 +72,30 @@ class CenterSearcher {
     return box.center_mm.cwiseAbs().maxCoeff() + box.half_side_mm <= closed_;
   }
 
+  [[nodiscard]] bool inscribed() const { return claim_.weights.outer == 0.0; }
+
+  /// The square that holds every centre as good as the claim.
+  [[nodiscard]] CenterRegion first_region() {
+    if (inscribed()) {
+      hull_ = convex_hull(points_);
+      double reach = 0.0;
+      for (const Eigen::Vector2d& p : hull_) reach = std::max(reach, p.lpNorm<Eigen::Infinity>());
+      return one_sided_region(points_, claim_.weights, -claim_.value_mm - slack_,
+                              Eigen::Vector2d::Zero(), reach);
+    }
+    std::vector<Eigen::Vector2d> flat;
+    for (const Eigen::Vector3d& p : chosen_) flat.emplace_back(p.head<2>());
+    return center_region(flat, claim_.value_mm + 2.0 * slack_);
+  }
+
   [[nodiscard]] ZoneBoxBound bound(const ZoneBox& box) const {
-    return bound_zone_box<2>(chosen_, box, claim_.width_mm, options_.tolerance_mm, slack_);
+    if (inscribed()) return bound_one_sided_box<2>(chosen_, box, claim_.weights, slack_);
+    return bound_zone_box<2>(chosen_, box, claim_.value_mm, options_.tolerance_mm, slack_);
+  }
+
+  /// Outside the hull of the points no circle is inscribed in them.
+  [[nodiscard]] bool in_hull(const ZoneBox& box) const {
+    return !inscribed() || meets_hull(hull_, box.center_mm, box.half_side_mm);
   }
 
   [[nodiscard]] ExtremePoints extremes(const Eigen::Vector2d& center) const {
@@ -95,30 +113,32 @@ class CenterSearcher {
         out.near = i;
       }
     }
-    out.width = std::sqrt(high) - std::sqrt(low);
+    out.value = claim_.weights.outer * std::sqrt(high) - claim_.weights.inner * std::sqrt(low);
     return out;
   }
 
   void visit(const ZoneBox& box) {
-    if (closed_by_growth(box)) return;
+    if (closed_by_growth(box) || !in_hull(box)) return;
     ++out_.boxes;
     const ZoneBoxBound found = bound(box);
-    if (found.lower_mm >= claim_.width_mm - options_.tolerance_mm) {
+    if (found.lower_mm >= claim_.value_mm - options_.tolerance_mm) {
       out_.lower_mm = std::min(out_.lower_mm, found.lower_mm);
       return;
     }
     const ExtremePoints at = extremes(found.center_mm);
-    if (at.width < claim_.width_mm - slack_) {
+    if (at.value < claim_.value_mm - slack_ && in_hull({found.center_mm, 0.0, 0.0})) {
       out_.better = origin_ + found.center_mm;
       return;
     }
     // Points the search has not looked at may exclude the box as it is.
     bool more = false;
-    for (const std::size_t row : {at.far, at.near}) {
-      if (!rows_.add(row)) continue;
+    const auto look_at = [&](std::size_t row, double weight) {
+      if (weight == 0.0 || !rows_.add(row)) return;
       take(row);
       more = true;
-    }
+    };
+    look_at(at.far, claim_.weights.outer);
+    look_at(at.near, claim_.weights.inner);
     if (more) {
       boxes_.push_front(box);
     } else {
@@ -130,8 +150,8 @@ class CenterSearcher {
     for (const ZoneBox& box : boxes_) {
       if (!closed_by_growth(box)) out_.lower_mm = std::min(out_.lower_mm, bound(box).lower_mm);
     }
-    out_.reason = fmt::format("{} squares of centres were left after {}; lower bound {:.9g} mm",
-                              boxes_.size(), out_.boxes, out_.lower_mm);
+    out_.reason = left_open("squares of centres", boxes_.size(), out_.boxes, out_.lower_mm,
+                            claim_.value_mm, claim_.weights);
     return out_;
   }
 
@@ -141,6 +161,7 @@ class CenterSearcher {
   SearchRows rows_;
   std::vector<Eigen::Vector2d> points_;  ///< Relative to the centre of the claim.
   std::vector<Eigen::Vector3d> chosen_;  ///< Those of rows_, height 0.
+  std::vector<Eigen::Vector2d> hull_;    ///< Of all points, counter-clockwise; inscribed only.
   double slack_ = 0.0;
   double closed_ = 0.0;
   std::deque<ZoneBox> boxes_;

@@ -1,5 +1,7 @@
 #include "fit/search_points.h"
 
+#include <fmt/format.h>
+
 #include "fit/points.h"
 
 namespace rondure::fit {
@@ -26,6 +28,14 @@ bool SearchRows::add(std::size_t row) {
   taken_[row] = true;
   rows_.push_back(row);
   return true;
+}
+
+std::string left_open(std::string_view boxes, std::size_t left, int after, double lower_mm,
+                      double value_mm, const ZoneWeights& weights) {
+  const bool inside = weights.outer == 0.0;
+  return fmt::format("{} {} were left after {}; {} bound {:.9g} mm, {:.3g} mm from the value found",
+                     left, boxes, after, inside ? "upper" : "lower", inside ? -lower_mm : lower_mm,
+                     value_mm - lower_mm);
 }
 
 }  // namespace rondure::fit

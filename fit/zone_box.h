@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "fit/certificate.h"
+#include "fit/zone_program.h"
 
 namespace rondure::fit {
 
@@ -27,7 +28,7 @@ struct ZoneBox {
 /// What a linear programme says about the zones of all axes of a box.
 struct ZoneBoxBound {
   double lower_mm = 0.0;  ///< No axis of the box has a zone narrower than this [mm].
-  bool excluded = false;  ///< lower_mm is above the width asked for.
+  bool excluded = false;  ///< lower_mm is above the width asked for. Not of one side.
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  ///< The axis of the box that looks best:
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< crosses z = 0 there, direction (tilt, 1).
 };
@@ -51,5 +52,13 @@ template <int K>
 [[nodiscard]] ZoneBoxBound bound_zone_box(std::span<const Eigen::Vector3d> points_mm,
                                           const ZoneBox& box, double width_mm, double tolerance_mm,
                                           double slack_mm);
+
+/// The same for one side: a lower bound of  outer weight * max r - inner weight * min r  over all
+/// axes of a box, one of the weights being 0: of the circumscribed radius, or of the inscribed one
+/// with its sign changed. Weak duality in r^2 again; there is no width to ask for.
+template <int K>
+[[nodiscard]] ZoneBoxBound bound_one_sided_box(std::span<const Eigen::Vector3d> points_mm,
+                                               const ZoneBox& box, const ZoneWeights& weights,
+                                               double slack_mm);
 
 }  // namespace rondure::fit

@@ -14,6 +14,7 @@
 #include "fit/local_certificate.h"
 #include "fit/scan.h"
 #include "fit/working_points.h"
+#include "fit/zone_ending.h"
 #include "fit/zone_program.h"
 
 namespace rondure::fit {
@@ -24,14 +25,6 @@ namespace rondure::fit {
 
 /// Up to so many points a descent works on all of them.
 inline constexpr std::size_t kAllWorked = 128;
-
-/// Why a descent ended.
-enum class ZoneEnding {
-  kConverged,  ///< At a local minimum of all points, to round-off.
-  kLimit,      ///< Too many programmes or passes; the zone is that of the last place.
-  kStrayed,    ///< It went past the limit of the caller: the reference may not exist.
-  kNotFinite,  ///< A coordinate is not a finite number.
-};
 
 /// Where a descent ended.
 template <class Frame>

@@ -222,6 +222,8 @@ CylinderZone CylinderZoneFitter::fit_best(std::span<const Eigen::Vector3d> point
   const Axis& axis = start.axis;
   const double limit = limit_of(weights, start.radius_mm);
   CylinderZone best = fit_from(points_mm, axis, weights, limit);
+  int programmes = best.programmes;
+  int pivots = best.pivots;
   const auto side = across(axis.direction);
   for (const double tilt : other_tilts(points_mm, start, weights)) {
     for (int k = 0; k < kStarts; ++k) {
@@ -230,10 +232,14 @@ CylinderZone CylinderZoneFitter::fit_best(std::span<const Eigen::Vector3d> point
       const Eigen::Vector3d direction = axis.direction + std::tan(tilt) * (side * lean);
       const CylinderZone zone =
           fit_from(points_mm, {axis.point_mm, direction.normalized()}, weights, limit);
+      programmes += zone.programmes;
+      pivots += zone.pivots;
       const bool found = zone.ending == ZoneEnding::kConverged;
       if (found && value_of(zone, weights) < value_of(best, weights)) best = zone;
     }
   }
+  best.programmes = programmes;
+  best.pivots = pivots;
   return best;
 }
 
@@ -245,7 +251,8 @@ core::Result<CylinderZone> CylinderZoneFitter::fit(
   // A sample may miss what the data have: a second layer, or the row that is not a number.
   if (!start) start = ls_cylinder(points_mm, near_direction);
   if (!start) return core::fail(start.error());
-  return judged(fit_best(points_mm, *start, weights), points_mm, weights, "cylinder");
+  start_ = *start;
+  return judged(fit_best(points_mm, start_, weights), points_mm, weights, "cylinder");
 }
 
 }  // namespace rondure::fit

@@ -29,7 +29,7 @@ struct ZoneFit {
   Contacts outer;  ///< Rows that touch, with multipliers >= 0 that sum to 1.
   Contacts inner;
   int passes = 0;      ///< Over all points; 0 where all are worked on at once.
-  int programmes = 0;  ///< Linear programmes solved.
+  int programmes = 0;  ///< Linear programmes solved, those of every start.
   int pivots = 0;      ///< Their pivots.
   ZoneEnding ending = ZoneEnding::kLimit;
 
@@ -89,11 +89,15 @@ class CylinderZoneFitter {
   CylinderZone fit_from(std::span<const Eigen::Vector3d> points_mm, const Axis& axis,
                         const ZoneWeights& weights = kMinimumZone,
                         double limit_mm = std::numeric_limits<double>::infinity());
+  /// The least-squares cylinder from which the last fit() started: of a sample where points are
+  /// many.
+  [[nodiscard]] const LsCylinder& start() const { return start_; }
 
  private:
   CylinderZone fit_best(std::span<const Eigen::Vector3d> points_mm, const LsCylinder& start,
                         const ZoneWeights& weights);
 
+  LsCylinder start_;
   std::vector<Eigen::Vector3d> sample_;
   ZoneDescent<CylinderFrame> descent_;
 };

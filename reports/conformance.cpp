@@ -155,7 +155,9 @@ void judge(const Circumstances& by, const FeatureResult& result, CharacteristicR
     out.reason = "the computation gave no finite number";
     return;
   }
-  out.value.emplace(symbol_of(out.characteristic), value->value_mm,
+  const std::optional<double>& limit_mm = out.characteristic.tolerance_mm;
+  out.value.emplace(symbol_of(out.characteristic),
+                    value->range ? deciding_mm(*value->range, limit_mm) : value->value_mm,
                     operator_of(result, out.characteristic),
                     uncertainty_of(by.record, result, by.probe, out.characteristic),
                     by.rule ? by.rule->measurand : Measurand::kSampledPoints);
@@ -163,6 +165,17 @@ void judge(const Circumstances& by, const FeatureResult& result, CharacteristicR
           reason_for_void(by.record, by.probe, result, *value, out.characteristic)) {
     out.reason = *missing;
     return;
+  }
+  if (value->range) {
+    auto ambiguous = undecided_range(*value->range, limit_mm);
+    if (!ambiguous && by.rule && by.rule->needs_interval()) {
+      ambiguous =
+          "the reference circle is not unique, and the interval is that of one of several circles";
+    }
+    if (ambiguous) {
+      out.reason = *ambiguous;
+      return;
+    }
   }
   apply(by.rule, out);
 }

@@ -15,7 +15,16 @@ using record::Reference;
 
 template <class Fit>
 Deviation certified_deviation(double value_mm, const Fit& fit) {
-  return {value_mm, fit.certificate.kind != fit::Certificate::Kind::kNone, false};
+  Deviation out;
+  out.value_mm = value_mm;
+  out.certified = fit.certificate.kind != fit::Certificate::Kind::kNone;
+  return out;
+}
+
+Deviation least_squares_deviation(double value_mm) {
+  Deviation out;
+  out.value_mm = value_mm;
+  return out;
 }
 
 template <class Fit>
@@ -62,13 +71,16 @@ core::Result<Deviation> section_deviation(const LayerResult& layer, Reference re
   if (!layer.ls) return core::fail(layer.ls.error());
   switch (reference) {
     case Reference::kLeastSquares:
-      return Deviation{layer.ls->deviation_mm};
+      return least_squares_deviation(layer.ls->deviation_mm);
     case Reference::kMinimumZone:
       return certified_deviation(layer.mz->width_mm(), *layer.mz);
     case Reference::kMinimumCircumscribed:
       return one_sided_deviation(layer.mc);
-    case Reference::kMaximumInscribed:
-      return one_sided_deviation(layer.mi);
+    case Reference::kMaximumInscribed: {
+      auto out = one_sided_deviation(layer.mi);
+      if (out) out->range = layer.mi->range;
+      return out;
+    }
   }
   return not_fitted();
 }
@@ -77,7 +89,7 @@ core::Result<Deviation> deviation_about(const FeatureResult& result, Reference r
   if (!result.mz_cylinder || !result.ls_cylinder) return not_fitted();
   switch (reference) {
     case Reference::kLeastSquares:
-      return Deviation{result.ls_cylinder->deviation_mm};
+      return least_squares_deviation(result.ls_cylinder->deviation_mm);
     case Reference::kMinimumZone:
       return certified_deviation(result.mz_cylinder->width_mm(), *result.mz_cylinder);
     case Reference::kMinimumCircumscribed:
@@ -100,6 +112,8 @@ core::Result<Deviation> worst_section(const FeatureResult& result, Reference ref
   if (result.layers.empty())
     return core::fail(core::Code::kNoPoints, "this feature has no sections");
   Deviation out;
+  fit::DeviationRange worst;
+  bool unique = true;
   for (const LayerResult& layer : result.layers) {
     const auto section = section_deviation(layer, reference);
     if (!section) {
@@ -113,8 +127,29 @@ core::Result<Deviation> worst_section(const FeatureResult& result, Reference ref
     if (layer.mz->exact_fit) out.exact_fit = true;
     out.unseen_rad = std::max(out.unseen_rad, unseen_in(result, layer));
     if (!section->certified) out.certified = false;
+    const auto range =
+        section->range.value_or(fit::DeviationRange{section->value_mm, section->value_mm});
+    worst.low_mm = std::max(worst.low_mm, range.low_mm);
+    worst.high_mm = std::max(worst.high_mm, range.high_mm);
+    unique = unique && !section->range;
   }
+  if (!unique && worst.high_mm > worst.low_mm) out.range = worst;
   return out;
+}
+
+double deciding_mm(const fit::DeviationRange& range, const std::optional<double>& limit_mm) {
+  return limit_mm && range.low_mm > *limit_mm ? range.low_mm : range.high_mm;
+}
+
+std::optional<std::string> undecided_range(const fit::DeviationRange& range,
+                                           const std::optional<double>& limit_mm) {
+  if (!limit_mm || range.low_mm > *limit_mm || range.high_mm <= *limit_mm) return std::nullopt;
+  return fmt::format(
+      "the reference circle is not unique: RONt is anything from {:.3f} to {:.3f} um, and the "
+      "limit "
+      "of {:g} um lies between",
+      range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre,
+      *limit_mm / core::kMicrometre);
 }
 
 }  // namespace rondure::reports

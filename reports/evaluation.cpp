@@ -184,16 +184,16 @@ void evaluate_cylinder(const std::optional<Eigen::Vector3d>& direction, FeatureR
     result.failure = ls.error();
     return;
   }
-  auto mz = fit::min_zone_cylinder(tips, direction,
-                                   {.scopes = certificate_scopes(direction, *ls), .search = {}});
+  const fit::CylinderProofOptions proof{.scopes = certificate_scopes(direction, *ls), .search = {}};
+  auto mz = fit::min_zone_cylinder(tips, direction, proof);
   if (!mz) {
     result.failure = mz.error();
     return;
   }
   result.ls_cylinder = *ls;
   result.mz_cylinder = *mz;
-  result.mc_cylinder = fit::min_circumscribed_cylinder(tips, ls->axis.direction);
-  result.mi_cylinder = fit::max_inscribed_cylinder(tips, ls->axis.direction);
+  result.mc_cylinder = fit::min_circumscribed_cylinder(tips, ls->axis.direction, proof);
+  result.mi_cylinder = fit::max_inscribed_cylinder(tips, ls->axis.direction, proof);
   place_points(mz->axis, 0.5 * (mz->inner_radius_mm + mz->outer_radius_mm), mean_of(result.cloud),
                result.cloud);
   std::vector<std::size_t> rows(result.cloud.size());

@@ -71,7 +71,8 @@ std::vector<LayerResult> layers_of(const FormCloud& cloud, const std::vector<Clo
     if (reference == Reference::kMinimumCircumscribed) {
       result.mc = fit::min_circumscribed_circle(section);
     }
-    if (reference == Reference::kMaximumInscribed) result.mi = fit::max_inscribed_circle(section);
+    if (reference == Reference::kMaximumInscribed)
+      result.mi = fit::max_inscribed_circle(section, {.global = false, .search = {}});
     result.points_mm = std::move(section);
     out.push_back(std::move(result));
   }

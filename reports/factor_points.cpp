@@ -99,7 +99,8 @@ core::Result<double> roundness(const Points3& points, Reference reference) {
   if (reference == Reference::kLeastSquares) return one_sided(fit::ls_circle(plane));
   if (reference == Reference::kMinimumCircumscribed)
     return one_sided(fit::min_circumscribed_circle(plane));
-  if (reference == Reference::kMaximumInscribed) return one_sided(fit::max_inscribed_circle(plane));
+  if (reference == Reference::kMaximumInscribed)
+    return one_sided(fit::max_inscribed_circle(plane, {.global = false, .search = {}}));
   fit::MinZoneCircleOptions options;
   options.global = false;
   const auto zone = fit::min_zone_circle(plane, options);

@@ -38,7 +38,7 @@ Zone zone_from(const Fit& fit, const FeatureResult& feature) {
 template <class Fit>
 OneSided one_sided_from(const Fit& fit, const FeatureResult& feature) {
   return {fit.deviation_mm, fit.radius_mm + surface_offset_mm(feature), fit.contacts,
-          fit.certificate};
+          fit.certificate, std::nullopt};
 }
 
 }  // namespace
@@ -86,6 +86,7 @@ core::Result<OneSided> one_sided_of(const FeatureResult& feature, record::Refere
   const auto& circle = outside ? section.mc : section.mi;
   if (!circle) return core::fail(circle.error());
   OneSided out = one_sided_from(*circle, feature);
+  out.range = circle->range;
   out.contacts = in_rows(out.contacts, section.rows);
   return out;
 }

@@ -46,6 +46,7 @@ struct OneSided {
   double radius_mm = 0.0;              ///< Of the same kind as the radii of the zone.
   std::vector<fit::Contact> contacts;  ///< `index` is the row of FeatureResult::cloud.
   fit::Certificate certificate;
+  std::optional<fit::DeviationRange> range;  ///< Of a circle that is not unique.
 };
 /// @return Why the reference does not exist. Other references than these two are never there.
 [[nodiscard]] core::Result<OneSided> one_sided_of(const FeatureResult& feature,

@@ -18,12 +18,14 @@ std::string one_sided_entry(const FeatureResult& feature, record::Reference refe
   const auto found = one_sided_of(feature, reference);
   if (!found) return {};
   const record::Shape shape = feature.feature.shape;
+  const fit::Certificate& certificate = found->certificate;
+  std::string note =
+      trf("radius {} mm, {}, certificate {}", fixed(found->radius_mm, 6),
+          count(found->contacts.size(), "contact", "contacts"), tr(fit::name_of(certificate.kind)));
+  if (!certificate.reason.empty()) note += tr("; ") + in_sentence(certificate.reason);
   return entry(fmt::format("{} ({})", capitalised(words_of(reference, shape)),
                            reference_of(reference, shape)),
-               with_note(um(found->deviation_mm) + " µm",
-                         trf("radius {} mm, {}, certificate {}", fixed(found->radius_mm, 6),
-                             count(found->contacts.size(), "contact", "contacts"),
-                             tr(fit::name_of(found->certificate.kind)))));
+               with_note(um(found->deviation_mm) + " µm", note));
 }
 
 std::string zone_entries(const FeatureResult& feature, const Zone& zone) {

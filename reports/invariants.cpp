@@ -1,11 +1,17 @@
 #include "reports/invariants.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
+#include "core/units.h"
 #include "fit/certificate_check.h"
+#include "fit/cylinder_frame.h"
+#include "fit/points.h"
 
 namespace rondure::reports {
 namespace {
@@ -69,11 +75,26 @@ void check_witness(const Points& points, const char* name, const Fit& fit,
   relations.holds(name, fit::check_zone(points, place_of(fit), zone, kInvariantSlack));
 }
 
-/// The place of MZ is one that MC and MI could have taken. They must be as good where they are the
-/// best of all; the one next to the least-squares place is allowed to be worse, and is warned of.
-template <class OneSided>
-bool best_of_all(const OneSided& fit) {
-  return fit.certificate.kind == fit::Certificate::Kind::kGlobal;
+/// The place of MZ is one that MC and MI could have taken where their search went through it. They
+/// must be as good there, to what the search leaves; one next to the least-squares place only is
+/// allowed to be worse, and is warned of.
+template <class Zone, class OneSided>
+bool searched(const Zone& mz, const OneSided& mc) {
+  return mc.certificate.kind == fit::Certificate::Kind::kGlobal &&
+         (mc.certificate.scope == "all centres" || mc.certificate.scope == mz.certificate.scope);
+}
+bool searched(const std::vector<Eigen::Vector2d>& points, const fit::MinZoneCircle& mz,
+              const fit::LsCircle& /*ls*/, const fit::OneSidedCircle& mi) {
+  return mi.certificate.kind == fit::Certificate::Kind::kGlobal &&
+         fit::meets_hull(fit::convex_hull(points), mz.center_mm, 0.0);
+}
+bool searched(const std::vector<Eigen::Vector3d>& points, const fit::MinZoneCylinder& mz,
+              const fit::LsCylinder& ls, const fit::OneSidedCylinder& mi) {
+  const double sine = std::min(1.0, mz.axis.direction.cross(ls.axis.direction).norm());
+  const double ends = fit::half_extent(points, ls.axis.direction) * std::tan(std::asin(sine));
+  return mi.certificate.kind == fit::Certificate::Kind::kGlobal &&
+         fit::distance_mm(ls.axis, mz.axis.point_mm) + ends <= 0.25 * ls.radius_mm &&
+         sine <= std::sin(9.0 * core::kDegree);
 }
 
 /// The four references of the same points. What does not exist has no relations.
@@ -86,17 +107,17 @@ void relate(const Points& points, const Zone& mz, const Ls& ls, const core::Resu
   if (mc) {
     check_witness(points, "MC", *mc, circumscribed(*mc), relations);
     relations.no_more(named("MZ"), mz.width_mm(), named("MC"), mc->deviation_mm);
-    if (best_of_all(*mc)) {
-      relations.no_more("radius of " + named("MC"), mc->radius_mm, "outer radius of " + named("MZ"),
-                        mz.outer_radius_mm);
+    if (searched(mz, *mc)) {
+      relations.no_more("radius of " + named("MC"), mc->radius_mm - mc->certificate.gap_mm,
+                        "outer radius of " + named("MZ"), mz.outer_radius_mm);
     }
   }
   if (mi) {
     check_witness(points, "MI", *mi, inscribed(*mi), relations);
     relations.no_more(named("MZ"), mz.width_mm(), named("MI"), mi->deviation_mm);
-    if (best_of_all(*mi)) {
+    if (searched(points, mz, ls, *mi)) {
       relations.no_more("inner radius of " + named("MZ"), mz.inner_radius_mm,
-                        "radius of " + named("MI"), mi->radius_mm);
+                        "radius of " + named("MI"), mi->radius_mm + mi->certificate.gap_mm);
     }
   }
 }

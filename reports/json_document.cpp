@@ -86,6 +86,12 @@ Json certificate_json(const fit::Certificate& certificate) {
           {"reason", certificate.reason}};
 }
 
+/// [least, greatest]; null where the reference is unique.
+Json range_json(const std::optional<fit::DeviationRange>& range) {
+  if (!range) return nullptr;
+  return {in_um(range->low_mm), in_um(range->high_mm)};
+}
+
 Json zone_json(const FeatureResult& feature) {
   const auto zone = zone_of(feature);
   if (!zone) return nullptr;
@@ -134,6 +140,7 @@ Json one_sided_json(const FeatureResult& feature, record::Reference reference) {
   }
   json["radius_mm"] = found->radius_mm;
   json["deviation_um"] = in_um(found->deviation_mm);
+  json["deviation_range_um"] = range_json(found->range);
   json["contacts"] = {{outside ? "outer" : "inner", contacts_json(found->contacts, feature)}};
   json["certificate"] = certificate_json(found->certificate);
   return json;
@@ -144,6 +151,7 @@ Json one_sided_json(const core::Result<fit::OneSidedCircle>& circle, double offs
   return {{"center_mm", vector_json(circle->center_mm)},
           {"radius_mm", circle->radius_mm + offset_mm},
           {"deviation_um", in_um(circle->deviation_mm)},
+          {"deviation_range_um", range_json(circle->range)},
           {"certificate", certificate_json(circle->certificate)}};
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "reports/deviation.h"
 #include "reports/facts.h"
 #include "reports/text.h"
 
@@ -61,6 +62,9 @@ core::Result<AnalysisValue> roundness_value(const SpindleFacts& facts,
   AnalysisValue out;
   out.value_mm = rms ? found->parameters->rms_mm : found->total_mm;
   out.void_because = loss_of(facts);
+  if (rms || !found->range) return out;
+  out.value_mm = deciding_mm(*found->range, asked.tolerance_mm);
+  if (!out.void_because) out.void_because = undecided_range(*found->range, asked.tolerance_mm);
   return out;
 }
 

@@ -164,6 +164,9 @@ void add_one_sided(std::string& out, const FeatureResult& feature) {
     if (!text.empty()) text += tr("; ");
     text += trf("{} radius {} mm, {} {} um", reference_of(reference, shape),
                 fixed(found->radius_mm, 4), symbol_of(shape), um(found->deviation_mm));
+    if (found->certificate.kind != fit::Certificate::Kind::kGlobal) {
+      text += tr(", ") + tr("certificate") + " " + tr(fit::name_of(found->certificate.kind));
+    }
   }
   if (!text.empty()) add_wrapped(out, "  " + tr("one-sided"), text);
 }

@@ -1,6 +1,7 @@
 #include "reports/warnings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
@@ -111,7 +112,37 @@ void warn_better(const Zone& mz, const core::Result<OneSided>& mc, const core::R
     say(Reference::kMaximumInscribed, mi->radius_mm, mz.inner_radius_mm - mi->radius_mm);
 }
 
+/// Circles as large as the maximum inscribed one, about which the deviation is another.
+void warn_range(const LayerResult& layer, FeatureResult& result) {
+  if (!layer.mi || !layer.mi->range) return;
+  add_warning(
+      result, core::Code::kSeveralOptima,
+      fmt::format("layer {}: the maximum inscribed circle is not unique: about circles whose "
+                  "radius agrees to 1 nm RONt is anything from {:.3f} to {:.3f} um",
+                  layer.layer + 1, layer.mi->range->low_mm / core::kMicrometre,
+                  layer.mi->range->high_mm / core::kMicrometre));
+}
+
+/// A better cylinder that is not the reference: across a disc, or out of reach.
+void warn_other(FeatureResult& result) {
+  using record::Reference;
+  const auto say = [&](Reference reference, const core::Result<fit::OneSidedCylinder>& fit) {
+    if (!fit || !fit->other) return;
+    add_warning(
+        result, core::Code::kSeveralOptima,
+        fmt::format(
+            "another {} is {:.3g} um better: its axis leans by {:.3g} deg and lies {:.3g} mm "
+            "off that of the reference, which is the one next to the least-squares axis",
+            words_of(reference, record::Shape::kCylinder),
+            std::abs(fit->radius_mm - fit->other->radius_mm) / core::kMicrometre,
+            fit->other->lean_rad / core::kDegree, fit->other->apart_mm));
+  };
+  say(Reference::kMinimumCircumscribed, result.mc_cylinder);
+  say(Reference::kMaximumInscribed, result.mi_cylinder);
+}
+
 void warn_several(FeatureResult& result) {
+  warn_other(result);
   if (result.mz_cylinder) {
     warn_better(*result.mz_cylinder, result.mc_cylinder, result.mi_cylinder,
                 record::Shape::kCylinder, "", result);
@@ -120,6 +151,7 @@ void warn_several(FeatureResult& result) {
     if (!layer.mz) continue;
     warn_better(*layer.mz, layer.mc, layer.mi, record::Shape::kCircle,
                 fmt::format("layer {}: ", layer.layer + 1), result);
+    warn_range(layer, result);
   }
 }
 

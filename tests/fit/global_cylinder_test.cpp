@@ -197,7 +197,7 @@ TEST(GlobalCylinder, TellsRivalsApart) {
 
 TEST(GlobalCylinder, StopsAtItsLimitWithAReasonAndTheSameBits) {
   const Points3 points = test::random_cylinder(3, 21, {});
-  const MinZoneCylinderOptions few{.scopes = {kHalfSphere}, .search = {.max_boxes = 40}};
+  const CylinderProofOptions few{.scopes = {kHalfSphere}, .search = {.max_boxes = 40}};
   const auto a = min_zone_cylinder(points, Eigen::Vector3d::UnitZ(), few);
   const auto b = min_zone_cylinder(points, Eigen::Vector3d::UnitZ(), few);
   ASSERT_TRUE(a.has_value() && b.has_value());

@@ -105,6 +105,49 @@ TEST(LsCircle, IsTheFullyConvergedMinimumForSmallAndLargeSets) {
   }
 }
 
+/// Squares about the best centre at a distance below the points, the radius being the mean
+/// distance: what a flat arc that is its own mirror image leaves to search. 80-bit numbers.
+long double squares_at_depth(const Points2& points, long double depth) {
+  long double mean = 0.0L;
+  long double sum = 0.0L;
+  const auto n = static_cast<long double>(points.size());
+  for (const auto& p : points)
+    mean += std::hypot(static_cast<long double>(p.x()), p.y() + depth) / n;
+  for (const auto& p : points) {
+    const long double d = std::hypot(static_cast<long double>(p.x()), p.y() + depth) - mean;
+    sum += d * d;
+  }
+  return sum;
+}
+
+TEST(LsCircle, SettlesOnFlatArcs) {
+  const Points2 flat = {{0, 2}, {1, -1.001}, {-1, -1.001}, {10, 0.001}, {-10, 0.001}};
+  const auto circle = ls_circle(flat);
+  ASSERT_TRUE(circle.has_value()) << circle.error().what;
+  EXPECT_NEAR(circle->center_mm.x(), 0.0, 1e-6);
+  EXPECT_NEAR(circle->center_mm.y(), -3283.290161859, 1e-6);
+  EXPECT_NEAR(circle->radius_mm, 3283.296314227, 1e-6);
+  for (const double height : {0.3, 0.03, 0.003}) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      SCOPED_TRACE(testing::Message() << "height " << height << " mm, seed " << seed);
+      core::KeyedNoise noise(seed, {6});
+      Points2 points;
+      for (int k = 0; k <= 10; ++k) {
+        const double x = k - 0.4 * noise.uniform();
+        const double y = -height * x * x / 100.0 + 0.2 * height * noise.normal();
+        points.emplace_back(x, y);
+        points.emplace_back(-x, y);
+      }
+      const auto arc = ls_circle(points);
+      ASSERT_TRUE(arc.has_value()) << arc.error().what;
+      const auto depth = static_cast<long double>(-arc->center_mm.y());
+      const long double least = squares_at_depth(points, depth);
+      for (const long double factor : {0.9L, 0.999L, 1.001L, 1.1L})
+        EXPECT_LE(least, squares_at_depth(points, factor * depth));
+    }
+  }
+}
+
 TEST(LsCircle, NamesTheBadRowOfALargeSet) {
   Points2 points;
   for (int k = 0; k < 4000; ++k) points.emplace_back(25.0 * std::cos(k), 25.0 * std::sin(k));

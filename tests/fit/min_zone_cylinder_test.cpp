@@ -158,7 +158,7 @@ const Points3& valley() {
 
 TEST(MinZoneCylinder, GoesToTheBetterEndOfAValleyThatWeakContactsClose) {
   const Eigen::Vector3d near(0.0, 0.065, 0.998);
-  MinZoneCylinderOptions options;
+  CylinderProofOptions options;
   options.scopes = {{AxisScope::Kind::kCone, near}};
   const auto proven = min_zone_cylinder(valley(), near, options);
   ASSERT_TRUE(proven.has_value()) << proven.error().what;
@@ -222,6 +222,32 @@ TEST(LsCylinder, IsExactOnPointsOfACylinder) {
     EXPECT_NEAR(distance_mm(ls->axis, place.translation()), 0.0, 1e-11);
     EXPECT_LT(ls->deviation_mm, 1e-11);
   }
+}
+
+TEST(MinZoneCylinder, CountsTheProgrammesOfEveryStartAndSaysHowItEnded) {
+  // Nine points: the least-squares axis and 24 about it are starts, each of one programme at least.
+  const Points3 few = test::random_cylinder(2, 21, {3, 3, 35.0, 0.003});
+  const auto zone = min_zone_cylinder(few, Eigen::Vector3d::UnitZ());
+  ASSERT_TRUE(zone.has_value());
+  EXPECT_GE(zone->programmes, 25);
+  EXPECT_EQ(zone->ending, ZoneEnding::kConverged);
+  // Restarts of the global search add theirs.
+  int restarted = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const Points3 arc = test::random_cylinder(seed, 21, {3, 8, 0.1, 0.00125});
+    const auto local = min_zone_cylinder(arc, Eigen::Vector3d::UnitZ());
+    const AxisScope cone{AxisScope::Kind::kCone};
+    const auto global =
+        min_zone_cylinder(arc, Eigen::Vector3d::UnitZ(), {.scopes = {cone}, .search = {}});
+    ASSERT_TRUE(local && global);
+    EXPECT_EQ(global->ending, ZoneEnding::kConverged);
+    EXPECT_GE(global->programmes, local->programmes);
+    if (global->width_mm() >= local->width_mm() - 1e-9) continue;
+    EXPECT_GT(global->programmes, local->programmes);
+    ++restarted;
+  }
+  EXPECT_GT(restarted, 0);
 }
 
 }  // namespace

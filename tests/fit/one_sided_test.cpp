@@ -18,6 +18,7 @@
 #include "fit/min_zone_cylinder.h"
 #include "fit/one_sided_center.h"
 #include "fit/one_sided_cylinder.h"
+#include "fit/roundness.h"
 #include "fit/zone_fit.h"
 #include "tests/fit/oracles/dial.h"
 
@@ -139,8 +140,8 @@ TEST(OneSidedCylinder, TurnsAndShiftsWithThePart) {
     std::reverse(moved.begin(), moved.end());
     const auto direction = lying(points);
     for (const auto fit : {min_circumscribed_cylinder, max_inscribed_cylinder}) {
-      const auto before = fit(points, direction);
-      const auto after = fit(moved, turn * direction);
+      const auto before = fit(points, direction, {});
+      const auto after = fit(moved, turn * direction, {});
       ASSERT_TRUE(before && after);
       EXPECT_NEAR(before->radius_mm, after->radius_mm, 1e-10);
       EXPECT_LE((turn * before->axis.direction).cross(after->axis.direction).norm(), 1e-9);
@@ -172,7 +173,7 @@ TEST(OneSidedCylinder, SaysHowOftenRegularLayersLeaveItWithoutCertificate) {
     SCOPED_TRACE(seed);
     const Space points = regular_layers(seed);
     for (const auto fit : {min_circumscribed_cylinder, max_inscribed_cylinder}) {
-      const auto found = fit(points, Eigen::Vector3d::UnitZ());
+      const auto found = fit(points, Eigen::Vector3d::UnitZ(), {});
       ASSERT_TRUE(found.has_value()) << found.error().what;
       if (found->certificate.kind != Certificate::Kind::kNone) continue;
       ++without;
@@ -181,6 +182,113 @@ TEST(OneSidedCylinder, SaysHowOftenRegularLayersLeaveItWithoutCertificate) {
   }
   std::cout << "without certificate " << without << " of " << 2 * sets << "\n";
   EXPECT_LE(without, 2 * sets / 20);
+}
+
+/// A ring with dents at 0 and 180 deg that hold an inscribed circle between them, and a bump at 90
+/// deg: the circle is free to slide across until the points at 90 or 270 deg stop it.
+Plane dented_ring(double radius) {
+  Plane out;
+  for (int k = 0; k < 360; ++k) {
+    const double angle = k * core::kDegree;
+    const double r = radius + (k % 180 == 0 ? -0.010 : k == 90 ? 0.008 : 0.0);
+    out.emplace_back(r * std::cos(angle), r * std::sin(angle));
+  }
+  return out;
+}
+
+TEST(MaxInscribedCircle, SaysTheRangeWhereSeveralAreAsLarge) {
+  // Slid by y, RONt is 10 um + max(8 - y, |y|): 28 um at -10 um, 20 um at 10 um. The ends are the
+  // largest circles; at |y| = s the radius is (10^2 - s^2) / 2 R smaller, 1 nm at 7.07 um.
+  const auto circle = max_inscribed_circle(dented_ring(25.0));
+  ASSERT_TRUE(circle.has_value()) << circle.error().what;
+  EXPECT_EQ(circle->certificate.kind, Certificate::Kind::kGlobal) << circle->certificate.reason;
+  EXPECT_EQ(circle->certificate.scope, "all centres inside the hull of the points");
+  ASSERT_TRUE(circle->range.has_value());
+  EXPECT_NEAR(circle->range->high_mm, 0.028, 1e-4);
+  EXPECT_NEAR(circle->range->low_mm, 0.01707, 3e-4);
+  // In a small ring curvature leaves the ends only: 9.5 um off, 0.1 + 0.0095 - (0.1 - 0.0095).
+  const auto small = max_inscribed_circle(dented_ring(0.1));
+  ASSERT_TRUE(small && small->range);
+  EXPECT_NEAR(small->range->low_mm, 0.019, 1e-4);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto ordinary = max_inscribed_circle(circle_points(seed, 90));
+    ASSERT_TRUE(ordinary.has_value());
+    EXPECT_EQ(ordinary->certificate.kind, Certificate::Kind::kGlobal);
+    EXPECT_FALSE(ordinary->range.has_value()) << seed;
+  }
+}
+
+TEST(MaxInscribedCircle, OfAProfileSaysTheRangeWhereItIsFreeToSlide) {
+  std::vector<double> theta;
+  std::vector<double> r;
+  for (int k = 0; k < 360; ++k) {
+    theta.push_back(k * core::kDegree);
+    r.push_back(k % 180 == 0 ? -0.010 : k == 90 ? 0.008 : 0.0);
+  }
+  const auto inscribed = roundness_of_profile(theta, r, CircleReference::kMi);
+  ASSERT_TRUE(inscribed && inscribed->range);
+  EXPECT_NEAR(inscribed->range->low_mm, 0.014, 2e-5);
+  EXPECT_NEAR(inscribed->range->high_mm, 0.028, 2e-5);
+  for (double& value : r) value = -value;
+  const auto circumscribed = roundness_of_profile(theta, r, CircleReference::kMc);
+  ASSERT_TRUE(circumscribed && circumscribed->range);
+  EXPECT_NEAR(circumscribed->range->low_mm, 0.014, 2e-5);
+  EXPECT_NEAR(circumscribed->range->high_mm, 0.028, 2e-5);
+}
+
+TEST(OneSidedCylinder, IsProvenOverAllAxesOfTheScope) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE(seed);
+    const Space points = cylinder_points(seed, 20 + static_cast<int>(9 * seed));
+    const auto direction = lying(points);
+    const CylinderProofOptions options{.scopes = {AxisScope{AxisScope::Kind::kCone, direction}},
+                                       .search = {}};
+    const auto mc = min_circumscribed_cylinder(points, direction, options);
+    const auto mi = max_inscribed_cylinder(points, direction, options);
+    ASSERT_TRUE(mc && mi);
+    EXPECT_EQ(mc->certificate.kind, Certificate::Kind::kGlobal) << mc->certificate.reason;
+    EXPECT_EQ(mi->certificate.kind, Certificate::Kind::kGlobal) << mi->certificate.reason;
+    EXPECT_LE(mc->certificate.gap_mm, 2e-9);
+    EXPECT_LE(mi->certificate.gap_mm, 2e-9);
+    EXPECT_LE(mc->radius_mm, min_circumscribed_cylinder(points, direction)->radius_mm + 1e-12);
+    EXPECT_GE(mi->radius_mm, max_inscribed_cylinder(points, direction)->radius_mm - 1e-12);
+  }
+}
+
+TEST(OneSidedCylinder, SaysWhatASearchAtItsLimitLeaves) {
+  const Space points = cylinder_points(3, 60);
+  const auto direction = lying(points);
+  const CylinderProofOptions few{.scopes = {AxisScope{AxisScope::Kind::kCone, direction}},
+                                 .search = {.max_boxes = 5}};
+  for (const auto fit : {min_circumscribed_cylinder, max_inscribed_cylinder}) {
+    const auto found = fit(points, direction, few);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_EQ(found->certificate.kind, Certificate::Kind::kLocal);
+    EXPECT_NE(found->certificate.reason.find("were left after"), std::string::npos)
+        << found->certificate.reason;
+    EXPECT_NE(found->certificate.reason.find("from the value found"), std::string::npos);
+  }
+}
+
+// The cylinder across the chord of a short arc is far smaller than the one about the arc's axis.
+TEST(OneSidedCylinder, SaysThatACylinderAcrossAnArcIsSmaller) {
+  Space arc;
+  for (int k = 0; k < 33; ++k) {
+    const double angle = (8.0 * (k / 3) - 40.0) * core::kDegree;
+    const double r = 30.0 + 0.01 * std::cos(3.0 * angle);
+    arc.emplace_back(r * std::cos(angle), r * std::sin(angle), 12.0 * (k % 3));
+  }
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const CylinderProofOptions options{
+      .scopes = {AxisScope{AxisScope::Kind::kHalfSphere}, AxisScope{AxisScope::Kind::kCone, up}},
+      .search = {}};
+  const auto found = min_circumscribed_cylinder(arc, up, options);
+  ASSERT_TRUE(found.has_value()) << found.error().what;
+  EXPECT_EQ(found->certificate.kind, Certificate::Kind::kGlobal) << found->certificate.reason;
+  EXPECT_EQ(found->certificate.scope, "within 10 deg of nominal");
+  ASSERT_TRUE(found->other.has_value());
+  EXPECT_LT(found->other->radius_mm, found->radius_mm - 1.0);
+  EXPECT_GT(found->other->lean_rad, 10.0 * core::kDegree);
 }
 
 TEST(OneSided, HasNoInscribedReferenceWhereThePointsDoNotSurroundIt) {

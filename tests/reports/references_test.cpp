@@ -84,7 +84,7 @@ TEST(References, ReportedRadiiAreThoseOfTheSurface) {
     EXPECT_EQ(stated["mc"]["contacts"]["outer"].size(), feature.mc_cylinder->contacts.size());
     EXPECT_FALSE(stated["mc"]["contacts"].contains("inner"));
     EXPECT_EQ(stated["mi"]["axis"]["direction"].size(), 3U);
-    EXPECT_EQ(stated["mi"]["certificate"]["kind"], "local");
+    EXPECT_EQ(stated["mi"]["certificate"]["kind"], "global");
   }
 }
 
@@ -107,8 +107,8 @@ TEST(References, TheArchiveHoldsTheCertificateOfEach) {
   std::map<std::string, std::string> certificates;
   for (const auto& result : entry.results) certificates[result.reference] = result.certificate;
   const std::map<std::string, std::string> expected = {
-      {"LSCY", "none"}, {"MZCY", "global"}, {"MCCY", "local"},  {"MICY", "local"},
-      {"LSCI", "none"}, {"MZCI", "global"}, {"MCCI", "global"}, {"MICI", "local"}};
+      {"LSCY", "none"}, {"MZCY", "global"}, {"MCCY", "global"}, {"MICY", "global"},
+      {"LSCI", "none"}, {"MZCI", "global"}, {"MCCI", "global"}, {"MICI", "global"}};
   EXPECT_EQ(certificates, expected);
 }
 
@@ -161,6 +161,40 @@ TEST(References, AWorseOptimumNextToTheLeastSquaresOneIsToldNotHidden) {
                                            HasSubstr(" 2 um better")),
                           ::testing::AllOf(StartsWith("layer 2: the maximum inscribed circle"),
                                            HasSubstr(" 3 um better"))));
+}
+
+// Dents at 0 and 180 deg hold the inscribed circle, which slides across them: RONt is anything from
+// 17.07 to 28 um about circles whose radius agrees to 1 nm.
+TEST(References, AnInscribedCircleThatIsNotUniqueGivesNoVerdictInItsRange) {
+  std::vector<Eigen::Vector3d> points;
+  for (int k = 0; k < 360; ++k) {
+    const double angle = k * core::kDegree;
+    const double r = 25.0 + (k % 180 == 0 ? -0.010 : k == 90 ? 0.008 : 0.0);
+    points.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.0);
+  }
+  const auto judged_at = [&](double limit_mm) {
+    record::RunRecord run = points_run(points, 1);
+    for (record::Feature& feature : run.features) {
+      for (auto& c : feature.characteristics) c.tolerance_mm = limit_mm;
+    }
+    const auto evaluation = evaluated(run);
+    const json stated = json::parse(write_json(run, evaluation))["features"][0];
+    EXPECT_NEAR(stated["mi"]["deviation_range_um"][0], 17.07, 0.3);
+    EXPECT_NEAR(stated["mi"]["deviation_range_um"][1], 28.0, 0.1);
+    EXPECT_TRUE(stated["mc"]["deviation_range_um"].is_null());
+    EXPECT_THAT(write_summary(run, evaluation),
+                ::testing::ContainsRegex("maximum inscribed[ \n]+circle[ \n]+is[ \n]+not"));
+    return by_id(evaluation.features.at(0))["roundness mi"];
+  };
+  const auto above = judged_at(0.030);
+  EXPECT_EQ(above.verdict, Verdict::kConforms) << above.reason;
+  EXPECT_NEAR(*above.value_mm(), 0.028, 1e-4);
+  const auto between = judged_at(0.022);
+  EXPECT_EQ(between.verdict, Verdict::kVoid);
+  EXPECT_THAT(between.reason, HasSubstr("the limit of 22 um lies between"));
+  const auto below = judged_at(0.015);
+  EXPECT_EQ(below.verdict, Verdict::kDoesNotConform) << below.reason;
+  EXPECT_NEAR(*below.value_mm(), 0.01707, 3e-4);
 }
 
 TEST(References, ThreePointsHaveNoRoundnessAboutAny) {

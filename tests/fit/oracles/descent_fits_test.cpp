@@ -53,7 +53,7 @@ void expect_local(const Points3& points, const fit::MinZoneCylinder& zone) {
 }
 
 TEST(DescentFits, ProvenMinZoneCylinderIsTheDescentsBest) {
-  fit::MinZoneCylinderOptions options;
+  fit::CylinderProofOptions options;
   options.scopes = {{fit::AxisScope::Kind::kCone}};
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(count(kDescents)); ++seed) {
     SCOPED_TRACE(seed);

@@ -2,6 +2,7 @@
 // enumeration, CGAL, planted sets, the independent descent, and bad input.
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -80,6 +81,78 @@ TEST(OneSided, InscribedCircleIsAnEnumeratedOne) {
                                      (m.center_mm - circle->center_mm.cast<Real>()).norm() < 1e-9L;
                             }))
         << circle->radius_mm << " at " << circle->center_mm.transpose();
+  }
+}
+
+TEST(OneSided, InscribedCircleIsTheLargestOfTheEnumeratedOnes) {
+  int proven = 0;
+  const auto sets = static_cast<std::uint64_t>(count(500));
+  for (std::uint64_t seed = 0; seed < sets; ++seed) {
+    SCOPED_TRACE(name_of(kind_of(seed)) + " " + std::to_string(seed));
+    const Points2 points = hard_set(seed, 4, 12);
+    const auto circle = fit::max_inscribed_circle(points);
+    if (!circle || circle->certificate.kind != fit::Certificate::Kind::kGlobal) continue;
+    ++proven;
+    for (const CirclePlace& m : brute_inscribed(points))
+      EXPECT_LE(static_cast<double>(m.value_mm), circle->radius_mm + 2e-9);
+  }
+  EXPECT_GT(proven, static_cast<int>(sets) / 2);
+}
+
+// The best of many descents from axes about the least-squares one, closer than 10 deg.
+TEST(OneSided, CylindersAreTheBestOfManyDescents) {
+  for (const Reference reference : {Reference::kCircumscribed, Reference::kInscribed}) {
+    int better = 0;
+    int open = 0;
+    const auto sets = static_cast<std::uint64_t>(count(60));
+    for (std::uint64_t seed = 0; seed < sets; ++seed) {
+      SCOPED_TRACE(seed);
+      const Measured set = part(seed, core::kTwoPi);
+      const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+      const auto start = fit::ls_cylinder(set.points, up);
+      ASSERT_TRUE(start.has_value());
+      const fit::CylinderProofOptions options{
+          .scopes = {fit::AxisScope{fit::AxisScope::Kind::kCone, start->axis.direction}},
+          .search = {}};
+      const auto outside = reference == Reference::kCircumscribed;
+      const auto local = outside ? fit::min_circumscribed_cylinder(set.points, up)
+                                 : fit::max_inscribed_cylinder(set.points, up);
+      const auto global = outside ? fit::min_circumscribed_cylinder(set.points, up, options)
+                                  : fit::max_inscribed_cylinder(set.points, up, options);
+      if (!global) continue;
+      if (global->certificate.kind == fit::Certificate::Kind::kNone) continue;
+      if (global->certificate.kind != fit::Certificate::Kind::kGlobal) {
+        // Very short discs may end at the limit; they say what is left.
+        EXPECT_NE(global->certificate.reason.find("from the value found"), std::string::npos)
+            << global->certificate.reason;
+        ++open;
+        continue;
+      }
+      const double sign = outside ? 1.0 : -1.0;
+      better += sign * (local->radius_mm - global->radius_mm) > 1e-9 ? 1 : 0;
+      core::KeyedNoise noise(seed, {77});
+      for (int k = 0; k < 12; ++k) {
+        const double size = 0.02 * std::pow(10.0, -2.0 * noise.uniform());
+        const auto point =
+            (start->axis.point_mm + size * Eigen::Vector3d(noise.normal(), noise.normal(), 0.0))
+                .cast<Real>()
+                .eval();
+        const auto direction =
+            (start->axis.direction +
+             size / set.half_length_mm * Eigen::Vector3d(noise.normal(), noise.normal(), 0.0))
+                .normalized()
+                .cast<Real>()
+                .eval();
+        const AxisOptimum found = descend(set.points, point, direction, reference, 0.01L);
+        if (found.direction.cast<double>().dot(start->axis.direction) < std::cos(0.17)) continue;
+        EXPECT_LE(sign * global->radius_mm,
+                  static_cast<double>(found.at.value_mm(reference)) + 1.1e-9);
+      }
+    }
+    std::cout << (reference == Reference::kCircumscribed ? "circumscribed" : "inscribed")
+              << ": the local optimum is not the best in " << better << " of " << sets << ", "
+              << open << " at the limit of the search\n";
+    EXPECT_LE(open, static_cast<int>(sets) / 10);
   }
 }
 
