@@ -133,7 +133,7 @@ void add_radii(pugi::xml_node parent, double inner_mm, double outer_mm) {
 /// Whether the value is the width of this zone, and not a corrected one.
 bool is_width(const CharacteristicResult& result, double width_mm) {
   constexpr double kSame_mm = 1e-12;
-  return result.value && std::abs(result.value->value_mm() - width_mm) <= kSame_mm;
+  return result.value && std::abs(result.value->quoted_mm() - width_mm) <= kSame_mm;
 }
 
 /// ZoneRadii and ZoneAxis: the minimum zone itself.

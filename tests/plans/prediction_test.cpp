@@ -221,7 +221,7 @@ double cloud_time_s(const record::RunRecord& record) {
 TEST(Prediction, WidthIsWithinFifteenPercentOfThatOfSimulatedRuns) {
   std::size_t runs = 0;
   std::size_t near = 0;
-  std::size_t between = 0;
+  double between = 0.0;
   std::size_t statements = 0;
   std::size_t first_near = 0;
   for (std::uint64_t seed = 1; seed <= (testing::full() ? 20U : 5U); ++seed) {
@@ -236,13 +236,14 @@ TEST(Prediction, WidthIsWithinFifteenPercentOfThatOfSimulatedRuns) {
       const auto& said = foretold.about(about);
       ASSERT_TRUE(said) << reports::name_of(about);
       const double ratio = said->width_mm() / widths.mean_mm();
-      EXPECT_NEAR(ratio, 1.0, 0.15) << reports::name_of(about);
+      // The mean itself is known to open_1() only.
+      EXPECT_NEAR(ratio, 1.0, 0.15 + 2.0 * widths.open_1()) << reports::name_of(about);
       const std::size_t alike = widths.within(said->width_mm() / 1.15, said->width_mm() / 0.85);
       const std::size_t inside =
           widths.within(said->one_of_ten_width_mm, said->nine_of_ten_width_mm);
       runs += widths.widths_mm.size();
       near += alike;
-      between += inside;
+      between += static_cast<double>(inside) / static_cast<double>(widths.widths_mm.size());
       ++statements;
       const double first_ratio = said->width_mm() / widths.widths_mm.front();
       if (std::abs(first_ratio - 1.0) <= 0.15) ++first_near;
@@ -254,12 +255,12 @@ TEST(Prediction, WidthIsWithinFifteenPercentOfThatOfSimulatedRuns) {
     }
   }
   // Eight of ten parts lie between what one and what nine of ten stay below.
-  const double share = static_cast<double>(between) / static_cast<double>(runs);
+  const double share = between / static_cast<double>(statements);
   EXPECT_GT(share, 0.7);
   EXPECT_LT(share, 0.9);
   if (testing::full()) {
-    std::printf("%zu widths: %zu within 15 %% of the prediction, %zu within its 8 of 10\n", runs,
-                near, between);
+    std::printf("%zu widths: %zu within 15 %% of the prediction, %.1f %% within its 8 of 10\n",
+                runs, near, 100.0 * share);
     std::printf("%zu of %zu first runs within 15 %%\n", first_near, statements);
   }
 }
