@@ -160,9 +160,12 @@ Certificate certify_local(const LocalProof<K>& proof, double width_mm, double ro
   out.gap_mm = std::max(proof.gap_mm, 0.0);
   const double limit = std::max(1e-10 * width_mm, 8.0 * round_off_mm);
   if (!(proof.gap_mm <= limit)) {
-    out.reason = fmt::format(
-        "the contacts leave a gap of {:.3g} mm to the lower bound, {:.3g} mm is allowed",
-        proof.gap_mm, limit);
+    out.reason =
+        std::isfinite(proof.gap_mm)
+            ? fmt::format(
+                  "the contacts leave a gap of {:.3g} mm to the lower bound, {:.3g} mm is allowed",
+                  proof.gap_mm, limit)
+            : std::string("the contacts give no lower bound");
     return out;
   }
   if (!proof.strict) {
