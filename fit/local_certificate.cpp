@@ -164,9 +164,12 @@ Certificate certify_local(const LocalProof<K>& proof, double width_mm, double ro
     return out;
   }
   if (!(proof.gap_mm <= limit)) {
-    out.reason = fmt::format(
-        "the contacts leave a gap of {:.3g} mm to the lower bound, {:.3g} mm is allowed",
-        proof.gap_mm, limit);
+    out.reason =
+        std::isfinite(proof.gap_mm)
+            ? fmt::format(
+                  "the contacts leave a gap of {:.3g} mm to the lower bound, {:.3g} mm is allowed",
+                  proof.gap_mm, limit)
+            : std::string("the contacts give no lower bound");
     return out;
   }
   if (!proof.strict) {

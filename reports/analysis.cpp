@@ -92,7 +92,10 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
       std::any_of(record.series.begin(), record.series.end(), [&](const record::Series& series) {
         return series.feature == index && series.role == record::Series::Role::kData;
       });
-  if (!recorded) {
+  // A contour names its series by part and looks for each itself.
+  const bool named =
+      result.feature.shape == record::Shape::kContour || record.data_of(index, "data") != nullptr;
+  if (!recorded || !named) {
     result.failure =
         core::Error{core::Code::kNoPoints, "the run ended before its data were kept", {}};
     return result;

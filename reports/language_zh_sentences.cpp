@@ -240,6 +240,7 @@ constexpr Translation kSentenceTexts[] = {
     {"other regions were not searched", "未搜索其他区域"},
     {"the contacts hold the zone to first order only", "接触点仅在一阶意义上约束区域"},
     {"the contacts hold no zone together: there is no lower bound", "接触点不能约束区域：没有下界"},
+    {"the contacts give no lower bound", "接触点不给出下界"},
     {"the contacts leave a gap of {:.3g} mm to the lower bound, {:.3g} mm is allowed",
      "接触点与下界之间尚有 {} mm 间隙，允许 {} mm"},
     // Uncertainty

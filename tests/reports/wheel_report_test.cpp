@@ -87,6 +87,7 @@ TEST(WheelReport, IsVoidWithItsReasonOnEveryPath) {
   };
   const std::vector<Path> paths = {
       {"the run ended before its data were kept", [](auto& r) { r.series.clear(); }},
+      {"the run ended before its data were kept", [](auto& r) { r.series[0].name = "other"; }},
       {"the run did not finish", [](auto& r) { r.ending = "stopped"; }},
       {"does not know the decision rule", [](auto& r) { r.header.decision_rule = "coin"; }},
       {"intervals are computed of touches and points only",
