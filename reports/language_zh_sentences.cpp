@@ -239,7 +239,6 @@ constexpr Translation kSentenceTexts[] = {
     {"within {:.6g} deg of nominal", "公称方向 {} deg 以内"},
     {"other regions were not searched", "未搜索其他区域"},
     {"the contacts hold the zone to first order only", "接触点仅在一阶意义上约束区域"},
-    {"the contacts hold no zone together: there is no lower bound", "接触点不能约束区域：没有下界"},
     {"the contacts give no lower bound", "接触点不给出下界"},
     {"the contacts leave a gap of {:.3g} mm to the lower bound, {:.3g} mm is allowed",
      "接触点与下界之间尚有 {} mm 间隙，允许 {} mm"},
