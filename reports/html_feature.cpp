@@ -20,7 +20,7 @@ std::string one_sided_entry(const FeatureResult& feature, record::Reference refe
   const record::Shape shape = feature.feature.shape;
   const fit::Certificate& certificate = found->certificate;
   std::string note =
-      trf("radius {} mm, {}, certificate {}", fixed(found->radius_mm, 6),
+      trf("as read; radius {} mm, {}, certificate {}", fixed(found->radius_mm, 4),
           count(found->contacts.size(), "contact", "contacts"), tr(fit::name_of(certificate.kind)));
   if (!certificate.reason.empty()) note += tr("; ") + in_sentence(certificate.reason);
   return entry(fmt::format("{} ({})", capitalised(words_of(reference, shape)),
@@ -32,27 +32,25 @@ std::string zone_entries(const FeatureResult& feature, const Zone& zone) {
   const bool cylinder = feature.feature.shape == record::Shape::kCylinder;
   const std::string kind =
       zone.of_surface
-          ? trf("of the surface, tip radius {} mm {}", fixed(*feature.tip_radius_mm, 6),
+          ? trf("of the surface, tip radius {} mm {}", fixed(*feature.tip_radius_mm, 4),
                 feature.feature.side == record::Side::kOutside ? tr("subtracted") : tr("added"))
           : tr("of the points as given; the tip radius is unknown");
   std::string html =
       entry(cylinder ? tr("Minimum zone CYLt (MZCY)") : tr("Minimum zone RONt (MZCI)"),
-            with_note(um(zone.deviation_mm) + " µm",
-                      trf("{} outer and {} inner contacts", zone.outer.size(), zone.inner.size())),
-            "lead");
+            with_note(um(zone.deviation_mm) + " µm", trf("as read; {} outer and {} inner contacts",
+                                                         zone.outer.size(), zone.inner.size())));
   if (const auto ls = least_squares_of(feature)) {
-    html +=
-        entry(cylinder ? tr("Least squares (LSCY)") : tr("Least squares (LSCI)"),
-              with_note(um(ls->deviation_mm) + " µm",
-                        trf("radius {} mm, rms {} µm", fixed(ls->radius_mm, 6), um(ls->rms_mm))),
-              "lead");
+    html += entry(
+        cylinder ? tr("Least squares (LSCY)") : tr("Least squares (LSCI)"),
+        with_note(um(ls->deviation_mm) + " µm", trf("as read; radius {} mm, rms {} µm",
+                                                    fixed(ls->radius_mm, 4), um(ls->rms_mm))));
   }
   html += one_sided_entry(feature, record::Reference::kMinimumCircumscribed) +
           one_sided_entry(feature, record::Reference::kMaximumInscribed);
   html += entry(tr("Inner radius of the zone"),
-                with_note(fixed(zone.inner_radius_mm, 6) + " mm", kind));
+                with_note(fixed(zone.inner_radius_mm, 4) + " mm", kind));
   html += entry(tr("Outer radius of the zone"),
-                with_note(fixed(zone.outer_radius_mm, 6) + " mm", kind));
+                with_note(fixed(zone.outer_radius_mm, 4) + " mm", kind));
   return html;
 }
 

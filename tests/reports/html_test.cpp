@@ -186,11 +186,11 @@ TEST(Html, NonConformityIsSaidInWords) {
 
 TEST(Html, RadiiOfAnOutsideFeatureAreReducedByTheTip) {
   Case made = cylinder_case(4, 7, 3);
-  EXPECT_TRUE(holds(page_of(made), "24.995850 mm"));
+  EXPECT_TRUE(holds(page_of(made), "24.9958 mm"));
   made.evaluation.features[0].feature.side = record::Side::kInside;
-  EXPECT_TRUE(holds(page_of(made), "27.993050 mm"));
+  EXPECT_TRUE(holds(page_of(made), "27.9931 mm"));
   made.evaluation.features[0].tip_radius_mm.reset();
-  EXPECT_TRUE(holds(page_of(made), "26.494450 mm"));
+  EXPECT_TRUE(holds(page_of(made), "26.4945 mm"));
   EXPECT_TRUE(holds(page_of(made), "the tip radius is unknown"));
 }
 
