@@ -31,10 +31,10 @@ std::string write_results_csv(const record::RunRecord& record, const Evaluation&
     for (const CharacteristicResult& result : feature.characteristics) {
       const record::Characteristic& asked = result.characteristic;
       const UncertaintyStatement* known = result.value ? result.value->statement() : nullptr;
-      const std::string interval =
-          known == nullptr ? ",,"
-                           : um_field(known->estimate_mm) + "," + um_field(known->low_mm) + "," +
-                                 um_field(known->high_mm);
+      const std::string interval = known == nullptr ? ",,"
+                                                    : um_field(known->estimate_mm) + "," +
+                                                          um_field(known->low_mm) + "," +
+                                                          um_field(known->high_mm);
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", head, csv_field(feature.feature.id),
                           csv_field(asked.id), symbol_of(asked), reference_of(asked),
                           um_field(result.value_mm()), um_field(asked.tolerance_mm),

@@ -186,7 +186,7 @@ TEST(Html, NonConformityIsSaidInWords) {
 
 TEST(Html, RadiiOfAnOutsideFeatureAreReducedByTheTip) {
   Case made = cylinder_case(4, 7, 3);
-  EXPECT_TRUE(holds(page_of(made), "24.9958 mm"));
+  EXPECT_TRUE(holds(page_of(made), "24.9959 mm"));
   made.evaluation.features[0].feature.side = record::Side::kInside;
   EXPECT_TRUE(holds(page_of(made), "27.9931 mm"));
   made.evaluation.features[0].tip_radius_mm.reset();
