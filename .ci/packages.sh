@@ -78,8 +78,7 @@ ensure_packages() {
     $sudo env DEBIAN_FRONTEND=noninteractive $proxies $apt update </dev/null
     $sudo env DEBIAN_FRONTEND=noninteractive $proxies $apt -o APT::Status-Fd=1 install -y --no-install-recommends $missing </dev/null
   } 2>&1 | tee -a "$log" |
-    sed -un 's/^Need to get \(.*\) of archives.$/0 Downloading \1/p
-             s/^dlstatus:[^:]*:\([0-9]*\)[^:]*:.*/\1 Downloading packages: \1 %/p
+    sed -un 's/^dlstatus:[^:]*:\([0-9]*\)[^:]*:.*/\1 Downloading packages: \1 %/p
              s/^pmstatus:\([^:]*\):\([0-9]*\)[^:]*:.*/\2 Installing packages: \2 % (\1)/p' | show_progress; then
     echo "Installing failed; nothing was built. Start again when the cause is gone; what was downloaded is kept." >&2
     explain_failure "$log" '^(E|Err)[:0-9]'

@@ -200,7 +200,6 @@ void FormColumns::lay_out(const FormCloud& cloud) {
   // A single touch that is missing does not open a section.
   if (gap < 2.001 * core::kTwoPi / std::max(1, layout_.points_per_layer)) return;
   layout_.regular = false;
-  layout_.arc_start_rad = end;
   layout_.arc_rad = core::kTwoPi - gap;
   for (double& angle : angle_) {
     double from = std::fmod(angle - end, core::kTwoPi);

@@ -31,7 +31,6 @@ struct PointLayout {
   int points_per_layer = 0;  ///< Of the layer with the fewest; of a helix, points a turn.
   bool layered = true;       ///< false: a helix, or scattered.
   bool regular = false;      ///< Even steps, all layers alike: the columns are orthogonal.
-  double arc_start_rad = 0.0;
   std::optional<double> arc_rad;  ///< Of points that do not go round.
 };
 
