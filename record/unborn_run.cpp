@@ -28,6 +28,7 @@ core::Result<bool> holds_no_table(const fs::path& journal) {
   if (!connection) return core::fail(connection.error());
   try {
     soci::session sql(soci::sqlite3, *connection);
+    distrust(sql);
     int tables = 0;
     long long application = 0;
     sql << "select count(*) from sqlite_schema", soci::into(tables);
