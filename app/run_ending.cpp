@@ -11,6 +11,7 @@
 #include "app/resumption.h"
 #include "app/sketch_style.h"
 #include "app/terminal.h"
+#include "plans/record_check.h"
 #include "record/files.h"
 #include "record/journal.h"
 #include "record/run_lock.h"
@@ -54,9 +55,20 @@ struct Told {
   reports::Evaluation evaluation;
 };
 
+core::Result<void> require_sound(const record::ReadJournal& read, const fs::path& directory) {
+  const std::vector<std::string> faults = record::faults_of(read);
+  if (!faults.empty()) {
+    return core::fail(core::Code::kJournal, faults.front(), directory.string());
+  }
+  auto checked = plans::check_record(read.record);
+  if (!checked) return core::fail(checked.error().at(directory.string()));
+  return {};
+}
+
 core::Result<Told> read_and_evaluate(const fs::path& directory) {
   auto read = record::read_journal(directory);
   if (!read) return core::fail(read.error());
+  if (auto sound = require_sound(*read, directory); !sound) return core::fail(sound.error());
   auto evaluation = reports::evaluate_run(read->record, directory, processor());
   if (!evaluation) return core::fail(evaluation.error());
   return Told{std::move(read->record), std::move(*evaluation)};
@@ -67,11 +79,8 @@ core::Result<Told> read_and_evaluate(const fs::path& directory) {
 core::Result<void> close_sealed(const fs::path& directory) {
   const auto read = record::read_journal(directory);
   if (!read) return core::fail(read.error());
-  if (read->broken.empty()) return record::Journal::finish_seal(directory);
-  return core::fail(core::Code::kJournal,
-                    fmt::format("table {} of the sealed journal was changed: {}",
-                                read->broken.front().table, read->broken.front().what),
-                    directory.string());
+  if (auto sound = require_sound(*read, directory); !sound) return sound;
+  return record::Journal::finish_seal(directory);
 }
 
 /// A sealed run with its reports may have died before it was archived.

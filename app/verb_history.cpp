@@ -9,6 +9,7 @@
 #include "app/archive_step.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "plans/record_check.h"
 #include "record/archive_queue.h"
 #include "record/files.h"
 #include "record/journal.h"
@@ -192,12 +193,15 @@ int push(const record::ArchivePlace& place, const HistoryArguments& arguments) {
 core::Result<record::ArchiveRun> finished_run(const fs::path& directory) {
   const auto read = record::read_journal(directory);
   if (!read) return core::fail(read.error());
-  if (!read->record.sealed || !read->broken.empty()) {
-    return core::fail(
-        core::Code::kJournal,
-        fmt::format("{}: the run {}; only finished runs are archived", directory.string(),
-                    read->broken.empty() ? "did not finish" : "was changed after it"),
-        directory.string());
+  const std::vector<std::string> faults = record::faults_of(*read);
+  if (!read->record.sealed || !faults.empty()) {
+    return core::fail(core::Code::kJournal,
+                      fmt::format("{}: {}; only finished runs are archived", directory.string(),
+                                  faults.empty() ? "the run did not finish" : faults.front()),
+                      directory.string());
+  }
+  if (auto checked = plans::check_record(read->record); !checked) {
+    return core::fail(checked.error().at(directory.string()));
   }
   const auto evaluation = reports::evaluate(read->record);
   if (!evaluation) return core::fail(evaluation.error());

@@ -3,6 +3,7 @@
 #include "app/processor.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "plans/record_check.h"
 #include "record/files.h"
 #include "reports/verify.h"
 
@@ -11,6 +12,7 @@ namespace rondure::app {
 int verify(const VerifyArguments& arguments) {
   reports::VerifyOptions options;
   options.processor = processor();
+  options.check = plans::check_record;
   if (!arguments.key.empty()) {
     const auto key = record::read_file(arguments.key);
     if (!key) {
@@ -27,9 +29,10 @@ int verify(const VerifyArguments& arguments) {
   }
   for (const std::string& difference : outcome->differences)
     say(fmt::format("not equal: {}\n", difference));
-  if (!outcome->differences.empty()) return kNotConforming;
-  say(fmt::format("equal: {}\n", outcome->what_was_compared));
-  return kAllWell;
+  const bool equal = outcome->differences.empty();
+  if (equal) say(fmt::format("equal: {}\n", outcome->what_was_compared));
+  for (const std::string& note : outcome->notes) say(fmt::format("note: {}\n", note));
+  return equal ? kAllWell : kNotConforming;
 }
 
 }  // namespace rondure::app

@@ -1,5 +1,6 @@
 #include "record/private_copy.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
@@ -25,6 +26,18 @@ std::pair<fs::file_time_type, std::string> stamp_of(const fs::path& journal) {
   return {fs::last_write_time(journal, ignored), std::string(head.data(), kLogHead)};
 }
 
+/// Whether a rollback journal ends in the name of a super-journal (sqlite.org/fileformat2.html,
+/// 3): a file that SQLite reads, and may delete, wherever it is. No journal of a run has one.
+bool names_super_journal(const fs::path& rollback) {
+  constexpr std::array<unsigned char, 8> kMagic = {0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7};
+  std::array<char, kMagic.size()> tail{};
+  std::ifstream file(rollback, std::ios::binary);
+  file.seekg(-static_cast<std::streamoff>(kMagic.size()), std::ios::end);
+  return file.read(tail.data(), tail.size()) &&
+         std::equal(kMagic.begin(), kMagic.end(), tail.begin(),
+                    [](unsigned char a, char b) { return a == static_cast<unsigned char>(b); });
+}
+
 tl::unexpected<core::Error> cannot_copy(const fs::path& journal, std::string_view reason) {
   return core::fail(
       core::Code::kFile,
@@ -36,7 +49,20 @@ tl::unexpected<core::Error> cannot_copy(const fs::path& journal, std::string_vie
 
 }  // namespace
 
-core::Result<PrivateCopy> PrivateCopy::of(const fs::path& journal) {
+std::vector<std::string> logs_beside(const fs::path& journal) {
+  std::vector<std::string> out;
+  for (const char* suffix : {"-wal", "-journal"}) {
+    const fs::path log = journal.string() + suffix;
+    std::error_code unknown;  // what cannot be looked at may well be applied
+    const fs::file_status status = fs::status(log, unknown);
+    if (status.type() == fs::file_type::not_found) continue;
+    if (fs::is_regular_file(status) && fs::file_size(log, unknown) == 0) continue;
+    out.push_back(log.filename().string());
+  }
+  return out;
+}
+
+core::Result<PrivateCopy> PrivateCopy::of(const fs::path& journal, Logs logs) {
   std::error_code problem;
   const fs::path place = fs::temp_directory_path(problem) / "rondure-XXXXXX";
   std::string folder = place.string();
@@ -46,8 +72,14 @@ core::Result<PrivateCopy> PrivateCopy::of(const fs::path& journal) {
   constexpr int kTries = 50;  // a run that goes on may fold its log meanwhile: then once more
   for (int i = 0; i < kTries; ++i) {
     const auto before = stamp_of(journal);
-    problem = copy.take(journal);
-    if (!problem && stamp_of(journal) == before) return copy;
+    problem = copy.take(journal, logs);
+    if (problem || stamp_of(journal) != before) continue;
+    if (!names_super_journal(copy.file().string() + "-journal")) return copy;
+    return core::fail(core::Code::kJournal,
+                      fmt::format("{}-journal names other files, which SQLite would change; no run "
+                                  "leaves such a file: move it away",
+                                  kJournalName),
+                      journal.string());
   }
   if (problem) return cannot_copy(journal, system_reason(problem.value()));
   return core::fail(core::Code::kFile,
@@ -67,8 +99,9 @@ PrivateCopy::~PrivateCopy() {
 
 fs::path PrivateCopy::file() const { return folder_ / kJournalName; }
 
-std::error_code PrivateCopy::take(const fs::path& journal) const {
+std::error_code PrivateCopy::take(const fs::path& journal, Logs logs) const {
   for (const char* suffix : {"", "-wal", "-journal"}) {
+    if (*suffix != '\0' && logs == Logs::kWithout) continue;
     const fs::path from = journal.string() + suffix;
     const fs::path to = file().string() + suffix;
     std::error_code problem;
