@@ -45,9 +45,11 @@ core::Result<ArchivePlace> parse_archive_place(std::string_view text, const fs::
     return core::fail(core::Code::kBadOption,
                       fmt::format("{}; give a file, postgresql://... or none", found));
   }
-  if (is_connection_text(text)) {
+  // A file of such a name would be made, and named in messages and in the queue.
+  if (is_connection_text(text) || text.starts_with("postgresql:") ||
+      text.starts_with("postgres:")) {
     return core::fail(core::Code::kBadOption,
-                      "the archive is given as settings of a connection; write them as a URL, "
+                      "the archive is a server, but not given as a URL; write "
                       "postgresql://user@host:port/database");
   }
   const std::string path = (folder / text).string();

@@ -55,7 +55,7 @@ TEST(ArchivePlace, IsRefusedWithoutAWordOfItsPassword) {
   for (const char* url :
        {"postgresql://u:sec%zzret@h/d", "postgresql://u:sec@ret@h/d", "postgresql://u:sec/ret@h/d",
         "postgresql://u:sec@h/d?ret", "postgresql://u:sec@h/d?ret=1", "postgresql://u:sec@[h/ret",
-        "postgresql://u:sec@[h]ret/d", "user=u password=sec host=ret"}) {
+        "postgresql://u:sec@[h]ret/d", "user=u password=sec host=ret", "postgresql:/u:sec@ret/d"}) {
     const auto place = parse_archive_place(url);
     ASSERT_FALSE(place) << url;
     EXPECT_THAT(place.error().what, Not(AnyOf(HasSubstr("sec"), HasSubstr("ret")))) << url;
