@@ -9,6 +9,7 @@
 #include "app/archive_step.h"
 #include "app/processor.h"
 #include "app/resumption.h"
+#include "app/shell_word.h"
 #include "app/sketch_style.h"
 #include "app/terminal.h"
 #include "record/files.h"
@@ -18,6 +19,7 @@
 #include "reports/evaluation.h"
 #include "reports/exports.h"
 #include "reports/language.h"
+#include "reports/verdict.h"
 #include "reports/writers.h"
 
 namespace rondure::app {
@@ -81,13 +83,13 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
     tell(fmt::format(
         "rondure: the run in {} is finished and sealed; only its results had still to go to {}\n",
         directory.string(), archive.shown));
-    return exit_status(false, told.evaluation.verdict);
+  } else {
+    tell(fmt::format(
+        "rondure: the run in {} is finished and sealed, there is nothing to resume: {}; its "
+        "reports are there (again: rondure report {})\n",
+        directory.string(), reports::name_of(told.evaluation.verdict), quoted(directory.string())));
   }
-  tell(
-      fmt::format("rondure: the run in {} is finished and sealed, there is nothing to resume; its "
-                  "reports are there (again: rondure report {})\n",
-                  directory.string(), directory.string()));
-  return kBadInput;
+  return exit_status(false, told.evaluation.verdict);
 }
 
 /// To the terminal, and to the page, which would wait for a verdict that never comes.

@@ -137,6 +137,21 @@ int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& opt
   return status;
 }
 
+/// A finished run ends with its verdict only when it is the run that was asked for: of another part
+/// or plan its verdict says nothing.
+int conclude_finished(const RunToFinish& ending, const plans::RunOptions& options) {
+  const auto differences = plans::differences_from_run(ending.plan, options);
+  if (differences.empty()) return finish_sealed(ending);
+  if (differences.front().code == core::Code::kMeaning) {
+    tell(
+        fmt::format("rondure: the run in {} is finished, and began with something else; undo this, "
+                    "or name a new directory for another run:\n",
+                    options.directory.string()));
+  }
+  complain(differences);
+  return kBadInput;
+}
+
 /// The state of the run that is resumed; a run that is not resumed begins.
 core::Result<Resumption> look(const RunArguments& arguments) {
   return arguments.resume ? find_resumption(arguments) : Resumption{};
@@ -178,7 +193,7 @@ int run(const RunArguments& arguments) {
   }
   RunToFinish ending{arguments, *plan, *archive, options.directory};
   listen_for_stop();
-  if (resumption->state == Resumption::State::kFinished) return finish_sealed(ending);
+  if (resumption->state == Resumption::State::kFinished) return conclude_finished(ending, options);
   const bool resume = resumption->state == Resumption::State::kGoesOn;
   if (arguments.resume && !resume && !arguments.quiet) {
     tell(fmt::format("rondure: {} holds no run yet; it begins\n", options.directory.string()));
