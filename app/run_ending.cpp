@@ -139,7 +139,7 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
   }
   if (!arguments.quiet) {
     say(reports::write_summary(told->record, evaluation, sketch_style(), language));
-    for (const fs::path& file : written->files) say(file.string() + "\n");
+    for (const fs::path& file : written->files) say_line(file.string());
   }
   if (!failed) (void)archive_run(archive, directory, told->record, evaluation);
   return exit_status(failed, evaluation.verdict);

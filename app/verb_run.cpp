@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,8 +15,10 @@
 #include "app/step_prompt.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "plans/json_text.h"
 #include "plans/plan.h"
 #include "plans/runner.h"
+#include "plans/utf8.h"
 #include "record/journal.h"
 
 namespace rondure::app {
@@ -122,6 +125,20 @@ core::Result<void> check_hand(const plans::Plan& plan) {
   return {};
 }
 
+/// Names of the command line stand in every report, as those of the plan do.
+core::Result<void> check_names(const RunArguments& arguments) {
+  for (const auto& [option, name] : {std::pair("--serial", &arguments.serial),
+                                     std::pair("--operator", &arguments.operator_name)}) {
+    const std::size_t at = plans::first_unshowable(*name);
+    if (at == name->size()) continue;
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("{} {} contains {}, which no report can show; remove it", option,
+                                  plans::in_quotes(*name), plans::unshowable_in_words(*name, at)),
+                      option);
+  }
+  return {};
+}
+
 /// Measures, and what follows.
 int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& options, bool resume) {
   auto run = measure(ending.plan, options, resume, ending.arguments);
@@ -165,6 +182,10 @@ int run(const RunArguments& arguments) {
       complain(terminal.error());
       return kBadInput;
     }
+  }
+  if (auto sound = check_names(arguments); !sound) {
+    complain(sound.error());
+    return kBadInput;
   }
   const auto resumption = look(arguments);
   if (!resumption) {

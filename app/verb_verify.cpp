@@ -26,7 +26,7 @@ int verify(const VerifyArguments& arguments) {
     return kBadInput;
   }
   for (const std::string& difference : outcome->differences)
-    say(fmt::format("not equal: {}\n", difference));
+    say_line(fmt::format("not equal: {}", difference));
   if (!outcome->differences.empty()) return kNotConforming;
   say(fmt::format("equal: {}\n", outcome->what_was_compared));
   return kAllWell;
