@@ -9,6 +9,7 @@
 #include "app/archive_step.h"
 #include "app/processor.h"
 #include "app/resumption.h"
+#include "app/shell_word.h"
 #include "app/sketch_style.h"
 #include "app/terminal.h"
 #include "plans/record_check.h"
@@ -19,6 +20,7 @@
 #include "reports/evaluation.h"
 #include "reports/exports.h"
 #include "reports/language.h"
+#include "reports/verdict.h"
 #include "reports/writers.h"
 
 namespace rondure::app {
@@ -90,13 +92,13 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
     tell(fmt::format(
         "rondure: the run in {} is finished and sealed; only its results had still to go to {}\n",
         directory.string(), archive.shown));
-    return exit_status(false, told.evaluation.verdict);
+  } else {
+    tell(fmt::format(
+        "rondure: the run in {} is finished and sealed, there is nothing to resume: {}; its "
+        "reports are there (again: rondure report {})\n",
+        directory.string(), reports::name_of(told.evaluation.verdict), quoted(directory.string())));
   }
-  tell(
-      fmt::format("rondure: the run in {} is finished and sealed, there is nothing to resume; its "
-                  "reports are there (again: rondure report {})\n",
-                  directory.string(), directory.string()));
-  return kBadInput;
+  return exit_status(false, told.evaluation.verdict);
 }
 
 /// To the terminal, and to the page, which would wait for a verdict that never comes.
@@ -146,7 +148,7 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
   }
   if (!arguments.quiet) {
     say(reports::write_summary(told->record, evaluation, sketch_style(), language));
-    for (const fs::path& file : written->files) say(file.string() + "\n");
+    for (const fs::path& file : written->files) say_line(file.string());
   }
   if (!failed) (void)archive_run(archive, directory, told->record, evaluation);
   return exit_status(failed, evaluation.verdict);

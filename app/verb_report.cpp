@@ -65,7 +65,7 @@ int report(const ReportArguments& arguments) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }
   say(reports::write_summary(read->record, *evaluation, sketch_style(), language));
-  for (const auto& file : written->files) say(file.string() + "\n");
+  for (const auto& file : written->files) say_line(file.string());
   const bool well = evaluation->verdict == reports::Verdict::kConforms ||
                     evaluation->verdict == reports::Verdict::kNotToleranced;
   return well ? kAllWell : kNotConforming;

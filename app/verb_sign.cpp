@@ -56,7 +56,7 @@ int sign(const SignArguments& arguments) {
     complain(file.error());
     return kBadInput;
   }
-  say(file->string() + "\n");
+  say_line(file->string());
   return kAllWell;
 }
 

@@ -28,10 +28,10 @@ int verify(const VerifyArguments& arguments) {
     return kBadInput;
   }
   for (const std::string& difference : outcome->differences)
-    say(fmt::format("not equal: {}\n", difference));
+    say_line(fmt::format("not equal: {}", difference));
   const bool equal = outcome->differences.empty();
   if (equal) say(fmt::format("equal: {}\n", outcome->what_was_compared));
-  for (const std::string& note : outcome->notes) say(fmt::format("note: {}\n", note));
+  for (const std::string& note : outcome->notes) say_line(fmt::format("note: {}", note));
   return equal ? kAllWell : kNotConforming;
 }
 

@@ -18,7 +18,8 @@ namespace rondure::record {
 
 /// The journal, alone or with its logs, copied into a folder of our own: SQLite may then finish
 /// what a killed run left in the log, and the original is never touched, not even in a read-only
-/// place.
+/// place. The folder is locked while it is in use; what a killed program left is removed by the
+/// next copy.
 class PrivateCopy {
  public:
   enum class Logs { kWith, kWithout };
@@ -36,10 +37,13 @@ class PrivateCopy {
   [[nodiscard]] std::filesystem::path file() const;
 
  private:
-  explicit PrivateCopy(std::filesystem::path folder);
+  PrivateCopy(std::filesystem::path folder, int lock);
+  /// With an empty folder when none can be made (errno).
+  [[nodiscard]] static PrivateCopy in_new_folder(const std::filesystem::path& place);
   [[nodiscard]] std::error_code take(const std::filesystem::path& journal, Logs logs) const;
 
   std::filesystem::path folder_;
+  int lock_ = -1;  ///< The open folder.
 };
 
 }  // namespace rondure::record

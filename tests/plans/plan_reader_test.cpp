@@ -40,6 +40,19 @@ TEST(PlanReader, EveryExampleIsAPlan) {
   for (const auto& path : plans) EXPECT_EQ(lines_of(read_plan(path)), "") << path.filename();
 }
 
+TEST(PlanReader, ANameThatNoReportCanShowIsRefused) {
+  for (const std::string& name : {"A\\uFFFE", "A\uFDD0", "A\\u001b[2J", "A\u009b2J", "A\x7f"}) {
+    const core::Error problem = only_problem(
+        R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": ")" + name +
+        R"("}, "features": [{"id": "f", "type": "cylinder", "source": {"file": "p.csv"},)"
+        R"("nominal": {"diameter_mm": 50, "from_mm": -40, "to_mm": 40}}]})");
+    EXPECT_EQ(problem.where, "/part/id") << problem.what;
+    EXPECT_EQ(problem.code, Code::kOutOfRange);
+    EXPECT_NE(problem.what.find("which no report can show; remove it"), std::string::npos)
+        << problem.what;
+  }
+}
+
 TEST(PlanReader, InEveryExampleTheSimulatedPartStandsWhereThePlanExpectsIt) {
   for (const auto& path : testing::plans_in(example(""))) {
     const PlanOrProblems result = read_plan(path);
