@@ -5,7 +5,9 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -116,11 +118,16 @@ class IppMachine final : public Machine {
                                                      const std::string& doing);
   [[nodiscard]] core::Result<void> go_to(const Eigen::Vector3d& tip_W_mm);
   [[nodiscard]] core::Result<void> set_touch_distances(const TouchCommand& command);
-  [[nodiscard]] core::Result<TouchReading> reading_of(const ipp::client::Reply& reply);
+  [[nodiscard]] core::Result<TouchReading> reading_of(const ipp::client::Reply& reply,
+                                                      const TouchCommand& command);
+  /// Whether a point can be the answer to a touch (touch_check.h).
+  [[nodiscard]] core::Result<void> check_point_of(const ipp::client::PointReport& point,
+                                                  const TouchCommand& command) const;
+  /// Keeps the machine still after an answer that does not belong to what was asked: where its tip
+  /// stands is not known either. Gives the error.
+  [[nodiscard]] core::Error distrust(const core::Error& error);
   [[nodiscard]] core::Result<std::vector<TouchReading>> readings_of(
       const ipp::client::Reply& reply, const ScanCircleCommand& command);
-  [[nodiscard]] core::Result<void> check_scanned(const std::vector<Eigen::Vector3d>& tips,
-                                                 const ScanCircleCommand& command) const;
 
   Connect connect_;
   IppMachineOptions options_;
@@ -133,8 +140,11 @@ class IppMachine final : public Machine {
   std::optional<double> temperature_degC_;
   std::optional<double> scale_temperature_degC_;  ///< Of the last touch that came with one.
   std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
-  double server_time_s_ = 0.0;    ///< Of the last point.
-  std::int64_t next_touch_ = -1;  ///< As a simulator counts; -1: not known.
+  /// The touch before, and its answer.
+  std::optional<std::pair<TouchCommand, Eigen::Vector3d>> last_touch_;
+  std::optional<double> effective_radius_mm_;  ///< Of the first touch with this tool.
+  double server_time_s_ = 0.0;                 ///< Of the last point.
+  std::int64_t next_touch_ = -1;               ///< As a simulator counts; -1: not known.
   bool homed_ = false;
   std::atomic<bool> stopped_ = false;
 };

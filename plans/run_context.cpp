@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cmm/touch_check.h"
 #include "core/units.h"
 #include "plans/analysis.h"
 #include "plans/reached_pose.h"
@@ -127,7 +128,17 @@ core::Result<void> RunContext::come_back() {
   for (std::size_t i = 0; i < last_steps.size(); ++i) {
     const TouchStep& step = last_steps[i];
     if (auto moved = follow(i == 0 ? step.entry_W : step.way_W); !moved) return moved;
+    // The first point of a scan may lie beside its start: along the circle there, and back.
+    const Eigen::Vector3d pre_touch = cell->machine().position_W_mm();
+    const Eigen::Vector3d start = cmm::start_of(step.command);
+    const bool beside = step.scan && (start - pre_touch).norm() > kStill_mm;
+    if (beside) {
+      if (auto moved = follow({start}); !moved) return moved;
+    }
     const auto difference_mm = repeat_touch(step, past.next_check() - static_cast<int>(i));
+    if (beside && (difference_mm || difference_mm.error().code != core::Code::kCollision)) {
+      if (auto moved = follow({pre_touch}); !moved) return moved;
+    }
     if (!difference_mm) {
       if (difference_mm.error().code != core::Code::kCollision) {
         (void)follow({step.entry_W.rbegin(), step.entry_W.rend()});

@@ -1,6 +1,7 @@
 // Scans: the part of inspection.h that measures whole circles.
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -13,19 +14,29 @@
 namespace rondure::plans {
 namespace {
 
-/// The rows of a scan before it is made: where each point is and from where the tip came to it.
-std::vector<record::Touch> planned_rows(const ScanStep& step, std::size_t points) {
-  cmm::ScanCircleCommand command = cmm::on_grid(step.command);
-  command.points =
-      static_cast<int>(points);  // a real machine gives about as many as were asked for
-  std::vector<record::Touch> rows(points, step.row);
-  for (std::size_t i = 0; i < points; ++i) {
-    const cmm::TouchCommand point = cmm::scan_point(command, static_cast<int>(i));
+/// The rows of a scan: which point each is, and from where the tip came to the place that was read.
+std::vector<record::Touch> rows_of(const ScanStep& step, const std::vector<Eigen::Vector3d>& tips) {
+  const cmm::ScanCircleCommand command = cmm::on_grid(step.command);
+  std::vector<record::Touch> rows(tips.size(), step.row);
+  for (std::size_t i = 0; i < tips.size(); ++i) {
+    // Real machines give about the points that were asked for, not at even angles.
+    const auto index = static_cast<int>(i);
+    const cmm::TouchCommand point =
+        cmm::scan_point_at(command, cmm::scan_angle(command, tips[i]), index);
     rows[i].id = point.id;
-    rows[i].point = static_cast<int>(i);
+    rows[i].point = index;
     rows[i].approach = point.direction_W;
   }
   return rows;
+}
+
+template <class Point>
+std::vector<Eigen::Vector3d> tips_of(const std::vector<Point>& points,
+                                     Eigen::Vector3d Point::*tip) {
+  std::vector<Eigen::Vector3d> out;
+  out.reserve(points.size());
+  for (const Point& point : points) out.push_back(point.*tip);
+  return out;
 }
 
 void take_reading(const cmm::TouchReading& reading, record::Touch& row) {
@@ -33,6 +44,15 @@ void take_reading(const cmm::TouchReading& reading, record::Touch& row) {
   row.temperature_degC = reading.temperature_degC;
   row.scale_temperature_degC = reading.scale_temperature_degC;
   row.time_s = reading.time_s;
+}
+
+/// The touch that repeats the first point of a scan: where that was found, which need not be where
+/// the scan was to start.
+cmm::TouchCommand first_touch(const cmm::ScanCircleCommand& command, const Eigen::Vector3d& tip) {
+  constexpr double kAtStart_rad = 1e-4;  // of a scan that begins where it was told to
+  const cmm::TouchCommand planned = cmm::scan_point(command, 0);
+  const double angle_rad = cmm::scan_angle(command, tip);
+  return std::abs(angle_rad) <= kAtStart_rad ? planned : cmm::scan_point_at(command, angle_rad, 0);
 }
 
 bool of_one_scan(const record::Touch& a, const record::Touch& b) {
@@ -50,7 +70,7 @@ core::Result<std::vector<record::Touch>> RunContext::scan(ScanStep step) {
   if (auto go = ask(next); !go) return core::fail(go.error());
   const auto readings = cell->machine().scan_circle(step.command);
   if (!readings) return core::fail(readings.error());
-  std::vector<record::Touch> rows = planned_rows(step, readings->size());
+  std::vector<record::Touch> rows = rows_of(step, tips_of(*readings, &cmm::TouchReading::tip_W_mm));
   for (std::size_t i = 0; i < rows.size(); ++i) take_reading((*readings)[i], rows[i]);
   if (auto kept = journal.add(rows); !kept) return core::fail(kept.error());
   next_touch += static_cast<std::int64_t>(rows.size());
@@ -67,8 +87,7 @@ core::Result<std::vector<record::Touch>> RunContext::recall_scan(ScanStep step) 
     if (row == nullptr || (!known.empty() && !of_one_scan(*row, known.front()))) break;
     known.push_back(*row);
   }
-  step.command.points = static_cast<int>(known.size());
-  const auto planned = planned_rows(step, known.size());
+  const auto planned = rows_of(step, tips_of(known, &record::Touch::tip_mm));
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (auto same = check_same_step(known[i], planned[i]); !same) return core::fail(same.error());
   }
@@ -76,7 +95,7 @@ core::Result<std::vector<record::Touch>> RunContext::recall_scan(ScanStep step) 
   first.scan = step.command;
   const record::Touch& end = known.back();
   first.scan_end = {end.tip_mm, end.temperature_degC, end.time_s, 0.0, end.scale_temperature_degC};
-  first.command = cmm::scan_point(cmm::on_grid(step.command), 0);
+  first.command = first_touch(cmm::on_grid(step.command), known.front().tip_mm);
   first.row = known.front();
   first.entry_W = std::move(step.entry_W);
   first.way_W = std::move(step.way_W);
