@@ -1,12 +1,14 @@
 // Scans: the part of inspection.h that measures whole circles.
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
 #include "cmm/scan_path.h"
+#include "cmm/touch_check.h"
 #include "core/units.h"
 #include "plans/inspection.h"
 
@@ -28,11 +30,42 @@ std::vector<record::Touch> planned_rows(const ScanStep& step, std::size_t points
   return rows;
 }
 
+/// A recorded point of a scan that lies no farther beside its start stands for the start itself.
+constexpr double kAtStart_mm = 0.01;
+
 void take_reading(const cmm::TouchReading& reading, record::Touch& row) {
   row.tip_mm = reading.tip_W_mm;
   row.temperature_degC = reading.temperature_degC;
   row.scale_temperature_degC = reading.scale_temperature_degC;
   row.time_s = reading.time_s;
+}
+
+/// Angle of a point from the start of a scan about its axis, -pi..pi.
+double angle_of(const cmm::ScanCircleCommand& scan, const Eigen::Vector3d& tip_W_mm) {
+  const Eigen::Vector3d x = scan.start_tip_W_mm - scan.center_W_mm;
+  const Eigen::Vector3d y = scan.axis_W.cross(x);
+  const Eigen::Vector3d r = tip_W_mm - scan.center_W_mm;
+  return std::atan2(r.dot(y), r.dot(x));
+}
+
+/// The touch that finds the surface at an angle from the start of a scan.
+cmm::TouchCommand touch_off_start(cmm::ScanCircleCommand scan, double angle_rad) {
+  if (angle_rad == 0.0) return cmm::scan_point(scan, 0);
+  scan.sweep_rad = angle_rad;
+  scan.points = 1;
+  return cmm::scan_point(scan, 1);
+}
+
+/// From the pre-touch point at the start of a scan to that at an angle, around the surface.
+Polyline arc_to(const cmm::ScanCircleCommand& scan, double angle_rad) {
+  constexpr double kPiece_rad = 2.0 * core::kDegree;  // its chord is 0.02 % of the radius nearer
+  const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(angle_rad) / kPiece_rad)));
+  Polyline out;
+  for (int i = 0; i <= pieces; ++i) {
+    const cmm::TouchCommand touch = touch_off_start(scan, angle_rad * i / pieces);
+    out.push_back(cmm::start_of(touch));
+  }
+  return out;
 }
 
 bool of_one_scan(const record::Touch& a, const record::Touch& b) {
@@ -76,8 +109,18 @@ core::Result<std::vector<record::Touch>> RunContext::recall_scan(ScanStep step) 
   first.scan = step.command;
   const record::Touch& end = known.back();
   first.scan_end = {end.tip_mm, end.temperature_degC, end.time_s, 0.0, end.scale_temperature_degC};
-  first.command = cmm::scan_point(cmm::on_grid(step.command), 0);
-  first.row = known.front();
+  // A real machine begins a scan where it likes: the touch is at the nearest of the points it gave.
+  const cmm::ScanCircleCommand command = cmm::on_grid(step.command);
+  const record::Touch& nearest = *std::min_element(
+      known.begin(), known.end(), [&](const record::Touch& a, const record::Touch& b) {
+        return std::abs(angle_of(command, a.tip_mm)) < std::abs(angle_of(command, b.tip_mm));
+      });
+  const double off_rad = angle_of(command, nearest.tip_mm);
+  const double radius_mm = (command.start_tip_W_mm - command.center_W_mm).norm();
+  const bool at_start = std::abs(off_rad) * radius_mm <= kAtStart_mm;
+  first.command = touch_off_start(command, at_start ? 0.0 : off_rad);
+  if (!at_start) first.aside_W = arc_to(command, off_rad);
+  first.row = nearest;
   first.entry_W = std::move(step.entry_W);
   first.way_W = std::move(step.way_W);
   if (auto state = recall_state(first); !state) return core::fail(state.error());
