@@ -49,7 +49,8 @@ core::Result<void> IppMachine::connect() {
   auto line = connect_();
   if (!line) return core::fail(line.error());
   dialogue_ = std::make_unique<ipp::client::Dialogue>(
-      std::move(*line), ipp::client::SessionOptions{options_.answer_limit, options_.abort_works},
+      std::move(*line),
+      ipp::client::SessionOptions{options_.answer_limit, options_.abort_works, options_.numbers},
       options_.answer_limit);
   dialogue_->session().ask_for_stop([this] { return is_stop_wanted(); });
   auto identity = dialogue_->start();
@@ -58,36 +59,50 @@ core::Result<void> IppMachine::connect() {
   const auto tool = dialogue_->active_tool();
   if (!tool) return core::fail(tool.error());
   tool_ = *tool;
+  if (auto named = check_named(options_.tool); !named) return named;  // before anything moves
+  if (auto read = read_tool_radius(); !read) return read;
   const auto homed = dialogue_->is_homed();
   if (!homed) return core::fail(homed.error());
   homed_ = *homed;
   next_touch_ = -1;
   last_touch_.reset();
   effective_radius_mm_.reset();
+  point_known_ = false;
   const auto stands = dialogue_->position_W_mm();
   if (!stands) return core::fail(stands.error());
   position_W_mm_ = on_grid_mm(*stands);
+  temperature_degC_.reset();
+  if (auto read = read_part_temperature(); !read) return read;
+  return read_speed_limits();
+}
+
+core::Result<void> IppMachine::read_part_temperature() {
+  if (!identity_.has_temperatures) return {};
   const auto temperature = dialogue_->property("Part.Temperature");
   if (!temperature) return core::fail(temperature.error());
   if (*temperature) {
     if (auto sane = check_temperature("Part.Temperature", **temperature); !sane) return sane;
+    temperature_degC_ = *temperature;
   }
-  temperature_degC_ = *temperature;
-  return read_speed_limits();
+  return {};
 }
 
 std::string IppMachine::description() const {
   return fmt::format(
-      "I++ DME {} machine {} at {}, tool {}, touch speed {:.7g} mm/s{}", identity_.version,
+      "I++ DME {} machine {} at {}, tool {}, touch speed {:.7g} mm/s{}{}", identity_.version,
       identity_.machine_class.empty() ? "of unknown class" : identity_.machine_class,
       dialogue_->session().peer(), options_.tool.empty() ? tool_ : options_.tool,
-      options_.speeds.touch_mm_s, knows_temperature() ? "" : ", gives no part temperature");
+      options_.speeds.touch_mm_s, knows_temperature() ? "" : ", gives no part temperature",
+      options_.returns_to_approach
+          ? ""
+          : ", which point its PtMeas means cannot be checked (retract by distance)");
 }
 
 Capabilities IppMachine::capabilities() const {
   Capabilities out;
   out.name = identity_.machine_class.empty() ? "I++ DME machine" : identity_.machine_class;
-  out.scans_circles = identity_.scans;
+  out.scans_circles = identity_.scans && tool_scans_;
+  out.no_scans = identity_.scans ? "its tool has no Tool.ScanPar" : identity_.no_scans;
   out.least = least_;
   out.greatest = greatest_;
   out.tools = identity_.tools;
@@ -169,6 +184,7 @@ core::Result<void> IppMachine::go_to(const Vector3d& tip_W_mm) {
   const auto moved = run("GoTo", coordinates(tip_W_mm), (tip_W_mm - position_W_mm_).norm(),
                          fmt::format("the move to {}", in_words(tip_W_mm)));
   if (!moved) return core::fail(moved.error());
+  last_move_W_mm_ = {position_W_mm_, tip_W_mm};
   position_W_mm_ = tip_W_mm;
   return {};
 }
@@ -237,10 +253,14 @@ core::Result<TouchReading> IppMachine::touch(const TouchCommand& given) {
     return core::fail(checked.error());
   }
   const TouchCommand command = on_grid(given);
-  if (auto set = set_touch_distances(command); !set) return core::fail(set.error());
+  const TouchCommand sent = point_known_ ? command : for_either_reading(command);
+  const bool slow = !point_known_ && sent.approach_mm == command.approach_mm;
+  if (auto set = slow_down(slow); !set) return core::fail(set.error());
+  if (auto set = set_touch_distances(sent); !set) return core::fail(set.error());
   if (auto told = number_touch(command.id); !told) return core::fail(told.error());
   const Vector3d start = position_W_mm_;
-  std::vector<Item> items = coordinates(command.expected_tip_W_mm);
+  std::vector<Item> items =
+      coordinates(named_point(command.expected_tip_W_mm, command.direction_W));
   items.push_back(call_item("IJK", Vector3d(-command.direction_W)));
   const auto reply = run("PtMeas", std::move(items), command.approach_mm + command.search_mm,
                          fmt::format("the touch at {}", in_words(command.expected_tip_W_mm)));
@@ -249,15 +269,19 @@ core::Result<TouchReading> IppMachine::touch(const TouchCommand& given) {
     const bool goes_back = reply.error().code == core::Code::kNoTouch;
     if (goes_back) {
       if (auto back = go_to(start); !back) return core::fail(back.error());
+      if (auto set = slow_down(false); !set) return core::fail(set.error());
     }
-    return core::fail(reply.error());
+    return core::fail(with_point_advice(reply.error()));
   }
   next_touch_ = command.id < 0 ? -1 : command.id + 1;
+  if (auto set = slow_down(false); !set) return core::fail(set.error());
   const auto reading = reading_of(*reply, command);
   if (!reading) return core::fail(reading.error());
   if (!options_.returns_to_approach) {
     position_W_mm_ = reading->tip_W_mm - command.approach_mm * command.direction_W;
     if (auto back = go_to(start); !back) return core::fail(back.error());
+  } else if (!point_known_) {
+    if (auto same = check_point(command, sent); !same) return core::fail(same.error());
   }
   return *reading;
 }
@@ -324,6 +348,7 @@ core::Result<void> IppMachine::recover() {
     effective_radius_mm_.reset();
   }
   tool_ = *tool;
+  if (auto read = read_tool_radius(); !read) return read;
   const auto stands = dialogue_->position_W_mm();
   if (!stands) return core::fail(stands.error());
   position_W_mm_ = on_grid_mm(*stands);

@@ -31,10 +31,10 @@ void append(std::vector<Item>& items, const Vector3d& v) {
 }
 
 /// Centre, start, axis, sweep, side of the surface and step of ScanOnCircle.
-std::vector<Item> scan_arguments(const ScanCircleCommand& command) {
+std::vector<Item> scan_arguments(const ScanCircleCommand& command, const Vector3d& start_W_mm) {
   std::vector<Item> out;
   append(out, command.center_W_mm);
-  append(out, command.start_tip_W_mm);
+  append(out, start_W_mm);
   append(out, command.axis_W);
   const double sweep_deg = core::on_grid(command.sweep_rad / core::kDegree, kStepsPerDegree);
   out.push_back(number_item(sweep_deg));
@@ -48,25 +48,33 @@ std::vector<Item> scan_arguments(const ScanCircleCommand& command) {
 core::Result<std::vector<TouchReading>> IppMachine::scan_circle(const ScanCircleCommand& given) {
   if (auto ready = check_ready(); !ready) return core::fail(ready.error());
   if (auto sound = check_scan(given); !sound) return core::fail(sound.error());
-  if (!identity_.scans) return core::machine_fault("the machine does not scan circles");
+  if (const Capabilities can = capabilities(); !can.scans_circles) {
+    return core::machine_fault(fmt::format("the machine does not scan circles: {}", can.no_scans));
+  }
   const ScanCircleCommand command = on_grid(given);
   const TouchCommand first = scan_point(command, 0);
   if (auto checked = check_touch(first, position_W_mm_); !checked) {
     return core::fail(checked.error());
   }
+  if (auto set = slow_down(!point_known_); !set) return core::fail(set.error());
   if (auto set = set_touch_distances(first); !set) return core::fail(set.error());
   const std::array<std::pair<std::string_view, double>, 1> retract = {
       {{"Tool.ScanPar.Retract", command.approach_mm}}};
   if (auto set = dialogue_->set(retract); !set) return core::fail(set.error());
   if (auto told = number_touch(command.first_id); !told) return core::fail(told.error());
   const Vector3d start = position_W_mm_;
-  const auto reply = run("ScanOnCircle", scan_arguments(command), scan_length_mm(command),
+  const Vector3d named = named_point(command.start_tip_W_mm, first.direction_W);
+  const auto reply = run("ScanOnCircle", scan_arguments(command, named), scan_length_mm(command),
                          fmt::format("the scan about {}", in_words(command.center_W_mm)));
-  if (reply) return readings_of(*reply, command);
-  if (reply.error().code == core::Code::kNoTouch) {
+  const bool goes_back = !reply && reply.error().code == core::Code::kNoTouch;
+  if (goes_back) {
     if (auto back = go_to(start); !back) return core::fail(back.error());
   }
-  return core::fail(reply.error());
+  if (reply || goes_back) {
+    if (auto set = slow_down(false); !set) return core::fail(set.error());
+  }
+  if (!reply) return core::fail(with_point_advice(reply.error()));
+  return readings_of(*reply, command);
 }
 
 core::Result<std::vector<TouchReading>> IppMachine::readings_of(const Reply& reply,
@@ -83,14 +91,7 @@ core::Result<std::vector<TouchReading>> IppMachine::readings_of(const Reply& rep
   }
   position_W_mm_ = on_grid_mm(*stands);
   // The points come without temperatures, and no touch may have given one for many circles.
-  const auto temperature = dialogue_->property("Part.Temperature");
-  if (!temperature) return core::fail(temperature.error());
-  if (*temperature) {
-    if (auto sane = check_temperature("Part.Temperature", **temperature); !sane) {
-      return core::fail(sane.error());
-    }
-    temperature_degC_ = *temperature;
-  }
+  if (auto read = read_part_temperature(); !read) return core::fail(read.error());
   std::vector<TouchReading> out;
   out.reserve(tips->size());
   TouchReading reading;

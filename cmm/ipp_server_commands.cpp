@@ -181,7 +181,7 @@ void Server::report_moves(double now_s) {
     if (!(moved_mm > 0.0) || since_s < kLeastInterval_s) continue;
     if (since_s < daemon.interval_s && moved_mm < daemon.distance_mm) continue;
     const auto values = controller_.position_report(daemon.names, tip_W_mm);
-    if (values) say(data_line(daemon.tag, *values));
+    if (values) say(data_line(daemon.tag, *values, controller_.options().numbers));
     daemon.last_s = now_s;
     daemon.last_W_mm = tip_W_mm;
   }

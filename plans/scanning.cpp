@@ -8,6 +8,7 @@
 
 #include "cmm/grid.h"
 #include "cmm/scan_path.h"
+#include "cmm/touch_check.h"
 #include "core/units.h"
 #include "plans/inspection.h"
 
@@ -38,6 +39,8 @@ std::vector<Eigen::Vector3d> tips_of(const std::vector<Point>& points,
   for (const Point& point : points) out.push_back(point.*tip);
   return out;
 }
+/// A recorded point of a scan that lies no farther beside its start stands for the start itself.
+constexpr double kAtStart_mm = 0.01;
 
 void take_reading(const cmm::TouchReading& reading, record::Touch& row) {
   row.tip_mm = reading.tip_W_mm;
@@ -46,13 +49,15 @@ void take_reading(const cmm::TouchReading& reading, record::Touch& row) {
   row.time_s = reading.time_s;
 }
 
-/// The touch that repeats the first point of a scan: where that was found, which need not be where
-/// the scan was to start.
-cmm::TouchCommand first_touch(const cmm::ScanCircleCommand& command, const Eigen::Vector3d& tip) {
-  constexpr double kAtStart_rad = 1e-4;  // of a scan that begins where it was told to
-  const cmm::TouchCommand planned = cmm::scan_point(command, 0);
-  const double angle_rad = cmm::scan_angle(command, tip);
-  return std::abs(angle_rad) <= kAtStart_rad ? planned : cmm::scan_point_at(command, angle_rad, 0);
+/// From the pre-touch point at the start of a scan to that at an angle, around the surface.
+Polyline arc_to(const cmm::ScanCircleCommand& scan, double angle_rad) {
+  constexpr double kPiece_rad = 2.0 * core::kDegree;  // its chord is 0.02 % of the radius nearer
+  const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(angle_rad) / kPiece_rad)));
+  Polyline out;
+  for (int i = 0; i <= pieces; ++i) {
+    out.push_back(cmm::start_of(cmm::scan_point_at(scan, angle_rad * i / pieces, 0)));
+  }
+  return out;
 }
 
 bool of_one_scan(const record::Touch& a, const record::Touch& b) {
@@ -95,8 +100,20 @@ core::Result<std::vector<record::Touch>> RunContext::recall_scan(ScanStep step) 
   first.scan = step.command;
   const record::Touch& end = known.back();
   first.scan_end = {end.tip_mm, end.temperature_degC, end.time_s, 0.0, end.scale_temperature_degC};
-  first.command = first_touch(cmm::on_grid(step.command), known.front().tip_mm);
-  first.row = known.front();
+  // A real machine begins a scan where it likes: the touch is at the nearest of the points it gave.
+  const cmm::ScanCircleCommand command = cmm::on_grid(step.command);
+  const auto off_start = [&](const record::Touch& row) {
+    return std::abs(cmm::scan_angle(command, row.tip_mm));
+  };
+  const record::Touch& nearest = *std::min_element(
+      known.begin(), known.end(),
+      [&](const record::Touch& a, const record::Touch& b) { return off_start(a) < off_start(b); });
+  const double off_rad = cmm::scan_angle(command, nearest.tip_mm);
+  const double radius_mm = (command.start_tip_W_mm - command.center_W_mm).norm();
+  const bool at_start = std::abs(off_rad) * radius_mm <= kAtStart_mm;
+  first.command = at_start ? cmm::scan_point(command, 0) : cmm::scan_point_at(command, off_rad, 0);
+  if (!at_start) first.aside_W = arc_to(command, off_rad);
+  first.row = nearest;
   first.entry_W = std::move(step.entry_W);
   first.way_W = std::move(step.way_W);
   if (auto state = recall_state(first); !state) return core::fail(state.error());

@@ -129,6 +129,7 @@ TEST(IppRun, TouchesOverTheWireAreThoseOfTheRunInOneProcess) {
   const std::string log = read(folder / "wire.log");
   EXPECT_THAT(log, HasSubstr(" -> C: 00002 StartSession()\n"));
   EXPECT_THAT(log, HasSubstr(" <- S: 00002 %\n"));
+  EXPECT_EQ(log.find(" ! Error("), std::string::npos) << "no error is provoked";
   std::printf("%zu touches over the wire, with reports and journal: %.3f ms a touch\n",
               run.touches.size(), 1e3 * took.count() / static_cast<double>(run.touches.size()));
 }
@@ -236,6 +237,18 @@ TEST(IppRun, CtrlCStopsTheMachineAtOnceAndNothingMovesAfterwards) {
   // Of the server's lines one may still name the motion: the report that it was aborted.
   EXPECT_THAT(commands_in(log.substr(log.rfind('\n', abort) + 1)),
               ElementsAre("AbortE()", "ClearAllErrors()", "Get(X(), Y(), Z())", "EndSession()"));
+}
+
+TEST(IppRun, SaysWhichPointTheServerMeansWhereThePlanSaysTheOther) {
+  const TemporaryFolder folder;
+  const Simulator simulator;
+  write_wire_plan(folder / "plan.json", simulator.port());
+  replace_in(folder / "plan.json", "\"approach_mm\"", "\"point\": \"center\", \"approach_mm\"");
+  const Outcome refused =
+      rondure({"run", folder / "plan.json", "--out", folder / "run", "--archive", "none"});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_THAT(refused.err, HasSubstr("set \"point\": \"surface\" under machine"));
+  EXPECT_TRUE(journal_of(folder / "run").touches.empty());
 }
 
 TEST(IppRun, SaysThatNobodyServesTheMachine) {

@@ -34,6 +34,7 @@ class Controller {
   std::vector<std::pair<std::string, Lines>> overrides;
   std::vector<std::string> heard;  ///< All commands, without tags.
   ScriptedServer* line = nullptr;  ///< Of the last connection.
+  std::string stands = "X(0), Y(0), Z(500)";
   int connections = 0;
 
   IppMachine::Connect connect() {
@@ -70,6 +71,7 @@ class Controller {
  private:
   Lines answer(const std::string& tag, const std::string& method) {
     heard.push_back(method);
+    if (method.starts_with("GoTo(")) stands = method.substr(5, method.size() - 6);
     Lines out = {tag + " &"};
     const auto found = std::find_if(overrides.begin(), overrides.end(), [&](const auto& entry) {
       return method.starts_with(entry.first);
@@ -82,14 +84,12 @@ class Controller {
     return out;
   }
   Lines usual(const std::string& method) {
-    if (method == "GetDMEVersion()") return {"# DMEVersion(\"1.4\")"};
+    if (method == "GetDMEVersion()") return {"# DMEVersion(\"1.5\")"};
     if (method == "GetMachineClass()") return {"# GetMachineClass(CartCMMWithRotaryTable)"};
     if (method == "GetErrStatusE()") return {"# ErrStatus(0)"};
     if (method == "IsHomed()") return {"# IsHomed(1)"};
     if (method == "EnumTools()") return {"# \"NoTool\"", "# \"RefTool\"", "# \"Probe1\""};
     if (method == "GetProp(Tool.Name())") return {"# Tool.Name(\"Probe1\")"};
-    if (method.starts_with("GetProp(Simulation"))
-      return {"! Error(3, 0510, \"GetProp\", \"Bad property\")"};
     if (method.starts_with("GetProp(Part")) return {"# Part.Temperature(20.5)"};
     if (method.starts_with("GetProp(")) {
       return {"# " + method.substr(8, method.find('(', 8) - 8) +
@@ -98,7 +98,7 @@ class Controller {
     if (method.starts_with("OnPtMeasReport") && method.find("Time") != std::string::npos) {
       return {"! Error(3, 0505, \"OnPtMeasReport\", \"Argument not recognized\")"};
     }
-    if (method.starts_with("Get(")) return {"# X(0), Y(0), Z(500)"};
+    if (method.starts_with("Get(")) return {"# " + stands};
     if (method.starts_with("PtMeas(")) return {"# X(27), Y(0), Z(10), ER(2)"};
     return {};
   }
@@ -120,7 +120,7 @@ TEST(IppClientTraps, OpensAFreshSessionInTheFrameOfTheMachineAndMovesNothing) {
   }
   EXPECT_THAT((*machine)->capabilities().tools, ElementsAre("RefTool", "Probe1"));
   EXPECT_THAT((*machine)->description(),
-              HasSubstr("I++ DME 1.4 machine CartCMMWithRotaryTable at script, tool Probe1"));
+              HasSubstr("I++ DME 1.5 machine CartCMMWithRotaryTable at script, tool Probe1"));
 }
 
 TEST(IppClientTraps, ClearsErrorsWhereEndSessionIsRefusedInTheErrorState) {
@@ -196,10 +196,52 @@ TEST(IppClientTraps, MatchesTheReportByNameAndPointsIjkOutOfThePart) {
   EXPECT_FALSE(reading->scale_temperature_degC) << "that of the part is another";
   EXPECT_EQ(machine->position_W_mm(), Vector3d(30.0, 0.0, 10.0));
   EXPECT_THAT(server.heard,
-              ElementsAre("GoTo(X(30), Y(0), Z(10))",
+              ElementsAre("GoTo(X(30), Y(0), Z(10))", "SetProp(Tool.GoToPar.Speed(5))",
                           "SetProp(Tool.PtMeasPar.Approach(3), Tool.PtMeasPar.Search(4), "
                           "Tool.PtMeasPar.Retract(-1))",
-                          "PtMeas(X(27), Y(0), Z(10), IJK(1,0,0))"));
+                          "PtMeas(X(26), Y(0), Z(10), IJK(1,0,0))",
+                          "SetProp(Tool.GoToPar.Speed(100))", "Get(X(), Y(), Z())"));
+}
+
+TEST(IppClientTraps, TheFirstTouchSuitsBothReadingsWhereTheTipCameStraightIn) {
+  struct Case {
+    ipp::NamedPoint meant;
+    const char* distances;
+    const char* point;
+    const char* back;    ///< Where the tip stands after the touch.
+    const char* advice;  ///< Of the failure; "": none.
+  };
+  const std::vector<Case> cases = {
+      {ipp::NamedPoint::kSurface, "Approach(4), Tool.PtMeasPar.Search(4)", "PtMeas(X(26)", "X(31)",
+       ""},
+      {ipp::NamedPoint::kSurface, "Approach(4), Tool.PtMeasPar.Search(4)", "PtMeas(X(26)", "X(30)",
+       "set \"point\": \"center\""},
+      {ipp::NamedPoint::kCenter, "Approach(3), Tool.PtMeasPar.Search(5)", "PtMeas(X(27)", "X(30)",
+       ""},
+      {ipp::NamedPoint::kCenter, "Approach(3), Tool.PtMeasPar.Search(5)", "PtMeas(X(27)", "X(31)",
+       "set \"point\": \"surface\""},
+      {ipp::NamedPoint::kSurface, "Approach(4), Tool.PtMeasPar.Search(4)", "PtMeas(X(26)",
+       "X(27.5)", "\"retract\": \"by-distance\""},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.back);
+    Controller server;  // its tip has a radius of 1 mm
+    IppMachineOptions options;
+    options.point = c.meant;
+    const auto machine = server.homed(options);
+    ASSERT_TRUE(machine->move_to({40.0, 0.0, 10.0}));
+    ASSERT_TRUE(machine->move_to({30.0, 0.0, 10.0}));
+    server.override_with("Get(", {std::string("# ") + c.back + ", Y(0), Z(10)"});
+    const auto reading = machine->touch(touch_from_x());
+    EXPECT_THAT(server.heard, Contains(HasSubstr(c.distances)));
+    EXPECT_THAT(server.heard, Contains(StartsWith(c.point)));
+    ASSERT_EQ(reading.has_value(), *c.advice == '\0');
+    if (!reading) {
+      EXPECT_THAT(reading.error().what, HasSubstr(c.advice));
+    }
+    if (std::string_view(c.back) == "X(27.5)") continue;
+    EXPECT_EQ(machine->position_W_mm(), Vector3d(30.0, 0.0, 10.0));
+  }
 }
 
 TEST(IppClientTraps, GivesNoTemperatureThatTheServerDoesNotGive) {
@@ -223,6 +265,8 @@ TEST(IppClientTraps, GoesBackItselfWhereANegativeRetractIsRefused) {
   ASSERT_TRUE(machine->move_to({30.0, 0.0, 10.0}));
   server.override_with("PtMeas(", {"# X(27.1), Y(0), Z(10)"});
   ASSERT_TRUE(machine->touch(touch_from_x()));
+  EXPECT_THAT(machine->description(), HasSubstr("which point its PtMeas means cannot be checked"));
+  EXPECT_THAT(server.heard, Contains("SetProp(Tool.GoToPar.Speed(5))"));
   EXPECT_THAT(server.heard, Contains(HasSubstr("Retract(3)")));
   EXPECT_EQ(server.heard.back(), "GoTo(X(30), Y(0), Z(10))");
 }
@@ -238,8 +282,9 @@ TEST(IppClientTraps, TakesBackAMissedTouchAndReturnsToItsStart) {
   ASSERT_FALSE(missed);
   EXPECT_EQ(missed.error().code, core::Code::kNoTouch);
   EXPECT_THAT(missed.error().what, HasSubstr("Surface not found"));
-  EXPECT_EQ(server.heard[2], "ClearAllErrors()");
-  EXPECT_EQ(server.heard.back(), "GoTo(X(30), Y(0), Z(10))");
+  EXPECT_THAT(missed.error().what, HasSubstr("the plan says \"surface\" (machine.point)"));
+  EXPECT_EQ(server.heard[3], "ClearAllErrors()");
+  EXPECT_THAT(server.heard, Contains("GoTo(X(30), Y(0), Z(10))"));
   EXPECT_EQ(machine->position_W_mm(), Vector3d(30.0, 0.0, 10.0));
 }
 
@@ -360,7 +405,117 @@ TEST(IppClientTraps, SeesThatScanColumnsAreNotXyz) {
   const auto scanned = machine->scan_circle(scan);
   ASSERT_TRUE(scanned) << scanned.error().what;
   EXPECT_EQ(scanned->size(), 4U);
-  EXPECT_THAT(server.heard, Contains("ScanOnCircle(0,0,10,23,0,10,0,0,1,90,0,22.5)"));
+  EXPECT_THAT(server.heard, Contains("ScanOnCircle(0,0,10,22,0,10,0,0,1,90,0,22.5)"));
+}
+
+TEST(IppClientTraps, AServerWithoutScanParametersTouchesAndSaysWhyItDoesNotScan) {
+  const Lines refused = {"! Error(3, 0510, \"Prop\", \"Bad property\")"};
+  for (const bool lists : {false, true}) {
+    Controller server;
+    server.override_with("GetProp(Tool.ScanPar", refused);
+    server.override_with("SetProp(Tool.GoToPar.Speed(100), Tool.PtMeasPar.Speed(5), Tool.ScanPar",
+                         refused);
+    if (lists) {
+      server.override_with("EnumAllProp(Tool())",
+                           {"# \"Name\", \"String\"", "# \"PtMeasPar.Speed\", \"Number\""});
+    }
+    const auto opened = server.open();
+    ASSERT_TRUE(opened) << opened.error().what;
+    IppMachine& machine = **opened;
+    EXPECT_FALSE(machine.capabilities().scans_circles);
+    EXPECT_EQ(machine.capabilities().no_scans, "its tool has no Tool.ScanPar");
+    const auto homed = machine.home();
+    ASSERT_TRUE(homed) << homed.error().what;
+    ASSERT_TRUE(machine.move_to({30.0, 0.0, 10.0}));
+    EXPECT_TRUE(machine.touch(touch_from_x()));
+    if (lists) {
+      EXPECT_THAT(server.heard, Not(Contains(HasSubstr("Scan"))));
+    }
+  }
+}
+
+TEST(IppClientTraps, ANormalStartProvokesNoErrorOfAServerOfIssue14) {
+  Controller server;
+  const Lines refused = {"! Error(3, 0510, \"GetProp\", \"Bad property\")"};
+  server.override_with("GetDMEVersion", {"# DMEVersion(\"1.4\")"});
+  server.override_with(
+      "EnumAllProp(Tool())",
+      {"# \"Name\", \"String\"", "# \"Id\", \"String\"", "# \"AvrRadius\", \"Number\"",
+       "# \"GoToPar.Speed\", \"Number\"", "# \"PtMeasPar.Speed\", \"Number\""});
+  for (const char* unknown : {"GetProp(Simulation", "GetProp(Part", "GetProp(Tool.ScanPar",
+                              "OnScanReport", "GetSupportedCommands"}) {
+    server.override_with(unknown, refused);
+  }
+  server.override_with("GetProp(Tool.Id", {"# Tool.Id(\"4711\")"});
+  const auto machine = server.open();
+  ASSERT_TRUE(machine) << machine.error().what;
+  ASSERT_TRUE((*machine)->home());
+  EXPECT_THAT(server.heard, Not(Contains("ClearAllErrors()")));
+  EXPECT_THAT(server.heard, Contains("OnPtMeasReport(X(), Y(), Z(), ER())"));
+  EXPECT_FALSE((*machine)->is_simulated());
+}
+
+TEST(IppClientTraps, TakesAServerThatTellsNothingOfAToolBeforeOneIsTaken) {
+  Controller server;
+  for (const char* asked : {"GetProp(Tool", "EnumAllProp(Tool"}) {
+    server.override_with(asked, {"! Error(3, 1503, \"GetProp\", \"Tool not defined\")"});
+  }
+  IppMachineOptions options;
+  options.tool = "Probe1";
+  const auto machine = server.open(options);
+  ASSERT_TRUE(machine) << machine.error().what;
+  server.overrides.clear();
+  const auto homed = (*machine)->home();
+  ASSERT_TRUE(homed) << homed.error().what;
+  EXPECT_THAT(server.heard, Contains("ChangeTool(\"Probe1\")"));
+  EXPECT_TRUE((*machine)->capabilities().scans_circles);
+}
+
+TEST(IppClientTraps, AToolThatIsNotThereIsNamedBeforeAnythingMoves) {
+  Controller server;
+  server.override_with("IsHomed", {"# IsHomed(0)"});
+  IppMachineOptions options;
+  options.tool = "Nope";
+  const auto refused = server.open(options);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("no tool Nope; its tools: RefTool, Probe1"));
+  EXPECT_THAT(server.heard, Contains("GetProp(Tool.Name())"));
+  EXPECT_THAT(server.heard, Not(Contains("Home()")));
+}
+
+TEST(IppClientTraps, AnUnsolicitedFaultStopsWhateverIsAnswered) {
+  Controller server;
+  const auto machine = server.homed();
+  ASSERT_TRUE(machine->move_to({30.0, 0.0, 10.0}));
+  server.line->say("E0000 ! Error(9, 0503, \"\", \"Controller communications failure\")");
+  const auto stopped = machine->touch(touch_from_x());
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, core::Code::kMachine);
+  EXPECT_THAT(stopped.error().what, HasSubstr("error 0503, severity 9"));
+  EXPECT_THAT(server.heard, Not(Contains(StartsWith("PtMeas("))));
+  EXPECT_THAT(server.heard, Not(Contains("ClearAllErrors()")));
+  server.heard.clear();
+  EXPECT_FALSE(machine->move_to({0.0, 0.0, 500.0}));
+  EXPECT_TRUE(server.heard.empty()) << "until a person has looked";
+}
+
+TEST(IppClientTraps, SendsNoNumberOfMoreThanSixteenCharactersOnRequest) {
+  Controller server;
+  IppMachineOptions options;
+  options.numbers = ipp::NumberForm::kSixteenCharacters;
+  const auto machine = server.homed(options);
+  ASSERT_TRUE(machine->move_to({-130.1234567891, 0.0, 10.0}));
+  const Vector3d outward = Vector3d(-1.0, -0.1, 0.3).normalized();
+  const TouchCommand touch = {0, machine->position_W_mm() - 3.0 * outward, -outward, 3.0, 4.0};
+  ASSERT_TRUE(machine->touch(touch));
+  for (const std::string& line : server.heard) {
+    std::size_t length = 0;
+    for (const char c : line) {
+      length = ipp::is_digit(c) || c == '-' || c == '.' ? length + 1 : 0;
+      ASSERT_LE(length, 16U) << line;
+    }
+  }
+  EXPECT_THAT(server.heard, Contains(StartsWith("GoTo(X(-130.1234567891)")));
 }
 
 TEST(IppClientTraps, ReadsTheVectorsOfATableHoweverTheyAreWritten) {

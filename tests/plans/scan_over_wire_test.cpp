@@ -41,10 +41,12 @@ constexpr std::uint64_t kSeed = 20261121;
 class WireServer {
  public:
   /// @param scans  Whether the server knows scans at all.
-  WireServer(const Plan& plan, bool scans)
+  /// @param late  Points it leaves out at the start of each scan.
+  WireServer(const Plan& plan, bool scans, std::size_t late = 0)
       : cell_(plan, kSeed),
         server_(cell_, server_options(plan)),
         scans_(scans),
+        late_(late),
         listener_(wire::TcpListener::open("127.0.0.1", 0).value()),
         thread_([this] { serve(); }) {}
   ~WireServer() {
@@ -85,8 +87,12 @@ class WireServer {
       if (text.find(motion) != std::string::npos) ++motions_;
     }
     server_.receive({text, {}}, 0.0);
+    std::size_t left_out = text.find(" ScanOnCircle(") == std::string::npos ? 0 : 3 * late_;
     for (std::string line : server_.take_output()) {
       if (spoil_) spoil_(text, line);
+      for (const std::size_t data = line.find("# "); data == 6 && left_out > 0; --left_out) {
+        line.erase(data + 2, line.find(',') + 1 - (data + 2));
+      }
       (void)client.write_line(line);
     }
   }
@@ -95,6 +101,7 @@ class WireServer {
   cmm::ipp::Server server_;
   bool scans_;
   Spoil spoil_;
+  std::size_t late_;
   wire::TcpListener listener_;
   std::atomic<bool> stop_ = false;
   std::atomic<int> motions_ = 0;
@@ -345,6 +352,30 @@ TEST(ScanOverWire, AWrongAnswerStopsTheRunWhichResumesToTheSameValue) {
     ASSERT_TRUE(record);
     expect_same(record->record, wanted);
   }
+}
+
+TEST(ScanOverWire, ARunWhoseScansBeginBesideTheStartIsResumed) {
+  Plan inside = shaft();
+  inside.simulation->machine.drift_x_um = 0.0;
+  inside.simulation->machine.drift_y_um = 0.0;
+  inside.simulation->machine.drift_z_um = 0.0;
+  const record::Scratch scratch;
+  const WireServer server(inside, true, 2);
+  const Plan plan = over_wire(inside, server.port());
+  RunOptions options = seeded_options(scratch / "cut");
+  options.before_move = [left = 2](const NextMove& move) mutable -> core::Result<void> {
+    const bool scan = move.what.find("scan") != std::string::npos;
+    if (!scan || left-- > 0) return {};
+    return core::fail(core::Code::kStopped, "no");
+  };
+  {
+    const auto stopped = run_plan(plan, options);
+    ASSERT_TRUE(stopped && stopped->failure);
+    ASSERT_EQ(stopped->failure->code, core::Code::kStopped) << stopped->failure->what;
+  }
+  const auto resumed = resume_plan(plan, seeded_options(scratch / "cut"));
+  ASSERT_TRUE(resumed) << resumed.error().front().what;
+  EXPECT_FALSE(resumed->failure) << resumed->failure->what;
 }
 
 TEST(ScanOverWire, AMachineThatDoesNotScanIsRefusedBeforeItMoves) {
