@@ -336,8 +336,11 @@ void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
       ->type_name("FACTOR");
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
       ->check(check_seed);
-  verb->add_flag("--as-seen", arguments.as_seen,
-                 "Answers as another server was seen to where that differs from the specification");
+  verb->add_option("--silence-limit", arguments.silence_limit_s,
+                   "A client that says nothing for so long, while nothing moves, loses its place\n"
+                   "to the next one that connects (default: 60)")
+      ->check(check_factor)
+      ->type_name("SECONDS");
   verb->add_option("--wire-log", arguments.wire_log, "Every line both ways, added to this file")
       ->type_name("FILE");
   verb->footer(
