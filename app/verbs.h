@@ -209,4 +209,12 @@ struct DevicesArguments {
 };
 [[nodiscard]] int devices(const DevicesArguments& arguments);
 
+struct ServerDeviceArguments {
+  std::string place;     ///< HOST or HOST:PORT.
+  double limit_s = 5.0;  ///< For the connection and for each answer.
+  bool json = false;
+};
+/// A short conversation with a server of I++ DME in which nothing moves.
+[[nodiscard]] int server_device(const ServerDeviceArguments& arguments);
+
 }  // namespace rondure::app
