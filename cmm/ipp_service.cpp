@@ -79,6 +79,10 @@ Departure serve_client(wire::TcpListener& listener, wire::LineTransport& client,
     looked_s = now_s();
     auto other = listener.accept(milliseconds(0));
     if (!other || *other == nullptr) continue;
+    // The first one may have closed just before: its program ended, and the other is the next one.
+    const auto there = serve_once(client, server);
+    if (!there) return {there.error().what, std::move(*other)};
+    if (*there) active_s = now_s();
     const double silent_s = now_s() - active_s;
     if (silent_s >= limit_s) {
       send_away(client,

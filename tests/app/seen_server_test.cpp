@@ -12,6 +12,7 @@
 
 #include "plans/plan.h"
 #include "plans/served_cell.h"
+#include "tests/app/cutting_proxy.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 #include "tests/cmm/seen_server.h"
@@ -113,6 +114,35 @@ TEST(SeenServer, ScansOfIrregularStepsGiveTheSameCylindricity) {
   SeenProfile profile;
   profile.irregular_scans = true;
   expect_the_same_cylindricity(plan, profile);
+}
+
+TEST(SeenServer, ARunThatWasCutGoesOnInANewSessionAndGivesTheSameCylindricity) {
+  json plan = quiet_plan();
+  const SeenWorld world(plan, {});
+  CuttingProxy proxy(world.port());
+  plan["machine"]["port"] = proxy.port();
+  plan.erase("simulation");
+  const TemporaryFolder folder;
+  write(folder / "plan.json", plan.dump());
+  const std::vector<std::string> whole = {"run",   folder / "plan.json", "--archive", "none",
+                                          "--out", folder / "whole"};
+  ASSERT_EQ(rondure(whole).status, 0);
+  const std::uint64_t bytes = proxy.take_count();
+  const auto result_um = [&](const char* name) -> double {
+    return json::parse(read(folder / name / "report.json"))
+        .at("/features/0/mz/deviation_um"_json_pointer);
+  };
+  for (const char* name : {"2", "3", "5"}) {  // cut at this part of the run
+    auto arguments = whole;
+    arguments.back() = folder / name;
+    proxy.cut_after(bytes / static_cast<std::uint64_t>(name[0] - '0'));
+    const Outcome stopped = rondure(arguments);
+    EXPECT_EQ(stopped.status, 3) << stopped.err;
+    arguments.emplace_back("--resume");
+    const Outcome ended = rondure(arguments);
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_NEAR(result_um(name), result_um("whole"), kSame_um);
+  }
 }
 
 TEST(SeenServer, WhatItLacksIsSaidWithTheKeysThatFollow) {
