@@ -41,7 +41,10 @@ IppMachine::IppMachine(Connect connect, IppMachineOptions options)
 core::Result<std::unique_ptr<IppMachine>> IppMachine::open(Connect connect,
                                                            const IppMachineOptions& options) {
   std::unique_ptr<IppMachine> out(new IppMachine(std::move(connect), options));
-  if (auto connected = out->connect(); !connected) return core::fail(connected.error());
+  // Whatever the error of the machine is about, nothing of the plan has been tried yet.
+  if (auto connected = out->connect(); !connected) {
+    return core::machine_fault(connected.error().what);
+  }
   return out;
 }
 

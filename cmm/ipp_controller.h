@@ -19,17 +19,8 @@
 
 namespace rondure::cmm::ipp {
 
-/// Where servers differ, ours can do either, for the sake of those who test their client.
-enum class Manner {
-  kSpecified,  ///< As I++ DME 1.4.3 says.
-  kSeen,       ///< As an independent server was seen: values in alphabetical order, the translation
-               ///< of PartCsy added, daemons and pending commands lost at AbortE, bare strings and
-               ///< vectors.
-};
-
 /// What a server is told to be. Values the machine cannot tell itself.
 struct ControllerOptions {
-  Manner manner = Manner::kSpecified;
   ParameterDefaults defaults;
   NamedPoint point = NamedPoint::kSurface;
   NumberForm numbers = NumberForm::kSixteenDigits;
@@ -96,7 +87,6 @@ class Controller {
 
   [[nodiscard]] Machine& machine() { return backend_.machine(); }
   [[nodiscard]] Eigen::Vector3d position_W_mm() const { return backend_.machine().position_W_mm(); }
-  [[nodiscard]] const ControllerOptions& options() const { return options_; }
   [[nodiscard]] bool is_homed();
   [[nodiscard]] bool is_user_enabled() const { return user_enabled_; }
   [[nodiscard]] double travel_speed_mm_s() const { return parameters_.speeds().travel_mm_s; }
@@ -166,8 +156,6 @@ class Controller {
   tl::expected<Eigen::Vector3d, Failure> position_argument(const Arguments& arguments,
                                                            bool direction_allowed);
   [[nodiscard]] tl::expected<void, Failure> ready_to_move();
-  [[nodiscard]] std::vector<std::string> in_order(std::vector<std::string> names) const;
-  [[nodiscard]] bool seen() const { return options_.manner == Manner::kSeen; }
 
   Backend& backend_;
   ControllerOptions options_;
