@@ -323,8 +323,6 @@ Fault check_feature(const RunRecord& record, int index, bool strict) {
       return fmt::format("characteristic {} has no mask", in_quotes(characteristic.id));
     }
   }
-  const auto balls = std::count_if(feature.settings.begin(), feature.settings.end(),
-                                   [](const auto& setting) { return setting.name == "balls/id"; });
   const bool analysed = record::is_analysis(feature.shape);
   const Strategy own =
       feature.shape == Shape::kRotaryAxes ? Strategy::kStations : Strategy::kSeries;
@@ -334,7 +332,6 @@ Fault check_feature(const RunRecord& record, int index, bool strict) {
     return fmt::format("a {} is not measured by the strategy {}", record::name_of(feature.shape),
                        record::name_of(feature.strategy));
   }
-  if (feature.strategy == Strategy::kStations && balls < 1) return "no ball is named";
   if (auto fault = check_feature_settings(feature, strict)) return fault;
   return check_series(record, index);
 }

@@ -224,8 +224,8 @@ TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
        [](auto& run) { run.series.front().columns.front().name = "x"; }, "has no column alpha_deg"},
       {"05_spindle_three_probe.json", [](auto& run) { run.series.clear(); }, "series are missing"},
       {"06_wheel.json", set("count", -5.0), "setting \"count\" is -5, outside"},
-      {"06_wheel.json", set("surface/step_mm", 1e-300), "setting \"surface/step_mm\" is 1e-300"},
-      {"07_crank_pin.json", rename_series("pin 2", "pin 9"), "series \"axes 3\" is missing"},
+      {"06_wheel.json", set("surface/step_mm", -1.0), "setting \"surface/step_mm\" is -1"},
+      {"07_crank_pin.json", rename_series("pin 2", "pin 9"), "series \"pin 2\" is missing"},
       {"07_crank_pin.json", rename_series("axes 1", "x"), "series \"x\" is none of a contour"},
       {"07_crank_pin.json",
        [](auto& run) {
