@@ -41,11 +41,10 @@ TEST(PlanReader, EveryExampleIsAPlan) {
 }
 
 TEST(PlanReader, ANameThatNoReportCanShowIsRefused) {
-  for (const std::string& name : {"A\\uFFFE", "A\uFDD0", "A\\u001b[2J", "A\u009b2J", "A\x7f"}) {
-    const core::Error problem = only_problem(
-        R"({"plan": {"name": "n", "revision": "A"}, "part": {"id": ")" + name +
-        R"("}, "features": [{"id": "f", "type": "cylinder", "source": {"file": "p.csv"},)"
-        R"("nominal": {"diameter_mm": 50, "from_mm": -40, "to_mm": 40}}]})");
+  for (const std::string name : {"A\\uFFFE", "A\uFDD0", "A\\u001b[2J", "A\u009b2J", "A\x7f"}) {
+    std::string text = touched("", kMachines);
+    text.replace(text.find("\"p\""), 3, "\"" + name + "\"");
+    const core::Error problem = only_problem(text);
     EXPECT_EQ(problem.where, "/part/id") << problem.what;
     EXPECT_EQ(problem.code, Code::kOutOfRange);
     EXPECT_NE(problem.what.find("which no report can show; remove it"), std::string::npos)
