@@ -41,6 +41,9 @@ struct IppMachineOptions {
 /// search distances of the command. After a contact was not found the error is taken back and the
 /// tip goes back to its start. A stop sends AbortE on the fast queue.
 ///
+/// An answer that cannot belong to what was asked (touch_check.h) is kMachine and keeps every
+/// motion back until recover().
+///
 /// What the server reports without having been asked, and what a daemon sends, is never taken for
 /// an answer. An error that only refuses a command is taken back; any other one (emergency stop,
 /// collision, fault of a drive) keeps every motion back until recover(). When the connection is
