@@ -50,6 +50,9 @@ struct IppMachineOptions {
 /// does not. Up to then no touch is made that could collide under either reading. A contradiction
 /// is kMeaning. A server that refuses a negative Retract shows nothing: then PtMeas stays slow.
 ///
+/// An answer that cannot belong to what was asked (touch_check.h) is kMachine and keeps every
+/// motion back until recover().
+///
 /// What the server reports without having been asked, and what a daemon sends, is never taken for
 /// an answer. An error that only refuses a command is taken back; any other one (emergency stop,
 /// collision, fault of a drive) keeps every motion back until recover(). When the connection is
