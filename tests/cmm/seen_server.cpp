@@ -160,7 +160,8 @@ SeenServer::Answer SeenServer::execute(const Command& command, double now_s) {
   const std::string& method = command.method;
   if (!session_ && method != "StartSession" && method != "EndSession") return {{}, kProtocolError};
   const bool takes_back = method == "ClearAllErrors" || method == "GetErrStatusE" ||
-                          method == "GetXtdErrStatus" || method == "AbortE";
+                          method == "GetXtdErrStatus" || method == "AbortE" ||
+                          (method == "StartSession" && !session_);
   if (error_ && !takes_back) return {{}, kUseClearAllErrors};
   const bool moves = method == "Home" || method == "GoTo" || method == "PtMeas" ||
                      (method == "ScanOnCircle" && profile_.scans) || method == "AlignPart";
@@ -172,6 +173,7 @@ SeenServer::Answer SeenServer::in_session(const Command& command, double now_s) 
   if (method == "StartSession") {
     if (session_) return {{}, kIllegalCommand};
     session_ = true;
+    error_ = false;
     touch_report_ = {"X", "Y", "Z"};
     scan_report_ = {"Q", "X", "Y", "Z"};
     return {{}, backend_.machine().recover() ? 0 : kMachineInErrorState};
