@@ -87,6 +87,7 @@ class Controller {
 
   [[nodiscard]] Machine& machine() { return backend_.machine(); }
   [[nodiscard]] Eigen::Vector3d position_W_mm() const { return backend_.machine().position_W_mm(); }
+  [[nodiscard]] const ControllerOptions& options() const { return options_; }
   [[nodiscard]] bool is_homed();
   [[nodiscard]] bool is_user_enabled() const { return user_enabled_; }
   [[nodiscard]] double travel_speed_mm_s() const { return parameters_.speeds().travel_mm_s; }
