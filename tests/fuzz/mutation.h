@@ -21,4 +21,21 @@ class Mutation {
   std::vector<std::string> words_;
 };
 
+/// Makes tables that can still be read out of good ones: rows taken out, doubled and sorted,
+/// columns made equal, scaled and moved, single numbers of any size. The same seed gives the same
+/// table.
+class TableMutation {
+ public:
+  /// @param tables  CSV: a header line, then rows of numbers and words.
+  explicit TableMutation(std::vector<std::string> tables) : tables_(std::move(tables)) {}
+
+  [[nodiscard]] std::string input(unsigned seed) const;
+
+ private:
+  std::vector<std::string> tables_;
+};
+
+/// A byte that follows from the seed.
+[[nodiscard]] inline unsigned choice_of(unsigned seed) { return std::mt19937(~seed)() % 256; }
+
 }  // namespace rondure::fuzz

@@ -1,0 +1,188 @@
+// What is kept of earlier runs: archives, the results beside a run, calibrations, lists of digests.
+
+#include <array>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "app/verbs.h"
+#include "fixture/calibration.h"
+#include "record/archive.h"
+#include "record/checksums.h"
+#include "record/journal.h"
+#include "reports/earlier_results.h"
+#include "reports/history.h"
+#include "reports/writers.h"
+#include "tests/app/files.h"
+#include "tests/fuzz/cases.h"
+#include "tests/fuzz/mutation.h"
+#include "tests/fuzz/overheard.h"
+#include "tests/fuzz/row_damage.h"
+#include "tests/fuzz/run_samples.h"
+
+namespace rondure::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A result as many runs of one part leave it.
+record::ArchiveRun archived_run(int number) {
+  record::ArchiveRun out;
+  out.head.journal_sha256 = std::string(60, 'a') + std::to_string(1000 + number);
+  out.head.run_id = "run " + std::to_string(number);
+  out.head.started_utc = "2026-11-21T02:33:" + std::to_string(10 + number) + "Z";
+  out.head.part_id = "SP-50-80";
+  for (const char* id : {"CYLt", "RONt"}) {
+    record::ArchiveResult result;
+    result.feature = "running surface";
+    result.characteristic = id;
+    result.symbol = id;
+    result.reference = "MZCY";
+    result.filter = "unfiltered";
+    result.sampling = "2 x 6 points";
+    result.value = 0.005 + 0.0001 * (number % 7);
+    result.upper_limit = 0.012;
+    result.verdict = "conforms";
+    result.certificate = "global";
+    out.results.push_back(result);
+  }
+  return out;
+}
+
+std::string archive_bytes() {
+  const fs::path file = work_folder() / "archive-seed.db";
+  {
+    auto archive = record::Archive::open(record::parse_archive_place(file.string()).value(),
+                                         record::Archive::Access::kWrite);
+    for (int i = 0; archive && i < 30; ++i) {
+      if (!archive->push(archived_run(i))) break;
+    }
+  }
+  return app::testing::read(file);
+}
+
+TEST(KeptFuzz, NoDamagedArchiveUpsetsTheHistory) {
+  const std::string seed_bytes = archive_bytes();
+  ASSERT_GT(seed_bytes.size(), 10'000U);
+  const fs::path file = work_folder() / "archive.db";
+  const std::vector<std::string> tables = {"rondure_run", "rondure_result", "rondure_result"};
+  try_cases({300, 100'000}, [&](unsigned seed) {
+    std::mt19937 random(seed);
+    std::string bytes = seed_bytes;
+    const bool by_rows = random() % 3 != 0;
+    for (auto left = by_rows ? 0 : 1 + random() % 20; left > 0; --left) {
+      bytes[random() % bytes.size()] = static_cast<char>(random());
+    }
+    if (!by_rows && random() % 4 == 0) bytes.resize(random() % bytes.size());
+    fs::remove(file.string() + "-wal");
+    fs::remove(file.string() + "-journal");
+    app::testing::write(file, bytes);
+    if (by_rows) damage_rows(file, tables, random);
+    app::HistoryArguments arguments;
+    arguments.archive = file.string();
+    arguments.archive_given = true;
+    arguments.chart = random() % 2 == 0;
+    arguments.json = random() % 2 == 0;
+    if (random() % 4 == 0) arguments.csv = "-";
+    if (random() % 4 == 0) arguments.svg = (work_folder() / "chart.svg").string();
+    return wrong_with_answer([&] { return app::history(arguments); });
+  });
+}
+
+std::vector<std::string> json_words() {
+  return {"null",
+          "-1",
+          "0",
+          "1e308",
+          "1e999",
+          "\"\"",
+          "[]",
+          "{}",
+          "true",
+          "\"mm\"",
+          "\"um\"",
+          "[[[[",
+          "]]]",
+          "NaN",
+          "\\u0000",
+          "\\ud800",
+          "\xff",
+          "\x1b",
+          ",",
+          ":",
+          "9223372036854775807",
+          "-5e-324",
+          "\"1970-01-01T00:00:00Z\"",
+          "360",
+          "0.5"};
+}
+
+TEST(KeptFuzz, NoDamagedEarlierResultsUpsetThePage) {
+  reports::EarlierResults earlier;
+  auto archive = record::Archive::open(
+      record::parse_archive_place((work_folder() / "archive-seed.db").string()).value(),
+      record::Archive::Access::kWrite);
+  ASSERT_TRUE(archive);
+  for (int i = 0; i < 30; ++i) ASSERT_TRUE(archive->push(archived_run(i)));
+  const auto newest = archive->newest({}, 40);
+  ASSERT_TRUE(newest);
+  earlier = *newest;
+  const Mutation mutation({reports::earlier_json(earlier)}, json_words());
+  const auto read = record::read_journal(sample_runs().front());
+  ASSERT_TRUE(read);
+  const auto evaluation = reports::evaluate(read->record);
+  ASSERT_TRUE(evaluation);
+  try_cases({600, 100'000}, [&](unsigned seed) -> std::string {
+    const auto parsed = reports::parse_earlier(mutation.input(seed));
+    if (!parsed) return wrong_with_text(core::to_line(parsed.error()));
+    for (const reports::RunChart& chart : reports::run_charts(read->record, *evaluation, *parsed)) {
+      std::string text = reports::history_drawing(chart) + reports::history_svg(chart) +
+                         reports::history_chart(chart, false) + reports::capability_in_words(chart);
+      for (const std::string& sentence : reports::history_sentences(chart)) text += sentence;
+      if (auto wrong = wrong_with_text(text); !wrong.empty()) return wrong;
+    }
+    return {};
+  });
+}
+
+TEST(KeptFuzz, NoDamagedCalibrationUpsetsTheFixture) {
+  const Mutation mutation(
+      {app::testing::read(app::testing::example("03_calibration/fixture-calibration.json"))},
+      json_words());
+  try_cases({600, 100'000}, [&](unsigned seed) -> std::string {
+    const auto parsed = fixture::parse_calibration(mutation.input(seed), "calibration.json");
+    if (!parsed) return wrong_with_text(core::to_line(parsed.error()));
+    const auto again = fixture::parse_calibration(fixture::calibration_text(*parsed), "again");
+    if (!again) return "its own text is not read back: " + again.error().what;
+    const fixture::Kinematics kinematics = fixture::compensated({}, *parsed);
+    for (const double angle : {-1.0, 0.0, 0.3}) {
+      const Eigen::Isometry3d pose = fixture::body_to_machine(kinematics, {angle, -angle});
+      if (!pose.matrix().allFinite()) return "a pose that is not finite";
+    }
+    return {};
+  });
+}
+
+TEST(KeptFuzz, NoDamagedListOfDigestsUpsetsItsReader) {
+  const fs::path run = sample_runs().front();
+  const Mutation mutation({app::testing::read(run / record::kChecksumsName)},
+                          {"  ", " *", "\n", "\\", "../", "/etc/passwd", "\r", "\xff", "journal.db",
+                           std::string(64, '0'), std::string(1, '\0')});
+  const fs::path folder = work_folder() / "digests";
+  fs::create_directory(folder);
+  try_cases({600, 100'000}, [&](unsigned seed) -> std::string {
+    app::testing::write(folder / record::kChecksumsName, mutation.input(seed));
+    const auto read = record::read_checksums(folder);
+    if (!read) return wrong_with_text(core::to_line(read.error()));
+    for (const record::Checksum& line : *read) {
+      if (fs::path(line.file).has_parent_path() || line.sha256.size() != 64) {
+        return "a place outside: " + line.file;
+      }
+    }
+    return {};
+  });
+}
+
+}  // namespace
+}  // namespace rondure::fuzz

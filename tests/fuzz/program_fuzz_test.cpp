@@ -1,0 +1,84 @@
+// The program itself on damaged runs and data files. With RONDURE_FULL=1 2000 cases a door.
+
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "record/checksums.h"
+#include "tests/app/files.h"
+#include "tests/app/program.h"
+#include "tests/fuzz/cases.h"
+#include "tests/fuzz/mutation.h"
+#include "tests/fuzz/overheard.h"
+#include "tests/fuzz/run_samples.h"
+#include "tests/fuzz/seeds.h"
+
+namespace rondure::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How one call of the program ends: with an exit status of its own, in time, and with a sentence
+/// where it refuses.
+std::string wrong_with_call(const std::vector<std::string>& words) {
+  std::string command = "rondure";
+  for (const std::string& word : words) command += " " + word;
+  app::testing::Program program(words);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(40);
+  while (!program.ended()) {
+    if (std::chrono::steady_clock::now() > end) return command + ": no end";
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  const auto outcome = program.wait();
+  if (outcome.signal != 0) return fmt::format("{}: signal {}", command, outcome.signal);
+  if (outcome.status < 0 || outcome.status > 3) {
+    return fmt::format("{}: exit status {}: {}", command, outcome.status, outcome.err);
+  }
+  if (outcome.status > 1 && outcome.err.empty()) return command + ": refused without a word";
+  if (auto wrong = wrong_with_text(outcome.out); !wrong.empty()) return command + ": " + wrong;
+  if (auto wrong = wrong_with_text(outcome.err); !wrong.empty()) return command + ": " + wrong;
+  return {};
+}
+
+TEST(ProgramFuzz, NoResealedRunUpsetsAVerb) {
+  const fs::path run = work_folder() / "program-run";
+  const std::string archive = (work_folder() / "program-archive.db").string();
+  ASSERT_FALSE(sample_runs().empty());
+  try_cases({25, 2'000}, [&](unsigned seed) {
+    write_resealed_run(run, seed);
+    const std::vector<std::vector<std::string>> calls = {
+        {"verify", run.string()},
+        {"report", run.string(), "--format", "html,json,csv"},
+        {"compare", run.string(), "--json"},
+        {"history", archive, "--add", run.string()},
+        {"run", run.string(), "--resume"}};
+    return wrong_with_call(calls[seed % calls.size()]);
+  });
+}
+
+TEST(ProgramFuzz, NoDamagedFileUpsetsAPlan) {
+  const std::string plan = app::testing::read(app::testing::example("09_axle_points_file.json"));
+  const std::string source = "../../tests/data/axle_mzc_3/points.csv";
+  ASSERT_NE(plan.find(source), std::string::npos);
+  const fs::path folder = work_folder() / "program-plan";
+  const TableMutation rows(
+      {app::testing::read(app::testing::source_dir() / "tests/data/axle_mzc_3/points.csv")});
+  try_cases({15, 2'000}, [&](unsigned seed) {
+    fs::remove_all(folder);
+    fs::create_directory(folder);
+    std::string text = plan;
+    text.replace(text.find(source), source.size(), "points.csv");
+    app::testing::write(folder / "plan.json", text);
+    app::testing::write(folder / "points.csv", rows.input(seed));
+    return wrong_with_call({"run", (folder / "plan.json").string(), "--out",
+                            (folder / "run").string(), "--format", "json,csv", "--archive",
+                            "none"});
+  });
+}
+
+}  // namespace
+}  // namespace rondure::fuzz

@@ -1,0 +1,128 @@
+#include "tests/fuzz/run_samples.h"
+
+#include <array>
+#include <functional>
+#include <random>
+#include <stdexcept>
+
+#include <soci/soci.h>
+#include <soci/sqlite3/soci-sqlite3.h>
+#include <nlohmann/json.hpp>
+
+#include "record/chain.h"
+#include "record/checksums.h"
+#include "record/database.h"
+#include "record/files.h"
+#include "record/journal.h"
+#include "record/journal_schema.h"
+#include "record/journal_seal.h"
+#include "record/sha256.h"
+#include "tests/app/files.h"
+#include "tests/app/program.h"
+#include "tests/fuzz/cases.h"
+#include "tests/fuzz/row_damage.h"
+
+namespace rondure::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Fewer touches, trials and rows, where a plan has many.
+void shorten(Json& plan) {
+  const std::array<std::pair<const char*, int>, 11> least = {{{"layers", 2},
+                                                              {"points_per_layer", 6},
+                                                              {"max_poses", 2},
+                                                              {"repeats", 2},
+                                                              {"turns", 2},
+                                                              {"samples_per_turn", 128},
+                                                              {"samples", 128},
+                                                              {"highest_order", 10},
+                                                              {"most_trials", 200},
+                                                              {"budget_trials", 100},
+                                                              {"cutoff_upr", 10}}};
+  for (auto& [key, value] : plan.items()) {
+    if (value.is_structured()) shorten(value);
+    for (const auto& [name, number] : least) {
+      if (key == name && value.is_number() && value > number) value = number;
+    }
+  }
+}
+
+fs::path run_of(const std::string& name, bool short_plan) {
+  const fs::path example = app::testing::example(name + ".json");
+  Json plan = Json::parse(app::testing::read(example));
+  if (short_plan) shorten(plan);
+  for (auto& feature : plan["features"]) {
+    if (feature.contains("source")) {
+      auto& file = feature["source"]["file"];
+      file = (example.parent_path() / file.get<std::string>()).string();
+    }
+  }
+  if (plan.contains("fixture") && plan["fixture"].contains("calibration")) {
+    auto& file = plan["fixture"]["calibration"]["file"];
+    file = (example.parent_path() / file.get<std::string>()).string();
+  }
+  const fs::path file = work_folder() / (name + ".json");
+  app::testing::write(file, plan.dump());
+  const fs::path out = work_folder() / name;
+  const auto outcome = app::testing::rondure(
+      {"run", file.string(), "--out", out.string(), "--format", "json", "--archive", "none"});
+  if (outcome.status != 0 && outcome.status != 1) throw std::runtime_error(name + outcome.err);
+  return out;
+}
+
+/// The links and digests that the rows would have had.
+void reseal(const fs::path& file) {
+  soci::session sql(soci::sqlite3, record::connection_string(file).value());
+  sql << "pragma journal_mode = memory";
+  sql << "pragma synchronous = off";
+  soci::transaction all(sql);
+  sql << "delete from chain";
+  sql << "delete from seal";
+  {
+    record::Chain chain(sql);
+    for (const record::Table& table : record::chained_tables()) chain.append_all(table.name);
+  }
+  record::insert_seal(sql);
+  all.commit();
+}
+
+}  // namespace
+
+const std::vector<fs::path>& sample_runs() {
+  static const std::vector<fs::path> runs = [] {
+    std::vector<fs::path> out;
+    for (const char* name :
+         {"01_spool_simulated", "03_inspect_calibrated", "04_part_in_two_poses",
+          "05_spindle_three_probe", "06_wheel", "07_crank_pin", "09_axle_points_file"}) {
+      out.push_back(run_of(name, true));
+    }
+    out.push_back(run_of("03_calibrate_fixture", false));
+    return out;
+  }();
+  return runs;
+}
+
+void write_resealed_run(const fs::path& directory, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto& runs = sample_runs();
+  fs::remove_all(directory);
+  fs::create_directory(directory);
+  const fs::path file = directory / record::kJournalName;
+  fs::copy_file(runs[random() % runs.size()] / record::kJournalName, file);
+  std::vector<std::string> tables;
+  for (const record::Table& table : record::chained_tables()) tables.emplace_back(table.name);
+  // What a feature is and what is asked of it is said there.
+  for (const char* often : {"feature", "setting", "setting", "series", "series_column", "touch"}) {
+    tables.emplace_back(often);
+  }
+  damage_rows(file, tables, random);
+  reseal(file);
+  const std::string digest = record::sha256_hex(app::testing::read(file));
+  if (!record::update_checksums(directory, {{record::kJournalName, digest}})) {
+    throw std::runtime_error("no " + std::string(record::kChecksumsName));
+  }
+}
+
+}  // namespace rondure::fuzz

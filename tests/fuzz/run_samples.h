@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rondure::fuzz {
+
+/// Finished runs of the example plans with fewer touches, made once by the program: one of each
+/// kind of feature.
+[[nodiscard]] const std::vector<std::filesystem::path>& sample_runs();
+
+/// Damages the rows of a copy of one of them, and computes chain, seal and SHA256SUMS anew, so that
+/// the journal passes for whole. The same seed makes the same journal.
+/// @param directory  Emptied and made anew.
+void write_resealed_run(const std::filesystem::path& directory, unsigned seed);
+
+}  // namespace rondure::fuzz

@@ -1,0 +1,71 @@
+#include "tests/fuzz/seeds.h"
+
+#include <cstddef>
+#include <sstream>
+
+#include "tests/app/files.h"
+
+namespace rondure::fuzz {
+namespace {
+
+/// A file of tests/data with its header and every n-th row.
+std::string thinned(const std::string& name, std::size_t every) {
+  std::istringstream lines(app::testing::read(app::testing::source_dir() / "tests/data" / name));
+  std::string out;
+  std::size_t row = 0;
+  bool header = true;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("#")) continue;
+    if (header || row++ % every == 0) out += line + "\n";
+    header = false;
+  }
+  return out;
+}
+
+}  // namespace
+
+const std::vector<std::string>& point_tables() {
+  static const std::vector<std::string> tables = {
+      thinned("axle_mzc_3/points.csv", 1),    thinned("gander1994_circle/points.csv", 1),
+      thinned("nist_cir2d_02/points.csv", 1), thinned("nist_cir2d_09/points.csv", 1),
+      thinned("nist_cyl_02/points.csv", 1),   thinned("nist_cyl_03/points.csv", 1),
+      thinned("nist_cyl_13/points.csv", 9),   thinned("nist_cyl_16/points.csv", 8),
+      thinned("nist_cyl_05/points.csv", 20),  thinned("openindy_cyl_tracker_a/points.csv", 1)};
+  return tables;
+}
+
+const std::vector<std::string>& ball_tables() {
+  static const std::vector<std::string> tables = {thinned("spec_rotary/c_axis.csv", 1),
+                                                  thinned("spec_rotary/fixture.csv", 1)};
+  return tables;
+}
+
+const std::vector<std::string>& spindle_tables() {
+  static const std::vector<std::string> tables = {thinned("spindle_dynamic/readings.csv", 8),
+                                                  thinned("spindle_dynamic/readings.csv", 16)};
+  return tables;
+}
+
+const std::vector<std::string>& roundness_tables() {
+  static const std::vector<std::string> tables = {
+      thinned("spec_roundness/profile.csv", 4), thinned("axle_mzc_3/points.csv", 1),
+      thinned("nist_cir2d_10/points.csv", 1), thinned("nist_cir2d_06/points.csv", 3)};
+  return tables;
+}
+
+const std::vector<std::string>& wheel_tables() {
+  static const std::vector<std::string> tables = {
+      thinned("spec_wheel/example1.csv", 1), thinned("spec_wheel/example2.csv", 1),
+      "# surface\nx,z\n-20,0.8\n-10,0.2\n-5,0.05\n0,0\n5,0.05\n10,0.2\n20,0.8\n",
+      "x,depth_um\n-20,1\n-10,2\n-3,2.5\n0,3\n10,2\n20,1\n"};
+  return tables;
+}
+
+const std::vector<std::string>& contour_tables() {
+  static const std::vector<std::string> tables = {
+      thinned("spec_contour/axes1.csv", 5), thinned("spec_contour/pin1.csv", 4),
+      thinned("spec_contour/main1.csv", 4), thinned("spec_contour/axes2.csv", 10)};
+  return tables;
+}
+
+}  // namespace rondure::fuzz

@@ -1,0 +1,83 @@
+// Damaged data files, through the readers and the analyses that go with them to the answer.
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/fuzz/cases.h"
+#include "tests/fuzz/mutation.h"
+#include "tests/fuzz/seeds.h"
+#include "tests/fuzz/verb_entries.h"
+
+namespace rondure::fuzz {
+namespace {
+
+const std::vector<std::string>& table_words() {
+  static const std::vector<std::string> all = {"NaN",
+                                               "-inf",
+                                               "1e400",
+                                               "1e9",
+                                               "-1e9",
+                                               "1e-320",
+                                               "0",
+                                               "\n",
+                                               ",",
+                                               ",,",
+                                               "\r\n",
+                                               "#",
+                                               "\t",
+                                               ";",
+                                               "\"",
+                                               "1,5",
+                                               "x",
+                                               "x_mm",
+                                               "y",
+                                               "z",
+                                               "+",
+                                               "reference",
+                                               "\xef\xbb\xbf",
+                                               "\xff\xfe",
+                                               "\xc3",
+                                               "\x1b[2J",
+                                               "\xef\xbf\xbf",
+                                               "theta_deg",
+                                               "r_um",
+                                               "axis",
+                                               "alpha_deg",
+                                               "beta_deg"};
+  return all;
+}
+
+/// Three of four cases are tables that can be read; the first byte is any.
+void try_door(unsigned quick, const std::vector<std::string>& tables,
+              std::string (*entry)(std::string_view)) {
+  const TableMutation rows(tables);
+  const Mutation bytes(tables, table_words());
+  try_cases({quick, 100'000}, [&](unsigned seed) {
+    const auto choice = static_cast<char>(choice_of(seed));
+    return entry(choice + (seed % 4 == 3 ? bytes.input(seed) : rows.input(seed)));
+  });
+}
+
+TEST(VerbFuzz, NoDamagedPointsUpsetAFit) { try_door(600, point_tables(), try_fit); }
+
+TEST(VerbFuzz, NoDamagedBallsUpsetTheRotaryAxes) { try_door(300, ball_tables(), try_rotary_axes); }
+
+TEST(VerbFuzz, NoDamagedReadingsUpsetTheSpindle) { try_door(300, spindle_tables(), try_spindle); }
+
+TEST(VerbFuzz, NoDamagedProfileUpsetsRoundness) {
+  try_door(300, roundness_tables(), try_roundness);
+}
+
+TEST(VerbFuzz, NoDamagedTableUpsetsTheWheel) { try_door(600, wheel_tables(), try_wheel); }
+
+TEST(VerbFuzz, NoDamagedTableUpsetsTheContour) {
+  std::vector<std::string> tables = contour_tables();
+  tables.emplace_back(
+      R"({"columns": {"x_error": {"column": "x_error_mm", "unit": "um", "sign": -1}}})");
+  try_door(300, tables, try_contour);
+}
+
+}  // namespace
+}  // namespace rondure::fuzz
