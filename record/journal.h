@@ -93,6 +93,7 @@ struct ReadJournal {
   std::vector<BrokenTable> broken;  ///< Empty for an intact journal, sealed or not.
   int version = 0;                  ///< Of its tables; 1 has no chain.
   bool listed = false;              ///< SHA256SUMS names it: its run closed it.
+  bool as_listed = true;            ///< Its bytes have the digest there, where it is listed.
   /// Logs beside a closed journal that would change it, by name. They were not read.
   std::vector<std::string> beside;
 };
@@ -103,8 +104,8 @@ struct ReadJournal {
 /// none, kJournal when it is not a journal of ours or damaged; `where` names the file.
 [[nodiscard]] core::Result<ReadJournal> read_journal(const std::filesystem::path& directory);
 
-/// Why nothing should be computed from a journal, one sentence each: tables that were changed, logs
-/// beside it. Empty for a sound one.
+/// Why nothing should be computed from a journal, one sentence each: tables that were changed,
+/// bytes that are not those of its list, logs beside it. Empty for a sound one.
 [[nodiscard]] std::vector<std::string> faults_of(const ReadJournal& journal);
 
 }  // namespace rondure::record

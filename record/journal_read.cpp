@@ -17,6 +17,7 @@
 #include "record/journal_schema.h"
 #include "record/journal_seal.h"
 #include "record/private_copy.h"
+#include "record/sha256.h"
 
 namespace rondure::record {
 namespace {
@@ -96,10 +97,18 @@ core::Result<ReadJournal> read_copy(const fs::path& file, Logs logs) {
                     file.string());
 }
 
-bool is_listed(const fs::path& directory) {
+/// The digest of the journal in SHA256SUMS, if that names it.
+std::optional<std::string> listed_digest(const fs::path& directory) {
   const auto list = read_checksums(directory);
-  return list && std::any_of(list->begin(), list->end(),
-                             [](const Checksum& line) { return line.file == kJournalName; });
+  if (!list) return std::nullopt;
+  const auto line = std::find_if(list->begin(), list->end(),
+                                 [](const Checksum& c) { return c.file == kJournalName; });
+  return line == list->end() ? std::nullopt : std::optional(line->sha256);
+}
+
+bool has_digest(const fs::path& file, const std::string& sha256) {
+  const auto bytes = read_file(file);
+  return bytes && sha256_hex(*bytes) == sha256;
 }
 
 /// What `look` finds in a private copy; nothing when that cannot be opened or read.
@@ -143,7 +152,7 @@ bool logs_change(const fs::path& file, std::int64_t version) {
 core::Result<ReadJournal> read_journal(const fs::path& directory) {
   const fs::path file = directory / kJournalName;
   if (auto found = require_file(directory, file); !found) return core::fail(found.error());
-  const bool listed = is_listed(directory);
+  const auto listed = listed_digest(directory);
   const std::vector<std::string> logs = logs_beside(file);
   if (!listed && !logs.empty()) {
     if (auto closed = closed_journal(file)) {
@@ -153,7 +162,8 @@ core::Result<ReadJournal> read_journal(const fs::path& directory) {
   }
   auto read = read_copy(file, listed ? Logs::kWithout : Logs::kWith);
   if (read) {
-    read->listed = listed;
+    read->listed = listed.has_value();
+    read->as_listed = !listed || has_digest(file, *listed);
     if (listed) read->beside = logs;
   }
   return read;
@@ -164,6 +174,12 @@ std::vector<std::string> faults_of(const ReadJournal& journal) {
   for (const BrokenTable& broken : journal.broken) {
     out.push_back(fmt::format("table {} of the journal was changed after the run: {}", broken.table,
                               broken.what));
+  }
+  if (!journal.as_listed) {
+    out.push_back(
+        fmt::format("{} is not the file that {} names: its bytes were changed after its "
+                    "run closed it",
+                    kJournalName, kChecksumsName));
   }
   for (const std::string& log : journal.beside) {
     out.push_back(

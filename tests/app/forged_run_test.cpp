@@ -94,6 +94,22 @@ TEST_F(ForgedRun, ALogBesideASignedJournalReplacesNothing) {
   EXPECT_FALSE(fs::exists(bad / "SHA256SUMS"));
 }
 
+TEST_F(ForgedRun, AnotherJournalInPlaceOfTheListedOneIsRefused) {
+  const fs::path bad = run_axle("bad", 20);
+  const fs::path good = run_axle("good", 100);
+  fs::copy_file(good / "journal.db", bad / "journal.db", fs::copy_options::overwrite_existing);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"report", bad},
+        {"compare", bad},
+        {"run", bad, "--resume"},
+        {"history", folder_ / "archive.db", "--add", bad}}) {
+    const Outcome outcome = rondure(words);
+    EXPECT_NE(outcome.status, 0) << words.front();
+    EXPECT_THAT(outcome.err, HasSubstr("journal.db is not the file that SHA256SUMS names"));
+  }
+  EXPECT_THAT(rondure({"verify", bad}).out, HasSubstr("not equal: journal.db: its bytes were "));
+}
+
 TEST_F(ForgedRun, ASignedFileThatIsAbsentIsADifference) {
   const fs::path run = run_axle("run", 100);
   sign(run);
