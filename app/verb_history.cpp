@@ -184,8 +184,14 @@ int push(const record::ArchivePlace& place, const HistoryArguments& arguments) {
   if (targets->empty()) say("nothing waits\n");
   bool well = true;
   for (const std::string& target : *targets) {
-    const auto waited_for = record::parse_archive_place(target);
-    well = waited_for && push_to(*waited_for, arguments.queue) && well;
+    auto waited_for = record::parse_archive_place(target);
+    if (!waited_for) {
+      complain(waited_for.error());
+      well = false;
+      continue;
+    }
+    waited_for->key = target;  // older programs may have kept a password in it
+    well = push_to(*waited_for, arguments.queue) && well;
   }
   return well ? kAllWell : kBadInput;
 }

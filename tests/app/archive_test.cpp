@@ -1,5 +1,7 @@
 // Finished runs in the archive, as a shell sees it.
 
+#include <sqlite3.h>
+
 #include <set>
 #include <sstream>
 
@@ -192,6 +194,18 @@ TEST(ArchiveOfRuns, KeepsNoPasswordOfAnyUrlThatTheServerAccepts) {
   for (const fs::path& file : {folder / "archive-queue.db", folder / "run" / "journal.db"}) {
     EXPECT_THAT(read(file), AllOf(Not(::testing::IsEmpty()), Not(HasSubstr("sec?ret")))) << file;
   }
+  // As an older program kept it: the run is still found, and the password still not shown.
+  sqlite3* queue = nullptr;
+  ASSERT_EQ(sqlite3_open((folder / "archive-queue.db").c_str(), &queue), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(queue,
+                         "update rondure_queue set target = "
+                         "'postgresql://u:sec?ret@127.0.0.1:1/d?connect_timeout=1'",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  sqlite3_close(queue);
+  const Outcome push = rondure({"history", "--push", "--queue", folder / "archive-queue.db"});
+  EXPECT_THAT(push.out, AllOf(HasSubstr("1 waits"), Not(HasSubstr("sec?ret"))));
+  EXPECT_THAT(push.err, Not(HasSubstr("sec?ret")));
   write_plan(folder / "plan.json", {{"/reports/archive", "postgresql://u:sec?ret@h/d"}});
   EXPECT_THAT(rondure({"validate", folder / "plan.json"}).err,
               AllOf(HasSubstr("~/.pgpass"), Not(HasSubstr("sec?ret"))));
