@@ -26,6 +26,7 @@ using ipp::Item;
 using ipp::client::error_of;
 using ipp::client::Reply;
 
+constexpr double kAfterMove_mm = 1.0;  // more than any window within which a move counts as done
 constexpr double kToReturn_mm = -1.0;  // PtMeasPar.Retract: back to the approach point
 
 std::vector<Item> coordinates(const Vector3d& p) {
@@ -40,7 +41,10 @@ IppMachine::IppMachine(Connect connect, IppMachineOptions options)
 core::Result<std::unique_ptr<IppMachine>> IppMachine::open(Connect connect,
                                                            const IppMachineOptions& options) {
   std::unique_ptr<IppMachine> out(new IppMachine(std::move(connect), options));
-  if (auto connected = out->connect(); !connected) return core::fail(connected.error());
+  // Whatever the error of the machine is about, nothing of the plan has been tried yet.
+  if (auto connected = out->connect(); !connected) {
+    return core::machine_fault(connected.error().what);
+  }
   return out;
 }
 
@@ -64,6 +68,8 @@ core::Result<void> IppMachine::connect() {
   if (!homed) return core::fail(homed.error());
   homed_ = *homed;
   next_touch_ = -1;
+  last_touch_.reset();
+  effective_radius_mm_.reset();
   point_known_ = false;
   const auto stands = dialogue_->position_W_mm();
   if (!stands) return core::fail(stands.error());
@@ -77,7 +83,10 @@ core::Result<void> IppMachine::read_part_temperature() {
   if (!identity_.has_temperatures) return {};
   const auto temperature = dialogue_->property("Part.Temperature");
   if (!temperature) return core::fail(temperature.error());
-  if (*temperature) temperature_degC_ = *temperature;
+  if (*temperature) {
+    if (auto sane = check_temperature("Part.Temperature", **temperature); !sane) return sane;
+    temperature_degC_ = *temperature;
+  }
   return {};
 }
 
@@ -209,7 +218,19 @@ core::Result<void> IppMachine::home() {
   if (auto fits = check_tool(); !fits) return fits;
   if (auto sent = send_speeds(); !sent) return sent;
   if (auto up = go_to(above); !up) return up;
-  return go_to(on_grid_mm(options_.park_W_mm));
+  const Vector3d park = on_grid_mm(options_.park_W_mm);
+  if (auto parked = go_to(park); !parked) return parked;
+  const auto parks = dialogue_->position_W_mm();
+  if (!parks) return core::fail(parks.error());
+  if (auto there = check_stands("the move", park, *parks, kAfterMove_mm); !there) {
+    return core::fail(distrust(there.error()));
+  }
+  return {};
+}
+
+core::Error IppMachine::distrust(const core::Error& error) {
+  dialogue_->hold(error.what);
+  return error;
 }
 
 core::Result<void> IppMachine::move_to(const Vector3d& tip_W_mm) {
@@ -257,7 +278,7 @@ core::Result<TouchReading> IppMachine::touch(const TouchCommand& given) {
   }
   next_touch_ = command.id < 0 ? -1 : command.id + 1;
   if (auto set = slow_down(false); !set) return core::fail(set.error());
-  const auto reading = reading_of(*reply);
+  const auto reading = reading_of(*reply, command);
   if (!reading) return core::fail(reading.error());
   if (!options_.returns_to_approach) {
     position_W_mm_ = reading->tip_W_mm - command.approach_mm * command.direction_W;
@@ -268,9 +289,31 @@ core::Result<TouchReading> IppMachine::touch(const TouchCommand& given) {
   return *reading;
 }
 
-core::Result<TouchReading> IppMachine::reading_of(const Reply& reply) {
+core::Result<void> IppMachine::check_point_of(const ipp::client::PointReport& point,
+                                              const TouchCommand& command) const {
+  auto sane = check_contact(command, point.tip_W_mm);
+  if (sane && last_touch_) {
+    sane = check_fresh(command, point.tip_W_mm, last_touch_->first, last_touch_->second);
+  }
+  if (sane && point.normal_W) sane = check_normal(*point.normal_W);
+  const double known_mm = effective_radius_mm_.value_or(options_.tip_radius_mm);
+  if (sane && point.tip_radius_mm && known_mm > 0.0) {
+    sane = check_tip_radius(*point.tip_radius_mm, known_mm, options_.tip_tolerance_mm);
+  }
+  return sane;
+}
+
+core::Result<TouchReading> IppMachine::reading_of(const Reply& reply, const TouchCommand& command) {
   const auto point = dialogue_->point_of(reply);
   if (!point) return core::fail(point.error());
+  if (auto sane = check_point_of(*point, command); !sane) return core::fail(distrust(sane.error()));
+  for (const auto& [name, degC] : {std::pair("Part.Temperature", point->temperature_degC),
+                                   std::pair("Scale.Temperature", point->scale_temperature_degC)}) {
+    if (!degC) continue;
+    if (auto sane = check_temperature(name, *degC); !sane) return core::fail(sane.error());
+  }
+  last_touch_ = {command, point->tip_W_mm};
+  if (!effective_radius_mm_) effective_radius_mm_ = point->tip_radius_mm;
   if (point->temperature_degC) temperature_degC_ = point->temperature_degC;
   if (point->time_s) server_time_s_ = *point->time_s;
   TouchReading out;
@@ -303,7 +346,10 @@ core::Result<void> IppMachine::recover() {
   if (auto cleared = dialogue_->clear(); !cleared) return cleared;
   const auto tool = dialogue_->active_tool();
   if (!tool) return core::fail(tool.error());
-  if (*tool != tool_) dialogue_->forget_properties();
+  if (*tool != tool_) {
+    dialogue_->forget_properties();
+    effective_radius_mm_.reset();
+  }
   tool_ = *tool;
   if (auto read = read_tool_radius(); !read) return read;
   const auto stands = dialogue_->position_W_mm();

@@ -5,7 +5,9 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -47,6 +49,9 @@ struct IppMachineOptions {
 /// Retract brings the tip back to the start of the search, which is one tip radius off where it
 /// does not. Up to then no touch is made that could collide under either reading. A contradiction
 /// is kMeaning. A server that refuses a negative Retract shows nothing: then PtMeas stays slow.
+///
+/// An answer that cannot belong to what was asked (touch_check.h) is kMachine and keeps every
+/// motion back until recover().
 ///
 /// What the server reports without having been asked, and what a daemon sends, is never taken for
 /// an answer. An error that only refuses a command is taken back; any other one (emergency stop,
@@ -149,11 +154,16 @@ class IppMachine final : public Machine {
                                                const TouchCommand& sent);
   /// A failed touch while the reading is not known.
   [[nodiscard]] core::Error with_point_advice(core::Error error) const;
-  [[nodiscard]] core::Result<TouchReading> reading_of(const ipp::client::Reply& reply);
+  [[nodiscard]] core::Result<TouchReading> reading_of(const ipp::client::Reply& reply,
+                                                      const TouchCommand& command);
+  /// Whether a point can be the answer to a touch (touch_check.h).
+  [[nodiscard]] core::Result<void> check_point_of(const ipp::client::PointReport& point,
+                                                  const TouchCommand& command) const;
+  /// Keeps the machine still after an answer that does not belong to what was asked: where its tip
+  /// stands is not known either. Gives the error.
+  [[nodiscard]] core::Error distrust(const core::Error& error);
   [[nodiscard]] core::Result<std::vector<TouchReading>> readings_of(
       const ipp::client::Reply& reply, const ScanCircleCommand& command);
-  [[nodiscard]] core::Result<void> check_scanned(const std::vector<Eigen::Vector3d>& tips,
-                                                 const ScanCircleCommand& command) const;
 
   Connect connect_;
   IppMachineOptions options_;
@@ -166,10 +176,13 @@ class IppMachine final : public Machine {
   std::optional<double> temperature_degC_;
   std::optional<double> scale_temperature_degC_;  ///< Of the last touch that came with one.
   std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
-  double server_time_s_ = 0.0;   ///< Of the last point.
-  double tool_radius_mm_ = 0.0;  ///< 0: neither machine nor plan tell one.
-  bool tool_scans_ = true;       ///< The active tool has Tool.ScanPar.
-  bool point_known_ = false;     ///< What the server means by a point was seen.
+  /// The touch before, and its answer.
+  std::optional<std::pair<TouchCommand, Eigen::Vector3d>> last_touch_;
+  std::optional<double> effective_radius_mm_;  ///< Of the first touch with this tool.
+  double server_time_s_ = 0.0;                 ///< Of the last point.
+  double tool_radius_mm_ = 0.0;                ///< 0: neither machine nor plan tell one.
+  bool tool_scans_ = true;                     ///< The active tool has Tool.ScanPar.
+  bool point_known_ = false;                   ///< What the server means by a point was seen.
   std::array<Eigen::Vector3d, 2> last_move_W_mm_ = {Eigen::Vector3d::Zero(),
                                                     Eigen::Vector3d::Zero()};  ///< From, to.
   std::int64_t next_touch_ = -1;  ///< As a simulator counts; -1: not known.

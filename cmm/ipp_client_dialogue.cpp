@@ -366,8 +366,14 @@ core::Result<void> Dialogue::set(std::span<const std::pair<std::string_view, dou
 core::Result<PointReport> Dialogue::point_of(const Reply& reply) const {
   const auto point = find_point(reply);
   if (!point) return core::fail(point.error());
-  return PointReport{*point, find_number(reply, "ER"), find_number(reply, "Part.Temperature"),
-                     find_number(reply, "Scale.Temperature"), find_number(reply, "Time")};
+  PointReport out;
+  out.tip_W_mm = *point;
+  out.tip_radius_mm = find_number(reply, "ER");
+  if (const Item* normal = find_value(reply, "IJK")) out.normal_W = vector_of(*normal);
+  out.temperature_degC = find_number(reply, "Part.Temperature");
+  out.scale_temperature_degC = find_number(reply, "Scale.Temperature");
+  out.time_s = find_number(reply, "Time");
+  return out;
 }
 
 }  // namespace rondure::cmm::ipp::client

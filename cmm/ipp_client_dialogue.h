@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -36,6 +37,7 @@ struct Identity {
 struct PointReport {
   Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();
   std::optional<double> tip_radius_mm;           ///< ER.
+  std::optional<Eigen::Vector3d> normal_W;       ///< IJK, where the server gives it unasked.
   std::optional<double> temperature_degC;        ///< Of the part.
   std::optional<double> scale_temperature_degC;  ///< Of the scales of the machine.
   std::optional<double> time_s;
@@ -100,6 +102,8 @@ class Dialogue {
 
   /// What the machine reports; "" when all is well.
   [[nodiscard]] const std::string& fault() const { return fault_; }
+  /// Keeps the machine still from here until clear().
+  void hold(std::string why) { fault_ = std::move(why); }
   /// Takes errors back: ClearAllErrors(). kMachine, with what the machine says, when one stays.
   [[nodiscard]] core::Result<void> clear();
   [[nodiscard]] Session& session() { return session_; }

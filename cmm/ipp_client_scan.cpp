@@ -23,6 +23,9 @@ using ipp::Item;
 using ipp::number_item;
 using ipp::client::Reply;
 
+/// Servers retract from the end of a scan by a length of their own.
+constexpr double kAfterScan_mm = 50.0;
+
 void append(std::vector<Item>& items, const Vector3d& v) {
   for (const double value : {v.x(), v.y(), v.z()}) items.push_back(number_item(value));
 }
@@ -79,9 +82,13 @@ core::Result<std::vector<TouchReading>> IppMachine::readings_of(const Reply& rep
   const auto tips = ipp::client::scan_points(reply);
   if (!tips) return core::fail(tips.error());
   next_touch_ = command.first_id + static_cast<std::int64_t>(tips->size());
-  if (auto sane = check_scanned(*tips, command); !sane) return core::fail(sane.error());
+  if (auto sane = check_scanned(command, *tips); !sane) return core::fail(distrust(sane.error()));
   const auto stands = dialogue_->position_W_mm();
   if (!stands) return core::fail(stands.error());
+  const TouchCommand end = scan_point(command, command.points);
+  if (auto there = check_stands("the scan", start_of(end), *stands, kAfterScan_mm); !there) {
+    return core::fail(distrust(there.error()));
+  }
   position_W_mm_ = on_grid_mm(*stands);
   // The points come without temperatures, and no touch may have given one for many circles.
   if (auto read = read_part_temperature(); !read) return core::fail(read.error());
@@ -96,26 +103,6 @@ core::Result<std::vector<TouchReading>> IppMachine::readings_of(const Reply& rep
     out.push_back(on_grid(reading));
   }
   return out;
-}
-
-core::Result<void> IppMachine::check_scanned(const std::vector<Vector3d>& tips,
-                                             const ScanCircleCommand& command) const {
-  if (tips.size() < 3) {
-    return core::machine_fault(fmt::format("the scan about {} gave {} points, {} were expected",
-                                           in_words(command.center_W_mm), tips.size(),
-                                           command.points));
-  }
-  // Servers put other columns first than those that were asked for.
-  const double off_mm = (tips.front() - command.start_tip_W_mm).norm();
-  const double allowed_mm = command.approach_mm + command.search_mm +
-                            std::abs(command.sweep_rad) / command.points *
-                                (command.start_tip_W_mm - command.center_W_mm).norm();
-  if (off_mm <= allowed_mm) return {};
-  return core::machine_fault(
-      fmt::format("the first point of the scan, {}, is {:.3f} mm from where the scan "
-                  "started, at most {:.3f} mm are possible: the columns of the scan report "
-                  "are not X, Y, Z",
-                  in_words(tips.front()), off_mm, allowed_mm));
 }
 
 core::Result<IppMachine::Alignment> IppMachine::align_part(const Alignment& target) {
@@ -135,6 +122,10 @@ core::Result<IppMachine::Alignment> IppMachine::align_part(const Alignment& targ
         fmt::format("turning the part: the machine answered with {} vectors instead of 2; "
                     "it needs two rotary axes (AlignPart with 14 numbers)",
                     reached.size()));
+  }
+  if (auto sane = check_turned({target.first_W, target.second_W}, {reached[0], reached[1]});
+      !sane) {
+    return core::fail(distrust(sane.error()));
   }
   return Alignment{reached[0], reached[1]};
 }

@@ -54,6 +54,8 @@ core::Result<void> IppMachine::take_tool(const std::string& name) {
                       fmt::format("{}; its tools: {}", changed.error().what, listed(tools)));
   }
   dialogue_->forget_properties();
+  last_touch_.reset();
+  effective_radius_mm_.reset();
   const auto active = dialogue_->active_tool();
   if (!active) return core::fail(active.error());
   tool_ = *active;

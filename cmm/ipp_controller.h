@@ -19,17 +19,8 @@
 
 namespace rondure::cmm::ipp {
 
-/// Where servers differ, ours can do either, for the sake of those who test their client.
-enum class Manner {
-  kSpecified,  ///< As I++ DME 1.4.3 says.
-  kSeen,       ///< As an independent server was seen: values in alphabetical order, the translation
-               ///< of PartCsy added, daemons and pending commands lost at AbortE, bare strings and
-               ///< vectors.
-};
-
 /// What a server is told to be. Values the machine cannot tell itself.
 struct ControllerOptions {
-  Manner manner = Manner::kSpecified;
   ParameterDefaults defaults;
   NamedPoint point = NamedPoint::kSurface;
   NumberForm numbers = NumberForm::kSixteenDigits;
@@ -166,8 +157,6 @@ class Controller {
   tl::expected<Eigen::Vector3d, Failure> position_argument(const Arguments& arguments,
                                                            bool direction_allowed);
   [[nodiscard]] tl::expected<void, Failure> ready_to_move();
-  [[nodiscard]] std::vector<std::string> in_order(std::vector<std::string> names) const;
-  [[nodiscard]] bool seen() const { return options_.manner == Manner::kSeen; }
 
   Backend& backend_;
   ControllerOptions options_;

@@ -58,6 +58,7 @@ cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t see
   out.temperature_degC = plan.simulation->temperature_degC;
   out.errors = machine_errors(*plan.simulation);
   out.part_errors = part_errors(plan.simulation->part);
+  out.scan_scatter = scan_scatter(plan.simulation->machine);
   out.seed = seed;
   if (!resumed) out.lost_at_touch = plan.simulation->faults.connection_lost_at_touch;
   return out;

@@ -290,6 +290,8 @@ TEST(IppRun, SaysWhatAStrangeServerSaid) {
       {"HTTP/1.1 400 Bad Request", "HTTP/1.1 400 Bad Request"},
       {"00001 &\r\n00001 ! Error(3, 0500, \"EndSession()\", \"Emergency stop\")\r\n00001 %",
        "opening a session: the machine says error 0500, severity 3: Emergency stop"},
+      {"00001 &\r\n00001 ! Error(3, 2504, \"EndSession()\", \"Collision\")\r\n00001 %",
+       "opening a session: the machine says error 2504, severity 3: Collision"},
       {"00001 &\r\n00001 ! Error(2, 0514, \"EndSession()\", \"Use ClearAllErrors\")\r\n00001 %",
        "did not acknowledge ClearAllErrors() within 0.3 s; is another client connected to it?; "
        "the last line from there: \"00001 %\"; before that the machine said error 0514, severity "

@@ -330,8 +330,8 @@ TEST(IppServer, ToolsAreFoundByName) {
 TEST(IppServer, BothReadingsOfTheTranslationAreThoseOfTheProtocolPage) {
   const CsyTransformation t = {{1.0, 2.0, 3.0}, 30.0, 40.0, 50.0};
   const Vector3d machine(10.0, 5.0, 2.0);
-  const Vector3d added = machine_to_csy(t, TranslationReading::kAdded) * machine;
-  const Vector3d subtracted = machine_to_csy(t, TranslationReading::kSubtracted) * machine;
+  const Vector3d added = machine_to_csy(t).linear() * machine + t.x0_mm;
+  const Vector3d subtracted = machine_to_csy(t) * machine;
   EXPECT_NEAR((added - Vector3d(7.03264, -7.13351, 6.03088)).norm(), 0.0, 1e-5);
   EXPECT_NEAR((subtracted - Vector3d(2.97485, -9.02111, 0.87745)).norm(), 0.0, 1e-5);
 }
