@@ -257,7 +257,7 @@ core::Result<TouchReading> IppMachine::touch(const TouchCommand& given) {
   }
   const TouchCommand command = on_grid(given);
   const TouchCommand sent = point_known_ ? command : for_either_reading(command);
-  const bool slow = !point_known_ && sent.approach_mm == command.approach_mm;
+  const bool slow = is_cautious() && sent.approach_mm == command.approach_mm;
   if (auto set = slow_down(slow); !set) return core::fail(set.error());
   if (auto set = set_touch_distances(sent); !set) return core::fail(set.error());
   if (auto told = number_touch(command.id); !told) return core::fail(told.error());

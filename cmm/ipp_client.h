@@ -140,6 +140,9 @@ class IppMachine final : public Machine {
   /// The point to name for a tip centre.
   [[nodiscard]] Eigen::Vector3d named_point(const Eigen::Vector3d& tip_W_mm,
                                             const Eigen::Vector3d& direction_W) const;
+  /// Whether a tip could come to harm by the other reading. A simulator has none to lose, and its
+  /// clock is to show the time of the planned path.
+  [[nodiscard]] bool is_cautious() const { return !point_known_ && !identity_.simulated; }
   /// The touch with distances that suit either reading.
   [[nodiscard]] TouchCommand for_either_reading(const TouchCommand& command) const;
   /// How far the tip has just come straight in along the line of the touch: this way is free.

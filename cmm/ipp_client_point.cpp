@@ -50,8 +50,7 @@ double IppMachine::came_along_mm(const TouchCommand& command) const {
 TouchCommand IppMachine::for_either_reading(const TouchCommand& command) const {
   TouchCommand out = command;
   if (!options_.returns_to_approach) return out;
-  // A simulator has no tip to lose, and its clock is to show the time of the planned way.
-  const bool free = !identity_.simulated && came_along_mm(command) >= tool_radius_mm_;
+  const bool free = is_cautious() && came_along_mm(command) >= tool_radius_mm_;
   if (options_.point == NamedPoint::kCenter) {
     out.search_mm += tool_radius_mm_;
   } else if (free) {

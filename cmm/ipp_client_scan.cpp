@@ -56,7 +56,7 @@ core::Result<std::vector<TouchReading>> IppMachine::scan_circle(const ScanCircle
   if (auto checked = check_touch(first, position_W_mm_); !checked) {
     return core::fail(checked.error());
   }
-  if (auto set = slow_down(!point_known_); !set) return core::fail(set.error());
+  if (auto set = slow_down(is_cautious()); !set) return core::fail(set.error());
   if (auto set = set_touch_distances(first); !set) return core::fail(set.error());
   const std::array<std::pair<std::string_view, double>, 1> retract = {
       {{"Tool.ScanPar.Retract", command.approach_mm}}};
