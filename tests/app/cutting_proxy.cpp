@@ -22,9 +22,11 @@ sockaddr_in local(std::uint16_t port) {
   return out;
 }
 
+// None of the sockets outlives the connection in a program that is started meanwhile (CLOEXEC).
+
 /// A socket that listens on a free port.
 int listening(std::uint16_t& port) {
-  const int handle = ::socket(AF_INET, SOCK_STREAM, 0);
+  const int handle = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in place = local(0);
   socklen_t size = sizeof(place);
   ::bind(handle, reinterpret_cast<const sockaddr*>(&place), size);
@@ -36,7 +38,7 @@ int listening(std::uint16_t& port) {
 
 /// A connected socket, or -1.
 int connected(std::uint16_t port) {
-  const int handle = ::socket(AF_INET, SOCK_STREAM, 0);
+  const int handle = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const sockaddr_in place = local(port);
   if (::connect(handle, reinterpret_cast<const sockaddr*>(&place), sizeof(place)) == 0) {
     const int at_once = 1;
@@ -96,7 +98,7 @@ void CuttingProxy::serve() {
   while (!ends_) {
     pollfd waiting = {listener_, POLLIN, 0};
     if (::poll(&waiting, 1, 20) <= 0) continue;
-    const int client = ::accept(listener_, nullptr, nullptr);
+    const int client = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
     const int server = connected(server_port_);
     const std::optional<WireFault> fault = take_fault();
     if (client >= 0 && server >= 0) {
