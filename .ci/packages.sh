@@ -3,7 +3,7 @@
 
 # git names the commit in rondure --version. SOCI's headers include Boost, its package does not depend on it.
 rondure_build_packages="g++ cmake ninja-build git libeigen3-dev nlohmann-json3-dev libexpected-dev libcli11-dev libfmt-dev
-  libasio-dev libsoci-dev libboost-dev libsqlite3-dev libssl-dev libfftw3-dev libcgal-dev
+  libasio-dev libsoci-dev libpq-dev libboost-dev libsqlite3-dev libssl-dev libfftw3-dev libcgal-dev
   pkg-config libusb-1.0-0-dev libceres-dev libpugixml-dev libcpp-httplib-dev libcairo2-dev libpango1.0-dev
   librsvg2-dev fonts-dejavu-core"
 rondure_test_packages="libgtest-dev libgmock-dev python3-jsonschema postgresql openssl libumockdev-dev umockdev
@@ -78,8 +78,7 @@ ensure_packages() {
     $sudo env DEBIAN_FRONTEND=noninteractive $proxies $apt update </dev/null
     $sudo env DEBIAN_FRONTEND=noninteractive $proxies $apt -o APT::Status-Fd=1 install -y --no-install-recommends $missing </dev/null
   } 2>&1 | tee -a "$log" |
-    sed -un 's/^Need to get \(.*\) of archives.$/0 Downloading \1/p
-             s/^dlstatus:[^:]*:\([0-9]*\)[^:]*:.*/\1 Downloading packages: \1 %/p
+    sed -un 's/^dlstatus:[^:]*:\([0-9]*\)[^:]*:.*/\1 Downloading packages: \1 %/p
              s/^pmstatus:\([^:]*\):\([0-9]*\)[^:]*:.*/\2 Installing packages: \2 % (\1)/p' | show_progress; then
     echo "Installing failed; nothing was built. Start again when the cause is gone; what was downloaded is kept." >&2
     explain_failure "$log" '^(E|Err)[:0-9]'

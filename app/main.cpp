@@ -336,8 +336,11 @@ void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
       ->type_name("FACTOR");
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
       ->check(check_seed);
-  verb->add_flag("--as-seen", arguments.as_seen,
-                 "Answers as another server was seen to where that differs from the specification");
+  verb->add_option("--silence-limit", arguments.silence_limit_s,
+                   "A client that says nothing for so long, while nothing moves, loses its place\n"
+                   "to the next one that connects (default: 60)")
+      ->check(check_factor)
+      ->type_name("SECONDS");
   verb->add_option("--wire-log", arguments.wire_log, "Every line both ways, added to this file")
       ->type_name("FILE");
   verb->footer(
@@ -458,7 +461,30 @@ void add_record(CLI::App& app, RecordArguments& arguments) {
       "it.\nWiring, kinds: docs/indicators.md");
 }
 
-void add_devices(CLI::App& app, DevicesArguments& arguments) {
+/// A limit of time that a person waits for.
+std::string check_patience(const std::string& text) {
+  const auto limit_s = core::parse_number(text);
+  if (limit_s && *limit_s >= 0.1 && *limit_s <= 600.0) return {};
+  return fmt::format("{} is no number from 0.1 to 600", text);
+}
+
+void add_server_device(CLI::App& devices_verb, ServerDeviceArguments& arguments) {
+  auto* verb = devices_verb.add_subcommand(
+      "ippdme", "Asks a machine behind I++ DME what it can; nothing moves");
+  verb->add_option("HOST:PORT", arguments.place, "Where it listens; without a port: 1294")
+      ->required();
+  verb->add_option("--limit", arguments.limit_s, "For each answer (default: 5)")
+      ->check(check_patience)
+      ->type_name("SECONDS");
+  verb->add_flag("--json", arguments.json, "JSON instead of text");
+  verb->footer(
+      "\nExample: rondure devices ippdme cmm.lab:1294\n"
+      "Says what the server can, what it lacks and what that means, and the keys of \"machine\" "
+      "for a\nplan. No motion, no homing, no tool change; a session of somebody else is not ended. "
+      "Exit status\n2 when nobody answers, or not as a machine of I++ DME. More: docs/ipp-dme.md");
+}
+
+CLI::App* add_devices(CLI::App& app, DevicesArguments& arguments) {
   auto* verb =
       app.add_subcommand("devices", "Fixtures, indicators and serial lines that are plugged in");
   verb->add_flag("--json", arguments.json, "JSON instead of text");
@@ -466,6 +492,8 @@ void add_devices(CLI::App& app, DevicesArguments& arguments) {
       "\nExample: rondure devices\n"
       "Nothing is claimed and nothing moves. Wiring, permissions: docs/fixtures.md, "
       "docs/indicators.md");
+  verb->require_subcommand(0, 1);
+  return verb;
 }
 
 void add_completion(CLI::App& app, std::string& shell) {
@@ -550,6 +578,7 @@ int main_of(int argc, char** argv) {
   SpindleArguments spindle_arguments;
   DesignArguments design_arguments;
   DevicesArguments devices_arguments;
+  ServerDeviceArguments server_arguments;
   RecordArguments record_arguments;
   WheelArguments wheel_arguments;
   ContourArguments contour_arguments;
@@ -577,7 +606,8 @@ int main_of(int argc, char** argv) {
   add_history(app, history_arguments);
   add_sign(app, sign_arguments);
   add_design_probes(app, design_arguments);
-  add_devices(app, devices_arguments);
+  CLI::App* const devices_verb = add_devices(app, devices_arguments);
+  add_server_device(*devices_verb, server_arguments);
   add_record(app, record_arguments);
   add_completion(app, shell);
   add_manual(app);
@@ -603,6 +633,7 @@ int main_of(int argc, char** argv) {
   if (app.got_subcommand("history")) return history(history_arguments);
   if (app.got_subcommand("design-probes")) return design_probes(design_arguments);
   if (app.got_subcommand("sign")) return sign(sign_arguments);
+  if (devices_verb->got_subcommand("ippdme")) return server_device(server_arguments);
   if (app.got_subcommand("devices")) return devices(devices_arguments);
   if (app.got_subcommand("record")) return record_readings(record_arguments);
   if (app.got_subcommand("completion")) return printed(completion_script(app, shell));

@@ -9,8 +9,10 @@
 #include "app/archive_step.h"
 #include "app/processor.h"
 #include "app/resumption.h"
+#include "app/shell_word.h"
 #include "app/sketch_style.h"
 #include "app/terminal.h"
+#include "plans/record_check.h"
 #include "record/files.h"
 #include "record/journal.h"
 #include "record/run_lock.h"
@@ -18,6 +20,7 @@
 #include "reports/evaluation.h"
 #include "reports/exports.h"
 #include "reports/language.h"
+#include "reports/verdict.h"
 #include "reports/writers.h"
 
 namespace rondure::app {
@@ -54,9 +57,20 @@ struct Told {
   reports::Evaluation evaluation;
 };
 
+core::Result<void> require_sound(const record::ReadJournal& read, const fs::path& directory) {
+  const std::vector<std::string> faults = record::faults_of(read);
+  if (!faults.empty()) {
+    return core::fail(core::Code::kJournal, faults.front(), directory.string());
+  }
+  auto checked = plans::check_record(read.record);
+  if (!checked) return core::fail(checked.error().at(directory.string()));
+  return {};
+}
+
 core::Result<Told> read_and_evaluate(const fs::path& directory) {
   auto read = record::read_journal(directory);
   if (!read) return core::fail(read.error());
+  if (auto sound = require_sound(*read, directory); !sound) return core::fail(sound.error());
   auto evaluation = reports::evaluate_run(read->record, directory, processor());
   if (!evaluation) return core::fail(evaluation.error());
   return Told{std::move(read->record), std::move(*evaluation)};
@@ -67,11 +81,8 @@ core::Result<Told> read_and_evaluate(const fs::path& directory) {
 core::Result<void> close_sealed(const fs::path& directory) {
   const auto read = record::read_journal(directory);
   if (!read) return core::fail(read.error());
-  if (read->broken.empty()) return record::Journal::finish_seal(directory);
-  return core::fail(core::Code::kJournal,
-                    fmt::format("table {} of the sealed journal was changed: {}",
-                                read->broken.front().table, read->broken.front().what),
-                    directory.string());
+  if (auto sound = require_sound(*read, directory); !sound) return sound;
+  return record::Journal::finish_seal(directory);
 }
 
 /// A sealed run with its reports may have died before it was archived.
@@ -81,13 +92,13 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
     tell(fmt::format(
         "rondure: the run in {} is finished and sealed; only its results had still to go to {}\n",
         directory.string(), archive.shown));
-    return exit_status(false, told.evaluation.verdict);
+  } else {
+    tell(fmt::format(
+        "rondure: the run in {} is finished and sealed, there is nothing to resume: {}; its "
+        "reports are there (again: rondure report {})\n",
+        directory.string(), reports::name_of(told.evaluation.verdict), quoted(directory.string())));
   }
-  tell(
-      fmt::format("rondure: the run in {} is finished and sealed, there is nothing to resume; its "
-                  "reports are there (again: rondure report {})\n",
-                  directory.string(), directory.string()));
-  return kBadInput;
+  return exit_status(false, told.evaluation.verdict);
 }
 
 /// To the terminal, and to the page, which would wait for a verdict that never comes.
@@ -137,7 +148,7 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
   }
   if (!arguments.quiet) {
     say(reports::write_summary(told->record, evaluation, sketch_style(), language));
-    for (const fs::path& file : written->files) say(file.string() + "\n");
+    for (const fs::path& file : written->files) say_line(file.string());
   }
   if (!failed) (void)archive_run(archive, directory, told->record, evaluation);
   return exit_status(failed, evaluation.verdict);

@@ -45,7 +45,8 @@ core::Result<void> StepPrompt::check_terminal(std::string_view what) {
 core::Result<void> StepPrompt::ask(const plans::NextMove& move) {
   if (!asking_ && !stop_requested()) return {};
   while (!stop_requested()) {
-    tell(line_of(move) + "\n  [Enter] go  [c] continue without asking  [q] stop: ");
+    tell(line_of(move) + "\n");
+    tell("  [Enter] go  [c] continue without asking  [q] stop: ");
     const std::string word = answer();
     if (word == "q") break;
     if (word == "c") asking_ = false;
@@ -57,7 +58,8 @@ core::Result<void> StepPrompt::ask(const plans::NextMove& move) {
 
 core::Result<void> ask_to_do(const std::string& what) {
   while (!stop_requested()) {
-    tell(what + "\n  [Enter] done  [q] stop: ");
+    tell(what + "\n");
+    tell("  [Enter] done  [q] stop: ");
     const std::string word = answer();
     if (word.empty()) return {};
     if (word == "q") break;

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -14,6 +15,7 @@
 
 #include "core/units.h"
 #include "record/files.h"
+#include "reports/text.h"
 
 namespace rondure::app {
 namespace {
@@ -47,6 +49,34 @@ std::string line_of(const plans::Progress& progress, double elapsed_s) {
   return out;
 }
 
+/// Text without control characters, but for line breaks, tabs and the colours of our own charts: a
+/// name that came with an escape sequence must not rule the terminal.
+std::string without_controls(std::string_view text) {
+  constexpr std::array<std::string_view, 2> kColours = {"\x1b[31m", "\x1b[0m"};
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::string_view rest = text.substr(i);
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto* colour = std::find_if(kColours.begin(), kColours.end(),
+                                      [&](std::string_view c) { return rest.starts_with(c); });
+    // U+0080..9F are controls too, some terminals obey them.
+    const bool high = byte == 0xC2 && rest.size() > 1 && static_cast<unsigned char>(rest[1]) < 0xA0;
+    if (colour != kColours.end()) {
+      out += *colour;
+      i += colour->size() - 1;
+    } else if (high || byte == 0x7F || (byte < 0x20 && byte != '\n' && byte != '\t')) {
+      out += '?';
+      i += high ? 1 : 0;
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
+
+void write_to_terminal(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
 }  // namespace
 
 void hold_standard_streams() {
@@ -60,8 +90,11 @@ void hold_standard_streams() {
 }
 
 void say(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) g_output_error = errno;
+  const std::string safe = without_controls(text);
+  if (std::fwrite(safe.data(), 1, safe.size(), stdout) != safe.size()) g_output_error = errno;
 }
+
+void say_line(std::string_view line) { say(reports::printable(line) + "\n"); }
 
 bool output_reached() {
   if (std::fflush(stdout) != 0 && g_output_error == 0) g_output_error = errno;
@@ -73,7 +106,11 @@ bool output_reached() {
   return false;
 }
 
-void tell(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+void tell(std::string_view line) {
+  const bool ends = line.ends_with('\n');
+  if (ends) line.remove_suffix(1);
+  write_to_terminal(reports::printable(line) + (ends ? "\n" : ""));
+}
 
 void complain(const core::Error& error) {
   // A file's name stands in the sentence already.
@@ -88,7 +125,7 @@ void complain(const std::vector<core::Error>& errors) {
 ProgressLine::ProgressLine(bool quiet) : visible_(!quiet && isatty(STDERR_FILENO) == 1) {}
 
 ProgressLine::~ProgressLine() {
-  if (drawn_) tell("\r\x1b[K");
+  if (drawn_) write_to_terminal("\r\x1b[K");
 }
 
 void ProgressLine::show(const plans::Progress& progress) {
@@ -97,8 +134,9 @@ void ProgressLine::show(const plans::Progress& progress) {
   if (drawn_ && now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
   drawn_ = true;
-  tell(fmt::format("\r{:.100}\x1b[K",
-                   line_of(progress, std::chrono::duration<double>(now - start_).count())));
+  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  write_to_terminal(
+      fmt::format("\r{:.100}\x1b[K", reports::printable(line_of(progress, elapsed_s))));
 }
 
 void listen_for_stop() {

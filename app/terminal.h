@@ -15,13 +15,17 @@ namespace rondure::app {
 /// full disk does, instead of a signal.
 void hold_standard_streams();
 
-/// Writes to standard output; whether that worked is asked once, by output_reached().
+/// Writes to standard output; whether that worked is asked once, by output_reached(). Control
+/// characters become "?", but for line breaks, tabs and the colours of a chart.
 void say(std::string_view text);
+/// The same for one line that holds a name: a line break in it becomes "?" as well.
+void say_line(std::string_view line);
 /// Flushes standard output. False when not everything got there, after a message that says why.
 [[nodiscard]] bool output_reached();
 
-/// Writes to standard error. Never fails: a terminal that went away must not stop a machine.
-void tell(std::string_view text);
+/// Writes one line to standard error, or a part without a line break at its end; control characters
+/// of names and devices become "?". Never fails: a terminal that went away must not stop a machine.
+void tell(std::string_view line);
 /// Prints one line an error on standard error.
 void complain(const core::Error& error);
 void complain(const std::vector<core::Error>& errors);

@@ -1,7 +1,11 @@
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "plans/record_check.h"
 #include "record/journal.h"
 #include "reports/evaluation.h"
 #include "reports/factor_study.h"
@@ -14,11 +18,15 @@ int compare(const CompareArguments& arguments) {
     complain(read.error());
     return kBadInput;
   }
-  for (const record::BrokenTable& broken : read->broken) {
-    tell(fmt::format("rondure: {}: table {} of the journal was changed after the run: {}\n",
-                     arguments.directory, broken.table, broken.what));
+  const std::vector<std::string> faults = record::faults_of(*read);
+  for (const std::string& fault : faults) {
+    tell(fmt::format("rondure: {}: {}\n", arguments.directory, fault));
   }
-  if (!read->broken.empty()) return kBadInput;
+  if (!faults.empty()) return kBadInput;
+  if (const auto checked = plans::check_record(read->record); !checked) {
+    complain(checked.error().at(arguments.directory));
+    return kBadInput;
+  }
   if (read->record.ending != "finished") {
     tell(
         fmt::format("rondure: {}: the run did not finish; its values are void, and what is said of "

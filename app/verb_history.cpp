@@ -9,6 +9,7 @@
 #include "app/archive_step.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "plans/record_check.h"
 #include "record/archive_queue.h"
 #include "record/files.h"
 #include "record/journal.h"
@@ -110,7 +111,7 @@ core::Result<void> write_csv(record::Archive& archive, const record::ArchiveFilt
   });
   if (!read) return read;
   if (auto written = record::write_file(arguments.csv, text); !written) return written;
-  say(arguments.csv + "\n");
+  say_line(arguments.csv);
   return {};
 }
 
@@ -119,7 +120,7 @@ core::Result<void> write_svg(const reports::RunChart& chart, const std::string& 
   if (auto written = record::write_file(file, reports::history_svg(chart)); !written) {
     return written;
   }
-  say(file + "\n");
+  say_line(file);
   return {};
 }
 
@@ -160,17 +161,17 @@ bool push_to(const record::ArchivePlace& place, const fs::path& queue) {
   const record::Delivery delivery = record::deliver(place, queue, nullptr, options);
   if (delivery.failure) complain(*delivery.failure);
   if (delivery.queue_failure) complain(*delivery.queue_failure);
-  say(fmt::format("{}: {} sent ({}), {}\n", place.shown,
-                  reports::count(delivery.sent, "run", "runs"),
-                  reports::count(delivery.results, "result", "results"),
-                  reports::count(delivery.waiting, "waits", "wait")));
+  say_line(fmt::format("{}: {} sent ({}), {}", place.shown,
+                       reports::count(delivery.sent, "run", "runs"),
+                       reports::count(delivery.results, "result", "results"),
+                       reports::count(delivery.waiting, "waits", "wait")));
   return !delivery.failure && !delivery.queue_failure;
 }
 
 int push(const record::ArchivePlace& place, const HistoryArguments& arguments) {
   std::error_code unknown;
   if (!fs::exists(arguments.queue, unknown)) {
-    say(fmt::format("nothing waits: there is no {}\n", arguments.queue));
+    say_line(fmt::format("nothing waits: there is no {}", arguments.queue));
     return kAllWell;
   }
   if (arguments.archive_given) return push_to(place, arguments.queue) ? kAllWell : kBadInput;
@@ -183,8 +184,14 @@ int push(const record::ArchivePlace& place, const HistoryArguments& arguments) {
   if (targets->empty()) say("nothing waits\n");
   bool well = true;
   for (const std::string& target : *targets) {
-    const auto waited_for = record::parse_archive_place(target);
-    well = waited_for && push_to(*waited_for, arguments.queue) && well;
+    auto waited_for = record::parse_archive_place(target);
+    if (!waited_for) {
+      complain(waited_for.error());
+      well = false;
+      continue;
+    }
+    waited_for->key = target;  // older programs may have kept a password in it
+    well = push_to(*waited_for, arguments.queue) && well;
   }
   return well ? kAllWell : kBadInput;
 }
@@ -192,12 +199,15 @@ int push(const record::ArchivePlace& place, const HistoryArguments& arguments) {
 core::Result<record::ArchiveRun> finished_run(const fs::path& directory) {
   const auto read = record::read_journal(directory);
   if (!read) return core::fail(read.error());
-  if (!read->record.sealed || !read->broken.empty()) {
-    return core::fail(
-        core::Code::kJournal,
-        fmt::format("{}: the run {}; only finished runs are archived", directory.string(),
-                    read->broken.empty() ? "did not finish" : "was changed after it"),
-        directory.string());
+  const std::vector<std::string> faults = record::faults_of(*read);
+  if (!read->record.sealed || !faults.empty()) {
+    return core::fail(core::Code::kJournal,
+                      fmt::format("{}: {}; only finished runs are archived", directory.string(),
+                                  faults.empty() ? "the run did not finish" : faults.front()),
+                      directory.string());
+  }
+  if (auto checked = plans::check_record(read->record); !checked) {
+    return core::fail(checked.error().at(directory.string()));
   }
   const auto evaluation = reports::evaluate(read->record);
   if (!evaluation) return core::fail(evaluation.error());
@@ -214,9 +224,9 @@ int add(record::Archive& archive, const std::vector<std::string>& directories) {
       status = kBadInput;
       continue;
     }
-    say(*added ? fmt::format("{}: {} added\n", directory,
-                             reports::count(run->results.size(), "result", "results"))
-               : fmt::format("{}: was in the archive already\n", directory));
+    say_line(*added ? fmt::format("{}: {} added", directory,
+                                  reports::count(run->results.size(), "result", "results"))
+                    : fmt::format("{}: was in the archive already", directory));
   }
   return status;
 }

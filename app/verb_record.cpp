@@ -138,7 +138,7 @@ int record_readings(const RecordArguments& arguments) {
   listen_for_stop();
   const auto done = record_all(arguments);
   if (done) {
-    say(arguments.out + "\n");
+    say_line(arguments.out);
     return kAllWell;
   }
   complain(done.error());

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -7,6 +8,7 @@
 #include "app/sketch_style.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "plans/record_check.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal.h"
@@ -34,11 +36,15 @@ int report(const ReportArguments& arguments) {
     complain(read.error());
     return kBadInput;
   }
-  for (const record::BrokenTable& broken : read->broken) {
-    tell(fmt::format("rondure: {}: table {} of the journal was changed after the run: {}\n",
-                     arguments.directory, broken.table, broken.what));
+  const std::vector<std::string> faults = record::faults_of(*read);
+  for (const std::string& fault : faults) {
+    tell(fmt::format("rondure: {}: {}\n", arguments.directory, fault));
   }
-  if (!read->broken.empty()) return kBadInput;
+  if (!faults.empty()) return kBadInput;
+  if (const auto checked = plans::check_record(read->record); !checked) {
+    complain(checked.error().at(arguments.directory));
+    return kBadInput;
+  }
   const auto evaluation = reports::evaluate_run(read->record, arguments.directory, processor());
   if (!evaluation) {
     complain(evaluation.error());
@@ -59,7 +65,7 @@ int report(const ReportArguments& arguments) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }
   say(reports::write_summary(read->record, *evaluation, sketch_style(), language));
-  for (const auto& file : written->files) say(file.string() + "\n");
+  for (const auto& file : written->files) say_line(file.string());
   const bool well = evaluation->verdict == reports::Verdict::kConforms ||
                     evaluation->verdict == reports::Verdict::kNotToleranced;
   return well ? kAllWell : kNotConforming;

@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,8 +15,10 @@
 #include "app/step_prompt.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "plans/json_text.h"
 #include "plans/plan.h"
 #include "plans/runner.h"
+#include "plans/utf8.h"
 #include "record/journal.h"
 
 namespace rondure::app {
@@ -122,6 +125,20 @@ core::Result<void> check_hand(const plans::Plan& plan) {
   return {};
 }
 
+/// Names of the command line stand in every report, as those of the plan do.
+core::Result<void> check_names(const RunArguments& arguments) {
+  for (const auto& [option, name] : {std::pair("--serial", &arguments.serial),
+                                     std::pair("--operator", &arguments.operator_name)}) {
+    const std::size_t at = plans::first_unshowable(*name);
+    if (at == name->size()) continue;
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("{} {} contains {}, which no report can show; remove it", option,
+                                  plans::in_quotes(*name), plans::unshowable_in_words(*name, at)),
+                      option);
+  }
+  return {};
+}
+
 /// Measures, and what follows.
 int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& options, bool resume) {
   auto run = measure(ending.plan, options, resume, ending.arguments);
@@ -137,6 +154,21 @@ int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& opt
   return status;
 }
 
+/// A finished run ends with its verdict only when it is the run that was asked for: of another part
+/// or plan its verdict says nothing.
+int conclude_finished(const RunToFinish& ending, const plans::RunOptions& options) {
+  const auto differences = plans::differences_from_run(ending.plan, options);
+  if (differences.empty()) return finish_sealed(ending);
+  if (differences.front().code == core::Code::kMeaning) {
+    tell(
+        fmt::format("rondure: the run in {} is finished, and began with something else; undo this, "
+                    "or name a new directory for another run:\n",
+                    options.directory.string()));
+  }
+  complain(differences);
+  return kBadInput;
+}
+
 /// The state of the run that is resumed; a run that is not resumed begins.
 core::Result<Resumption> look(const RunArguments& arguments) {
   return arguments.resume ? find_resumption(arguments) : Resumption{};
@@ -150,6 +182,10 @@ int run(const RunArguments& arguments) {
       complain(terminal.error());
       return kBadInput;
     }
+  }
+  if (auto sound = check_names(arguments); !sound) {
+    complain(sound.error());
+    return kBadInput;
   }
   const auto resumption = look(arguments);
   if (!resumption) {
@@ -178,7 +214,7 @@ int run(const RunArguments& arguments) {
   }
   RunToFinish ending{arguments, *plan, *archive, options.directory};
   listen_for_stop();
-  if (resumption->state == Resumption::State::kFinished) return finish_sealed(ending);
+  if (resumption->state == Resumption::State::kFinished) return conclude_finished(ending, options);
   const bool resume = resumption->state == Resumption::State::kGoesOn;
   if (arguments.resume && !resume && !arguments.quiet) {
     tell(fmt::format("rondure: {} holds no run yet; it begins\n", options.directory.string()));

@@ -5,6 +5,7 @@
 #include "app/processor.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "plans/record_check.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/signature.h"
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 bool verifies(const fs::path& directory) {
   reports::VerifyOptions options;
   options.processor = processor();
+  options.check = plans::check_record;
   const auto outcome = reports::verify_run(directory, options);
   if (!outcome) {
     complain(outcome.error());
@@ -54,7 +56,7 @@ int sign(const SignArguments& arguments) {
     complain(file.error());
     return kBadInput;
   }
-  say(file->string() + "\n");
+  say_line(file->string());
   return kAllWell;
 }
 

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -39,7 +40,6 @@ std::string greeting(const SimulateCmmArguments& arguments, plans::ServedCell& c
 cmm::ipp::ServerOptions options_of(const SimulateCmmArguments& arguments, const plans::Plan& plan) {
   cmm::ipp::ServerOptions out = plans::server_options(plan);
   out.speed = arguments.speed;
-  if (arguments.as_seen) out.controller.manner = cmm::ipp::Manner::kSeen;
   return out;
 }
 
@@ -63,6 +63,8 @@ int serve(const SimulateCmmArguments& arguments, const plans::Plan& plan) {
   service.stop_requested = stop_requested;
   service.tell = [](std::string_view line) { tell(fmt::format("rondure: {}\n", line)); };
   service.wire_log = arguments.wire_log;
+  service.silence_limit =
+      std::chrono::milliseconds(std::llround(1000.0 * arguments.silence_limit_s));
   if (auto served = cmm::ipp::serve(*listener, server, service); !served) {
     complain(served.error());
     return kBadInput;

@@ -14,9 +14,9 @@ int validate(const ValidateArguments& arguments) {
                      plan.error().size() == 1 ? "" : "s"));
     return kBadInput;
   }
-  say(fmt::format("{}: valid; {} {}, {} feature{}\n", arguments.plan, plan->plan.name,
-                  plan->plan.revision, plan->features.size(),
-                  plan->features.size() == 1 ? "" : "s"));
+  say_line(fmt::format("{}: valid; {} {}, {} feature{}", arguments.plan, plan->plan.name,
+                       plan->plan.revision, plan->features.size(),
+                       plan->features.size() == 1 ? "" : "s"));
   return kAllWell;
 }
 

@@ -3,6 +3,7 @@
 #include "app/processor.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "plans/record_check.h"
 #include "record/files.h"
 #include "reports/verify.h"
 
@@ -11,6 +12,7 @@ namespace rondure::app {
 int verify(const VerifyArguments& arguments) {
   reports::VerifyOptions options;
   options.processor = processor();
+  options.check = plans::check_record;
   if (!arguments.key.empty()) {
     const auto key = record::read_file(arguments.key);
     if (!key) {
@@ -26,10 +28,11 @@ int verify(const VerifyArguments& arguments) {
     return kBadInput;
   }
   for (const std::string& difference : outcome->differences)
-    say(fmt::format("not equal: {}\n", difference));
-  if (!outcome->differences.empty()) return kNotConforming;
-  say(fmt::format("equal: {}\n", outcome->what_was_compared));
-  return kAllWell;
+    say_line(fmt::format("not equal: {}", difference));
+  const bool equal = outcome->differences.empty();
+  if (equal) say(fmt::format("equal: {}\n", outcome->what_was_compared));
+  for (const std::string& note : outcome->notes) say_line(fmt::format("note: {}", note));
+  return equal ? kAllWell : kNotConforming;
 }
 
 }  // namespace rondure::app

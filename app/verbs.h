@@ -60,8 +60,8 @@ struct SimulateCmmArguments {
   std::string address = "127.0.0.1";
   double speed = 1.0;  ///< Simulated seconds in a second; infinity: no waiting.
   std::optional<std::uint64_t> seed;
-  bool as_seen = false;  ///< Answers as an independent server does where that differs.
-  std::string wire_log;  ///< File; empty: none.
+  double silence_limit_s = 60.0;  ///< Of a client; then another one takes its place.
+  std::string wire_log;           ///< File; empty: none.
 };
 [[nodiscard]] int simulate_cmm(const SimulateCmmArguments& arguments);
 
@@ -208,5 +208,13 @@ struct DevicesArguments {
   bool json = false;
 };
 [[nodiscard]] int devices(const DevicesArguments& arguments);
+
+struct ServerDeviceArguments {
+  std::string place;     ///< HOST or HOST:PORT.
+  double limit_s = 5.0;  ///< For the connection and for each answer.
+  bool json = false;
+};
+/// A short conversation with a server of I++ DME in which nothing moves.
+[[nodiscard]] int server_device(const ServerDeviceArguments& arguments);
 
 }  // namespace rondure::app

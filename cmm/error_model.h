@@ -119,6 +119,18 @@ struct MachineErrors {
   double drift_time_s = 3600.0;  ///< Its time constant, > 0.
 };
 
+/// How the points of a simulated scan lie: a real one gives about the step that was asked for, on
+/// average. All zero: even steps from the commanded start on.
+struct ScanScatter {
+  double start_rad = 0.0;      ///< The first point lies at most so far beside the start; uniform.
+  double step_1 = 0.0;         ///< Each step is longer or shorter by at most this share; uniform.
+  double dropped_share = 0.0;  ///< Share of the points that are missing, 0..1.
+
+  [[nodiscard]] bool even() const {
+    return start_rad == 0.0 && step_1 == 0.0 && dropped_share == 0.0;
+  }
+};
+
 /// Hidden thermal expansion of, and dust on, a simulated part.
 struct PartErrors {
   double expansion_1_K = 0.0;

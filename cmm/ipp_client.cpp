@@ -26,6 +26,7 @@ using ipp::Item;
 using ipp::client::error_of;
 using ipp::client::Reply;
 
+constexpr double kAfterMove_mm = 1.0;  // more than any window within which a move counts as done
 constexpr double kToReturn_mm = -1.0;  // PtMeasPar.Retract: back to the approach point
 
 std::vector<Item> coordinates(const Vector3d& p) {
@@ -40,7 +41,10 @@ IppMachine::IppMachine(Connect connect, IppMachineOptions options)
 core::Result<std::unique_ptr<IppMachine>> IppMachine::open(Connect connect,
                                                            const IppMachineOptions& options) {
   std::unique_ptr<IppMachine> out(new IppMachine(std::move(connect), options));
-  if (auto connected = out->connect(); !connected) return core::fail(connected.error());
+  // Whatever the error of the machine is about, nothing of the plan has been tried yet.
+  if (auto connected = out->connect(); !connected) {
+    return core::machine_fault(connected.error().what);
+  }
   return out;
 }
 
@@ -48,7 +52,8 @@ core::Result<void> IppMachine::connect() {
   auto line = connect_();
   if (!line) return core::fail(line.error());
   dialogue_ = std::make_unique<ipp::client::Dialogue>(
-      std::move(*line), ipp::client::SessionOptions{options_.answer_limit, options_.abort_works},
+      std::move(*line),
+      ipp::client::SessionOptions{options_.answer_limit, options_.abort_works, options_.numbers},
       options_.answer_limit);
   dialogue_->session().ask_for_stop([this] { return is_stop_wanted(); });
   auto identity = dialogue_->start();
@@ -57,31 +62,50 @@ core::Result<void> IppMachine::connect() {
   const auto tool = dialogue_->active_tool();
   if (!tool) return core::fail(tool.error());
   tool_ = *tool;
+  if (auto named = check_named(options_.tool); !named) return named;  // before anything moves
+  if (auto read = read_tool_radius(); !read) return read;
   const auto homed = dialogue_->is_homed();
   if (!homed) return core::fail(homed.error());
   homed_ = *homed;
   next_touch_ = -1;
+  last_touch_.reset();
+  effective_radius_mm_.reset();
+  point_known_ = false;
   const auto stands = dialogue_->position_W_mm();
   if (!stands) return core::fail(stands.error());
   position_W_mm_ = on_grid_mm(*stands);
+  temperature_degC_.reset();
+  if (auto read = read_part_temperature(); !read) return read;
+  return read_speed_limits();
+}
+
+core::Result<void> IppMachine::read_part_temperature() {
+  if (!identity_.has_temperatures) return {};
   const auto temperature = dialogue_->property("Part.Temperature");
   if (!temperature) return core::fail(temperature.error());
-  temperature_degC_ = *temperature;
-  return read_speed_limits();
+  if (*temperature) {
+    if (auto sane = check_temperature("Part.Temperature", **temperature); !sane) return sane;
+    temperature_degC_ = *temperature;
+  }
+  return {};
 }
 
 std::string IppMachine::description() const {
   return fmt::format(
-      "I++ DME {} machine {} at {}, tool {}, touch speed {:.7g} mm/s{}", identity_.version,
+      "I++ DME {} machine {} at {}, tool {}, touch speed {:.7g} mm/s{}{}", identity_.version,
       identity_.machine_class.empty() ? "of unknown class" : identity_.machine_class,
       dialogue_->session().peer(), options_.tool.empty() ? tool_ : options_.tool,
-      options_.speeds.touch_mm_s, knows_temperature() ? "" : ", gives no part temperature");
+      options_.speeds.touch_mm_s, knows_temperature() ? "" : ", gives no part temperature",
+      options_.returns_to_approach
+          ? ""
+          : ", which point its PtMeas means cannot be checked (retract by distance)");
 }
 
 Capabilities IppMachine::capabilities() const {
   Capabilities out;
   out.name = identity_.machine_class.empty() ? "I++ DME machine" : identity_.machine_class;
-  out.scans_circles = identity_.scans;
+  out.scans_circles = identity_.scans && tool_scans_;
+  out.no_scans = identity_.scans ? "its tool has no Tool.ScanPar" : identity_.no_scans;
   out.least = least_;
   out.greatest = greatest_;
   out.tools = identity_.tools;
@@ -163,6 +187,7 @@ core::Result<void> IppMachine::go_to(const Vector3d& tip_W_mm) {
   const auto moved = run("GoTo", coordinates(tip_W_mm), (tip_W_mm - position_W_mm_).norm(),
                          fmt::format("the move to {}", in_words(tip_W_mm)));
   if (!moved) return core::fail(moved.error());
+  last_move_W_mm_ = {position_W_mm_, tip_W_mm};
   position_W_mm_ = tip_W_mm;
   return {};
 }
@@ -193,7 +218,19 @@ core::Result<void> IppMachine::home() {
   if (auto fits = check_tool(); !fits) return fits;
   if (auto sent = send_speeds(); !sent) return sent;
   if (auto up = go_to(above); !up) return up;
-  return go_to(on_grid_mm(options_.park_W_mm));
+  const Vector3d park = on_grid_mm(options_.park_W_mm);
+  if (auto parked = go_to(park); !parked) return parked;
+  const auto parks = dialogue_->position_W_mm();
+  if (!parks) return core::fail(parks.error());
+  if (auto there = check_stands("the move", park, *parks, kAfterMove_mm); !there) {
+    return core::fail(distrust(there.error()));
+  }
+  return {};
+}
+
+core::Error IppMachine::distrust(const core::Error& error) {
+  dialogue_->hold(error.what);
+  return error;
 }
 
 core::Result<void> IppMachine::move_to(const Vector3d& tip_W_mm) {
@@ -219,10 +256,14 @@ core::Result<TouchReading> IppMachine::touch(const TouchCommand& given) {
     return core::fail(checked.error());
   }
   const TouchCommand command = on_grid(given);
-  if (auto set = set_touch_distances(command); !set) return core::fail(set.error());
+  const TouchCommand sent = point_known_ ? command : for_either_reading(command);
+  const bool slow = is_cautious() && sent.approach_mm == command.approach_mm;
+  if (auto set = slow_down(slow); !set) return core::fail(set.error());
+  if (auto set = set_touch_distances(sent); !set) return core::fail(set.error());
   if (auto told = number_touch(command.id); !told) return core::fail(told.error());
   const Vector3d start = position_W_mm_;
-  std::vector<Item> items = coordinates(command.expected_tip_W_mm);
+  std::vector<Item> items =
+      coordinates(named_point(command.expected_tip_W_mm, command.direction_W));
   items.push_back(call_item("IJK", Vector3d(-command.direction_W)));
   const auto reply = run("PtMeas", std::move(items), command.approach_mm + command.search_mm,
                          fmt::format("the touch at {}", in_words(command.expected_tip_W_mm)));
@@ -231,22 +272,48 @@ core::Result<TouchReading> IppMachine::touch(const TouchCommand& given) {
     const bool goes_back = reply.error().code == core::Code::kNoTouch;
     if (goes_back) {
       if (auto back = go_to(start); !back) return core::fail(back.error());
+      if (auto set = slow_down(false); !set) return core::fail(set.error());
     }
-    return core::fail(reply.error());
+    return core::fail(with_point_advice(reply.error()));
   }
   next_touch_ = command.id < 0 ? -1 : command.id + 1;
-  const auto reading = reading_of(*reply);
+  if (auto set = slow_down(false); !set) return core::fail(set.error());
+  const auto reading = reading_of(*reply, command);
   if (!reading) return core::fail(reading.error());
   if (!options_.returns_to_approach) {
     position_W_mm_ = reading->tip_W_mm - command.approach_mm * command.direction_W;
     if (auto back = go_to(start); !back) return core::fail(back.error());
+  } else if (!point_known_) {
+    if (auto same = check_point(command, sent); !same) return core::fail(same.error());
   }
   return *reading;
 }
 
-core::Result<TouchReading> IppMachine::reading_of(const Reply& reply) {
+core::Result<void> IppMachine::check_point_of(const ipp::client::PointReport& point,
+                                              const TouchCommand& command) const {
+  auto sane = check_contact(command, point.tip_W_mm);
+  if (sane && last_touch_) {
+    sane = check_fresh(command, point.tip_W_mm, last_touch_->first, last_touch_->second);
+  }
+  if (sane && point.normal_W) sane = check_normal(*point.normal_W);
+  const double known_mm = effective_radius_mm_.value_or(options_.tip_radius_mm);
+  if (sane && point.tip_radius_mm && known_mm > 0.0) {
+    sane = check_tip_radius(*point.tip_radius_mm, known_mm, options_.tip_tolerance_mm);
+  }
+  return sane;
+}
+
+core::Result<TouchReading> IppMachine::reading_of(const Reply& reply, const TouchCommand& command) {
   const auto point = dialogue_->point_of(reply);
   if (!point) return core::fail(point.error());
+  if (auto sane = check_point_of(*point, command); !sane) return core::fail(distrust(sane.error()));
+  for (const auto& [name, degC] : {std::pair("Part.Temperature", point->temperature_degC),
+                                   std::pair("Scale.Temperature", point->scale_temperature_degC)}) {
+    if (!degC) continue;
+    if (auto sane = check_temperature(name, *degC); !sane) return core::fail(sane.error());
+  }
+  last_touch_ = {command, point->tip_W_mm};
+  if (!effective_radius_mm_) effective_radius_mm_ = point->tip_radius_mm;
   if (point->temperature_degC) temperature_degC_ = point->temperature_degC;
   if (point->time_s) server_time_s_ = *point->time_s;
   TouchReading out;
@@ -279,8 +346,12 @@ core::Result<void> IppMachine::recover() {
   if (auto cleared = dialogue_->clear(); !cleared) return cleared;
   const auto tool = dialogue_->active_tool();
   if (!tool) return core::fail(tool.error());
-  if (*tool != tool_) dialogue_->forget_properties();
+  if (*tool != tool_) {
+    dialogue_->forget_properties();
+    effective_radius_mm_.reset();
+  }
   tool_ = *tool;
+  if (auto read = read_tool_radius(); !read) return read;
   const auto stands = dialogue_->position_W_mm();
   if (!stands) return core::fail(stands.error());
   position_W_mm_ = on_grid_mm(*stands);

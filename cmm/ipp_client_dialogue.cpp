@@ -1,6 +1,7 @@
 #include "cmm/ipp_client_dialogue.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
@@ -50,6 +51,9 @@ std::string told(const Reply& reply) {
   }
   return out;
 }
+
+/// The first issue whose points and parts have temperatures.
+constexpr double kFirstWithTemperatures = 1.5;
 
 /// Whether an answer to the first command reports more than the error state or session of a client
 /// before: what a person has to see and put right before a session is tried.
@@ -233,6 +237,7 @@ core::Result<std::string> Dialogue::version() {
 core::Result<void> Dialogue::choose_reports(Identity& identity) {
   bool chosen = false;
   for (const std::size_t length : kReportLengths) {
+    if (length > 4 && !identity.has_temperatures) continue;
     std::vector<Item> items;
     for (std::size_t i = 0; i < length; ++i) items.push_back(call_item(kPointReport[i]));
     const auto taken = ask_if_known("OnPtMeasReport", std::move(items));
@@ -243,9 +248,16 @@ core::Result<void> Dialogue::choose_reports(Identity& identity) {
     break;
   }
   if (!chosen) return core::machine_fault("the machine cannot report X, Y and Z of a probed point");
+  const auto parameters = tool_may_have("ScanPar");
+  if (!parameters) return core::fail(parameters.error());
+  if (!*parameters) {
+    identity.no_scans = "its tool has no Tool.ScanPar";
+    return {};
+  }
   const auto scans = ask_if_known("OnScanReport", {call_item("X"), call_item("Y"), call_item("Z")});
   if (!scans) return core::fail(scans.error());
   identity.scans = scans->has_value();
+  if (!identity.scans) identity.no_scans = "it does not take OnScanReport";
   return {};
 }
 
@@ -271,11 +283,36 @@ core::Result<Identity> Dialogue::start() {
       }
     }
   }
+  const auto simulated = is_simulator();
+  if (!simulated) return core::fail(simulated.error());
+  out.simulated = *simulated;
+  out.has_temperatures =
+      out.simulated || std::strtod(out.version.c_str(), nullptr) >= kFirstWithTemperatures;
   if (auto chosen = choose_reports(out); !chosen) return core::fail(chosen.error());
+  return out;
+}
+
+core::Result<bool> Dialogue::is_simulator() {
+  const auto has_id = tool_may_have("\"Id\"");
+  if (!has_id) return core::fail(has_id.error());
+  if (!*has_id) return false;
+  const auto id = ask_if_known("GetProp", {call_item("Tool.Id")});
+  if (!id) return core::fail(id.error());
+  if (!*id || word_of(**id) != kSimulatorId) return false;
   const auto simulated = property("Simulation.NextTouch");
   if (!simulated) return core::fail(simulated.error());
-  out.simulated = simulated->has_value();
-  return out;
+  return simulated->has_value();
+}
+
+core::Result<bool> Dialogue::tool_may_have(std::string_view name) {
+  if (!tool_list_) {
+    const auto list = ask_if_known("EnumAllProp", {call_item("Tool")});
+    if (!list) return core::fail(list.error());
+    tool_list_ = *list ? told(**list) : "";
+  }
+  // A list without the parameters of a touch is none: no tool is active, or it is not all there.
+  const bool whole = tool_list_->find("PtMeasPar") != std::string::npos;
+  return !whole || tool_list_->find(name) != std::string::npos;
 }
 
 core::Result<Eigen::Vector3d> Dialogue::position_W_mm() {
@@ -292,6 +329,8 @@ core::Result<bool> Dialogue::is_homed() {
 
 core::Result<std::string> Dialogue::active_tool() {
   const auto reply = ask("GetProp", {call_item("Tool.Name")});
+  const bool none = !reply && reply.error().report.number == kToolNotDefined;
+  if (none) return std::string();
   if (!reply) return core::fail(error_of(reply.error(), "asking for the tool"));
   const std::string name = word_of(*reply);
   return name == "NoTool" || name == "UnDefTool" ? std::string() : name;
@@ -327,8 +366,14 @@ core::Result<void> Dialogue::set(std::span<const std::pair<std::string_view, dou
 core::Result<PointReport> Dialogue::point_of(const Reply& reply) const {
   const auto point = find_point(reply);
   if (!point) return core::fail(point.error());
-  return PointReport{*point, find_number(reply, "ER"), find_number(reply, "Part.Temperature"),
-                     find_number(reply, "Scale.Temperature"), find_number(reply, "Time")};
+  PointReport out;
+  out.tip_W_mm = *point;
+  out.tip_radius_mm = find_number(reply, "ER");
+  if (const Item* normal = find_value(reply, "IJK")) out.normal_W = vector_of(*normal);
+  out.temperature_degC = find_number(reply, "Part.Temperature");
+  out.scale_temperature_degC = find_number(reply, "Scale.Temperature");
+  out.time_s = find_number(reply, "Time");
+  return out;
 }
 
 }  // namespace rondure::cmm::ipp::client

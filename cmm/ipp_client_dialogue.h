@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,6 +26,8 @@ struct Identity {
   std::string machine_class;       ///< "CartCMMWithRotaryTable"; "" of a server that cannot say.
   std::vector<std::string> tools;  ///< Without the reserved names that measure nothing.
   bool scans = false;              ///< It takes a scan report.
+  std::string no_scans;            ///< Why not.
+  bool has_temperatures = false;   ///< It may know those of part and scales.
   bool tells_temperature = false;  ///< Points come with the temperature of the part,
   bool tells_time = false;         ///< and with the time of the machine's clock [s].
   bool simulated = false;          ///< It is rondure simulate-cmm.
@@ -34,6 +37,7 @@ struct Identity {
 struct PointReport {
   Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();
   std::optional<double> tip_radius_mm;           ///< ER.
+  std::optional<Eigen::Vector3d> normal_W;       ///< IJK, where the server gives it unasked.
   std::optional<double> temperature_degC;        ///< Of the part.
   std::optional<double> scale_temperature_degC;  ///< Of the scales of the machine.
   std::optional<double> time_s;
@@ -72,7 +76,8 @@ class Dialogue {
   /// The same for a motion: with its own time limit, and ended when a stop is asked for.
   [[nodiscard]] Outcome<Reply> move(std::string_view method, std::vector<Item> arguments,
                                     Milliseconds limit);
-  /// As ask(); nothing when the server does not know the command, argument or property.
+  /// As ask(); nothing when the server does not know the command, argument or property, or does
+  /// not without a tool.
   [[nodiscard]] core::Result<std::optional<Reply>> ask_if_known(std::string_view method,
                                                                 std::vector<Item> arguments);
 
@@ -84,13 +89,21 @@ class Dialogue {
   [[nodiscard]] core::Result<std::optional<double>> property(std::string_view name);
   /// Sets properties that have not these values already. kOutOfRange when the server clamps one.
   [[nodiscard]] core::Result<void> set(std::span<const std::pair<std::string_view, double>> values);
-  /// A tool change gives the properties their own values again.
-  void forget_properties() { known_.clear(); }
+  /// Whether the active tool may have a property or block of properties; false where the server
+  /// lists those it has, and this one is not among them. Asked so that a server need not refuse.
+  [[nodiscard]] core::Result<bool> tool_may_have(std::string_view name);
+  /// A tool change gives the properties their own values again, and may give others.
+  void forget_properties() {
+    known_.clear();
+    tool_list_.reset();
+  }
 
   [[nodiscard]] core::Result<PointReport> point_of(const Reply& reply) const;
 
   /// What the machine reports; "" when all is well.
   [[nodiscard]] const std::string& fault() const { return fault_; }
+  /// Keeps the machine still from here until clear().
+  void hold(std::string why) { fault_ = std::move(why); }
   /// Takes errors back: ClearAllErrors(). kMachine, with what the machine says, when one stays.
   [[nodiscard]] core::Result<void> clear();
   [[nodiscard]] Session& session() { return session_; }
@@ -101,12 +114,14 @@ class Dialogue {
   [[nodiscard]] core::Result<void> check_state();
   [[nodiscard]] core::Result<std::string> version();
   [[nodiscard]] core::Result<void> choose_reports(Identity& identity);
+  [[nodiscard]] core::Result<bool> is_simulator();
   /// Takes back a refusal, keeps anything else as the fault.
   void settle(const Failure& failure);
 
   Session session_;
   Milliseconds limit_;
   std::map<std::string, double, std::less<>> known_;  ///< Properties as set from here.
+  std::optional<std::string> tool_list_;  ///< What EnumAllProp(Tool()) told, as it came.
   std::string fault_;
   bool started_ = false;
 };

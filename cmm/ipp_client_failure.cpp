@@ -49,7 +49,7 @@ constexpr auto kRefusals = std::to_array<int>({
 
 constexpr auto kUnknown =
     std::to_array<int>({kUnsupportedCommand, kIncorrectArguments, kNotRecognized, kNotSupported,
-                        kIllegalCommand, kBadArgument, kBadProperty});
+                        kIllegalCommand, kBadArgument, kBadProperty, kToolNotDefined});
 
 /// What a person can do about an error number.
 std::string_view advice(int number) {

@@ -38,7 +38,9 @@ Outcome<Tag> Session::send(const Command& command) {
     return tl::unexpected(Failure{Failure::Kind::kLine, broken_.empty() ? "closed" : broken_, {}});
   }
   const std::string text = method_text(command);
-  if (auto sent = line_->write_line(to_line(command)); !sent) return break_off(sent.error().what);
+  if (auto sent = line_->write_line(to_line(command, options_.numbers)); !sent) {
+    return break_off(sent.error().what);
+  }
   running_[to_text(command.tag)].text = text;
   return command.tag;
 }
@@ -75,6 +77,13 @@ Outcome<Reply> Session::finish(const Tag& tag, Milliseconds limit, Watch watch) 
 Outcome<Reply> Session::result_of(const Tag& tag) {
   const auto node = running_.extract(to_text(tag));
   Running& running = node.mapped();
+  if (severe_ && !tag.event) {
+    const ErrorReport report = *std::exchange(severe_, std::nullopt);
+    (void)take_unsolicited();
+    std::string what = in_words(report) + ", without having been asked";
+    if (running.error) what += fmt::format("; and to the command {}", in_words(*running.error));
+    return tl::unexpected(Failure{Failure::Kind::kServer, std::move(what), report});
+  }
   if (running.aborted) {
     return tl::unexpected(Failure{
         Failure::Kind::kStopped, fmt::format("{} was stopped", excerpt(running.text, kShown)), {}});
@@ -111,9 +120,9 @@ Outcome<void> Session::abort() {
 
 Outcome<bool> Session::wait(const std::function<bool()>& done, Clock::time_point deadline,
                             Watch watch) {
-  const bool watches = watch == Watch::kStop && stop_ && options_.abort_works;
+  const bool watches = watch == Watch::kStop && options_.abort_works;
   while (!done()) {
-    if (watches && stop_()) {
+    if (watches && (severe_ || (stop_ && stop_()))) {
       if (auto stopped = abort(); !stopped) return tl::unexpected(stopped.error());
       continue;
     }
@@ -170,6 +179,7 @@ Outcome<void> Session::take(const wire::Line& line) {
 void Session::take_unsolicited_line(const Response& response) {
   if (response.kind != Response::Kind::kError) return;  // key presses, manual points
   unsolicited_ = in_words(response.error);
+  if (response.error.severity >= kErrorState && !severe_) severe_ = response.error;
 }
 
 std::string Session::take_unsolicited() { return std::exchange(unsolicited_, {}); }

@@ -43,12 +43,15 @@ using Outcome = tl::expected<T, Failure>;
 struct SessionOptions {
   std::chrono::milliseconds answer_limit{5000};  ///< For & after a command, and for AbortE.
   bool abort_works = true;  ///< false: a server whose AbortE is broken; motions run to their end.
+  NumberForm numbers = NumberForm::kSixteenDigits;  ///< Of commands.
 };
 
 /// The client's half of an I++ DME connection: commands with their tags, answers sorted by tag.
 ///
 /// One command is in flight at a time (begin() and finish() allow more). Lines of daemons, of
-/// unsolicited events (E0000) and with tags of old commands are never taken for an answer. The end
+/// unsolicited events (E0000) and with tags of old commands are never taken for an answer. An
+/// unsolicited error of severity 2 or more fails the command that is under way, or the next one,
+/// whatever is answered to it; a motion is ended by AbortE. The end
 /// of AbortE ends every older command, whether the server says so or not. A line that is no answer
 /// of I++ DME, an answer that does not come in time and a lost connection end the session: what
 /// moves then is stopped by AbortE where the line still stands, and every later call gives the
@@ -119,9 +122,10 @@ class Session {
   std::map<std::string, Running> running_;  ///< By tag.
   int last_tag_ = 0;
   int last_event_tag_ = 0;
-  std::string broken_;       ///< Why the session ended; "" while it goes on.
-  std::string unsolicited_;  ///< The last E0000 error.
-  std::string heard_;        ///< The beginning of the last line that was one of I++ DME.
+  std::string broken_;                 ///< Why the session ended; "" while it goes on.
+  std::string unsolicited_;            ///< The last E0000 error.
+  std::optional<ErrorReport> severe_;  ///< The first of severity 2 or more that failed no command.
+  std::string heard_;                  ///< The beginning of the last line that was one of I++ DME.
 };
 
 }  // namespace rondure::cmm::ipp::client

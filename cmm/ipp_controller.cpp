@@ -88,11 +88,6 @@ bool Controller::is_homed() {
   return status && status->homed;
 }
 
-std::vector<std::string> Controller::in_order(std::vector<std::string> names) const {
-  if (seen()) std::sort(names.begin(), names.end());
-  return names;
-}
-
 Outcome Controller::get_version(const Arguments& arguments) {
   if (!arguments.empty()) return wrong_arguments("()");
   return one_line(call_item("DMEVersion", {string_item(options_.version)}));
@@ -102,7 +97,7 @@ Outcome Controller::get_machine_class(const Arguments& arguments) {
   if (!arguments.empty()) return wrong_arguments("()");
   const std::string_view name =
       backend_.table_angles_deg().empty() ? "CartCMM" : "CartCMMWithRotaryTable";
-  return one_line(call_item("GetMachineClass", {seen() ? string_item(name) : name_item(name)}));
+  return one_line(call_item("GetMachineClass", {name_item(name)}));
 }
 
 Outcome Controller::is_homed_query(const Arguments& arguments) {
@@ -168,10 +163,7 @@ Outcome Controller::set_coord_system(const Arguments& arguments) {
                    fmt::format("the coordinate system {} is not there", name));
   }
   csy_ = name;
-  X_CW_ = name == "MachineCsy"
-              ? Eigen::Isometry3d::Identity()
-              : machine_to_csy(part_csy_, seen() ? TranslationReading::kAdded
-                                                 : TranslationReading::kSubtracted);
+  X_CW_ = name == "MachineCsy" ? Eigen::Isometry3d::Identity() : machine_to_csy(part_csy_);
   return Reply{};
 }
 

@@ -13,23 +13,17 @@
 #include "cmm/ipp_backend.h"
 #include "cmm/ipp_frames.h"
 #include "cmm/ipp_grammar.h"
+#include "cmm/ipp_named_point.h"
 #include "cmm/ipp_parameters.h"
 #include "cmm/machine.h"
 
 namespace rondure::cmm::ipp {
 
-/// Where servers differ, ours can do either, for the sake of those who test their client.
-enum class Manner {
-  kSpecified,  ///< As I++ DME 1.4.3 says.
-  kSeen,       ///< As an independent server was seen: values in alphabetical order, the translation
-               ///< of PartCsy added, daemons and pending commands lost at AbortE, bare strings and
-               ///< vectors.
-};
-
 /// What a server is told to be. Values the machine cannot tell itself.
 struct ControllerOptions {
-  Manner manner = Manner::kSpecified;
   ParameterDefaults defaults;
+  NamedPoint point = NamedPoint::kSurface;
+  NumberForm numbers = NumberForm::kSixteenDigits;
   double tip_radius_mm = 2.0;      ///< Tool.AvrRadius().
   double temperature_degC = 20.0;  ///< Of the part, until the first touch has told it.
   std::string version = "1.4";     ///< GetDMEVersion().
@@ -66,8 +60,9 @@ struct Motion {
 /// What a server knows and does, without tags, queues and time: tools, properties, coordinate
 /// systems, reports, and how a command becomes a motion of the machine.
 ///
-/// Positions are of the centre of the tip. PtMeas(X, Y, Z, IJK) searches from
-/// (X,Y,Z) + Approach * IJK toward (X,Y,Z) - Search * IJK; ScanOnCircle probes its start point
+/// Positions are of the centre of the tip. PtMeas(X, Y, Z, IJK) expects the surface, or by
+/// ControllerOptions::point the tip centre, at (X,Y,Z), searches from Approach * IJK before the
+/// tip centre expected at contact to Search * IJK behind it; ScanOnCircle probes its start point
 /// likewise and then expects the tip on the circle through it.
 class Controller {
  public:
@@ -144,6 +139,9 @@ class Controller {
   tl::expected<Motion, Failure> plan_touch(const Arguments& arguments);
   tl::expected<Motion, Failure> plan_scan(const Arguments& arguments);
   tl::expected<Motion, Failure> plan_align(const Arguments& arguments);
+  /// The tip centre in contact where a command names the point.
+  [[nodiscard]] Eigen::Vector3d tip_at(const Eigen::Vector3d& named_W_mm,
+                                       const Eigen::Vector3d& direction_W) const;
   Motion touch_motion(const TouchCommand& touch);
   Motion scan_motion(const ScanCircleCommand& scan);
   [[nodiscard]] std::vector<double> report_values(const std::string& name,
@@ -159,8 +157,6 @@ class Controller {
   tl::expected<Eigen::Vector3d, Failure> position_argument(const Arguments& arguments,
                                                            bool direction_allowed);
   [[nodiscard]] tl::expected<void, Failure> ready_to_move();
-  [[nodiscard]] std::vector<std::string> in_order(std::vector<std::string> names) const;
-  [[nodiscard]] bool seen() const { return options_.manner == Manner::kSeen; }
 
   Backend& backend_;
   ControllerOptions options_;

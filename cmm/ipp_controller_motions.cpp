@@ -143,11 +143,17 @@ tl::expected<Motion, Failure> Controller::plan_touch(const Arguments& arguments)
     return refusal(kNoNorm, "the direction of the touch has no length");
   }
   TouchCommand touch;
-  touch.expected_tip_W_mm = *nominal;
   touch.direction_W = direction_on_grid(-outward_W);
+  touch.expected_tip_W_mm = tip_at(*nominal, touch.direction_W);
   touch.approach_mm = parameters_.act("PtMeasPar.Approach");
   touch.search_mm = parameters_.act("PtMeasPar.Search");
   return touch_motion(touch);
+}
+
+Vector3d Controller::tip_at(const Vector3d& named_W_mm, const Vector3d& direction_W) const {
+  if (options_.point == NamedPoint::kCenter) return named_W_mm;
+  // On the grid: a client that came from a tip centre there has its bits back.
+  return on_grid_mm(named_W_mm - options_.tip_radius_mm * direction_W);
 }
 
 Motion Controller::touch_motion(const TouchCommand& touch) {
@@ -197,9 +203,19 @@ tl::expected<Motion, Failure> Controller::plan_scan(const Arguments& arguments) 
   const Eigen::Isometry3d X_WC = X_CW_.inverse();
   ScanCircleCommand scan;
   scan.center_W_mm = X_WC * three(*n, 0);
-  scan.start_tip_W_mm = X_WC * three(*n, 3);
   scan.axis_W = direction_on_grid(X_WC.linear() * normal);
   scan.inside = surface_deg == 180.0;
+  const Vector3d start_W_mm = X_WC * three(*n, 3);
+  Vector3d outward_W = (scan.inside ? -1.0 : 1.0) * (start_W_mm - scan.center_W_mm);
+  outward_W -= scan.axis_W * scan.axis_W.dot(outward_W);
+  const bool fits = !scan.inside || options_.point == NamedPoint::kCenter ||
+                    outward_W.norm() > options_.tip_radius_mm;
+  if (!has_direction(outward_W) || !fits) {
+    return refusal(kBadArgument, fmt::format("a tip of radius {:g} mm does not fit into a circle "
+                                             "of radius {:g} mm",
+                                             options_.tip_radius_mm, outward_W.norm()));
+  }
+  scan.start_tip_W_mm = tip_at(start_W_mm, -outward_W.normalized());
   scan.sweep_rad = delta_deg * core::kDegree;
   scan.points = static_cast<int>(count);
   scan.approach_mm = parameters_.act("PtMeasPar.Approach");

@@ -28,7 +28,7 @@ tl::expected<std::vector<Item>, Failure> Controller::position_report(
   const std::vector<double> angles_deg = backend_.table_angles_deg();
   std::vector<Item> out;
   if (names.size() > kMaxNames) return refusal(kIncorrectArguments, "too many names");
-  for (const std::string& name : in_order(names)) {
+  for (const std::string& name : names) {
     if (name == "X" || name == "Y" || name == "Z") {
       out.push_back(call_item(name, {p_mm[name[0] - 'X']}));
     } else if (name == "R" && !angles_deg.empty()) {
@@ -106,12 +106,7 @@ Reply Controller::align_reply(const std::vector<Alignment>& wanted,
   out.lines.emplace_back();
   for (std::size_t i = 0; i < reached.size() && i < wanted.size(); ++i) {
     const Vector3d& v = reached[i];
-    const Item vector = call_item("", v);
-    if (seen()) {
-      out.lines[0].push_back(vector);
-    } else {
-      out.lines[0].insert(out.lines[0].end(), vector.arguments.begin(), vector.arguments.end());
-    }
+    for (const double value : {v.x(), v.y(), v.z()}) out.lines[0].push_back(number_item(value));
     const double off_deg =
         std::atan2(v.cross(wanted[i].machine).norm(), v.dot(wanted[i].machine)) / core::kDegree;
     if (limits_deg[i] > 0.0 && off_deg > limits_deg[i]) out.report = kNotAligned;
@@ -144,7 +139,7 @@ std::vector<double> Controller::report_values(const std::string& name, const Tou
 Reply Controller::touch_reply(const TouchReading& reading, const Vector3d& direction_W) const {
   Reply out;
   out.lines.emplace_back();
-  for (const std::string& name : in_order(touch_report_)) {
+  for (const std::string& name : touch_report_) {
     std::vector<Item> values;
     for (const double value : report_values(name, reading, direction_W)) {
       values.push_back(number_item(value));
@@ -156,12 +151,11 @@ Reply Controller::touch_reply(const TouchReading& reading, const Vector3d& direc
 
 Reply Controller::scan_reply(const std::vector<TouchReading>& readings) const {
   Reply out;
-  const std::vector<std::string> columns = in_order(scan_report_);
   for (const TouchReading& reading : readings) {
-    if (out.lines.empty() || out.lines.back().size() + columns.size() > kNumbersInALine) {
+    if (out.lines.empty() || out.lines.back().size() + scan_report_.size() > kNumbersInALine) {
       out.lines.emplace_back();
     }
-    for (const std::string& name : columns) {
+    for (const std::string& name : scan_report_) {
       out.lines.back().push_back(number_item(report_values(name, reading, {})[0]));
     }
   }

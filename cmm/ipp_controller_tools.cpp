@@ -103,7 +103,8 @@ std::optional<Item> Controller::property(const std::string& name) const {
     const std::string_view rest =
         std::string_view(name).substr(found ? kFoundTool.size() : kTool.size());
     const std::string& tool = found ? found_tool_ : tool_;
-    if (rest == "Name" || rest == "Id") {
+    if (rest == "Id") return call_item(name, {string_item(kSimulatorId)});
+    if (rest == "Name") {
       return call_item(name, {string_item(tool.empty() ? kNoTool : std::string_view(tool))});
     }
     if (rest == "AvrRadius") return number(tool.empty() ? 0.0 : options_.tip_radius_mm);

@@ -4,8 +4,7 @@
 
 namespace rondure::cmm::ipp {
 
-Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation,
-                                 TranslationReading reading) {
+Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation) {
   using Eigen::AngleAxisd;
   using Eigen::Vector3d;
   // The axes turn, hence the coordinates of a fixed point turn the other way.
@@ -16,9 +15,7 @@ Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation,
           .toRotationMatrix();
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
   out.linear() = axes.transpose();
-  out.translation() = reading == TranslationReading::kAdded
-                          ? transformation.x0_mm
-                          : Vector3d(-(out.linear() * transformation.x0_mm));
+  out.translation() = -(out.linear() * transformation.x0_mm);
   return out;
 }
 

@@ -12,14 +12,9 @@ struct CsyTransformation {
   double phi_deg = 0.0;
 };
 
-/// The specification contradicts itself on the translation, and servers follow either reading.
-enum class TranslationReading {
-  kSubtracted,  ///< (A)  x_csy = R (x_machine - x0): the chapter on machines, and VDMA 8722.
-  kAdded,       ///< (B)  x_csy = R x_machine + x0: the description of the command.
-};
-
-/// Maps the machine frame to the system: turn about z by psi, the new x by theta, the new z by phi.
-[[nodiscard]] Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation,
-                                               TranslationReading reading);
+/// Maps the machine frame to the system: turn about z by psi, the new x by theta, the new z by phi,
+/// x_csy = R (x_machine - x0). So reads the chapter on machines, and VDMA 8722; the description of
+/// the command in 1.4.3 reads x_csy = R x_machine + x0, and servers follow either.
+[[nodiscard]] Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation);
 
 }  // namespace rondure::cmm::ipp

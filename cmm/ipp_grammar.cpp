@@ -51,7 +51,7 @@ tl::expected<Command, Refusal> parse_command(std::string_view line) {
     return refuse(kIllegalCommand, *tag, fmt::format("there is no method {}", out.method));
   }
   if (!tag->event && is_event_method(out.method)) {
-    return refuse(kIllegalTag, {}, fmt::format("{} needs an event tag", out.method));
+    return refuse(kIllegalTag, *tag, fmt::format("{} needs an event tag", out.method));
   }
   auto arguments = reader.read_arguments(1);
   if (!arguments) return refuse(arguments.error().number, *tag, std::move(arguments.error().what));
@@ -62,12 +62,13 @@ tl::expected<Command, Refusal> parse_command(std::string_view line) {
   return out;
 }
 
-std::string method_text(const Command& command) {
-  return fmt::format("{}({})", command.method, to_text(std::span<const Item>(command.arguments)));
+std::string method_text(const Command& command, NumberForm form) {
+  return fmt::format("{}({})", command.method,
+                     to_text(std::span<const Item>(command.arguments), form));
 }
 
-std::string to_line(const Command& command) {
-  return fmt::format("{} {}", to_text(command.tag), method_text(command));
+std::string to_line(const Command& command, NumberForm form) {
+  return fmt::format("{} {}", to_text(command.tag), method_text(command, form));
 }
 
 }  // namespace rondure::cmm::ipp

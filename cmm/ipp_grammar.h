@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <tl/expected.hpp>
 
+#include "cmm/ipp_numbers.h"
 #include "core/result.h"
 
 /// I++ DME, the language between a measuring program and a coordinate measuring machine, as text.
@@ -21,6 +22,9 @@
 namespace rondure::cmm::ipp {
 
 inline constexpr std::uint16_t kDefaultPort = 1294;
+/// Tool.Id() of rondure simulate-cmm, whatever tool is active: a client knows it by this without
+/// asking for anything that other servers do not have.
+inline constexpr std::string_view kSimulatorId = "rondure simulate-cmm";
 inline constexpr std::size_t kMaxLineLength = 65536;  ///< Characters, without CR LF.
 inline constexpr int kMaxDepth = 8;                   ///< Of parentheses in parentheses.
 inline constexpr std::size_t kTagLength = 5;
@@ -69,9 +73,10 @@ struct Item {
 /// As it stands on the wire. Numbers as wire_number(). A string cannot hold a double quote and has
 /// no escapes: a double quote becomes a single one, what is not ASCII 32..126 becomes "?", and an
 /// empty string, which the grammar forbids, one space.
-[[nodiscard]] std::string to_text(const Item& item);
+[[nodiscard]] std::string to_text(const Item& item, NumberForm form = NumberForm::kSixteenDigits);
 /// Joined by ", "; bare numbers by "," as in scan data.
-[[nodiscard]] std::string to_text(std::span<const Item> items);
+[[nodiscard]] std::string to_text(std::span<const Item> items,
+                                  NumberForm form = NumberForm::kSixteenDigits);
 
 /// The call with this name, or null. Reports come back in any order: match by name.
 [[nodiscard]] const Item* find_call(std::span<const Item> items, std::string_view name);
@@ -93,9 +98,11 @@ struct Command {
   friend bool operator==(const Command&, const Command&) = default;
 };
 
-[[nodiscard]] std::string to_line(const Command& command);
+[[nodiscard]] std::string to_line(const Command& command,
+                                  NumberForm form = NumberForm::kSixteenDigits);
 /// The command without its tag.
-[[nodiscard]] std::string method_text(const Command& command);
+[[nodiscard]] std::string method_text(const Command& command,
+                                      NumberForm form = NumberForm::kSixteenDigits);
 
 /// Why a line is no command.
 struct Refusal {
@@ -142,7 +149,8 @@ struct Response {
 
 [[nodiscard]] std::string ack_line(const Tag& tag);
 [[nodiscard]] std::string complete_line(const Tag& tag);
-[[nodiscard]] std::string data_line(const Tag& tag, std::span<const Item> items);
+[[nodiscard]] std::string data_line(const Tag& tag, std::span<const Item> items,
+                                    NumberForm form = NumberForm::kSixteenDigits);
 [[nodiscard]] std::string error_line(const Tag& tag, const ErrorReport& error);
 
 /// Reads a line from a server, liberally: bare strings and vectors, an unquoted method or a number

@@ -16,12 +16,13 @@ int to_int(std::string_view digits) {
   return value;
 }
 
-void append(std::string& out, const Item& item);
+void append(std::string& out, const Item& item, NumberForm form);
 
-void append(std::string& out, std::span<const Item> items, std::string_view between) {
+void append(std::string& out, std::span<const Item> items, std::string_view between,
+            NumberForm form) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (i > 0) out += between;
-    append(out, items[i]);
+    append(out, items[i], form);
   }
 }
 
@@ -38,10 +39,10 @@ void append_string(std::string& out, std::string_view contents) {
   out += '"';
 }
 
-void append(std::string& out, const Item& item) {
+void append(std::string& out, const Item& item, NumberForm form) {
   switch (item.kind) {
     case Item::Kind::kNumber:
-      out += wire_number(item.number);
+      out += wire_number(item.number, form);
       return;
     case Item::Kind::kString:
       append_string(out, item.text);
@@ -53,7 +54,7 @@ void append(std::string& out, const Item& item) {
     case Item::Kind::kVector:
       out += item.text;
       out += '(';
-      append(out, item.arguments, ",");
+      append(out, item.arguments, ",", form);
       out += ')';
       return;
   }
@@ -111,17 +112,17 @@ Item call_item(std::string_view name, const Eigen::Vector3d& values) {
   return call_item(name, {values.x(), values.y(), values.z()});
 }
 
-std::string to_text(const Item& item) {
+std::string to_text(const Item& item, NumberForm form) {
   std::string out;
-  append(out, item);
+  append(out, item, form);
   return out;
 }
 
-std::string to_text(std::span<const Item> items) {
+std::string to_text(std::span<const Item> items, NumberForm form) {
   const bool bare = std::all_of(items.begin(), items.end(),
                                 [](const Item& item) { return item.kind == Item::Kind::kNumber; });
   std::string out;
-  append(out, items, bare ? "," : ", ");
+  append(out, items, bare ? "," : ", ", form);
   return out;
 }
 

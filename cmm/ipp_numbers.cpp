@@ -10,6 +10,7 @@ namespace rondure::cmm::ipp {
 namespace {
 
 constexpr int kDigits = 16;
+constexpr std::size_t kCharacters = 16;
 
 std::size_t skip_digits(std::string_view text, std::size_t at) {
   while (at < text.size() && is_digit(text[at])) ++at;
@@ -43,9 +44,8 @@ std::ptrdiff_t digits_of(std::string_view text) {
   return std::count_if(text.begin(), text.end(), is_digit);
 }
 
-}  // namespace
-
-std::string wire_number(double value) {
+/// At most 16 digits.
+std::string in_digits(double value) {
   std::string text = core::shortest(value + 0.0);  // + 0.0: no negative zero
   if (digits_of(text) <= kDigits) return text;
   std::array<char, 32> rounded{};
@@ -57,6 +57,21 @@ std::string wire_number(double value) {
   const auto short_end = std::to_chars(rounded.data(), rounded.data() + rounded.size(), value,
                                        std::chars_format::scientific, kDigits - 1);
   return {rounded.data(), short_end.ptr};
+}
+
+}  // namespace
+
+std::string wire_number(double value, NumberForm form) {
+  std::string text = in_digits(value);
+  std::array<char, 32> rounded{};
+  for (int digits = kDigits - 1;
+       form == NumberForm::kSixteenCharacters && text.size() > kCharacters && digits > 0;
+       --digits) {
+    const auto end = std::to_chars(rounded.data(), rounded.data() + rounded.size(), value,
+                                   std::chars_format::general, digits);
+    text.assign(rounded.data(), end.ptr);
+  }
+  return text;
 }
 
 std::optional<double> read_number(std::string_view text, int max_digits) {

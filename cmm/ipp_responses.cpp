@@ -109,8 +109,8 @@ std::string ack_line(const Tag& tag) { return to_text(tag) + " &"; }
 
 std::string complete_line(const Tag& tag) { return to_text(tag) + " %"; }
 
-std::string data_line(const Tag& tag, std::span<const Item> items) {
-  return fmt::format("{} # {}", to_text(tag), to_text(items));
+std::string data_line(const Tag& tag, std::span<const Item> items, NumberForm form) {
+  return fmt::format("{} # {}", to_text(tag), to_text(items, form));
 }
 
 std::string error_line(const Tag& tag, const ErrorReport& error) {

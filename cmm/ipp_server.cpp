@@ -173,7 +173,9 @@ void Server::end_phase() {
 
 void Server::conclude(const Waiting& waiting, const Outcome& outcome) {
   if (outcome) {
-    for (const std::vector<Item>& line : outcome->lines) say(data_line(waiting.tag, line));
+    for (const std::vector<Item>& line : outcome->lines) {
+      say(data_line(waiting.tag, line, controller_.options().numbers));
+    }
     if (outcome->report != 0) report(waiting, outcome->report);
   } else {
     report(waiting, outcome.error().number);

@@ -46,8 +46,7 @@ Server::Outcome Server::execute(const Command& command) {
 
 Server::Outcome Server::start_session(const Command&) {
   if (session_) {
-    const bool seen = controller_.options().manner == Manner::kSeen;
-    return refusal(seen ? kIllegalCommand : kProtocolError, "a session is open already");
+    return refusal(kProtocolError, "a session is open already");
   }
   session_ = true;
   error_.reset();
@@ -125,15 +124,13 @@ void Server::receive_event(const Waiting& waiting, double now_s) {
 }
 
 void Server::abort_all(const Waiting& waiting, double now_s) {
-  const bool seen = controller_.options().manner == Manner::kSeen;
   if (running_) {
     const Waiting stopped = running_->waiting;
     stop_running(now_s);
     report(stopped, kAborted);
     say(complete_line(stopped.tag));
   }
-  abort_waiting(seen);
-  if (seen) daemons_.clear();
+  abort_waiting(false);
   if (!error_) error_ = Failure{kAborted, "stopped by AbortE"};
   say(complete_line(waiting.tag));
 }
@@ -181,7 +178,7 @@ void Server::report_moves(double now_s) {
     if (!(moved_mm > 0.0) || since_s < kLeastInterval_s) continue;
     if (since_s < daemon.interval_s && moved_mm < daemon.distance_mm) continue;
     const auto values = controller_.position_report(daemon.names, tip_W_mm);
-    if (values) say(data_line(daemon.tag, *values));
+    if (values) say(data_line(daemon.tag, *values, controller_.options().numbers));
     daemon.last_s = now_s;
     daemon.last_W_mm = tip_W_mm;
   }

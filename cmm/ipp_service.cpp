@@ -39,51 +39,78 @@ core::Result<void> send_all(wire::LineTransport& client, Server& server) {
 }
 
 /// Takes the next line, if one comes in time, and does what is due.
-core::Result<void> serve_once(wire::LineTransport& client, Server& server) {
+/// @return  Whether the client said something.
+core::Result<bool> serve_once(wire::LineTransport& client, Server& server) {
   auto line = client.read_line(waits(server));
   if (!line) return core::fail(line.error());
-  if (*line) {
+  const bool said = line->has_value();
+  if (said) {
     const auto fault = (*line)->crlf ? RawLine::Fault::kNone : RawLine::Fault::kLineEnd;
     server.receive({std::move((*line)->text), fault}, now_s());
   }
   server.advance(now_s());
-  return send_all(client, server);
+  if (auto sent = send_all(client, server); !sent) return core::fail(sent.error());
+  return said;
 }
 
-void send_away(wire::LineTransport& other, const std::string& present) {
-  const std::string why =
-      fmt::format("this server has a client already, {}; it takes one at a time", present);
+void send_away(wire::LineTransport& client, const std::string& why) {
   [[maybe_unused]] const auto told =
-      other.write_line(error_line(kUnsolicited, error_report(kBadContext, why)));
-  other.close();
+      client.write_line(error_line(kUnsolicited, error_report(kBadContext, why)));
+  client.close();
 }
 
-/// Until the client goes or a stop is requested; why it went.
-std::string serve_client(wire::TcpListener& listener, wire::LineTransport& client, Server& server,
-                         const ServiceOptions& options) {
+/// How the time of a client ended.
+struct Departure {
+  std::string why;
+  std::unique_ptr<wire::LineTransport> next;  ///< Who takes the place; null: nobody yet.
+};
+
+/// Until the client goes, loses its place or a stop is requested.
+Departure serve_client(wire::TcpListener& listener, wire::LineTransport& client, Server& server,
+                       const ServiceOptions& options) {
+  const double limit_s = std::chrono::duration<double>(options.silence_limit).count();
   double looked_s = now_s();
+  double active_s = looked_s;  // the client said something, or what it asked for moved
   while (!options.stop_requested()) {
-    if (auto served = serve_once(client, server); !served) return served.error().what;
+    const auto said = serve_once(client, server);
+    if (!said) return {said.error().what, nullptr};
+    if (*said || server.next_event_s()) active_s = now_s();
     if (now_s() - looked_s < std::chrono::duration<double>(kLook).count()) continue;
     looked_s = now_s();
     auto other = listener.accept(milliseconds(0));
     if (!other || *other == nullptr) continue;
+    // The first one may have closed just before: its program ended, and the other is the next one.
+    const auto there = serve_once(client, server);
+    if (!there) return {there.error().what, std::move(*other)};
+    if (*there) active_s = now_s();
+    const double silent_s = now_s() - active_s;
+    if (silent_s >= limit_s) {
+      send_away(client,
+                fmt::format("silent for {:.0f} s; another client takes its place", silent_s));
+      return {fmt::format("it was silent for {:.0f} s and {} came", silent_s, (*other)->peer()),
+              std::move(*other)};
+    }
     options.tell(fmt::format("{} was sent away: {} is connected", (*other)->peer(), client.peer()));
-    send_away(**other, client.peer());
+    send_away(**other, fmt::format("this server has a client already, {}, silent for {:.0f} s; it "
+                                   "takes one at a time, another one after {:g} s of silence",
+                                   client.peer(), silent_s, limit_s));
   }
   [[maybe_unused]] const auto told = client.write_line(error_line(
       kUnsolicited, error_report(kEmergencyStop, "the server was ended by its operator")));
-  return "the server ends";
+  return {"the server ends", nullptr};
 }
 
 }  // namespace
 
 core::Result<void> serve(wire::TcpListener& listener, Server& server,
                          const ServiceOptions& options) {
+  std::unique_ptr<wire::LineTransport> client;
   while (!options.stop_requested()) {
-    auto accepted = listener.accept(kLook);
-    if (!accepted) return core::fail(accepted.error());
-    std::unique_ptr<wire::LineTransport> client = std::move(*accepted);
+    if (client == nullptr) {
+      auto accepted = listener.accept(kLook);
+      if (!accepted) return core::fail(accepted.error());
+      client = std::move(*accepted);
+    }
     if (client == nullptr) continue;
     if (!options.wire_log.empty()) {
       auto logged = wire::logged(std::move(client), options.wire_log, wire::Side::kServer);
@@ -91,10 +118,11 @@ core::Result<void> serve(wire::TcpListener& listener, Server& server,
       client = std::move(*logged);
     }
     options.tell(fmt::format("{} is connected", client->peer()));
-    const std::string why = serve_client(listener, *client, server, options);
+    Departure departure = serve_client(listener, *client, server, options);
     server.disconnect(now_s());
-    options.tell(fmt::format("{} has gone: {}", client->peer(), why));
+    options.tell(fmt::format("{} has gone: {}", client->peer(), departure.why));
     client->close();
+    client = std::move(departure.next);
   }
   return {};
 }

@@ -79,6 +79,7 @@ struct Speeds {
 struct Capabilities {
   std::string name;  ///< Of the machine, as it calls itself.
   bool scans_circles = false;
+  std::string no_scans;            ///< Why not, where the machine says.
   Speeds least;                    ///< Slowest speeds it accepts.
   Speeds greatest;                 ///< Fastest.
   std::vector<std::string> tools;  ///< Names for select_tool().

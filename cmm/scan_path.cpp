@@ -56,10 +56,13 @@ core::Result<void> check_scan(const ScanCircleCommand& command) {
 }
 
 TouchCommand scan_point(const ScanCircleCommand& command, int index) {
+  return scan_point_at(command, command.sweep_rad * index / command.points, index);
+}
+
+TouchCommand scan_point_at(const ScanCircleCommand& command, double angle_rad, int index) {
   const Vector3d& n = command.axis_W;
   Vector3d radius = radius_of(command);
   radius -= n * n.dot(radius);  // the grid leaves the start a hair out of the plane
-  const double angle_rad = command.sweep_rad * index / command.points;
   const Vector3d turned = std::cos(angle_rad) * radius + std::sin(angle_rad) * n.cross(radius);
   TouchCommand out;
   out.id = command.first_id + index;
@@ -68,6 +71,12 @@ TouchCommand scan_point(const ScanCircleCommand& command, int index) {
   out.approach_mm = command.approach_mm;
   out.search_mm = command.search_mm;
   return out;
+}
+
+double scan_angle(const ScanCircleCommand& command, const Vector3d& p_W_mm) {
+  const Vector3d p = p_W_mm - command.center_W_mm;
+  const Vector3d radius = radius_of(command);
+  return std::atan2(command.axis_W.dot(radius.cross(p)), radius.dot(p));
 }
 
 double scan_length_mm(const ScanCircleCommand& command) {

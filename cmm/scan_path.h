@@ -13,6 +13,13 @@ namespace rondure::cmm {
 /// the sweep. Its direction points along the radius, its number is that of the point.
 [[nodiscard]] TouchCommand scan_point(const ScanCircleCommand& command, int index);
 
+/// The same at an angle from the start [rad], about the axis of the circle.
+[[nodiscard]] TouchCommand scan_point_at(const ScanCircleCommand& command, double angle_rad,
+                                         int index);
+
+/// Angle of a place from the start, about the axis of the circle [rad], in -pi..pi.
+[[nodiscard]] double scan_angle(const ScanCircleCommand& command, const Eigen::Vector3d& p_W_mm);
+
 /// Length of the expected path of the tip centre [mm].
 [[nodiscard]] double scan_length_mm(const ScanCircleCommand& command);
 

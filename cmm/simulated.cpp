@@ -22,6 +22,8 @@ using Eigen::Vector3d;
 
 constexpr std::uint64_t kTouchStream = 0x746f756368;  // keeps the noise apart from other devices
 constexpr std::uint64_t kDustStream = 0x64757374;
+constexpr std::uint64_t kScanStream = 0x7363616e;
+constexpr std::size_t kLeastScanned = 3;
 constexpr double kGraze_mm = 1e-6;  // a move may overlap a surface by this much
 constexpr double kSettle_s = 0.2;
 constexpr double kHalfVolume_mm = 10'000.0;  // the grid of 1e-10 mm holds it with 15 digits
@@ -285,16 +287,40 @@ Vector3d SimulatedMachine::truth_of(const TouchCommand& command, const Found& fo
   return true_contact(command).value_or(found.reading_W_mm);
 }
 
-core::Result<std::vector<SimulatedMachine::Found>> SimulatedMachine::find_circle(
-    const ScanCircleCommand& command) const {
-  std::vector<Found> out;
+std::vector<TouchCommand> SimulatedMachine::points_of(const ScanCircleCommand& command) const {
+  std::vector<TouchCommand> out;
   out.reserve(static_cast<std::size_t>(command.points));
+  const ScanScatter& scatter = options_.scan_scatter;
+  if (scatter.even()) {
+    for (int i = 0; i < command.points; ++i) out.push_back(scan_point(command, i));
+    return out;
+  }
+  core::KeyedNoise noise(options_.seed,
+                         {kScanStream, static_cast<std::uint64_t>(command.first_id)});
+  const auto about_zero = [&noise](double limit) { return limit * (2.0 * noise.uniform() - 1.0); };
+  const double step_rad = command.sweep_rad / command.points;
+  double angle_rad = about_zero(scatter.start_rad);
   for (int i = 0; i < command.points; ++i) {
+    const bool last_chance =
+        out.size() + static_cast<std::size_t>(command.points - i) <= kLeastScanned;
+    if (noise.uniform() >= scatter.dropped_share || last_chance) {
+      out.push_back(scan_point_at(command, angle_rad, static_cast<int>(out.size())));
+    }
+    angle_rad += step_rad * (1.0 + about_zero(scatter.step_1));
+  }
+  return out;
+}
+
+core::Result<std::vector<SimulatedMachine::Found>> SimulatedMachine::find_circle(
+    const ScanCircleCommand& command, const std::vector<TouchCommand>& points) const {
+  std::vector<Found> out;
+  out.reserve(points.size());
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
     if (stopped_) {
       return core::fail(core::Code::kStopped,
                         fmt::format("the machine was stopped at point {} of a scan", i + 1));
     }
-    const auto found = find_contact(scan_point(command, i), scan_time_s(command, i));
+    const auto found = find_contact(points[static_cast<std::size_t>(i)], scan_time_s(command, i));
     if (!found) return core::fail(scan_failed(found.error(), command, i));
     out.push_back(*found);
   }
@@ -311,16 +337,16 @@ core::Result<std::vector<TouchReading>> SimulatedMachine::scan_circle(
   if (auto checked = check_command(scan_point(command, 0)); !checked) {
     return core::fail(checked.error());
   }
-  const auto circle = find_circle(command);
+  const std::vector<TouchCommand> points = points_of(command);
+  const auto circle = find_circle(command, points);
   if (!circle) return core::fail(circle.error());
   std::vector<TouchReading> readings;
   readings.reserve(circle->size());
   true_tips_W_mm_.clear();
-  for (int i = 0; i < command.points; ++i) {
-    const Found& found = (*circle)[static_cast<std::size_t>(i)];
-    const TouchCommand touch = scan_point(command, i);
-    true_tips_W_mm_.push_back(truth_of(touch, found));
-    readings.push_back(reading_at(found, touch, scan_time_s(command, i)));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Found& found = (*circle)[i];
+    true_tips_W_mm_.push_back(truth_of(points[i], found));
+    readings.push_back(reading_at(found, points[i], scan_time_s(command, static_cast<int>(i))));
   }
   settle(command, readings.back());
   // Full turns end where they began, to the last bit.
@@ -363,11 +389,12 @@ core::Result<void> SimulatedMachine::continue_after(const ScanCircleCommand& giv
                                                     const TouchReading& last) {
   if (auto sound = check_scan(given); !sound) return sound;
   const ScanCircleCommand command = on_grid(given);
+  const std::vector<TouchCommand> points = points_of(command);
   std::vector<Vector3d> tips;
-  tips.reserve(static_cast<std::size_t>(command.points));
-  for (int i = 0; i < command.points; ++i) {
-    const auto contact = true_contact(scan_point(command, i));
-    if (!contact) return core::fail(scan_failed(contact.error(), command, i));
+  tips.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto contact = true_contact(points[i]);
+    if (!contact) return core::fail(scan_failed(contact.error(), command, static_cast<int>(i)));
     tips.push_back(*contact);
   }
   true_tips_W_mm_ = std::move(tips);

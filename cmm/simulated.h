@@ -30,7 +30,8 @@ struct SimulatedMachineOptions {
   std::string tool = "T1";         ///< The one tool it has.
   MachineErrors errors;            ///< Hidden truth.
   PartErrors part_errors;          ///< Hidden truth.
-  std::uint64_t seed = 1;          ///< Of the probe noise.
+  ScanScatter scan_scatter;        ///< Hidden truth.
+  std::uint64_t seed = 1;          ///< Of the probe noise and the places of scanned points.
   std::int64_t lost_at_touch = 0;  ///< The line breaks at this touch, counted from 1; 0: never.
 };
 
@@ -44,7 +45,8 @@ struct SimulatedMachineOptions {
 /// begin where the tip stands (1e-6 mm), is kMachine and moves nothing. Its volume is a cube of 20
 /// m about the origin.
 ///
-/// A scan touches the surface at every point of its circle, along the radius there.
+/// A scan touches the surface at every point of its circle, along the radius there; where those
+/// points lie says ScanScatter, keyed with (seed, first id).
 ///
 /// The clock advances by distance / speed: travel speed, touch speed along the search, scan speed
 /// along the circle, and 0.2 s of settling after each touch and each scan. Once the line is lost
@@ -123,8 +125,10 @@ class SimulatedMachine final : public Machine {
   [[nodiscard]] core::Result<Eigen::Vector3d> true_contact(const TouchCommand& command) const;
   /// Where this one meets the part as it is, at a time of its clock.
   [[nodiscard]] core::Result<Found> find_contact(const TouchCommand& command, double time_s) const;
+  /// The points that a scan will give: its command, where ScanScatter puts them.
+  [[nodiscard]] std::vector<TouchCommand> points_of(const ScanCircleCommand& command) const;
   [[nodiscard]] core::Result<std::vector<Found>> find_circle(
-      const ScanCircleCommand& command) const;
+      const ScanCircleCommand& command, const std::vector<TouchCommand>& points) const;
   /// The hidden truth of a search; the reading where a machine without errors would meet nothing.
   [[nodiscard]] Eigen::Vector3d truth_of(const TouchCommand& command, const Found& found) const;
   /// The reading of a touch. `time_s` not yet on the grid.

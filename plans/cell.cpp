@@ -22,9 +22,10 @@ core::Result<void> check_abilities(const Plan& plan, const cmm::Capabilities& ma
     if (!is_touched(feature) || feature.sampling.method != "scan") continue;
     return core::fail(
         core::Code::kMachine,
-        fmt::format("feature {} is to be scanned, and the machine, {}, does not scan circles; give "
-                    "\"method\": \"touch\", or take a machine that scans; nothing has moved",
-                    feature.id, machine.name),
+        fmt::format("feature {} is to be scanned, and the machine, {}, does not scan circles{}; "
+                    "give \"method\": \"touch\", or take a machine that scans; nothing has moved",
+                    feature.id, machine.name,
+                    machine.no_scans.empty() ? "" : fmt::format(" ({})", machine.no_scans)),
         fmt::format("/features/{}/sampling/method", i));
   }
   return {};

@@ -108,6 +108,11 @@ cmm::MachineErrors machine_errors(const SimulationPlan& simulation) {
   return out;
 }
 
+cmm::ScanScatter scan_scatter(const SimulatedMachinePlan& machine) {
+  return {machine.scan_start_deg * core::kDegree, machine.scan_step_percent / 100.0,
+          machine.scan_dropped_percent / 100.0};
+}
+
 cmm::PartErrors part_errors(const SimulatedPartPlan& part) {
   return {part.expansion_per_K, part.dust_share, part.dust_um * core::kMicrometre};
 }

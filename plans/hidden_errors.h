@@ -10,6 +10,9 @@ namespace rondure::plans {
 /// `errors` says.
 [[nodiscard]] cmm::MachineErrors machine_errors(const SimulationPlan& simulation);
 
+/// How the points of a simulated scan lie.
+[[nodiscard]] cmm::ScanScatter scan_scatter(const SimulatedMachinePlan& machine);
+
 /// Expansion of, and dust on, the simulated part.
 [[nodiscard]] cmm::PartErrors part_errors(const SimulatedPartPlan& part);
 

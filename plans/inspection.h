@@ -25,6 +25,7 @@ struct TouchStep {
   record::Touch row;          ///< What it is for; number, reading and direction are filled in.
   Polyline entry_W;           ///< From park height to its pre-touch point.
   Polyline way_W;             ///< From where the tip stands to its pre-touch point.
+  Polyline aside_W = {};      ///< From there to the start of the touch, where that is elsewhere.
   /// The scan that it stands for, as its first point, and how that ended.
   std::optional<cmm::ScanCircleCommand> scan = {};
   cmm::TouchReading scan_end = {};

@@ -12,6 +12,7 @@
 #include "fixture/pose_range.h"
 #include "plans/plan_reach.h"
 #include "plans/pose_grid.h"
+#include "plans/served_cell.h"
 #include "wire/tcp_line.h"
 #include "wire/wire_log.h"
 
@@ -51,6 +52,8 @@ cmm::IppMachineOptions machine_options(const Plan& plan, const CellOptions& opti
   out.motion_limit = milliseconds_of(machine.motion_limit_s);
   out.abort_works = machine.abort == "works";
   out.returns_to_approach = machine.retract == "to-approach";
+  out.point = named_point_of(machine);
+  out.numbers = number_form_of(machine);
   out.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
   out.tip_tolerance_mm = plan.probe->qualification.radius_tolerance_um * core::kMicrometre;
   out.stop_requested = options.stop_requested;

@@ -218,21 +218,6 @@ core::Result<void> check_bytes(std::string_view text, std::string_view name) {
   return {};
 }
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '\n') {
-      out += "\\n";
-    } else if (byte < 0x20U || byte == 0x7FU) {
-      out += fmt::format("\\u{:04x}", byte);
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 const JsonValue* JsonValue::find(std::string_view key) const {
@@ -285,7 +270,7 @@ std::string found(const JsonValue& value) {
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kShown = 60;
   const std::string_view head = head_of(text, kShown);
-  return fmt::format("\"{}{}\"", escaped(head), head.size() < text.size() ? "..." : "");
+  return fmt::format("\"{}{}\"", escaped_line(head), head.size() < text.size() ? "..." : "");
 }
 
 std::string plain(double value) { return fmt::format("{}", value); }
@@ -293,13 +278,13 @@ std::string plain(double value) { return fmt::format("{}", value); }
 std::string member_pointer(std::string_view pointer, std::string_view key) {
   std::string out(pointer);
   out += '/';
-  for (const char c : key) {
+  for (const char c : escaped_line(key)) {
     if (c == '~') {
       out += "~0";
     } else if (c == '/') {
       out += "~1";
     } else {
-      out += escaped({&c, 1});
+      out += c;
     }
   }
   return out;

@@ -61,6 +61,9 @@ struct SimulatedMachinePlan {
   std::optional<double> drift_y_um;
   std::optional<double> drift_z_um;
   std::optional<double> drift_time_s;
+  double scan_start_deg = 0.0;
+  double scan_step_percent = 0.0;
+  double scan_dropped_percent = 0.0;
 };
 
 /// A slot along the part.

@@ -111,6 +111,12 @@ void describe(Visitor& v, SimulatedMachinePlan& p) {
   v.number("drift_z_um", p.drift_z_um, within(1000.0, kDrift));
   v.number("drift_time_s", p.drift_time_s,
            range(1.0, 1e6, "Time constant of the drift: 63 % of it is done then."));
+  v.number("scan_start_deg", p.scan_start_deg,
+           range(0.0, 5.0, "The first point of a scan lies at most so far beside its start."));
+  v.number("scan_step_percent", p.scan_step_percent,
+           range(0.0, 50.0, "The steps of a scan are longer or shorter by at most this."));
+  v.number("scan_dropped_percent", p.scan_dropped_percent,
+           range(0.0, 50.0, "Share of the points of a scan that are missing."));
 }
 
 template <class Visitor>

@@ -72,6 +72,8 @@ struct MachinePlan {
   double motion_limit_s = 120.0;
   std::string abort = "works";          ///< Or "broken".
   std::string retract = "to-approach";  ///< Or "by-distance".
+  std::string numbers = "16-digits";    ///< On the wire; or "16-characters".
+  std::string point = "surface";        ///< That PtMeas names; or "center", of the tip.
 };
 
 /// A reference sphere on the base of the fixture.

@@ -17,8 +17,8 @@ namespace rondure::plans {
 [[nodiscard]] std::vector<core::Error> plan_changes(std::string_view old_text,
                                                     std::string_view new_text);
 
-/// Everything for which an interrupted run cannot go on with this plan and these options: changes
-/// of the plan, another version, seed, serial number or operator. Empty: it can.
+/// Everything for which a run, interrupted or finished, is not the run of this plan and these
+/// options: changes of the plan, another version, seed, serial number or operator. Empty: it is.
 [[nodiscard]] std::vector<core::Error> changes_since(const record::RunRecord& run, const Plan& plan,
                                                      const RunOptions& options);
 

@@ -106,6 +106,16 @@ void describe_server(Visitor& v, MachinePlan& p) {
          {.one_of = {"to-approach", "by-distance"},
           .meaning = "ippdme: \"by-distance\" for a server that refuses a negative Retract, which "
                      "means back to the start of the touch."});
+  v.text("numbers", p.numbers,
+         {.one_of = {"16-digits", "16-characters"},
+          .meaning = "ippdme and simulate-cmm: length of the numbers that are sent. "
+                     "\"16-characters\" counts sign, point and exponent, for a server or client "
+                     "that refuses longer ones; directions are then rounded to 1e-13."});
+  v.text("point", p.point,
+         {.one_of = {"surface", "center"},
+          .meaning = "ippdme: the point that PtMeas and ScanOnCircle name. \"surface\" by the "
+                     "specification; \"center\" for a server that takes it for the centre of the "
+                     "tip. The first touch shows which, and ends a run that says the other."});
 }
 
 template <class Visitor>

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cmm/touch_check.h"
 #include "core/units.h"
 #include "plans/analysis.h"
 #include "plans/reached_pose.h"
@@ -127,13 +128,17 @@ core::Result<void> RunContext::come_back() {
   for (std::size_t i = 0; i < last_steps.size(); ++i) {
     const TouchStep& step = last_steps[i];
     if (auto moved = follow(i == 0 ? step.entry_W : step.way_W); !moved) return moved;
+    if (auto moved = follow(step.aside_W); !moved) return moved;
+    const Polyline back(step.aside_W.rbegin(), step.aside_W.rend());
     const auto difference_mm = repeat_touch(step, past.next_check() - static_cast<int>(i));
     if (!difference_mm) {
       if (difference_mm.error().code != core::Code::kCollision) {
+        (void)follow(back);
         (void)follow({step.entry_W.rbegin(), step.entry_W.rend()});
       }
       return part_has_moved(difference_mm.error());
     }
+    if (auto moved = follow(back); !moved) return moved;
     largest_mm = std::max(largest_mm, *difference_mm);
   }
   const std::string text = fmt::format(

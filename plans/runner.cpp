@@ -248,6 +248,26 @@ void execute(const Plan& plan, const RunOptions& options, const Preparation& kno
   }
 }
 
+/// All that differs from the run on record: plan, options, and the files beside the plan.
+std::vector<core::Error> all_changes(const record::RunRecord& run, const Plan& plan,
+                                     const RunOptions& options, const Preparation& known) {
+  auto changes = changes_since(run, plan, options);
+  // A damaged journal may hold fewer features than its plan; who reads it on says so.
+  for (std::size_t i = 0; i < std::min(plan.features.size(), run.features.size()); ++i) {
+    if (changes.empty() && known.data[i].sha256 != run.features[i].points_sha256) {
+      changes.push_back(points_changed(i, run.features[i], known.data[i].sha256));
+    }
+  }
+  if (changes.empty() && known.calibration &&
+      record::word_in(run.settings, "fixture/calibration") != known.calibration->text) {
+    changes.push_back({core::Code::kMeaning,
+                       "the calibration of the fixture is not the one the run began with; put its "
+                       "file back, or start a new run",
+                       "/fixture/calibration/file"});
+  }
+  return changes;
+}
+
 }  // namespace
 
 bool is_resumable(const core::Error& failure) {
@@ -299,6 +319,16 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   return run;
 }
 
+std::vector<core::Error> differences_from_run(const Plan& plan, const RunOptions& options) {
+  const auto found = record::read_journal(options.directory);
+  if (!found) return {found.error()};
+  RunOptions same = options;
+  if (!same.seed) same.seed = found->record.header.seed;
+  const auto known = prepare_plan(plan, same, found->record.header.started_utc);
+  if (!known) return {known.error()};
+  return all_changes(found->record, plan, same, *known);
+}
+
 RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
   const auto refuse = [](const core::Error& error) {
     return tl::unexpected(std::vector<core::Error>{error});
@@ -309,19 +339,7 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
   if (!same.seed) same.seed = found->record.header.seed;
   const auto known = prepare_plan(plan, same, found->record.header.started_utc);
   if (!known) return refuse(known.error());
-  auto changes = changes_since(found->record, plan, same);
-  for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    if (changes.empty() && known->data[i].sha256 != found->record.features[i].points_sha256) {
-      changes.push_back(points_changed(i, found->record.features[i], known->data[i].sha256));
-    }
-  }
-  if (changes.empty() && known->calibration &&
-      record::word_in(found->record.settings, "fixture/calibration") != known->calibration->text) {
-    changes.push_back({core::Code::kMeaning,
-                       "the calibration of the fixture is not the one the run began with; put its "
-                       "file back, or start a new run",
-                       "/fixture/calibration/file"});
-  }
+  auto changes = all_changes(found->record, plan, same, *known);
   if (!changes.empty()) return tl::unexpected(std::move(changes));
   std::unique_ptr<Cell> cell;
   if (touches_anything(plan)) {

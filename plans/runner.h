@@ -81,6 +81,12 @@ struct Run {
 ///         fault the tip was retracted, unless the machine itself had stopped on a collision.
 [[nodiscard]] core::Result<Run> run_plan(const Plan& plan, const RunOptions& options);
 
+/// Why the run in `options.directory`, interrupted or finished, is not the run of this plan and
+/// these options: one kMeaning for each difference, as resume_plan() gives them; or what keeps the
+/// two from being compared (a journal or a file that cannot be read). Empty: it is that run.
+[[nodiscard]] std::vector<core::Error> differences_from_run(const Plan& plan,
+                                                            const RunOptions& options);
+
 /// A run that goes on, or why it does not: one error for each thing that changed.
 using RunOrRefusals = tl::expected<Run, std::vector<core::Error>>;
 

@@ -1,38 +1,63 @@
 // Scans: the part of inspection.h that measures whole circles.
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
 #include "cmm/scan_path.h"
+#include "cmm/touch_check.h"
 #include "core/units.h"
 #include "plans/inspection.h"
 
 namespace rondure::plans {
 namespace {
 
-/// The rows of a scan before it is made: where each point is and from where the tip came to it.
-std::vector<record::Touch> planned_rows(const ScanStep& step, std::size_t points) {
-  cmm::ScanCircleCommand command = cmm::on_grid(step.command);
-  command.points =
-      static_cast<int>(points);  // a real machine gives about as many as were asked for
-  std::vector<record::Touch> rows(points, step.row);
-  for (std::size_t i = 0; i < points; ++i) {
-    const cmm::TouchCommand point = cmm::scan_point(command, static_cast<int>(i));
+/// The rows of a scan: which point each is, and from where the tip came to the place that was read.
+std::vector<record::Touch> rows_of(const ScanStep& step, const std::vector<Eigen::Vector3d>& tips) {
+  const cmm::ScanCircleCommand command = cmm::on_grid(step.command);
+  std::vector<record::Touch> rows(tips.size(), step.row);
+  for (std::size_t i = 0; i < tips.size(); ++i) {
+    // Real machines give about the points that were asked for, not at even angles.
+    const auto index = static_cast<int>(i);
+    const cmm::TouchCommand point =
+        cmm::scan_point_at(command, cmm::scan_angle(command, tips[i]), index);
     rows[i].id = point.id;
-    rows[i].point = static_cast<int>(i);
+    rows[i].point = index;
     rows[i].approach = point.direction_W;
   }
   return rows;
 }
+
+template <class Point>
+std::vector<Eigen::Vector3d> tips_of(const std::vector<Point>& points,
+                                     Eigen::Vector3d Point::*tip) {
+  std::vector<Eigen::Vector3d> out;
+  out.reserve(points.size());
+  for (const Point& point : points) out.push_back(point.*tip);
+  return out;
+}
+/// A recorded point of a scan that lies no farther beside its start stands for the start itself.
+constexpr double kAtStart_mm = 0.01;
 
 void take_reading(const cmm::TouchReading& reading, record::Touch& row) {
   row.tip_mm = reading.tip_W_mm;
   row.temperature_degC = reading.temperature_degC;
   row.scale_temperature_degC = reading.scale_temperature_degC;
   row.time_s = reading.time_s;
+}
+
+/// From the pre-touch point at the start of a scan to that at an angle, around the surface.
+Polyline arc_to(const cmm::ScanCircleCommand& scan, double angle_rad) {
+  constexpr double kPiece_rad = 2.0 * core::kDegree;  // its chord is 0.02 % of the radius nearer
+  const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(angle_rad) / kPiece_rad)));
+  Polyline out;
+  for (int i = 0; i <= pieces; ++i) {
+    out.push_back(cmm::start_of(cmm::scan_point_at(scan, angle_rad * i / pieces, 0)));
+  }
+  return out;
 }
 
 bool of_one_scan(const record::Touch& a, const record::Touch& b) {
@@ -50,7 +75,7 @@ core::Result<std::vector<record::Touch>> RunContext::scan(ScanStep step) {
   if (auto go = ask(next); !go) return core::fail(go.error());
   const auto readings = cell->machine().scan_circle(step.command);
   if (!readings) return core::fail(readings.error());
-  std::vector<record::Touch> rows = planned_rows(step, readings->size());
+  std::vector<record::Touch> rows = rows_of(step, tips_of(*readings, &cmm::TouchReading::tip_W_mm));
   for (std::size_t i = 0; i < rows.size(); ++i) take_reading((*readings)[i], rows[i]);
   if (auto kept = journal.add(rows); !kept) return core::fail(kept.error());
   next_touch += static_cast<std::int64_t>(rows.size());
@@ -67,8 +92,7 @@ core::Result<std::vector<record::Touch>> RunContext::recall_scan(ScanStep step) 
     if (row == nullptr || (!known.empty() && !of_one_scan(*row, known.front()))) break;
     known.push_back(*row);
   }
-  step.command.points = static_cast<int>(known.size());
-  const auto planned = planned_rows(step, known.size());
+  const auto planned = rows_of(step, tips_of(known, &record::Touch::tip_mm));
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (auto same = check_same_step(known[i], planned[i]); !same) return core::fail(same.error());
   }
@@ -76,8 +100,20 @@ core::Result<std::vector<record::Touch>> RunContext::recall_scan(ScanStep step) 
   first.scan = step.command;
   const record::Touch& end = known.back();
   first.scan_end = {end.tip_mm, end.temperature_degC, end.time_s, 0.0, end.scale_temperature_degC};
-  first.command = cmm::scan_point(cmm::on_grid(step.command), 0);
-  first.row = known.front();
+  // A real machine begins a scan where it likes: the touch is at the nearest of the points it gave.
+  const cmm::ScanCircleCommand command = cmm::on_grid(step.command);
+  const auto off_start = [&](const record::Touch& row) {
+    return std::abs(cmm::scan_angle(command, row.tip_mm));
+  };
+  const record::Touch& nearest = *std::min_element(
+      known.begin(), known.end(),
+      [&](const record::Touch& a, const record::Touch& b) { return off_start(a) < off_start(b); });
+  const double off_rad = cmm::scan_angle(command, nearest.tip_mm);
+  const double radius_mm = (command.start_tip_W_mm - command.center_W_mm).norm();
+  const bool at_start = std::abs(off_rad) * radius_mm <= kAtStart_mm;
+  first.command = at_start ? cmm::scan_point(command, 0) : cmm::scan_point_at(command, off_rad, 0);
+  if (!at_start) first.aside_W = arc_to(command, off_rad);
+  first.row = nearest;
   first.entry_W = std::move(step.entry_W);
   first.way_W = std::move(step.way_W);
   if (auto state = recall_state(first); !state) return core::fail(state.error());

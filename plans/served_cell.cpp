@@ -53,6 +53,15 @@ core::Result<void> ServedCell::choose_feature(int index) {
   return {};
 }
 
+cmm::ipp::NamedPoint named_point_of(const MachinePlan& machine) {
+  return machine.point == "center" ? cmm::ipp::NamedPoint::kCenter : cmm::ipp::NamedPoint::kSurface;
+}
+
+cmm::ipp::NumberForm number_form_of(const MachinePlan& machine) {
+  return machine.numbers == "16-characters" ? cmm::ipp::NumberForm::kSixteenCharacters
+                                            : cmm::ipp::NumberForm::kSixteenDigits;
+}
+
 cmm::ipp::ServerOptions server_options(const Plan& plan) {
   cmm::ipp::ServerOptions out;
   cmm::ipp::ControllerOptions& controller = out.controller;
@@ -61,6 +70,8 @@ cmm::ipp::ServerOptions server_options(const Plan& plan) {
   controller.defaults.speeds.scan_mm_s = plan.machine->scan_speed_mm_s;
   controller.defaults.approach_mm = plan.machine->approach_mm;
   controller.defaults.search_mm = plan.machine->search_mm;
+  controller.point = named_point_of(*plan.machine);
+  controller.numbers = number_form_of(*plan.machine);
   controller.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
   controller.temperature_degC = plan.simulation->temperature_degC;
   return out;

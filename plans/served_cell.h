@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cmm/ipp_backend.h"
+#include "cmm/ipp_named_point.h"
 #include "cmm/ipp_server.h"
 #include "plans/plan.h"
 #include "plans/simulated_cell.h"
@@ -33,7 +34,13 @@ class ServedCell final : public cmm::ipp::Backend {
   core::Pose pose_;  ///< As the fixture reads it.
 };
 
-/// What the server is told by the plan: speeds, distances, tip, temperature.
+/// The point that a command of I++ DME names by `machine.point`.
+[[nodiscard]] cmm::ipp::NamedPoint named_point_of(const MachinePlan& machine);
+/// How numbers are sent by `machine.numbers`.
+[[nodiscard]] cmm::ipp::NumberForm number_form_of(const MachinePlan& machine);
+
+/// What the server is told by the plan: speeds, distances, tip, temperature, named
+/// points, numbers.
 [[nodiscard]] cmm::ipp::ServerOptions server_options(const Plan& plan);
 
 /// kMeaning, with what to do, when nothing of the plan can be served: no simulation, nothing to

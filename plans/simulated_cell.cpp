@@ -49,6 +49,7 @@ fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t
 
 cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t seed, bool resumed) {
   cmm::SimulatedMachineOptions out;
+  if (!plan.machine->tool.empty()) out.tool = plan.machine->tool;
   out.nominal_tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
   out.park_W_mm = vector3(plan.machine->park_mm);
   out.speeds.travel_mm_s = plan.machine->travel_speed_mm_s;
@@ -57,6 +58,7 @@ cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t see
   out.temperature_degC = plan.simulation->temperature_degC;
   out.errors = machine_errors(*plan.simulation);
   out.part_errors = part_errors(plan.simulation->part);
+  out.scan_scatter = scan_scatter(plan.simulation->machine);
   out.seed = seed;
   if (!resumed) out.lost_at_touch = plan.simulation->faults.connection_lost_at_touch;
   return out;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "plans/near_words.h"
+#include "plans/utf8.h"
 
 namespace rondure::plans {
 namespace {
@@ -74,12 +75,6 @@ std::string as_clause(std::string_view sentence) {
   const bool word = clause.size() > 1 && std::islower(static_cast<unsigned char>(clause[1])) != 0;
   if (word) clause[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(clause[0])));
   return clause;
-}
-
-bool has_control_character(std::string_view text) {
-  return std::any_of(text.begin(), text.end(), [](char c) {
-    return static_cast<unsigned char>(c) < 0x20U && c != '\n' && c != '\t';
-  });
 }
 
 }  // namespace
@@ -155,9 +150,10 @@ bool TableReader::read_text(const JsonValue& json, const std::string& pointer, c
     return refuse(Code::kOutOfRange,
                   fmt::format("has {} bytes, the limit is {}", json.text.size(), kMaxTextBytes));
   }
-  if (has_control_character(json.text)) {
+  if (const std::size_t at = first_unshowable(json.text); at < json.text.size()) {
     return refuse(Code::kOutOfRange,
-                  fmt::format("{} contains a control character; remove it", in_quotes(json.text)));
+                  fmt::format("{} contains {}, which no report can show; remove it",
+                              in_quotes(json.text), unshowable_in_words(json.text, at)));
   }
   value = json.text;
   return true;

@@ -1,6 +1,9 @@
 #include "plans/utf8.h"
 
 #include <algorithm>
+#include <cstdint>
+
+#include <fmt/format.h>
 
 namespace rondure::plans {
 namespace {
@@ -26,7 +29,55 @@ std::size_t character_length(std::string_view text, std::size_t i) {
   return continues(byte_at(text, i + 3)) ? 4 : 0;
 }
 
+// The code point of `length` bytes at i.
+std::uint32_t code_at(std::string_view text, std::size_t i, std::size_t length) {
+  std::uint32_t code = length == 1 ? byte_at(text, i) : byte_at(text, i) & (0xFFU >> (length + 1));
+  for (std::size_t k = 1; k < length; ++k) code = code << 6U | (byte_at(text, i + k) & 0x3FU);
+  return code;
+}
+
+bool is_unshowable(std::uint32_t code) {
+  const bool control =
+      (code < 0x20U && code != '\n' && code != '\t') || (code >= 0x7FU && code < 0xA0U);
+  return control || (code >= 0xFDD0U && code <= 0xFDEFU) || (code & 0xFFFEU) == 0xFFFEU;
+}
+
 }  // namespace
+
+std::size_t first_unshowable(std::string_view text) {
+  std::size_t i = 0;
+  while (i < text.size()) {
+    const std::size_t length = character_length(text, i);
+    if (length == 0 || is_unshowable(code_at(text, i, length))) return i;
+    i += length;
+  }
+  return text.size();
+}
+
+std::string unshowable_in_words(std::string_view text, std::size_t index) {
+  const std::size_t length = character_length(text, index);
+  if (length == 0) return fmt::format("the byte 0x{:02X}", byte_at(text, index));
+  return fmt::format("the character U+{:04X}", code_at(text, index, length));
+}
+
+std::string escaped_line(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = std::max<std::size_t>(character_length(text, i), 1);
+    const std::uint32_t code = code_at(text, i, length);
+    if (character_length(text, i) == 0) {
+      out += fmt::format("\\x{:02x}", code);
+    } else if (code == '\n') {
+      out += "\\n";
+    } else if (code == '\t' || is_unshowable(code)) {
+      out += fmt::format("\\u{:04x}", code);
+    } else {
+      out += text.substr(i, length);
+    }
+    i += length;
+  }
+  return out;
+}
 
 std::size_t first_not_utf8(std::string_view text) {
   std::size_t i = 0;

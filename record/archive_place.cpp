@@ -1,52 +1,32 @@
 #include "record/archive_place.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include "record/server_url.h"
 
 namespace rondure::record {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// "user:secret@host" without ":secret".
-std::string without_secret(std::string_view authority) {
-  const std::size_t at = authority.rfind('@');
-  if (at == std::string_view::npos) return std::string(authority);
-  const std::size_t colon = authority.substr(0, at).find(':');
-  if (colon == std::string_view::npos) return std::string(authority);
-  return fmt::format("{}{}", authority.substr(0, colon), authority.substr(at));
-}
-
-bool is_secret(std::string_view parameter) {
-  return parameter.starts_with("password=") || parameter.starts_with("sslpassword=");
-}
-
-/// "?a=1&password=secret&b=2" without the secret.
-std::string without_secrets(std::string_view query) {
-  std::string kept;
-  while (!query.empty()) {
-    const std::size_t end = std::min(query.find('&', 1), query.size());
-    const std::string_view parameter = query.substr(1, end - 1);
-    if (!is_secret(parameter)) kept += fmt::format("{}{}", kept.empty() ? '?' : '&', parameter);
-    query.remove_prefix(end);
-  }
-  return kept;
+/// Whether a password may have been cut at an @ or a / that was not encoded: libpq takes what
+/// stands before the first @ for user and password, if no / stands before it, and the rest for the
+/// host.
+bool has_stray_at(std::string_view after_scheme) {
+  const std::size_t at = after_scheme.find_first_of("@/");
+  if (at != std::string_view::npos && after_scheme[at] == '@') after_scheme.remove_prefix(at + 1);
+  return after_scheme.substr(0, after_scheme.find('?')).find('@') != std::string_view::npos;
 }
 
 core::Result<ArchivePlace> server_at(std::string_view url, std::size_t authority_start) {
-  const std::size_t path = std::min(url.find_first_of("/?", authority_start), url.size());
-  const std::size_t query = std::min(url.find('?', authority_start), url.size());
-  const std::string_view database = url.substr(path, query - path);
-  if (database.find('@') != std::string_view::npos) {
+  if (has_stray_at(url.substr(authority_start))) {
     return core::fail(core::Code::kBadOption,
-                      "the URL of the archive has an @ behind its first /; write / as %2F and @ as "
-                      "%40 in a user, a password or the name of a database");
+                      "the URL of the archive has an @ too many; write / as %2F and @ as %40 in a "
+                      "user, a password or the name of a database");
   }
-  const std::string_view authority = url.substr(authority_start, path - authority_start);
-  const std::string shown =
-      fmt::format("{}{}{}{}", url.substr(0, authority_start), without_secret(authority), database,
-                  without_secrets(url.substr(query)));
+  const auto settings = parse_server_url(url);
+  if (!settings) return core::fail(settings.error());
+  const std::string shown = shown_url(url, *settings);
   return ArchivePlace{ArchivePlace::Kind::kServer, std::string(url), shown, shown};
 }
 
@@ -64,6 +44,13 @@ core::Result<ArchivePlace> parse_archive_place(std::string_view text, const fs::
                      : fmt::format("an archive at {}:// is unknown", text.substr(0, scheme));
     return core::fail(core::Code::kBadOption,
                       fmt::format("{}; give a file, postgresql://... or none", found));
+  }
+  // A file of such a name would be made, and named in messages and in the queue.
+  if (is_connection_text(text) || text.starts_with("postgresql:") ||
+      text.starts_with("postgres:")) {
+    return core::fail(core::Code::kBadOption,
+                      "the archive is a server, but not given as a URL; write "
+                      "postgresql://user@host:port/database");
   }
   const std::string path = (folder / text).string();
   return ArchivePlace{ArchivePlace::Kind::kFile, path, path,

@@ -30,8 +30,8 @@ struct ArchivePlace {
 };
 
 /// Reads "none", a path, or "postgresql://user@host:port/database?..." (also "postgres://"), as
-/// libpq takes it. kBadOption for another scheme, an empty text, or a URL in which a password could
-/// not be told from the rest ("@" behind the first "/").
+/// libpq takes it. kBadOption for another scheme, an empty text, settings that are no URL, or a URL
+/// that libpq cannot read or in which a password could not be told from the rest (a second "@").
 ///
 /// @param folder  A relative path is relative to it; empty: to the working directory.
 [[nodiscard]] core::Result<ArchivePlace> parse_archive_place(

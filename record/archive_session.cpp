@@ -11,6 +11,7 @@
 
 #include "record/database.h"
 #include "record/files.h"
+#include "record/server_url.h"
 
 // SOCI's own header for PostgreSQL asks for the headers of libpq, of which nothing is used here.
 extern "C" soci::backend_factory const* factory_postgresql();
@@ -36,12 +37,14 @@ std::string words_of_server(const std::string& message) {
   return words.empty() ? "the server gave no reason" : words;
 }
 
-std::string reason_of_server(const std::exception& exception) {
+std::string reason_of_server(const ArchivePlace& place, const std::exception& exception) {
   const auto* error = dynamic_cast<const soci::soci_error*>(&exception);
   std::string words =
       words_of_server(error == nullptr ? exception.what() : error->get_error_message());
   const auto has = [&](std::string_view part) { return words.find(part) != std::string::npos; };
-  if (has("password")) {
+  const bool of_password = has("password");
+  words = without_secrets(std::move(words), place.address);
+  if (of_password) {
     words += "; check the user, and the password in ~/.pgpass";
   } else if (has("Connection refused") || has("timeout expired") || has("could not translate")) {
     words += "; check host and port, and start the server";
@@ -88,16 +91,19 @@ bool is_no_database(const std::exception& exception) {
   return error != nullptr && (error->result() & 0xff) == SQLITE_NOTADB;
 }
 
-/// Waits are bounded: for an answer 5 s, for a cut cable 15 s.
+/// Waits are bounded: for an answer 5 s, for a cut cable 15 s. Spelled anew, since SOCI cuts a URL
+/// at its spaces and quotes.
 std::string with_limits(const std::string& url) {
-  std::string out = url;
-  for (const std::string_view limit :
-       {"connect_timeout=5", "tcp_user_timeout=15000", "application_name=rondure"}) {
-    const std::string_view name = limit.substr(0, limit.find('=') + 1);
-    if (out.find(name) != std::string::npos) continue;
-    out += fmt::format("{}{}", out.find('?') == std::string::npos ? '?' : '&', limit);
+  auto settings = parse_server_url(url).value_or(std::vector<ServerSetting>{});
+  for (const ServerSetting& limit :
+       {ServerSetting{"connect_timeout", "5"}, ServerSetting{"tcp_user_timeout", "15000"},
+        ServerSetting{"application_name", "rondure"}}) {
+    const bool given = std::any_of(settings.begin(), settings.end(), [&](const ServerSetting& s) {
+      return s.keyword == limit.keyword;
+    });
+    if (!given) settings.push_back(limit);
   }
-  return out;
+  return server_url(settings);
 }
 
 void open_server(ArchiveSession& session) {
@@ -214,7 +220,7 @@ tl::unexpected<core::Error> archive_failure(const ArchivePlace& place, std::stri
                                             const std::exception& exception,
                                             soci::session* session) {
   const std::string reason = place.kind == ArchivePlace::Kind::kServer
-                                 ? reason_of_server(exception)
+                                 ? reason_of_server(place, exception)
                                  : reason_of_file(place.address, exception, session);
   return core::fail(Code::kArchive, fmt::format("the archive {} cannot be {}: {}", place.shown,
                                                 participle, reason));

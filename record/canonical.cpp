@@ -1,6 +1,7 @@
 #include "record/canonical.h"
 
 #include <bit>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -23,12 +24,10 @@ void append_value(std::string& bytes, sqlite_api::sqlite3_stmt* row, int column)
       append_integer(bytes, sqlite_api::sqlite3_column_int64(row, column));
       break;
     case SQLITE_FLOAT:
-      bytes += 'r';
-      append_number(bytes,
-                    std::bit_cast<std::uint64_t>(sqlite_api::sqlite3_column_double(row, column)));
+      append_real(bytes, sqlite_api::sqlite3_column_double(row, column));
       break;
     case SQLITE_NULL:
-      bytes += 'n';
+      append_null(bytes);
       break;
     default: {  // text; the schema knows no other type
       const void* text = sqlite_api::sqlite3_column_blob(row, column);
@@ -47,6 +46,9 @@ void append_row(std::string& bytes, sqlite_api::sqlite3_stmt* row) {
 [[noreturn]] void fail(soci::session& session, int state) {
   throw soci::sqlite3_soci_error(sqlite_api::sqlite3_errmsg(handle_of(session)), state);
 }
+
+using Statement =
+    std::unique_ptr<sqlite_api::sqlite3_stmt, decltype(&sqlite_api::sqlite3_finalize)>;
 
 Statement prepared(soci::session& session, const std::string& query) {
   sqlite_api::sqlite3_stmt* raw = nullptr;
@@ -68,27 +70,18 @@ void append_integer(std::string& bytes, std::int64_t number) {
   append_number(bytes, static_cast<std::uint64_t>(number));
 }
 
+void append_real(std::string& bytes, double number) {
+  bytes += 'r';
+  append_number(bytes, std::bit_cast<std::uint64_t>(number));
+}
+
 void append_text(std::string& bytes, std::string_view text) {
   bytes += 't';
   append_number(bytes, text.size());
   bytes.append(text);
 }
 
-RowReader::RowReader(soci::session& session, std::string_view table)
-    : session_(session),
-      statement_(prepared(session, fmt::format("select * from {} where id = ?1", table))) {}
-
-std::string RowReader::bytes_of(std::int64_t id) {
-  sqlite_api::sqlite3_stmt* const row = statement_.get();
-  sqlite_api::sqlite3_bind_int64(row, 1, id);
-  const int state = sqlite_api::sqlite3_step(row);
-  std::string bytes;
-  if (state == SQLITE_ROW) append_row(bytes, row);
-  sqlite_api::sqlite3_reset(row);  // a row that is still being read would hold the transaction open
-  if (state == SQLITE_DONE) throw soci::soci_error(fmt::format("row {} is not there", id));
-  if (state != SQLITE_ROW) fail(session_, state);
-  return bytes;
-}
+void append_null(std::string& bytes) { bytes += 'n'; }
 
 void for_each_row(soci::session& session, std::string_view table,
                   const std::function<void(std::int64_t id, const std::string& bytes)>& take) {

@@ -2,9 +2,10 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
@@ -17,24 +18,39 @@ namespace rondure::record {
 /// SQLite's own handle of a session.
 [[nodiscard]] sqlite_api::sqlite3* handle_of(soci::session& session);
 
-/// Appends an integer, or a text, as canonical bytes.
+/// Appends one value as canonical bytes.
 void append_integer(std::string& bytes, std::int64_t number);
+void append_real(std::string& bytes, double number);
 void append_text(std::string& bytes, std::string_view text);
+void append_null(std::string& bytes);
 
-using Statement =
-    std::unique_ptr<sqlite_api::sqlite3_stmt, decltype(&sqlite_api::sqlite3_finalize)>;
+/// Appends a value as the journal keeps it: null for an optional without value.
+template <class Value>
+void append_given(std::string& bytes, const Value& value) {
+  if constexpr (std::is_integral_v<Value>) {
+    append_integer(bytes, value);
+  } else if constexpr (std::is_floating_point_v<Value>) {
+    append_real(bytes, value);
+  } else {
+    append_text(bytes, value);
+  }
+}
+template <class Value>
+void append_given(std::string& bytes, const std::optional<Value>& value) {
+  if (value) {
+    append_given(bytes, *value);
+  } else {
+    append_null(bytes);
+  }
+}
 
-/// Single rows of one table by their id; prepared once. Must end before its session does.
-class RowReader {
- public:
-  RowReader(soci::session& session, std::string_view table);
-  /// The canonical bytes of a row, columns from left to right; throws when there is none.
-  [[nodiscard]] std::string bytes_of(std::int64_t id);
-
- private:
-  soci::session& session_;
-  Statement statement_;
-};
+/// The canonical bytes of a row with these values, from left to right.
+template <class... Values>
+[[nodiscard]] std::string row_bytes(const Values&... values) {
+  std::string bytes;
+  (append_given(bytes, values), ...);
+  return bytes;
+}
 
 /// Hands out all rows of a table in the order of their first column, the id.
 void for_each_row(soci::session& session, std::string_view table,

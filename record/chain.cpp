@@ -1,5 +1,6 @@
 #include "record/chain.h"
 
+#include <map>
 #include <optional>
 #include <unordered_map>
 
@@ -117,18 +118,6 @@ Chain::Chain(soci::session& sql)
       insert_((sql.prepare << "insert into chain values (:id, :table, :row, :row_sha256, :sha256)",
                use(link_.id), use(link_.table), use(link_.row), use(link_.row_sha256),
                use(tip_.sha256))) {}
-
-void Chain::append(std::string_view table, std::int64_t row) {
-  auto reader = readers_.find(table);
-  if (reader == readers_.end()) {
-    reader = readers_.emplace(std::string(table), RowReader(sql_, table)).first;
-  }
-  append_bytes(table, row, reader->second.bytes_of(row));
-}
-
-void Chain::append_inserted(std::string_view table) {
-  append(table, sqlite_api::sqlite3_last_insert_rowid(handle_of(sql_)));
-}
 
 void Chain::append_all(std::string_view table) {
   for_each_row(sql_, table, [&](std::int64_t row, const std::string& bytes) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,11 +23,19 @@ class Chain {
   /// Continues behind the last link of the table.
   explicit Chain(soci::session& sql);
 
-  /// Links row `row` of `table` as it stands in the database now.
-  void append(std::string_view table, std::int64_t row);
-  /// Links the row that was inserted last.
-  void append_inserted(std::string_view table);
-  /// Links all rows of a table, by id.
+  /// Links row `row` of `table` with the values that were given for it, those behind the id from
+  /// left to right: not with what the database gives back, which it might have changed.
+  template <class... Values>
+  void append(std::string_view table, std::int64_t row, const Values&... values) {
+    append_bytes(table, row, row_bytes(row, values...));
+  }
+  /// The same of the row that was inserted last.
+  template <class... Values>
+  void append_inserted(std::string_view table, const Values&... values) {
+    append(table, sqlite_api::sqlite3_last_insert_rowid(handle_of(sql_)), values...);
+  }
+  /// Links all rows of a table, by id, as the database gives them back: of a table that the same
+  /// transaction made.
   void append_all(std::string_view table);
 
   /// The transaction around the links was committed, or was rolled back.
@@ -49,7 +56,6 @@ class Chain {
   Digest kept_;  ///< The same as it is on disk.
   Link link_;    ///< Bound to the statement.
   soci::statement insert_;
-  std::map<std::string, RowReader, std::less<>> readers_;
 };
 
 /// Number of links, and the digest of the last: the head of the chain, which stands for all rows.

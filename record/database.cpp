@@ -1,5 +1,8 @@
 #include "record/database.h"
 
+#include <array>
+#include <utility>
+
 #include <fmt/format.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
@@ -60,6 +63,19 @@ core::Result<std::string> connection_string(const std::filesystem::path& file) {
         file.string());
   }
   return fmt::format("dbname=\"{}\" timeout=5", file.string());
+}
+
+void distrust(soci::session& sql) {
+  constexpr std::array<std::pair<int, int>, 4> kSwitches = {{{SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
+                                                             {SQLITE_DBCONFIG_ENABLE_VIEW, 0},
+                                                             {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+                                                             {SQLITE_DBCONFIG_DEFENSIVE, 1}}};
+  for (const auto& [which, on] : kSwitches) {
+    int state = -1;
+    sqlite_api::sqlite3_db_config(handle_of(sql), which, on, &state);
+    if (state != on) throw soci::soci_error("SQLite does not close the file to its own triggers");
+  }
+  sql << "pragma cell_size_check = on";
 }
 
 std::string reason_of(const std::exception& exception, soci::session* session) {

@@ -1,13 +1,14 @@
 #include "record/files.h"
 
 #include <array>
-#include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -40,9 +41,6 @@ tl::unexpected<core::Error> cannot(std::string_view verb, const fs::path& path, 
       path.string());
 }
 
-/// Of a pipe or a device, which may never end: some ten million points.
-constexpr std::size_t kLongestStream = std::size_t{1} << 29;
-
 /// Writes every byte and flushes them to the disk; false leaves the reason in errno.
 bool write_through(OpenFile& file, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -57,11 +55,14 @@ bool write_through(OpenFile& file, std::string_view bytes) {
 constexpr std::string_view kTemporaryPrefix = ".rondure-";
 constexpr std::string_view kTemporarySuffix = ".tmp";
 
-/// A name in the folder of `path` that no other process or thread uses.
+/// A name in the folder of `path` that nobody can foresee and nothing left behind has: numbers of
+/// processes repeat, in a container each program is number 1.
 fs::path temporary_name(const fs::path& path) {
-  static std::atomic<unsigned> counter = 0;
+  std::uint64_t number = 0;
+  while (::getrandom(&number, sizeof number, 0) < 0 && errno == EINTR) {
+  }
   return path.parent_path() /
-         fmt::format("{}{}-{}{}", kTemporaryPrefix, ::getpid(), ++counter, kTemporarySuffix);
+         fmt::format("{}{:016x}{}", kTemporaryPrefix, number, kTemporarySuffix);
 }
 
 }  // namespace
@@ -92,21 +93,23 @@ std::string system_reason(int error_number) {
 }
 
 core::Result<std::string> read_file(const fs::path& path) {
-  const OpenFile file(path, O_RDONLY);
+  // Nothing is waited for: a pipe without a writer would stop the program here for ever.
+  const OpenFile file(path, O_RDONLY | O_NONBLOCK | O_NOCTTY);
   if (!file.ok()) return cannot("read", path, errno);
   struct stat status = {};
+  if (::fstat(file.fd(), &status) != 0) return cannot("read", path, errno);
+  if (S_ISDIR(status.st_mode)) return cannot("read", path, EISDIR);
+  if (!S_ISREG(status.st_mode)) {
+    return core::fail(
+        core::Code::kFile,
+        fmt::format("cannot read {}: it is a device or a pipe; name a file", path.string()),
+        path.string());
+  }
   std::string bytes;
-  const bool endless = ::fstat(file.fd(), &status) != 0 || !S_ISREG(status.st_mode);
-  if (!endless) bytes.reserve(static_cast<std::size_t>(status.st_size) + 1);
+  bytes.reserve(static_cast<std::size_t>(status.st_size) + 1);
   std::array<char, 1 << 16>
       piece;  // NOLINT(cppcoreguidelines-pro-type-member-init): read() fills it
   while (true) {
-    if (endless && bytes.size() > kLongestStream) {
-      return core::fail(core::Code::kFile,
-                        fmt::format("{} is no file and does not end after {} MiB; name a file",
-                                    path.string(), kLongestStream >> 20),
-                        path.string());
-    }
     const ssize_t count = ::read(file.fd(), piece.data(), piece.size());
     if (count == 0) return bytes;
     if (count < 0 && errno == EINTR) continue;

@@ -8,7 +8,8 @@
 
 namespace rondure::record {
 
-/// The bytes of a file, or kFile with the system's reason.
+/// The bytes of a file, or kFile with the system's reason, also for a pipe or a device: those may
+/// never begin or never end.
 [[nodiscard]] core::Result<std::string> read_file(const std::filesystem::path& path);
 
 /// Writes a file whole or not at all (temporary name in the same folder, flush to disk, rename);

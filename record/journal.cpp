@@ -47,8 +47,9 @@ core::Result<void> Journal::add(const PoseVisit& pose) {
     impl_->statements->pose = pose;
     impl_->statements->final_cloud = pose.final_cloud ? 1 : 0;
     impl_->statements->insert_pose.execute(true);
-    impl_->chain->append("pose", pose.id);
+    impl_->link(pose);
   });
+  if (written) impl_->poses.insert_or_assign(pose.id, pose);
   if (written && impl_->follower) impl_->follower->add(pose);
   return written;
 }
@@ -57,7 +58,7 @@ core::Result<void> Journal::add(const Decision& decision) {
   auto written = impl_->write("a decision", [&] {
     impl_->statements->decision = decision;
     impl_->statements->insert_decision.execute(true);
-    impl_->chain->append_inserted("decision");
+    impl_->chain->append_inserted("decision", decision.feature, decision.time_s, decision.text);
   });
   if (written && impl_->follower) impl_->follower->add(decision);
   return written;
@@ -67,7 +68,7 @@ core::Result<void> Journal::add(const SimulationTruth& truth) {
   return impl_->write("the truth of the simulation", [&] {
     impl_->statements->truth = truth;
     impl_->statements->insert_truth.execute(true);
-    impl_->chain->append_inserted("truth");
+    impl_->chain->append_inserted("truth", truth.feature, truth.cylt_mm);
   });
 }
 
@@ -82,13 +83,15 @@ core::Result<void> Journal::add(std::span<const Series> series,
 
 core::Result<void> Journal::mark_final(int pose_id) {
   auto written = impl_->write(fmt::format("the mark of the final pose {}", pose_id), [&] {
+    const auto pose = impl_->poses.find(pose_id);
+    if (pose == impl_->poses.end()) throw std::runtime_error("there is no such pose");
     impl_->statements->marked_pose = pose_id;
     impl_->statements->update_final.execute(true);
-    if (impl_->statements->update_final.get_affected_rows() == 0) {
-      throw std::runtime_error("there is no such pose");
-    }
-    impl_->chain->append("pose", pose_id);
+    PoseVisit marked = pose->second;
+    marked.final_cloud = true;
+    impl_->link(marked);
   });
+  if (written) impl_->poses.at(pose_id).final_cloud = true;
   if (written && impl_->follower) impl_->follower->mark_final(pose_id);
   return written;
 }
@@ -103,7 +106,7 @@ core::Result<void> Journal::end(const std::string& ending, const core::Error* fa
     impl_->sql << "update header set ending = :ending, failure_code = :code, failure_what = :what, "
                   "failure_where = :place",
         use(ending), use(code, given), use(what, given), use(where, given);
-    impl_->chain->append("header", 0);
+    impl_->link_header(ending, failure);
   });
   impl_->ended = impl_->ended || written.has_value();
   if (written && impl_->follower) impl_->follower->end(ending, failure);

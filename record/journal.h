@@ -37,8 +37,8 @@ class Journal {
   /// row; the chain goes on behind its last link. What ended the run before is taken out of the
   /// header (end() writes the new ending); what a killed writer of reports left behind is removed.
   /// kFile when there is no journal or another process is at work in the directory; kJournal when
-  /// it cannot be read, does not follow its chain, is sealed or is of an older version. Read the
-  /// rows with read_journal().
+  /// it cannot be read, does not follow its chain, is sealed, listed, a link or of an older
+  /// version. Read the rows with read_journal().
   [[nodiscard]] static core::Result<Journal> reopen(const std::filesystem::path& directory);
 
   Journal(Journal&&) noexcept;
@@ -70,8 +70,8 @@ class Journal {
   [[nodiscard]] core::Result<void> seal(std::span<const StoredResult> results);
   /// Finishes what seal() does behind its commit, for a run that died there: folds the log and
   /// lists the digest. A journal whose digest is listed is left alone. Hold the lock of the
-  /// directory, and read the journal before: a broken one must not get a new digest. Errors as of
-  /// seal(), and of read_checksums().
+  /// directory, and read the journal before: one with faults_of() must not get a new digest, nor
+  /// a foreign log be folded. Errors as of seal(), and of read_checksums().
   [[nodiscard]] static core::Result<void> finish_seal(const std::filesystem::path& directory);
 
  private:
@@ -92,10 +92,20 @@ struct ReadJournal {
   RunRecord record;
   std::vector<BrokenTable> broken;  ///< Empty for an intact journal, sealed or not.
   int version = 0;                  ///< Of its tables; 1 has no chain.
+  bool listed = false;              ///< SHA256SUMS names it: its run closed it.
+  bool as_listed = true;            ///< Its bytes have the digest there, where it is listed.
+  /// Logs beside a closed journal that would change it, by name. They were not read.
+  std::vector<std::string> beside;
 };
 
-/// Reads `directory`/journal.db without changing it. kFile when there is none, kJournal when it is
-/// not a journal of ours or damaged; `where` names the file.
+/// Reads `directory`/journal.db without changing it: a journal that its run closed (it is listed in
+/// SHA256SUMS, or is whole and sealed by itself) from that file alone, one that is open or was
+/// interrupted together with its log. Nothing that stands in the file is run. kFile when there is
+/// none, kJournal when it is not a journal of ours or damaged; `where` names the file.
 [[nodiscard]] core::Result<ReadJournal> read_journal(const std::filesystem::path& directory);
+
+/// Why nothing should be computed from a journal, one sentence each: tables that were changed,
+/// bytes that are not those of its list, logs beside it. Empty for a sound one.
+[[nodiscard]] std::vector<std::string> faults_of(const ReadJournal& journal);
 
 }  // namespace rondure::record

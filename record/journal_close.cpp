@@ -24,8 +24,7 @@ core::Result<void> Journal::seal(std::span<const StoredResult> results) {
   Impl& impl = *impl_;
   if (impl.state == Impl::State::kOpen) {
     auto written = impl.write("the seal", [&] {
-      insert_results(impl.sql, results);
-      impl.chain->append_all("result");
+      insert_results(impl.sql, *impl.chain, results);
       insert_seal(impl.sql);
     });
     if (!written) return written;
@@ -57,6 +56,7 @@ core::Result<void> Journal::finish_seal(const fs::path& directory) {
   std::optional<soci::session> sql;
   try {
     sql.emplace(soci::sqlite3, *connection);
+    distrust(*sql);
     int tables = 0;  // reading takes back a change of the mode that was not finished
     *sql << "select count(*) from sqlite_schema", soci::into(tables);
     fold_log(*sql);

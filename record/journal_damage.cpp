@@ -106,9 +106,7 @@ std::string lost_rows(soci::session& sql) {
     if (!loss.empty()) lost += fmt::format("{}{}", lost.empty() ? "" : ", ", loss);
   };
   const std::int64_t version = version_of(sql);
-  for (const Table& table : chained_tables(version)) add(table);
-  if (chain_table().since <= version) add(chain_table());
-  add(seal_table());
+  for (const Table& table : tables_of(version)) add(table);
   return lost;
 }
 
@@ -120,6 +118,7 @@ std::string loss_in_words(const fs::path& copy) {
   if (!connection) return words;
   try {
     soci::session sql(soci::sqlite3, *connection);
+    distrust(sql);
     int tables = 0;  // a head without tables is no damaged journal but another file
     sql << "select count(*) from sqlite_schema where name in ('header', 'touch')",
         soci::into(tables);

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal_impl.h"
 #include "record/journal_place.h"
@@ -13,6 +14,12 @@ namespace fs = std::filesystem;
 /// Why a journal takes nothing more, or empty.
 std::string why_not_to_go_on(const ReadJournal& journal) {
   if (journal.record.sealed) return "the run is finished and its journal is sealed";
+  if (journal.listed) {
+    return fmt::format(
+        "{} names {}, as of a run that is finished; take its line out if the run "
+        "was interrupted",
+        kChecksumsName, kJournalName);
+  }
   if (journal.version != kSchemaVersion) {
     return fmt::format(
         "its tables have version {}, a run goes on in version {} only; start a new "
@@ -46,6 +53,7 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
     insert_head(impl->sql, header, artefact, features, settings);
     fold_log(impl->sql);
     impl->prepare();
+    impl->header = header;
   } catch (const std::exception& exception) {
     return core::fail(core::Code::kJournal,
                       fmt::format("the journal {} cannot be made: {}", file.string(),
@@ -69,6 +77,12 @@ core::Result<Journal> Journal::reopen(const fs::path& directory) {
                       fmt::format("the run cannot go on in {}: {}", file.string(), reason),
                       file.string());
   }
+  if (fs::is_symlink(file, ignored)) {  // SQLite keeps the log beside what it leads to
+    return core::fail(
+        core::Code::kFile,
+        fmt::format("{} is a link; a run goes on only where its journal stands", file.string()),
+        file.string());
+  }
   const auto connection = connection_string(file);
   if (!connection) return core::fail(connection.error());
   remove_temporaries(directory);
@@ -78,6 +92,7 @@ core::Result<Journal> Journal::reopen(const fs::path& directory) {
     int timeout_ms = 0;
     impl->sql << "pragma busy_timeout = 0", soci::into(timeout_ms);  // a run holds it for hours
     keep_log(impl->sql);
+    require_schema(impl->sql, kSchemaVersion);  // of the file itself, now that it is ours alone
     impl->prepare();
   } catch (const std::exception& exception) {
     return core::fail(core::Code::kJournal,
@@ -85,6 +100,8 @@ core::Result<Journal> Journal::reopen(const fs::path& directory) {
                                   reason_of(exception, impl ? &impl->sql : nullptr)),
                       file.string());
   }
+  impl->header = found->record.header;
+  for (const PoseVisit& pose : found->record.poses) impl->poses.emplace(pose.id, pose);
   for (const Touch& touch : found->record.touches) impl->keep(touch);
   if (!found->record.ending.empty()) {
     if (auto cleared = impl->write("that the run goes on", [&] { impl->clear_ending(); });

@@ -1,17 +1,23 @@
+#include <algorithm>
 #include <cerrno>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
+#include "record/canonical.h"
 #include "record/checksums.h"
 #include "record/database.h"
 #include "record/files.h"
 #include "record/journal_damage.h"
 #include "record/journal_reader.h"
+#include "record/journal_schema.h"
+#include "record/journal_seal.h"
 #include "record/private_copy.h"
+#include "record/sha256.h"
 
 namespace rondure::record {
 namespace {
@@ -66,12 +72,10 @@ core::Result<void> require_file(const fs::path& directory, const fs::path& file)
   return refuse(fmt::format("the journal cannot be looked at: {}", system_reason(problem.value())));
 }
 
-}  // namespace
+using Logs = PrivateCopy::Logs;
 
-core::Result<ReadJournal> read_journal(const fs::path& directory) {
-  const fs::path file = directory / kJournalName;
-  if (auto found = require_file(directory, file); !found) return core::fail(found.error());
-  const auto copy = PrivateCopy::of(file);
+core::Result<ReadJournal> read_copy(const fs::path& file, Logs logs) {
+  const auto copy = PrivateCopy::of(file, logs);
   if (!copy) return core::fail(copy.error());
   const auto connection = connection_string(copy->file());
   if (!connection) return core::fail(connection.error());
@@ -79,6 +83,7 @@ core::Result<ReadJournal> read_journal(const fs::path& directory) {
   std::string reason;
   try {
     sql.emplace(soci::sqlite3, *connection);
+    distrust(*sql);
     *sql << "pragma synchronous = off";  // the copy need not survive a power cut
     return read_tables(*sql);
   } catch (const std::exception& exception) {
@@ -90,6 +95,99 @@ core::Result<ReadJournal> read_journal(const fs::path& directory) {
   }
   return core::fail(core::Code::kJournal, fmt::format("the journal cannot be read: {}", reason),
                     file.string());
+}
+
+/// The digest of the journal in SHA256SUMS, if that names it.
+std::optional<std::string> listed_digest(const fs::path& directory) {
+  const auto list = read_checksums(directory);
+  if (!list) return std::nullopt;
+  const auto line = std::find_if(list->begin(), list->end(),
+                                 [](const Checksum& c) { return c.file == kJournalName; });
+  return line == list->end() ? std::nullopt : std::optional(line->sha256);
+}
+
+bool has_digest(const fs::path& file, const std::string& sha256) {
+  const auto bytes = read_file(file);
+  return bytes && sha256_hex(*bytes) == sha256;
+}
+
+/// What `look` finds in a private copy; nothing when that cannot be opened or read.
+template <class Look>
+auto looked_up(const fs::path& file, Logs logs, const Look& look)
+    -> std::optional<std::invoke_result_t<Look, soci::session&>> {
+  const auto copy = PrivateCopy::of(file, logs);
+  const auto connection = copy ? connection_string(copy->file()) : core::fail(copy.error());
+  if (!connection) return std::nullopt;
+  try {
+    soci::session sql(soci::sqlite3, *connection);
+    distrust(sql);
+    return look(sql);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+/// The journal by itself, if it was closed: whole and sealed without any log.
+std::optional<ReadJournal> closed_journal(const fs::path& file) {
+  if (looked_up(file, Logs::kWithout, is_sealed) != true) return std::nullopt;
+  auto alone = read_copy(file, Logs::kWithout);
+  if (!alone || !alone->record.sealed || !alone->broken.empty()) return std::nullopt;
+  return *std::move(alone);
+}
+
+/// Whether the logs change anything: a run that died as it closed its journal may leave a log whose
+/// rows are in the file already.
+bool logs_change(const fs::path& file, std::int64_t version) {
+  const auto contents = [&](soci::session& sql) {
+    std::string digests = digest_of(sql, "sqlite_schema").sha256;
+    for (const Table& table : tables_of(version)) digests += digest_of(sql, table.name).sha256;
+    return digests;
+  };
+  const auto alone = looked_up(file, Logs::kWithout, contents);
+  return !alone || looked_up(file, Logs::kWith, contents) != alone;
+}
+
+}  // namespace
+
+core::Result<ReadJournal> read_journal(const fs::path& directory) {
+  const fs::path file = directory / kJournalName;
+  if (auto found = require_file(directory, file); !found) return core::fail(found.error());
+  const auto listed = listed_digest(directory);
+  const std::vector<std::string> logs = logs_beside(file);
+  if (!listed && !logs.empty()) {
+    if (auto closed = closed_journal(file)) {
+      if (logs_change(file, closed->version)) closed->beside = logs;
+      return *std::move(closed);
+    }
+  }
+  auto read = read_copy(file, listed ? Logs::kWithout : Logs::kWith);
+  if (read) {
+    read->listed = listed.has_value();
+    read->as_listed = !listed || has_digest(file, *listed);
+    if (listed) read->beside = logs;
+  }
+  return read;
+}
+
+std::vector<std::string> faults_of(const ReadJournal& journal) {
+  std::vector<std::string> out;
+  for (const BrokenTable& broken : journal.broken) {
+    out.push_back(fmt::format("table {} of the journal was changed after the run: {}", broken.table,
+                              broken.what));
+  }
+  if (!journal.as_listed) {
+    out.push_back(
+        fmt::format("{} is not the file that {} names: its bytes were changed after its "
+                    "run closed it",
+                    kJournalName, kChecksumsName));
+  }
+  for (const std::string& log : journal.beside) {
+    out.push_back(
+        fmt::format("{} stands beside the closed journal and would change what other "
+                    "programs find in it; it was not read: move it away",
+                    log));
+  }
+  return out;
 }
 
 }  // namespace rondure::record

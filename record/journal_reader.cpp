@@ -15,6 +15,7 @@
 #include <soci/sqlite3/soci-sqlite3.h>
 
 #include "core/numbers.h"
+#include "record/csv_lines.h"
 #include "record/journal_rows.h"
 #include "record/journal_schema.h"
 #include "record/journal_seal.h"
@@ -48,29 +49,10 @@ std::int64_t require_journal(soci::session& sql) {
                     "it with the program that wrote it",
                     version, kOldestSchemaVersion, kSchemaVersion));
   }
-  if (version == 1 && single<int>(sql, "select count(*) from sqlite_schema where name = 'chain'")) {
-    throw Contradiction(
-        "its tables have version 1, which has no chain, and there is a table chain");
-  }
+  require_schema(sql, version);
   const auto verdict = single<std::string>(sql, "pragma integrity_check(1)");
   if (verdict != "ok") throw Damage("it is damaged: " + verdict);
   return version;
-}
-
-/// Every table is the one of docs/journal.md, and not a view or a look-alike.
-void require_table(soci::session& sql, const Table& table, std::int64_t version) {
-  const std::string name(table.name);
-  std::string found;
-  soci::indicator present = soci::i_null;
-  sql << "select sql from sqlite_schema where type = 'table' and name = :name",
-      into(found, present), soci::use(name);
-  if (!sql.got_data()) throw Contradiction(fmt::format("it has no table {}", table.name));
-  // SQLite keeps "CREATE TABLE " in capitals, and what follows it as it was written.
-  constexpr std::size_t kVerb = std::string_view("create table ").size();
-  if (found.size() < kVerb || std::string_view(found).substr(kVerb) != table.sql.substr(kVerb)) {
-    throw Contradiction(fmt::format("the columns of its table {} are not those of version {}",
-                                    table.name, version));
-  }
 }
 
 /// The enumerator that is spelled `text`.
@@ -314,7 +296,60 @@ void read_results(soci::session& sql, RunRecord& record) {
   while (rows.fetch()) record.results.push_back(row);
 }
 
+/// One object of a schema: table, index, view or trigger.
+struct SchemaObject {
+  std::string type;
+  std::string name;
+  std::string table;
+  std::string sql;
+};
+
+std::vector<SchemaObject> schema_of(soci::session& sql) {
+  std::vector<SchemaObject> out;
+  SchemaObject row;
+  soci::statement rows =
+      (sql.prepare << "select coalesce(type, ''), coalesce(name, ''), coalesce(tbl_name, ''), "
+                      "coalesce(sql, '') from sqlite_schema",
+       into(row.type), into(row.name), into(row.table), into(row.sql));
+  rows.execute();
+  while (rows.fetch()) out.push_back(row);
+  return out;
+}
+
+/// Takes the one object out of a schema that is this table, and neither a view nor a look-alike.
+void take_table(std::vector<SchemaObject>& schema, const Table& table, std::int64_t version) {
+  const auto found = std::find_if(schema.begin(), schema.end(), [&](const SchemaObject& object) {
+    return object.type == "table" && object.name == table.name;
+  });
+  if (found == schema.end()) throw Contradiction(fmt::format("it has no table {}", table.name));
+  // SQLite keeps "CREATE TABLE " in capitals, and what follows it as it was written: the columns
+  // with their types, checks and defaults.
+  constexpr std::string_view kVerb = "CREATE TABLE ";
+  if (!found->sql.starts_with(kVerb) ||
+      std::string_view(found->sql).substr(kVerb.size()) != table.sql.substr(kVerb.size())) {
+    throw Contradiction(fmt::format("the columns of its table {} are not those of version {}",
+                                    table.name, version));
+  }
+  schema.erase(found);
+}
+
 }  // namespace
+
+void require_schema(soci::session& sql, std::int64_t version) {
+  std::vector<SchemaObject> schema = schema_of(sql);
+  for (const Table& table : tables_of(version)) take_table(schema, table, version);
+  for (const SchemaObject& object : schema) {
+    // SQLite's own, which keeps `unique` in table seal.
+    const bool of_seal = object.type == "index" && object.name == "sqlite_autoindex_seal_1" &&
+                         object.table == seal_table().name && object.sql.empty();
+    if (of_seal) continue;
+    throw Contradiction(fmt::format(
+        "it holds the {} {}{}, which no journal of version {} has: somebody else put it there",
+        object.type, quoted_text(object.name),
+        object.type == "table" ? std::string() : " on table " + quoted_text(object.table),
+        version));
+  }
+}
 
 void require_number(std::string_view column, double value) {
   if (core::is_measurable(value)) return;
@@ -344,10 +379,6 @@ void require_touch(const Touch& touch) {
 ReadJournal read_tables(soci::session& sql) {
   ReadJournal journal;
   journal.version = static_cast<int>(require_journal(sql));
-  for (const Table& table : chained_tables(journal.version))
-    require_table(sql, table, journal.version);
-  if (journal.version >= kFirstChainedVersion) require_table(sql, chain_table(), journal.version);
-  require_table(sql, seal_table(), journal.version);
   read_header(sql, journal.record);
   read_artefact(sql, journal.record);
   read_features(sql, journal.record);

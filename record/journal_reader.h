@@ -27,6 +27,10 @@ void require_number(std::string_view column, double value);
 void require_numbers(std::string_view column, std::initializer_list<double> values);
 void require_touch(const Touch& touch);
 
+/// Throws Contradiction unless the file holds the tables of that version (docs/journal.md), word
+/// for word, and nothing beside them: no index, view, trigger or other table.
+void require_schema(soci::session& sql, std::int64_t version);
+
 /// Reads and checks every table of an open journal. Throws soci::soci_error and the two above.
 [[nodiscard]] ReadJournal read_tables(soci::session& sql);
 

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "record/chain.h"
 #include "record/journal_schema.h"
 #include "record/journal_series.h"
 
@@ -131,7 +130,7 @@ void insert_head(soci::session& sql, const Header& header, const Artefact& artef
   transaction.commit();
 }
 
-void insert_results(soci::session& sql, std::span<const StoredResult> results) {
+void insert_results(soci::session& sql, Chain& chain, std::span<const StoredResult> results) {
   std::int64_t id = 0;
   StoredResult row;
   soci::statement insert = (sql.prepare << "insert into result values (:id, :name, :value)",
@@ -139,6 +138,7 @@ void insert_results(soci::session& sql, std::span<const StoredResult> results) {
   for (const StoredResult& result : results) {
     row = result;
     insert.execute(true);
+    chain.append("result", id, row.name, row.value);
     ++id;
   }
 }

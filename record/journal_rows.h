@@ -6,6 +6,7 @@
 
 #include <soci/soci.h>
 
+#include "record/chain.h"
 #include "record/run_record.h"
 
 // Private to the room: how records become rows. Everything here throws soci::soci_error.
@@ -49,6 +50,7 @@ struct Statements {
 void insert_head(soci::session& sql, const Header& header, const Artefact& artefact,
                  std::span<const Feature> features, std::span<const Setting> settings);
 
-void insert_results(soci::session& sql, std::span<const StoredResult> results);
+/// Writes the results and links them.
+void insert_results(soci::session& sql, Chain& chain, std::span<const StoredResult> results);
 
 }  // namespace rondure::record

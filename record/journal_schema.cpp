@@ -1,7 +1,6 @@
 #include "record/journal_schema.h"
 
 #include <array>
-#include <span>
 
 namespace rondure::record {
 namespace {
@@ -235,8 +234,16 @@ constexpr std::array<Table, 20> kTables = {{
 }  // namespace
 
 std::vector<Table> chained_tables(std::int64_t version) {
+  std::vector<Table> out = tables_of(version);
+  std::erase_if(out, [](const Table& table) {
+    return table.name == chain_table().name || table.name == seal_table().name;
+  });
+  return out;
+}
+
+std::vector<Table> tables_of(std::int64_t version) {
   std::vector<Table> out;
-  for (const Table& table : std::span(kTables).first(kTables.size() - 2)) {
+  for (const Table& table : kTables) {
     if (table.since <= version && version <= table.until) out.push_back(table);
   }
   return out;

@@ -33,6 +33,8 @@ struct Table {
 
 /// The tables of a version whose rows are linked in the chain, in their order in the seal.
 [[nodiscard]] std::vector<Table> chained_tables(std::int64_t version = kSchemaVersion);
+/// All tables of a version.
+[[nodiscard]] std::vector<Table> tables_of(std::int64_t version);
 /// The links themselves; absent in version 1.
 [[nodiscard]] const Table& chain_table();
 /// The table of the digests themselves.

@@ -60,7 +60,7 @@ void insert_blocks(soci::session& sql, Chain& chain, std::int64_t id, const Seri
     sql << "insert into series_block (series, first_row, row_count, rows) values (:series, :first, "
            ":count, :rows)",
         use(id), use(first_row), use(row_count), use(rows);
-    chain.append_inserted("series_block");
+    chain.append_inserted("series_block", id, first_row, row_count, rows);
   }
 }
 
@@ -72,11 +72,11 @@ void insert_one(soci::session& sql, Chain& chain, const Series& series) {
          ":rows)",
       use(series.feature), use(series.name), use(role), use(rows);
   const std::int64_t id = last_row(sql);
-  chain.append("series", id);
+  chain.append("series", id, series.feature, series.name, role, rows);
   for (const SeriesColumn& column : series.columns) {
     sql << "insert into series_column (series, name, unit) values (:series, :name, :unit)", use(id),
         use(column.name), use(column.unit);
-    chain.append_inserted("series_column");
+    chain.append_inserted("series_column", id, column.name, column.unit);
   }
   insert_blocks(sql, chain, id, series);
 }
@@ -283,7 +283,7 @@ void insert_series(soci::session& sql, Chain& chain, std::span<const Series> ser
   for (const TruthValue& truth : truths) {
     sql << "insert into truth_value (feature, name, value) values (:feature, :name, :value)",
         use(truth.feature), use(truth.name), use(truth.value);
-    chain.append_inserted("truth_value");
+    chain.append_inserted("truth_value", truth.feature, truth.name, truth.value);
   }
 }
 

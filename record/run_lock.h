@@ -16,7 +16,8 @@ inline constexpr std::string_view kLockName = "run.lock";
 class RunLock {
  public:
   /// Takes the lock of a directory that exists, without waiting. kFile when another process holds
-  /// it (`what` names its pid and host), or when the file cannot be made.
+  /// it (`what` names its pid and host), when the file cannot be made, or when something else
+  /// stands in its place (a link, a pipe, a file of the user), which is left as it is.
   [[nodiscard]] static core::Result<RunLock> take(const std::filesystem::path& directory);
 
   RunLock(RunLock&& other) noexcept;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -20,22 +21,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether SQLite finds a database without tables behind the name, once it has finished its log.
-core::Result<bool> holds_no_table(const fs::path& journal) {
-  const auto copy = PrivateCopy::of(journal);
+using Logs = PrivateCopy::Logs;
+
+/// Whether SQLite finds a database without tables behind the name; nothing when it finds no
+/// database at all, or a damaged one.
+core::Result<std::optional<bool>> holds_no_table(const fs::path& journal, Logs logs) {
+  const auto copy = PrivateCopy::of(journal, logs);
   if (!copy) return core::fail(copy.error());
   const auto connection = connection_string(copy->file());
   if (!connection) return core::fail(connection.error());
   try {
     soci::session sql(soci::sqlite3, *connection);
+    distrust(sql);
     int tables = 0;
     long long application = 0;
     sql << "select count(*) from sqlite_schema", soci::into(tables);
     sql << "pragma application_id", soci::into(application);
-    return tables == 0 && application == 0;
+    return std::optional(tables == 0 && application == 0);
   } catch (const std::exception&) {
-    return false;  // no database at all, or a damaged one: for the reader of journals to judge
+    return std::optional<bool>();
   }
+}
+
+/// Whether a journal has no tables, once SQLite has finished its log. One that has them without its
+/// log is a journal, whatever a log beside it says.
+core::Result<bool> is_unborn(const fs::path& journal) {
+  const auto alone = holds_no_table(journal, Logs::kWithout);
+  if (!alone) return core::fail(alone.error());
+  if (!alone->value_or(true)) return false;
+  const auto whole = holds_no_table(journal, Logs::kWith);
+  if (!whole) return core::fail(whole.error());
+  return whole->value_or(false);  // a damaged one is for the reader of journals to judge
 }
 
 constexpr std::array kSuffixes = {"-shm", "-wal", "-journal", ""};  ///< Files of one journal.
@@ -73,7 +89,7 @@ core::Result<bool> clear_unborn_run(const fs::path& directory) {
   if (!fs::exists(journal, problem)) return true;
   const auto lock = RunLock::take(directory);
   if (!lock) return core::fail(lock.error());
-  auto unborn = holds_no_table(journal);
+  auto unborn = is_unborn(journal);
   if (!unborn || !*unborn) return unborn;
   for (const char* suffix : kSuffixes) {
     if (fs::remove(journal.string() + suffix, problem); problem) {

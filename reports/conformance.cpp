@@ -12,6 +12,7 @@
 #include "reports/deviation.h"
 #include "reports/facts.h"
 #include "reports/harmonic_mask.h"
+#include "reports/measured_cloud.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -43,6 +44,8 @@ std::string sampling_words(const FeatureResult& result,
     text += "; worst layer";
   if (!result.cloud.empty() && result.cloud.front().repeats > 1) {
     text += fmt::format("; mean of {} touches a point", result.cloud.front().repeats);
+  } else if (const int passes = passes_of(result.cloud); passes > 1) {
+    text += fmt::format("; {} passes at places of their own, not averaged", passes);
   }
   return text;
 }

@@ -64,7 +64,7 @@ std::optional<ProbeInfluences> probe_influences(const record::RunRecord& record,
   } else if (out.form_limit_mm == 0.0) {  // a limit contains it
     out.repeatability_known = result.repeat_sigma_mm.has_value();
     out.repeatability_mm = result.repeat_sigma_mm.value_or(0.0);
-    for (const CloudPoint& point : result.cloud) out.degrees_of_freedom += point.repeats - 1;
+    out.degrees_of_freedom = result.repeat_freedom;
   }
   const auto tip_um = said.given("tip_radius_um");
   out.tip_radius_mm = tip_um ? *tip_um * core::kMicrometre : (probe ? probe->radius_sigma_mm : 0.0);

@@ -37,8 +37,7 @@ struct UncertaintyQuestion {
 
 /// All points of a cylinder or a circle, as the engine takes them.
 /// @return  The errors of form_cloud().
-[[nodiscard]] core::Result<FormCloud> surface_cloud(const record::RunRecord& record,
-                                                    const FeatureResult& result);
+[[nodiscard]] core::Result<FormCloud> surface_cloud(const FeatureResult& result);
 
 /// The declared spectrum on a cloud, or none of its own terms where the part's own was asked for;
 /// nothing where nobody asked.

@@ -97,8 +97,12 @@ core::Result<Measurement> measure(const record::RunRecord& record, int index, do
     }
     VisitBalls balls{visit.commanded, visit.reached, {}};
     for (const auto& [ball, points] : tips) {
+      if (ball < 0 || static_cast<std::size_t>(ball) >= out.names.size()) {
+        return core::fail(core::Code::kJournal,
+                          fmt::format("ball {} was touched and has no name", ball));
+      }
       const auto center = center_of(points, radius_mm, record.artefact.form_limit_mm,
-                                    out.names.at(static_cast<std::size_t>(ball)), visit.commanded);
+                                    out.names[static_cast<std::size_t>(ball)], visit.commanded);
       if (!center) return core::fail(center.error());
       squares_mm2 += center->sum_squares_mm2;
       freedoms += static_cast<int>(points.size()) - 3;
@@ -199,6 +203,22 @@ double variance_mm2(const fixture::Calibration& c, const core::Pose& pose, const
   return fit::point_covariance_mm2(c.alpha->covariance_at(pose.alpha_rad), about_alpha).trace() +
          fit::point_covariance_mm2(c.beta->covariance_at(pose.beta_rad), about_beta).trace() +
          u_mm.squaredNorm();
+}
+
+/// That every ball touched in a combined pose has its place from the zero poses.
+core::Result<void> check_balls(const Measurement& measured, const RotaryFacts& facts) {
+  const auto& reference = facts.alpha.reference;
+  for (const VisitBalls& visit : measured.visits) {
+    for (const auto& [ball, center] : visit.centers) {
+      const std::string& name = measured.names[static_cast<std::size_t>(ball)];
+      const bool known = std::any_of(reference.begin(), reference.end(),
+                                     [&](const fit::BallCentre& at) { return at.ball == name; });
+      if (known) continue;
+      return core::fail(core::Code::kInconsistent,
+                        fmt::format("ball {} was touched in no zero pose", name));
+    }
+  }
+  return {};
 }
 
 /// Sums over the points of the combined poses.
@@ -333,6 +353,7 @@ core::Result<RotaryFacts> facts_of(const record::RunRecord& record, int index, d
   facts.poses = measured->visits.size();
   facts.touches = measured->touches;
   facts.touch_sigma_mm = measured->touch_sigma_mm;
+  if (auto placed = check_balls(*measured, facts); !placed) return core::fail(placed.error());
   judge_balls(*measured, facts);
   verify_combined(*measured, facts);
   return facts;

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "reports/declared.h"
 #include "reports/deviation.h"
+#include "reports/measured_cloud.h"
 
 namespace rondure::reports {
 namespace {
@@ -29,36 +29,7 @@ Rows rows_of(const FeatureResult& result, const record::Characteristic& asked) {
   return out;
 }
 
-/// Mean time of the touches of each target of the final cloud, from 0 to 1.
-std::map<std::pair<int, int>, double> times_of(const record::RunRecord& record,
-                                               const std::string& feature) {
-  std::map<std::pair<int, int>, double> sums;
-  std::map<std::pair<int, int>, int> counts;
-  for (const record::PoseVisit& pose : record.poses) {
-    const auto owner = static_cast<std::size_t>(pose.feature);
-    if (!pose.final_cloud || record.features[owner].id != feature) continue;
-    sums.clear();  // a part located again while its cloud was repeated has two; the later counts
-    counts.clear();
-    for (const record::Touch& touch : record.touches) {
-      if (touch.purpose != record::Touch::Purpose::kMeasure || touch.pose != pose.id) continue;
-      sums[{touch.layer, touch.point}] += touch.time_s;
-      ++counts[{touch.layer, touch.point}];
-    }
-  }
-  if (sums.empty()) return sums;
-  double first = sums.begin()->second / counts.begin()->second;
-  double last = first;
-  for (auto& [target, time] : sums) {
-    time /= counts[target];
-    first = std::min(first, time);
-    last = std::max(last, time);
-  }
-  for (auto& [target, time] : sums) time = last > first ? (time - first) / (last - first) : 0.0;
-  return sums;
-}
-
-core::Result<FormCloud> cloud_of(const record::RunRecord& record, const FeatureResult& result,
-                                 const Rows& rows) {
+core::Result<FormCloud> cloud_of(const FeatureResult& result, const Rows& rows) {
   std::vector<Eigen::Vector3d> tips;
   for (const std::size_t row : rows.rows) tips.push_back(result.cloud[row].tip_mm);
   std::optional<Eigen::Vector3d> direction;
@@ -67,14 +38,17 @@ core::Result<FormCloud> cloud_of(const record::RunRecord& record, const FeatureR
   auto cloud = form_cloud(rows.kind, tips, direction);
   if (!cloud) return cloud;
   cloud->outside = result.feature.side == record::Side::kOutside;
+  cloud->passes = passes_of(result.cloud);
   const bool touched = result.feature.strategy != record::Strategy::kPointsFile;
-  const auto times =
-      touched ? times_of(record, result.feature.id) : std::map<std::pair<int, int>, double>();
+  const auto [first, last] = std::minmax_element(
+      result.cloud.begin(), result.cloud.end(),
+      [](const CloudPoint& a, const CloudPoint& b) { return a.time_s < b.time_s; });
+  const double span_s = last->time_s - first->time_s;
   for (std::size_t i = 0; i < rows.rows.size(); ++i) {
     const CloudPoint& point = result.cloud[rows.rows[i]];
     cloud->points[i].repeats = point.repeats;
-    const auto time = times.find({point.layer, point.point});
-    if (time != times.end()) cloud->points[i].time_1 = time->second;
+    if (!touched) continue;
+    cloud->points[i].time_1 = span_s > 0.0 ? (point.time_s - first->time_s) / span_s : 0.0;
   }
   return cloud;
 }
@@ -101,12 +75,11 @@ core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
   return std::optional<FormSpectrum>(std::move(out));
 }
 
-core::Result<FormCloud> surface_cloud(const record::RunRecord& record,
-                                      const FeatureResult& result) {
+core::Result<FormCloud> surface_cloud(const FeatureResult& result) {
   Rows all;
   if (result.feature.shape == record::Shape::kCircle) all.kind = FormKind::kRoundness;
   for (std::size_t i = 0; i < result.cloud.size(); ++i) all.rows.push_back(i);
-  return cloud_of(record, result, all);
+  return cloud_of(result, all);
 }
 
 std::optional<std::string> why_no_interval(const record::RunRecord& record,
@@ -135,7 +108,7 @@ tl::expected<UncertaintyQuestion, std::string> uncertainty_question(
         fmt::format("{} points are more than {}, the limit of the trials; give every n-th point",
                     rows.rows.size(), kMostPoints));
   }
-  auto cloud = cloud_of(record, result, rows);
+  auto cloud = cloud_of(result, rows);
   if (!cloud) return none(cloud.error().what);
   cloud->reference = asked.reference;
   auto spectrum = spectrum_on(*cloud, *declared, result.feature);

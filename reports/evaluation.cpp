@@ -98,6 +98,18 @@ void mark_contacts(const std::vector<fit::Contact>& outer, const std::vector<fit
   for (const fit::Contact& c : inner) cloud[rows[c.index]].inner_contact = true;
 }
 
+/// Points of a section; of several passes over it only the first: near points of two passes differ
+/// by their noise, which a curve through both would blow up.
+std::vector<Eigen::Vector2d> first_pass(const std::vector<CloudPoint>& cloud,
+                                        const std::vector<std::size_t>& rows,
+                                        const std::vector<Eigen::Vector2d>& points) {
+  std::vector<Eigen::Vector2d> out;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (cloud[rows[i]].pass == cloud[rows.front()].pass) out.push_back(points[i]);
+  }
+  return out;
+}
+
 /// The filtered section of a dense layer; the verdict stays with the points as measured.
 std::optional<fit::RoundnessEvaluation> dense_section(const std::vector<Eigen::Vector2d>& points) {
   constexpr std::size_t kDense = 7 * 50;   // points at the cut-off of 50 UPR
@@ -124,7 +136,7 @@ std::vector<LayerResult> sections(const fit::Axis& axis, const std::vector<Cloud
     LayerResult result{layer, height, rows, fit::min_zone_circle(section), fit::ls_circle(section)};
     result.mc = fit::min_circumscribed_circle(section);
     result.mi = fit::max_inscribed_circle(section);
-    result.filtered = dense_section(section);
+    result.filtered = dense_section(first_pass(cloud, rows, section));
     result.points_mm = std::move(section);
     out.push_back(std::move(result));
   }
@@ -223,22 +235,24 @@ void evaluate_circle(const Eigen::Vector3d& direction, FeatureResult& result) {
 /// What the repeats of the final cloud say: scatter of a touch, and of the zone of a single cloud.
 void evaluate_repeats(const std::vector<const Touch*>& touches,
                       const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
-  std::map<std::pair<int, int>, const CloudPoint*> means;
-  for (const CloudPoint& point : result.cloud) means[{point.layer, point.point}] = &point;
-  double squares = 0.0;
-  int freedoms = -static_cast<int>(result.cloud.size());
-  std::map<int, std::vector<Eigen::Vector3d>> clouds;
-  for (const Touch* touch : touches) {
-    // The probe scatters along its approach; across it the controller holds the line.
-    const Eigen::Vector3d apart = touch->tip_mm - means.at({touch->layer, touch->point})->tip_mm;
-    squares += std::pow(apart.dot(touch->approach), 2);
-    ++freedoms;
-    clouds[touch->repeat].push_back(touch->tip_mm);
+  const RepeatNoise noise = repeat_noise(touches, result.cloud);
+  if (noise.freedom > 0) {
+    result.repeat_sigma_mm = noise.sigma_mm;
+    result.repeat_freedom = noise.freedom;
   }
-  if (freedoms > 0) result.repeat_sigma_mm = std::sqrt(squares / freedoms);
+  std::map<int, std::vector<Eigen::Vector3d>> clouds;
+  std::size_t most = 0;
+  for (const Touch* touch : touches) {
+    auto& pass = clouds[touch->repeat];
+    pass.push_back(touch->tip_mm);
+    most = std::max(most, pass.size());
+  }
   std::vector<double> zones;
   for (const auto& [repeat, points] : clouds) {
-    if (points.size() != result.cloud.size() || !result.mz_cylinder) continue;
+    // An interrupted pass is no cloud; those of scans need not have the same number of points.
+    const bool whole = result.cloud.front().pass ? 10 * points.size() > 9 * most
+                                                 : points.size() == result.cloud.size();
+    if (!whole || !result.mz_cylinder) continue;
     const auto zone = fit::min_zone_cylinder(points, direction);
     if (zone) zones.push_back(zone->width_mm());
   }
@@ -315,7 +329,7 @@ FeatureResult evaluate_feature(const RunRecord& record, int index,
     return result;
   }
   const auto touches = touches_of(record, last->id);
-  result.cloud = averaged(touches);
+  result.cloud = measured_cloud(touches);
   if (result.cloud.empty()) {
     result.failure = core::Error{core::Code::kNoPoints, "the final cloud holds no touches", {}};
     return result;

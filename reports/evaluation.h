@@ -29,12 +29,15 @@
 
 namespace rondure::reports {
 
-/// One point of the cloud that is evaluated: the mean of its repeated touches.
+/// One point of the cloud that is evaluated: the mean of its repeated touches, or, where those do
+/// not meet at one place (scans), one of them.
 struct CloudPoint {
   int layer = 0;
   int point = 0;
   int repeats = 1;
-  int pose = 0;  ///< Of a cloud that several poses make: in which of them.
+  std::optional<int> pass;  ///< Of a point that was not averaged: in which repeat it was measured.
+  double time_s = 0.0;      ///< Mean time of its touches.
+  int pose = 0;             ///< Of a cloud that several poses make: in which of them.
   /// Mean tip centre, machine frame; of a cloud that several poses make: body frame.
   Eigen::Vector3d tip_mm = Eigen::Vector3d::Zero();
   double angle_rad = 0.0;     ///< About the minimum-zone axis, in [0, 2 pi).
@@ -115,6 +118,7 @@ struct FeatureResult {
   std::optional<double> tip_radius_mm;       ///< rho that was used; none for points of unknown tip.
   std::optional<core::Pose> levelling_pose;  ///< That would turn the found axis to machine z.
   std::optional<double> repeat_sigma_mm;     ///< Pooled standard deviation of a single touch.
+  int repeat_freedom = 0;                    ///< Degrees of freedom behind it.
   std::optional<double> repeat_zone_mean_mm;  ///< Mean of the zones of the single repeats.
   std::optional<double> repeat_zone_sd_mm;
   std::optional<Temperatures> temperatures;        ///< Of the final cloud; none: not known.
@@ -135,8 +139,8 @@ struct Evaluation {
   Verdict verdict = Verdict::kVoid;  ///< The worst of all toleranced characteristics.
 };
 
-/// Evaluates a record: averages repeated touches of the final pose, fits, checks the invariants,
-/// decides. No machine, no clock, no files; same record, same bits.
+/// Evaluates a record: averages repeated touches of one place in the final pose, fits, checks the
+/// invariants, decides. No machine, no clock, no files; same record, same bits.
 ///
 /// @return Always an evaluation: every fault of the data stands in the feature, and so does a
 ///         broken invariant (a defect of the program; no value, all void; evaluate_run() of

@@ -35,6 +35,7 @@ std::vector<CloudPoint> places_of(const record::RunRecord& record, int feature) 
     place.point = touch.point;
     place.repeats = fresh ? 1 : place.repeats + 1;
     place.tip_mm = touch.tip_mm;
+    place.time_s += (touch.time_s - place.time_s) / place.repeats;
   }
   std::vector<CloudPoint> out;
   for (const auto& [key, place] : places) out.push_back(place);
@@ -147,11 +148,12 @@ core::Result<Rehearsal> Rehearsal::of(const record::RunRecord& expected, int fea
   if (out.result_.cloud.empty()) {
     return core::fail(core::Code::kNoPoints, "the feature is not touched");
   }
+  for (const CloudPoint& place : out.result_.cloud) out.result_.repeat_freedom += place.repeats - 1;
   const Eigen::Vector3d direction = direction_of(expected, feature);
   out.result_.section_axis.direction = direction;
   out.result_.mz_cylinder.emplace();
   out.result_.mz_cylinder->axis.direction = direction;
-  auto nominal = surface_cloud(expected, out.result_);
+  auto nominal = surface_cloud(out.result_);
   if (!nominal) return core::fail(nominal.error());
   out.nominal_ = *std::move(nominal);
   return out;

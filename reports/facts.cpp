@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "reports/language.h"
+#include "reports/measured_cloud.h"
 #include "reports/text.h"
 
 namespace rondure::reports {
@@ -184,6 +185,9 @@ std::string pattern_of(const FeatureResult& feature) {
 
 std::string repeats_of(const FeatureResult& feature) {
   if (feature.cloud.empty() || feature.feature.strategy == record::Strategy::kPointsFile) return {};
+  if (const int passes = passes_of(feature.cloud); passes > 1) {
+    return trf("{} passes at places of their own, not averaged", passes);
+  }
   const auto [least, most] = std::minmax_element(
       feature.cloud.begin(), feature.cloud.end(),
       [](const CloudPoint& a, const CloudPoint& b) { return a.repeats < b.repeats; });

@@ -36,6 +36,7 @@ struct FormCloud {
   record::Reference reference = record::Reference::kMinimumZone;  ///< That the value is about.
   fit::Axis axis;          ///< Machine frame; angles count from the first vector of fit::across().
   double radius_mm = 0.0;  ///< Of the tip centres, > 0.
+  int passes = 1;          ///< Over its layers, at places of their own, that make the points.
   bool outside = true;     ///< A shaft, touched towards the axis; else a bore.
   std::vector<FormPoint> points;
 };

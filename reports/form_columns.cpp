@@ -98,6 +98,13 @@ bool even_steps(const std::vector<double>& angles) {
   return true;
 }
 
+/// The largest gap that does not open a section: a missing touch between steps that need not be
+/// even, and, of a dense scan, the few that drop out one beside the other.
+double closed_gap(int points_per_layer) {
+  const double step = core::kTwoPi / std::max(1, points_per_layer);
+  return std::max(2.5 * step, std::min(5.5 * step, 10.0 * core::kDegree));
+}
+
 int octave_of(double undulations) {
   return undulations < 2.0 ? 0 : static_cast<int>(std::floor(std::log2(undulations)));
 }
@@ -175,7 +182,7 @@ void FormColumns::lay_out(const FormCloud& cloud) {
   if (!layers.empty()) {
     layout_.layers = static_cast<int>(layers.size());
     std::size_t least = layers.front().size();
-    layout_.regular = root_weight_.minCoeff() == root_weight_.maxCoeff();
+    layout_.regular = cloud.passes == 1 && root_weight_.minCoeff() == root_weight_.maxCoeff();
     for (const Rows& layer : layers) {
       least = std::min(least, layer.size());
       const double extent =
@@ -184,7 +191,8 @@ void FormColumns::lay_out(const FormCloud& cloud) {
                         (layers.size() == 1 || extent < 1e-9) &&
                         even_steps(sorted_angles(cloud, layer));
     }
-    layout_.points_per_layer = static_cast<int>(least);
+    // Passes at places of their own lie in bunches: together they resolve what one of them does.
+    layout_.points_per_layer = std::max(1, static_cast<int>(least) / std::max(1, cloud.passes));
   } else {
     layout_.layered = false;
     const double turns = turns_of(cloud);
@@ -197,10 +205,8 @@ void FormColumns::lay_out(const FormCloud& cloud) {
   const auto [gap, end] = largest_gap(angles);
   angle_.resize(n);
   for (Index i = 0; i < n; ++i) angle_[i] = cloud.points[static_cast<std::size_t>(i)].angle_rad;
-  // A single touch that is missing does not open a section.
-  if (gap < 2.001 * core::kTwoPi / std::max(1, layout_.points_per_layer)) return;
+  if (gap < closed_gap(layout_.points_per_layer)) return;
   layout_.regular = false;
-  layout_.arc_start_rad = end;
   layout_.arc_rad = core::kTwoPi - gap;
   for (double& angle : angle_) {
     double from = std::fmod(angle - end, core::kTwoPi);

@@ -28,10 +28,9 @@ struct FormGroup {
 /// How the points of a cloud lie, as far as it says which form they show.
 struct PointLayout {
   int layers = 1;
-  int points_per_layer = 0;  ///< Of the layer with the fewest; of a helix, points a turn.
+  int points_per_layer = 0;  ///< Of the layer with the fewest, in one pass; of a helix, a turn.
   bool layered = true;       ///< false: a helix, or scattered.
   bool regular = false;      ///< Even steps, all layers alike: the columns are orthogonal.
-  double arc_start_rad = 0.0;
   std::optional<double> arc_rad;  ///< Of points that do not go round.
 };
 

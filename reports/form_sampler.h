@@ -77,8 +77,6 @@ class FormModel {
   [[nodiscard]] const Eigen::VectorXd& energy_mm2() const { return energy_; }
   /// Points that a robust start leaves out, as a share; beyond a fifth there is no smooth form.
   [[nodiscard]] double flagged_share() const;
-  /// Variance of a point's error, as declared [mm^2].
-  [[nodiscard]] double noise_mm2() const { return noise_mm2_; }
   /// Standard deviation of what the start leaves unexplained [mm].
   [[nodiscard]] double residual_mm() const { return residual_mm_; }
   [[nodiscard]] std::size_t points() const { return static_cast<std::size_t>(y_.size()); }

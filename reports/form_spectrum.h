@@ -22,13 +22,13 @@ struct FormTerm {
 /// The stated form spectrum of a surface: which forms it may have, and how large. It is what says
 /// something about the surface between the points; without one there is no statement about it.
 struct FormSpectrum {
-  std::vector<FormTerm> terms;  ///< None: what a dense cloud shows by itself.
+  std::vector<FormTerm> terms;  ///< None: the form is learnt from the cloud.
   /// Whether the amplitudes are known as such; else their ratios are, and the size common to all is
   /// estimated from the deviations.
   bool absolute = false;
   double low_mm = 0.0;   ///< Ends of the surface along the axis, in the heights of the cloud.
   double high_mm = 0.0;  ///< > low_mm; both 0 in a section.
-  std::string source;    ///< "declared in the plan", "own harmonics of 8 x 64 points".
+  std::string source;    ///< Where it comes from, for the report: "form_spectrum of the plan".
 };
 
 /// kBadOption for what a spectrum must not hold, naming the term; or when it has more than 400

@@ -208,16 +208,18 @@ Json pose_json(const PoseValue& pose) {
 }
 
 Json point_json(const CloudPoint& point) {
-  return {{"layer", point.layer},
-          {"point", point.point},
-          {"repeats", point.repeats},
-          {"tip_mm", vector_json(point.tip_mm)},
-          {"angle_deg", in_deg(point.angle_rad)},
-          {"height_mm", point.height_mm},
-          {"deviation_um", in_um(point.deviation_mm)},
-          {"contact", point.outer_contact   ? Json("outer")
-                      : point.inner_contact ? Json("inner")
-                                            : Json(nullptr)}};
+  Json json = {{"layer", point.layer},
+               {"point", point.point},
+               {"repeats", point.repeats},
+               {"tip_mm", vector_json(point.tip_mm)},
+               {"angle_deg", in_deg(point.angle_rad)},
+               {"height_mm", point.height_mm},
+               {"deviation_um", in_um(point.deviation_mm)},
+               {"contact", point.outer_contact   ? Json("outer")
+                           : point.inner_contact ? Json("inner")
+                                                 : Json(nullptr)}};
+  if (point.pass) json["pass"] = *point.pass;
+  return json;
 }
 
 /// Three of the six numbers of a pose, with a factor that brings them to the unit of the key.

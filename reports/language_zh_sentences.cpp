@@ -117,6 +117,7 @@ constexpr Translation kSentenceTexts[] = {
     {"by kinematics", "按运动学"},
     {"worst layer", "最差层"},
     {"mean of {} touches a point", "每点 {} 次触测的均值"},
+    {"{} passes at places of their own, not averaged", "{} 遍扫描，各遍点位不同，未取平均"},
     {"r_tip {:.4f} mm", "测头半径 {} mm"},
     {"r_tip unknown", "测头半径未知"},
     {"temperature not recorded", "未记录温度"},

@@ -122,7 +122,10 @@ class LiveServer::Http final : public httplib::Server {
          {"X-Content-Type-Options", "nosniff"},
          {"X-Frame-Options", "DENY"}});
     set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
-      const auto refusal = refuse_host(gate_, only(request, "Host"));
+      auto refusal = refuse_host(gate_, only(request, "Host"));
+      // The library takes a body in chunks without a limit. A browser states the length of its own.
+      if (!refusal && request.has_header("Transfer-Encoding"))
+        refusal = Refusal{411, "the length of the body is not stated"};
       if (!refusal) return HandlerResponse::Unhandled;
       refuse(*refusal, response);
       return HandlerResponse::Handled;
@@ -184,9 +187,12 @@ class LiveServer::Http final : public httplib::Server {
     if (one_too_many) return ::close(socket) == 0;
     LiveStream stream(socket, kConnection, ending_);
     bool closed = false;
-    // Compressing costs more than handing it over within a computer.
+    // Compressing costs more than handing it over within a computer. Nothing here is asked for in
+    // parts: a header of 8 kB names the whole page a thousand times, and the library copies it.
     const bool well = process_request(stream, true, closed, [](httplib::Request& request) {
       request.headers.erase("Accept-Encoding");
+      request.headers.erase("Range");
+      request.ranges.clear();
     });
     stream.finish();
     ::close(socket);

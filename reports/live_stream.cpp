@@ -8,6 +8,14 @@
 #include <cstring>
 
 namespace rondure::reports {
+namespace {
+
+/// A browser's request has one or two kB. The library bounds a line, but neither their number nor
+/// a body that comes in chunks.
+constexpr std::size_t kMostRequest_bytes = 32'768;
+constexpr std::size_t kMostRest_bytes = 262'144;  ///< Of what a refused request still sends.
+
+}  // namespace
 
 LiveStream::LiveStream(socket_t socket, std::chrono::milliseconds limit,
                        const std::atomic<bool>& ending)
@@ -36,11 +44,12 @@ bool LiveStream::is_writable() const { return wait(POLLOUT); }
 
 ssize_t LiveStream::read(char* ptr, size_t size) {
   if (begin_ == filled_) {
-    if (!wait(POLLIN)) return -1;
+    if (taken_ >= kMostRequest_bytes || !wait(POLLIN)) return -1;
     const ssize_t got = ::recv(socket_, buffer_.data(), buffer_.size(), MSG_DONTWAIT);
     if (got <= 0) return got;
     begin_ = 0;
     filled_ = static_cast<std::size_t>(got);
+    taken_ += filled_;
   }
   const std::size_t n = std::min(size, filled_ - begin_);
   std::memcpy(ptr, buffer_.data() + begin_, n);
@@ -67,8 +76,11 @@ void LiveStream::finish() {
   constexpr auto kRest = std::chrono::milliseconds(200);
   end_ = std::min(end_, Clock::now() + kRest);
   ::shutdown(socket_, SHUT_WR);
-  std::array<char, 1024> rest{};
-  while (wait(POLLIN) && ::recv(socket_, rest.data(), rest.size(), MSG_DONTWAIT) > 0) {
+  std::array<char, 4096> rest{};
+  for (std::size_t taken = 0; taken < kMostRest_bytes && wait(POLLIN);) {
+    const ssize_t got = ::recv(socket_, rest.data(), rest.size(), MSG_DONTWAIT);
+    if (got <= 0) return;
+    taken += static_cast<std::size_t>(got);
   }
 }
 

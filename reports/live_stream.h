@@ -13,8 +13,9 @@
 namespace rondure::reports {
 
 /// A connected socket for one request and its answer, within a time for both together: a client
-/// that sends or reads by drops is left. When `ending` becomes true no request is waited for, and
-/// an answer has half a second. Does not close the socket.
+/// that sends or reads by drops is left, and so is one that sends more than 32 kB. When `ending`
+/// becomes true no request is waited for, and an answer has half a second. Does not close the
+/// socket.
 class LiveStream final : public httplib::Stream {
  public:
   LiveStream(socket_t socket, std::chrono::milliseconds limit, const std::atomic<bool>& ending);
@@ -27,8 +28,8 @@ class LiveStream final : public httplib::Stream {
   void get_local_ip_and_port(std::string& ip, int& port) const override;
   [[nodiscard]] socket_t socket() const override { return socket_; }
 
-  /// Ends the answer and takes what the client still sends, so that the answer is not lost with a
-  /// reset of the connection.
+  /// Ends the answer and takes some of what the client still sends, so that the answer is not lost
+  /// with a reset of the connection.
   void finish();
 
  private:
@@ -43,6 +44,7 @@ class LiveStream final : public httplib::Stream {
   std::array<char, 4096> buffer_{};
   std::size_t begin_ = 0;
   std::size_t filled_ = 0;
+  std::size_t taken_ = 0;  ///< Of the request, in all.
 };
 
 }  // namespace rondure::reports

@@ -17,8 +17,27 @@ namespace rondure::reports {
 [[nodiscard]] std::vector<const record::Touch*> touches_of(const record::RunRecord& record,
                                                            int pose);
 
-/// Mean tip centre of every target, in the order of layer and point.
-[[nodiscard]] std::vector<CloudPoint> averaged(const std::vector<const record::Touch*>& touches);
+/// The cloud of some touches, in the order of layer, pass (where there are several) and point. The
+/// repeats of a point are averaged where they lie at one place. Scans give about the step that was
+/// asked for: their n-th points lie at different angles, and a mean over those would smooth the
+/// form and cut the chords; then every touch is a point of its own, with the noise of one touch.
+[[nodiscard]] std::vector<CloudPoint> measured_cloud(
+    const std::vector<const record::Touch*>& touches);
+
+/// How many passes over the layers make a cloud: 1 where repeats were averaged.
+[[nodiscard]] int passes_of(const std::vector<CloudPoint>& cloud);
+
+/// What touches that were measured several times say of the noise of one [mm].
+struct RepeatNoise {
+  double sigma_mm = 0.0;
+  int freedom = 0;  ///< Degrees of freedom; 0: nothing is known.
+};
+
+/// From the places that were averaged: how far their touches lie apart along the approach. Where
+/// passes were not averaged: from points of two passes that lie close to each other.
+/// @param cloud  With the angles and deviations about its axis.
+[[nodiscard]] RepeatNoise repeat_noise(const std::vector<const record::Touch*>& touches,
+                                       const std::vector<CloudPoint>& cloud);
 
 [[nodiscard]] std::vector<Eigen::Vector3d> tips_of(const std::vector<CloudPoint>& cloud);
 

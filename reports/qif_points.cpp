@@ -1,4 +1,5 @@
 #include "core/numbers.h"
+#include "reports/measured_cloud.h"
 #include "reports/qif_parts.h"
 #include "reports/section.h"
 #include "reports/text.h"
@@ -46,10 +47,13 @@ std::optional<int> add_qif_points(QifDraft& draft, const FeatureResult& feature)
   const int id = draft.ids.next();
   node.append_attribute("count").set_value(static_cast<unsigned long long>(feature.cloud.size()));
   node.append_attribute("id").set_value(id);
-  add_attributes(node, {{"frame", draft.frame},
-                        {"points", feature.tip_radius_mm ? "tip centres; means of repeated touches"
-                                                         : "as given; the tip is not known"},
-                        {"temperature", feature.thermal ? "brought to 20 degC" : "as measured"}});
+  add_attributes(node,
+                 {{"frame", draft.frame},
+                  {"points", !feature.tip_radius_mm         ? "as given; the tip is not known"
+                             : passes_of(feature.cloud) > 1 ? "tip centres; all passes"
+                                                            : "tip centres; means of repeated "
+                                                              "touches"},
+                  {"temperature", feature.thermal ? "brought to 20 degC" : "as measured"}});
   std::string points;
   std::string deviations;
   for (const CloudPoint& point : feature.cloud) {

@@ -41,6 +41,11 @@ Character next_character(std::string_view text) {
 
 bool is_control(std::uint32_t code) { return code < 0x20 || (code >= 0x7F && code < 0xA0); }
 
+/// Codes that are no characters: XML and HTML refuse them.
+bool is_noncharacter(std::uint32_t code) {
+  return (code >= 0xFDD0 && code <= 0xFDEF) || (code & 0xFFFEU) == 0xFFFE;
+}
+
 /// Marks that reorder what follows, or line and paragraph separators.
 bool is_layout_mark(std::uint32_t code) {
   return code == 0x061C || (code >= 0x200B && code <= 0x200F) ||
@@ -130,8 +135,8 @@ std::string clean(std::string_view text) {
   result.reserve(text.size());
   while (!text.empty()) {
     const Character c = next_character(text);
-    const bool refused = (is_control(c.code) && c.code != '\n' && c.code != '\t') ||
-                         c.code == 0xFFFE || c.code == 0xFFFF;
+    const bool refused =
+        (is_control(c.code) && c.code != '\n' && c.code != '\t') || is_noncharacter(c.code);
     result += c.valid && !refused ? text.substr(0, c.bytes) : kReplacement;
     text.remove_prefix(c.bytes);
   }
@@ -152,7 +157,8 @@ std::string escaped(std::string_view text) {
   result.reserve(text.size() + text.size() / 8);
   while (!text.empty()) {
     const Character c = next_character(text);
-    if (!c.valid || (is_control(c.code) && c.code != '\n' && c.code != '\t')) {
+    if (!c.valid || is_noncharacter(c.code) ||
+        (is_control(c.code) && c.code != '\n' && c.code != '\t')) {
       result += kReplacement;
     } else if (c.code == '&') {
       result += "&amp;";
@@ -227,7 +233,7 @@ std::string printable(std::string_view text) {
   std::string result;
   while (!text.empty()) {
     const Character c = next_character(text);
-    if (!c.valid || is_control(c.code) || is_layout_mark(c.code)) {
+    if (!c.valid || is_control(c.code) || is_noncharacter(c.code) || is_layout_mark(c.code)) {
       result += '?';
     } else {
       result += text.substr(0, c.bytes);

@@ -41,7 +41,7 @@ inline constexpr double kMicroradian = 1e-6;  ///< in rad
 [[nodiscard]] std::string well_formed(std::string_view text);
 
 /// Text that any file format can hold: well-formed UTF-8 without control characters (line feed and
-/// tab stay) and without the codes that XML 1.0 refuses; what is none of these becomes U+FFFD.
+/// tab stay) and without noncharacters, which XML and HTML refuse; each of these becomes U+FFFD.
 [[nodiscard]] std::string clean(std::string_view text);
 
 /// The shortest decimal text, without an exponent, that reads back to the same double
@@ -49,7 +49,7 @@ inline constexpr double kMicroradian = 1e-6;  ///< in rad
 [[nodiscard]] std::string decimal(double value);
 
 /// Text that stays text in HTML, in elements and in quoted attributes: & < > " ' become entities,
-/// control characters the replacement character.
+/// control characters and noncharacters the replacement character.
 [[nodiscard]] std::string escaped(std::string_view text);
 /// Escaped and isolated (<bdi>), so that a right-to-left name does not reorder its neighbours.
 [[nodiscard]] std::string isolated(std::string_view text);

@@ -8,12 +8,15 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal.h"
+#include "record/sha256.h"
 #include "record/signature.h"
 #include "reports/compare_text.h"
 #include "reports/compare_values.h"
+#include "reports/earlier_results.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
 #include "reports/pdf_report.h"
+#include "reports/text.h"
 #include "reports/verify_files.h"
 #include "reports/verify_results.h"
 
@@ -97,9 +100,6 @@ core::Result<std::string> compare_exports(const fs::path& directory,
       out.differences.push_back(difference_line(e, difference, state));
     }
   }
-  if (!listed.list_found) {
-    absent += fmt::format("{}{}", absent.empty() ? "; not there: " : ", ", record::kChecksumsName);
-  }
   return (names.empty() ? "none" : names) + absent;
 }
 
@@ -108,6 +108,19 @@ void tell_damage(const record::ReadJournal& read, const ListedFiles& listed, Ver
   const record::RunRecord& record = read.record;
   for (const record::BrokenTable& broken : read.broken) {
     out.differences.push_back(fmt::format("journal, table {}: {}", broken.table, broken.what));
+  }
+  for (const std::string& log : read.beside) {
+    out.differences.push_back(fmt::format(
+        "{}: it stands beside the closed journal and was not read; other programs would "
+        "read it in the journal's place: move it away",
+        log));
+  }
+  const std::string plan_sha256 = record::sha256_hex(record.header.plan_text);
+  if (plan_sha256 != record.header.plan_sha256) {
+    out.differences.push_back(
+        fmt::format("journal, table header: the plan in it is not the one that was measured: its "
+                    "SHA-256 is {}, recorded is {}",
+                    plan_sha256, printable(record.header.plan_sha256)));
   }
   for (const auto& [file, state] : listed.files) {
     const auto all = exports();
@@ -154,6 +167,30 @@ std::string how_exactly(const record::Header& header, const VerifyOptions& optio
   return words.empty() ? "bit for bit (same kind of processor)" : words;
 }
 
+/// What an answer leaves open without being a difference.
+std::vector<std::string> notes_on(const record::ReadJournal& read, const ListedFiles& listed) {
+  std::vector<std::string> out;
+  const record::Header& header = read.record.header;
+  if (header.version != core::kVersion) {
+    out.push_back(fmt::format("version {} measured, this is version {}: it verifies what both give",
+                              printable(header.version), core::kVersion));
+  }
+  if (read.record.sealed && !listed.list_found) {
+    out.push_back(
+        fmt::format("there is no {}, which the run wrote: nothing shows whether {} and the reports "
+                    "are still the files that were written",
+                    record::kChecksumsName, record::kJournalName));
+  }
+  return out;
+}
+
+/// "part SP-25, serial 0042, conforms".
+std::string about_part(const record::Header& header, Verdict verdict) {
+  const std::string serial =
+      header.serial.empty() ? std::string("no serial") : "serial " + printable(header.serial);
+  return fmt::format("part {}, {}, {}", printable(header.part_id), serial, name_of(verdict));
+}
+
 /// ", 3072 rows of series"; empty without any.
 std::string series_in_words(const record::RunRecord& record) {
   std::size_t rows = 0;
@@ -164,6 +201,7 @@ std::string series_in_words(const record::RunRecord& record) {
 std::vector<std::string> signed_files() {
   std::vector<std::string> files = {record::kJournalName};
   for (const Export& e : exports()) files.push_back(e.file);
+  files.emplace_back(kEarlierName);
   return files;
 }
 
@@ -194,7 +232,16 @@ core::Result<Verification> verify_run(const fs::path& directory, const VerifyOpt
   tell_damage(*read, *listed, out);
   const auto signature = about_signature(directory, options, *listed, out);
   if (!signature) return core::fail(signature.error());
+  out.notes = notes_on(*read, *listed);
+  if (!read->broken.empty()) {  // what was changed may ask for anything
+    out.notes.emplace_back("nothing was computed from a journal that is not as it was written");
+    return out;
+  }
 
+  if (const auto checked = options.check ? options.check(record) : core::Result<void>(); !checked) {
+    out.differences.push_back(checked.error().what);
+    return out;
+  }
   const auto evaluation = evaluate(record);
   if (!evaluation) {
     if (out.differences.empty()) return core::fail(evaluation.error());
@@ -212,10 +259,11 @@ core::Result<Verification> verify_run(const fs::path& directory, const VerifyOpt
   }
   const auto names = compare_exports(directory, record, *evaluation, exactness, *listed, out);
   if (!names) return core::fail(names.error());
-  out.what_was_compared =
-      fmt::format("{} touches{}, {} results follow from the journal, {}; exports compared: {}{}",
-                  record.touches.size(), series_in_words(record), results,
-                  how_exactly(record.header, options, exactness), *names, *signature);
+  out.what_was_compared = fmt::format(
+      "{}: {} touches{}, {} results follow from the journal, {}; exports compared: {}{}",
+      about_part(record.header, evaluation->verdict), record.touches.size(),
+      series_in_words(record), results, how_exactly(record.header, options, exactness), *names,
+      *signature);
   return out;
 }
 

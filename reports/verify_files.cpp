@@ -1,5 +1,7 @@
 #include "reports/verify_files.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -69,7 +71,13 @@ core::Result<void> check_signature(const fs::path& directory, const std::string&
                     record::kSignatureName, record::kChecksumsName));
   }
   for (const std::string& file : files) {
-    if (listed.state_of(file) || !stands_there(directory / file)) continue;
+    const auto state = listed.state_of(file);
+    const std::string absent =
+        fmt::format("{}: it is not there, and {} names it", file, record::kChecksumsName);
+    const bool told =
+        std::find(differences.begin(), differences.end(), absent) != differences.end();
+    if (state == ListedFiles::State::kAbsent && !told) differences.push_back(absent);
+    if (state || !stands_there(directory / file)) continue;
     differences.push_back(
         fmt::format("{}: it is not signed: {} does not name it", file, record::kChecksumsName));
   }

@@ -31,7 +31,8 @@ struct ListedFiles {
 [[nodiscard]] core::Result<ListedFiles> check_listed_files(const std::filesystem::path& directory,
                                                            std::vector<std::string>& differences);
 
-/// Checks the signature of SHA256SUMS with a public key, and that the list covers `files`.
+/// Checks the signature of SHA256SUMS with a public key, and that the list covers `files`: those
+/// that are there are listed, those that are listed are there.
 /// @param differences  Gets what does not hold, in words.
 /// @return kBadOption for a key of another kind, kFile for a file that cannot be read.
 [[nodiscard]] core::Result<void> check_signature(const std::filesystem::path& directory,

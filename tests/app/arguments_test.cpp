@@ -1,3 +1,8 @@
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +12,7 @@
 namespace rondure::app::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -70,6 +76,86 @@ TEST(Arguments, ThePlanMayFollowTheFormats) {
   EXPECT_THAT(names_in(folder / "run"),
               ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.html", "results.csv",
                                      "touches.csv"));
+}
+
+TEST(Arguments, ANameThatNoReportCanShowIsRefused) {
+  const TemporaryFolder folder;
+  for (const std::string& option : {std::string("--serial"), std::string("--operator")}) {
+    for (const std::string name : {"S\uFFFE", "S\uFDD0", "S\x1b[2J", "S\u009b2J", "S\xff"}) {
+      const Outcome outcome = rondure(
+          {"run", example("09_axle_points_file.json"), "--out", folder / "run", option, name});
+      EXPECT_EQ(outcome.status, 2) << name;
+      EXPECT_THAT(outcome.err, AllOf(HasSubstr(option), HasSubstr("which no report can show")));
+      EXPECT_FALSE(std::filesystem::exists(folder / "run"));
+    }
+  }
+}
+
+/// Whether a terminal would obey something in a text.
+bool holds_controls(const std::string& text) {
+  return std::any_of(text.begin(), text.end(),
+                     [](unsigned char c) { return c == 0x7F || (c < 0x20 && c != '\n'); }) ||
+         text.find("\xC2\x9B") != std::string::npos;
+}
+
+TEST(Arguments, FilesAndWordsRuleNoTerminal) {
+  const TemporaryFolder folder;
+  const std::string evil = "e\x1b[2J\u009b31m\x07\nequal: all";
+  write(folder / "bad.json", "{\"a\": \x1b[2J}");
+  write(folder / "bad.csv", "x,y\n1,2\n\x1b[2J,\u009b4\n");
+  write(folder / (evil + ".json"), "{");
+  const std::string run = folder / evil;
+  ASSERT_EQ(rondure({"run", example("09_axle_points_file.json"), "--out", run, "--quiet"}).err, "");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{evil},
+        {"run", "--" + evil},
+        {"validate", folder / (evil + ".json")},
+        {"validate", folder / evil / "absent.json"},
+        {"validate", folder / "bad.json"},
+        {"fit", "circle", folder / "bad.csv"},
+        {"fit", "circle", evil},
+        {"fit", "circle", folder / "bad.csv", "--reference", evil},
+        {"report", run, "--format", "json"},
+        {"run", run, "--resume", "--archive", "none"},
+        {"run", example("09_axle_points_file.json"), "--out", run},
+        {"verify", run},
+        {"verify", evil},
+        {"history", evil},
+        {"history", evil + "://h/d"}}) {
+    const Outcome outcome = rondure(words);
+    EXPECT_FALSE(holds_controls(outcome.out)) << words.front() << outcome.out;
+    EXPECT_FALSE(holds_controls(outcome.err)) << words.front() << outcome.err;
+    EXPECT_EQ(("\n" + outcome.out + "\n" + outcome.err).find("\nequal: all"), std::string::npos)
+        << words.front() << outcome.out << outcome.err;
+  }
+}
+
+TEST(Arguments, APipeIsRefusedAndNotWaitedFor) {
+  const TemporaryFolder folder;
+  const std::string run = folder / "run";
+  ASSERT_EQ(rondure({"run", example("09_axle_points_file.json"), "--out", run, "--quiet"}).err, "");
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::vector<std::string> key = {"sign", run, "--key", pipe};
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"fit", "circle", pipe},
+                                                {"fit", "roundness", pipe},
+                                                {"validate", pipe},
+                                                {"run", pipe},
+                                                {"verify", run, "--key", pipe},
+                                                key,
+                                                {"history", pipe}}) {
+    const Outcome outcome = rondure(words);
+    EXPECT_EQ(outcome.status, 2) << words.front() << words[1];
+    EXPECT_NE(outcome.err, "") << words.front();
+  }
+  for (const char* name : {"SHA256SUMS", "report.json", "journal.db-wal", "journal.db"}) {
+    std::filesystem::remove(folder / "run" / name);
+    ASSERT_EQ(::mkfifo((folder / "run" / name).c_str(), 0600), 0);
+    const Outcome outcome = rondure({"verify", run});
+    EXPECT_NE(outcome.status, 0) << name;
+    EXPECT_THAT(outcome.out + outcome.err, HasSubstr(name));
+    std::filesystem::remove(folder / "run" / name);
+  }
 }
 
 TEST(Arguments, WhatIsNoPlanIsRefusedInOneSentence) {

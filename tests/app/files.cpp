@@ -78,6 +78,18 @@ record::RunRecord journal_of(const fs::path& run) {
   return std::move(read->record);
 }
 
+void write_resealed(const record::RunRecord& run, const fs::path& directory) {
+  auto journal =
+      record::Journal::create(directory, run.header, run.artefact, run.features, run.settings);
+  ASSERT_TRUE(journal) << journal.error().what;
+  for (const record::PoseVisit& pose : run.poses) ASSERT_TRUE(journal->add(pose));
+  ASSERT_TRUE(journal->add(run.touches));
+  for (const record::Decision& decision : run.decisions) ASSERT_TRUE(journal->add(decision));
+  ASSERT_TRUE(journal->add(run.series, run.truth_values));
+  ASSERT_TRUE(journal->end("finished", nullptr));
+  ASSERT_TRUE(journal->seal(run.results));
+}
+
 nlohmann::json history_of(const fs::path& archive, const std::vector<std::string>& more) {
   std::vector<std::string> words = {"history", archive, "--json"};
   words.insert(words.end(), more.begin(), more.end());

@@ -38,6 +38,9 @@ void write_plan(const std::filesystem::path& file, const std::vector<Change>& ch
 /// The contents of a journal; fails the test when it cannot be read.
 [[nodiscard]] record::RunRecord journal_of(const std::filesystem::path& run);
 
+/// Writes a record as the journal of a finished run, with a chain, a seal and a list that fit it.
+void write_resealed(const record::RunRecord& run, const std::filesystem::path& directory);
+
 /// What `rondure history --json` says of an archive; fails the test when it ends with an error.
 [[nodiscard]] nlohmann::json history_of(const std::filesystem::path& archive,
                                         const std::vector<std::string>& more = {});

@@ -129,6 +129,7 @@ TEST(IppRun, TouchesOverTheWireAreThoseOfTheRunInOneProcess) {
   const std::string log = read(folder / "wire.log");
   EXPECT_THAT(log, HasSubstr(" -> C: 00002 StartSession()\n"));
   EXPECT_THAT(log, HasSubstr(" <- S: 00002 %\n"));
+  EXPECT_EQ(log.find(" ! Error("), std::string::npos) << "no error is provoked";
   std::printf("%zu touches over the wire, with reports and journal: %.3f ms a touch\n",
               run.touches.size(), 1e3 * took.count() / static_cast<double>(run.touches.size()));
 }
@@ -238,6 +239,18 @@ TEST(IppRun, CtrlCStopsTheMachineAtOnceAndNothingMovesAfterwards) {
               ElementsAre("AbortE()", "ClearAllErrors()", "Get(X(), Y(), Z())", "EndSession()"));
 }
 
+TEST(IppRun, SaysWhichPointTheServerMeansWhereThePlanSaysTheOther) {
+  const TemporaryFolder folder;
+  const Simulator simulator;
+  write_wire_plan(folder / "plan.json", simulator.port());
+  replace_in(folder / "plan.json", "\"approach_mm\"", "\"point\": \"center\", \"approach_mm\"");
+  const Outcome refused =
+      rondure({"run", folder / "plan.json", "--out", folder / "run", "--archive", "none"});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_THAT(refused.err, HasSubstr("set \"point\": \"surface\" under machine"));
+  EXPECT_TRUE(journal_of(folder / "run").touches.empty());
+}
+
 TEST(IppRun, SaysThatNobodyServesTheMachine) {
   const TemporaryFolder folder;
   write_wire_plan(folder / "plan.json", free_port());
@@ -277,6 +290,8 @@ TEST(IppRun, SaysWhatAStrangeServerSaid) {
       {"HTTP/1.1 400 Bad Request", "HTTP/1.1 400 Bad Request"},
       {"00001 &\r\n00001 ! Error(3, 0500, \"EndSession()\", \"Emergency stop\")\r\n00001 %",
        "opening a session: the machine says error 0500, severity 3: Emergency stop"},
+      {"00001 &\r\n00001 ! Error(3, 2504, \"EndSession()\", \"Collision\")\r\n00001 %",
+       "opening a session: the machine says error 2504, severity 3: Collision"},
       {"00001 &\r\n00001 ! Error(2, 0514, \"EndSession()\", \"Use ClearAllErrors\")\r\n00001 %",
        "did not acknowledge ClearAllErrors() within 0.3 s; is another client connected to it?; "
        "the last line from there: \"00001 %\"; before that the machine said error 0514, severity "

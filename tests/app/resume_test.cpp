@@ -128,8 +128,8 @@ TEST(Resume, OfAFinishedRunSaysSoAndChangesNothing) {
   const std::string journal = read(run.directory() / "journal.db");
   const auto names = names_in(run.directory());
   const Outcome again = run.resume();
-  EXPECT_EQ(again.status, 2);
-  EXPECT_THAT(again.err, HasSubstr("finished and sealed, there is nothing to resume"));
+  EXPECT_EQ(again.status, 0) << "the verdict's";
+  EXPECT_THAT(again.err, HasSubstr("finished and sealed, there is nothing to resume: conforms;"));
   EXPECT_EQ(read(run.directory() / "journal.db"), journal);
   EXPECT_EQ(names_in(run.directory()), names);
   fs::remove(run.directory() / "report.json");
@@ -137,6 +137,48 @@ TEST(Resume, OfAFinishedRunSaysSoAndChangesNothing) {
   EXPECT_EQ(reports.status, 0);
   EXPECT_THAT(reports.err, HasSubstr("only its reports are written"));
   EXPECT_EQ(names_in(run.directory()), names);
+}
+
+TEST(Resume, OfAFinishedRunEndsWithTheStatusOfItsVerdict) {
+  const TemporaryFolder folder;
+  write_plan(folder / "plan.json", {{"/features/0/characteristics/0/tolerance_um", 1}});
+  const std::vector<std::string> words = {"run", folder / "plan.json", "--out", folder / "run",
+                                          "--resume"};
+  ASSERT_EQ(rondure(words).status, 1);
+  const Outcome again = rondure(words);
+  EXPECT_EQ(again.status, 1);
+  EXPECT_THAT(again.err, HasSubstr("nothing to resume: does not conform;"));
+}
+
+TEST(Resume, OfAFinishedRunIsRefusedForAnotherPartPlanSeedOrOperator) {
+  const TemporaryFolder folder;
+  write_plan(folder / "plan.json", {});
+  ASSERT_EQ(rondure({"run", folder / "plan.json", "--out", folder / "run", "--serial", "A",
+                     "--operator", "mk"})
+                .status,
+            0);
+  const std::string journal = read(folder / "run" / "journal.db");
+  write_plan(folder / "other.json", {{"/features/0/sampling/layers", 5}});
+  const Outcome other = rondure({"run", folder / "other.json", "--out", folder / "run", "--serial",
+                                 "B", "--operator", "ab", "--seed", "7", "--resume"});
+  EXPECT_EQ(other.status, 2) << "part B was not measured";
+  EXPECT_EQ(other.out, "");
+  EXPECT_THAT(
+      other.err,
+      AllOf(HasSubstr("is finished, and began with something else"),
+            HasSubstr("/features/0/sampling/layers: the run began with 4, the plan now "
+                      "says 5 [meaning]\n"),
+            HasSubstr("the seed "), HasSubstr("the serial number \"A\", now it would be \"B\""),
+            HasSubstr("the operator \"mk\"")));
+  const Outcome serial =
+      rondure({"run", folder / "run", "--serial", "B", "--resume", "--format", "json"});
+  EXPECT_EQ(serial.status, 2);
+  EXPECT_THAT(serial.err, HasSubstr("the serial number \"A\""));
+  EXPECT_EQ(read(folder / "run" / "journal.db"), journal);
+  EXPECT_EQ(
+      rondure({"run", folder / "plan.json", "--out", folder / "run", "--serial", "A", "--resume"})
+          .status,
+      0);
 }
 
 TEST(Resume, APartThatMovedEndsTheRunWithNumberAndLimit) {

@@ -22,7 +22,8 @@ std::string spool() { return RONDURE_SOURCE_DIR "/plans/examples/01_spool_simula
 /// The program as a server, on a port that it chose.
 class Serving {
  public:
-  Serving() : program_(arguments(folder_), surroundings(folder_)) {
+  explicit Serving(const std::vector<std::string>& more = {})
+      : program_(arguments(folder_, more), surroundings(folder_)) {
     for (int i = 0; i < 5000 && port_ == 0 && !program_.ended(); ++i) {
       const std::string text = read(folder_ / "out");
       const std::size_t at = text.find("listens at 127.0.0.1:");
@@ -38,12 +39,16 @@ class Serving {
     return line ? std::move(*line) : nullptr;
   }
   [[nodiscard]] Program& program() { return program_; }
+  [[nodiscard]] std::uint16_t port() const { return port_; }
   [[nodiscard]] std::string wire_log() const { return read(folder_ / "wire.log"); }
 
  private:
-  static std::vector<std::string> arguments(const TemporaryFolder& folder) {
-    return {"simulate-cmm", spool(), "--port",     "0",
-            "--speed",      "inf",   "--wire-log", folder / "wire.log"};
+  static std::vector<std::string> arguments(const TemporaryFolder& folder,
+                                            const std::vector<std::string>& more) {
+    std::vector<std::string> out = {"simulate-cmm", spool(), "--port",     "0",
+                                    "--speed",      "inf",   "--wire-log", folder / "wire.log"};
+    out.insert(out.end(), more.begin(), more.end());
+    return out;
   }
   static Surroundings surroundings(const TemporaryFolder& folder) {
     Surroundings out;
@@ -105,6 +110,45 @@ TEST(SimulateCmm, RefusesAPortInUseAPlanWithoutASimulationAndAStandstill) {
     const Outcome standstill = rondure({"simulate-cmm", spool(), "--speed", speed});
     EXPECT_EQ(standstill.status, 2) << speed;
     EXPECT_THAT(standstill.err, HasSubstr("--speed")) << speed;
+  }
+}
+
+TEST(SimulateCmm, AClientThatWasHaltedLosesItsPlaceAndGoesOnWhenItIsResumed) {
+  const Serving serving({"--silence-limit", "1"});
+  const TemporaryFolder folder;
+  nlohmann::json plan = nlohmann::json::parse(read(example("02_spool_over_ippdme.json")));
+  plan["machine"]["port"] = serving.port();
+  write(folder / "plan.json", plan.dump());
+  const auto arguments = [&](const char* name) {
+    return std::vector<std::string>{"run",         folder / "plan.json", "--out",
+                                    folder / name, "--archive",          "none"};
+  };
+  Program halted(arguments("halted"));
+  while (!halted.ended() && serving.wire_log().find("PtMeas") == std::string::npos) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  halted.send(SIGSTOP);
+  const Outcome too_early = rondure(arguments("early"));
+  EXPECT_EQ(too_early.status, 3);
+  EXPECT_THAT(too_early.err, HasSubstr("this server has a client already"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome other = rondure(arguments("other"));
+  EXPECT_EQ(other.status, 0) << other.err;
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+  halted.send(SIGCONT);
+  const Outcome told = halted.wait();
+  EXPECT_EQ(told.status, 3);
+  EXPECT_THAT(told.err, HasSubstr("another client takes its place"));
+  auto again = arguments("halted");
+  again.emplace_back("--resume");
+  const Outcome resumed = rondure(again);
+  EXPECT_EQ(resumed.status, 0) << resumed.err;
+  const auto one = journal_of(folder / "halted");
+  const auto two = journal_of(folder / "other");
+  ASSERT_EQ(one.touches.size(), two.touches.size());
+  for (std::size_t i = 0; i < one.touches.size(); ++i) {
+    EXPECT_EQ(one.touches[i].tip_mm, two.touches[i].tip_mm) << "touch " << i;
   }
 }
 

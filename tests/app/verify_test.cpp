@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A finished run of the first example.
 class FinishedRun : public ::testing::Test {
@@ -46,13 +47,13 @@ class FinishedRun : public ::testing::Test {
   fs::path run_ = folder_ / "run";
 };
 
-TEST_F(FinishedRun, AChangedTouchBreaksItsTableAndTheResultsThatFollowFromIt) {
+TEST_F(FinishedRun, AChangedTouchBreaksItsTableAndNothingIsComputedFromIt) {
   change_journal(
       "update touch set tip_x_mm = tip_x_mm + 0.001 where id = (select max(id) from touch)");
   EXPECT_THAT(difference(),
               AllOf(HasSubstr("table touch: a value differs from the sealed one"),
-                    HasSubstr("result /features/0/"), HasSubstr("no longer follows: stored "),
-                    HasSubstr("the touches give "), HasSubstr("touches.csv: ")));
+                    HasSubstr("note: nothing was computed from a journal that is not as it was "),
+                    Not(HasSubstr("touches.csv: "))));
 }
 
 TEST_F(FinishedRun, ARemovedTouchIsCounted) {

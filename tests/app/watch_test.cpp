@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -267,6 +268,45 @@ TEST(Watch, EndsWellThoughSilentConnectionsOutnumberTheFilesItMayOpen) {
     if (fd >= 0) ::close(fd);
   }
   EXPECT_EQ(record::measured_bits(journal_of(folder / "run")), unwatched_bits());
+}
+
+/// What the program takes of an endless request: bytes until it hangs up, and its first words.
+std::pair<std::size_t, std::string> taken_of(std::uint16_t port, const std::string& head,
+                                             const std::string& more) {
+  const int fd = connect_to(port);
+  const timeval patience{5, 0};
+  ::setsockopt(fd, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+  ::setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  std::size_t taken = 0;
+  constexpr std::size_t kEnough = 200'000'000;
+  ssize_t sent = ::send(fd, head.data(), head.size(), MSG_NOSIGNAL);
+  while (sent > 0 && taken < kEnough) {
+    sent = ::send(fd, more.data(), more.size(), MSG_NOSIGNAL);
+    if (sent > 0) taken += static_cast<std::size_t>(sent);
+  }
+  std::array<char, 32> answer{};
+  const ssize_t got = ::recv(fd, answer.data(), answer.size(), 0);
+  ::close(fd);
+  return {taken, std::string(answer.data(), got > 0 ? static_cast<std::size_t>(got) : 0)};
+}
+
+TEST(Watch, TakesNoBodyInChunksAndNoEndlessHead) {
+  const TemporaryFolder folder;
+  WatchedRun run(run_words(folder, "30", {"--control"}));
+  const std::string host = fmt::format("Host: 127.0.0.1:{}\r\n", run.port());
+  auto chunked = run.right_heads();
+  chunked.push_back({"Transfer-Encoding", "chunked"});
+  EXPECT_EQ(run.ask("POST", "/stop", chunked, "2\r\n{}\r\n0\r\n\r\n").status, 411);
+  constexpr std::size_t kBuffers = 20'000'000;  // what the system holds between the two
+  const auto body =
+      taken_of(run.port(), "POST /stop HTTP/1.1\r\n" + host + "Transfer-Encoding: chunked\r\n\r\n",
+               "100000\r\n" + std::string(0x100000, 'x') + "\r\n");
+  EXPECT_LT(body.first, kBuffers);
+  const auto head = taken_of(run.port(), "GET / HTTP/1.1\r\n" + host, "a: b\r\nc: d\r\n");
+  EXPECT_LT(head.first, kBuffers);
+  EXPECT_FALSE(run.look_until("now", "Measuring").is_null()) << "and goes on answering";
+  EXPECT_EQ(run.ask("POST", "/stop", run.right_heads(), "{}").status, 200);
+  EXPECT_EQ(run.program().wait().status, 3);
 }
 
 TEST(Watch, EndsSoonThoughABrowserWasKilledOrNeverReads) {

@@ -13,8 +13,7 @@
 namespace rondure::cmm {
 
 /// A machine in a world where everything is where it is expected: a touch meets its target, a move
-/// meets nothing. As the machine of the recorded dialogue: the tip stops 3 mm before a surface
-/// point.
+/// meets nothing. Its tip is that of the recorded dialogue.
 class IdealMachine final : public Machine {
  public:
   static constexpr double kTipRadius_mm = 3.0;
@@ -60,7 +59,7 @@ class IdealMachine final : public Machine {
     if (nothing_there) return core::fail(core::Code::kNoTouch, "nothing there");
     time += 1.0;
     TouchReading out;
-    out.tip_W_mm = command.expected_tip_W_mm - kTipRadius_mm * command.direction_W;
+    out.tip_W_mm = command.expected_tip_W_mm;
     out.time_s = time;
     out.tip_radius_mm = kTipRadius_mm;
     return out;
@@ -74,8 +73,7 @@ class IdealMachine final : public Machine {
     for (int i = 1; i <= command.points; ++i) {
       TouchReading reading;
       const Eigen::AngleAxisd turn(command.sweep_rad * i / command.points, command.axis_W);
-      reading.tip_W_mm =
-          command.center_W_mm + turn * (radius + kTipRadius_mm * radius.normalized());
+      reading.tip_W_mm = command.center_W_mm + turn * radius;
       out.push_back(reading);
     }
     return out;

@@ -31,6 +31,73 @@ INSTANTIATE_TYPED_TEST_SUITE_P(OverIppDme, MachineContract, IppRig);
 
 namespace {
 
+TEST(IppClientPoint, ALargeBallInASmallBoreMeetsNoOtherWall) {
+  using ipp::NamedPoint;
+  constexpr double kTip_mm = 4.0;
+  constexpr double kBore_mm = 6.0;
+  for (const auto meant : {NamedPoint::kSurface, NamedPoint::kCenter}) {
+    for (const auto taken : {NamedPoint::kSurface, NamedPoint::kCenter}) {
+      SimulatedMachineOptions world;
+      world.nominal_tip_radius_mm = kTip_mm;
+      BareBackend backend(world);
+      backend.machine().place_part({kBore_mm, 40.0, true, {}}, Eigen::Isometry3d::Identity());
+      ipp::ServerOptions options;
+      options.controller.tip_radius_mm = kTip_mm;
+      options.controller.point = taken;
+      ServedMachine server(backend, options);
+      IppMachineOptions own;
+      own.point = meant;
+      const auto client =
+          *IppMachine::open([&] { return wire::connect_tcp("127.0.0.1", server.port()); }, own);
+      ASSERT_TRUE(client->home());
+      ASSERT_TRUE(client->move_to({0.5, 0.0, 300.0}));
+      ASSERT_TRUE(client->move_to({0.5, 0.0, 0.0}));
+      const TouchCommand touch = {0, {2.0, 0.0, 0.0}, Eigen::Vector3d::UnitX(), 1.5, 1.5};
+      const auto reading = client->touch(touch);
+      ASSERT_EQ(reading.has_value(), meant == taken);
+      if (reading) {
+        EXPECT_NEAR(reading->tip_W_mm.x(), 2.0, 1e-6);
+        EXPECT_TRUE(client->touch(touch));
+      } else {
+        EXPECT_NE(reading.error().what.find("machine.point"), std::string::npos)
+            << reading.error().what;
+      }
+    }
+  }
+}
+
+TEST(IppClientPoint, TheFirstTouchShowsWhatTheServerMeans) {
+  using ipp::NamedPoint;
+  for (const auto meant : {NamedPoint::kSurface, NamedPoint::kCenter}) {
+    const bool surface = meant == NamedPoint::kSurface;
+    BareBackend backend;
+    backend.machine().place_part({kContractRadius_mm, 40.0, false, {}},
+                                 Eigen::Isometry3d::Identity());
+    ipp::ServerOptions options;
+    options.controller.point = surface ? NamedPoint::kCenter : NamedPoint::kSurface;
+    ServedMachine server(backend, options);
+    IppMachineOptions own;
+    own.point = meant;
+    const auto client =
+        *IppMachine::open([&] { return wire::connect_tcp("127.0.0.1", server.port()); }, own);
+    ASSERT_TRUE(client->home());
+    const Eigen::Vector3d start(kContractRadius_mm + 5.0, 0.0, 0.0);
+    ASSERT_TRUE(client->move_to({start.x(), 0.0, 300.0}));
+    ASSERT_TRUE(client->move_to(start));
+    const auto reading = client->touch(
+        {0, start - 3.0 * Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitX(), 3.0, 3.0});
+    ASSERT_FALSE(reading);
+    EXPECT_EQ(reading.error().code, core::Code::kMeaning) << reading.error().what;
+    EXPECT_EQ(reading.error().where, "/machine/point");
+    EXPECT_NE(reading.error().what.find(surface ? "set \"point\": \"center\""
+                                                : "set \"point\": \"surface\""),
+              std::string::npos)
+        << reading.error().what;
+    EXPECT_EQ(client->position_W_mm(), start);
+    EXPECT_EQ(backend.machine().position_W_mm(), start);
+  }
+}
+
 /// Touches a cylinder in 4 layers of 7 points, once around each; how many touches were made.
 int touch_cylinder(Machine& machine) {
   int touches = 0;

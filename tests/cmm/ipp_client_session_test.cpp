@@ -100,6 +100,19 @@ TEST(IppClientSession, GivesTheFirstErrorAndReadsToTheEndOfItsTransaction) {
   EXPECT_TRUE(s.session->call("ClearAllErrors", {}, kLong));
 }
 
+TEST(IppClientSession, AnUnsolicitedFaultEndsTheMotionThatGoesOn) {
+  Scripted s([](const std::string& tag, const std::string& method) {
+    if (!method.starts_with("GoTo")) return done(tag);
+    return Lines{tag + " &", "E0000 ! Error(9, 0503, \"\", \"Controller communications failure\")"};
+  });
+  const auto failed = s.session->call("GoTo", {}, kLong, Session::Watch::kStop);
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().kind, Failure::Kind::kServer);
+  EXPECT_EQ(failed.error().report.number, 503);
+  EXPECT_THAT(s.sent, ElementsAre("00001 GoTo()", "E0001 AbortE()"));
+  EXPECT_TRUE(s.session->call("Get", {}, kLong)) << "told once";
+}
+
 TEST(IppClientSession, TakesTheEndOfAbortForTheEndOfAllThatIsOlder) {
   // Seen: the running command is closed with 0006, the pending one is dropped without a word.
   Scripted s([](const std::string& tag, const std::string& method) {

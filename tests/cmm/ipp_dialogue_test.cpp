@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "ipp_talk.h"
+#include "tests/cmm/seen_server.h"
 
 namespace rondure::cmm::ipp {
 namespace {
@@ -67,14 +68,107 @@ bool say_the_same(const std::string& a, const std::string& b) {
 ServerOptions as_recorded() {
   ServerOptions options;
   options.speed = 1.0;
-  options.controller.manner = Manner::kSeen;
   options.controller.defaults = {{100.0, 20.0, 10.0}, 10.0, 10.0, 10.0};
   options.controller.tip_radius_mm = IdealMachine::kTipRadius_mm;
   return options;
 }
 
-TEST(IppDialogue, TheServerAnswersTheRecordedClientAsTheRecordedServerDid) {
-  Talk talk(as_recorded());
+/// The ideal machine, with a surface where the client of the dialogue names one: the tip stops a
+/// tip radius before it, which is where it is expected.
+class RecordedMachine final : public Machine {
+ public:
+  explicit RecordedMachine(Machine& machine) : machine_(machine) {}
+  [[nodiscard]] std::string description() const override { return machine_.description(); }
+  [[nodiscard]] Capabilities capabilities() const override { return machine_.capabilities(); }
+  [[nodiscard]] core::Result<MachineStatus> status() override { return machine_.status(); }
+  [[nodiscard]] core::Result<void> home() override { return machine_.home(); }
+  [[nodiscard]] core::Result<void> select_tool(const std::string& name) override {
+    return machine_.select_tool(name);
+  }
+  [[nodiscard]] core::Result<void> set_speeds(const Speeds& speeds) override {
+    return machine_.set_speeds(speeds);
+  }
+  [[nodiscard]] core::Result<void> move_to(const Eigen::Vector3d& tip_W_mm) override {
+    return machine_.move_to(tip_W_mm);
+  }
+  [[nodiscard]] core::Result<TouchReading> touch(const TouchCommand& command) override {
+    TouchReading out;
+    out.tip_W_mm = command.expected_tip_W_mm;
+    return out;
+  }
+  [[nodiscard]] core::Result<std::vector<TouchReading>> scan_circle(
+      const ScanCircleCommand& command) override {
+    std::vector<TouchReading> out(static_cast<std::size_t>(command.points));
+    for (int i = 1; i <= command.points; ++i) {
+      const Eigen::AngleAxisd turn(command.sweep_rad * i / command.points, command.axis_W);
+      out[static_cast<std::size_t>(i) - 1].tip_W_mm =
+          command.center_W_mm + turn * (command.start_tip_W_mm - command.center_W_mm);
+    }
+    return out;
+  }
+  void stop() noexcept override {}
+  [[nodiscard]] core::Result<void> recover() override { return machine_.recover(); }
+  [[nodiscard]] Eigen::Vector3d position_W_mm() const override { return machine_.position_W_mm(); }
+  [[nodiscard]] double time_s() const override { return machine_.time_s(); }
+
+ private:
+  Machine& machine_;
+};
+
+/// That machine with the ideal table.
+class RecordedBackend final : public Backend {
+ public:
+  [[nodiscard]] RecordedMachine& machine() override { return machine_; }
+  [[nodiscard]] std::vector<double> table_angles_deg() const override { return {0.0}; }
+  [[nodiscard]] core::Result<void> home_table() override { return {}; }
+  [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> align_part(
+      std::span<const Alignment> alignments) override {
+    return ideal_.align_part(alignments);
+  }
+  [[nodiscard]] core::Result<void> choose_feature(int) override { return {}; }
+  void set_next_turn(std::uint64_t) override {}
+
+ private:
+  IdealBackend ideal_;
+  RecordedMachine machine_{ideal_.machine()};
+};
+
+/// The double of the recorded server, its machine and a clock.
+class SeenTalk {
+ public:
+  SeenTalk() : server_(backend_, as_recorded_profile()) {}
+
+  std::vector<std::string> say(const std::string& line) {
+    server_.receive({line, RawLine::Fault::kNone}, now_s_);
+    return server_.take_output();
+  }
+  std::vector<std::string> wait(double seconds) {
+    std::vector<std::string> out;
+    for (const double until_s = now_s_ + seconds; now_s_ < until_s;) {
+      now_s_ += 0.01;
+      server_.advance(now_s_);
+      for (std::string& line : server_.take_output()) out.push_back(std::move(line));
+    }
+    return out;
+  }
+  [[nodiscard]] Eigen::Vector3d position() { return backend_.machine().position_W_mm(); }
+
+ private:
+  static SeenProfile as_recorded_profile() {
+    SeenProfile profile;
+    profile.speed = 1.0;
+    profile.tip_radius_mm = IdealMachine::kTipRadius_mm;
+    profile.defaults = as_recorded().controller.defaults;
+    return profile;
+  }
+
+  RecordedBackend backend_;
+  SeenServer server_;
+  double now_s_ = 0.0;
+};
+
+TEST(IppDialogue, TheDoubleAnswersTheRecordedClientAsTheRecordedServerDid) {
+  SeenTalk talk;
   const std::vector<Exchange> all = recorded();
   ASSERT_EQ(all.size(), 45U);
   std::size_t moves_reported = 0;
@@ -85,7 +179,7 @@ TEST(IppDialogue, TheServerAnswersTheRecordedClientAsTheRecordedServerDid) {
     std::vector<std::string> said = talk.say(exchange.client);
     // The abort comes while the machine moves; everything before it has come to its end.
     const bool moves = exchange.client == "00900 GoTo(X(300))";
-    if (moves) start_x_mm = talk.machine().position.x();
+    if (moves) start_x_mm = talk.position().x();
     const bool is_watched = exchange.client == "00901 GoTo(Y(200))";
     if (!moves) {
       for (std::string& line : talk.wait(is_watched ? 1.0 : 10.0)) said.push_back(std::move(line));
@@ -113,14 +207,12 @@ TEST(IppDialogue, TheServerAnswersTheRecordedClientAsTheRecordedServerDid) {
     }
   }
   EXPECT_GE(moves_reported, 2U);
-  EXPECT_NEAR(talk.machine().position.x(), start_x_mm + 50.0, 1.0);  // 50 mm/s for a second
-  EXPECT_NEAR(talk.machine().position.x(), last_x_mm, 20.0);
+  EXPECT_NEAR(talk.position().x(), start_x_mm + 50.0, 1.0);  // 50 mm/s for a second
+  EXPECT_NEAR(talk.position().x(), last_x_mm, 20.0);
 }
 
 TEST(IppDialogue, BySpecificationItDiffersOnlyWhereThePageSaysSo) {
-  ServerOptions options = as_recorded();
-  options.controller.manner = Manner::kSpecified;
-  Talk talk(options);
+  Talk talk(as_recorded());
   std::vector<std::string> differing;
   for (const Exchange& exchange : recorded()) {
     std::vector<std::string> said = talk.say(exchange.client);
@@ -143,6 +235,33 @@ TEST(IppDialogue, BySpecificationItDiffersOnlyWhereThePageSaysSo) {
             (std::vector<std::string>{"00003 GetMachineClass", "00015 Get", "00021 PtMeas",
                                       "00022 Get", "00026 ScanOnCircle", "00027 AlignPart",
                                       "00901 GoTo", "E0101 AbortE", "00904 StopDaemon"}));
+}
+
+TEST(IppDialogue, TheDoubleRefusesWhatTheRecordedServerRefused) {
+  SeenTalk talk;
+  const auto refused = [&talk](const std::string& command) {
+    talk.wait(10.0);
+    int number = 0;
+    for (const std::string& line : talk.say("09998 " + command)) {
+      const auto response = parse_response(line);
+      if (response && response->kind == Response::Kind::kError) number = response->error.number;
+    }
+    talk.say("09997 ClearAllErrors()");
+    return number;
+  };
+  EXPECT_EQ(refused("IsHomed()"), 8);
+  for (const char* command : {"StartSession()", "Home()", "ChangeTool(\"Probe1\")"}) {
+    EXPECT_EQ(refused(command), 0) << command;
+  }
+  EXPECT_EQ(refused("StartSession()"), 507);
+  EXPECT_EQ(refused("GoTo(X(1),R(90))"), 502);
+  EXPECT_EQ(refused("GetProp(Simulation.NextTouch())"), 502);
+  EXPECT_EQ(refused("GetProp(Part.Temperature())"), 502);
+  EXPECT_EQ(refused("OnPtMeasReport(X(),Y(),Z(),ER(),Part.Temperature())"), 502);
+  EXPECT_EQ(refused("GetSupportedCommands()"), 507);
+  talk.say("00001 FooBar()");
+  EXPECT_EQ(talk.say("00002 EndSession()").at(1),
+            "00002 ! Error(2, 0514, \"00002 EndSession()\", \"Use ClearAllErrors to continue\")");
 }
 
 TEST(IppDialogue, TheComparisonSeesDifferences) {

@@ -54,6 +54,19 @@ TEST(IppNumbers, AnyDoubleTravelsInSixteenDigitsNearly) {
   }
 }
 
+TEST(IppNumbers, SixteenCharactersHoldAnyNumberNearly) {
+  std::mt19937_64 random(16);
+  std::uniform_real_distribution<double> mantissa(-10.0, 10.0);
+  for (int i = 0; i < 10'000; ++i) {
+    const double value = mantissa(random) * std::pow(10.0, i % 308 - 300);
+    const std::string text = wire_number(value, NumberForm::kSixteenCharacters);
+    ASSERT_LE(text.size(), 16U) << text;
+    ASSERT_NEAR(read_number(text).value_or(0.0) / value, 1.0, 1e-8) << text;
+  }
+  EXPECT_EQ(wire_number(-999.12345678905, NumberForm::kSixteenCharacters), "-999.12345678905");
+  EXPECT_EQ(wire_number(-0.7071067811865475, NumberForm::kSixteenCharacters), "-0.7071067811865");
+}
+
 TEST(IppNumbers, ReadsTheFormsOfTheGrammarAndNoOther) {
   EXPECT_EQ(read_number("+1."), 1.0);
   EXPECT_EQ(read_number(".5"), 0.5);

@@ -151,6 +151,23 @@ TEST(IppServer, AnswersATagInUseAndABadTagWithoutTag) {
   EXPECT_THAT(talk.wait(3.0), ElementsAre("00010 %"));
 }
 
+TEST(IppServer, AnEventCommandWithAPlainTagIsRefusedUnderItsTag) {
+  Talk talk;
+  talk.begin();
+  EXPECT_THAT(talk.say("00010 AbortE()"),
+              ElementsAre("00010 &", "00010 ! Error(2, 0001, \"00010 AbortE()\", \"Illegal tag\")",
+                          "00010 %"));
+}
+
+TEST(IppServer, SendsNoNumberOfMoreThanSixteenCharactersOnRequest) {
+  ServerOptions options;
+  options.controller.numbers = NumberForm::kSixteenCharacters;
+  Talk talk(options);
+  talk.begin();
+  talk.ask("GoTo(X(-123.4567890123),Y(0.000123456789012),Z(1))");
+  EXPECT_EQ(talk.ask("Get(X(),Y())"), "# X(-123.4567890123), Y(0.00012345678901)");
+}
+
 TEST(IppServer, KeepsABoundedNumberOfCommands) {
   Talk talk(timed());
   talk.begin();
@@ -186,13 +203,39 @@ TEST(IppServer, MovesNothingBeforeHoming) {
   EXPECT_EQ(talk.error("PtMeas(X(1),IJK(1,0,0))"), 1503);  // no tool
 }
 
+TEST(IppServer, PtMeasNamesThePointOfTheSurfaceOrTheCentreOfTheTip) {
+  for (const auto point : {NamedPoint::kSurface, NamedPoint::kCenter}) {
+    ServerOptions options;
+    options.controller.point = point;
+    Talk talk(options);
+    talk.begin();
+    const double r_mm = point == NamedPoint::kSurface ? IdealMachine::kTipRadius_mm : 0.0;
+    talk.ask("SetProp(Tool.PtMeasPar.Approach(10), Tool.PtMeasPar.Retract(-1))");
+    talk.ask("PtMeas(X(20),Y(0),Z(0),IJK(1,0,0))");
+    EXPECT_EQ(talk.machine().last_touch.expected_tip_W_mm, Vector3d(20.0 + r_mm, 0.0, 0.0));
+    EXPECT_EQ(talk.machine().position, Vector3d(30.0 + r_mm, 0.0, 0.0));
+    for (const bool inside : {false, true}) {
+      talk.ask("OnScanReport(X(),Y(),Z())");
+      const auto points =
+          parse_response("00001 " + talk.ask(inside ? "ScanOnCircle(0,0,5,20,0,5,0,0,1,360,180,90)"
+                                                    : "ScanOnCircle(0,0,5,20,0,5,0,0,1,360,0,90)"));
+      ASSERT_TRUE(points.has_value());
+      const Vector3d first(points->data[0].number, points->data[1].number, 0.0);
+      EXPECT_NEAR(first.norm(), 20.0 + (inside ? -r_mm : r_mm), 1e-9);
+    }
+    EXPECT_EQ(talk.error("ScanOnCircle(0,0,5,2.5,0,5,0,0,1,360,180,90)"), r_mm > 0.0 ? 509 : 0);
+  }
+}
+
 TEST(IppServer, HandsTouchesOnBitByBit) {
-  Talk talk;
+  ServerOptions options;
+  options.controller.point = NamedPoint::kCenter;
+  Talk talk(options);
   talk.begin();
   EXPECT_EQ(talk.ask("SetProp(Tool.PtMeasPar.Approach(2.5), Tool.PtMeasPar.Search(1.25))"), "");
   const std::string line =
       "PtMeas(X(12.3456789012),Y(-0.0000000001),Z(7),IJK(0.6,-0.000000000000001,0.8))";
-  EXPECT_EQ(talk.ask(line), "# X(14.1456789012), Y(-1.00003e-10), Z(9.4)");
+  EXPECT_EQ(talk.ask(line), "# X(12.3456789012), Y(-1e-10), Z(7)");
   const TouchCommand& touch = talk.machine().last_touch;
   EXPECT_EQ(touch.expected_tip_W_mm, Vector3d(12.3456789012, -0.0000000001, 7.0));
   EXPECT_EQ(touch.direction_W, Vector3d(-0.6, 0.000000000000001, -0.8));
@@ -212,7 +255,7 @@ TEST(IppServer, RetractsAsTheParameterSays) {
   talk.begin();
   talk.ask("SetProp(Tool.PtMeasPar.Approach(10), Tool.PtMeasPar.Retract(-1))");
   talk.ask("PtMeas(X(20),Y(0),Z(0),IJK(1,0,0))");
-  EXPECT_EQ(talk.ask("Get(X())"), "# X(30)");
+  EXPECT_EQ(talk.ask("Get(X())"), "# X(33)");  // 10 mm before the contact at 23
   talk.ask("SetProp(Tool.PtMeasPar.Retract(5))");
   talk.ask("PtMeas(X(20),Y(0),Z(0),IJK(1,0,0))");
   EXPECT_EQ(talk.ask("Get(X())"), "# X(28)");  // contact at 23
@@ -287,8 +330,8 @@ TEST(IppServer, ToolsAreFoundByName) {
 TEST(IppServer, BothReadingsOfTheTranslationAreThoseOfTheProtocolPage) {
   const CsyTransformation t = {{1.0, 2.0, 3.0}, 30.0, 40.0, 50.0};
   const Vector3d machine(10.0, 5.0, 2.0);
-  const Vector3d added = machine_to_csy(t, TranslationReading::kAdded) * machine;
-  const Vector3d subtracted = machine_to_csy(t, TranslationReading::kSubtracted) * machine;
+  const Vector3d added = machine_to_csy(t).linear() * machine + t.x0_mm;
+  const Vector3d subtracted = machine_to_csy(t) * machine;
   EXPECT_NEAR((added - Vector3d(7.03264, -7.13351, 6.03088)).norm(), 0.0, 1e-5);
   EXPECT_NEAR((subtracted - Vector3d(2.97485, -9.02111, 0.87745)).norm(), 0.0, 1e-5);
 }
@@ -300,7 +343,7 @@ TEST(IppServer, MeasuresInThePartSystem) {
   EXPECT_EQ(talk.ask("SetCoordSystem(PartCsy)"), "");
   EXPECT_EQ(talk.ask("GetCoordSystem()"), "# CoordSystem(PartCsy)");
   talk.ask("PtMeas(X(0),Y(-20),Z(5),IJK(0,-1,0))");  // machine (120, 0, 5), direction x
-  EXPECT_NEAR((talk.machine().last_touch.expected_tip_W_mm - Vector3d(120.0, 0.0, 5.0)).norm(), 0.0,
+  EXPECT_NEAR((talk.machine().last_touch.expected_tip_W_mm - Vector3d(123.0, 0.0, 5.0)).norm(), 0.0,
               1e-12);
   EXPECT_NEAR((talk.machine().last_touch.direction_W + Vector3d::UnitX()).norm(), 0.0, 1e-12);
   EXPECT_EQ(talk.error("SetCsyTransformation(PartCsy,0,0,0,181,0,0)"), 1007);

@@ -27,12 +27,14 @@ using ::testing::StartsWith;
 /// A server on a free port of this computer, until the end of the test.
 class Service {
  public:
-  explicit Service(const std::filesystem::path& wire_log = {}, double speed = 1e6)
+  explicit Service(const std::filesystem::path& wire_log = {}, double speed = 1e6,
+                   milliseconds silence_limit = milliseconds(60'000))
       : listener_(open()), server_(backend_, with_speed(speed)) {
     ServiceOptions options;
     options.stop_requested = [this] { return stop_.load(); };
     options.tell = [](std::string_view) {};
     options.wire_log = wire_log;
+    options.silence_limit = silence_limit;
     thread_ = std::thread([this, options] { result_ = serve(listener_, server_, options); });
   }
   ~Service() { end(); }
@@ -105,6 +107,33 @@ TEST(IppService, SendsASecondClientAwayAndTakesTheNextOneLater) {
   const auto third = service.connect();
   EXPECT_THAT(ask(*third, "00001 IsHomed()").at(1), HasSubstr("0008"));  // no session of the first
   EXPECT_EQ(ask(*third, "00002 StartSession()").size(), 2U);
+}
+
+TEST(IppService, ASilentClientLosesItsPlaceToTheNextOneAndIsToldWhy) {
+  Service service({}, 1e6, milliseconds(300));
+  const auto first = service.connect();
+  ask(*first, "00001 StartSession()");
+  const auto too_early = service.connect();
+  EXPECT_THAT(next(*too_early), HasSubstr("another one after 0.3 s of silence"));
+  std::this_thread::sleep_for(milliseconds(400));
+  const auto second = service.connect();
+  EXPECT_THAT(ask(*second, "00001 StartSession()"), ::testing::ElementsAre("00001 &", "00001 %"));
+  EXPECT_THAT(next(*first), HasSubstr("another client takes its place"));
+  EXPECT_EQ(next(*first), "");
+  EXPECT_FALSE(first->is_open());
+}
+
+TEST(IppService, AClientWhoseMotionLastsKeepsItsPlace) {
+  Service service({}, 1.0, milliseconds(300));
+  const auto first = service.connect();
+  ask(*first, "00001 StartSession()");
+  ask(*first, "00002 Home()");
+  ASSERT_TRUE(first->write_line("00003 GoTo(X(150))"));  // 1.5 s at 100 mm/s
+  EXPECT_EQ(next(*first), "00003 &");
+  std::this_thread::sleep_for(milliseconds(700));
+  const auto second = service.connect();
+  EXPECT_THAT(next(*second), HasSubstr("this server has a client already"));
+  EXPECT_EQ(next(*first), "00003 %");
 }
 
 TEST(IppService, SurvivesGarbageAndALineThatNeverEnds) {

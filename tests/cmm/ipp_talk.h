@@ -12,7 +12,7 @@ namespace rondure::cmm::ipp {
 /// A client, a server and a clock in one place.
 class Talk {
  public:
-  explicit Talk(const ServerOptions& options = {}) : server_(backend_, options) {}
+  explicit Talk(const ServerOptions& options = {}) : server_(backend_, with_tip(options)) {}
 
   /// Sends a line; what the server says at once.
   std::vector<std::string> say(std::string_view line) {
@@ -67,6 +67,11 @@ class Talk {
   double now_s = 0.0;
 
  private:
+  static ServerOptions with_tip(ServerOptions options) {
+    options.controller.tip_radius_mm = IdealMachine::kTipRadius_mm;
+    return options;
+  }
+
   IdealBackend backend_;
   Server server_;
 };

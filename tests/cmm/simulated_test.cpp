@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cmm/scan_path.h"
+#include "core/units.h"
 #include "random_parts.h"
 
 namespace rondure::cmm {
@@ -292,6 +294,7 @@ TEST(SimulatedMachine, AnswersNothingOnceTheLineIsLost) {
 TEST(SimulatedMachine, ContinuesAfterAScanAsIfItHadMadeIt) {
   SimulatedMachineOptions options;
   options.errors.repeatability_mm = 0.001;
+  options.scan_scatter = {1.0 * core::kDegree, 0.03, 0.02};
   ScanCircleCommand command;
   command.start_tip_W_mm = {27.0, 0.0, 0.0};
   command.sweep_rad = core::kTwoPi;
@@ -307,7 +310,50 @@ TEST(SimulatedMachine, ContinuesAfterAScanAsIfItHadMadeIt) {
   ASSERT_TRUE(resumed.continue_after(command, readings->back()));
   EXPECT_EQ(resumed.time_s(), scanned.time_s());
   EXPECT_EQ(resumed.true_tips_W_mm(), scanned.true_tips_W_mm());
-  EXPECT_EQ(scanned.true_tips_W_mm().size(), 100U);
+  EXPECT_EQ(scanned.true_tips_W_mm().size(), readings->size());
+}
+
+TEST(SimulatedMachine, AScanLiesWhereItsScatterPutsIt) {
+  SimulatedMachineOptions options;
+  options.scan_scatter = {1.0 * core::kDegree, 0.03, 0.02};
+  SimulatedMachine machine(options);
+  place_shaft(machine);
+  go_to_x30(machine);
+  ScanCircleCommand command;
+  command.start_tip_W_mm = {27.0, 0.0, 0.0};
+  command.sweep_rad = core::kTwoPi;
+  command.points = 360;
+  std::size_t points = 0;
+  double farthest_start_deg = 0.0;
+  std::vector<Vector3d> first;
+  for (int scan = 0; scan < 100; ++scan) {
+    command.first_id = 1000 * scan;
+    const auto readings = machine.scan_circle(command);
+    ASSERT_TRUE(readings) << readings.error().what;
+    points += readings->size();
+    double before_deg = scan_angle(command, readings->front().tip_W_mm) / core::kDegree;
+    // A first point that is missing leaves the second one first.
+    if (before_deg < 0.9) farthest_start_deg = std::max(farthest_start_deg, std::abs(before_deg));
+    EXPECT_LT(std::abs(before_deg), 4.0);
+    for (std::size_t i = 1; i < readings->size(); ++i) {
+      const double angle_deg = scan_angle(command, (*readings)[i].tip_W_mm) / core::kDegree;
+      const double step_deg = std::remainder(angle_deg - before_deg, 360.0);
+      before_deg = angle_deg;
+      const double missing = std::round(step_deg) - 1.0;  // points between these two
+      ASSERT_NEAR(step_deg, missing + 1.0, 0.03 * (missing + 1.0) + 1e-9);
+      ASSERT_NEAR((*readings)[i].tip_W_mm.norm(), 27.0, 1e-9);
+    }
+    if (scan == 0) {
+      for (const TouchReading& reading : *readings) first.push_back(reading.tip_W_mm);
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(points), 0.98 * 36'000.0, 4.0 * std::sqrt(0.02 * 36'000.0));
+  EXPECT_GT(farthest_start_deg, 0.8);
+  command.first_id = 0;
+  const auto again = machine.scan_circle(command);
+  ASSERT_TRUE(again);
+  ASSERT_EQ(again->size(), first.size()) << "the places are those of the number of the scan";
+  EXPECT_EQ(again->back().tip_W_mm, first.back());
 }
 
 TEST(SimulatedMachine, ScansAtTheScanSpeed) {

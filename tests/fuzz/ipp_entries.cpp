@@ -79,7 +79,6 @@ std::string try_ipp_server(std::string_view bytes) {
   if (bytes.empty()) return {};
   const auto choice = static_cast<unsigned char>(bytes[0]);
   ServerOptions options;
-  if ((choice & 1U) != 0) options.controller.manner = Manner::kSeen;
   if ((choice & 2U) != 0) options.speed = 10.0;
   cmm::IdealBackend backend;
   Server server(backend, options);
@@ -101,9 +100,7 @@ std::string try_ipp_server(std::string_view bytes) {
   }
   const bool still_moves = server.next_event_s().has_value();
   if (auto problem = drain(server, account); !problem.empty()) return problem;
-  // A server as seen drops what waits at an abort.
-  const bool drops = options.controller.manner == Manner::kSeen;
-  return still_moves || drops ? std::string() : account.balance();
+  return still_moves ? std::string() : account.balance();
 }
 
 }  // namespace rondure::fuzz

@@ -58,6 +58,27 @@ TEST(JsonText, QuotedTextIsOneShortLineCutBetweenCharacters) {
   EXPECT_EQ(in_quotes(long_text + "\xC3\xA4"), "\"" + long_text + "...\"");
 }
 
+TEST(JsonText, QuotesAndPointersHoldNothingThatATerminalObeys) {
+  EXPECT_EQ(in_quotes("a\x1b[2J\x7f\u009b31m\uFFFE\xff"),
+            R"("a\u001b[2J\u007f\u009b31m\ufffe\xff")");
+  EXPECT_EQ(member_pointer("", "\u009b/~"), R"(/\u009b~1~0)");
+}
+
+TEST(Utf8, NoncharactersAndControlCharactersAreFound) {
+  for (const char* good : {"", "圆柱度\n\tµ \u00A0", "\U0001F600\uFFFD\uFDCF\uFDF0"}) {
+    EXPECT_EQ(first_unshowable(good), std::string_view(good).size());
+  }
+  for (const auto& [text, words] :
+       {std::pair("ab\x1b", "the character U+001B"), std::pair("ab\x7f", "the character U+007F"),
+        std::pair("ab\u0085", "the character U+0085"),
+        std::pair("ab\uFDD0", "the character U+FDD0"),
+        std::pair("ab\uFFFE", "the character U+FFFE"),
+        std::pair("ab\U0001FFFF", "the character U+1FFFF"), std::pair("ab\xff", "the byte 0xFF")}) {
+    EXPECT_EQ(first_unshowable(text), 2U) << words;
+    EXPECT_EQ(unshowable_in_words(text, 2), words);
+  }
+}
+
 TEST(Utf8, WellFormedCharactersPassAndMalformedBytesAreFound) {
   EXPECT_EQ(first_not_utf8("a\xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80"), 10U);
   constexpr std::array<const char*, 9> kMalformed = {

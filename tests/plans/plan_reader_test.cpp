@@ -40,6 +40,18 @@ TEST(PlanReader, EveryExampleIsAPlan) {
   for (const auto& path : plans) EXPECT_EQ(lines_of(read_plan(path)), "") << path.filename();
 }
 
+TEST(PlanReader, ANameThatNoReportCanShowIsRefused) {
+  for (const std::string name : {"A\\uFFFE", "A\uFDD0", "A\\u001b[2J", "A\u009b2J", "A\x7f"}) {
+    std::string text = touched("", kMachines);
+    text.replace(text.find("\"p\""), 3, "\"" + name + "\"");
+    const core::Error problem = only_problem(text);
+    EXPECT_EQ(problem.where, "/part/id") << problem.what;
+    EXPECT_EQ(problem.code, Code::kOutOfRange);
+    EXPECT_NE(problem.what.find("which no report can show; remove it"), std::string::npos)
+        << problem.what;
+  }
+}
+
 TEST(PlanReader, InEveryExampleTheSimulatedPartStandsWhereThePlanExpectsIt) {
   for (const auto& path : testing::plans_in(example(""))) {
     const PlanOrProblems result = read_plan(path);

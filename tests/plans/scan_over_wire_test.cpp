@@ -3,19 +3,28 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdio>
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "cmm/ipp_server.h"
+#include "core/units.h"
+#include "fit/min_zone_cylinder.h"
 #include "plans/cell.h"
 #include "plans/runner.h"
 #include "plans/served_cell.h"
 #include "record/journal.h"
+#include "reports/declared.h"
+#include "reports/evaluation.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"
 #include "wire/tcp_line.h"
@@ -32,10 +41,12 @@ constexpr std::uint64_t kSeed = 20261121;
 class WireServer {
  public:
   /// @param scans  Whether the server knows scans at all.
-  WireServer(const Plan& plan, bool scans)
+  /// @param late  Points it leaves out at the start of each scan.
+  WireServer(const Plan& plan, bool scans, std::size_t late = 0)
       : cell_(plan, kSeed),
         server_(cell_, server_options(plan)),
         scans_(scans),
+        late_(late),
         listener_(wire::TcpListener::open("127.0.0.1", 0).value()),
         thread_([this] { serve(); }) {}
   ~WireServer() {
@@ -44,6 +55,10 @@ class WireServer {
   }
 
   [[nodiscard]] std::uint16_t port() const { return listener_.port(); }
+  /// What happens to a line before it is sent: told the command that it answers.
+  using Spoil = std::function<void(const std::string& command, std::string& line)>;
+  /// Before the client comes.
+  void spoil(Spoil spoil) { spoil_ = std::move(spoil); }
   /// Moves, turns, touches and scans that were asked for.
   [[nodiscard]] int motions() const { return motions_; }
 
@@ -72,12 +87,21 @@ class WireServer {
       if (text.find(motion) != std::string::npos) ++motions_;
     }
     server_.receive({text, {}}, 0.0);
-    for (const std::string& line : server_.take_output()) (void)client.write_line(line);
+    std::size_t left_out = text.find(" ScanOnCircle(") == std::string::npos ? 0 : 3 * late_;
+    for (std::string line : server_.take_output()) {
+      if (spoil_) spoil_(text, line);
+      for (const std::size_t data = line.find("# "); data == 6 && left_out > 0; --left_out) {
+        line.erase(data + 2, line.find(',') + 1 - (data + 2));
+      }
+      (void)client.write_line(line);
+    }
   }
 
   ServedCell cell_;
   cmm::ipp::Server server_;
   bool scans_;
+  Spoil spoil_;
+  std::size_t late_;
   wire::TcpListener listener_;
   std::atomic<bool> stop_ = false;
   std::atomic<int> motions_ = 0;
@@ -112,6 +136,44 @@ record::RunRecord run_of(const Plan& plan, const std::filesystem::path& director
   auto read = record::read_journal(directory);
   EXPECT_TRUE(read);
   return std::move(read).value().record;
+}
+
+/// A shaft of three lobes, 5 um, whose scans lie as those of real servers do: about the step that
+/// was asked for, points missing, starts turned.
+Plan three_lobes(int repeats, int points, double noise_um) {
+  Plan plan = shaft();
+  SimulationPlan& truth = *plan.simulation;
+  truth = {};
+  truth.part.lobes = {{3, 2.5, 40.0, 0.0}};
+  truth.probe.repeatability_um = noise_um;
+  truth.machine.scan_start_deg = 1.0;
+  truth.machine.scan_step_percent = 3.0;
+  truth.machine.scan_dropped_percent = 2.0;
+  FeaturePlan& seat = plan.features.front();
+  seat.sampling.points_per_layer = points;
+  seat.pose_search.repeats = repeats;
+  return plan;
+}
+
+/// CYLt of the same touches, the n-th points of all passes averaged.
+double averaged_by_index_um(const record::RunRecord& run) {
+  int last = -1;
+  for (const record::PoseVisit& pose : run.poses) {
+    if (pose.final_cloud) last = pose.id;
+  }
+  std::map<std::pair<int, int>, std::pair<Eigen::Vector3d, int>> sums;
+  for (const record::Touch& touch : run.touches) {
+    if (touch.pose != last || touch.purpose != record::Touch::Purpose::kMeasure) continue;
+    auto [found, fresh] =
+        sums.try_emplace({touch.layer, touch.point}, std::pair(Eigen::Vector3d::Zero().eval(), 0));
+    found->second.first += touch.tip_mm;
+    ++found->second.second;
+  }
+  std::vector<Eigen::Vector3d> means;
+  for (const auto& [place, sum] : sums) means.emplace_back(sum.first / sum.second);
+  const auto zone = fit::min_zone_cylinder(means, Eigen::Vector3d::UnitZ());
+  EXPECT_TRUE(zone);
+  return zone ? zone->width_mm() / core::kMicrometre : 0.0;
 }
 
 void expect_same(const record::RunRecord& run, const record::RunRecord& wanted) {
@@ -157,6 +219,163 @@ TEST(ScanOverWire, HasTheBitsOfTheRunInOneProcessAlsoWhenItIsResumed) {
   const auto record = record::read_journal(scratch / "cut");
   ASSERT_TRUE(record);
   expect_same(record->record, wanted);
+}
+
+TEST(ScanOverWire, IrregularPassesAreNotAveragedByIndex) {
+  const record::Scratch scratch;
+  for (const int points : {360, 48}) {
+    for (const int repeats : {1, 5}) {
+      SCOPED_TRACE(::testing::Message() << points << " points, " << repeats << " repeats");
+      const Plan inside = three_lobes(repeats, points, 0.0);
+      const WireServer server(inside, true);
+      const auto run =
+          run_of(over_wire(inside, server.port()), scratch / fmt::format("{}-{}", points, repeats));
+      const auto evaluation = reports::evaluate(run);
+      ASSERT_TRUE(evaluation);
+      const reports::FeatureResult& seat = evaluation->features.front();
+      ASSERT_TRUE(seat.mz_cylinder) << (seat.failure ? seat.failure->what : "");
+      // 48 points miss the crests by at most 3.75 deg: 2.5 (1 - cos 11.25 deg) um each.
+      const double zone_um = seat.mz_cylinder->width_mm() / core::kMicrometre;
+      EXPECT_NEAR(zone_um, 5.0, 0.05);
+      EXPECT_LT(seat.cloud.size(), 4U * static_cast<unsigned>(points * repeats));
+      EXPECT_NE(seat.characteristics.front().value->operator_text().find(
+                    repeats == 1 ? fmt::format("4 x {} points, scanned; r_tip", points)
+                                 : "; 5 passes at places of their own, not averaged;"),
+                std::string::npos)
+          << seat.characteristics.front().value->operator_text();
+      const double by_index_um = averaged_by_index_um(run);
+      std::printf("%d points, %d repeats: CYLt %.3f um; by index %.3f um\n", points, repeats,
+                  zone_um, by_index_um);
+      EXPECT_TRUE(repeats == 1 || by_index_um > 5.5) << "what this is about";
+    }
+  }
+}
+
+TEST(ScanOverWire, TheIntervalOfIrregularPassesHoldsTheTruth) {
+  const record::Scratch scratch;
+  Plan inside = three_lobes(5, 120, 0.3);
+  inside.uncertainty.emplace();
+  inside.uncertainty->probe.emplace();  // its repeatability comes from the passes
+  const WireServer server(inside, true);
+  const auto run = run_of(over_wire(inside, server.port()), scratch / "run");
+  const auto evaluation = reports::evaluate(run);
+  ASSERT_TRUE(evaluation);
+  const reports::FeatureResult& seat = evaluation->features.front();
+  ASSERT_TRUE(seat.repeat_sigma_mm);
+  EXPECT_NEAR(*seat.repeat_sigma_mm / core::kMicrometre, 0.3, 0.02);
+  EXPECT_GT(seat.repeat_freedom, 200);
+  EXPECT_GT(seat.repeat_zone_mean_mm.value_or(0.0), 5.0 * core::kMicrometre);
+  const auto status =
+      reports::uncertainty_of(run, seat, evaluation->probe, seat.feature.characteristics.front());
+  ASSERT_TRUE(status.result()) << status.why();
+  const reports::UncertaintyStatement& interval = status.result()->sampled;
+  std::printf("noise 0.3 um, 5 passes: CYLt %.2f um, interval %.3f .. %.3f um\n",
+              seat.mz_cylinder->width_mm() / core::kMicrometre, interval.low_mm / core::kMicrometre,
+              interval.high_mm / core::kMicrometre);
+  EXPECT_LT(interval.low_mm, 5.0 * core::kMicrometre);
+  EXPECT_GT(interval.high_mm, 5.0 * core::kMicrometre);
+}
+
+/// In place of the numbers of a line of data, what a function makes of them.
+void change_numbers(std::string& line, const std::function<void(std::vector<double>&)>& change) {
+  const std::string head = line.substr(0, 8);  // "00001 # "
+  std::vector<double> numbers;
+  for (std::size_t at = 8; at < line.size();) {
+    std::size_t used = 0;
+    numbers.push_back(std::stod(line.substr(at), &used));
+    at += used + 1;
+  }
+  change(numbers);
+  line = head + fmt::format("{}", fmt::join(numbers, ","));
+}
+
+struct WrongAnswer {
+  std::string command;  ///< Beginning of what it answers.
+  int which = 1;        ///< Which of them, counted from 1.
+  std::function<void(std::string&)> change;
+  std::string says;
+};
+
+std::vector<WrongAnswer> wrong_answers() {
+  const auto replace = [](std::string from, std::string to) {
+    return [=](std::string& line) {
+      const auto at = line.find(from);
+      if (at != std::string::npos) line.replace(at, line.find(')', at) - at, to);
+    };
+  };
+  return {
+      {"PtMeas(", 15, replace("X(", "X(1234"), "the expected contact"},
+      {"PtMeas(", 16, replace("Part.Temperature(", "Part.Temperature(293.5"),
+       "Part.Temperature as 293.5 degC"},
+      {"AlignPart(", 2,
+       [](std::string& line) { line = line.substr(0, 8) + "0,-0.5,0.8660254,0,0.8660254,0.5"; },
+       "deg off, at most 8 deg"},
+      {"ScanOnCircle(", 2,
+       [](std::string& line) {
+         change_numbers(line, [](std::vector<double>& n) { n.resize(15); });
+       },
+       "points, 48 were asked for"},
+      {"ScanOnCircle(", 3,
+       [](std::string& line) {
+         change_numbers(line, [](std::vector<double>& n) { n[n.size() / 6 * 3 + 2] += 2.0; });
+       },
+       "off its plane"},
+  };
+}
+
+TEST(ScanOverWire, AWrongAnswerStopsTheRunWhichResumesToTheSameValue) {
+  const Plan inside = three_lobes(2, 48, 0.2);
+  const record::Scratch scratch;
+  const auto wanted = run_of(inside, scratch / "inside");
+  int number = 0;
+  for (const WrongAnswer& wrong : wrong_answers()) {
+    SCOPED_TRACE(wrong.command + " " + wrong.says);
+    WireServer server(inside, true);
+    server.spoil(
+        [&wrong, left = wrong.which](const std::string& command, std::string& line) mutable {
+          const bool data = line.size() > 8 && line[6] == '#';
+          if (data && command.substr(6).starts_with(wrong.command) && --left == 0)
+            wrong.change(line);
+        });
+    const Plan plan = over_wire(inside, server.port());
+    const auto directory = scratch / fmt::format("{}", number++);
+    {
+      const auto stopped = run_plan(plan, seeded_options(directory));
+      ASSERT_TRUE(stopped && stopped->failure);
+      EXPECT_EQ(stopped->failure->code, core::Code::kMachine);
+      EXPECT_THAT(stopped->failure->what, AllOf(HasSubstr(wrong.says), HasSubstr("then resume")));
+    }
+    const auto resumed = resume_plan(plan, seeded_options(directory));
+    ASSERT_TRUE(resumed) << resumed.error().front().what;
+    ASSERT_FALSE(resumed->failure) << resumed->failure->what;
+    const auto record = record::read_journal(directory);
+    ASSERT_TRUE(record);
+    expect_same(record->record, wanted);
+  }
+}
+
+TEST(ScanOverWire, ARunWhoseScansBeginBesideTheStartIsResumed) {
+  Plan inside = shaft();
+  inside.simulation->machine.drift_x_um = 0.0;
+  inside.simulation->machine.drift_y_um = 0.0;
+  inside.simulation->machine.drift_z_um = 0.0;
+  const record::Scratch scratch;
+  const WireServer server(inside, true, 2);
+  const Plan plan = over_wire(inside, server.port());
+  RunOptions options = seeded_options(scratch / "cut");
+  options.before_move = [left = 2](const NextMove& move) mutable -> core::Result<void> {
+    const bool scan = move.what.find("scan") != std::string::npos;
+    if (!scan || left-- > 0) return {};
+    return core::fail(core::Code::kStopped, "no");
+  };
+  {
+    const auto stopped = run_plan(plan, options);
+    ASSERT_TRUE(stopped && stopped->failure);
+    ASSERT_EQ(stopped->failure->code, core::Code::kStopped) << stopped->failure->what;
+  }
+  const auto resumed = resume_plan(plan, seeded_options(scratch / "cut"));
+  ASSERT_TRUE(resumed) << resumed.error().front().what;
+  EXPECT_FALSE(resumed->failure) << resumed->failure->what;
 }
 
 TEST(ScanOverWire, AMachineThatDoesNotScanIsRefusedBeforeItMoves) {

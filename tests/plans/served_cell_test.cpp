@@ -84,7 +84,8 @@ core::Pose example_pose() {
 }
 
 /// The commands of a client that makes a tour, without tags.
-std::vector<std::string> commands(const Tour& tour, const core::Pose& pose) {
+/// @param radius_mm  From the point that PtMeas names to the centre of the tip.
+std::vector<std::string> commands(const Tour& tour, const core::Pose& pose, double radius_mm) {
   const Eigen::Matrix3d R = fixture::body_to_machine({}, pose).linear();
   std::vector<std::string> out = {
       "StartSession()",
@@ -97,7 +98,8 @@ std::vector<std::string> commands(const Tour& tour, const core::Pose& pose) {
   for (const Tour::Stop& stop : tour.stops) {
     out.push_back(fmt::format("GoTo({})", coordinates(stop.away_W_mm)));
     out.push_back(fmt::format("GoTo({})", coordinates(start_of(stop.touch))));
-    out.push_back(fmt::format("PtMeas({},IJK({}))", coordinates(stop.touch.expected_tip_W_mm),
+    const Vector3d named = stop.touch.expected_tip_W_mm + radius_mm * stop.touch.direction_W;
+    out.push_back(fmt::format("PtMeas({},IJK({}))", coordinates(named),
                               vector_text(-stop.touch.direction_W)));
     out.push_back(fmt::format("GoTo({})", coordinates(stop.away_W_mm)));
   }
@@ -133,8 +135,10 @@ std::optional<Vector3d> point_of(const cmm::ipp::Response& response) {
   return Vector3d(*single_number(*x), *single_number(*y), *single_number(*z));
 }
 
-TEST(ServedCell, TouchesOverTheWireHaveTheBitsOfTheMachineInTheSameProcess) {
-  const Plan plan = testing::plan_of("01_spool_simulated.json");
+void expect_same_bits(const std::string& named) {
+  Plan plan = testing::plan_of("01_spool_simulated.json");
+  plan.machine->point = named;
+  const double radius_mm = named == "surface" ? 0.5 * plan.probe->tip_diameter_mm : 0.0;
   const core::Pose pose = example_pose();
   const Tour way = tour(plan, pose);
   const std::vector<Vector3d> wanted = read_directly(plan, way, pose);
@@ -142,7 +146,7 @@ TEST(ServedCell, TouchesOverTheWireHaveTheBitsOfTheMachineInTheSameProcess) {
   cmm::ipp::Server server(cell, server_options(plan));
   std::vector<Vector3d> got;
   int tag = 0;
-  for (const std::string& command : commands(way, pose)) {
+  for (const std::string& command : commands(way, pose, radius_mm)) {
     SCOPED_TRACE(command);
     server.receive({fmt::format("{:05} {}", ++tag, command), {}}, 0.0);
     for (const std::string& line : server.take_output()) {
@@ -157,9 +161,17 @@ TEST(ServedCell, TouchesOverTheWireHaveTheBitsOfTheMachineInTheSameProcess) {
   EXPECT_EQ(cell.machine().position_W_mm(), way.stops.back().away_W_mm);
 }
 
+TEST(ServedCell, TouchesOverTheWireHaveTheBitsOfTheMachineInTheSameProcess) {
+  for (const char* named : {"surface", "center"}) {
+    SCOPED_TRACE(named);
+    expect_same_bits(named);
+  }
+}
+
 TEST(ServedCell, ATouchOverTheSocketTakesLessThanAMillisecond) {
   const Plan plan = testing::plan_of("01_spool_simulated.json");
-  const std::vector<std::string> all = commands(tour(plan, example_pose()), example_pose());
+  const std::vector<std::string> all =
+      commands(tour(plan, example_pose()), example_pose(), 0.5 * plan.probe->tip_diameter_mm);
   ServedCell cell(plan, 5);
   cmm::ipp::Server server(cell, server_options(plan));
   auto listener = wire::TcpListener::open("127.0.0.1", 0);
@@ -204,6 +216,13 @@ TEST(ServedCell, TurnsWithinTheLimitsOfTheFixtureOnly) {
   EXPECT_TRUE(cell.align_part(level));
   EXPECT_FALSE(cell.choose_feature(1));
   EXPECT_TRUE(cell.choose_feature(0));
+}
+
+TEST(ServedCell, OffersTheToolOfThePlan) {
+  Plan plan = testing::plan_of("01_spool_simulated.json");
+  plan.machine->tool = "Probe 7";
+  ServedCell cell(plan, 5);
+  EXPECT_EQ(cell.machine().capabilities().tools, std::vector<std::string>{"Probe 7"});
 }
 
 TEST(ServedCell, APlanWithoutASimulationCannotBeServed) {

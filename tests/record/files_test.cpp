@@ -53,6 +53,28 @@ TEST(Files, ThatCannotBeReadAreNamedWithTheReason) {
   EXPECT_THAT(read_file("/dev/null/x").error().what, HasSubstr("a part of its path is a file"));
 }
 
+TEST(Files, ThatAreNoneAreRefusedAndNotWaitedFor) {
+  const Scratch scratch;
+  ASSERT_EQ(::mkfifo((scratch / "pipe").c_str(), 0600), 0);
+  for (const std::string& name : {(scratch / "pipe").string(), std::string("/dev/zero")}) {
+    const auto read = read_file(name);
+    ASSERT_FALSE(read) << name;
+    EXPECT_EQ(read.error().what, "cannot read " + name + ": it is a device or a pipe; name a file");
+  }
+}
+
+TEST(Files, AreWrittenThoughAProcessOfTheSameNumberLeftItsOwnBehind) {
+  const Scratch scratch;
+  // As a killed program of this number leaves them, in a container for one: each is number 1 there.
+  for (int i = 0; i < 200; ++i) {
+    const std::string name = ".rondure-" + std::to_string(::getpid()) + "-" + std::to_string(i);
+    ::close(::open((scratch / (name + ".tmp")).c_str(), O_WRONLY | O_CREAT, 0600));
+  }
+  EXPECT_TRUE(write_file(scratch / "report.html", "x"));
+  remove_temporaries(scratch.path());
+  EXPECT_THAT(scratch.names(), ElementsAre("report.html"));
+}
+
 TEST(Files, ThatCannotBeWrittenAreNamedWithTheReason) {
   const Scratch scratch;
   const auto missing = write_file(scratch / "no/report.html", "x");

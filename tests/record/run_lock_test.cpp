@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -96,6 +97,40 @@ TEST(RunLock, SaysWhenItCannotBeMade) {
   const auto lock = RunLock::take("/proc/self");
   ASSERT_FALSE(lock);
   EXPECT_THAT(lock.error().what, HasSubstr("cannot be taken"));
+}
+
+TEST(RunLock, NeitherFollowsALinkNorEmptiesWhatIsNoLock) {
+  const Scratch scratch;
+  const fs::path lock = scratch / "run/run.lock";
+  fs::create_directory(scratch / "run");
+  ASSERT_TRUE(write_file(scratch / "thesis.txt", "years of work"));
+  const auto refused = [&](const std::string& why) {
+    const auto taken = RunLock::take(scratch / "run");
+    ASSERT_FALSE(taken) << why;
+    EXPECT_THAT(taken.error().what, AllOf(HasSubstr(lock.string()), HasSubstr(why)));
+    EXPECT_EQ(read_file(scratch / "thesis.txt").value(), "years of work");
+    EXPECT_TRUE(fs::remove(lock)) << "it was left where it stood";
+  };
+  fs::create_symlink(scratch / "thesis.txt", lock);
+  refused("a link");
+  fs::create_symlink(scratch / "absent", lock);
+  refused("a link");
+  EXPECT_FALSE(fs::exists(scratch / "absent"));
+  fs::create_hard_link(scratch / "thesis.txt", lock);
+  refused("a second name of another file");
+  fs::copy_file(scratch / "thesis.txt", lock);
+  refused("a file of something else");
+  ASSERT_EQ(::mkfifo(lock.c_str(), 0600), 0);
+  refused("a pipe, a device or a folder");
+  EXPECT_TRUE(RunLock::take(scratch / "run"));
+}
+
+TEST(RunLock, WhoseBytesAPowerCutLostLocksNothing) {
+  for (const std::string& bytes : {std::string(), std::string(30, '\0')}) {
+    const Scratch scratch;
+    ASSERT_TRUE(write_file(scratch / "run.lock", bytes));
+    EXPECT_TRUE(RunLock::take(scratch.path()));
+  }
 }
 
 TEST(UnbornRun, IsAnAbsentOrEmptyDirectory) {

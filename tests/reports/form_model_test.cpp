@@ -137,6 +137,31 @@ TEST(FormModel, HasTheValuesOfItsColumnsOnAGrid) {
   }
 }
 
+TEST(FormModel, APassOfAScanThatLostPointsIsStillAFullSection) {
+  core::KeyedNoise random(7, {});
+  for (const int passes : {1, 5}) {
+    FormCloud cloud;
+    cloud.kind = FormKind::kRoundness;
+    cloud.radius_mm = 25.0;
+    cloud.passes = passes;
+    for (int pass = 0; pass < passes; ++pass) {
+      for (int i = 0; i < 48; ++i) {
+        // All lose the same one: where none is lost, gaps are about a step.
+        if (i == 20) continue;
+        FormPoint p;
+        p.angle_rad = (7.5 * (i + 0.1 * random.uniform())) * core::kDegree;
+        cloud.points.push_back(p);
+      }
+    }
+    const auto n = static_cast<Eigen::Index>(cloud.points.size());
+    const FormColumns columns(cloud, Eigen::VectorXd::Ones(n));
+    EXPECT_FALSE(columns.layout().arc_rad) << passes;
+    EXPECT_EQ(columns.layout().points_per_layer, 47) << passes;
+    EXPECT_FALSE(columns.layout().regular);
+    EXPECT_EQ(columns.most_undulations(), 23) << "what one pass resolves";
+  }
+}
+
 TEST(FormModel, WeighsGroupsSpotsAndVariancesAsWorked) {
   // A group of two columns, G = n = 1440, w = 0.09, v = 0.01, pi = 0.2, least squares 0.03, -0.02.
   double odds = std::log(0.2 / 0.8);

@@ -357,6 +357,8 @@ TEST(Told, KnowsSentencesByTheirFormatAndTheirParts) {
   EXPECT_EQ(told("MZCY; unfiltered; 4 x 7 points; mean of 5 touches a point; r_tip 1.9984 mm; 20.4 "
                  "degC; at the sampled points"),
             "MZCY；未滤波；4 x 7 点；每点 5 次触测的均值；测头半径 1.9984 mm；20.4 degC；采样点处");
+  EXPECT_EQ(told("4 x 360 points, scanned; 5 passes at places of their own, not averaged"),
+            "4 x 360 点，扫描；5 遍扫描，各遍点位不同，未取平均");
   EXPECT_EQ(told("layer 3: no such thing was ever said"), std::nullopt);
   EXPECT_EQ(told("a sentence of somebody else"), std::nullopt);
   EXPECT_EQ(told("-1.5 um"), "-1.5 um");

@@ -26,6 +26,14 @@ TEST(Text, MarkupBecomesEntities) {
   EXPECT_EQ(escaped("度 µ"), "度 µ");
 }
 
+TEST(Text, NoncharactersStandInNoReport) {
+  // Of an old journal: plans and the command line refuse them now.
+  const std::string name = "A\uFFFE\uFDD0\U0002FFFFB";
+  EXPECT_EQ(escaped(name), "A\uFFFD\uFFFD\uFFFDB");
+  EXPECT_EQ(clean(name), "A\uFFFD\uFFFD\uFFFDB");
+  EXPECT_EQ(printable(name), "A???B");
+}
+
 TEST(Text, WideCharactersTakeTwoColumns) {
   EXPECT_EQ(columns("abc"), 3U);
   EXPECT_EQ(columns("度µ"), 3U);

@@ -1,5 +1,9 @@
 #include "wire/tcp_line.h"
 
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
 #include <chrono>
 #include <random>
 #include <thread>
@@ -192,6 +196,48 @@ TEST(TcpListener, ReportsNobodyWhenNobodyComes) {
   RawSocket late(listener->port());
   EXPECT_TRUE(late.connected());
   EXPECT_NE(*listener->accept(kTcpPatience), nullptr);
+}
+
+/// The socket of this program whose other end is that port; -1 when there is none.
+int socket_to(std::uint16_t port) {
+  for (int handle = 0; handle < 1024; ++handle) {
+    sockaddr_in end = {};
+    socklen_t size = sizeof(end);
+    if (::getpeername(handle, reinterpret_cast<sockaddr*>(&end), &size) == 0 &&
+        ntohs(end.sin_port) == port) {
+      return handle;
+    }
+  }
+  return -1;
+}
+
+int option_of(int handle, int level, int name) {
+  int value = 0;
+  socklen_t size = sizeof(value);
+  EXPECT_EQ(::getsockopt(handle, level, name, &value, &size), 0);
+  return value;
+}
+
+TEST(TcpLine, APeerThatDiesWithoutAWordIsNoticedWithinHalfAMinute) {
+  auto listener = TcpListener::open("127.0.0.1", 0);
+  const auto client = connect_tcp("127.0.0.1", listener->port());
+  ASSERT_TRUE(client);
+  const auto server = listener->accept(kTcpPatience);
+  ASSERT_TRUE(server && *server);
+  const std::string of_client = (*server)->peer();
+  const auto client_port =
+      static_cast<std::uint16_t>(std::stoi(of_client.substr(of_client.find(':') + 1)));
+  for (const std::uint16_t port : {listener->port(), client_port}) {  // both sides
+    const int handle = socket_to(port);
+    ASSERT_GE(handle, 0);
+    EXPECT_NE(option_of(handle, SOL_SOCKET, SO_KEEPALIVE), 0);
+    const int noticed_s =
+        option_of(handle, IPPROTO_TCP, TCP_KEEPIDLE) +
+        option_of(handle, IPPROTO_TCP, TCP_KEEPCNT) * option_of(handle, IPPROTO_TCP, TCP_KEEPINTVL);
+    EXPECT_LE(noticed_s, 30);
+    EXPECT_GT(option_of(handle, IPPROTO_TCP, TCP_USER_TIMEOUT), 0);
+    EXPECT_LE(option_of(handle, IPPROTO_TCP, TCP_USER_TIMEOUT), 30'000);
+  }
 }
 
 }  // namespace

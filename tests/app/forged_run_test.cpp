@@ -1,0 +1,294 @@
+// Runs that somebody changed on purpose. What a signature covers cannot be replaced from beside it;
+// nothing in a journal is run; and where digests were made again so that they fit, the program ends
+// in a sentence.
+
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "record/journal.h"
+#include "tests/app/files.h"
+#include "tests/app/program.h"
+#include "tests/record/meddle.h"
+
+namespace rondure::app::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class ForgedRun : public ::testing::Test {
+ protected:
+  /// Runs the axle of example 09, 38.2 um out of round, under another tolerance.
+  [[nodiscard]] fs::path run_axle(const std::string& name, int tolerance_um) const {
+    auto plan = nlohmann::ordered_json::parse(read(example("09_axle_points_file.json")));
+    plan.erase("$schema");
+    plan["decision_rule"] = {{"rule", "simple-acceptance"}};
+    plan["features"][0]["source"]["file"] =
+        (source_dir() / "tests/data/axle_mzc_3/points.csv").string();
+    plan["features"][0]["characteristics"][0]["tolerance_um"] = tolerance_um;
+    write(folder_ / (name + ".json"), plan.dump());
+    (void)rondure({"run", folder_ / (name + ".json"), "--out", folder_ / name, "--serial", name});
+    return folder_ / name;
+  }
+  void sign(const fs::path& run) const {
+    const std::string place = "cd '" + folder_.path().string() + "' && openssl ";
+    ASSERT_EQ(std::system((place + "genpkey -algorithm ed25519 -out key.pem").c_str()), 0);
+    ASSERT_EQ(std::system((place + "pkey -in key.pem -pubout -out public.pem").c_str()), 0);
+    ASSERT_EQ(rondure({"sign", run, "--key", folder_ / "key.pem"}).status, 0);
+  }
+  [[nodiscard]] Outcome verify_signed(const fs::path& run) const {
+    return rondure({"verify", run, "--key", folder_ / "public.pem"});
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ForgedRun, ALogBesideASignedJournalReplacesNothing) {
+  const fs::path bad = run_axle("bad", 20);
+  const fs::path good = run_axle("good", 100);
+  sign(bad);
+  EXPECT_THAT(verify_signed(bad).out, StartsWith("equal: part EMU-AXLE-3, serial bad, does not "));
+  const std::string report_json = read(bad / "report.json");
+  const std::vector<std::pair<std::string, std::string>> logs = {
+      {"journal.db-wal", record::log_that_replaces(bad / "journal.db", good / "journal.db")},
+      {"journal.db-journal", record::rollback_to(good / "journal.db")}};
+  for (const auto& [name, bytes] : logs) {
+    SCOPED_TRACE(name);
+    write(bad / name, bytes);
+    const std::string named = "not equal: " + name + ": it stands beside the closed journal";
+    for (const Outcome& outcome : {rondure({"verify", bad}), verify_signed(bad)}) {
+      EXPECT_EQ(outcome.status, 1);
+      EXPECT_THAT(outcome.out, AllOf(HasSubstr(named), Not(HasSubstr("report.json"))));
+    }
+    const std::vector<std::vector<std::string>> readers = {
+        {"report", bad},
+        {"compare", bad},
+        {"history", folder_ / "archive.db", "--add", bad},
+        {"sign", bad, "--key", folder_ / "key.pem"},
+        {"run", bad, "--resume"},
+        {"run", folder_ / "bad.json", "--out", bad, "--serial", "bad", "--resume"}};
+    for (const auto& words : readers) {
+      SCOPED_TRACE(words.front());
+      const Outcome outcome = rondure(words);
+      EXPECT_NE(outcome.status, 0);
+      EXPECT_THAT(outcome.err, HasSubstr(name));
+      EXPECT_THAT(outcome.out, Not(HasSubstr("CONFORMS")));
+    }
+    EXPECT_EQ(read(bad / "report.json"), report_json);
+    EXPECT_EQ(read(bad / name), bytes);
+    fs::remove(bad / name);
+    EXPECT_EQ(verify_signed(bad).status, 0);
+  }
+  // Without the list nothing is signed, and the log is still not applied.
+  write(bad / "journal.db-wal", logs.front().second);
+  fs::remove(bad / "SHA256SUMS");
+  const Outcome outcome = verify_signed(bad);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("not equal: journal.db-wal"),
+                                 HasSubstr("the run is not signed: there is no SHA256SUMS")));
+  EXPECT_NE(rondure({"run", bad, "--resume"}).status, 0);
+  EXPECT_FALSE(fs::exists(bad / "SHA256SUMS"));
+}
+
+TEST_F(ForgedRun, AnotherJournalInPlaceOfTheListedOneIsRefused) {
+  const fs::path bad = run_axle("bad", 20);
+  const fs::path good = run_axle("good", 100);
+  fs::copy_file(good / "journal.db", bad / "journal.db", fs::copy_options::overwrite_existing);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"report", bad},
+        {"compare", bad},
+        {"run", bad, "--resume"},
+        {"history", folder_ / "archive.db", "--add", bad}}) {
+    const Outcome outcome = rondure(words);
+    EXPECT_NE(outcome.status, 0) << words.front();
+    EXPECT_THAT(outcome.err, HasSubstr("journal.db is not the file that SHA256SUMS names"));
+  }
+  EXPECT_THAT(rondure({"verify", bad}).out, HasSubstr("not equal: journal.db: its bytes were "));
+}
+
+TEST_F(ForgedRun, ASignedFileThatIsAbsentIsADifference) {
+  const fs::path run = run_axle("run", 100);
+  sign(run);
+  for (const char* file : {"report.html", "report.json", "touches.csv", "results.csv"}) {
+    const std::string bytes = read(run / file);
+    fs::remove(run / file);
+    const Outcome outcome = verify_signed(run);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.out,
+              "not equal: " + std::string(file) + ": it is not there, and SHA256SUMS names it\n");
+    EXPECT_EQ(rondure({"verify", run}).status, 0);
+    write(run / file, bytes);
+  }
+  write(run / "earlier.json", "{}");
+  EXPECT_THAT(verify_signed(run).out, HasSubstr("earlier.json: it is not signed"));
+}
+
+TEST_F(ForgedRun, ATriggerInAnInterruptedJournalIsRefusedByName) {
+  write_plan(folder_ / "plan.json", {});
+  ASSERT_EQ(rondure({"run", folder_ / "plan.json", "--out", folder_ / "whole", "--quiet"}).status,
+            0);
+  const record::RunRecord whole = journal_of(folder_ / "whole");
+  const fs::path run = folder_ / "run";
+  {
+    auto journal =
+        record::Journal::create(run, whole.header, whole.artefact, whole.features, whole.settings);
+    ASSERT_TRUE(journal);
+    for (std::size_t i = 0; i < 5; ++i) ASSERT_TRUE(journal->add(whole.touches[i]));
+  }
+  record::meddle(run / "journal.db",
+                 "create trigger smooth after insert on touch begin update touch set tip_x_mm = "
+                 "round(tip_x_mm, 2) where id = new.id; end");
+  const std::string bytes = read(run / "journal.db");
+  const std::vector<std::vector<std::string>> verbs = {
+      {"run", run, "--resume"},
+      {"run", folder_ / "plan.json", "--out", run, "--resume"},
+      {"verify", run},
+      {"report", run},
+      {"compare", run}};
+  for (const auto& words : verbs) {
+    const Outcome outcome = rondure(words);
+    EXPECT_EQ(outcome.status, 2) << words.front();
+    EXPECT_THAT(outcome.err, HasSubstr("it holds the trigger \"smooth\" on table \"touch\""));
+  }
+  EXPECT_EQ(read(run / "journal.db"), bytes);
+}
+
+TEST_F(ForgedRun, NothingIsComputedBehindABrokenChain) {
+  const fs::path run = folder_ / "run";
+  ASSERT_NE(rondure({"run", example("07_crank_pin.json"), "--out", run, "--quiet"}).status, 2);
+  const std::string bytes = read(run / "journal.db");
+  for (const char* sql :
+       {"update series set name = 'x' where id = 1", "update setting set name = 'x' where id = 3",
+        "update setting set number = 2147483647.0 / 3 where name = 'samples'"}) {
+    SCOPED_TRACE(sql);
+    write(run / "journal.db", bytes);
+    record::meddle(run / "journal.db", sql);
+    const Outcome outcome = rondure({"verify", run});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.out,
+                AllOf(HasSubstr("was changed after it was written"), Not(HasSubstr("report.json:")),
+                      HasSubstr("note: nothing was computed from a journal that is not as it was "
+                                "written")));
+  }
+}
+
+TEST_F(ForgedRun, AChangedPlanInTheJournalIsTold) {
+  const fs::path run = run_axle("run", 100);
+  record::RunRecord told = journal_of(run);
+  told.header.plan_text.replace(told.header.plan_text.find("EMU"), 3, "ICE");
+  write_resealed(told, folder_ / "changed");
+  const Outcome outcome = rondure({"verify", folder_ / "changed"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("the plan in it is not the one that was measured"));
+}
+
+TEST_F(ForgedRun, AnotherVersionAndAMissingListAreSaid) {
+  const fs::path run = run_axle("run", 100);
+  record::RunRecord told = journal_of(run);
+  told.header.version = "0.0.9";
+  write_resealed(told, folder_ / "changed");
+  fs::remove(folder_ / "changed/SHA256SUMS");
+  const Outcome outcome = rondure({"verify", folder_ / "changed"});
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  EXPECT_THAT(outcome.out, AllOf(StartsWith("equal: part EMU-AXLE-3, serial run, conforms: 24 "),
+                                 HasSubstr("\nnote: version 0.0.9 measured, this is version "),
+                                 HasSubstr("\nnote: there is no SHA256SUMS, which the run wrote")));
+}
+
+/// A change of a record whose digests are made again, and what the program must say of it.
+struct Resealed {
+  const char* plan;
+  std::function<void(record::RunRecord&)> change;
+  const char* told;
+};
+
+TEST_F(ForgedRun, WithDigestsMadeAgainEndsInASentence) {
+  const auto rename_series = [](const char* from, const char* to) {
+    return [=](record::RunRecord& run) {
+      for (record::Series& series : run.series) {
+        if (series.name == from) series.name = to;
+      }
+    };
+  };
+  const auto set = [](const char* name, double number) {
+    return [=](record::RunRecord& run) {
+      for (auto* settings : {&run.settings, &run.features.front().settings}) {
+        for (record::Setting& setting : *settings) {
+          if (setting.name == name) setting.number = number;
+        }
+      }
+    };
+  };
+  const auto rename = [](const char* from, const char* to) {
+    return [=](record::RunRecord& run) {
+      for (record::Setting& setting : run.features.front().settings) {
+        if (setting.name == from) setting.name = to;
+      }
+    };
+  };
+  const std::vector<Resealed> cases = {
+      {"05_spindle_three_probe.json", rename_series("data", "x"),
+       "series \"x\" is none of a spindle"},
+      {"05_spindle_three_probe.json", set("samples", 1e9), "setting \"samples\" is 1e+09, outside"},
+      {"05_spindle_three_probe.json", rename("layout", "x"), "setting \"layout\" is missing"},
+      {"05_spindle_three_probe.json", rename("filter", "x"), "setting \"x\" is none of this run"},
+      {"05_spindle_three_probe.json",
+       [](auto& run) { run.series.front().columns.front().name = "x"; }, "has no column alpha_deg"},
+      {"05_spindle_three_probe.json", [](auto& run) { run.series.clear(); }, "series are missing"},
+      {"06_wheel.json", set("count", -5.0), "setting \"count\" is -5, outside"},
+      {"06_wheel.json", set("surface/step_mm", -1.0), "setting \"surface/step_mm\" is -1"},
+      {"07_crank_pin.json", rename_series("pin 2", "pin 9"), "series \"pin 2\" is missing"},
+      {"07_crank_pin.json", rename_series("axes 1", "x"), "series \"x\" is none of a contour"},
+      {"07_crank_pin.json",
+       [](auto& run) {
+         run.features.front().characteristics.front().form = record::Form::kHarmonicLimits;
+         run.features.front().characteristics.front().harmonic_limits = {{2, 2147483647, 0.001}};
+       },
+       "a mask goes from order 2 to 2147483647"},
+      {"03_calibrate_fixture.json", rename("balls/id", "x"), "setting \"balls/id\" is missing"},
+      {"03_calibrate_fixture.json", [](auto& run) { run.touches.back().layer = 17; },
+       "layer 17 is none of its feature"},
+      {"09_axle_points_file.json", set("uncertainty/most_trials", 1e9),
+       "setting \"uncertainty/most_trials\" is 1e+09, outside"},
+      {"01_spool_simulated.json", [](auto& run) { run.touches.back().approach *= 1e8; },
+       "its direction has the length 1e+08, not 1"},
+      {"01_spool_simulated.json", [](auto& run) { run.touches.back().layer = 2147483647; },
+       "are outside 0..100000000"},
+      {"01_spool_simulated.json", [](auto& run) { run.touches.back().pose = 4711; },
+       "pose 4711 is not there"},
+      {"01_spool_simulated.json",
+       [](auto& run) { run.features.front().points_per_layer = 2147483647; },
+       "layers of 2147483647 points"},
+      {"13_pose_search_virtual.json",
+       [](auto& run) { run.features.front().search_steps_deg.front() = 1e-300; },
+       "a search step of 1e-300 deg"},
+      {"01_spool_simulated.json",
+       [](auto& run) { run.features.front().shape = record::Shape::kWheel; },
+       "a wheel is not measured by the strategy"},
+  };
+  for (const Resealed& c : cases) {
+    SCOPED_TRACE(std::string(c.plan) + ": " + c.told);
+    const fs::path run = folder_ / c.plan;
+    if (!fs::exists(run)) (void)rondure({"run", example(c.plan), "--out", run, "--quiet"});
+    record::RunRecord told = journal_of(run);
+    c.change(told);
+    fs::remove_all(folder_ / "forged");
+    write_resealed(told, folder_ / "forged");
+    const Outcome verified = rondure({"verify", folder_ / "forged"});
+    EXPECT_EQ(verified.status, 1);
+    EXPECT_THAT(verified.out, AllOf(StartsWith("not equal: the journal does not hold what its "
+                                               "evaluation asks for: "),
+                                    HasSubstr(c.told)));
+    const Outcome reported = rondure({"report", folder_ / "forged"});
+    EXPECT_EQ(reported.status, 2);
+    EXPECT_THAT(reported.err, HasSubstr(c.told));
+    EXPECT_NE(rondure({"history", folder_ / "archive.db", "--add", folder_ / "forged"}).status, 0);
+  }
+}
+
+}  // namespace
+}  // namespace rondure::app::testing
