@@ -15,7 +15,7 @@ namespace {
 
 const std::vector<std::string>& table_words() {
   static const std::vector<std::string> all = {"NaN",
-                                               "-inf",
+                                               "-INF",
                                                "1e400",
                                                "1e9",
                                                "-1e9",
