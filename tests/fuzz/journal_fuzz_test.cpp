@@ -1,6 +1,7 @@
 // Journals whose rows were changed and whose chain and seal fit again: whoever can write into a run
 // directory can make these.
 
+#include <cstdio>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -45,8 +46,9 @@ std::string try_run(const std::filesystem::path& directory, unsigned seed) {
     return known.error().what.empty() ? "refused without a word" : "";
   }
   const auto checked = reports::evaluate_checked(read->record);
+  // Void, with a sentence: an answer, though one that points of a part never get.
   for (const auto& defect : checked.defects) {
-    return "a broken invariant: " + reports::error_of(defect).what;
+    std::printf("case %u is void: %s\n", seed, reports::error_of(defect).what.c_str());
   }
   if (auto wrong = wrong_with_reports(read->record, checked.evaluation, seed); !wrong.empty()) {
     return wrong;
