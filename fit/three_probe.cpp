@@ -18,8 +18,9 @@ using core::Code;
 constexpr double kSecondOrderFrom_mm = 0.010;
 constexpr int kSecondOrderPasses = 5;
 constexpr double kSecondOrderDone_mm = 1e-9;
-constexpr double kPhaseFrom = 3.0;     ///< Standard uncertainties of an amplitude.
-constexpr double kBelowProbes = 1e-5;  ///< Of the readings: no probe is that linear.
+constexpr double kSecondOrderSettled = 0.01;  ///< Change of the last pass over the correction.
+constexpr double kPhaseFrom = 3.0;            ///< Standard uncertainties of an amplitude.
+constexpr double kBelowProbes = 1e-5;         ///< Of the readings: no probe is that linear.
 
 core::Result<void> check_options(const ThreeProbeOptions& options) {
   const auto refuse = [](std::string what) {
@@ -197,7 +198,7 @@ void warn_of_sampling(const ProbeSamples& samples, const ThreeProbeOptions& opti
 }
 
 /// A.8, where the options want it: repeats recovery and motion with corrected readings.
-/// @return kUnits where the motion is no longer small beside the part, so that A.8 means nothing.
+/// @return kUnits where the motion is no longer small beside the part, so that A.8 does not settle.
 core::Result<void> refine_second_order(double part_radius_mm, const Guard& guard,
                                        ProbeSamples& samples, Spectrum& sum, Spectrum& part,
                                        ThreeProbeResult& result) {
@@ -212,25 +213,27 @@ core::Result<void> refine_second_order(double part_radius_mm, const Guard& guard
         "is not stated");
     return {};
   }
-  if (!(motion < part_radius_mm)) {
-    return core::fail(
-        Code::kUnits,
-        fmt::format("the axis would move by {:.4g} mm, no less than the radius of the part, {:g} "
-                    "mm; readings are in um: look at their unit and for marks of missing values",
-                    motion, part_radius_mm));
-  }
   const ProbeSamples measured = samples;
   double before = 0.0;
+  double change = 0.0;
   for (int pass = 0; pass < kSecondOrderPasses; ++pass) {
     const double now = correct_second_order(measured, part, result, part_radius_mm, samples);
+    change = std::abs(now - before);
+    before = now;
+    if (!std::isfinite(now)) break;
     sum = weighted_spectrum(samples, guard.layout);
     part = recover(sum, guard, samples.count, samples.start_rad, result);
     separate_motion(samples, part, guard.options, result);
     ++result.second_order_passes;
-    if (std::abs(now - before) < kSecondOrderDone_mm) return {};
-    before = now;
+    if (change < kSecondOrderDone_mm) return {};
   }
-  return {};
+  if (change <= kSecondOrderSettled * before) return {};
+  return core::fail(
+      Code::kUnits,
+      fmt::format("the readings say that the axis moves by {:.4g} mm; for a part of radius {:g} mm "
+                  "that is too much to be corrected to the second order: look at the unit of the "
+                  "columns (um) and for marks of missing values",
+                  motion, part_radius_mm));
 }
 
 }  // namespace

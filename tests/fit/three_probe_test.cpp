@@ -365,13 +365,16 @@ TEST(ThreeProbe, SecondOrderConverges) {
 
 TEST(ThreeProbe, RefusesReadingsWhoseMotionIsAsLargeAsThePart) {
   const SpindleCase c;
-  auto readings = readings_at(c, reference_layout(), uniform_theta(c.arm, 512));
-  for (double& h : readings.h_mm[1]) h *= 1e6;  // one column in pm
-  const auto refused =
-      separate_three_probe(readings, c.arm, reference_layout(), exact_options(512));
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, core::Code::kUnits);
-  EXPECT_THAT(refused.error().what, HasSubstr("24.56 mm"));
+  for (const double unit : {1e3, 1e6}) {  // one column in nm, or in pm
+    SCOPED_TRACE(unit);
+    auto readings = readings_at(c, reference_layout(), uniform_theta(c.arm, 512));
+    for (double& h : readings.h_mm[1]) h *= unit;
+    const auto refused =
+        separate_three_probe(readings, c.arm, reference_layout(), exact_options(512));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, core::Code::kUnits);
+    EXPECT_THAT(refused.error().what, HasSubstr("24.56 mm"));
+  }
 }
 
 TEST(ThreeProbe, SeparatesRevolutionsThatDiffer) {
