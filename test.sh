@@ -12,7 +12,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 sanitized="core wire record fixture cmm fit plans reports app fuzz"
 # Figures of many trials and of time, held by the release build; and tests that start and stop the program some
 # hundred times: what it does then, the tests of plans and record do within one process.
-unsanitized="Prediction\\.WidthIs|Uncertainty\\.(DoesTen|ChangesWith)|Coverage\\.|Killed|SmallDisk"
+unsanitized="Prediction\\.WidthIs|Uncertainty\\.(DoesTen|ChangesWith)|Coverage\\.|Killed|SmallDisk|Watch\\.EndsSoon"
 case "${1:-}" in
   "" | --sanitizers) ;;
   --full) export RONDURE_FULL=1 ;;

@@ -1,11 +1,13 @@
 #include "record/archive_rows.h"
 
 #include <array>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "record/archive_schema.h"
 
 namespace rondure::record {
@@ -110,6 +112,14 @@ struct Row {
     out.head.simulated = simulated != 0;
     out.result.value = value_given == soci::i_ok ? std::optional(value) : std::nullopt;
     out.result.upper_limit = limit_given == soci::i_ok ? std::optional(limit) : std::nullopt;
+    for (const auto& number : {out.result.value, out.result.upper_limit}) {
+      if (number && !core::is_measurable(*number)) {
+        throw std::runtime_error(
+            fmt::format("result {} of run {} has a value or limit beyond {:g} {}: its row was "
+                        "changed, or is damaged",
+                        out.number, out.run, core::kGreatestNumber, out.result.unit));
+      }
+    }
     return out;
   }
 };

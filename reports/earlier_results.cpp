@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
@@ -87,7 +88,19 @@ core::Result<EarlierResults> parse_earlier(const std::string& text) {
   try {
     EarlierResults out;
     const Json document = Json::parse(text);
-    for (const Json& row : document.at("results")) out.push_back(result_of(row));
+    for (const Json& row : document.at("results")) {
+      out.push_back(result_of(row));
+      const record::ArchiveResult& result = out.back().result;
+      if (core::is_measurable(result.value.value_or(0.0)) &&
+          core::is_measurable(result.upper_limit.value_or(0.0))) {
+        continue;
+      }
+      return core::fail(core::Code::kSyntax,
+                        fmt::format("{} does not hold earlier results: number {} has a value or "
+                                    "limit beyond {:g}",
+                                    kEarlierName, out.size(), core::kGreatestNumber),
+                        kEarlierName);
+    }
     return out;
   } catch (const Json::exception& e) {
     return core::fail(core::Code::kSyntax,

@@ -14,6 +14,7 @@
 #include "record/files.h"
 #include "record/journal.h"
 #include "tests/record/archive_samples.h"
+#include "tests/record/meddle.h"
 
 namespace rondure::record {
 namespace {
@@ -120,6 +121,22 @@ void limit_files(rlim_t bytes) {
   std::signal(SIGXFSZ, SIG_IGN);
   const rlimit limit{bytes, bytes};
   ::setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+TEST(ArchiveFile, WithANumberThatNobodyMeasuredIsNotRead) {
+  const Scratch scratch;
+  const fs::path file = scratch / "archive.db";
+  {
+    Archive archive = open_archive(place_of(file.string()));
+    ASSERT_TRUE(archive.push(archive_run(1)));
+  }
+  for (const char* number : {"9e999", "1e308"}) {
+    meddle(file, std::string("update rondure_result set value = ") + number);
+    const auto read = open_archive(place_of(file.string())).newest({}, 10);
+    ASSERT_FALSE(read) << number;
+    EXPECT_EQ(read.error().code, core::Code::kArchive);
+    EXPECT_THAT(read.error().what, HasSubstr("beyond 1e+09 mm"));
+  }
 }
 
 TEST(ArchiveFile, OnAFullDiskHoldsWholeRunsOnly) {

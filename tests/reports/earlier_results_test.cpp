@@ -51,6 +51,12 @@ TEST(EarlierResults, AnythingElseIsRefused) {
     ASSERT_FALSE(read) << text;
     EXPECT_EQ(read.error().code, core::Code::kSyntax);
   }
+  EarlierResults huge = earlier_of(cylinder_case(4, 7, 3), 5);
+  huge[2].result.value = 1e308;  // two of them have no mean
+  const auto read = parse_earlier(earlier_json(huge));
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().what,
+              ::testing::HasSubstr("number 3 has a value or limit beyond 1e+09"));
 }
 
 TEST(EarlierResults, ThePageHasAChartOfEachCharacteristicWithThem) {
