@@ -238,6 +238,13 @@ core::Result<AxisTurn> last_turn(const AxisTrace& trace, const AxisTraceOptions&
   AxisTurn out;
   const double span = rows.c_rad.back() - rows.c_rad.front();
   const double step = span / static_cast<double>(rows.c_rad.size() - 1);
+  // A closed turn and one with margins may differ by a few; a spline needs three.
+  if (2 * (cut->end - cut->first) < kLeastTurnSamples) {
+    return core::fail(core::Code::kSampling,
+                      fmt::format("C steps by {:.4g} deg: the last turn has {} samples; at least "
+                                  "{} are needed; C is in degrees",
+                                  step / core::kDegree, cut->end - cut->first, kLeastTurnSamples));
+  }
   out.samples_per_turn = core::kTwoPi / step;
   out.turns = (span + step) / core::kTwoPi;
   out.errors.c_rad = on_uniform(rows.c_rad, rows.c_error_rad, *cut, options.samples);

@@ -81,7 +81,18 @@ core::Result<core::OpenSpline> spline_of(std::vector<double> x_mm, std::vector<d
                                   "after {:.6g} mm",
                                   i, x_mm[i], x_mm[i - 1]));
   }
-  return core::OpenSpline(std::move(x_mm), std::move(z_mm));
+  core::OpenSpline out(std::move(x_mm), std::move(z_mm));
+  for (const double x : out.x()) {
+    const core::OpenSpline::Place place = out(x);
+    if (std::isfinite(place.value) && std::isfinite(place.slope) && std::isfinite(place.second)) {
+      continue;
+    }
+    return core::fail(core::Code::kTable,
+                      fmt::format("the table has no finite curvature at x = {:.6g} mm: its rows "
+                                  "stand too close together, or too far apart",
+                                  x));
+  }
+  return out;
 }
 
 bool all_finite(const std::vector<double>& values) {

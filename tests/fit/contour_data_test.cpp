@@ -113,6 +113,15 @@ TEST(AxisTrace, NamesTheRowWhereCGoesBackOrSamplesAreMissing) {
   EXPECT_EQ(last_turn(trace).error().code, core::Code::kMeaning);
 }
 
+TEST(AxisTrace, RefusesATurnOfTooFewSamples) {
+  auto trace = test::spec_trace(300);
+  for (double& c : trace.c_rad) c *= 1000.0;  // steps of 1200 deg
+  const auto few = last_turn(trace);
+  ASSERT_FALSE(few);
+  EXPECT_EQ(few.error().code, core::Code::kSampling);
+  EXPECT_NE(few.error().what.find("C steps by 1200 deg"), std::string::npos) << few.error().what;
+}
+
 TEST(AxisTrace, RefusesLessThanOneTurnAndSaysWhenItIsInRadians) {
   EXPECT_EQ(last_turn(test::spec_trace(300, 0.95)).error().code, core::Code::kNotFullSection);
   auto trace = test::spec_trace(300);

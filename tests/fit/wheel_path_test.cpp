@@ -336,6 +336,8 @@ TEST(WheelSurface, RemovalAddsTheCurvatureOfItsWaves) {
 TEST(WheelSurface, RefusesTablesThatAreNone) {
   using core::Code;
   EXPECT_EQ(WheelSurface::table({0, 1, 2, 3}, {0, 0, 0, 0}).error().code, Code::kTable);
+  const double nothing = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(WheelSurface::table({0, nothing, 1, 2, 3}, {0, 1, 0, 0, 0}).error().code, Code::kTable);
   const auto order = WheelSurface::table({0, 1, 1, 3, 4}, {0, 0, 0, 0, 0});
   ASSERT_FALSE(order);
   EXPECT_EQ(order.error().code, Code::kTable);
