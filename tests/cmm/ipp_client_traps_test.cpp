@@ -507,7 +507,11 @@ TEST(IppClientTraps, SendsNoNumberOfMoreThanSixteenCharactersOnRequest) {
   ASSERT_TRUE(machine->move_to({-130.1234567891, 0.0, 10.0}));
   const Vector3d outward = Vector3d(-1.0, -0.1, 0.3).normalized();
   const TouchCommand touch = {0, machine->position_W_mm() - 3.0 * outward, -outward, 3.0, 4.0};
-  ASSERT_TRUE(machine->touch(touch));
+  const Vector3d& tip = touch.expected_tip_W_mm;
+  server.override_with(
+      "PtMeas(", {fmt::format("# X({:.6f}), Y({:.6f}), Z({:.6f})", tip.x(), tip.y(), tip.z())});
+  const auto reading = machine->touch(touch);
+  ASSERT_TRUE(reading) << reading.error().what;
   for (const std::string& line : server.heard) {
     std::size_t length = 0;
     for (const char c : line) {
