@@ -30,7 +30,7 @@ int verify(const VerifyArguments& arguments) {
   for (const std::string& difference : outcome->differences)
     say_line(fmt::format("not equal: {}", difference));
   const bool equal = outcome->differences.empty();
-  if (equal) say(fmt::format("equal: {}\n", outcome->what_was_compared));
+  if (equal) say_line(fmt::format("equal: {}", outcome->what_was_compared));
   for (const std::string& note : outcome->notes) say_line(fmt::format("note: {}", note));
   return equal ? kAllWell : kNotConforming;
 }

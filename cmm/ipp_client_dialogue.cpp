@@ -293,9 +293,9 @@ core::Result<Identity> Dialogue::start() {
 }
 
 core::Result<bool> Dialogue::is_simulator() {
-  const auto has_id = tool_may_have("\"Id\"");
-  if (!has_id) return core::fail(has_id.error());
-  if (!*has_id) return false;
+  const auto list = tool_list();  // ours lists what it has
+  if (!list) return core::fail(list.error());
+  if (list->find("\"Id\"") == std::string::npos) return false;
   const auto id = ask_if_known("GetProp", {call_item("Tool.Id")});
   if (!id) return core::fail(id.error());
   if (!*id || word_of(**id) != kSimulatorId) return false;
@@ -304,15 +304,20 @@ core::Result<bool> Dialogue::is_simulator() {
   return simulated->has_value();
 }
 
-core::Result<bool> Dialogue::tool_may_have(std::string_view name) {
+core::Result<std::string> Dialogue::tool_list() {
   if (!tool_list_) {
     const auto list = ask_if_known("EnumAllProp", {call_item("Tool")});
     if (!list) return core::fail(list.error());
     tool_list_ = *list ? told(**list) : "";
   }
   // A list without the parameters of a touch is none: no tool is active, or it is not all there.
-  const bool whole = tool_list_->find("PtMeasPar") != std::string::npos;
-  return !whole || tool_list_->find(name) != std::string::npos;
+  return tool_list_->find("PtMeasPar") == std::string::npos ? std::string() : *tool_list_;
+}
+
+core::Result<bool> Dialogue::tool_may_have(std::string_view name) {
+  const auto list = tool_list();
+  if (!list) return core::fail(list.error());
+  return list->empty() || list->find(name) != std::string::npos;
 }
 
 core::Result<Eigen::Vector3d> Dialogue::position_W_mm() {

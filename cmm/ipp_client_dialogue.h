@@ -115,6 +115,8 @@ class Dialogue {
   [[nodiscard]] core::Result<std::string> version();
   [[nodiscard]] core::Result<void> choose_reports(Identity& identity);
   [[nodiscard]] core::Result<bool> is_simulator();
+  /// The properties of the active tool as the server lists them; "" where it does not.
+  [[nodiscard]] core::Result<std::string> tool_list();
   /// Takes back a refusal, keeps anything else as the fault.
   void settle(const Failure& failure);
 

@@ -161,10 +161,11 @@ core::Result<void> check_setup(std::span<const Vector3d> p_mm, std::span<const s
   return core::fail(
       core::Code::kCollinear,
       fmt::format("the {} balls lie on one line (spread across it over spread along it {:.2g}, "
-                  "least 0.001; condition {:.3g}, limit {:g}), so that the turn about it is not "
+                  "least 0.001; condition {}, limit {:g}), so that the turn about it is not "
                   "determined: add a ball off the line through {} and {}, at least {:g} mm from it",
-                  p_mm.size(), ratio, condition, kConditionLimit, names[i], names[j],
-                  distance_that_cures(p_mm, along)));
+                  p_mm.size(), ratio,
+                  std::isfinite(condition) ? fmt::format("{:.3g}", condition) : "without a bound",
+                  kConditionLimit, names[i], names[j], distance_that_cures(p_mm, along)));
 }
 
 }  // namespace rondure::fit

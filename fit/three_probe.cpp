@@ -197,17 +197,27 @@ void warn_of_sampling(const ProbeSamples& samples, const ThreeProbeOptions& opti
 }
 
 /// A.8, where the options want it: repeats recovery and motion with corrected readings.
-void refine_second_order(double part_radius_mm, const Guard& guard, ProbeSamples& samples,
-                         Spectrum& sum, Spectrum& part, ThreeProbeResult& result) {
+/// @return kUnits where the motion is no longer small beside the part, so that A.8 means nothing.
+core::Result<void> refine_second_order(double part_radius_mm, const Guard& guard,
+                                       ProbeSamples& samples, Spectrum& sum, Spectrum& part,
+                                       ThreeProbeResult& result) {
   using SecondOrder = ThreeProbeOptions::SecondOrder;
   const SecondOrder asked = guard.options.second_order;
-  const bool large = largest_motion_mm(motion_without_zeros(result)) > kSecondOrderFrom_mm;
-  if (asked == SecondOrder::kOff || (asked == SecondOrder::kAuto && !large)) return;
+  const double motion = largest_motion_mm(motion_without_zeros(result));
+  const bool large = motion > kSecondOrderFrom_mm;
+  if (asked == SecondOrder::kOff || (asked == SecondOrder::kAuto && !large)) return {};
   if (!(part_radius_mm > 0.0)) {
     add(result, Code::kInconsistent,
         "motion above 10 um needs the second-order correction, and that the radius of the part; it "
         "is not stated");
-    return;
+    return {};
+  }
+  if (!(motion < part_radius_mm)) {
+    return core::fail(
+        Code::kUnits,
+        fmt::format("the axis would move by {:.4g} mm, no less than the radius of the part, {:g} "
+                    "mm; readings are in um: look at their unit and for marks of missing values",
+                    motion, part_radius_mm));
   }
   const ProbeSamples measured = samples;
   double before = 0.0;
@@ -217,9 +227,10 @@ void refine_second_order(double part_radius_mm, const Guard& guard, ProbeSamples
     part = recover(sum, guard, samples.count, samples.start_rad, result);
     separate_motion(samples, part, guard.options, result);
     ++result.second_order_passes;
-    if (std::abs(now - before) < kSecondOrderDone_mm) return;
+    if (std::abs(now - before) < kSecondOrderDone_mm) return {};
     before = now;
   }
+  return {};
 }
 
 }  // namespace
@@ -261,7 +272,10 @@ core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& reading
   const Guard guard{options, layout, result.noise_mm, static_cast<double>(samples.rows)};
   Spectrum part = recover(sum, guard, samples.count, samples.start_rad, result);
   separate_motion(samples, part, options, result);
-  refine_second_order(arm.pin_radius_mm, guard, samples, sum, part, result);
+  if (auto refined = refine_second_order(arm.pin_radius_mm, guard, samples, sum, part, result);
+      !refined) {
+    return core::fail(refined.error());
+  }
   judge_residual(sum, part, samples, result);
   warn_of_loss(options, result);
   warn_of_sampling(samples, options, result);

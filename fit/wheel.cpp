@@ -78,11 +78,14 @@ core::Result<void> check_arc(const Points& points, const LsCircle& circle,
                              const WheelOptions& options) {
   const AngularOrder order = angular_order(points, circle.center_mm);
   if (order.coverage_rad() >= kLeastArc || options.allow_short_arc) return {};
+  const double factor = circle_factors(order.angles_rad).center;
   return core::fail(
       core::Code::kShortArc,
-      fmt::format("the points cover {:.2f} deg of the circle, at least 20 deg are needed: a point "
-                  "error would show {:.1f} times in the centre",
-                  order.coverage_rad() / core::kDegree, circle_factors(order.angles_rad).center));
+      fmt::format("the points cover {:.2f} deg of the circle, at least 20 deg are needed: {}",
+                  order.coverage_rad() / core::kDegree,
+                  std::isfinite(factor)
+                      ? fmt::format("a point error would show {:.1f} times in the centre", factor)
+                      : "they do not determine the centre"));
 }
 
 /// Everything that can be said before quadruples are chosen.

@@ -316,6 +316,9 @@ TEST(BallSetup, RefusesALineAndNamesTheBallThatCuresIt) {
     cured.back().x() = 0.8 * distance;
     EXPECT_GT(judge_setup(cured).condition, kConditionWarning);
   }
+  std::vector<Vector3d> exact;
+  for (const double x : {0.0, 100.0, 200.0}) exact.emplace_back(x, 0.0, 0.0);
+  EXPECT_THAT(check_setup(exact, letters(3)).error().what, HasSubstr("condition without a bound"));
   const auto two = check_setup(hanging({{150, 50}, {150, 150}}), letters(2));
   ASSERT_FALSE(two);
   EXPECT_EQ(two.error().code, Code::kTooFewPoints);

@@ -363,6 +363,17 @@ TEST(ThreeProbe, SecondOrderConverges) {
   EXPECT_LT(after, 2e-4);
 }
 
+TEST(ThreeProbe, RefusesReadingsWhoseMotionIsAsLargeAsThePart) {
+  const SpindleCase c;
+  auto readings = readings_at(c, reference_layout(), uniform_theta(c.arm, 512));
+  for (double& h : readings.h_mm[1]) h *= 1e6;  // one column in pm
+  const auto refused =
+      separate_three_probe(readings, c.arm, reference_layout(), exact_options(512));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, core::Code::kUnits);
+  EXPECT_THAT(refused.error().what, HasSubstr("24.56 mm"));
+}
+
 TEST(ThreeProbe, SeparatesRevolutionsThatDiffer) {
   SpindleCase c;
   const ProbeLayout layout = reference_layout();

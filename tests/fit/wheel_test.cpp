@@ -489,6 +489,10 @@ TEST(Wheel, RefusesPointsThatAreNoWheel) {
   for (int i = 0; i < 10; ++i) line.emplace_back(i, 2.0 * i);
   EXPECT_EQ(refused(line).code, Code::kCollinear);
   EXPECT_EQ(refused(arc_points(12, 15.0, 50.0, 1e-4, 1)).code, Code::kShortArc);
+  Points2 flat = example_2();  // seen from the centre of its circle it has no width at all
+  for (auto& point : flat) point.x() *= 1e-3;
+  EXPECT_EQ(refused(flat).code, Code::kShortArc);
+  EXPECT_THAT(refused(flat).what, HasSubstr("they do not determine the centre"));
   const auto um = refused(arc_points(12, 360.0, 50000.0, 1.0, 1));
   EXPECT_EQ(um.code, Code::kUnits);
   EXPECT_THAT(um.what, HasSubstr("um"));

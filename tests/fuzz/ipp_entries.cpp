@@ -11,7 +11,6 @@ namespace rondure::fuzz {
 namespace {
 
 using cmm::ipp::LineCutter;
-using cmm::ipp::Manner;
 using cmm::ipp::parse_command;
 using cmm::ipp::parse_response;
 using cmm::ipp::Response;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "plans/record_check.h"
 #include "record/journal.h"
 #include "reports/defect.h"
 #include "reports/evaluation.h"
@@ -40,6 +41,9 @@ std::string wrong_with_reports(const record::RunRecord& record,
 std::string try_run(const std::filesystem::path& directory, unsigned seed) {
   const auto read = record::read_journal(directory);
   if (!read) return read.error().what.empty() ? "refused without a word" : "";
+  if (const auto known = plans::check_record(read->record); !known) {
+    return known.error().what.empty() ? "refused without a word" : "";
+  }
   const auto checked = reports::evaluate_checked(read->record);
   for (const auto& defect : checked.defects) {
     return "a broken invariant: " + reports::error_of(defect).what;
@@ -64,7 +68,10 @@ TEST(JournalFuzz, NoResealedJournalUpsetsTheEvaluation) {
 
 TEST(JournalFuzz, TheUndamagedRunsAreEvaluated) {
   for (const auto& run : sample_runs()) {
-    EXPECT_TRUE(record::read_journal(run)) << run;
+    const auto read = record::read_journal(run);
+    ASSERT_TRUE(read) << run << read.error().what;
+    const auto known = plans::check_record(read->record);
+    EXPECT_TRUE(known) << run << known.error().what;
     EXPECT_EQ(try_run(run, 0), "") << run;
   }
 }

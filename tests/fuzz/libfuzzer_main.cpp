@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 #include "tests/fuzz/ipp_entries.h"
-#include "tests/fuzz/verb_entries.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

@@ -7,6 +7,7 @@
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "plans/utf8.h"
+#include "reports/text.h"
 
 namespace rondure {
 namespace {
@@ -32,8 +33,9 @@ bool has_word(const std::string& text, const std::string& word) {
 namespace app {
 
 void say(std::string_view text) { g_said += text; }
-void tell(std::string_view text) { g_told += text; }
-void complain(const core::Error& error) { g_told += core::to_line(error) + "\n"; }
+void say_line(std::string_view line) { g_said += reports::printable(line) + "\n"; }
+void tell(std::string_view line) { g_told += reports::printable(line); }
+void complain(const core::Error& error) { tell(core::to_line(error)); }
 void complain(const std::vector<core::Error>& errors) {
   for (const core::Error& error : errors) complain(error);
 }
@@ -42,26 +44,33 @@ bool stop_requested() { return false; }
 }  // namespace app
 
 namespace fuzz {
+namespace {
 
-std::string wrong_with_text(const std::string& text) {
+std::string wrong_with_words(const std::string& text) {
   if (plans::first_not_utf8(text) != text.size()) return "not UTF-8: " + text.substr(0, 400);
-  for (const char c : text) {
-    if ((static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t' && c != '\r') || c == 127) {
-      return fmt::format("control character {:#04x}: {}", static_cast<int>(c), text.substr(0, 400));
-    }
-  }
   for (const char* word : {"nan", "inf", "-nan", "-inf"}) {
     if (has_word(text, word)) return fmt::format("it says {}: {}", word, text.substr(0, 2000));
   }
   return {};
 }
 
+}  // namespace
+
+std::string wrong_with_text(const std::string& text) {
+  for (const char c : text) {
+    if ((static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t' && c != '\r') || c == 127) {
+      return fmt::format("control character {:#04x}: {}", static_cast<int>(c), text.substr(0, 400));
+    }
+  }
+  return wrong_with_words(text);
+}
+
 std::string wrong_with_answer(const std::function<int()>& verb) {
   g_said.clear();
   g_told.clear();
   const int status = verb();
-  if (auto wrong = wrong_with_text(g_said); !wrong.empty()) return "result: " + wrong;
-  if (auto wrong = wrong_with_text(g_told); !wrong.empty()) return "sentence: " + wrong;
+  if (auto wrong = wrong_with_words(g_said); !wrong.empty()) return "result: " + wrong;
+  if (auto wrong = wrong_with_words(g_told); !wrong.empty()) return "sentence: " + wrong;
   if (status == app::kAllWell || status == app::kNotConforming) {
     return g_said.empty() ? "no result" : "";
   }

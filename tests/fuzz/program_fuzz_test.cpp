@@ -67,7 +67,7 @@ TEST(ProgramFuzz, NoDamagedFileUpsetsAPlan) {
   const fs::path folder = work_folder() / "program-plan";
   const TableMutation rows(
       {app::testing::read(app::testing::source_dir() / "tests/data/axle_mzc_3/points.csv")});
-  try_cases({15, 2'000}, [&](unsigned seed) {
+  try_cases({8, 2'000}, [&](unsigned seed) {
     fs::remove_all(folder);
     fs::create_directory(folder);
     std::string text = plan;

@@ -38,8 +38,8 @@ void shorten(Json& plan) {
                                                               {"samples_per_turn", 128},
                                                               {"samples", 128},
                                                               {"highest_order", 10},
-                                                              {"most_trials", 200},
-                                                              {"budget_trials", 100},
+                                                              {"most_trials", 2000},
+                                                              {"budget_trials", 500},
                                                               {"cutoff_upr", 10}}};
   for (auto& [key, value] : plan.items()) {
     if (value.is_structured()) shorten(value);

