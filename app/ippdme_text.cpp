@@ -291,8 +291,9 @@ std::string survey_text(const Json& found) {
   }
   out +=
       "\nNot asked, because something would have to move: whether PtMeas takes the\n"
-      "surface point or the centre of the tip, whether AbortE stops a motion, which\n"
-      "way the rotary axes turn. Begin with rondure run PLAN --step.\n";
+      "surface point or the centre of the tip (\"point\"; a run finds out at its first\n"
+      "touch), whether AbortE stops a motion, which way the rotary axes turn. Begin\n"
+      "with rondure run PLAN --step.\n";
   return out + fmt::format("\nFor the plan:\n\"machine\": {}\n", found["machine"].dump(2));
 }
 

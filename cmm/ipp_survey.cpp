@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
@@ -123,7 +124,12 @@ class Surveyor {
     if (const auto homed = ask("IsHomed")) {
       out_.homed = find_number(*homed, "IsHomed").value_or(0.0) != 0.0;
     }
-    out_.simulated = number("Simulation.NextTouch").has_value();
+    if (const auto id = ask("GetProp", {call_item("Tool.Id")})) {
+      const auto words = words_of(*id);
+      out_.simulated = !words.empty() && words.front() == kSimulatorId;
+    }
+    // A run asks no older server either, which would only refuse the names.
+    has_temperatures_ = out_.simulated || std::strtod(out_.version.c_str(), nullptr) >= 1.5;
   }
 
   std::string first_word(std::string_view method) {
@@ -170,6 +176,7 @@ class Surveyor {
   }
 
   void ask_temperatures() {
+    if (!has_temperatures_) return;
     out_.part_degC = number("Part.Temperature");
     if (!out_.may_know("GetTemperatureSensors")) return;
     if (const auto sensors = ask("GetTemperatureSensors")) out_.sensors = words_of(*sensors);
@@ -180,6 +187,8 @@ class Surveyor {
     const std::vector<Item> place = {call_item("X"), call_item("Y"), call_item("Z")};
     if (ask("OnPtMeasReport", place)) out_.point_values = {"X", "Y", "Z"};
     for (const std::string_view name : kPointValues) {
+      const bool newer = name.find("Temperature") != std::string_view::npos || name == "Time";
+      if (newer && !has_temperatures_) continue;
       std::vector<Item> names = place;
       names.push_back(call_item(name));
       if (ask("OnPtMeasReport", std::move(names))) out_.point_values.emplace_back(name);
@@ -190,7 +199,8 @@ class Surveyor {
   Session session_;
   std::chrono::milliseconds limit_;
   Survey out_;
-  std::string lost_;  ///< Why no further answer comes.
+  bool has_temperatures_ = false;  ///< And the time, of points: since issue 1.5.
+  std::string lost_;               ///< Why no further answer comes.
 };
 
 }  // namespace

@@ -106,6 +106,27 @@ TEST(SeenServer, AServerThatCanOnlyTouchIsEnough) {
   expect_the_same_cylindricity(plan, profile);
 }
 
+TEST(SeenServer, WithoutScanParametersTouchesGoOnAndScansAreRefusedBeforeAnythingMoves) {
+  json plan = quiet_plan();
+  SeenProfile profile;
+  profile.has_scan_parameters = false;
+  const SeenWorld world(plan, profile);
+  EXPECT_NEAR(cylindricity_um(plan, "ippdme", world.port()), cylindricity_um(plan, "simulated", 0),
+              kSame_um);  // the tool stays in the head
+  plan["features"][0]["sampling"] = {
+      {"method", "scan"}, {"layers", 4}, {"points_per_layer", 120}, {"margin_mm", 5}};
+  plan["features"][0]["pose_search"]["repeats"] = 1;
+  plan["machine"]["port"] = world.port();
+  plan.erase("simulation");
+  const TemporaryFolder folder;
+  write(folder / "plan.json", plan.dump());
+  const Outcome refused = rondure({"run", folder / "plan.json", "--out", folder / "run",
+                                   "--archive", "none", "--wire-log", folder / "wire.log"});
+  EXPECT_NE(refused.status, 0);
+  EXPECT_THAT(refused.err, HasSubstr("Tool.ScanPar"));
+  EXPECT_THAT(read(folder / "wire.log"), ::testing::Not(HasSubstr("GoTo(")));
+}
+
 TEST(SeenServer, ScansOfIrregularStepsGiveTheSameCylindricity) {
   json plan = quiet_plan();
   plan["features"][0]["sampling"] = {

@@ -73,67 +73,7 @@ ServerOptions as_recorded() {
   return options;
 }
 
-/// The ideal machine, with a surface where the client of the dialogue names one: the tip stops a
-/// tip radius before it, which is where it is expected.
-class RecordedMachine final : public Machine {
- public:
-  explicit RecordedMachine(Machine& machine) : machine_(machine) {}
-  [[nodiscard]] std::string description() const override { return machine_.description(); }
-  [[nodiscard]] Capabilities capabilities() const override { return machine_.capabilities(); }
-  [[nodiscard]] core::Result<MachineStatus> status() override { return machine_.status(); }
-  [[nodiscard]] core::Result<void> home() override { return machine_.home(); }
-  [[nodiscard]] core::Result<void> select_tool(const std::string& name) override {
-    return machine_.select_tool(name);
-  }
-  [[nodiscard]] core::Result<void> set_speeds(const Speeds& speeds) override {
-    return machine_.set_speeds(speeds);
-  }
-  [[nodiscard]] core::Result<void> move_to(const Eigen::Vector3d& tip_W_mm) override {
-    return machine_.move_to(tip_W_mm);
-  }
-  [[nodiscard]] core::Result<TouchReading> touch(const TouchCommand& command) override {
-    TouchReading out;
-    out.tip_W_mm = command.expected_tip_W_mm;
-    return out;
-  }
-  [[nodiscard]] core::Result<std::vector<TouchReading>> scan_circle(
-      const ScanCircleCommand& command) override {
-    std::vector<TouchReading> out(static_cast<std::size_t>(command.points));
-    for (int i = 1; i <= command.points; ++i) {
-      const Eigen::AngleAxisd turn(command.sweep_rad * i / command.points, command.axis_W);
-      out[static_cast<std::size_t>(i) - 1].tip_W_mm =
-          command.center_W_mm + turn * (command.start_tip_W_mm - command.center_W_mm);
-    }
-    return out;
-  }
-  void stop() noexcept override {}
-  [[nodiscard]] core::Result<void> recover() override { return machine_.recover(); }
-  [[nodiscard]] Eigen::Vector3d position_W_mm() const override { return machine_.position_W_mm(); }
-  [[nodiscard]] double time_s() const override { return machine_.time_s(); }
-
- private:
-  Machine& machine_;
-};
-
-/// That machine with the ideal table.
-class RecordedBackend final : public Backend {
- public:
-  [[nodiscard]] RecordedMachine& machine() override { return machine_; }
-  [[nodiscard]] std::vector<double> table_angles_deg() const override { return {0.0}; }
-  [[nodiscard]] core::Result<void> home_table() override { return {}; }
-  [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> align_part(
-      std::span<const Alignment> alignments) override {
-    return ideal_.align_part(alignments);
-  }
-  [[nodiscard]] core::Result<void> choose_feature(int) override { return {}; }
-  void set_next_turn(std::uint64_t) override {}
-
- private:
-  IdealBackend ideal_;
-  RecordedMachine machine_{ideal_.machine()};
-};
-
-/// The double of the recorded server, its machine and a clock.
+/// The double of the recorded server, an ideal machine and a clock.
 class SeenTalk {
  public:
   SeenTalk() : server_(backend_, as_recorded_profile()) {}
@@ -162,7 +102,7 @@ class SeenTalk {
     return profile;
   }
 
-  RecordedBackend backend_;
+  IdealBackend backend_;
   SeenServer server_;
   double now_s_ = 0.0;
 };
