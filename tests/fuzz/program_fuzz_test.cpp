@@ -40,6 +40,7 @@ std::string wrong_with_call(const std::vector<std::string>& words) {
   }
   if (outcome.status > 1 && outcome.err.empty()) return command + ": refused without a word";
   if (auto wrong = wrong_with_text(outcome.out); !wrong.empty()) return command + ": " + wrong;
+  if (outcome.status > 1) return {};  // a refusal may name the number that it found
   if (auto wrong = wrong_with_text(outcome.err); !wrong.empty()) return command + ": " + wrong;
   return {};
 }
