@@ -12,7 +12,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 sanitized="core wire record fixture cmm fit plans reports app fuzz"
 # Figures of many trials and of time, held by the release build; and tests that start and stop the program some
 # hundred times: what it does then, the tests of plans and record do within one process.
-unsanitized="Prediction\\.WidthIs|Uncertainty\\.(DoesTen|ChangesWith)|Coverage\\.|Killed|SmallDisk|Watch\\.EndsSoon"
+unsanitized="Prediction\\.WidthIs|Uncertainty\\.(DoesTen|ChangesWith|DoesNotDepend|HasTheSame)|Coverage\\.|Killed|SmallDisk|FullDisk"
+unsanitized+="|DamagedRun\\.EveryFlipped|PlanVerb\\.(Proposes|SaysWhatLimits|Predicts)|Watch\\.EndsSoon"
 case "${1:-}" in
   "" | --sanitizers) ;;
   --full) export RONDURE_FULL=1 ;;
@@ -30,6 +31,7 @@ build release ON all
 ctest --preset release
 if [ -z "${RONDURE_FULL:-}" ]; then
   build asan ON $(printf '%s_tests ' $sanitized)
-  echo "Not run under the sanitizers (figures of many trials, and programs stopped hundreds of times): $unsanitized"
+  echo "Not run under the sanitizers (figures of many trials, and programs stopped hundreds of times):" \
+    "${unsanitized//\\/}"
   ctest --preset asan -R "^(${sanitized// /|})\\." -E "\\.($unsanitized)"
 fi
