@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include <Eigen/Dense>
 
@@ -189,6 +190,7 @@ double correct_second_order(const ProbeSamples& measured, const Spectrum& spectr
         reading = along + form - across * across / (rho + std::sqrt(rho * rho - across * across));
       }
       const double correction = reading - (r[0][n] + along);
+      if (!std::isfinite(correction)) return std::numeric_limits<double>::quiet_NaN();
       largest = std::max(largest, std::abs(correction));
       samples.mean_mm[i][n] = measured.mean_mm[i][n] - correction;
       for (std::size_t at = n; at < measured.h_mm[i].size(); at += count)

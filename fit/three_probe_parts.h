@@ -46,7 +46,7 @@ void separate_motion(const ProbeSamples& samples, const std::vector<std::complex
 /// A.8: subtracts from each reading of the mean revolution what the linear equations neglect, given
 /// the present profile and motion; the readings of all revolutions move alike. The motion is that
 /// of motion_without_zeros(): a probe zero displaces nothing.
-/// @return Largest correction [mm].
+/// @return Largest correction [mm]; NaN where the motion leaves none, being as large as the part.
 double correct_second_order(const ProbeSamples& measured,
                             const std::vector<std::complex<double>>& spectrum,
                             const ThreeProbeResult& result, double part_radius_mm,

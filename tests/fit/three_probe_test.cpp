@@ -373,7 +373,7 @@ TEST(ThreeProbe, RefusesReadingsWhoseMotionIsAsLargeAsThePart) {
         separate_three_probe(readings, c.arm, reference_layout(), exact_options(512));
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, core::Code::kUnits);
-    EXPECT_THAT(refused.error().what, HasSubstr("24.56 mm"));
+    EXPECT_THAT(refused.error().what, HasSubstr("part of radius 24.56 mm"));
   }
 }
 
