@@ -124,7 +124,7 @@ TEST(SimulateCmm, AClientThatWasHaltedLosesItsPlaceAndGoesOnWhenItIsResumed) {
                                     folder / name, "--archive",          "none"};
   };
   Program halted(arguments("halted"));
-  while (!halted.ended() && serving.wire_log().find("PtMeas") == std::string::npos) {
+  while (!halted.ended() && serving.wire_log().find(" PtMeas(") == std::string::npos) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   halted.send(SIGSTOP);
