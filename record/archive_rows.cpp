@@ -3,6 +3,7 @@
 #include <array>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -124,6 +125,11 @@ struct Row {
   }
 };
 
+/// Later places are of newer results.
+auto place_of(const ArchivedResult& result) {
+  return std::tuple(result.time_s, result.run, result.number);
+}
+
 /// The keys of the names were equal; the names nearly always are. Asked here and not of the
 /// database: PostgreSQL would take key and name for independent, expect a handful of rows, and
 /// sort all of a part instead of reading the newest.
@@ -213,7 +219,15 @@ std::vector<ArchivedResult> select_newest(soci::session& sql, const ArchiveFilte
   select.define_and_bind();
   std::vector<ArchivedResult> out;
   for (bool more = select.execute(true); more; more = select.fetch()) {
-    if (is_named(row.fetched(), filter)) out.push_back(row.fetched());
+    const ArchivedResult& result = row.fetched();
+    // A row with another value in place of a number would be found on every page again.
+    const ArchivedResult* newer = out.empty() ? before : &out.back();
+    if (newer != nullptr && place_of(result) >= place_of(*newer)) {
+      throw std::runtime_error(
+          fmt::format("result {} of run {} stands out of order: its row was changed, or is damaged",
+                      result.number, result.run));
+    }
+    if (is_named(result, filter)) out.push_back(result);
   }
   return out;
 }

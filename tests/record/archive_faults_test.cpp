@@ -139,6 +139,24 @@ TEST(ArchiveFile, WithANumberThatNobodyMeasuredIsNotRead) {
   }
 }
 
+// SQLite takes text for a later time than any number, and reads it as 0: each page would end where
+// it began.
+TEST(ArchiveFile, WithATimeThatIsNoNumberEndsInASentence) {
+  const Scratch scratch;
+  const fs::path file = scratch / "archive.db";
+  {
+    Archive archive = open_archive(place_of(file.string()));
+    ASSERT_TRUE(archive.push(archive_run(1)));
+  }
+  meddle(file, "update rondure_result set time_s = 'noon'");
+  Archive archive = open_archive(place_of(file.string()));
+  const auto page = archive.newest({}, 1);
+  ASSERT_TRUE(page);
+  const auto next = archive.newest({}, 1, &page->back());
+  ASSERT_FALSE(next);
+  EXPECT_THAT(next.error().what, HasSubstr("stands out of order"));
+}
+
 TEST(ArchiveFile, OnAFullDiskHoldsWholeRunsOnly) {
   const Scratch scratch;
   const ArchivePlace place = place_of(scratch / "archive.db");
