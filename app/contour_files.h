@@ -5,7 +5,7 @@
 
 #include "app/contour_mapping.h"
 #include "core/result.h"
-#include "fit/contour_study.h"
+#include "fit/contour/study.h"
 
 namespace rondure::app {
 

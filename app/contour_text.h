@@ -5,7 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "fit/contour_study.h"
+#include "fit/contour/study.h"
 
 namespace rondure::app {
 

@@ -7,17 +7,17 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/ls_circle.h"
-#include "fit/ls_cylinder.h"
-#include "fit/ls_line.h"
-#include "fit/ls_sphere.h"
-#include "fit/min_zone_circle.h"
-#include "fit/min_zone_cylinder.h"
-#include "fit/min_zone_line.h"
-#include "fit/min_zone_sphere.h"
-#include "fit/one_sided_center.h"
-#include "fit/one_sided_cylinder.h"
-#include "fit/points.h"
+#include "fit/least_squares/circle.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/least_squares/line.h"
+#include "fit/least_squares/sphere.h"
+#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/min_zone_line.h"
+#include "fit/references/min_zone_sphere.h"
+#include "fit/references/one_sided_center.h"
+#include "fit/references/one_sided_cylinder.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::app {
 namespace {

@@ -10,10 +10,10 @@
 #include <Eigen/Core>
 
 #include "core/error.h"
-#include "fit/axis.h"
-#include "fit/certificate.h"
-#include "fit/contacts.h"
-#include "fit/deviation_range.h"
+#include "fit/geometry/axis.h"
+#include "fit/proof/certificate.h"
+#include "fit/zone/contacts.h"
+#include "fit/geometry/deviation_range.h"
 
 namespace rondure::app {
 

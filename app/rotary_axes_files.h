@@ -5,7 +5,7 @@
 
 #include "app/rotary_axes_command.h"
 #include "core/result.h"
-#include "fit/rotary_axes.h"
+#include "fit/rotary/axes.h"
 
 namespace rondure::app {
 

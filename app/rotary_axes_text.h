@@ -6,8 +6,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "fit/rotary_axes.h"
-#include "fit/rotary_model.h"
+#include "fit/rotary/axes.h"
+#include "fit/rotary/model.h"
 
 namespace rondure::app {
 

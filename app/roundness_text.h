@@ -5,8 +5,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "fit/filter_selftest.h"
-#include "fit/roundness_evaluation.h"
+#include "fit/profiles/filter_selftest.h"
+#include "fit/profiles/roundness_evaluation.h"
 
 namespace rondure::app {
 

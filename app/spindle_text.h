@@ -5,7 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "fit/probe_layout.h"
+#include "fit/spindle/probe_layout.h"
 #include "reports/spindle_result.h"
 
 namespace rondure::app {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/result.h"
-#include "fit/wheel_surface.h"
+#include "fit/wheel/surface.h"
 
 namespace rondure::app {
 

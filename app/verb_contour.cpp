@@ -12,7 +12,7 @@
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "core/units.h"
-#include "fit/contour_study.h"
+#include "fit/contour/study.h"
 #include "record/files.h"
 #include "reports/contour_document.h"
 

@@ -11,8 +11,8 @@
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "core/units.h"
-#include "fit/filter_selftest.h"
-#include "fit/roundness_evaluation.h"
+#include "fit/profiles/filter_selftest.h"
+#include "fit/profiles/roundness_evaluation.h"
 #include "record/points_csv.h"
 
 namespace rondure::app {

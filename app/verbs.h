@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/probe_layout.h"
+#include "fit/spindle/probe_layout.h"
 #include "record/archive.h"
 
 namespace rondure::app {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "fit/wheel_evaluation.h"
+#include "fit/wheel/evaluation.h"
 
 namespace rondure::app {
 

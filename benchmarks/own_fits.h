@@ -5,11 +5,11 @@
 #include <Eigen/Core>
 
 #include "benchmarks/sample_sets.h"
-#include "fit/ls_cylinder.h"
-#include "fit/min_zone_circle.h"
-#include "fit/min_zone_cylinder.h"
-#include "fit/scan.h"
-#include "fit/zone_fit.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone_cylinder.h"
+#include "fit/geometry/scan.h"
+#include "fit/zone/fit.h"
 
 namespace rondure::benchmarks {
 

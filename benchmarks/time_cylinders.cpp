@@ -4,7 +4,7 @@
 #include "benchmarks/peers/nlopt_peer.h"
 #include "benchmarks/sections.h"
 #include "benchmarks/timing.h"
-#include "fit/ls_cylinder.h"
+#include "fit/least_squares/cylinder.h"
 
 namespace rondure::benchmarks {
 namespace {

@@ -1,7 +1,7 @@
 #include "benchmarks/read_and_sum.h"
 #include "benchmarks/sections.h"
 #include "benchmarks/timing.h"
-#include "fit/scan.h"
+#include "fit/geometry/scan.h"
 
 namespace rondure::benchmarks {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "fit/crank_motion.h"
-#include "fit/profile_filter.h"
+#include "fit/contour/crank_motion.h"
+#include "fit/profiles/profile_filter.h"
 #include "plans/contour_table.h"
 #include "plans/json_text.h"
 #include "plans/setting_list.h"

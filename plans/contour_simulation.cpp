@@ -8,7 +8,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/ground_contour.h"
+#include "fit/contour/ground_contour.h"
 #include "plans/contour_kind.h"
 
 namespace rondure::plans {

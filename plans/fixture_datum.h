@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "fit/registration.h"
+#include "fit/geometry/registration.h"
 #include "plans/inspection.h"
 
 namespace rondure::plans {

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/ls_cylinder.h"
-#include "fit/min_zone_circle.h"
-#include "fit/min_zone_cylinder.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone_cylinder.h"
 
 namespace rondure::plans {
 

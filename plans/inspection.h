@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "core/result.h"
-#include "fit/ls_cylinder.h"
+#include "fit/least_squares/cylinder.h"
 #include "plans/cell.h"
 #include "plans/feature_planner.h"
 #include "plans/past.h"

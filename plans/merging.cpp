@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/min_zone_cylinder.h"
+#include "fit/references/min_zone_cylinder.h"
 #include "plans/inspection.h"
 #include "plans/merged_reach.h"
 

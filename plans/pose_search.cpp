@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/center_search.h"
-#include "fit/min_zone_cylinder.h"
-#include "fit/pose_walk.h"
+#include "fit/zone/center_search.h"
+#include "fit/references/min_zone_cylinder.h"
+#include "fit/poses/walk.h"
 #include "plans/plan_reach.h"
 
 namespace rondure::plans {

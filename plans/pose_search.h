@@ -2,7 +2,7 @@
 
 #include "core/pose.h"
 #include "core/result.h"
-#include "fit/axis.h"
+#include "fit/geometry/axis.h"
 #include "fixture/fixture.h"
 #include "plans/plan.h"
 

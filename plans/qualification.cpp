@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/ls_sphere.h"
+#include "fit/least_squares/sphere.h"
 
 namespace rondure::plans {
 namespace {

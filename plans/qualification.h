@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "fit/probe_tip.h"
+#include "fit/geometry/probe_tip.h"
 #include "plans/inspection.h"
 
 namespace rondure::plans {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/ball_setup.h"
+#include "fit/rotary/ball_setup.h"
 #include "plans/plan_reach.h"
 
 namespace rondure::plans {

@@ -5,7 +5,7 @@
 
 #include "core/units.h"
 #include "core/version.h"
-#include "fit/pose_walk.h"
+#include "fit/poses/walk.h"
 #include "plans/analysis.h"
 #include "plans/setting_list.h"
 #include "plans/uncertainty_table.h"

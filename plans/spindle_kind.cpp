@@ -6,8 +6,8 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/probe_layout.h"
-#include "fit/swing_arm.h"
+#include "fit/spindle/probe_layout.h"
+#include "fit/geometry/swing_arm.h"
 #include "plans/analysis.h"
 #include "plans/setting_list.h"
 #include "plans/spindle_table.h"

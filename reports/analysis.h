@@ -8,7 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/result.h"
-#include "fit/probe_tip.h"
+#include "fit/geometry/probe_tip.h"
 #include "record/run_record.h"
 #include "reports/decision.h"
 #include "reports/stated_value.h"

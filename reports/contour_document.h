@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "fit/contour_study.h"
+#include "fit/contour/study.h"
 
 namespace rondure::reports {
 

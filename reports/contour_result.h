@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "fit/contour_study.h"
+#include "fit/contour/study.h"
 #include "reports/analysis.h"
 
 namespace rondure::reports {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "fit/probe_tip.h"
+#include "fit/geometry/probe_tip.h"
 #include "record/run_record.h"
 #include "reports/evaluation.h"
 #include "reports/uncertainty.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/result.h"
-#include "fit/deviation_range.h"
+#include "fit/geometry/deviation_range.h"
 #include "record/run_record.h"
 #include "reports/evaluation.h"
 

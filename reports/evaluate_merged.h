@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "fit/probe_tip.h"
+#include "fit/geometry/probe_tip.h"
 #include "record/run_record.h"
 #include "reports/evaluation.h"
 #include "reports/merged_poses.h"

@@ -7,9 +7,9 @@
 
 #include "core/units.h"
 #include "core/utc.h"
-#include "fit/ball_center.h"
-#include "fit/ball_setup.h"
-#include "fit/registration.h"
+#include "fit/rotary/ball_center.h"
+#include "fit/rotary/ball_setup.h"
+#include "fit/geometry/registration.h"
 #include "reports/evaluation.h"
 #include "reports/rotary_result.h"
 

@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "fit/pose_walk.h"
+#include "fit/poses/walk.h"
 #include "reports/conformance.h"
 #include "reports/defect.h"
 #include "reports/evaluate_merged.h"

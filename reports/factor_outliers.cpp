@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "fit/axis.h"
-#include "fit/ls_circle.h"
-#include "fit/ls_cylinder.h"
+#include "fit/geometry/axis.h"
+#include "fit/least_squares/circle.h"
+#include "fit/least_squares/cylinder.h"
 
 namespace rondure::reports {
 namespace {

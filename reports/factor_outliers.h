@@ -15,7 +15,7 @@ enum class OutlierRule {
   kNone,
   kThreeSigma,  ///< |d| > 3 s, s^2 = sum d^2 / (n - p).
   /// |d - m| > 5 s, m = median d, s = 1.4826 median |d - m|, at least 0.1 um: one bad point cannot
-  /// widen its own limit. The scales of fit/wheel_outliers.h.
+  /// widen its own limit. The scales of fit/wheel/outliers.h.
   kFiveMedians,
 };
 inline constexpr std::array kOutlierRules = {OutlierRule::kNone, OutlierRule::kThreeSigma,

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
-#include "fit/axis.h"
+#include "fit/geometry/axis.h"
 #include "record/run_record.h"
 
 namespace rondure::reports {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fit/ls_circle.h"
-#include "fit/ls_cylinder.h"
+#include "fit/least_squares/circle.h"
+#include "fit/least_squares/cylinder.h"
 
 namespace rondure::reports {
 namespace {

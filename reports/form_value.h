@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "fit/zone_fit.h"
+#include "fit/zone/fit.h"
 #include "record/run_record.h"
 #include "reports/form_cloud.h"
 

@@ -9,9 +9,9 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "fit/certificate_check.h"
-#include "fit/cylinder_frame.h"
-#include "fit/points.h"
+#include "fit/proof/certificate_check.h"
+#include "fit/geometry/cylinder_frame.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::reports {
 namespace {

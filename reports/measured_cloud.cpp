@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "fit/center_search.h"
+#include "fit/zone/center_search.h"
 
 namespace rondure::reports {
 

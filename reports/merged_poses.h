@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/pose.h"
-#include "fit/pose_joint.h"
+#include "fit/poses/joint.h"
 
 // A cloud that several poses of the fixture make, and what the fixture adds to it.
 

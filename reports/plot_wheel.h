@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "fit/wheel.h"
-#include "fit/wheel_path.h"
+#include "fit/wheel/wheel.h"
+#include "fit/wheel/path.h"
 
 namespace rondure::reports {
 

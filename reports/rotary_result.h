@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "fit/rotary_axes.h"
+#include "fit/rotary/axes.h"
 #include "fixture/error_model.h"
 #include "reports/analysis.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "fit/axis.h"
+#include "fit/geometry/axis.h"
 #include "reports/evaluation.h"
 
 namespace rondure::reports {

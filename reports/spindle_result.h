@@ -3,9 +3,9 @@
 #include <string>
 #include <utility>
 
-#include "fit/axis_motion.h"
-#include "fit/roundness_evaluation.h"
-#include "fit/three_probe.h"
+#include "fit/spindle/axis_motion.h"
+#include "fit/profiles/roundness_evaluation.h"
+#include "fit/spindle/three_probe.h"
 #include "reports/analysis.h"
 
 namespace rondure::reports {

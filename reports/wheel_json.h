@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "fit/wheel_evaluation.h"
+#include "fit/wheel/evaluation.h"
 
 namespace rondure::reports {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "fit/wheel_path.h"
+#include "fit/wheel/path.h"
 
 namespace rondure::reports {
 

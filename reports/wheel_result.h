@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "fit/wheel_evaluation.h"
+#include "fit/wheel/evaluation.h"
 #include "reports/analysis.h"
 
 namespace rondure::reports {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "fit/axis.h"
+#include "fit/geometry/axis.h"
 
 namespace rondure::benchmarks {
 

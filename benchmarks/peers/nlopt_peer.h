@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "fit/axis.h"
+#include "fit/geometry/axis.h"
 
 namespace rondure::benchmarks {
 

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
-#include "fit/crank_motion.h"
+#include "fit/contour/crank_motion.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 

@@ -1,4 +1,4 @@
-#include "fit/center_search.h"
+#include "fit/zone/center_search.h"
 
 #include <cmath>
 #include <vector>
@@ -7,8 +7,8 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/bisectors.h"
-#include "fit/ls_circle.h"
+#include "fit/geometry/bisectors.h"
+#include "fit/least_squares/circle.h"
 
 // Worked examples: method specification, cylindricity section 13. Point numbers there start at 1.
 

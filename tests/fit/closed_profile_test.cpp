@@ -1,4 +1,4 @@
-#include "fit/closed_profile.h"
+#include "fit/profiles/closed_profile.h"
 
 #include <cmath>
 #include <complex>
@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "fit/dft.h"
-#include "fit/harmonics.h"
-#include "fit/profile_filter.h"
+#include "fit/profiles/dft.h"
+#include "fit/profiles/harmonics.h"
+#include "fit/profiles/profile_filter.h"
 #include "tests/fit/profile_cases.h"
 
 namespace rondure::fit {

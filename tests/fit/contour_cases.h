@@ -8,7 +8,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/contour_study.h"
+#include "fit/contour/study.h"
 
 namespace rondure::test {
 

@@ -8,8 +8,8 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/axis_trace.h"
-#include "fit/measured_contour.h"
+#include "fit/contour/axis_trace.h"
+#include "fit/contour/measured_contour.h"
 #include "tests/fit/contour_cases.h"
 
 namespace rondure::fit {

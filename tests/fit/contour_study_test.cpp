@@ -1,4 +1,4 @@
-#include "fit/contour_study.h"
+#include "fit/contour/study.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "fit/crank_motion.h"
+#include "fit/contour/crank_motion.h"
 
 #include <cmath>
 #include <limits>

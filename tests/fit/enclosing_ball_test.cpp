@@ -1,4 +1,4 @@
-#include "fit/enclosing_ball.h"
+#include "fit/geometry/enclosing_ball.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/noise.h"
-#include "fit/zone_descent.h"
+#include "fit/zone/descent.h"
 
 namespace rondure::fit {
 namespace {

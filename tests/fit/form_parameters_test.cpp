@@ -1,4 +1,4 @@
-#include "fit/form_parameters.h"
+#include "fit/profiles/form_parameters.h"
 
 #include <cmath>
 #include <limits>
@@ -8,10 +8,10 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/datum.h"
-#include "fit/generatrix.h"
-#include "fit/ls_cylinder.h"
-#include "fit/min_zone_cylinder.h"
+#include "fit/datums/datum.h"
+#include "fit/profiles/generatrix.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/references/min_zone_cylinder.h"
 
 namespace rondure::fit {
 namespace {

@@ -8,11 +8,11 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/bisectors.h"
-#include "fit/center_region.h"
-#include "fit/global_search.h"
-#include "fit/min_zone_circle.h"
-#include "fit/zone_box.h"
+#include "fit/geometry/bisectors.h"
+#include "fit/zone/center_region.h"
+#include "fit/zone/global_search.h"
+#include "fit/references/min_zone_circle.h"
+#include "fit/proof/zone_box.h"
 
 namespace rondure::fit {
 namespace {

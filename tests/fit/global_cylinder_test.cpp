@@ -11,11 +11,11 @@
 #include <Eigen/Geometry>
 
 #include "core/noise.h"
-#include "fit/axis_cover.h"
-#include "fit/center_region.h"
-#include "fit/certificate_check.h"
-#include "fit/min_zone_cylinder.h"
-#include "fit/zone_box.h"
+#include "fit/proof/axis_cover.h"
+#include "fit/zone/center_region.h"
+#include "fit/proof/certificate_check.h"
+#include "fit/references/min_zone_cylinder.h"
+#include "fit/proof/zone_box.h"
 #include "tests/fit/oracles/dial.h"
 #include "tests/fit/spec_cases.h"
 

@@ -1,4 +1,4 @@
-#include "fit/ground_contour.h"
+#include "fit/contour/ground_contour.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fit/ls_circle.h"
+#include "fit/least_squares/circle.h"
 
 #include <algorithm>
 #include <cmath>

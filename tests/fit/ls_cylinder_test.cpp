@@ -1,4 +1,4 @@
-#include "fit/ls_cylinder.h"
+#include "fit/least_squares/cylinder.h"
 
 #include <algorithm>
 #include <cmath>

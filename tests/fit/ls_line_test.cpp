@@ -1,4 +1,4 @@
-#include "fit/ls_line.h"
+#include "fit/least_squares/line.h"
 
 #include <cmath>
 #include <limits>

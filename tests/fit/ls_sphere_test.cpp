@@ -1,4 +1,4 @@
-#include "fit/ls_sphere.h"
+#include "fit/least_squares/sphere.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "fit/ls_sums.h"
+#include "fit/least_squares/sums.h"
 
 #include <bit>
 #include <cmath>

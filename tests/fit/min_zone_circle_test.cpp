@@ -1,4 +1,4 @@
-#include "fit/min_zone_circle.h"
+#include "fit/references/min_zone_circle.h"
 
 #include <cmath>
 #include <vector>
@@ -7,8 +7,8 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/bisectors.h"
-#include "fit/ls_circle.h"
+#include "fit/geometry/bisectors.h"
+#include "fit/least_squares/circle.h"
 
 namespace rondure::fit {
 namespace {

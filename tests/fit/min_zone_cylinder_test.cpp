@@ -1,4 +1,4 @@
-#include "fit/min_zone_cylinder.h"
+#include "fit/references/min_zone_cylinder.h"
 
 #include <cmath>
 #include <numeric>
@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "core/noise.h"
-#include "fit/ls_cylinder.h"
-#include "fit/zone_fit.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/zone/fit.h"
 #include "tests/fit/spec_cases.h"
 
 namespace rondure::fit {

@@ -1,4 +1,4 @@
-#include "fit/open_profile.h"
+#include "fit/profiles/open_profile.h"
 
 #include <cmath>
 #include <numbers>

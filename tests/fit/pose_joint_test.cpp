@@ -1,6 +1,6 @@
 // Part and poses solved together: 200 simulated parts in two poses, an independent solution at
 // small size, properties, refusals. Long counts with RONDURE_FULL=1.
-#include "fit/pose_joint.h"
+#include "fit/poses/joint.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/zone_fit.h"
+#include "fit/zone/fit.h"
 #include "tests/fit/oracles/dial.h"
 
 namespace rondure::fit {

@@ -1,5 +1,5 @@
 // Layouts of three probes against the tables of methods, roundness A.5.
-#include "fit/probe_layout.h"
+#include "fit/spindle/probe_layout.h"
 
 #include <array>
 #include <cmath>

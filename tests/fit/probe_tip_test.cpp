@@ -1,4 +1,4 @@
-#include "fit/probe_tip.h"
+#include "fit/geometry/probe_tip.h"
 
 #include <cmath>
 #include <vector>

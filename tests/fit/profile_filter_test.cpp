@@ -1,4 +1,4 @@
-#include "fit/profile_filter.h"
+#include "fit/profiles/profile_filter.h"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
 
-#include "fit/filter_selftest.h"
+#include "fit/profiles/filter_selftest.h"
 #include "tests/fit/profile_cases.h"
 
 namespace rondure::fit {

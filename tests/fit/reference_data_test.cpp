@@ -11,11 +11,11 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
-#include "fit/axis.h"
-#include "fit/ls_circle.h"
-#include "fit/ls_cylinder.h"
-#include "fit/min_zone_circle.h"
-#include "fit/min_zone_cylinder.h"
+#include "fit/geometry/axis.h"
+#include "fit/least_squares/circle.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone_cylinder.h"
 #include "record/points_csv.h"
 
 namespace rondure::fit {

@@ -1,4 +1,4 @@
-#include "fit/registration.h"
+#include "fit/geometry/registration.h"
 
 #include <limits>
 #include <vector>

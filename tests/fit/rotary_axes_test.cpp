@@ -1,6 +1,6 @@
 // Six errors of a rotary axis: every number of the method specification, invariances, oracles,
 // coverage of the stated intervals (1000 axes with RONDURE_FULL=1), hard and bad input.
-#include "fit/rotary_axes.h"
+#include "fit/rotary/axes.h"
 
 #include <algorithm>
 #include <complex>
@@ -16,9 +16,9 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
-#include "fit/ball_setup.h"
+#include "fit/rotary/ball_setup.h"
 #include "fit/chi_square.h"
-#include "fit/published_axes.h"
+#include "fit/published/axes.h"
 #include "tests/fit/oracles/dial.h"
 #include "tests/fit/rotary_cases.h"
 #include "tests/fit/spec_cases.h"

@@ -12,7 +12,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/rotary_axes.h"
+#include "fit/rotary/axes.h"
 
 // Rotary axes with known errors, and the worked example of the method specification.
 

@@ -1,4 +1,4 @@
-#include "fit/roundness.h"
+#include "fit/profiles/roundness.h"
 
 #include <array>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
-#include "fit/one_sided_center.h"
-#include "fit/roundness_evaluation.h"
+#include "fit/references/one_sided_center.h"
+#include "fit/profiles/roundness_evaluation.h"
 #include "tests/fit/profile_cases.h"
 
 namespace rondure::fit {

@@ -1,4 +1,4 @@
-#include "fit/scan.h"
+#include "fit/geometry/scan.h"
 
 #include <cmath>
 #include <limits>

@@ -12,7 +12,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/axis.h"
+#include "fit/geometry/axis.h"
 
 namespace rondure::test {
 

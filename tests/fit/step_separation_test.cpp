@@ -1,12 +1,12 @@
 // Multi-step and reversal separation, alone and against three probes.
-#include "fit/step_separation.h"
+#include "fit/spindle/step_separation.h"
 
 #include <array>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fit/axis_motion.h"
+#include "fit/spindle/axis_motion.h"
 #include "tests/fit/three_probe_cases.h"
 
 namespace rondure::fit {

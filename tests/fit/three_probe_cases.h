@@ -5,7 +5,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/three_probe.h"
+#include "fit/spindle/three_probe.h"
 
 // Made-up parts and motions and what three probes read of them, by the measurement equations of
 // methods, roundness A.3, independent of the code under test.

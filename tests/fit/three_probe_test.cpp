@@ -1,6 +1,6 @@
 // Three-probe separation against the worked examples of methods, roundness A.11, planted parts and
 // hard input. Long counts with RONDURE_FULL=1.
-#include "fit/three_probe.h"
+#include "fit/spindle/three_probe.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fit/periodic_spline.h"
+#include "fit/geometry/periodic_spline.h"
 #include "tests/fit/oracles/dial.h"
 #include "tests/fit/three_probe_cases.h"
 

@@ -1,6 +1,6 @@
 // Wheel-centre path: worked examples 3 and 4, a brute-force envelope, gouging, residual form.
 
-#include "fit/wheel_path.h"
+#include "fit/wheel/path.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fit/wheel_forecast.h"
+#include "fit/wheel/forecast.h"
 
 namespace rondure::fit {
 namespace {

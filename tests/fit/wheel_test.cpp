@@ -1,6 +1,6 @@
 // Wheel centre and radius: worked examples, scatter, properties, bad input.
 
-#include "fit/wheel.h"
+#include "fit/wheel/wheel.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "fit/ls_cylinder.h"
+#include "fit/least_squares/cylinder.h"
 #include "plans/forecast_picture.h"
 #include "plans/runner.h"
 #include "record/journal.h"

@@ -18,7 +18,7 @@
 
 #include "cmm/ipp_server.h"
 #include "core/units.h"
-#include "fit/min_zone_cylinder.h"
+#include "fit/references/min_zone_cylinder.h"
 #include "plans/cell.h"
 #include "plans/runner.h"
 #include "plans/served_cell.h"

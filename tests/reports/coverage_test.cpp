@@ -14,8 +14,8 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/ls_cylinder.h"
-#include "fit/zone_fit.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/zone/fit.h"
 #include "reports/uncertainty.h"
 
 namespace rondure::reports {

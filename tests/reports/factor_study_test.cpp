@@ -17,13 +17,13 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/ls_circle.h"
-#include "fit/ls_cylinder.h"
-#include "fit/min_zone_circle.h"
-#include "fit/min_zone_cylinder.h"
-#include "fit/one_sided_center.h"
-#include "fit/one_sided_cylinder.h"
-#include "fit/roundness_evaluation.h"
+#include "fit/least_squares/circle.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone_cylinder.h"
+#include "fit/references/one_sided_center.h"
+#include "fit/references/one_sided_cylinder.h"
+#include "fit/profiles/roundness_evaluation.h"
 #include "tests/reports/points_run.h"
 
 namespace rondure::reports {

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
-#include "fit/one_sided_center.h"
-#include "fit/one_sided_cylinder.h"
+#include "fit/references/one_sided_center.h"
+#include "fit/references/one_sided_cylinder.h"
 #include "reports/archive_entry.h"
 #include "reports/evaluation.h"
 #include "reports/facts.h"

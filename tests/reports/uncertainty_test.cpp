@@ -16,9 +16,9 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/ls_cylinder.h"
-#include "fit/one_sided_cylinder.h"
-#include "fit/zone_fit.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/references/one_sided_cylinder.h"
+#include "fit/zone/fit.h"
 
 namespace rondure::reports {
 namespace {

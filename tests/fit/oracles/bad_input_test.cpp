@@ -10,12 +10,12 @@
 #include "circle_sets.h"
 #include "core/error.h"
 #include "core/units.h"
-#include "fit/ls_circle.h"
-#include "fit/ls_cylinder.h"
-#include "fit/ls_line.h"
-#include "fit/ls_sphere.h"
-#include "fit/min_zone_circle.h"
-#include "fit/min_zone_cylinder.h"
+#include "fit/least_squares/circle.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/least_squares/line.h"
+#include "fit/least_squares/sphere.h"
+#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone_cylinder.h"
 
 namespace rondure::test {
 namespace {

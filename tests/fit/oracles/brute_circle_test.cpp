@@ -8,8 +8,8 @@
 
 #include "circle_sets.h"
 #include "dial.h"
-#include "fit/ls_circle.h"
-#include "fit/min_zone_circle.h"
+#include "fit/least_squares/circle.h"
+#include "fit/references/min_zone_circle.h"
 
 namespace rondure::test {
 namespace {

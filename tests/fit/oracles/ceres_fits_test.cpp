@@ -10,8 +10,8 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "dial.h"
-#include "fit/ls_circle.h"
-#include "fit/ls_cylinder.h"
+#include "fit/least_squares/circle.h"
+#include "fit/least_squares/cylinder.h"
 
 namespace rondure::test {
 namespace {

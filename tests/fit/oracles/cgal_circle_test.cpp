@@ -8,7 +8,7 @@
 
 #include "circle_sets.h"
 #include "dial.h"
-#include "fit/min_zone_circle.h"
+#include "fit/references/min_zone_circle.h"
 
 namespace rondure::test {
 namespace {

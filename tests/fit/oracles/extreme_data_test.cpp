@@ -15,8 +15,8 @@
 
 #include "descent.h"
 #include "dial.h"
-#include "fit/min_zone_circle.h"
-#include "fit/min_zone_cylinder.h"
+#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone_cylinder.h"
 #include "planted.h"
 
 namespace rondure::test {

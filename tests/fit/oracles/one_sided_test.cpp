@@ -17,9 +17,9 @@
 #include "cylinder_sets.h"
 #include "descent.h"
 #include "dial.h"
-#include "fit/ls_cylinder.h"
-#include "fit/one_sided_center.h"
-#include "fit/one_sided_cylinder.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/references/one_sided_center.h"
+#include "fit/references/one_sided_cylinder.h"
 #include "planted.h"
 
 namespace rondure::test {

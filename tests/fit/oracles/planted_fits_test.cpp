@@ -9,8 +9,8 @@
 
 #include "core/noise.h"
 #include "dial.h"
-#include "fit/min_zone_circle.h"
-#include "fit/min_zone_cylinder.h"
+#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone_cylinder.h"
 #include "planted.h"
 
 namespace rondure::test {

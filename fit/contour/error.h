@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+#include "fit/profiles/harmonics.h"
+#include "fit/profiles/profile_filter.h"
+
+namespace rondure::fit {
+
+inline constexpr std::size_t kLeastContourPoints = 16;  ///< M of a contour.
+
+/// How the base circle of a contour is taken away.
+enum class BaseCircle {
+  kLimacon,    ///< Mean, cos and sin of the deviations; e^2/(2 r) off for an eccentricity e.
+  kGeometric,  ///< Least-squares circle of the points; deviations about its own centre.
+};
+
+/// Settings of contour_error().
+struct ContourErrorOptions {
+  FilterOptions filter;  ///< Gaussian low pass, 50 UPR.
+  BaseCircle base = BaseCircle::kLimacon;
+  bool filtered_already = false;  ///< The values come from a filter: take the circle away only.
+};
+
+/// A contour error: deviations from the base circle at the angles 2 pi m / M, mean 0.
+struct ContourError {
+  std::vector<double> error_mm;
+  double base_radius_mm = 0.0;
+  Eigen::Vector2d base_center_mm = Eigen::Vector2d::Zero();
+  double peak_to_valley_mm = 0.0;
+  double rms_mm = 0.0;
+
+  /// Angle of the greatest and of the least deviation [rad].
+  [[nodiscard]] double crest_rad() const;
+  [[nodiscard]] double valley_rad() const;
+};
+
+/// Peak to valley and root mean square of a curve; 0 for an empty one.
+[[nodiscard]] double peak_to_valley(std::span<const double> curve);
+[[nodiscard]] double rms_of(std::span<const double> curve);
+
+/// Takes base circle and filter off a contour.
+///
+/// @param deviation_mm  Radius less nominal at 2 pi m / M, M >= 16 [mm].
+/// @param nominal_mm    Radius the deviations count from, > 0.
+/// @return kTooFewPoints, kNotFinite (row), check_sampling()'s errors for M points; ls_circle()'s.
+/// Source: methods, contour section 4; roundness B.2.
+[[nodiscard]] core::Result<ContourError> contour_error(std::span<const double> deviation_mm,
+                                                       double nominal_mm,
+                                                       const ContourErrorOptions& options = {});
+
+/// Harmonics 2 .. highest of a contour error.
+[[nodiscard]] std::vector<Harmonic> contour_harmonics(std::span<const double> error_mm,
+                                                      int highest);
+
+/// A curve turned by an angle: out(theta) = curve(theta - angle), by its Fourier series.
+[[nodiscard]] std::vector<double> turned_curve(std::span<const double> curve, double angle_rad);
+
+}  // namespace rondure::fit

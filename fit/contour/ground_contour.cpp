@@ -1,0 +1,223 @@
+#include "fit/contour/ground_contour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "fit/profiles/dft.h"
+#include "fit/geometry/periodic_spline.h"
+#include "fit/profiles/profile_filter.h"
+
+namespace rondure::fit {
+namespace {
+
+/// First and second derivative by the parameter of a periodic series over one turn.
+struct Derivatives {
+  std::vector<double> first;
+  std::vector<double> second;
+};
+
+Derivatives derivatives(std::span<const double> series) {
+  auto once = spectrum(series);
+  auto twice = once;
+  for (std::size_t k = 0; k < once.size(); ++k) {
+    const auto number = static_cast<double>(k);
+    once[k] *= std::complex<double>(0.0, number);
+    twice[k] *= -number * number;
+  }
+  if (series.size() % 2 == 0) once.back() = twice.back() = 0.0;
+  return {series_of(once, series.size()), series_of(twice, series.size())};
+}
+
+/// The first derivative by central differences.
+std::vector<double> differences(const std::vector<double>& series) {
+  const std::size_t n = series.size();
+  const double step = 2.0 * core::kTwoPi / static_cast<double>(n);
+  std::vector<double> out(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    out[i] = (series[(i + 1) % n] - series[(i + n - 1) % n]) / step;
+  }
+  return out;
+}
+
+/// Adds the angle nearest to the last one.
+void push_continuous(std::vector<double>& angles, double angle) {
+  if (!angles.empty()) {
+    angle = angles.back() + std::remainder(angle - angles.back(), core::kTwoPi);
+  }
+  angles.push_back(angle);
+}
+
+void cartesian(const GrindingPath& path, const Derivatives& x, const Derivatives& y, double wheel,
+               ParallelCurve& out) {
+  for (std::size_t i = 0; i < path.x_mm.size(); ++i) {
+    const double s = std::hypot(x.first[i], y.first[i]);
+    const double xc = path.x_mm[i] - wheel * y.first[i] / s;
+    const double yc = path.y_mm[i] + wheel * x.first[i] / s;
+    push_continuous(out.beta_rad, std::atan2(yc, xc));
+    out.r_mm.push_back(std::hypot(xc, yc));
+  }
+}
+
+void polar(const GrindingPath& path, const Derivatives& x, const Derivatives& y, double wheel,
+           ParallelCurve& out) {
+  for (std::size_t i = 0; i < path.x_mm.size(); ++i) {
+    const double rho = std::hypot(path.x_mm[i], path.y_mm[i]);
+    const double outward = path.x_mm[i] * x.first[i] + path.y_mm[i] * y.first[i];
+    const double around = path.x_mm[i] * y.first[i] - path.y_mm[i] * x.first[i];
+    const double slope = rho * outward / around;
+    const double q = std::hypot(rho, slope);
+    // rho^2 + Rgw^2 - 2 Rgw rho^2 / q without its cancellation.
+    const double square =
+        (rho - wheel) * (rho - wheel) + 2.0 * wheel * rho * slope * slope / (q * (q + rho));
+    out.r_mm.push_back(std::sqrt(square));
+    push_continuous(out.beta_rad, std::atan2(path.y_mm[i], path.x_mm[i]) +
+                                      std::atan2(wheel * slope, rho * (q - wheel)));
+  }
+}
+
+bool increases_all_round(const std::vector<double>& beta) {
+  for (std::size_t i = 1; i < beta.size(); ++i) {
+    if (beta[i] <= beta[i - 1]) return false;
+  }
+  return beta.back() < beta.front() + core::kTwoPi;
+}
+
+/// (beta, r) of one turn to the angles 2 pi m / M.
+std::vector<double> resampled_radii(const ParallelCurve& curve, std::size_t samples) {
+  std::vector<std::pair<double, double>> rows;
+  for (std::size_t i = 0; i < curve.r_mm.size(); ++i) {
+    const double beta = curve.beta_rad[i];
+    const double turned = beta - core::kTwoPi * std::floor(beta / core::kTwoPi);
+    rows.emplace_back(turned < core::kTwoPi ? turned : 0.0, curve.r_mm[i]);
+  }
+  // Beta increases: what passed the end of the turn stands behind the greatest one.
+  const auto first = std::min_element(rows.begin(), rows.end());
+  std::rotate(rows.begin(), first, rows.end());
+  std::vector<double> beta;
+  std::vector<double> r;
+  for (const auto& [angle, radius] : rows) {
+    beta.push_back(angle);
+    r.push_back(radius);
+  }
+  return even_samples(std::move(beta), std::move(r), samples);
+}
+
+core::Result<AxisErrors> filtered(const AxisErrors& errors, double cutoff_upr) {
+  FilterOptions options;
+  options.cutoff_upr = cutoff_upr;
+  options.override_sampling = true;  // the caller asks for it; the sampling is checked with kc
+  auto c = filter_closed(errors.c_rad, options);
+  if (!c) return core::fail(c.error());
+  auto x = filter_closed(errors.x_mm, options);
+  if (!x) return core::fail(x.error());
+  return AxisErrors{std::move(c->r_mm), std::move(x->r_mm)};
+}
+
+}  // namespace
+
+core::Result<GrindingPath> wheel_path(const CrankGeometry& geometry, const AxisErrors& errors) {
+  if (auto checked = check_geometry(geometry); !checked) return core::fail(checked.error());
+  const std::size_t n = errors.c_rad.size();
+  if (errors.x_mm.size() != n) {
+    return core::fail(core::Code::kMeaning,
+                      fmt::format("{} errors of C and {} of X; both traces need the same samples",
+                                  n, errors.x_mm.size()));
+  }
+  if (n < kLeastTurnSamples) {
+    return core::fail(
+        core::Code::kTooFewPoints,
+        fmt::format("{} samples over the turn; at least {} are needed", n, kLeastTurnSamples));
+  }
+  GrindingPath path;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double command = core::kTwoPi * static_cast<double>(i) / static_cast<double>(n);
+    const double alpha = command + errors.c_rad[i];
+    const double d = wheel_position_mm(geometry, command) + errors.x_mm[i];
+    if (!std::isfinite(alpha) || !std::isfinite(d)) {
+      return core::fail(
+          core::Code::kNotFinite,
+          fmt::format("sample {} has the errors {} rad and {} mm; both must be finite "
+                      "numbers",
+                      i, errors.c_rad[i], errors.x_mm[i]));
+    }
+    if (d <= 0.0) {
+      return core::fail(
+          core::Code::kOutOfRange,
+          fmt::format("sample {} puts the wheel centre at X = {:.4g} mm; it must stay "
+                      "above 0 mm: is the error of X, {:.4g} mm, in mm?",
+                      i, d, errors.x_mm[i]));
+    }
+    path.x_mm.push_back(d * std::cos(alpha) - geometry.crank_radius_mm);
+    path.y_mm.push_back(d * std::sin(alpha));
+  }
+  return path;
+}
+
+ParallelCurve parallel_curve(const GrindingPath& path, double wheel_radius_mm, ParallelForm form) {
+  Derivatives x = derivatives(path.x_mm);
+  Derivatives y = derivatives(path.y_mm);
+  if (form == ParallelForm::kDifferences) {
+    x.first = differences(path.x_mm);
+    y.first = differences(path.y_mm);
+  }
+  ParallelCurve out;
+  if (form == ParallelForm::kPolar) {
+    polar(path, x, y, wheel_radius_mm, out);
+  } else {
+    cartesian(path, x, y, wheel_radius_mm, out);
+  }
+  const std::size_t n = path.x_mm.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double s = std::hypot(x.first[i], y.first[i]);
+    const double kappa = (x.first[i] * y.second[i] - y.first[i] * x.second[i]) / (s * s * s);
+    const double regularity = 1.0 - wheel_radius_mm * kappa;
+    if (i > 0 && regularity >= out.regularity) continue;
+    out.regularity = regularity;
+    out.least_regular_rad = core::kTwoPi * static_cast<double>(i) / static_cast<double>(n);
+  }
+  out.undercut = !(out.regularity > 0.0) || !increases_all_round(out.beta_rad);
+  return out;
+}
+
+core::Result<GroundContour> ground_contour(const CrankGeometry& geometry, const AxisErrors& errors,
+                                           const GroundContourOptions& options) {
+  if (options.samples < kLeastTurnSamples) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("a contour of {} points is asked for; at least {} are needed",
+                                  options.samples, kLeastTurnSamples));
+  }
+  const auto path = wheel_path(geometry, errors);
+  if (!path) return core::fail(path.error());
+  const double wheel = geometry.wheel_radius_mm;
+  const std::size_t times =
+      options.refine ? (options.samples + path->x_mm.size() - 1) / path->x_mm.size() : 1;
+  const auto curve_of = [&](const GrindingPath& one) {
+    return parallel_curve(times > 1 ? refined(one, times) : one, wheel, options.form);
+  };
+  ParallelCurve curve = curve_of(*path);
+  GroundContour out;
+  out.regularity = curve.regularity;
+  out.least_regular_rad = curve.least_regular_rad;
+  out.undercut = out.from_envelope = curve.undercut;
+  std::optional<GrindingPath> smooth;
+  if (options.pre_filter_upr != 0.0) {
+    const auto smoothed = filtered(errors, options.pre_filter_upr);
+    if (!smoothed) return core::fail(smoothed.error());
+    auto smooth_path = wheel_path(geometry, *smoothed);
+    if (!smooth_path) return core::fail(smooth_path.error());
+    smooth = *std::move(smooth_path);
+    curve = curve_of(*smooth);
+    out.from_envelope = curve.undercut;
+  }
+  out.r_mm = out.from_envelope ? envelope_radii_mm(smooth ? *smooth : *path, wheel, options.samples)
+                               : resampled_radii(curve, options.samples);
+  return out;
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,228 @@
+#include "fit/contour/measured_contour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/numbers.h"
+#include "core/units.h"
+#include "fit/profiles/closed_profile.h"
+#include "fit/profiles/dft.h"
+#include "fit/geometry/periodic_spline.h"
+
+namespace rondure::fit {
+namespace {
+
+constexpr double kLargestGap = 1.0 * core::kDegree;
+constexpr double kMissingGap = 1.6;
+constexpr double kFilteredRms = 0.01 * core::kMicrometre;
+constexpr double kFilteredShare = 0.01;
+constexpr double kFilterTraceFrom = 3.0;  ///< Times the cut-off.
+constexpr double kRoundOff = 1e-8;        ///< Amplitude that rounding to 0.001 um leaves [mm].
+constexpr double kLeastLine = 20.0;       ///< Harmonics.
+constexpr double kLeastRange = 0.05 * core::kMicrometre;
+constexpr double kGreatestRange = 1.0;  ///< mm
+
+core::Result<void> check(std::span<const double> angle, std::span<const double> deviation,
+                         const MeasuredContourOptions& options) {
+  if (angle.size() != deviation.size()) {
+    return core::fail(core::Code::kMeaning,
+                      fmt::format("{} angles and {} deviations; one of each a row", angle.size(),
+                                  deviation.size()));
+  }
+  if (options.direction != 1 && options.direction != -1) {
+    return core::fail(core::Code::kMeaning,
+                      fmt::format("a direction of {}; it is 1 or -1", options.direction));
+  }
+  if (angle.size() < kLeastContourPoints) {
+    return core::fail(core::Code::kTooFewPoints,
+                      fmt::format("{} points of the contour; at least {} are needed", angle.size(),
+                                  kLeastContourPoints));
+  }
+  for (std::size_t i = 0; i < angle.size(); ++i) {
+    if (core::is_measurable(angle[i]) && core::is_measurable(deviation[i])) continue;
+    return core::fail(core::Code::kNotFinite,
+                      fmt::format("row {} of the contour is ({} rad, {} mm); both must be finite "
+                                  "numbers up to {:g}",
+                                  i, angle[i], deviation[i], core::kGreatestNumber));
+  }
+  return {};
+}
+
+/// The first row whose step runs against the first step.
+core::Result<void> check_order(std::span<const double> angle) {
+  const double sense = std::remainder(angle[1] - angle[0], core::kTwoPi);
+  for (std::size_t i = 1; i < angle.size(); ++i) {
+    const double step = std::remainder(angle[i] - angle[i - 1], core::kTwoPi);
+    if (step * sense > 0.0) continue;
+    return core::fail(core::Code::kAngleOrder,
+                      fmt::format("the angle stands still or goes back at row {}, by {:.4g} deg; a "
+                                  "contour runs one way round",
+                                  i, std::abs(step) / core::kDegree));
+  }
+  return {};
+}
+
+core::Result<void> check_contour_gap(const AngularProfile& profile, std::size_t rows) {
+  if (profile.largest_gap_rad <= kLargestGap * (1.0 + 1e-9)) return {};
+  const double span_deg = (core::kTwoPi - profile.largest_gap_rad) / core::kDegree;
+  return core::fail(
+      core::Code::kNotFullSection,
+      fmt::format("{} rows leave a gap of {:.4g} deg; the whole contour is needed with gaps of at "
+                  "most 1 deg{}",
+                  rows, profile.largest_gap_rad / core::kDegree,
+                  std::abs(span_deg - core::kTwoPi) < 0.2
+                      ? " (the angles fill one turn in radians: give degrees)"
+                      : ""));
+}
+
+/// log2 of the amplitudes against k^2 from half the cut-off to three times it, or to where they end
+/// in round-off: a Gaussian filter makes the slope -1/fc^2. Nothing where a line does not explain
+/// most of it.
+std::optional<double> fitted_cutoff(const std::vector<double>& amplitude, double cutoff) {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  const auto last = std::min(amplitude.size() - 1, static_cast<std::size_t>(3.0 * cutoff));
+  for (auto k = static_cast<std::size_t>(0.5 * cutoff); k <= last; ++k) {
+    if (amplitude[k] < kRoundOff) break;
+    const double square = std::pow(static_cast<double>(k) / cutoff, 2);
+    const double height = std::log2(amplitude[k]);
+    n += 1.0;
+    x += square;
+    y += height;
+    xx += square * square;
+    xy += square * height;
+    yy += height * height;
+  }
+  if (n < kLeastLine) return std::nullopt;
+  const double sxx = xx - x * x / n;
+  const double sxy = xy - x * y / n;
+  const double syy = yy - y * y / n;
+  if (!(sxx > 0.0) || !(sxy < 0.0) || sxy * sxy < 0.5 * sxx * syy) return std::nullopt;
+  const double found = cutoff * std::sqrt(-sxx / sxy);
+  // Outside of this the harmonics looked at carry too little of the fall, or are lines of the form.
+  if (found < 0.5 * cutoff || found > 2.0 * cutoff) return std::nullopt;
+  return found;
+}
+
+void warn(MeasuredContour& out, core::Code code, std::string what) {
+  out.warnings.push_back({code, std::move(what), {}});
+}
+
+void warn_of_filter(MeasuredContour& out, const MeasuredContourOptions& options) {
+  const FilterTrace& trace = out.filter;
+  const double upper_um = trace.upper_rms_mm / core::kMicrometre;
+  const double from = kFilterTraceFrom * options.error.filter.cutoff_upr;
+  if (trace.filtered && !options.error.filtered_already) {
+    warn(out, core::Code::kFilteredTwice,
+         fmt::format("above {} UPR only {:.2g} um rms are left{}: the gauge seems to have filtered "
+                     "already, and the filter is applied twice; if so, say prefiltered",
+                     from, upper_um,
+                     trace.cutoff_upr
+                         ? fmt::format(", falling as behind a Gaussian filter of {:.0f} "
+                                       "UPR",
+                                       *trace.cutoff_upr)
+                         : ""));
+  }
+  if (!trace.filtered && options.error.filtered_already) {
+    warn(out, core::Code::kFilteredTwice,
+         fmt::format("the contour is said to be filtered, but {:.2g} um rms stand above {} UPR; "
+                     "without prefiltered the filter would be applied",
+                     upper_um, from));
+  }
+}
+
+/// Without a filter the samples are one: what they do not carry is missing.
+void warn_of_loss(MeasuredContour& out, std::span<const double> all_rows,
+                  const MeasuredContourOptions& options) {
+  if (options.error.filter.filter != ProfileFilter::kNone && !options.error.filtered_already)
+    return;
+  const double untouched = last_untouched(options.samples, 0.0);
+  const double lost = filter_trace(all_rows, untouched / kFilterTraceFrom, 0.0).upper_rms_mm;
+  if (all_rows.size() <= options.samples || lost < kFilteredRms) return;
+  warn(out, core::Code::kUndersampled,
+       fmt::format(
+           "{:.2g} um rms of the contour lie above {:.0f} UPR, which {} samples do not carry "
+           "whole; ask for more samples, or filter",
+           lost / core::kMicrometre, untouched, options.samples));
+}
+
+void warn_of_rows(MeasuredContour& out, const AngularProfile& profile) {
+  const double even = core::kTwoPi / static_cast<double>(profile.theta_rad.size());
+  if (profile.largest_gap_rad > kMissingGap * even) {
+    warn(out, core::Code::kSparse,
+         fmt::format("a gap of {:.4g} deg where the mean step is {:.4g} deg: samples are missing "
+                     "and were interpolated",
+                     profile.largest_gap_rad / core::kDegree, even / core::kDegree));
+  }
+  const double range = out.contour.peak_to_valley_mm;
+  if (range < kLeastRange || range > kGreatestRange) {
+    warn(out, core::Code::kUnits,
+         fmt::format("the contour runs over {:.3g} um; that is {}: is the unit right?",
+                     range / core::kMicrometre,
+                     range < kLeastRange ? "less than 0.05 um" : "more than 1 mm"));
+  }
+}
+
+}  // namespace
+
+FilterTrace filter_trace(std::span<const double> deviation_mm, double cutoff_upr,
+                         double resolved_upr) {
+  const auto f = spectrum(deviation_mm);
+  std::vector<double> amplitude(f.size());
+  double form = 0.0;
+  double upper = 0.0;
+  for (std::size_t k = 2; k < f.size(); ++k) {
+    amplitude[k] = 2.0 * std::abs(f[k]) / static_cast<double>(deviation_mm.size());
+    const double square = 0.5 * amplitude[k] * amplitude[k];
+    form += square;
+    if (static_cast<double>(k) > kFilterTraceFrom * cutoff_upr) upper += square;
+  }
+  FilterTrace out;
+  out.upper_rms_mm = std::sqrt(upper);
+  out.filtered = resolved_upr > 4.0 * cutoff_upr && out.upper_rms_mm < kFilteredRms &&
+                 out.upper_rms_mm < kFilteredShare * std::sqrt(form);
+  if (out.filtered) out.cutoff_upr = fitted_cutoff(amplitude, cutoff_upr);
+  return out;
+}
+
+core::Result<MeasuredContour> measured_contour(std::span<const double> angle_rad,
+                                               std::span<const double> deviation_mm,
+                                               const MeasuredContourOptions& options) {
+  if (auto checked = check(angle_rad, deviation_mm, options); !checked) {
+    return core::fail(checked.error());
+  }
+  if (auto checked = check_order(angle_rad); !checked) return core::fail(checked.error());
+  std::vector<double> beta(angle_rad.size());
+  std::transform(angle_rad.begin(), angle_rad.end(), beta.begin(), [&](double angle) {
+    return options.direction * (angle - options.phase_offset_rad);
+  });
+  const auto profile = ordered_profile(beta, deviation_mm);
+  if (!profile) return core::fail(profile.error());
+  if (auto checked = check_contour_gap(*profile, angle_rad.size()); !checked) {
+    return core::fail(checked.error());
+  }
+  if (!options.error.filtered_already) {
+    const auto sampling = check_sampling(angle_rad.size(), options.error.filter);
+    if (!sampling) return core::fail(sampling.error());
+  }
+  const std::vector<double> even = even_samples(profile->theta_rad, profile->r_mm, options.samples);
+  auto contour = contour_error(even, options.nominal_mm, options.error);
+  if (!contour) return core::fail(contour.error());
+  MeasuredContour out;
+  out.contour = *std::move(contour);
+  out.rows = angle_rad.size();
+  out.largest_gap_rad = profile->largest_gap_rad;
+  // A filter of the gauge shows on all rows; fewer samples would hide what is up there.
+  const std::vector<double> all_rows = even_samples(
+      profile->theta_rad, profile->r_mm, std::max(options.samples, profile->r_mm.size()));
+  out.filter =
+      filter_trace(all_rows, options.error.filter.cutoff_upr, 0.5 * static_cast<double>(out.rows));
+  warn_of_filter(out, options);
+  warn_of_loss(out, all_rows, options);
+  warn_of_rows(out, *profile);
+  return out;
+}
+
+}  // namespace rondure::fit

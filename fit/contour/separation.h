@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/units.h"
+#include "fit/contour/crank_motion.h"
+
+namespace rondure::fit {
+
+// Curves here are contour errors on the same angles 2 pi m / M, M >= 16 (asserted), mean 0 [mm].
+
+/// A total contour error t in two parts: f follows from the axis errors, n is the rest.
+struct ContourSeparation {
+  std::vector<double> rest_mm;  ///< n = t - f.
+  double total_mm2 = 0.0;       ///< mean(t^2) = following + rest + cross.
+  double following_mm2 = 0.0;   ///< mean(f^2).
+  double rest_mm2 = 0.0;        ///< mean(n^2).
+  double cross_mm2 = 0.0;       ///< 2 mean(f n); negative where n lowers the total.
+  double correlation = 0.0;     ///< Of f with n; 0 where one of them is zero.
+
+  /// n makes the total greater than f alone.
+  [[nodiscard]] bool enlarges() const { return rest_mm2 + cross_mm2 > 0.0; }
+};
+
+/// Direct separation with the following part of the same pin.
+[[nodiscard]] ContourSeparation separate_contour(std::span<const double> total_mm,
+                                                 std::span<const double> following_mm);
+
+/// Correlation of two curves, in [-1, 1]; 0 where one of them is zero.
+[[nodiscard]] double correlation_of(std::span<const double> a, std::span<const double> b);
+
+/// What a main journal tells of the rest of the neighbouring pin.
+/// @param map  Carry it to the pin as n(alpha(beta)) cos(eta), as run-out of wheel and workhead
+///             would act; otherwise the curve is taken as it is.
+[[nodiscard]] std::vector<double> rest_from_main(std::span<const double> main_mm,
+                                                 const CrankGeometry& geometry, bool map);
+
+/// Angle by which a curve must be turned onto another for the greatest circular cross-correlation,
+/// as a diagnosis: it explains the rest away by turning f, up to some degrees of a correct
+/// alignment.
+struct CorrelationOffset {
+  double angle_rad = 0.0;
+  /// Standard uncertainty of the angle by the rest: what its amplitudes make of it in any phase.
+  double u_rad = 0.0;
+  double correlation = 0.0;  ///< There, of all pairs together.
+  bool at_edge = false;      ///< The greatest value lies at the end of the window.
+
+  /// A rest of any phase would not turn the curve so far: 3 standard uncertainties, and more than
+  /// 2 deg.
+  [[nodiscard]] bool alignment_suspect() const;
+};
+
+/// A total error and the following part to be turned onto it.
+struct CurvePair {
+  std::span<const double> total_mm;
+  std::span<const double> following_mm;
+};
+
+/// One offset from the sum of the correlations of all pairs: search on 16 places a sample, then
+/// Newton.
+/// @param window_rad  Searched to both sides of 0.
+[[nodiscard]] CorrelationOffset correlation_offset(std::span<const CurvePair> pairs,
+                                                   double window_rad = 8.0 * core::kDegree);
+
+/// Evidence that the axis traces have the wrong sign or the wrong sense.
+struct SenseEvidence {
+  double as_given = 0.0;           ///< Correlation of t with f, all parts together.
+  double mirrored = 0.0;           ///< With f(-beta): what the other sense of C would give.
+  double rms_difference_mm = 0.0;  ///< rms(t - f) over all parts.
+  double rms_sum_mm = 0.0;         ///< rms(t + f): the rest, were the sign the other one.
+
+  /// t and f oppose each other: the errors are rather command minus actual.
+  [[nodiscard]] bool sign_suspect() const { return as_given < -0.5; }
+  /// t fits the mirrored f far better.
+  [[nodiscard]] bool sense_suspect() const { return mirrored > 0.7 && mirrored > as_given + 0.3; }
+};
+[[nodiscard]] SenseEvidence sense_evidence(std::span<const CurvePair> pairs);
+
+// Source: methods, contour section 7.
+
+}  // namespace rondure::fit

@@ -1,0 +1,295 @@
+#include "fit/contour/study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fit/profiles/dft.h"
+
+namespace rondure::fit {
+namespace {
+
+constexpr double kSamplesPerUndulation = 6.0;
+constexpr std::size_t kMostSamples = 100'000;  ///< Of a turn; gauges give some thousands.
+constexpr double kStrokeLimit = 0.05;          ///< mm
+constexpr double kPositionLimit = 0.02;        ///< mm, rms
+
+MeasuredContourOptions gauge_options(const ContourStudyOptions& options, bool main) {
+  MeasuredContourOptions out;
+  out.phase_offset_rad = main ? options.main_phase_offset_rad : options.phase_offset_rad;
+  out.direction = options.gauge_direction;
+  out.samples = options.samples;
+  out.nominal_mm = main ? options.main_radius_mm : options.geometry.pin_radius_mm;
+  out.error = options.error;
+  out.error.filtered_already = options.prefiltered;
+  return out;
+}
+
+core::Result<void> check_axis_sampling(AxisTurn& axes, const FilterOptions& filter) {
+  if (filter.filter == ProfileFilter::kNone) return {};
+  const double cutoff = filter.highest_cutoff_upr();
+  const double samples = axes.samples_per_turn;
+  if (cutoff >= samples / 2.0) {
+    return core::fail(
+        core::Code::kSampling,
+        fmt::format("the control has {:.1f} samples a turn; a cut-off of {} UPR needs "
+                    "more than {}",
+                    samples, cutoff, 2.0 * cutoff));
+  }
+  if (samples < kSamplesPerUndulation * cutoff * (1.0 - 1e-9)) {
+    axes.warnings.push_back(
+        {core::Code::kUndersampled,
+         fmt::format("the control has {:.1f} samples a turn, {:.1f} an undulation at {} UPR; at "
+                     "least 6 are advised",
+                     samples, samples / cutoff, cutoff),
+         {}});
+  }
+  return {};
+}
+
+void warn_of_undercut(ContourPartResult& part) {
+  if (!part.ground.undercut) return;
+  part.axes.warnings.push_back(
+      {core::Code::kUndercut,
+       fmt::format("the wheel path cuts under the contour near C = {:.2f} deg (1 - Rgw kappa = "
+                   "{:.3g}, regular above 0): the contour is {}",
+                   part.ground.least_regular_rad / core::kDegree, part.ground.regularity,
+                   part.ground.from_envelope ? "the envelope of all wheel positions"
+                                             : "that of the pre-filtered path, which hides it"),
+       {}});
+}
+
+/// Holds the positions of X that were recorded against those the geometry asks for.
+core::Result<void> check_positions(const AxisTurn& axes, const CrankGeometry& geometry) {
+  const std::size_t n = axes.x_mm.size();
+  if (n == 0) return {};
+  std::vector<double> ideal(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    ideal[i] =
+        wheel_position_mm(geometry, core::kTwoPi * static_cast<double>(i) / static_cast<double>(n));
+  }
+  const double stroke = peak_to_valley(axes.x_mm);
+  const double expected = peak_to_valley(ideal);
+  const auto stated = spectrum(ideal);
+  double mean = 0.0;
+  for (std::size_t i = 0; i < n; ++i) mean += (axes.x_mm[i] - ideal[i]) / static_cast<double>(n);
+  for (std::size_t i = 0; i < n; ++i) ideal[i] = axes.x_mm[i] - ideal[i] - mean;
+  const double off = rms_of(ideal);
+  if (std::abs(stroke - expected) <= kStrokeLimit && off <= kPositionLimit) return {};
+  // d = R cos(alpha) + Lc - R^2/(4 Lc) (1 - cos(2 alpha)) ...: the first harmonic holds crank
+  // radius and zero, the second one R^2/Lc.
+  const auto f = spectrum(axes.x_mm);
+  const double radius = 2.0 * std::abs(f[1]) / static_cast<double>(n);
+  const double length = geometry.center_distance_mm() * std::abs(stated[2]) /
+                        std::max(std::abs(f[2]), 1e-9) *
+                        std::pow(radius / geometry.crank_radius_mm, 2);
+  return core::fail(
+      core::Code::kInconsistent,
+      fmt::format("the recorded X positions contradict the geometry: stroke {:.3f} mm, expected "
+                  "{:.3f} mm (limit {} mm), and {:.3f} mm rms off the ideal motion (limit {} mm). "
+                  "They fit a crank radius of {:.3f} mm (stated {:g}), wheel and pin radii of "
+                  "{:.0f} mm together (stated {:g}) and C turned by {:.2f} deg: correct these, the "
+                  "zero of C or the column of X",
+                  stroke, expected, kStrokeLimit, off, kPositionLimit, radius,
+                  geometry.crank_radius_mm, length, geometry.center_distance_mm(),
+                  -std::arg(f[1]) / core::kDegree));
+}
+
+/// f from the axes alone.
+core::Result<void> follow(const ContourPart& part, const ContourStudyOptions& options,
+                          ContourPartResult& out) {
+  auto axes = last_turn(part.trace, options.axes);
+  if (!axes) return core::fail(axes.error());
+  out.axes = *std::move(axes);
+  if (auto checked = check_positions(out.axes, options.geometry); !checked) {
+    return core::fail(checked.error());
+  }
+  if (auto checked = check_axis_sampling(out.axes, options.error.filter); !checked) {
+    return core::fail(checked.error());
+  }
+  GroundContourOptions ground;
+  ground.samples = options.samples;
+  ground.pre_filter_upr = options.pre_filter_upr;
+  ground.refine = options.refine_path;
+  if (options.method == ContourMethod::kAsPublished) ground.form = ParallelForm::kDifferences;
+  auto contour = ground_contour(options.geometry, out.axes.errors, ground);
+  if (!contour) return core::fail(contour.error());
+  out.ground = *std::move(contour);
+  warn_of_undercut(out);
+  std::vector<double> deviation = out.ground.r_mm;
+  for (double& r : deviation) r -= options.geometry.pin_radius_mm;
+  auto following = contour_error(deviation, options.geometry.pin_radius_mm, options.error);
+  if (!following) return core::fail(following.error());
+  out.following = *std::move(following);
+  return {};
+}
+
+IndirectSeparation indirect(const ContourPartResult& part, const ContourStudyOptions& options) {
+  IndirectSeparation out;
+  const auto& total = part.pin.contour.error_mm;
+  out.following_mm =
+      rest_from_main(part.main->contour.error_mm, options.geometry, options.map_main);
+  for (std::size_t m = 0; m < total.size(); ++m) {
+    out.following_mm[m] = total[m] - out.following_mm[m];
+  }
+  const auto& direct = part.following.error_mm;
+  out.correlation = correlation_of(out.following_mm, direct);
+  out.rms_difference_mm = rms_of(separate_contour(out.following_mm, direct).rest_mm);
+  return out;
+}
+
+core::Error placed(const core::Error& error, const std::string& where) {
+  return error.where.empty() ? error.at(where) : error;
+}
+
+using CurveOf = std::function<const std::vector<double>&(const ContourPartResult&)>;
+
+std::optional<Repeatability> compared(const std::vector<ContourPartResult>& parts,
+                                      const CurveOf& curve_of) {
+  std::vector<std::vector<double>> curves;
+  for (const ContourPartResult& part : parts) curves.push_back(curve_of(part));
+  auto out = repeatability(curves);
+  if (!out) return std::nullopt;
+  return *std::move(out);
+}
+
+void compare(ContourStudy& study) {
+  const auto& parts = study.parts;
+  if (parts.size() >= 2) {
+    using Part = ContourPartResult;
+    study.total = compared(
+        parts, [](const Part& p) -> const auto& { return p.pin.contour.error_mm; });
+    study.following = compared(
+        parts, [](const Part& p) -> const auto& { return p.following.error_mm; });
+    study.rest = compared(
+        parts, [](const Part& p) -> const auto& { return p.direct.rest_mm; });
+    study.c_error = compared(
+        parts, [](const Part& p) -> const auto& { return p.axes.errors.c_rad; });
+    study.x_error = compared(
+        parts, [](const Part& p) -> const auto& { return p.axes.errors.x_mm; });
+    bool all_mains = true;
+    for (const Part& part : parts) all_mains = all_mains && part.main.has_value();
+    if (all_mains) {
+      study.main = compared(
+          parts, [](const Part& p) -> const auto& { return p.main->contour.error_mm; });
+    }
+  }
+  double following = 0.0;
+  double rest = 0.0;
+  for (const ContourPartResult& part : parts) {
+    following += part.direct.following_mm2;
+    rest += part.direct.rest_mm2;
+  }
+  study.amplitude_ratio = rest > 0.0 ? std::sqrt(following / rest) : 0.0;
+}
+
+void collect_warnings(ContourStudy& study) {
+  for (std::size_t i = 0; i < study.parts.size(); ++i) {
+    const ContourPartResult& part = study.parts[i];
+    const auto add = [&](const std::vector<core::Error>& from, const char* what) {
+      for (const core::Error& warning : from) {
+        study.warnings.push_back(warning.at(fmt::format("parts/{}/{}", i, what)));
+      }
+    };
+    add(part.axes.warnings, "axes");
+    add(part.pin.warnings, "pin");
+    if (part.main) add(part.main->warnings, "main");
+  }
+}
+
+/// What the data say against the settings, all parts together.
+void diagnose(ContourStudy& study, const ContourStudyOptions& options) {
+  std::vector<CurvePair> pairs;
+  for (const ContourPartResult& part : study.parts) {
+    pairs.push_back({part.pin.contour.error_mm, part.following.error_mm});
+  }
+  study.sense = sense_evidence(pairs);
+  study.offset = correlation_offset(pairs);
+  const SenseEvidence& sense = study.sense;
+  const auto warn = [&](core::Code code, std::string what) {
+    study.warnings.push_back({code, std::move(what), {}});
+  };
+  if (sense.sign_suspect()) {
+    warn(core::Code::kSense,
+         fmt::format("the following part opposes the contour: correlation {:.2f}, rest {:.3g} um "
+                     "rms, with the other sign of the axis errors {:.3g} um; error_sign {} rather "
+                     "than {}?",
+                     sense.as_given, sense.rms_difference_mm / core::kMicrometre,
+                     sense.rms_sum_mm / core::kMicrometre, -options.axes.error_sign,
+                     options.axes.error_sign));
+  } else if (sense.sense_suspect()) {
+    warn(core::Code::kSense,
+         fmt::format(
+             "the contour fits the mirrored following part (correlation {:.2f}) better than "
+             "the given one ({:.2f}); c_direction {} rather than {}, or the gauge turns the "
+             "other way?",
+             sense.mirrored, sense.as_given, -options.axes.c_direction, options.axes.c_direction));
+  } else if (study.offset.alignment_suspect()) {
+    warn(core::Code::kAlignment,
+         fmt::format("correlation would turn the following part by {}{:.2f} deg, more than 2 deg "
+                     "and 3 times what the rest explains ({:.2f} deg): is the phase offset of the "
+                     "gauge right? Nothing was turned for that",
+                     study.offset.at_edge ? "at least " : "",
+                     study.offset.angle_rad / core::kDegree, study.offset.u_rad / core::kDegree));
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(ContourMethod method) {
+  return method == ContourMethod::kAsPublished ? "as-published" : "corrected";
+}
+
+core::Result<ContourPartResult> contour_part(const ContourPart& part,
+                                             const ContourStudyOptions& options) {
+  ContourPartResult out;
+  if (auto followed = follow(part, options, out); !followed) {
+    return core::fail(placed(followed.error(), "axes"));
+  }
+  auto pin =
+      measured_contour(part.pin.angle_rad, part.pin.deviation_mm, gauge_options(options, false));
+  if (!pin) return core::fail(placed(pin.error(), "pin"));
+  out.pin = *std::move(pin);
+  const CurvePair pair = {out.pin.contour.error_mm, out.following.error_mm};
+  out.offset = correlation_offset({&pair, 1});
+  if (options.method == ContourMethod::kAsPublished) {
+    out.following.error_mm = turned_curve(out.following.error_mm, out.offset.angle_rad);
+  }
+  out.direct = separate_contour(out.pin.contour.error_mm, out.following.error_mm);
+  if (!part.main) return out;
+  auto main =
+      measured_contour(part.main->angle_rad, part.main->deviation_mm, gauge_options(options, true));
+  if (!main) return core::fail(placed(main.error(), "main"));
+  out.main = *std::move(main);
+  out.indirect = indirect(out, options);
+  return out;
+}
+
+core::Result<ContourStudy> contour_study(std::span<const ContourPart> parts,
+                                         const ContourStudyOptions& options) {
+  if (std::max(options.samples, options.axes.samples) > kMostSamples) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("{} samples of a contour and {} of the axes; the limit is {}",
+                                  options.samples, options.axes.samples, kMostSamples));
+  }
+  if (parts.empty()) {
+    return core::fail(core::Code::kNoPoints, "no part is given; at least one is needed");
+  }
+  ContourStudy study;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    auto part = contour_part(parts[i], options);
+    if (!part) {
+      return core::fail(part.error().at(fmt::format("parts/{}/{}", i, part.error().where)));
+    }
+    study.parts.push_back(*std::move(part));
+  }
+  compare(study);
+  collect_warnings(study);
+  diagnose(study, options);
+  return study;
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+#include "core/result.h"
+#include "core/units.h"
+#include "fit/contour/axis_trace.h"
+#include "fit/contour/error.h"
+#include "fit/contour/separation.h"
+#include "fit/contour/ground_contour.h"
+#include "fit/contour/measured_contour.h"
+#include "fit/poses/repeatability.h"
+
+namespace rondure::fit {
+
+/// How the curves of the two machines are brought together.
+enum class ContourMethod {
+  kCorrected,  ///< Known offset of the gauge; correlation is a diagnosis only. The default.
+  /// A reading of the source, whose equations are lost: parallel curve by central
+  /// differences, and every following part turned onto its own total by correlation.
+  kAsPublished,
+};
+/// "corrected", "as-published".
+[[nodiscard]] std::string_view name_of(ContourMethod method);
+
+/// Settings of contour_study().
+struct ContourStudyOptions {
+  ContourMethod method = ContourMethod::kCorrected;
+  CrankGeometry geometry;
+  double main_radius_mm = 30.0;  ///< Of the main journals.
+  AxisTraceOptions axes;
+  bool refine_path = true;             ///< See GroundContourOptions::refine.
+  double pre_filter_upr = 0.0;         ///< Of the axis errors before the envelope; 0: none.
+  std::size_t samples = 1440;          ///< M, of every contour.
+  ContourErrorOptions error;           ///< Base circle and filter of every contour.
+  bool prefiltered = false;            ///< The gauge has filtered pins and mains.
+  double phase_offset_rad = 0.0;       ///< Gauge angle of the direction O to pin centre, pins.
+  double main_phase_offset_rad = 0.0;  ///< The same, main journals.
+  int gauge_direction = 1;             ///< -1: the gauge turns against beta.
+  bool map_main = false;               ///< See rest_from_main().
+  StabilityLimits limits;
+};
+
+/// A contour as the gauge gave it.
+struct GaugeRows {
+  std::vector<double> angle_rad;
+  std::vector<double> deviation_mm;
+};
+
+/// One ground part: what the control recorded and what the gauge found.
+struct ContourPart {
+  AxisTrace trace;
+  GaugeRows pin;
+  std::optional<GaugeRows> main;  ///< The neighbouring main journal.
+};
+
+/// The indirect way: a main journal stands for the rest.
+struct IndirectSeparation {
+  std::vector<double> following_mm;  ///< t less the main journal.
+  double correlation = 0.0;          ///< With the direct following part.
+  double rms_difference_mm = 0.0;    ///< From the direct following part.
+};
+
+/// One part, taken apart.
+struct ContourPartResult {
+  AxisTurn axes;
+  GroundContour ground;
+  ContourError following;  ///< f, as separated (turned, as published).
+  MeasuredContour pin;     ///< t.
+  std::optional<MeasuredContour> main;
+  ContourSeparation direct;
+  std::optional<IndirectSeparation> indirect;
+  CorrelationOffset offset;  ///< What correlation would turn f by, a diagnosis.
+};
+
+/// All parts side by side. The comparisons need two parts; without them they are absent.
+struct ContourStudy {
+  std::vector<ContourPartResult> parts;
+  std::optional<Repeatability> total;
+  std::optional<Repeatability> following;
+  std::optional<Repeatability> rest;
+  std::optional<Repeatability> main;     ///< When every part has a main journal.
+  std::optional<Repeatability> c_error;  ///< rad, over the command angle.
+  std::optional<Repeatability> x_error;  ///< mm, over the command angle.
+  double amplitude_ratio = 0.0;          ///< rms(f) / rms(n) over all parts; 0 when n is zero.
+  CorrelationOffset offset;              ///< One for all parts together, a diagnosis.
+  SenseEvidence sense;
+  std::vector<core::Error> warnings;  ///< `where` "parts/i/..." for those of one part.
+};
+
+/// Takes one part apart. See contour_study() for the errors.
+[[nodiscard]] core::Result<ContourPartResult> contour_part(const ContourPart& part,
+                                                           const ContourStudyOptions& options);
+
+/// Takes all parts apart and compares them.
+///
+/// @return kNoPoints without parts; last_turn()'s, ground_contour()'s, contour_error()'s and
+///         measured_contour()'s errors, with `where` "parts/i/axes|pin|main"; kSampling where the
+///         control has no two samples an undulation at the cut-off; kInconsistent where recorded
+///         positions of X contradict crank, wheel or the zero of C (stroke 0.05 mm, 0.02 mm rms).
+///         Warnings besides theirs: kUndersampled below 6 samples an undulation, kUndercut,
+///         kAlignment for a correlation offset that the rest does not explain, kSense for axis
+///         errors that oppose the contour.
+/// Source: methods, contour sections 6 to 9.
+[[nodiscard]] core::Result<ContourStudy> contour_study(std::span<const ContourPart> parts,
+                                                       const ContourStudyOptions& options = {});
+
+}  // namespace rondure::fit

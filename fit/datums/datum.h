@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+#include "fit/geometry/axis.h"
+
+namespace rondure::fit {
+
+/// Coaxiality deviation (ISO 1101): diameter of the least cylinder about the datum axis that holds
+/// the toleranced axis = 2 max |c_i - datum|.
+/// @param median_mm  Points of the extracted median line: the circle centres of the sections, or
+/// the
+///                   two ends of a fitted axis.
+/// @return kNoPoints, kNotFinite (row).
+[[nodiscard]] core::Result<double> coaxiality_mm(std::span<const Eigen::Vector3d> median_mm,
+                                                 const Axis& datum);
+
+/// Circular run-out in every section.
+struct RunOut {
+  std::vector<double> sections_mm;  ///< Of each section.
+  std::size_t greatest = 0;         ///< The section that decides.
+
+  [[nodiscard]] double deviation_mm() const { return sections_mm[greatest]; }
+};
+
+/// Circular radial run-out (ISO 1101): in each section the greatest less the least distance from
+/// the datum axis; the greatest of the sections counts.
+/// @return kNoPoints (no section, or an empty one), kNotFinite; `what` names section and row.
+[[nodiscard]] core::Result<RunOut> radial_run_out(
+    std::span<const std::vector<Eigen::Vector3d>> sections_mm, const Axis& datum);
+
+/// Total radial run-out (ISO 1101): gap of the two cylinders about the datum axis between which the
+/// whole surface lies = greatest less least distance of all points.
+[[nodiscard]] core::Result<double> total_radial_run_out_mm(
+    std::span<const Eigen::Vector3d> points_mm, const Axis& datum);
+
+/// Total axial run-out (ISO 1101): gap of the two planes square to the datum axis between which a
+/// face lies. Of the points at one radius it is the circular axial run-out there.
+[[nodiscard]] core::Result<double> axial_run_out_mm(std::span<const Eigen::Vector3d> points_mm,
+                                                    const Axis& datum);
+
+}  // namespace rondure::fit

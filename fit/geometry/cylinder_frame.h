@@ -1,0 +1,62 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fit/geometry/axis.h"
+#include "fit/proof/local_certificate.h"
+#include "fit/zone/working_points.h"
+#include "fit/zone/program.h"
+
+namespace rondure::fit {
+
+/// An axis under iteration with the four unknowns that move it, all in mm: shifts a, b across it
+/// and tilts scaled by the half length Z of the points, x = (a, b, Z tx, Z ty). The frame follows
+/// the axis, so the linearisation is always at tilt 0.
+///
+/// Points are given relative to an origin near them. Source: methods, certificates section 1.
+class CylinderFrame {
+ public:
+  static constexpr int kUnknowns = 4;
+  static constexpr int kDimension = 3;
+  static constexpr bool kHasBall = false;
+  using Point = Eigen::Vector3d;
+  using Place = Axis;  ///< What a scan measures from.
+
+  /// @param half_length_mm  Z > 0: the scale of the tilts.
+  CylinderFrame(const Axis& axis, double half_length_mm);
+
+  [[nodiscard]] const Axis& axis() const { return axis_; }
+  [[nodiscard]] double half_length_mm() const { return half_length_; }
+  /// Two unit vectors across the axis, along which a and b are measured.
+  [[nodiscard]] const Eigen::Matrix<double, 3, 2>& across_axis() const { return across_; }
+  /// The axis after a move x.
+  [[nodiscard]] CylinderFrame moved(const Eigen::Vector4d& x_mm) const;
+
+  /// The axis in the frame of the data.
+  [[nodiscard]] Place place(const Eigen::Vector3d& origin) const;
+  /// The axis that rounding of place() leaves, so that a scan and the iteration see the same.
+  [[nodiscard]] CylinderFrame snapped(const Eigen::Vector3d& origin) const;
+  /// Whether it left another: went farther than a limit, or leans by more than 10 deg. Never
+  /// for an infinite limit.
+  [[nodiscard]] bool strayed(const CylinderFrame& from, double limit_mm) const;
+
+  [[nodiscard]] double distance(const Eigen::Vector3d& p) const;
+  /// Distance with its first and second derivative.
+  [[nodiscard]] ContactRow<4> contact_row(const Eigen::Vector3d& p, std::size_t index) const;
+  /// Distances and gradients of all points. @return The extreme distances.
+  Extremes linearise(const WorkingPoints<3>& points, ZoneRows<4>& rows) const;
+
+ private:
+  Axis axis_;
+  Eigen::Matrix<double, 3, 2> across_;
+  double half_length_;
+};
+
+/// Half the extent of the points along a direction [mm].
+[[nodiscard]] double half_extent(std::span<const Eigen::Vector3d> points,
+                                 const Eigen::Vector3d& direction);
+
+}  // namespace rondure::fit

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fit/zone/column_extremes.h"
+#include "fit/zone/contacts.h"
+#include "fit/zone/working_points.h"
+
+namespace rondure::fit {
+
+/// The smallest circle (D = 2) or sphere (D = 3) that holds points.
+template <int D>
+struct Ball {
+  Eigen::Matrix<double, D, 1> center_mm = Eigen::Matrix<double, D, 1>::Zero();
+  Extremes zone;      ///< Least and largest distance of the points from the centre.
+  Contacts outer;     ///< Points on it, with multipliers >= 0: their mean is the centre.
+  int exchanges = 0;  ///< Points that entered or left the contacts.
+  bool solved = false;
+};
+
+/// Minimum circumscribed circles and spheres, which need no linear programme: the squares of the
+/// distances are |p|^2 - 2 p c + |c|^2, linear in c but for what all have in common. So the dual is
+/// a quadratic programme in the contacts alone, at most D + 1 of them, and its simplex step is in
+/// closed form: the farthest point enters, contacts whose multiplier would turn negative leave. The
+/// radius grows with every point that enters: the end is the optimum, and it is the only one.
+///
+/// An object keeps its memory, and its contacts as a start. Cost: a pass over the working points
+/// for each point that enters, commonly five to eight. Sources: methods, cylindricity section 11.4
+/// (convex); D. Goldfarb, A. Idnani, Mathematical Programming 27 (1983) (dual active sets); K.
+/// Fischer, B. Gaertner, SoCG 2003 (balls).
+template <int D>
+class EnclosingBall {
+ public:
+  using Point = Eigen::Matrix<double, D, 1>;
+
+  /// @param points     At least one.
+  /// @param again      Starts from the last contacts; the same points, in front of others.
+  /// @param round_off  Of distances [mm]: a point farther out by less is on the ball.
+  Ball<D> enclose(const WorkingPoints<D>& points, bool again, double round_off);
+
+ private:
+  static constexpr int kMost = D + 2;  // with the point that enters
+
+  void start(const WorkingPoints<D>& points, Ball<D>& out);
+  std::size_t look(const WorkingPoints<D>& points);
+  void append(const WorkingPoints<D>& points, std::size_t row, double multiplier);
+  void drop(int i);
+  bool enter(Ball<D>& out);
+  template <int M>
+  [[nodiscard]] bool balance(Eigen::Matrix<double, D + 1, 1>& target) const;
+  [[nodiscard]] bool balance(Eigen::Matrix<double, D + 1, 1>& target) const;
+  [[nodiscard]] Eigen::Matrix<double, D + 1, 1> dependence() const;
+
+  int count_ = 0;  ///< Contacts; the one that enters is the last.
+  std::array<std::size_t, kMost> rows_{};
+  std::array<Point, kMost> points_;
+  std::array<double, kMost> multipliers_{};
+  Point center_ = Point::Zero();
+  double square_ = 0.0;         ///< Of the radius.
+  ColumnExtremes squares_;      ///< Of the distances of all points.
+  std::vector<double> column_;  ///< These squares.
+};
+
+extern template class EnclosingBall<2>;
+extern template class EnclosingBall<3>;
+
+}  // namespace rondure::fit

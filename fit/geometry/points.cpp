@@ -1,0 +1,156 @@
+#include "fit/geometry/points.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace rondure::fit {
+namespace {
+
+constexpr std::size_t kMostDistinct = 8;
+/// Beyond 10 km a coordinate itself is rounded by more than the 1e-9 mm that results are held to.
+constexpr double kGreatestLength = 1e7;
+
+template <class Vector>
+core::Result<void> check(std::span<const Vector> points_mm) {
+  if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
+  for (std::size_t i = 0; i < points_mm.size(); ++i) {
+    if ((points_mm[i].array().abs() <= kGreatestLength).all()) continue;
+    if (points_mm[i].allFinite()) {
+      return core::fail(
+          core::Code::kOutOfRange,
+          fmt::format("a coordinate of point {} (counted from 0) is {:g} mm; at most {:g} mm can "
+                      "be computed with",
+                      i, points_mm[i].cwiseAbs().maxCoeff(), kGreatestLength));
+    }
+    return core::fail(
+        core::Code::kNotFinite,
+        fmt::format("a coordinate of point {} (counted from 0) is not a finite number", i));
+  }
+  return {};
+}
+
+template <class Vector>
+Vector mean(std::span<const Vector> points_mm) {
+  Vector sum = Vector::Zero();
+  for (const Vector& p : points_mm) sum += p - points_mm.front();
+  return points_mm.front() + sum / static_cast<double>(points_mm.size());
+}
+
+// Stops at `enough`, which is small: comparing with those found so far beats sorting all points.
+template <class Vector>
+std::size_t distinct(std::span<const Vector> points_mm, std::size_t enough) {
+  std::array<const Vector*, kMostDistinct> found;
+  assert(enough <= found.size());
+  std::size_t count = 0;
+  for (const Vector& p : points_mm) {
+    const auto end = found.begin() + static_cast<std::ptrdiff_t>(count);
+    if (std::any_of(found.begin(), end, [&](const Vector* q) { return *q == p; })) continue;
+    found[count++] = &p;
+    if (count == enough) break;
+  }
+  return count;
+}
+
+template <class Vector>
+void sample(std::span<const Vector> points_mm, std::span<Vector> out_mm) {
+  assert(out_mm.size() <= points_mm.size());
+  if (out_mm.size() == points_mm.size()) {
+    std::copy(points_mm.begin(), points_mm.end(), out_mm.begin());
+    return;
+  }
+  for (std::size_t k = 0; k < out_mm.size(); ++k) {
+    out_mm[k] = points_mm[spread_row(k, points_mm.size())];
+  }
+}
+
+}  // namespace
+
+core::Result<void> check_points(std::span<const Eigen::Vector2d> points_mm) {
+  return check(points_mm);
+}
+core::Result<void> check_points(std::span<const Eigen::Vector3d> points_mm) {
+  return check(points_mm);
+}
+Eigen::Vector2d mean_point(std::span<const Eigen::Vector2d> points_mm) { return mean(points_mm); }
+Eigen::Vector3d mean_point(std::span<const Eigen::Vector3d> points_mm) { return mean(points_mm); }
+std::size_t distinct_points(std::span<const Eigen::Vector2d> points_mm, std::size_t enough) {
+  return distinct(points_mm, enough);
+}
+std::size_t distinct_points(std::span<const Eigen::Vector3d> points_mm, std::size_t enough) {
+  return distinct(points_mm, enough);
+}
+
+std::size_t spread_row(std::size_t k, std::size_t count) {
+  const double place = static_cast<double>(k) / std::numbers::phi;
+  // The whole part by way of an integer: without SSE 4.1 floor() is a call.
+  const double whole = static_cast<double>(static_cast<std::ptrdiff_t>(place));
+  const auto row = static_cast<std::size_t>((place - whole) * static_cast<double>(count));
+  return std::min(row, count - 1);
+}
+
+void sample_points(std::span<const Eigen::Vector2d> points_mm, std::span<Eigen::Vector2d> out_mm) {
+  sample(points_mm, out_mm);
+}
+void sample_points(std::span<const Eigen::Vector3d> points_mm, std::span<Eigen::Vector3d> out_mm) {
+  sample(points_mm, out_mm);
+}
+
+double largest_gap_rad(std::span<const Eigen::Vector2d> points_mm,
+                       const Eigen::Vector2d& center_mm) {
+  // Few points need no memory of their own: fits in loops allocate nothing.
+  std::array<double, 64> few;
+  std::vector<double> many(points_mm.size() > few.size() ? points_mm.size() : 0);
+  const auto angles = many.empty() ? std::span(few).first(points_mm.size()) : std::span(many);
+  std::transform(points_mm.begin(), points_mm.end(), angles.begin(), [&](const auto& p) {
+    return std::atan2(p.y() - center_mm.y(), p.x() - center_mm.x());
+  });
+  std::sort(angles.begin(), angles.end());
+  double gap = angles.front() + core::kTwoPi - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);
+  return gap;
+}
+
+std::vector<Eigen::Vector2d> convex_hull(std::span<const Eigen::Vector2d> points_mm) {
+  std::vector<Eigen::Vector2d> sorted(points_mm.begin(), points_mm.end());
+  std::sort(sorted.begin(), sorted.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  // A. Andrew's chain: the lower side from left to right, the upper one back.
+  std::vector<Eigen::Vector2d> hull;
+  const auto turns_right = [&](const Eigen::Vector2d& next) {
+    const Eigen::Vector2d a = hull.back() - hull[hull.size() - 2];
+    const Eigen::Vector2d b = next - hull.back();
+    return a.x() * b.y() - a.y() * b.x() <= 0.0;
+  };
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t first = hull.size();
+    for (const Eigen::Vector2d& p : sorted) {
+      while (hull.size() >= first + 2 && turns_right(p)) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();  // it begins the other side
+    std::reverse(sorted.begin(), sorted.end());
+  }
+  return hull;
+}
+
+bool meets_hull(std::span<const Eigen::Vector2d> hull_mm, const Eigen::Vector2d& center_mm,
+                double half_side_mm) {
+  for (std::size_t i = 0; i < hull_mm.size(); ++i) {
+    const Eigen::Vector2d& from = hull_mm[i];
+    const Eigen::Vector2d side = hull_mm[(i + 1) % hull_mm.size()] - from;
+    const Eigen::Vector2d out(side.y(), -side.x());
+    if (out.dot(center_mm - from) > half_side_mm * out.lpNorm<1>()) return false;
+  }
+  return true;
+}
+
+}  // namespace rondure::fit

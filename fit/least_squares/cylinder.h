@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+#include "fit/geometry/axis.h"
+
+namespace rondure::fit {
+
+/// A least-squares cylinder.
+struct LsCylinder {
+  Axis axis;
+  double radius_mm = 0.0;
+  double deviation_mm = 0.0;  ///< Radial peak to valley about the axis [mm].
+  double rms_mm = 0.0;
+};
+
+/// Least-squares cylinder (LSCY): minimises the sum of squared radial distances over the axis (four
+/// unknowns) and the radius, by Levenberg-Marquardt in a frame that follows the axis.
+///
+/// @param points_mm       n >= 5, any order, any place and orientation [mm].
+/// @param near_direction  Start direction; without it the half sphere is searched for starts.
+/// @return kNoPoints, kNotFinite (row), kTooFewPoints, kCollinear, kRank (one layer: the tilt is
+///         undetermined), kNotConverged. O(n) a step.
+/// Source: ISO 12180-1; methods, cylindricity section 11.1.
+[[nodiscard]] core::Result<LsCylinder> ls_cylinder(
+    std::span<const Eigen::Vector3d> points_mm,
+    const std::optional<Eigen::Vector3d>& near_direction = std::nullopt);
+
+}  // namespace rondure::fit

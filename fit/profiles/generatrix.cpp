@@ -1,0 +1,133 @@
+#include "fit/profiles/generatrix.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fit/geometry/hull_distance.h"
+#include "fit/geometry/points.h"
+
+namespace rondure::fit {
+namespace {
+
+/// Least-squares line r = mean + slope (z - mean z); nothing where all z are alike.
+std::optional<double> ls_slope(std::span<const Eigen::Vector2d> points,
+                               const Eigen::Vector2d& mean) {
+  double zz = 0.0;
+  double zr = 0.0;
+  double size = 0.0;
+  for (const Eigen::Vector2d& p : points) {
+    zz += (p.x() - mean.x()) * (p.x() - mean.x());
+    zr += (p.x() - mean.x()) * (p.y() - mean.y());
+    size = std::max(size, std::abs(p.x()));
+  }
+  const double round_off = 16.0 * std::numeric_limits<double>::epsilon() * size;
+  if (zz <= static_cast<double>(points.size()) * round_off * round_off) return std::nullopt;
+  return zr / zz;
+}
+
+/// The points about `mean` in a frame whose first axis has the given slope.
+std::vector<Eigen::Vector2d> turned(std::span<const Eigen::Vector2d> points,
+                                    const Eigen::Vector2d& mean, double slope) {
+  const double scale = 1.0 / std::hypot(1.0, slope);
+  std::vector<Eigen::Vector2d> out;
+  out.reserve(points.size());
+  for (const Eigen::Vector2d& p : points) {
+    const Eigen::Vector2d v = p - mean;
+    out.emplace_back((v.x() + slope * v.y()) * scale, (v.y() - slope * v.x()) * scale);
+  }
+  return out;
+}
+
+/// Corners of the convex hull, anticlockwise (monotone chain); 1 or 2 for points of one line.
+std::vector<Eigen::Vector2d> hull_of(std::vector<Eigen::Vector2d> points) {
+  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  std::vector<Eigen::Vector2d> hull;
+  const auto add = [&](const Eigen::Vector2d& p, std::size_t kept) {
+    while (hull.size() > kept && twice_area(hull[hull.size() - 2], hull.back(), p) <= 0.0)
+      hull.pop_back();
+    hull.push_back(p);
+  };
+  for (const Eigen::Vector2d& p : points) add(p, 1);
+  const std::size_t lower = hull.size();
+  for (auto p = points.rbegin() + 1; p < points.rend(); ++p) add(*p, lower);
+  if (hull.size() > 1) hull.pop_back();  // the first corner again
+  return hull;
+}
+
+/// Least distance of two parallels that hold the points between them: one of the two goes through
+/// an edge of the hull, the other through the corner farthest from it.
+double least_zone(std::vector<Eigen::Vector2d> points) {
+  const auto hull = hull_of(std::move(points));
+  const std::size_t n = hull.size();
+  if (n < 3) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t far = 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector2d& a = hull[i];
+    const Eigen::Vector2d& b = hull[(i + 1) % n];
+    // The farthest corner goes round with the edge.
+    while (twice_area(a, b, hull[(far + 1) % n]) > twice_area(a, b, hull[far])) far = (far + 1) % n;
+    least = std::min(least, twice_area(a, b, hull[far]) / (b - a).norm());
+  }
+  return least;
+}
+
+core::Error no_length() {
+  return {core::Code::kRank,
+          "all points stand at one position along the axis; straightness and "
+          "taper need at least two sections",
+          {}};
+}
+
+}  // namespace
+
+core::Result<GeneratrixStraightness> generatrix_straightness(std::span<const double> z_mm,
+                                                             std::span<const double> r_mm) {
+  if (z_mm.size() != r_mm.size()) {
+    return core::fail(core::Code::kNoPoints,
+                      fmt::format("{} positions and {} radii; as many of both are needed",
+                                  z_mm.size(), r_mm.size()));
+  }
+  std::vector<Eigen::Vector2d> points;
+  for (std::size_t i = 0; i < z_mm.size(); ++i) points.emplace_back(z_mm[i], r_mm[i]);
+  if (auto checked = check_points(points); !checked) return core::fail(checked.error());
+  if (points.size() < 3) {
+    return core::fail(
+        core::Code::kTooFewPoints,
+        fmt::format("{} points on a generatrix; straightness needs at least 3", points.size()));
+  }
+  const Eigen::Vector2d mean = mean_point(points);
+  const auto slope = ls_slope(points, mean);
+  if (!slope) return core::fail(no_length());
+  GeneratrixStraightness out;
+  out.ls_slope = *slope;
+  auto frame = turned(points, mean, *slope);
+  std::vector<double> deviations;
+  for (const Eigen::Vector2d& p : frame) deviations.push_back(p.y());
+  out.ls = form_parameters(deviations);
+  out.zone_mm = least_zone(std::move(frame));
+  return out;
+}
+
+core::Result<Taper> taper(std::span<const Eigen::Vector3d> points_mm, const Axis& axis) {
+  if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
+  std::vector<Eigen::Vector2d> points;
+  for (const Eigen::Vector3d& p : points_mm) {
+    points.emplace_back((p - axis.point_mm).dot(axis.direction), distance_mm(axis, p));
+  }
+  const auto slope = ls_slope(points, mean_point(points));
+  if (!slope) return core::fail(no_length());
+  const auto [low, high] = std::minmax_element(
+      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
+  return Taper{*slope, 2.0 * *slope * (high->x() - low->x()), 2.0 * std::atan(*slope)};
+}
+
+}  // namespace rondure::fit

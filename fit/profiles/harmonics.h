@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/result.h"
+#include "fit/profiles/closed_profile.h"
+
+namespace rondure::fit {
+
+/// One undulation number of a profile: amplitude_mm * cos(number theta - phase_rad).
+struct Harmonic {
+  int number = 1;  ///< Undulations per revolution; 1 is eccentricity.
+  double amplitude_mm = 0.0;
+  /// In (-pi, pi]; absent where the amplitude is below 3 of its standard uncertainties.
+  std::optional<double> phase_rad;
+
+  /// Angle of the first crest [rad]: phase / number.
+  [[nodiscard]] std::optional<double> crest_rad() const;
+};
+
+/// Mean and harmonics 1..K.
+struct HarmonicTable {
+  double mean_mm = 0.0;
+  std::vector<Harmonic> harmonics;
+  double amplitude_sigma_mm = 0.0;  ///< Standard uncertainty of an amplitude: noise sqrt(2/N).
+};
+
+/// Settings of the harmonic analysis.
+struct HarmonicOptions {
+  int highest = 50;                ///< K >= 1.
+  double noise_mm = 0.0;           ///< Standard deviation of one value [mm], >= 0.
+  bool override_sampling = false;  ///< Allow K above n/7.
+};
+
+/// Checks K against the number of points: kBadOption for K < 1 or above (n - 1)/2, which n points
+/// cannot determine; kSampling above n/7, where aliased undulations carry wrong phases, unless the
+/// options override it.
+[[nodiscard]] core::Result<void> check_harmonics(std::size_t points,
+                                                 const HarmonicOptions& options);
+
+/// Harmonics of a profile at uniform angles, from its spectrum. Phases count from angle 0, whatever
+/// the start angle.
+/// @return check_harmonics()'s errors. Source: methods, roundness B.6.
+[[nodiscard]] core::Result<HarmonicTable> harmonics(const UniformProfile& profile,
+                                                    const HarmonicOptions& options);
+
+/// The same for any angles, by least squares; exact where the profile holds no higher harmonic.
+/// @return as harmonics(); kNotFullSection for a gap of 90 deg and more: an arc has no harmonics;
+///         kSampling for a gap of half an undulation of the highest harmonic. O(n K^2).
+[[nodiscard]] core::Result<HarmonicTable> harmonic_fit(const AngularProfile& profile,
+                                                       const HarmonicOptions& options);
+
+/// Value of a table at an angle, harmonic 0 (the mean) included [mm].
+[[nodiscard]] double value_at(const HarmonicTable& table, double theta_rad);
+
+}  // namespace rondure::fit

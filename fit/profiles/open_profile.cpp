@@ -1,0 +1,161 @@
+#include "fit/profiles/open_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include "core/numbers.h"
+
+namespace rondure::fit {
+namespace {
+
+/// sqrt(ln 2 / pi): 50 % at the cut-off for the plain mean and for the local line.
+const double kGaussian = std::sqrt(std::numbers::ln2 / std::numbers::pi);
+/// The local parabola transmits exp(-q)(1 + q), q = pi (alpha lambda_c / lambda)^2; q = 1.678347
+/// gives 50 %, alpha = sqrt(q / pi) = 0.7309.
+const double kWide = std::sqrt(1.6783469900166605 / std::numbers::pi);
+/// Weights beyond this many cut-offs are below 1e-16 of the middle one.
+constexpr double kNarrowReach = 2.0;
+constexpr double kWideReach = 2.6;
+
+core::Result<void> check(std::span<const double> x, std::span<const double> r,
+                         const OpenFilterOptions& options) {
+  if (x.empty() || x.size() != r.size()) {
+    return core::fail(core::Code::kNoPoints,
+                      fmt::format("{} positions and {} values; a profile needs as many of both",
+                                  x.size(), r.size()));
+  }
+  if (x.size() < 3) {
+    return core::fail(core::Code::kTooFewPoints,
+                      fmt::format("{} points; an open profile needs at least 3", x.size()));
+  }
+  if (!std::isfinite(options.cutoff) || options.cutoff <= 0.0) {
+    return core::fail(
+        core::Code::kBadOption,
+        fmt::format("the cut-off is {}; a positive wavelength is needed", options.cutoff));
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!core::is_measurable(x[i]) || !core::is_measurable(r[i])) {
+      return core::fail(core::Code::kNotFinite,
+                        fmt::format("row {} is ({}, {}); finite numbers up to {:g} are needed", i,
+                                    x[i], r[i], core::kGreatestNumber));
+    }
+    if (i > 0 && x[i] <= x[i - 1]) {
+      return core::fail(core::Code::kBadOption,
+                        fmt::format("row {} stands at {}, not after row {} at {}; positions must "
+                                    "ascend",
+                                    i, x[i], i - 1, x[i - 1]));
+    }
+  }
+  return {};
+}
+
+/// Length each point stands for: half the gaps to its neighbours; at an end its one gap.
+std::vector<double> cells(std::span<const double> x) {
+  const std::size_t n = x.size();
+  std::vector<double> out(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double before = i > 0 ? x[i] - x[i - 1] : x[1] - x[0];
+    const double after = i + 1 < n ? x[i + 1] - x[i] : x[n - 1] - x[n - 2];
+    out[i] = 0.5 * (before + after);
+  }
+  return out;
+}
+
+double greatest_gap(std::span<const double> x) {
+  double out = 0.0;
+  for (std::size_t i = 1; i < x.size(); ++i) out = std::max(out, x[i] - x[i - 1]);
+  return out;
+}
+
+/// Local polynomial of degree Terms - 1 at one position, by weighted least squares.
+template <int Terms>
+class LocalMean {
+ public:
+  LocalMean(std::span<const double> x, std::span<const double> r, double cutoff, double alpha,
+            double reach)
+      : x_(x), r_(r), cells_(cells(x)), width_(alpha * cutoff), reach_(reach * cutoff) {}
+
+  [[nodiscard]] double at(double position) const {
+    Eigen::Matrix<double, Terms, Terms> moments = Eigen::Matrix<double, Terms, Terms>::Zero();
+    Eigen::Matrix<double, Terms, 1> right = Eigen::Matrix<double, Terms, 1>::Zero();
+    const auto begin = std::lower_bound(x_.begin(), x_.end(), position - reach_);
+    for (auto i = static_cast<std::size_t>(begin - x_.begin());
+         i < x_.size() && x_[i] <= position + reach_; ++i) {
+      const double u = (x_[i] - position) / width_;
+      const double weight = cells_[i] * std::exp(-std::numbers::pi * u * u);
+      Eigen::Matrix<double, Terms, 1> powers;
+      powers(0) = 1.0;
+      for (int k = 1; k < Terms; ++k) powers(k) = powers(k - 1) * u;
+      moments += weight * powers * powers.transpose();
+      right += weight * powers * r_[i];
+    }
+    return moments.fullPivLu().solve(right)(0);
+  }
+
+ private:
+  std::span<const double> x_;
+  std::span<const double> r_;
+  std::vector<double> cells_;
+  double width_;
+  double reach_;
+};
+
+template <int Terms>
+void fill(std::span<const double> x, std::span<const double> r, const OpenFilterOptions& options,
+          OpenProfile& out) {
+  const bool wide = Terms == 3;
+  const LocalMean<Terms> mean(x, r, options.cutoff, wide ? kWide : kGaussian,
+                              wide ? kWideReach : kNarrowReach);
+  for (const double position : out.position) out.r_mm.push_back(mean.at(position));
+}
+
+}  // namespace
+
+core::Result<OpenProfile> filter_open(std::span<const double> position,
+                                      std::span<const double> r_mm,
+                                      const OpenFilterOptions& options) {
+  if (auto checked = check(position, r_mm, options); !checked) return core::fail(checked.error());
+  OpenProfile out;
+  const double gap = greatest_gap(position);
+  out.sampling_overridden = 7.0 * gap > options.cutoff * (1.0 + 1e-9);
+  if (out.sampling_overridden && !options.override_sampling) {
+    return core::fail(
+        core::Code::kSampling,
+        fmt::format("neighbouring points are up to {:.6g} apart, a cut-off of {:.6g} "
+                    "allows {:.6g} (7 points per undulation): measure more densely or "
+                    "take a longer cut-off; the check can be overridden",
+                    gap, options.cutoff, options.cutoff / 7.0));
+  }
+  const double margin = options.ends == OpenEnds::kDiscard ? 0.5 * options.cutoff : 0.0;
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    if (position[i] < position.front() + margin || position[i] > position.back() - margin) continue;
+    if (out.position.empty()) out.first = i;
+    out.position.push_back(position[i]);
+  }
+  if (out.position.empty()) {
+    return core::fail(
+        core::Code::kBadOption,
+        fmt::format("the profile is {:.6g} long; half a cut-off of {:.6g} discarded at "
+                    "both ends leaves nothing",
+                    position.back() - position.front(), options.cutoff));
+  }
+  switch (options.ends) {
+    case OpenEnds::kLine:
+      fill<2>(position, r_mm, options, out);
+      break;
+    case OpenEnds::kParabola:
+      fill<3>(position, r_mm, options, out);
+      break;
+    case OpenEnds::kDiscard:
+      fill<1>(position, r_mm, options, out);
+      break;
+  }
+  return out;
+}
+
+}  // namespace rondure::fit

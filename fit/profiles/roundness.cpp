@@ -1,0 +1,257 @@
+#include "fit/profiles/roundness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/decompositions.h"
+#include "core/numbers.h"
+#include "fit/least_squares/circle.h"
+#include "fit/references/min_zone_circle.h"
+#include "fit/references/one_sided_center.h"
+#include "fit/zone/program.h"
+
+namespace rondure::fit {
+namespace {
+
+/// A box of this many spreads of the profile, grown where it binds.
+constexpr double kFirstBox = 4.0;
+constexpr double kBoxGrowth = 16.0;
+constexpr int kBoxes = 12;
+
+/// Deviations from the circle (center, radius), peaks positive.
+template <class Radius>
+FormParameters parameters_of(std::size_t count, const Radius& deviation,
+                             const RoundnessSide& side) {
+  std::vector<double> deviations(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    deviations[i] = side.inside ? -deviation(i) : deviation(i);
+  }
+  return form_parameters(deviations, side.cells);
+}
+
+std::vector<std::size_t> rows_of(std::span<const Contact> contacts) {
+  std::vector<std::size_t> rows;
+  for (const Contact& c : contacts) rows.push_back(c.index);
+  return rows;
+}
+
+core::Result<Roundness> ls_points(std::span<const Eigen::Vector2d> points,
+                                  const RoundnessSide& side) {
+  const auto circle = ls_circle(points);
+  if (!circle) return core::fail(circle.error());
+  Roundness out;
+  out.center_mm = circle->center_mm;
+  out.radius_mm = circle->radius_mm;
+  out.parameters = parameters_of(
+      points.size(),
+      [&](std::size_t i) { return (points[i] - circle->center_mm).norm() - circle->radius_mm; },
+      side);
+  out.total_mm = out.parameters->total_mm;
+  return out;
+}
+
+core::Result<Roundness> mz_points(std::span<const Eigen::Vector2d> points) {
+  const auto zone = min_zone_circle(points);
+  if (!zone) return core::fail(zone.error());
+  Roundness out;
+  out.reference = CircleReference::kMz;
+  out.center_mm = zone->center_mm;
+  out.radius_mm = 0.5 * (zone->inner_radius_mm + zone->outer_radius_mm);
+  out.total_mm = zone->width_mm();
+  out.outer = rows_of(zone->outer);
+  out.inner = rows_of(zone->inner);
+  out.certificate = zone->certificate;
+  return out;
+}
+
+core::Result<Roundness> one_sided_points(std::span<const Eigen::Vector2d> points,
+                                         CircleReference reference) {
+  const bool outside = reference == CircleReference::kMc;
+  const auto circle = outside ? min_circumscribed_circle(points) : max_inscribed_circle(points);
+  if (!circle) return core::fail(circle.error());
+  Roundness out;
+  out.reference = reference;
+  out.center_mm = circle->center_mm;
+  out.radius_mm = circle->radius_mm;
+  out.total_mm = circle->deviation_mm;
+  (outside ? out.outer : out.inner) = rows_of(circle->contacts);
+  out.certificate = circle->certificate;
+  out.range = circle->range;
+  return out;
+}
+
+core::Result<void> check_profile(std::span<const double> theta, std::span<const double> r,
+                                 std::size_t least) {
+  if (theta.size() != r.size() || theta.empty()) {
+    return core::fail(core::Code::kNoPoints,
+                      fmt::format("{} angles and {} radii; a profile needs as many of both",
+                                  theta.size(), r.size()));
+  }
+  if (theta.size() < least) {
+    return core::fail(
+        core::Code::kTooFewPoints,
+        fmt::format("{} points; this reference circle needs at least {}", theta.size(), least));
+  }
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    if (core::is_measurable(theta[i]) && core::is_measurable(r[i])) continue;
+    return core::fail(core::Code::kNotFinite,
+                      fmt::format("row {} is ({} rad, {} mm); finite numbers up to {:g} are needed",
+                                  i, theta[i], r[i], core::kGreatestNumber));
+  }
+  return {};
+}
+
+double mean_of(std::span<const double> r) {
+  double sum = 0.0;
+  for (const double value : r) sum += value - r.front();
+  return r.front() + sum / static_cast<double>(r.size());
+}
+
+core::Result<Roundness> ls_profile(std::span<const double> theta, std::span<const double> r,
+                                   const RoundnessSide& side) {
+  if (auto checked = check_profile(theta, r, 3); !checked) return core::fail(checked.error());
+  const double mean = mean_of(r);
+  const auto n = static_cast<Eigen::Index>(r.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 3> basis(n, 3);
+  Eigen::VectorXd right(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    basis.row(i) << 1.0, std::cos(theta[row]), std::sin(theta[row]);
+    right(i) = r[row] - mean;
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 3>> qr(basis);
+  if (qr.rank() < 3) {
+    return core::fail(core::Code::kRank,
+                      "fewer than 3 different angles; the centre is undetermined");
+  }
+  const Eigen::Vector3d x = qr.solve(right);
+  const Eigen::VectorXd residual = right - basis * x;
+  Roundness out;
+  out.center_mm = x.tail<2>();
+  out.radius_mm = mean + x(0);
+  out.parameters = parameters_of(
+      r.size(), [&](std::size_t i) { return residual(static_cast<Eigen::Index>(i)); }, side);
+  out.total_mm = out.parameters->total_mm;
+  return out;
+}
+
+ZoneRows<2> zone_rows(std::span<const double> theta, std::span<const double> r, double mean) {
+  ZoneRows<2> rows;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    rows.push_back(r[i] - mean, {-std::cos(theta[i]), -std::sin(theta[i])});
+  }
+  return rows;
+}
+
+/// The programme in a box that its optimum does not touch, if there is one.
+std::optional<ZoneStep<2>> solved(const ZoneRows<2>& rows, const ZoneWeights& weights) {
+  const auto [low, high] = std::minmax_element(rows.distances().begin(), rows.distances().end());
+  double box = std::max(kFirstBox * (*high - *low), 1e-12);
+  for (int k = 0; k < kBoxes; ++k, box *= kBoxGrowth) {
+    auto step = solve_zone_program<2>(rows, box, weights);
+    if (step.solved && step.inside_box) return step;
+  }
+  return std::nullopt;
+}
+
+ZoneWeights weights_of(CircleReference reference) {
+  if (reference == CircleReference::kMc) return kMinimumCircumscribed;
+  return reference == CircleReference::kMi ? kMaximumInscribed : kMinimumZone;
+}
+
+core::Error no_center(CircleReference reference) {
+  if (reference == CircleReference::kMz) {
+    return {core::Code::kNotConverged,
+            "the minimum zone of the profile has no centre within reach; the arc is too short for "
+            "it",
+            {}};
+  }
+  return {core::Code::kReferenceAbsent,
+          fmt::format(
+              "the {} circle of the profile does not exist: its values leave a gap of 180 "
+              "deg or more, into which the centre runs away",
+              reference == CircleReference::kMc ? "minimum circumscribed" : "maximum inscribed"),
+          {}};
+}
+
+core::Result<Roundness> program_profile(std::span<const double> theta, std::span<const double> r,
+                                        CircleReference reference) {
+  const bool zone = reference == CircleReference::kMz;
+  if (auto checked = check_profile(theta, r, zone ? 4 : 3); !checked)
+    return core::fail(checked.error());
+  const double mean = mean_of(r);
+  const auto rows = zone_rows(theta, r, mean);
+  const ZoneWeights weights = weights_of(reference);
+  const auto step = solved(rows, weights);
+  if (!step) return core::fail(no_center(reference));
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double moved = rows.distances()[i] + rows.gradient(i).dot(step->step);
+    low = std::min(low, moved);
+    high = std::max(high, moved);
+  }
+  Roundness out;
+  out.reference = reference;
+  out.center_mm = step->step;
+  out.radius_mm = mean + (zone ? 0.5 * (low + high) : weights.outer * high + weights.inner * low);
+  out.total_mm = high - low;
+  out.outer = rows_of(step->outer);
+  out.inner = rows_of(step->inner);
+  // The programme's dual value is a lower bound of every place in the linear model.
+  const double reached = weights.outer * high - weights.inner * low;
+  out.certificate = {Certificate::Kind::kGlobal, "all centres, limacon model",
+                     std::max(0.0, reached - step->value), ""};
+  if (!zone) out.range = deviation_range(rows, step->step, weights);
+  return out;
+}
+
+}  // namespace
+
+std::string_view name_of(CircleReference reference) {
+  switch (reference) {
+    case CircleReference::kLs:
+      return "ls";
+    case CircleReference::kMz:
+      return "mz";
+    case CircleReference::kMc:
+      return "mc";
+    case CircleReference::kMi:
+      return "mi";
+  }
+  return "ls";
+}
+
+core::Result<Roundness> roundness_of_points(std::span<const Eigen::Vector2d> points_mm,
+                                            CircleReference reference, const RoundnessSide& side) {
+  switch (reference) {
+    case CircleReference::kLs:
+      return ls_points(points_mm, side);
+    case CircleReference::kMz:
+      return mz_points(points_mm);
+    case CircleReference::kMc:
+    case CircleReference::kMi:
+      return one_sided_points(points_mm, reference);
+  }
+  return core::fail(core::Code::kInternal, "there is no such reference circle");
+}
+
+core::Result<Roundness> roundness_of_profile(std::span<const double> theta_rad,
+                                             std::span<const double> r_mm,
+                                             CircleReference reference, const RoundnessSide& side) {
+  switch (reference) {
+    case CircleReference::kLs:
+      return ls_profile(theta_rad, r_mm, side);
+    case CircleReference::kMz:
+    case CircleReference::kMc:
+    case CircleReference::kMi:
+      return program_profile(theta_rad, r_mm, reference);
+  }
+  return core::fail(core::Code::kInternal, "there is no such reference circle");
+}
+
+}  // namespace rondure::fit

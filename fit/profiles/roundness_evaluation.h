@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/error.h"
+#include "core/result.h"
+#include "fit/profiles/closed_profile.h"
+#include "fit/profiles/harmonics.h"
+#include "fit/profiles/profile_filter.h"
+#include "fit/profiles/roundness.h"
+
+namespace rondure::fit {
+
+/// Settings of a roundness evaluation.
+struct RoundnessOptions {
+  FilterOptions filter;
+  std::vector<CircleReference> references = {CircleReference::kLs, CircleReference::kMz};
+  int highest_harmonic = 50;  ///< Fewer where the points carry fewer; 0: no table.
+  bool inside = false;        ///< A bore: peaks point to the centre.
+};
+
+/// Roundness of one section, and everything that was done to get it.
+struct RoundnessEvaluation {
+  std::size_t points = 0;  ///< Rows given.
+  FilterOptions filter;    ///< As asked for.
+  Sampling sampling;
+  std::size_t samples = 0;    ///< Values evaluated: after resampling, or the points.
+  bool interpolated = false;  ///< Resampled by a periodic cubic spline.
+  double resampling_error_mm = 0.0;
+  int filter_iterations = 0;
+  AngularProfile measured;        ///< In order of angle, before the filter.
+  std::vector<double> theta_rad;  ///< Angles evaluated; contacts count in these.
+  std::vector<double> r_mm;  ///< The filtered profile there (points: relative to the LS circle).
+  std::vector<Roundness> values;        ///< One for each reference that exists, in order.
+  std::vector<CircleReference> absent;  ///< Asked for, but not there; `warnings` say why.
+  HarmonicTable harmonics;              ///< Before the filter.
+  std::vector<core::Error> warnings;
+};
+
+/// Evaluates a profile of deviations r(theta) in the limacon model: order, resample, filter, fit.
+///
+/// @param theta_rad  Any order, any number of turns.
+/// @return kNoPoints, kNotFinite (row), kTooFewPoints; check_sampling()'s errors; kSampling also
+/// for a
+///         gap of a quarter undulation or more at the cut-off (unless overridden); kNotFullSection
+///         for a filter on an arc, and below 20 deg altogether; what the fits refuse.
+/// Source: methods, roundness part B.
+[[nodiscard]] core::Result<RoundnessEvaluation> evaluate_profile(std::span<const double> theta_rad,
+                                                                 std::span<const double> r_mm,
+                                                                 const RoundnessOptions& options);
+
+/// Evaluates points of a plane section. Angles and radii are taken about the least-squares centre;
+/// the filtered profile is put back there, and the circle fits see exact points. Without a filter
+/// they see the points as given.
+/// @return as evaluate_profile(), and kCollinear.
+[[nodiscard]] core::Result<RoundnessEvaluation> evaluate_section(
+    std::span<const Eigen::Vector2d> points_mm, const RoundnessOptions& options);
+
+}  // namespace rondure::fit

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "fit/zone/contacts.h"
+
+namespace rondure::fit {
+
+/// What is proven about a minimum zone.
+struct Certificate {
+  enum class Kind {
+    kNone,    ///< Nothing; `reason` says why.
+    kLocal,   ///< A strict local minimum: multipliers >= 0, no point outside, growth in all
+              ///< directions.
+    kGlobal,  ///< No narrower zone exists within `scope`.
+  };
+  Kind kind = Kind::kNone;
+  std::string scope;    ///< "all centres", "all directions", "next to the least-squares axis".
+  double gap_mm = 0.0;  ///< Reported zone minus proven lower bound [mm].
+  std::string reason;   ///< Why the kind is not higher; empty for kGlobal.
+};
+
+/// "none", "local", "global".
+[[nodiscard]] std::string_view name_of(Certificate::Kind kind);
+
+}  // namespace rondure::fit

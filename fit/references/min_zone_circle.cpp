@@ -1,0 +1,112 @@
+#include "fit/references/min_zone_circle.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "fit/geometry/bisectors.h"
+#include "fit/least_squares/circle.h"
+#include "fit/geometry/points.h"
+#include "fit/zone/fit.h"
+#include "fit/proof/zone_proof.h"
+
+namespace rondure::fit {
+namespace {
+
+constexpr std::size_t kEnumerated = 40;  // points up to which all bisector crossings can be tried
+
+/// States the zone about a centre: radii, contacts, multipliers and the local certificate.
+/// @return The first-order growth of the zone there.
+double certify(PlanePoints points, const Eigen::Vector2d& center, MinZoneCircle& out) {
+  double size = 0.0;
+  for (const Eigen::Vector2d& p : points) size = std::max(size, p.cwiseAbs().maxCoeff());
+  const double round_off = distance_round_off(size);
+  const CenterFrame<2> frame(Eigen::Vector2d::Zero());
+  const auto proven = prove_zone(points, center, frame, kMinimumZone, round_off);
+  out.center_mm = center;
+  out.inner_radius_mm = proven.zone.low;
+  out.outer_radius_mm = proven.zone.high;
+  out.outer.assign(proven.proof.outer.begin(), proven.proof.outer.end());
+  out.inner.assign(proven.proof.inner.begin(), proven.proof.inner.end());
+  out.certificate =
+      certify_local<2>(proven.proof, out.width_mm(), round_off, "next to the least-squares centre");
+  // All points on one circle to round-off: no zone is narrower than 0.
+  if (out.width_mm() <= 16.0 * round_off) {
+    out.certificate = {Certificate::Kind::kGlobal, "all centres", out.width_mm(), ""};
+  }
+  return proven.proof.growth;
+}
+
+/// Branch and bound over all centres; every better centre it meets becomes the new start.
+void search_all_centers(PlanePoints points, const GlobalSearchOptions& options,
+                        CircleZoneFitter& fitter, double growth, MinZoneCircle& out) {
+  for (int restart = 0; restart < kRestartLimit; ++restart) {
+    if (out.certificate.kind != Certificate::Kind::kLocal) return;
+    const auto search = search_centers(points, out.center_mm,
+                                       {out.width_mm(), growth, out.outer, out.inner}, options);
+    out.squares += search.boxes;
+    if (search.better) {
+      growth = certify(points, fitter.fit_from(points, *search.better).place, out);
+      continue;
+    }
+    const double gap = std::max(out.certificate.gap_mm, out.width_mm() - search.lower_mm);
+    if (search.proven) out.certificate = {Certificate::Kind::kGlobal, "all centres", gap, ""};
+    out.certificate.reason = search.reason;
+    return;
+  }
+}
+
+/// Tries every candidate of a small set whose zone is too wide for bounds to bite.
+void try_all_centers(PlanePoints points, CircleZoneFitter& fitter, MinZoneCircle& out) {
+  const BisectorSearch all = search_bisectors(points, out.center_mm);
+  if (all.width_mm < out.width_mm()) {
+    MinZoneCircle other;
+    certify(points, fitter.fit_from(points, all.center_mm).place, other);
+    if (other.width_mm() < out.width_mm()) {
+      other.squares = out.squares;
+      out = other;
+    }
+  }
+  if (out.certificate.kind == Certificate::Kind::kNone) return;
+  if (all.complete) {
+    const double gap = std::max(out.certificate.gap_mm, out.width_mm() - all.width_mm);
+    out.certificate = {Certificate::Kind::kGlobal, "all centres", gap, ""};
+  } else {
+    out.certificate.reason = fmt::format(
+        "a strip of {:.9g} mm holds the points: the narrowest zone may have its centre at infinity",
+        all.strip_mm);
+  }
+}
+
+/// Three different points lie on one circle: nothing is left to minimise.
+MinZoneCircle exact_fit(const LsCircle& circle) {
+  MinZoneCircle out;
+  out.center_mm = circle.center_mm;
+  out.inner_radius_mm = out.outer_radius_mm = circle.radius_mm;
+  out.exact_fit = true;
+  out.certificate = {Certificate::Kind::kGlobal, "all centres", 0.0, ""};
+  return out;
+}
+
+}  // namespace
+
+core::Result<MinZoneCircle> min_zone_circle(PlanePoints points_mm,
+                                            const MinZoneCircleOptions& options) {
+  CircleZoneFitter fitter;
+  const auto zone = fitter.fit(points_mm);
+  if (!zone) return core::fail(zone.error());
+  if (distinct_points(points_mm, 4) < 4) {
+    const auto circle = algebraic_circle(points_mm);
+    if (!circle) return core::fail(circle.error());
+    return exact_fit(*circle);
+  }
+  MinZoneCircle out;
+  const double growth = certify(points_mm, zone->place, out);
+  if (!options.global) return out;
+  search_all_centers(points_mm, options.search, fitter, growth, out);
+  const bool proven = out.certificate.kind == Certificate::Kind::kGlobal;
+  if (!proven && points_mm.size() <= kEnumerated) try_all_centers(points_mm, fitter, out);
+  return out;
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+#include "fit/geometry/axis.h"
+#include "fit/proof/certificate.h"
+#include "fit/zone/contacts.h"
+
+namespace rondure::fit {
+
+/// The least cylinder about a line in space that holds all points.
+struct MinZoneLine {
+  Axis axis;
+  double diameter_mm = 0.0;       ///< Straightness of the line (ISO 1101, zone with diameter sign).
+  std::vector<Contact> contacts;  ///< Points on the cylinder that carry it; multipliers sum to 1.
+  Certificate certificate;        ///< Local: next to the least-squares line.
+};
+
+/// Straightness of a line in space, or of a median line given by its section centres: the diameter
+/// of the least enclosing cylinder, the minimum circumscribed cylinder next to the least-squares
+/// line.
+///
+/// @param points_mm  n >= 2 different points, any order [mm].
+/// @return as ls_line(). Same input, same bits. Cost: as ZoneDescent.
+/// Sources: ISO 1101, ISO 12780-1; methods, cylindricity section 11.4.
+[[nodiscard]] core::Result<MinZoneLine> min_zone_line(std::span<const Eigen::Vector3d> points_mm);
+
+}  // namespace rondure::fit

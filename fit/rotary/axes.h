@@ -1,0 +1,111 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "fit/geometry/axis_offset.h"
+#include "fit/rotary/errors.h"
+#include "fit/rotary/model.h"
+
+// Six position-dependent errors of a rotary axis from balls measured at several angles. Start here:
+// identify_rotary_axis(). Formulas and figures: docs/rotary-axes.md.
+
+namespace rondure::fit {
+
+/// A ball as the machine measured it.
+struct BallCentre {
+  std::string ball;                                     ///< Its name, the same at all poses.
+  Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  ///< In the frame of the machine.
+  Eigen::Vector3d u_mm =
+      Eigen::Vector3d::Constant(1e-3);  ///< Standard uncertainty of x, y, z; > 0.
+};
+
+/// Which way the angle was approached from.
+enum class Approach { kUnknown, kForward, kBackward };
+
+/// All balls at one angle, approached once.
+struct RotaryPose {
+  double angle_rad = 0.0;
+  Approach approach = Approach::kUnknown;
+  std::vector<BallCentre> balls;
+};
+
+/// A measured axis. The order of stations and references is the order of measurement.
+struct RotaryMeasurement {
+  RotaryAxis axis;
+  double lowest_rad = -1e9;  ///< Range of the axis; a station outside is refused.
+  double highest_rad = 1e9;
+  double reference_rad = 0.0;  ///< Angle of the reference pose.
+  /// The reference pose, measured several times (start, middle, end) and averaged. u_mm = 0 says
+  /// that the places are exact.
+  std::vector<std::vector<BallCentre>> references;
+  std::vector<RotaryPose> stations;
+};
+
+/// Settings of identify_rotary_axis().
+struct RotaryOptions {
+  enum class Solver {
+    kExact,        ///< Rigid registration; Gauss-Newton on exp([w]x) for unequal weights.
+    kLinear,       ///< One linear step of dp = t + w x p: wrong by |w|^2 |p| / 2.
+    kAsPublished,  ///< kLinear with the matrices printed in the source: published_axes.h.
+  };
+  Solver solver = Solver::kExact;
+  RotaryCurve curve = RotaryCurve::kSpline;
+  bool remove_outliers = true;
+  double outlier_probability = 0.999;  ///< Of the global test; 0.5 .. 1, exclusive.
+};
+
+/// Errors found at one station.
+struct RotaryStation {
+  double angle_rad = 0.0;
+  Approach approach = Approach::kUnknown;
+  /// No solution (too few balls here): errors and covariance mean nothing.
+  bool undetermined = false;
+  bool flagged = false;              ///< The global test fails and no single ball explains it.
+  std::vector<std::string> removed;  ///< Balls left out as outliers.
+  RotaryErrors errors;               ///< With the noise of reference and station.
+  Matrix6 measured_covariance = Matrix6::Zero();  ///< Noise of the station alone.
+  double chi2 = 0.0;  ///< v^T W v of the balls used, with the uncertainties as stated.
+  int dof = 0;        ///< 3n - 6.
+  double chi2_limit = 0.0;
+  double condition = 0.0;                     ///< BallSetup::condition of the balls used.
+  std::vector<std::string> balls;             ///< Those used.
+  std::vector<Eigen::Vector3d> residuals_mm;  ///< Measured minus adjusted, of those.
+  std::vector<Eigen::Vector3d> redundancy;    ///< Of each coordinate; near 0: errors go unseen.
+};
+
+/// All that is found of one axis.
+struct RotaryStudy {
+  double reference_rad = 0.0;
+  std::vector<BallCentre> reference;    ///< Averaged.
+  double drift_mm = 0.0;                ///< Greatest shift of a ball between two references.
+  std::vector<RotaryStation> stations;  ///< As measured.
+  double s0 = 1.0;  ///< A-posteriori factor of all stations; covariances hold max(1, s0)^2.
+  int dof = 0;      ///< Behind s0.
+  RotaryTable table;
+  std::optional<AxisOffset> offset;  ///< Absent below 45 deg of arc; a warning says so.
+  /// 0 and 360 deg agree: only with stations a full turn apart.
+  bool periodicity_checked = false;
+  std::vector<core::Error> warnings;
+};
+
+/// Identifies the six errors at each station, then axis location and orientation, then the table of
+/// the smooth model (RotaryModel::of(study.table)).
+///
+/// Errors are relative to the reference pose, where they are zero by definition. A ball missing at
+/// a station is done without; balls that a reference does not know are refused.
+///
+/// @return kMissingKey (no reference), kUnknownKey (ball), kRepeatedKey (station, ball), kBadOption
+///         (axis not a unit vector, u not positive), kNotFinite, kPoseRange, kTooFewPoints and
+///         kCollinear (check_setup), kUnits, kSense (more than 0.1 rad of rotation left, or another
+///         sense or unit of the angles fits better), kInconsistent (a station does not fit its
+///         neighbours, distances between balls drift, 0 and 360 deg differ), kRank (no station
+///         determined). O(stations * balls).
+/// Sources: CN105479268A (ball setups); B. K. P. Horn, J. Opt. Soc. Am. A 4 (1987); W. Baarda
+/// (1968) for redundancy numbers; ISO 230-1, ISO 230-7 for the names.
+[[nodiscard]] core::Result<RotaryStudy> identify_rotary_axis(const RotaryMeasurement& measurement,
+                                                             const RotaryOptions& options = {});
+
+}  // namespace rondure::fit

@@ -1,0 +1,53 @@
+#include "fit/rotary/ball_center.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <Eigen/Dense>
+
+#include "fit/least_squares/sphere.h"
+
+namespace rondure::fit {
+
+core::Result<BallCenter> ball_center(std::span<const Eigen::Vector3d> points_mm, double radius_mm) {
+  if (!std::isfinite(radius_mm) || radius_mm <= 0.0) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("a ball of radius {:g} mm has no surface", radius_mm));
+  }
+  const auto start = ls_sphere(points_mm);
+  if (!start) return core::fail(start.error());
+  constexpr int kSteps = 50;
+  const double still_mm = 1e-12 * std::max(1.0, start->radius_mm);
+  BallCenter out;
+  out.center_mm = start->center_mm;
+  for (int i = 0; i < kSteps; ++i) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    double least = std::numeric_limits<double>::infinity();
+    double greatest = -least;
+    out.sum_squares_mm2 = 0.0;
+    for (const Eigen::Vector3d& p : points_mm) {
+      const Eigen::Vector3d v = p - out.center_mm;
+      const double distance = v.norm();
+      const Eigen::Vector3d n = v / distance;
+      const double residual = distance - radius_mm;
+      normal += n * n.transpose();
+      right += residual * n;
+      out.sum_squares_mm2 += residual * residual;
+      least = std::min(least, residual);
+      greatest = std::max(greatest, residual);
+    }
+    out.cofactor = normal.inverse();
+    out.deviation_mm = greatest - least;
+    const Eigen::Vector3d step = out.cofactor * right;
+    if (!step.allFinite()) break;
+    out.center_mm += step;
+    if (step.norm() <= still_mm) return out;
+  }
+  return core::fail(core::Code::kNotConverged,
+                    fmt::format("no centre of a ball of {:g} mm radius was found", radius_mm));
+}
+
+}  // namespace rondure::fit

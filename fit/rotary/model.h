@@ -1,0 +1,79 @@
+#pragma once
+
+#include <vector>
+
+#include "core/open_spline.h"
+#include "core/result.h"
+#include "fit/geometry/periodic_spline.h"
+#include "fit/rotary/errors.h"
+
+namespace rondure::fit {
+
+/// The errors at one angle, both directions of approach averaged.
+struct RotaryTableRow {
+  double angle_rad = 0.0;
+  Vector6 errors = Vector6::Zero();      ///< (t; w) [mm, rad].
+  Matrix6 covariance = Matrix6::Zero();  ///< Of the measurement at this station alone.
+  Vector6 hysteresis = Vector6::Zero();  ///< (forward - backward) / 2; zero for one direction.
+  bool both_directions = false;
+};
+
+/// How the errors between the stations are found.
+enum class RotaryCurve {
+  kSpline,      ///< Cubic spline through the stations: periodic on a full circle, else not-a-knot.
+  kFourier,     ///< Full circle: series up to order floor(stations / 3), least squares.
+  kPolynomial,  ///< Arc: 1, cos, sin and powers up to min(4, (stations - 1) / 3), least squares.
+};
+
+/// Everything a smooth model is made from, plain: this is what a calibration file keeps.
+struct RotaryTable {
+  RotaryAxis axis;
+  double reference_rad = 0.0;  ///< Of the pose in which t = 0 and w = 0 by definition.
+  bool full_circle = false;
+  RotaryCurve curve = RotaryCurve::kSpline;
+  std::vector<RotaryTableRow> rows;  ///< Angles strictly ascending, on a circle within one turn.
+  std::vector<double> missing_rad;   ///< Stations without a solution: bridged.
+  /// What the noise of the reference pose does at the reference angle; it turns with the body and
+  /// is the same for all stations.
+  Matrix6 reference_covariance = Matrix6::Zero();
+  Vector6 hysteresis_rms = Vector6::Zero();  ///< Standard uncertainty from direction of approach.
+};
+
+/// The errors of one axis at any angle within its stations.
+class RotaryModel {
+ public:
+  /// @return kTooFewPoints (spline: 4 stations on an arc, 3 on a circle; least squares: 4),
+  ///         kBadOption (a Fourier series on an arc, a polynomial on a circle), kNotFinite,
+  ///         kTable (angles not strictly ascending, or over more than one turn).
+  [[nodiscard]] static core::Result<RotaryModel> of(RotaryTable table);
+
+  /// Errors with their covariance: the band of an error curve is sigma() of it.
+  /// On a full circle any angle is brought into the turn of the stations.
+  /// @return kOutOfRange outside the stations of an arc (nothing is extrapolated), kNotFinite.
+  ///         O(stations).
+  [[nodiscard]] core::Result<RotaryErrors> at(double angle_rad) const;
+
+  /// rotary_motion() at a commanded angle with the errors found there.
+  [[nodiscard]] core::Result<Eigen::Isometry3d> motion(double angle_rad) const;
+
+  [[nodiscard]] const RotaryTable& table() const { return table_; }
+  [[nodiscard]] double lowest_rad() const { return table_.rows.front().angle_rad; }
+  [[nodiscard]] double highest_rad() const { return table_.rows.back().angle_rad; }
+
+ private:
+  /// errors(angle) = sum over rows of weight(row) * errors(row), a column an error.
+  using Weights = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+  [[nodiscard]] Weights weights_at(double angle_rad) const;
+  [[nodiscard]] bool bridged_at(double angle_rad) const;
+  /// The angle within the turn, or the range, of the stations.
+  [[nodiscard]] core::Result<double> within(double angle_rad) const;
+  void make_splines();
+  void make_least_squares();
+
+  RotaryTable table_;
+  std::vector<PeriodicSpline> circle_;  ///< Through 1 at one row and 0 at the others, one a row;
+  std::vector<core::OpenSpline> arc_;   ///< one of the two is empty.
+  std::vector<Eigen::MatrixXd> fit_;    ///< Least squares: coefficients from values, one an error.
+};
+
+}  // namespace rondure::fit

@@ -1,0 +1,72 @@
+#include "fit/spindle/axis_motion.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/decompositions.h"
+#include "fit/contour/error.h"
+
+namespace rondure::fit {
+namespace {
+
+/// Least-squares c + a cos + b sin of a series.
+Eigen::Vector3d plot_centre(std::span<const double> alpha_rad, const std::vector<double>& values) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (std::size_t n = 0; n < alpha_rad.size(); ++n) {
+    const Eigen::Vector3d row(1.0, std::cos(alpha_rad[n]), std::sin(alpha_rad[n]));
+    normal += row * row.transpose();
+    right += row * values[n];
+  }
+  return normal.ldlt().solve(right);
+}
+
+/// Largest difference of the revolutions at one angle.
+double widest_spread(const std::vector<std::vector<double>>& turns) {
+  double widest = 0.0;
+  for (std::size_t n = 0; n < turns.front().size(); ++n) {
+    double low = turns.front()[n];
+    double high = low;
+    for (const auto& turn : turns) {
+      low = std::min(low, turn[n]);
+      high = std::max(high, turn[n]);
+    }
+    widest = std::max(widest, high - low);
+  }
+  return widest;
+}
+
+}  // namespace
+
+AxisMotion axis_motion(std::span<const double> alpha_rad,
+                       std::span<const std::vector<double>> turns_mm) {
+  assert(!turns_mm.empty() && turns_mm.front().size() == alpha_rad.size());
+  AxisMotion out;
+  out.turns_mm.assign(turns_mm.begin(), turns_mm.end());
+  out.mean_mm.assign(alpha_rad.size(), 0.0);
+  for (const auto& turn : turns_mm) {
+    for (std::size_t n = 0; n < turn.size(); ++n)
+      out.mean_mm[n] += turn[n] / static_cast<double>(turns_mm.size());
+  }
+  const Eigen::Vector3d centre = plot_centre(alpha_rad, out.mean_mm);
+  out.fundamental_mm = std::hypot(centre[1], centre[2]);
+  double low = 0.0;
+  double high = 0.0;
+  for (std::size_t n = 0; n < alpha_rad.size(); ++n) {
+    const double circle =
+        centre[0] + centre[1] * std::cos(alpha_rad[n]) + centre[2] * std::sin(alpha_rad[n]);
+    out.mean_mm[n] -= circle;
+    for (auto& turn : out.turns_mm) {
+      turn[n] -= circle;
+      low = std::min(low, turn[n]);
+      high = std::max(high, turn[n]);
+    }
+  }
+  out.total_mm = high - low;
+  out.synchronous_mm = peak_to_valley(out.mean_mm);
+  if (turns_mm.size() > 1) out.asynchronous_mm = widest_spread(out.turns_mm);
+  return out;
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,289 @@
+#include "fit/spindle/three_probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "fit/profiles/dft.h"
+#include "fit/spindle/three_probe_parts.h"
+
+namespace rondure::fit {
+namespace {
+
+using core::Code;
+
+constexpr double kSecondOrderFrom_mm = 0.010;
+constexpr int kSecondOrderPasses = 5;
+constexpr double kSecondOrderDone_mm = 1e-9;
+constexpr double kSecondOrderSettled = 0.01;  ///< Change of the last pass over the correction.
+constexpr double kPhaseFrom = 3.0;            ///< Standard uncertainties of an amplitude.
+constexpr double kBelowProbes = 1e-5;         ///< Of the readings: no probe is that linear.
+
+core::Result<void> check_options(const ThreeProbeOptions& options) {
+  const auto refuse = [](std::string what) {
+    return core::fail(Code::kBadOption, std::move(what));
+  };
+  if (options.highest < 2) {
+    return refuse(fmt::format("the highest harmonic {} is below 2", options.highest));
+  }
+  if (!(options.greatest_gain >= 1.0)) {
+    return refuse(fmt::format("a greatest gain of {} recovers nothing; give at least 1",
+                              options.greatest_gain));
+  }
+  if (options.noise_mm && !(*options.noise_mm >= 0.0)) return refuse("probe noise is negative");
+  if (options.recovery == ThreeProbeOptions::Recovery::kTikhonov &&
+      !(options.expected_amplitude_mm > 0.0)) {
+    return refuse("the regularised form needs an expected amplitude above 0");
+  }
+  if (options.samples < 0) return refuse("the number of samples is negative");
+  return {};
+}
+
+/// Of the weighted sum of the mean revolution. What it gains from one revolution to the next is
+/// drift of a probe, or a part that grows: a ramp in time, as the work angle, that would stand in
+/// every harmonic.
+Spectrum weighted_spectrum(const ProbeSamples& samples, const ProbeLayout& layout) {
+  const auto& w = layout.weights();
+  std::vector<double> sum(samples.count);
+  double drift = 0.0;  // of a revolution
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& h = samples.h_mm[i];
+    const std::size_t last = h.size() - samples.count;
+    for (std::size_t n = 0; n < samples.count; ++n) {
+      sum[n] += w[i] * samples.mean_mm[i][n];
+      drift += w[i] * (h[last + n] - h[n]) / static_cast<double>(samples.count);
+    }
+  }
+  drift /= std::max(1, samples.revolutions - 1);
+  for (std::size_t n = 0; n < samples.count; ++n)
+    sum[n] -= drift * (samples.alpha_rad[n] - samples.alpha_rad[0]) / core::kTwoPi;
+  return spectrum(sum);
+}
+
+/// What decides over the recovery of a harmonic.
+struct Guard {
+  const ThreeProbeOptions& options;
+  const ProbeLayout& layout;
+  double noise_mm = 0.0;
+  double values = 1.0;  ///< Readings of a probe behind an amplitude.
+
+  [[nodiscard]] RecoveredHarmonic look_at(int order) const {
+    RecoveredHarmonic out;
+    out.order = order;
+    out.transfer = std::abs(layout.transfer(order));
+    out.gain = layout.gain(order);
+    out.sigma_mm = out.gain * noise_mm * std::sqrt(2.0 / values);
+    out.recovered = out.gain <= options.greatest_gain;
+    if (options.recovery == ThreeProbeOptions::Recovery::kTikhonov) {
+      const double mu = 2.0 * noise_mm * layout.weight_norm() /
+                        (options.expected_amplitude_mm * std::sqrt(values));
+      const double power = out.transfer * out.transfer;
+      out.attenuation = power / (power + mu * mu);
+      out.recovered = out.gain < 1e12;
+      out.sigma_mm *= out.attenuation;
+    }
+    return out;
+  }
+};
+
+/// The part's half spectrum, and its harmonics as a table.
+Spectrum recover(const Spectrum& sum, const Guard& guard, std::size_t count, double start_rad,
+                 ThreeProbeResult& result) {
+  Spectrum part(sum.size());
+  result.harmonics.clear();
+  result.unrecovered.clear();
+  double power = 0.0;
+  for (int order = 2; order <= guard.options.highest; ++order) {
+    RecoveredHarmonic harmonic = guard.look_at(order);
+    const auto k = static_cast<std::size_t>(order);
+    if (harmonic.recovered) {
+      part[k] = harmonic.attenuation * sum[k] / guard.layout.transfer(order);
+      harmonic.amplitude_mm = 2.0 * std::abs(part[k]) / static_cast<double>(count);
+      if (harmonic.amplitude_mm > kPhaseFrom * harmonic.sigma_mm) {
+        harmonic.phase_rad = std::remainder(-std::arg(part[k]) + order * start_rad, core::kTwoPi);
+      }
+      power += harmonic.sigma_mm * harmonic.sigma_mm;
+    } else {
+      result.unrecovered.push_back(order);
+    }
+    result.harmonics.push_back(harmonic);
+  }
+  result.profile_sigma_mm = std::sqrt(power);
+  result.profile = {start_rad, series_of(part, count)};
+  return part;
+}
+
+void judge_residual(const Spectrum& sum, const Spectrum& part, const ProbeSamples& samples,
+                    ThreeProbeResult& result) {
+  const auto n = static_cast<double>(samples.count);
+  const double norm = result.layout.weight_norm();
+  double power = 0.0;
+  double largest = 0.0;
+  for (std::size_t k = 1; 2 * k < samples.count; ++k) {
+    const bool recovered = part[k] != Complex();
+    const Complex left =
+        recovered ? sum[k] - part[k] * result.layout.transfer(static_cast<int>(k)) : sum[k];
+    power += 2.0 * std::norm(left) / (n * n);
+  }
+  for (const auto& h : samples.mean_mm) {  // the zeros of the probes are no displacement
+    const auto [low, high] = std::minmax_element(h.begin(), h.end());
+    largest = std::max(largest, 0.5 * (*high - *low));
+  }
+  result.residual_rms_mm = std::sqrt(power) / norm;
+  result.first_harmonic_mm = 2.0 * std::abs(sum[1]) / n / norm;
+  result.first_harmonic_limit_mm =
+      std::max(3.0 * result.noise_mm * std::sqrt(2.0 / static_cast<double>(samples.rows)),
+               kBelowProbes * largest);
+  // A gain error g of probe i leaves |c w_i g| there; twice the limit stands out of any noise.
+  const auto& w = result.layout.weights();
+  const double least_weight = std::min({w[0], std::abs(w[1]), std::abs(w[2])});
+  if (result.eccentricity_mm > 0.0) {
+    result.least_error_shown =
+        2.0 * result.first_harmonic_limit_mm * norm / (result.eccentricity_mm * least_weight);
+  }
+}
+
+double largest_motion_mm(const CentreMotion& motion) {
+  double largest = 0.0;
+  for (const double x : motion.x_mm) largest = std::max(largest, std::abs(x));
+  for (const double y : motion.y_mm) largest = std::max(largest, std::abs(y));
+  return largest;
+}
+
+void add(ThreeProbeResult& result, Code code, std::string what) {
+  result.warnings.push_back({code, std::move(what), {}});
+}
+
+std::string orders_in_words(const std::vector<int>& orders) {
+  std::string out;
+  for (const int order : orders) out += fmt::format("{}{}", out.empty() ? "" : ", ", order);
+  return out;
+}
+
+/// Harmonics that are lost or weak.
+void warn_of_loss(const ThreeProbeOptions& options, ThreeProbeResult& result) {
+  if (!result.unrecovered.empty()) {
+    add(result, Code::kHarmonicLoss,
+        fmt::format("harmonics {} are not recovered: their noise gain is above {:g}; the part may "
+                    "hold more, and the motion holds it with the opposite sign",
+                    orders_in_words(result.unrecovered), options.greatest_gain));
+  }
+  std::vector<int> weak;
+  for (const RecoveredHarmonic& h : result.harmonics) {
+    if (h.recovered && h.gain > options.warn_gain) weak.push_back(h.order);
+  }
+  if (weak.empty()) return;
+  add(result, Code::kHarmonicLoss,
+      fmt::format("harmonics {} are weak: their noise gain is above {:g}", orders_in_words(weak),
+                  options.warn_gain));
+}
+
+void warn_of_sampling(const ProbeSamples& samples, const ThreeProbeOptions& options,
+                      ThreeProbeResult& result) {
+  if (samples.rows < static_cast<std::size_t>(7 * options.highest * samples.revolutions)) {
+    add(result, Code::kSampling,
+        fmt::format("{} readings a revolution are fewer than 7 an undulation at harmonic {}; "
+                    "higher undulations of the part fold into the result",
+                    samples.rows / static_cast<std::size_t>(samples.revolutions), options.highest));
+  }
+  if (samples.largest_gap_rad > core::kTwoPi / (2.0 * options.highest)) {
+    add(result, Code::kSampling,
+        fmt::format("a gap of {:.3f} deg between readings is wider than half an undulation of "
+                    "harmonic {}",
+                    samples.largest_gap_rad / core::kDegree, options.highest));
+  }
+}
+
+/// A.8, where the options want it: repeats recovery and motion with corrected readings.
+/// @return kUnits where the motion is no longer small beside the part, so that A.8 does not settle.
+core::Result<void> refine_second_order(double part_radius_mm, const Guard& guard,
+                                       ProbeSamples& samples, Spectrum& sum, Spectrum& part,
+                                       ThreeProbeResult& result) {
+  using SecondOrder = ThreeProbeOptions::SecondOrder;
+  const SecondOrder asked = guard.options.second_order;
+  const double motion = largest_motion_mm(motion_without_zeros(result));
+  const bool large = motion > kSecondOrderFrom_mm;
+  if (asked == SecondOrder::kOff || (asked == SecondOrder::kAuto && !large)) return {};
+  if (!(part_radius_mm > 0.0)) {
+    add(result, Code::kInconsistent,
+        "motion above 10 um needs the second-order correction, and that the radius of the part; it "
+        "is not stated");
+    return {};
+  }
+  const ProbeSamples measured = samples;
+  double before = 0.0;
+  double change = 0.0;
+  for (int pass = 0; pass < kSecondOrderPasses; ++pass) {
+    const double now = correct_second_order(measured, part, result, part_radius_mm, samples);
+    change = std::abs(now - before);
+    before = now;
+    if (!std::isfinite(now)) break;
+    sum = weighted_spectrum(samples, guard.layout);
+    part = recover(sum, guard, samples.count, samples.start_rad, result);
+    separate_motion(samples, part, guard.options, result);
+    ++result.second_order_passes;
+    if (change < kSecondOrderDone_mm) return {};
+  }
+  if (change <= kSecondOrderSettled * before) return {};
+  return core::fail(
+      Code::kUnits,
+      fmt::format("the readings say that the axis moves by {:.4g} mm; for a part of radius {:g} mm "
+                  "that is too much to be corrected to the second order: look at the unit of the "
+                  "columns (um) and for marks of missing values",
+                  motion, part_radius_mm));
+}
+
+}  // namespace
+
+core::Result<ThreeProbeResult> separate_three_probe(const ProbeReadings& readings,
+                                                    const SwingArm& arm, const ProbeLayout& layout,
+                                                    const ThreeProbeOptions& options) {
+  if (auto sound = check_options(options); !sound) return core::fail(sound.error());
+  if (auto sound = check_swing_arm(arm); !sound) return core::fail(sound.error());
+  auto sampled = sample_readings(readings, arm, options);
+  if (!sampled) return core::fail(sampled.error());
+  ProbeSamples samples = *std::move(sampled);
+  if (samples.count < static_cast<std::size_t>(2 * options.highest + 2)) {
+    return core::fail(
+        Code::kSampling,
+        fmt::format("{} samples a revolution do not carry {} undulations; at least {} "
+                    "are needed",
+                    samples.count, options.highest, 2 * options.highest + 2));
+  }
+  ThreeProbeResult result{.layout = layout};
+  result.revolutions = samples.revolutions;
+  result.readings = samples.rows;
+  result.interpolated = samples.interpolated;
+  result.alpha_rad = samples.alpha_rad;
+  result.beta_rad = samples.beta_rad;
+  Spectrum sum = weighted_spectrum(samples, layout);
+  const auto noise = options.noise_mm ? options.noise_mm
+                                      : estimated_noise_mm(samples, sum, layout, options.highest);
+  if (!noise) {
+    return core::fail(
+        Code::kSampling,
+        fmt::format("one revolution of {} samples holds no harmonic above {} from which the noise "
+                    "of a reading could be estimated: state it, record a second revolution or take "
+                    "at least {} samples",
+                    samples.count, options.highest, 4 * options.highest));
+  }
+  result.noise_estimated = !options.noise_mm;
+  result.noise_mm = *noise;
+  const Guard guard{options, layout, result.noise_mm, static_cast<double>(samples.rows)};
+  Spectrum part = recover(sum, guard, samples.count, samples.start_rad, result);
+  separate_motion(samples, part, options, result);
+  if (auto refined = refine_second_order(arm.pin_radius_mm, guard, samples, sum, part, result);
+      !refined) {
+    return core::fail(refined.error());
+  }
+  judge_residual(sum, part, samples, result);
+  warn_of_loss(options, result);
+  warn_of_sampling(samples, options, result);
+  find_contradictions(readings, samples, arm, options, result);
+  return result;
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,237 @@
+#include "fit/wheel/centers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/noise.h"
+
+namespace rondure::fit {
+namespace {
+
+using FourRows = std::array<std::size_t, 4>;
+
+/// Draws per accepted quadruple wanted before giving up: points that refuse nine hundred and
+/// ninety-nine of a thousand are no circle worth measuring.
+constexpr std::size_t kDrawsPerCenter = 1000;
+
+enum class Refusal { kNone, kShortChord, kParallel, kIllConditioned };
+
+FourRows paired(const FourRows& r, int pairing) {
+  if (pairing == 1) return {r[0], r[2], r[1], r[3]};
+  if (pairing == 2) return {r[0], r[3], r[1], r[2]};
+  return r;
+}
+
+/// A whole number below `end`; the bias of the remainder is below 1e-15 for any set of points.
+std::size_t draw(std::uint64_t& state, std::size_t end) {
+  return static_cast<std::size_t>(core::splitmix64(state) % end);
+}
+
+/// Four different rows in ascending order.
+FourRows draw_rows(std::uint64_t& state, std::size_t n) {
+  FourRows rows{};
+  for (std::size_t k = 0; k < rows.size();) {
+    const auto end = rows.begin() + static_cast<std::ptrdiff_t>(k);
+    rows[k] = draw(state, n);
+    if (std::find(rows.begin(), end, rows[k]) == end) ++k;
+  }
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+std::vector<FourRows> all_subsets(std::size_t n) {
+  std::vector<FourRows> out;
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = a + 1; b < n; ++b) {
+      for (std::size_t c = b + 1; c < n; ++c) {
+        for (std::size_t d = c + 1; d < n; ++d) out.push_back({a, b, c, d});
+      }
+    }
+  }
+  return out;
+}
+
+/// C(n, 4) passes 5000 between 20 and 21 points.
+std::vector<FourRows> subsets(std::size_t n, std::uint64_t seed) {
+  constexpr std::size_t kMostPoints = 20;
+  if (n <= kMostPoints) return all_subsets(n);
+  std::uint64_t state = seed;
+  std::set<FourRows> seen;
+  std::vector<FourRows> out;
+  while (out.size() < kMostQuadruples) {
+    const FourRows rows = draw_rows(state, n);
+    if (seen.insert(rows).second) out.push_back(rows);
+  }
+  return out;
+}
+
+Refusal refusal_of(const FourPointCenter& center, double radius_mm, double kappa_limit,
+                   const QuadrupleOptions& options) {
+  const double chord = std::min(center.first_chord_mm, center.second_chord_mm);
+  if (chord < std::max(options.least_chord_mm, options.least_chord_per_radius * radius_mm)) {
+    return Refusal::kShortChord;
+  }
+  if (center.psi_rad < options.least_angle_rad) return Refusal::kParallel;
+  return center.kappa > kappa_limit ? Refusal::kIllConditioned : Refusal::kNone;
+}
+
+void sort_in(const FourPointCenter& center, Refusal refusal, WheelCenters& out) {
+  if (refusal == Refusal::kShortChord) ++out.short_chord;
+  if (refusal == Refusal::kParallel) ++out.parallel_chords;
+  if (refusal == Refusal::kIllConditioned) ++out.ill_conditioned;
+  if (refusal == Refusal::kNone) out.accepted.push_back(center);
+}
+
+WheelCenters select_systematic(std::span<const Eigen::Vector2d> points_mm, double radius_mm,
+                               const QuadrupleOptions& options) {
+  std::vector<FourPointCenter> found;
+  double best = std::numeric_limits<double>::infinity();
+  for (const FourRows& rows : subsets(points_mm.size(), options.seed)) {
+    found.push_back(best_pairing(points_mm, rows, radius_mm));
+    best = std::min(best, found.back().kappa);
+  }
+  WheelCenters out;
+  out.kappa_limit = options.kappa_limit.value_or(std::max(5.0, 2.0 * best));
+  for (const FourPointCenter& center : found) {
+    sort_in(center, refusal_of(center, radius_mm, out.kappa_limit, options), out);
+  }
+  if (options.choice == QuadrupleChoice::kBest && out.accepted.size() > options.count) {
+    std::stable_sort(out.accepted.begin(), out.accepted.end(),
+                     [](const auto& a, const auto& b) { return a.kappa < b.kappa; });
+    out.accepted.resize(options.count);
+  }
+  return out;
+}
+
+WheelCenters select_random(std::span<const Eigen::Vector2d> points_mm, double radius_mm,
+                           const QuadrupleOptions& options) {
+  WheelCenters out;
+  out.kappa_limit = options.kappa_limit.value_or(std::numeric_limits<double>::infinity());
+  std::uint64_t state = options.seed;
+  std::set<FourRows> seen;
+  for (std::size_t k = 0; k < kDrawsPerCenter * options.count; ++k) {
+    if (out.accepted.size() == options.count) break;
+    const FourRows subset = draw_rows(state, points_mm.size());
+    const FourRows rows = paired(subset, static_cast<int>(draw(state, 3)));
+    if (!seen.insert(rows).second) continue;
+    const FourPointCenter center = four_point_center(points_mm, rows, radius_mm);
+    sort_in(center, refusal_of(center, radius_mm, out.kappa_limit, options), out);
+  }
+  return out;
+}
+
+core::Result<void> check(const QuadrupleOptions& options) {
+  if (options.count > kMostQuadruples) {
+    return core::fail(
+        core::Code::kBadOption,
+        fmt::format("{} centres are asked for; the limit is {}", options.count, kMostQuadruples));
+  }
+  if (options.count < kLeastCenters) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("{} centres are asked for; a wheel centre is combined from at "
+                                  "least {}",
+                                  options.count, kLeastCenters));
+  }
+  const bool lengths = options.least_chord_mm > 0.0 && options.least_chord_per_radius >= 0.0 &&
+                       options.least_chord_per_radius <= 1.0;
+  const bool angle = options.least_angle_rad > 0.0 && options.least_angle_rad < core::kTwoPi / 4.0;
+  if (lengths && angle && options.kappa_limit.value_or(1.0) >= 1.0) return {};
+  return core::fail(
+      core::Code::kBadOption,
+      fmt::format("limits of quadruples: chord {} mm (above 0), {} of the radius (0 to 1), angle "
+                  "{} deg (0 to 90), kappa {} (at least 1)",
+                  options.least_chord_mm, options.least_chord_per_radius,
+                  options.least_angle_rad / core::kDegree, options.kappa_limit.value_or(1.0)));
+}
+
+}  // namespace
+
+std::string_view name_of(QuadrupleChoice choice) {
+  switch (choice) {
+    case QuadrupleChoice::kAll:
+      return "all";
+    case QuadrupleChoice::kBest:
+      return "best";
+    case QuadrupleChoice::kRandom:
+      return "random";
+  }
+  return "all";
+}
+
+FourPointCenter four_point_center(std::span<const Eigen::Vector2d> points_mm, const FourRows& rows,
+                                  double radius_mm) {
+  FourPointCenter out;
+  out.rows = rows;
+  // Relative to A: |B|^2 - |A|^2 of points far from the origin would cancel.
+  const Eigen::Vector2d origin = points_mm[rows[0]];
+  const Eigen::Vector2d a = points_mm[rows[1]] - origin;
+  const Eigen::Vector2d c0 = points_mm[rows[2]] - origin;
+  const Eigen::Vector2d c = points_mm[rows[3]] - points_mm[rows[2]];
+  out.first_chord_mm = a.norm();
+  out.second_chord_mm = c.norm();
+  const double determinant = a.x() * c.y() - a.y() * c.x();
+  const double product = out.first_chord_mm * out.second_chord_mm;
+  if (product == 0.0 || determinant == 0.0) {
+    out.kappa = std::numeric_limits<double>::infinity();
+    return out;
+  }
+  const double sine = std::min(std::abs(determinant) / product, 1.0);
+  out.psi_rad = std::atan2(std::abs(determinant), std::abs(a.dot(c)));
+  out.kappa = std::sqrt(2.0) * radius_mm *
+              std::hypot(1.0 / out.first_chord_mm, 1.0 / out.second_chord_mm) / sine;
+  const double ka = 0.5 * a.squaredNorm();
+  const double kc = c.dot(c0 + 0.5 * c);
+  out.center_mm =
+      origin + Eigen::Vector2d(ka * c.y() - kc * a.y(), a.x() * kc - c.x() * ka) / determinant;
+  return out;
+}
+
+FourPointCenter best_pairing(std::span<const Eigen::Vector2d> points_mm, const FourRows& rows,
+                             double radius_mm) {
+  FourPointCenter best = four_point_center(points_mm, rows, radius_mm);
+  for (const int pairing : {1, 2}) {
+    const FourPointCenter other = four_point_center(points_mm, paired(rows, pairing), radius_mm);
+    if (other.kappa < best.kappa) best = other;
+  }
+  return best;
+}
+
+double WheelCenters::best_kappa() const {
+  double best = std::numeric_limits<double>::infinity();
+  for (const FourPointCenter& c : accepted) best = std::min(best, c.kappa);
+  return best;
+}
+
+double WheelCenters::worst_kappa() const {
+  double worst = 0.0;
+  for (const FourPointCenter& c : accepted) worst = std::max(worst, c.kappa);
+  return worst;
+}
+
+double WheelCenters::rms_kappa() const {
+  double sum = 0.0;
+  for (const FourPointCenter& c : accepted) sum += c.kappa * c.kappa;
+  return std::sqrt(sum / static_cast<double>(accepted.size()));
+}
+
+core::Result<WheelCenters> select_centers(std::span<const Eigen::Vector2d> points_mm,
+                                          double radius_mm, const QuadrupleOptions& options) {
+  if (auto checked = check(options); !checked) return core::fail(checked.error());
+  const bool random = options.choice == QuadrupleChoice::kRandom;
+  WheelCenters out = random ? select_random(points_mm, radius_mm, options)
+                            : select_systematic(points_mm, radius_mm, options);
+  if (out.accepted.size() >= kLeastCenters) return out;
+  return core::fail(
+      core::Code::kTooFewCenters,
+      fmt::format("{} quadruples of points give a usable centre, at least {} are needed; refused: "
+                  "{} for a short chord, {} for parallel chords, {} for kappa above {:.3g}; take "
+                  "points over more of the circle",
+                  out.accepted.size(), kLeastCenters, out.short_chord, out.parallel_chords,
+                  out.ill_conditioned, out.kappa_limit));
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,71 @@
+#include "fit/wheel/forecast.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace rondure::fit {
+namespace {
+
+constexpr double kMostRows = 1000.0;
+
+}  // namespace
+
+core::Result<ResidualForm> residual_form(const WheelSurface& surface, double used_radius_mm,
+                                         double true_radius_mm, double touch_off_mm,
+                                         const WheelPathOptions& options) {
+  if (!(used_radius_mm > 0.0) || !std::isfinite(used_radius_mm)) {
+    return core::fail(
+        core::Code::kBadOption,
+        fmt::format("the radius of the path is {} mm; above 0 is needed", used_radius_mm));
+  }
+  // With a cusp there is no step in the options; the residual is smooth, any fine step will do.
+  const auto load = wheel_load(surface, true_radius_mm, options);
+  if (!load) return core::fail(load.error());
+  const auto origin = surface.at(touch_off_mm);
+  if (!origin) return core::fail(origin.error());
+  ResidualForm out;
+  out.used_radius_mm = used_radius_mm;
+  out.true_radius_mm = true_radius_mm;
+  out.delta_mm = used_radius_mm - true_radius_mm;
+  out.touch_off_mm = touch_off_mm;
+  const double length = options.to_mm - options.from_mm;
+  const double wanted = options.cusp_mm ? kMostRows : std::ceil(length / options.step_mm - 1e-9);
+  const double steps = std::clamp(wanted, 1.0, kMostRows);
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (double i = 0.0; i <= steps; i += 1.0) {
+    const double x = options.from_mm + i / steps * length;
+    const auto point = surface.at(x);
+    if (!point) return core::fail(point.error());
+    const double q = point->stretch();
+    out.rows.push_back({x, out.delta_mm * q, out.delta_mm * (q - origin->stretch())});
+    low = std::min(low, out.rows.back().touched_mm);
+    high = std::max(high, out.rows.back().touched_mm);
+  }
+  out.deviation_mm = high - low;
+  return out;
+}
+
+core::Result<WheelForecast> forecast(const WheelSurface& surface, const ForecastInput& input,
+                                     const WheelPathOptions& options) {
+  WheelForecast out;
+  const double left = 2.0 * input.radius_uncertainty_mm;
+  auto measured =
+      residual_form(surface, input.radius_mm + left, input.radius_mm, input.touch_off_mm, options);
+  if (!measured) return core::fail(measured.error());
+  out.measured = *std::move(measured);
+  if (!input.nominal_radius_mm) return out;
+  auto nominal = residual_form(surface, *input.nominal_radius_mm, input.radius_mm,
+                               input.touch_off_mm, options);
+  if (!nominal) return core::fail(nominal.error());
+  out.capped = input.repeatability_mm > left;
+  const double floor = std::max(left, input.repeatability_mm);
+  if (floor > 0.0) out.improvement = std::abs(nominal->delta_mm) / floor;
+  out.nominal = *std::move(nominal);
+  return out;
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/result.h"
+#include "fit/wheel/centers.h"
+
+namespace rondure::fit {
+
+/// Limits of find_outliers().
+struct OutlierOptions {
+  double scales = 5.0;  ///< A point is flagged beyond so many scales, >= 5: lobes are form.
+  double least_scale_mm = 1e-4;  ///< Floor of the scale [mm], > 0.
+};
+
+/// A point that was left out.
+struct DroppedPoint {
+  std::size_t row = 0;
+  double deviation_mm = 0.0;  ///< From the median radius about the median centre.
+};
+
+/// Points of a wheel that are not its surface.
+struct Outliers {
+  Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  ///< Component-wise median of the centres.
+  std::vector<double> deviations_mm;                    ///< Of every point, from the median radius.
+  double scale_mm = 0.0;                                ///< 1.4826 median |deviation|.
+  std::vector<DroppedPoint> dropped;                    ///< By row.
+  std::vector<core::Error> warnings;                    ///< kOutliers, kLocalForm.
+};
+
+/// Finds isolated points far from the circle. Flagged points with at most two others between them
+/// are a run; three or more of a run are form (wear, a flat) and stay.
+///
+/// @return kBadOption; kOutliers when more than a quarter of the points, or so many that fewer
+///         than 8 stay, would be dropped.
+/// Source: methods, wheel section 7.
+[[nodiscard]] core::Result<Outliers> find_outliers(std::span<const Eigen::Vector2d> points_mm,
+                                                   std::span<const FourPointCenter> centers,
+                                                   const OutlierOptions& options = {});
+
+}  // namespace rondure::fit

@@ -1,0 +1,153 @@
+#include "fit/zone/center_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fit/geometry/hull_distance.h"
+#include "fit/least_squares/circle.h"
+
+namespace rondure::fit {
+namespace {
+
+constexpr double kContactTolerance = 1e-9;  // tau_c [mm]
+constexpr double kGapTolerance = 1e-9;      // tau_g
+
+/// Distances of all points from a centre, and who is in contact there.
+struct ContactSets {
+  double low = 0.0;
+  double high = 0.0;
+  std::vector<std::size_t> outer;
+  std::vector<std::size_t> inner;
+};
+
+/// tau_c, raised where coordinates are so large that 1e-9 mm is round-off.
+double contact_tolerance(std::span<const Eigen::Vector2d> points_mm) {
+  Eigen::Vector2d low = points_mm.front();
+  Eigen::Vector2d high = points_mm.front();
+  for (const Eigen::Vector2d& p : points_mm) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double range = (high - low).maxCoeff();
+  const double size = std::max(high.cwiseAbs().maxCoeff(), low.cwiseAbs().maxCoeff());
+  return std::max(
+      {kContactTolerance, 1e-13 * range, 16.0 * std::numeric_limits<double>::epsilon() * size});
+}
+
+ContactSets contacts_at(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center,
+                        double tolerance) {
+  ContactSets out;
+  std::vector<double> r(points_mm.size());
+  std::transform(points_mm.begin(), points_mm.end(), r.begin(),
+                 [&](const Eigen::Vector2d& p) { return (p - center).norm(); });
+  const auto [low, high] = std::minmax_element(r.begin(), r.end());
+  out.low = *low;
+  out.high = *high;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    if (r[i] >= out.high - tolerance) out.outer.push_back(i);
+    if (r[i] <= out.low + tolerance) out.inner.push_back(i);
+  }
+  return out;
+}
+
+std::vector<Eigen::Vector2d> directions(std::span<const Eigen::Vector2d> points_mm,
+                                        const Eigen::Vector2d& center,
+                                        std::span<const std::size_t> rows) {
+  std::vector<Eigen::Vector2d> out;
+  for (const std::size_t i : rows) out.emplace_back((points_mm[i] - center).normalized());
+  return out;
+}
+
+}  // namespace
+
+std::string_view name_of(CenterSearch::Ending ending) {
+  switch (ending) {
+    case CenterSearch::Ending::kCross:
+      return "cross";
+    case CenterSearch::Ending::kSpoke:
+      return "spoke";
+    case CenterSearch::Ending::kCoCircular:
+      return "co-circular";
+    case CenterSearch::Ending::kUnbounded:
+      return "unbounded";
+    case CenterSearch::Ending::kMoveLimit:
+      return "move-limit";
+  }
+  return "move-limit";
+}
+
+std::vector<ContactCandidate> contact_candidates(std::span<const Eigen::Vector2d> points_mm,
+                                                 const Eigen::Vector2d& center_mm,
+                                                 const Eigen::Vector2d& direction,
+                                                 std::span<const std::size_t> outer,
+                                                 std::span<const std::size_t> inner) {
+  const auto along = [&](std::size_t i) { return (points_mm[i] - center_mm).dot(direction); };
+  // Of the contacts, those that stay extreme during the move: the farthest recedes most.
+  const auto by_along = [&](std::size_t a, std::size_t b) { return along(a) < along(b); };
+  const std::size_t h = *std::min_element(outer.begin(), outer.end(), by_along);
+  const std::size_t l = *std::max_element(inner.begin(), inner.end(), by_along);
+  // Difference of squared distances without squaring: (a - b).(a + b), exact to the last digits.
+  const auto squared_difference = [&](std::size_t a, std::size_t b) {
+    return (points_mm[a] - points_mm[b])
+        .dot((points_mm[a] - center_mm) + (points_mm[b] - center_mm));
+  };
+  const auto holds = [](std::span<const std::size_t> set, std::size_t i) {
+    return std::find(set.begin(), set.end(), i) != set.end();
+  };
+  std::vector<ContactCandidate> out;
+  for (std::size_t i = 0; i < points_mm.size(); ++i) {
+    const double q = along(i);
+    if (!holds(outer, i) && q < along(h)) {
+      const double step = squared_difference(h, i) / (2.0 * (along(h) - q));
+      if (step > 0.0) out.push_back({i, false, step});
+    }
+    if (!holds(inner, i) && q > along(l)) {
+      const double step = squared_difference(i, l) / (2.0 * (q - along(l)));
+      if (step > 0.0) out.push_back({i, true, step});
+    }
+  }
+  std::stable_sort(
+      out.begin(), out.end(),
+      [](const ContactCandidate& a, const ContactCandidate& b) { return a.step_mm < b.step_mm; });
+  return out;
+}
+
+core::Result<CenterSearch> center_search(std::span<const Eigen::Vector2d> points_mm) {
+  const auto start = algebraic_circle(points_mm);
+  if (!start) return core::fail(start.error());
+  const double tolerance = contact_tolerance(points_mm);
+  CenterSearch out;
+  out.center_mm = start->center_mm;
+  for (int move = 0; move <= kCenterMoveLimit; ++move) {
+    const ContactSets now = contacts_at(points_mm, out.center_mm, tolerance);
+    out.inner_radius_mm = now.low;
+    out.outer_radius_mm = now.high;
+    out.outer = now.outer;
+    out.inner = now.inner;
+    if (now.high - now.low <= tolerance) {
+      out.ending = CenterSearch::Ending::kCoCircular;
+      return out;
+    }
+    const auto gap = hull_distance(directions(points_mm, out.center_mm, now.outer),
+                                   directions(points_mm, out.center_mm, now.inner));
+    if (gap.distance <= kGapTolerance) {
+      out.ending = gap.vertices ? CenterSearch::Ending::kSpoke : CenterSearch::Ending::kCross;
+      return out;
+    }
+    if (move == kCenterMoveLimit) break;
+    const Eigen::Vector2d direction = (gap.on_first - gap.on_second) / gap.distance;
+    const auto met = contact_candidates(points_mm, out.center_mm, direction, now.outer, now.inner);
+    if (met.empty()) {
+      out.ending = CenterSearch::Ending::kUnbounded;
+      return out;
+    }
+    out.moves.push_back({out.center_mm, now.high - now.low, now.outer, now.inner, direction,
+                         gap.distance, met.front()});
+    out.center_mm += met.front().step_mm * direction;
+  }
+  out.ending = CenterSearch::Ending::kMoveLimit;
+  return out;
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,258 @@
+#include "fit/zone/fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <Eigen/LU>
+
+#include "core/units.h"
+#include "fit/zone/column_extremes.h"
+#include "fit/least_squares/circle.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/least_squares/sphere.h"
+#include "fit/geometry/points.h"
+
+namespace rondure::fit {
+namespace {
+
+constexpr std::size_t kCenterSample = 48;
+constexpr std::size_t kCylinderSample = 240;
+/// From here on one start is enough, whatever the arc (performance: small sets).
+constexpr std::size_t kOneStart = 24;
+constexpr std::size_t kSmall = 64;  // up to here more starts cost little
+constexpr int kStarts = 8;          // around the axis, for each tilt
+constexpr double kFullGap = 120.0 * core::kDegree;
+
+/// At most `most` points that stand for all; `memory` holds them where they are fewer.
+template <class Point>
+std::span<const Point> spread(std::span<const Point> points, std::size_t most,
+                              std::vector<Point>& memory) {
+  if (points.size() <= most) return points;
+  memory.clear();
+  for (std::size_t k = 0; k < most; ++k) memory.push_back(points[spread_row(k, points.size())]);
+  return memory;
+}
+
+/// Round-off of distances: a place is never farther from the origin than the points are wide. Not
+/// finite where a coordinate is not.
+template <class Point>
+double round_off_of(std::span<const Point> sample) {
+  const std::span<const double> numbers(sample.front().data(),
+                                        sample.size() * Point::SizeAtCompileTime);
+  const double size = largest_magnitude(numbers);
+  return std::isfinite(size) ? distance_round_off(size) : size;
+}
+
+template <class Place, class Frame>
+ZoneFit<Place> zone_of(const Descent<Frame>& descent, const Place& place) {
+  ZoneFit<Place> out;
+  out.place = place;
+  out.inner_radius_mm = descent.zone.low;
+  out.outer_radius_mm = descent.zone.high;
+  out.outer = descent.outer;
+  out.inner = descent.inner;
+  out.passes = descent.passes;
+  out.programmes = descent.programmes;
+  out.pivots = descent.pivots;
+  out.ending = descent.ending;
+  return out;
+}
+
+/// How far a reference may be from the least-squares one: a maximum inscribed one goes on for ever
+/// where none exists, a minimum circumscribed one of an arc lies at its chord.
+double limit_of(const ZoneWeights& weights, double radius) {
+  if (weights.outer == 0.0) return radius;
+  return weights.inner == 0.0 ? 2.0 * radius : std::numeric_limits<double>::infinity();
+}
+
+/// A fit that ended badly as an error; else the fit.
+template <class Place, class Point>
+core::Result<ZoneFit<Place>> judged(ZoneFit<Place> zone, std::span<const Point> points,
+                                    const ZoneWeights& weights, std::string_view shape) {
+  if (zone.ending == ZoneEnding::kNotFinite) {
+    if (auto checked = check_points(points); !checked) return core::fail(checked.error());
+    return core::fail(core::Code::kUnits,
+                      "the coordinates are so large that squared distances are not finite; mm are "
+                      "expected");
+  }
+  if (zone.ending == ZoneEnding::kStrayed) {
+    return core::fail(
+        core::Code::kReferenceAbsent,
+        fmt::format("there is no {} {} next to the least-squares one: the points do "
+                    "not surround it",
+                    weights.inner == 0.0 ? "minimum circumscribed" : "maximum inscribed", shape));
+  }
+  return zone;
+}
+
+core::Result<CenterStart<2>> start_fit(std::span<const Eigen::Vector2d> points) {
+  const auto circle = algebraic_start(points);
+  if (!circle) return core::fail(circle.error());
+  return CenterStart<2>{circle->center_mm, circle->radius_mm};
+}
+core::Result<CenterStart<3>> start_fit(std::span<const Eigen::Vector3d> points) {
+  const auto sphere = ls_sphere(points);
+  if (!sphere) return core::fail(sphere.error());
+  return CenterStart<3>{sphere->center_mm, sphere->radius_mm};
+}
+
+/// Whether the contacts of a ball by themselves tell that its points lie on no line (plane): they
+/// span a triangle (tetrahedron) that is not small against it.
+template <class Point>
+bool spans_space(std::span<const Point> points, const ZoneFit<Point>& ball) {
+  constexpr int D = Point::SizeAtCompileTime;
+  if (ball.outer.size() != D + 1) return false;
+  Eigen::Matrix<double, D, D> sides;
+  for (int k = 0; k < D; ++k) {
+    sides.col(k) =
+        (points[ball.outer[static_cast<std::size_t>(k) + 1].index] - points[ball.outer[0].index]) /
+        ball.outer_radius_mm;
+  }
+  return std::abs(sides.determinant()) > 0.01;
+}
+
+/// The axis as a frame, with the extent of the points along it as the scale of its tilts.
+CylinderFrame frame_of(std::span<const Eigen::Vector3d> sample, const Axis& axis,
+                       double round_off) {
+  const double half = half_extent(sample, axis.direction);
+  return {Axis{Eigen::Vector3d::Zero(), axis.direction}, std::max(half, round_off)};
+}
+
+/// The first `count` angles [rad].
+struct Tilts {
+  std::array<double, 3> angles{};
+  std::size_t count = 0;
+
+  [[nodiscard]] const double* begin() const { return angles.data(); }
+  [[nodiscard]] const double* end() const { return angles.data() + count; }
+};
+
+/// Tilts at which a search starts too, where several minima are to be feared: minimum zones of few
+/// points, or of part of the circumference, may have others far off; circumscribed and inscribed
+/// cylinders of few points have others close by.
+Tilts other_tilts(std::span<const Eigen::Vector3d> points, const LsCylinder& start,
+                  const ZoneWeights& weights) {
+  if (weights.outer == 0.0 || weights.inner == 0.0) {
+    if (points.size() > kSmall) return {};
+    const double form = std::atan(start.deviation_mm / half_extent(points, start.axis.direction));
+    return {{form, 4.0 * form}, 2};
+  }
+  if (points.size() >= kOneStart) return {};
+  if (points.size() >= 12) {
+    const auto frame = across(start.axis.direction);
+    std::array<Eigen::Vector2d, kOneStart> flat;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      flat[i] = frame.transpose() * (points[i] - start.axis.point_mm);
+    }
+    const auto section = std::span(flat).first(points.size());
+    if (largest_gap_rad(section, Eigen::Vector2d::Zero()) <= kFullGap) return {};
+  }
+  return {{0.5 * core::kDegree, 2.0 * core::kDegree, 6.0 * core::kDegree}, 3};
+}
+
+double value_of(const CylinderZone& zone, const ZoneWeights& weights) {
+  return weights.outer * zone.outer_radius_mm - weights.inner * zone.inner_radius_mm;
+}
+
+}  // namespace
+
+template <int D>
+auto CenterZoneFitter<D>::fit_from(std::span<const Point> points_mm, const Point& center_mm,
+                                   const ZoneWeights& weights, double limit_mm) -> ZoneFit<Point> {
+  const bool few = points_mm.size() <= kAllWorked;
+  const double round_off =
+      round_off_of(few ? points_mm : spread(points_mm, kCenterSample, sample_));
+  const CenterFrame<D> start(Point::Zero());
+  if (!std::isfinite(round_off)) {
+    ZoneFit<Point> out;
+    out.place = center_mm;
+    out.ending = ZoneEnding::kNotFinite;
+    return out;
+  }
+  const auto found = descent_.run(points_mm, center_mm, start, weights, round_off, limit_mm);
+  return zone_of(found, found.frame.place(center_mm));
+}
+
+/// Where to start, from a sample; from all where that misses what the data have.
+template <int D>
+auto CenterZoneFitter<D>::start_of(std::span<const Point> points_mm)
+    -> core::Result<CenterStart<D>> {
+  if (auto start = start_fit(spread(points_mm, kCenterSample, sample_))) return start;
+  return start_fit(points_mm);
+}
+
+template <int D>
+auto CenterZoneFitter<D>::fit(std::span<const Point> points_mm, const ZoneWeights& weights)
+    -> core::Result<ZoneFit<Point>> {
+  if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
+  constexpr std::string_view kShape = D == 2 ? "circle" : "sphere";
+  if (weights.inner == 0.0) {
+    // Convex: no start is too far.
+    const auto zone = fit_from(points_mm, points_mm.front(), weights);
+    if (zone.ending == ZoneEnding::kConverged && !spans_space(points_mm, zone)) {
+      if (const auto start = start_of(points_mm); !start) return core::fail(start.error());
+    }
+    return judged(zone, points_mm, weights, kShape);
+  }
+  const auto start = start_of(points_mm);
+  if (!start) return core::fail(start.error());
+  const double limit = limit_of(weights, start->radius_mm);
+  return judged(fit_from(points_mm, start->center_mm, weights, limit), points_mm, weights, kShape);
+}
+
+template class CenterZoneFitter<2>;
+template class CenterZoneFitter<3>;
+
+CylinderZone CylinderZoneFitter::fit_from(std::span<const Eigen::Vector3d> points_mm,
+                                          const Axis& axis, const ZoneWeights& weights,
+                                          double limit_mm) {
+  const auto sample = spread(points_mm, kCylinderSample, sample_);
+  const double round_off = round_off_of(sample);
+  const auto found = descent_.run(points_mm, axis.point_mm, frame_of(sample, axis, round_off),
+                                  weights, round_off, limit_mm);
+  return zone_of(found, found.frame.place(axis.point_mm));
+}
+
+/// The best of several starts about the least-squares axis.
+CylinderZone CylinderZoneFitter::fit_best(std::span<const Eigen::Vector3d> points_mm,
+                                          const LsCylinder& start, const ZoneWeights& weights) {
+  const Axis& axis = start.axis;
+  const double limit = limit_of(weights, start.radius_mm);
+  CylinderZone best = fit_from(points_mm, axis, weights, limit);
+  int programmes = best.programmes;
+  int pivots = best.pivots;
+  const auto side = across(axis.direction);
+  for (const double tilt : other_tilts(points_mm, start, weights)) {
+    for (int k = 0; k < kStarts; ++k) {
+      const double angle = core::kTwoPi * k / kStarts;
+      const Eigen::Vector2d lean(std::cos(angle), std::sin(angle));
+      const Eigen::Vector3d direction = axis.direction + std::tan(tilt) * (side * lean);
+      const CylinderZone zone =
+          fit_from(points_mm, {axis.point_mm, direction.normalized()}, weights, limit);
+      programmes += zone.programmes;
+      pivots += zone.pivots;
+      const bool found = zone.ending == ZoneEnding::kConverged;
+      if (found && value_of(zone, weights) < value_of(best, weights)) best = zone;
+    }
+  }
+  best.programmes = programmes;
+  best.pivots = pivots;
+  return best;
+}
+
+core::Result<CylinderZone> CylinderZoneFitter::fit(
+    std::span<const Eigen::Vector3d> points_mm,
+    const std::optional<Eigen::Vector3d>& near_direction, const ZoneWeights& weights) {
+  if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
+  auto start = ls_cylinder(spread(points_mm, kCylinderSample, sample_), near_direction);
+  // A sample may miss what the data have: a second layer, or the row that is not a number.
+  if (!start) start = ls_cylinder(points_mm, near_direction);
+  if (!start) return core::fail(start.error());
+  start_ = *start;
+  return judged(fit_best(points_mm, start_, weights), points_mm, weights, "cylinder");
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,160 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fit/zone/contacts.h"
+
+namespace rondure::fit {
+
+/// What is minimised:  outer * max_i r_i - inner * min_i r_i.
+struct ZoneWeights {
+  double outer = 1.0;
+  double inner = 1.0;
+};
+inline constexpr ZoneWeights kMinimumZone{1.0, 1.0};
+inline constexpr ZoneWeights kMinimumCircumscribed{1.0, 0.0};
+inline constexpr ZoneWeights kMaximumInscribed{0.0, 1.0};
+
+/// Points of a zone, linearised: the distance of each and the gradient of that distance with
+/// respect to the K unknowns of the place (2 circle, 3 sphere, 4 cylinder), all in mm. Stored
+/// column by column, so that pricing runs at the speed of the vector units; the memory is kept when
+/// cleared.
+template <int K>
+class ZoneRows {
+ public:
+  using Gradient = Eigen::Matrix<double, K, 1>;
+
+  [[nodiscard]] std::size_t size() const { return columns_[0].size(); }
+  void resize(std::size_t count) {
+    for (auto& column : columns_) column.resize(count);
+  }
+  void clear() { resize(0); }
+  void push_back(double distance, const Gradient& gradient) {
+    columns_[0].push_back(distance);
+    for (int k = 0; k < K; ++k) gradients(k).push_back(gradient(k));
+  }
+  [[nodiscard]] const std::vector<double>& distances() const { return columns_[0]; }
+  [[nodiscard]] std::vector<double>& distances() { return columns_[0]; }
+  [[nodiscard]] const std::vector<double>& gradients(int k) const {
+    return columns_[static_cast<std::size_t>(k) + 1];
+  }
+  [[nodiscard]] std::vector<double>& gradients(int k) {
+    return columns_[static_cast<std::size_t>(k) + 1];
+  }
+  [[nodiscard]] Gradient gradient(std::size_t i) const {
+    Gradient out;
+    for (int k = 0; k < K; ++k) out(k) = gradients(k)[i];
+    return out;
+  }
+
+ private:
+  std::array<std::vector<double>, K + 1> columns_;
+};
+
+/// Solution of the linearised zone.
+template <int K>
+struct ZoneStep {
+  Eigen::Matrix<double, K, 1> step = Eigen::Matrix<double, K, 1>::Zero();  ///< The move d [mm].
+  double value = 0.0;  ///< What the linearisation predicts after the move [mm].
+  Contacts outer;      ///< Points that bind, by row, with their multipliers (> 0).
+  Contacts inner;
+  bool inside_box = false;  ///< No side of the box binds.
+  bool solved = false;      ///< false: the pivot limit ended it.
+  int pivots = 0;
+};
+
+inline constexpr int kZonePivotLimit = 5000;
+inline constexpr int kBoundPivotLimit = 60;  ///< Where only a bound is wanted.
+
+/// Minimises  outer * max_i (r_i + J_i d) - inner * min_i (r_i + J_i d)  over |d_k| <= box.
+///
+/// Revised primal simplex on the dual programme: K + 2 rows; a column for each point on each side
+/// and for each side of the box. The box makes a first basis feasible at once, so there is no first
+/// phase. Dantzig's rule, Bland's after 300 pivots. The inverse of the basis, at most 6 x 6, is
+/// updated at each pivot and computed anew when a check at the end finds it worn.
+///
+/// An object keeps its memory, and its last basis as the start of a programme whose points moved a
+/// little. Cost: O(n K) a pivot, commonly 5 to 20 pivots.
+/// Source: methods, cylindricity sections 9.3, 11.2 (the box is its trust region) and 11.4.
+template <int K>
+class ZoneProgram {
+ public:
+  /// @param rows  At least one point. Where both weights are the same, distances may be given minus
+  ///              a common value; else `value` misses weight * that value.
+  /// @param pivot_limit  Where only a bound is wanted, a degenerate programme is not worth many
+  ///                     pivots: the multipliers of any basis are valid.
+  ZoneStep<K> solve(const ZoneRows<K>& rows, double box_mm, const ZoneWeights& weights,
+                    int pivot_limit = kZonePivotLimit);
+  /// The same, from the basis of the last call, which had the same points in the same order.
+  ZoneStep<K> solve_again(const ZoneRows<K>& rows, double box_mm, const ZoneWeights& weights,
+                          int pivot_limit = kZonePivotLimit);
+
+ private:
+  static constexpr int kRows = K + 2;
+  using Vector = Eigen::Matrix<double, kRows, 1>;
+  using Square = Eigen::Matrix<double, kRows, kRows>;
+  using Unknowns = Eigen::Matrix<double, K, 1>;
+
+  /// A column of the dual programme. Order of the kinds is Bland's order.
+  struct Column {
+    enum class Kind { kOuter, kInner, kBoxUp, kBoxDown };
+    Kind kind = Kind::kOuter;
+    std::size_t index = 0;  ///< Row of the point, or number of the unknown.
+
+    friend auto operator<=>(const Column&, const Column&) = default;
+  };
+  struct Entering {
+    Column column;
+    bool found = false;
+  };
+
+  void set(const ZoneRows<K>& rows, double box_mm, const ZoneWeights& weights);
+  void start_basis();
+  void put(int place, const Column& c);
+  [[nodiscard]] Vector in_basis(const Column& c) const;
+  bool factorise();
+  ZoneStep<K> run(int pivot_limit);
+  ZoneStep<K> attempt(int pivot_limit, int swift);
+  [[nodiscard]] bool sound() const;
+  [[nodiscard]] Vector value_residual() const;
+  [[nodiscard]] Vector price_residual() const;
+  void settle_prices();
+  bool worn();
+  Entering price(bool bland);
+  bool pivot(const Column& entering);
+  void report(ZoneStep<K>& out) const;
+
+  const ZoneRows<K>* rows_ = nullptr;
+  std::array<const double*, K> gradients_{};  ///< Of the rows.
+  double box_ = 0.0;
+  ZoneWeights weights_;
+  double tolerance_ = 0.0;
+  std::array<Column, kRows> basis_{};
+  Square columns_ = Square::Identity();  ///< Of the basis.
+  Vector costs_ = Vector::Zero();        ///< Of the basis.
+  Square inverse_ = Square::Identity();  ///< Of columns_.
+  Vector values_ = Vector::Zero();       ///< Multipliers of the basic columns.
+  Vector prices_ = Vector::Zero();
+  double value_flaw_ = 0.0;  ///< Largest residual of the multipliers before the last refinement.
+  double price_flaw_ = 0.0;
+  std::vector<double> moved_;  ///< Distances of all points at the current prices.
+};
+
+/// One programme, on its own.
+template <int K>
+[[nodiscard]] ZoneStep<K> solve_zone_program(const ZoneRows<K>& rows, double box_mm,
+                                             const ZoneWeights& weights = kMinimumZone,
+                                             int pivot_limit = kZonePivotLimit) {
+  return ZoneProgram<K>().solve(rows, box_mm, weights, pivot_limit);
+}
+
+extern template class ZoneProgram<1>;
+extern template class ZoneProgram<2>;
+extern template class ZoneProgram<3>;
+extern template class ZoneProgram<4>;
+
+}  // namespace rondure::fit
