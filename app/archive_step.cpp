@@ -6,10 +6,10 @@
 
 #include "app/shell_word.h"
 #include "app/terminal.h"
-#include "record/archive.h"
-#include "record/archive_queue.h"
+#include "record/archive/archive.h"
+#include "record/archive/queue.h"
 #include "record/files.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "record/sha256.h"
 #include "reports/archive_entry.h"
 #include "reports/earlier_results.h"

@@ -5,7 +5,7 @@
 
 #include "core/result.h"
 #include "plans/plan.h"
-#include "record/archive.h"
+#include "record/archive/archive.h"
 #include "record/run_record.h"
 #include "reports/evaluation.h"
 

@@ -9,9 +9,9 @@
 
 #include "app/shell_word.h"
 #include "plans/analysis.h"
-#include "record/archive_place.h"
-#include "record/journal.h"
-#include "record/unborn_run.h"
+#include "record/archive/place.h"
+#include "record/journal/journal.h"
+#include "record/journal/unborn_run.h"
 
 namespace rondure::app {
 namespace {

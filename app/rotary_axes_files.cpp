@@ -9,7 +9,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "record/ball_csv.h"
+#include "record/csv/balls.h"
 #include "record/files.h"
 
 namespace rondure::app {

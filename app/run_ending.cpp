@@ -14,7 +14,7 @@
 #include "app/terminal.h"
 #include "plans/record_check.h"
 #include "record/files.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "record/run_lock.h"
 #include "reports/defect.h"
 #include "reports/evaluation.h"

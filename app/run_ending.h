@@ -5,7 +5,7 @@
 #include "app/verbs.h"
 #include "plans/plan.h"
 #include "plans/runner.h"
-#include "record/archive.h"
+#include "record/archive/archive.h"
 #include "reports/live_view.h"
 
 namespace rondure::app {

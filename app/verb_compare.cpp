@@ -6,7 +6,7 @@
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "plans/record_check.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "reports/evaluation.h"
 #include "reports/factor_study.h"
 

@@ -8,7 +8,7 @@
 #include "app/fit_text.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
-#include "record/points_csv.h"
+#include "record/csv/points.h"
 
 namespace rondure::app {
 namespace {

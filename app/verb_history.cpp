@@ -10,9 +10,9 @@
 #include "app/terminal.h"
 #include "app/verbs.h"
 #include "plans/record_check.h"
-#include "record/archive_queue.h"
+#include "record/archive/queue.h"
 #include "record/files.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "reports/history.h"
 #include "reports/text.h"
 

@@ -13,7 +13,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "record/files.h"
-#include "record/series_csv.h"
+#include "record/csv/series.h"
 
 namespace rondure::app {
 namespace {

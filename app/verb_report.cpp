@@ -11,7 +11,7 @@
 #include "plans/record_check.h"
 #include "record/checksums.h"
 #include "record/files.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "record/signature.h"
 #include "reports/defect.h"
 #include "reports/evaluation.h"

@@ -13,7 +13,7 @@
 #include "core/units.h"
 #include "fit/profiles/filter_selftest.h"
 #include "fit/profiles/roundness_evaluation.h"
-#include "record/points_csv.h"
+#include "record/csv/points.h"
 
 namespace rondure::app {
 namespace {

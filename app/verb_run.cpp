@@ -19,7 +19,7 @@
 #include "plans/plan.h"
 #include "plans/runner.h"
 #include "plans/utf8.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 
 namespace rondure::app {
 namespace {

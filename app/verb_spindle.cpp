@@ -11,7 +11,7 @@
 #include "app/verbs.h"
 #include "core/units.h"
 #include "record/files.h"
-#include "record/series_csv.h"
+#include "record/csv/series.h"
 #include "reports/spindle_result.h"
 
 namespace rondure::app {

@@ -13,7 +13,7 @@
 #include "app/wheel_text.h"
 #include "core/units.h"
 #include "record/files.h"
-#include "record/series_csv.h"
+#include "record/csv/series.h"
 #include "reports/wheel_json.h"
 #include "reports/wheel_path_text.h"
 

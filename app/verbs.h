@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fit/spindle/probe_layout.h"
-#include "record/archive.h"
+#include "record/archive/archive.h"
 
 namespace rondure::app {
 

@@ -5,7 +5,7 @@
 
 #include "benchmarks/sections.h"
 #include "benchmarks/timing.h"
-#include "record/points_csv.h"
+#include "record/csv/points.h"
 
 namespace rondure::benchmarks {
 namespace {

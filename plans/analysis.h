@@ -11,7 +11,7 @@
 #include "plans/findings.h"
 #include "plans/plan.h"
 #include "record/run_record.h"
-#include "record/series_csv.h"
+#include "record/csv/series.h"
 
 // Features whose data are series, not touches: how the plan of each is checked and where its data
 // come from. README.md says how to add one.

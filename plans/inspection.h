@@ -15,7 +15,7 @@
 #include "plans/runner.h"
 #include "plans/sampling.h"
 #include "plans/travel.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 
 namespace rondure::plans {
 

@@ -11,7 +11,7 @@
 #include "plans/analysis.h"
 #include "plans/calibration_use.h"
 #include "plans/json_text.h"
-#include "record/archive_place.h"
+#include "record/archive/place.h"
 
 namespace rondure::plans {
 namespace {

@@ -15,7 +15,7 @@
 #include "plans/rotary_poses.h"
 #include "plans/run_head.h"
 #include "plans/table_reader.h"
-#include "record/points_csv.h"
+#include "record/csv/points.h"
 
 namespace rondure::plans {
 namespace {

@@ -5,7 +5,7 @@
 #include "plans/json_text.h"
 #include "plans/plan_checks.h"
 #include "plans/series_file.h"
-#include "record/points_csv.h"
+#include "record/csv/points.h"
 
 namespace rondure::plans {
 

@@ -14,7 +14,7 @@
 #include "plans/plan_reach.h"
 #include "plans/qualification.h"
 #include "plans/run_head.h"
-#include "record/points_csv.h"
+#include "record/csv/points.h"
 #include "record/sha256.h"
 
 namespace rondure::plans {

@@ -14,7 +14,7 @@
 #include "core/result.h"
 #include "plans/plan.h"
 #include "record/growing_record.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 
 namespace rondure::plans {
 

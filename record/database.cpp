@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
-#include "record/canonical.h"
+#include "record/journal/canonical.h"
 #include "record/files.h"
 
 namespace rondure::record {

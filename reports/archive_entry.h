@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "record/archive.h"
+#include "record/archive/archive.h"
 #include "reports/evaluation.h"
 
 namespace rondure::reports {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "record/archive.h"
+#include "record/archive/archive.h"
 #include "record/run_record.h"
 #include "reports/evaluation.h"
 #include "reports/run_chart.h"

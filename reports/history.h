@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "record/archive.h"
+#include "record/archive/archive.h"
 #include "reports/run_chart.h"
 
 namespace rondure::reports {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "record/archive.h"
+#include "record/archive/archive.h"
 #include "reports/capability.h"
 
 namespace rondure::reports {

@@ -7,7 +7,7 @@
 #include "core/version.h"
 #include "record/checksums.h"
 #include "record/files.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "record/sha256.h"
 #include "record/signature.h"
 #include "reports/compare_text.h"

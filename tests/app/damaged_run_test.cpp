@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/noise.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/app/program.h"
 
 namespace rondure::app::testing {

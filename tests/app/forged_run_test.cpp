@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 #include "tests/record/meddle.h"

@@ -16,7 +16,7 @@
 #include "fit/least_squares/cylinder.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
-#include "record/points_csv.h"
+#include "record/csv/points.h"
 
 namespace rondure::fit {
 namespace {

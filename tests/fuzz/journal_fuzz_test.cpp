@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "plans/record_check.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "reports/defect.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"

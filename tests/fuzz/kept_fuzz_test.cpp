@@ -8,9 +8,9 @@
 
 #include "app/verbs.h"
 #include "fixture/calibration.h"
-#include "record/archive.h"
+#include "record/archive/archive.h"
 #include "record/checksums.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "reports/earlier_results.h"
 #include "reports/history.h"
 #include "reports/text.h"

@@ -9,13 +9,13 @@
 #include <soci/sqlite3/soci-sqlite3.h>
 #include <nlohmann/json.hpp>
 
-#include "record/chain.h"
+#include "record/journal/chain.h"
 #include "record/checksums.h"
 #include "record/database.h"
 #include "record/files.h"
-#include "record/journal.h"
-#include "record/journal_schema.h"
-#include "record/journal_seal.h"
+#include "record/journal/journal.h"
+#include "record/journal/schema.h"
+#include "record/journal/seal.h"
 #include "record/sha256.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"

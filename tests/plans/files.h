@@ -12,8 +12,8 @@
 #include "core/error.h"
 #include "plans/plan.h"
 #include "plans/runner.h"
-#include "record/journal.h"
-#include "record/points_csv.h"
+#include "record/journal/journal.h"
+#include "record/csv/points.h"
 
 namespace rondure::plans::testing {
 

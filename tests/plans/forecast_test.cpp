@@ -9,7 +9,7 @@
 #include "fit/least_squares/cylinder.h"
 #include "plans/forecast_picture.h"
 #include "plans/runner.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"
 

@@ -14,7 +14,7 @@
 #include "fit/references/min_zone_cylinder.h"
 #include "plans/hidden_errors.h"
 #include "plans/runner.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 
 namespace rondure::test {
 namespace {

@@ -10,7 +10,7 @@
 #include "plans/plan_reach.h"
 #include "plans/pose_grid.h"
 #include "plans/runner.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"
 

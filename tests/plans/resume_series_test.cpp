@@ -8,7 +8,7 @@
 
 #include "plans/run_head.h"
 #include "plans/runner.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"
 

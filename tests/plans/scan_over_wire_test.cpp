@@ -22,7 +22,7 @@
 #include "plans/cell.h"
 #include "plans/runner.h"
 #include "plans/served_cell.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "reports/declared.h"
 #include "reports/evaluation.h"
 #include "tests/plans/files.h"

@@ -11,7 +11,7 @@
 #include "core/units.h"
 #include "plans/runner.h"
 #include "random_inspection.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {

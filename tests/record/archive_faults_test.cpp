@@ -10,9 +10,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "record/archive_queue.h"
+#include "record/archive/queue.h"
 #include "record/files.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/record/archive_samples.h"
 #include "tests/record/meddle.h"
 

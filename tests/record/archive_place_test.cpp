@@ -1,9 +1,9 @@
-#include "record/archive_place.h"
+#include "record/archive/place.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "record/server_url.h"
+#include "record/archive/server_url.h"
 
 namespace rondure::record {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "record/archive.h"
+#include "record/archive/archive.h"
 #include "tests/record/postgres_server.h"
 #include "tests/record/sample_run.h"
 

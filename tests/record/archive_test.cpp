@@ -1,4 +1,4 @@
-#include "record/archive.h"
+#include "record/archive/archive.h"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "record/archive_schema.h"
+#include "record/archive/schema.h"
 #include "record/files.h"
 #include "tests/record/archive_samples.h"
 

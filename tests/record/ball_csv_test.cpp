@@ -1,5 +1,5 @@
 // Tables of measured balls for the calibration of rotary axes.
-#include "record/ball_csv.h"
+#include "record/csv/balls.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

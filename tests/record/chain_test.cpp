@@ -10,7 +10,7 @@
 
 #include "core/noise.h"
 #include "record/files.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/record/meddle.h"
 #include "tests/record/sample_run.h"
 

@@ -6,8 +6,8 @@
 
 #include "record/checksums.h"
 #include "record/files.h"
-#include "record/journal.h"
-#include "record/unborn_run.h"
+#include "record/journal/journal.h"
+#include "record/journal/unborn_run.h"
 #include "tests/record/meddle.h"
 #include "tests/record/sample_run.h"
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::record {

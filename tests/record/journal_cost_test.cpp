@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::record {

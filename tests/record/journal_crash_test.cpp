@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "core/noise.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::record {

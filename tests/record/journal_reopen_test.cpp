@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "record/files.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::record {

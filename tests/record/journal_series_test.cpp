@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/record/meddle.h"
 #include "tests/record/sample_run.h"
 

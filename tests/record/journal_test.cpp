@@ -1,4 +1,4 @@
-#include "record/journal.h"
+#include "record/journal/journal.h"
 
 #include <fstream>
 #include <limits>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "record/files.h"
-#include "record/journal_schema.h"
+#include "record/journal/schema.h"
 #include "record/sha256.h"
 #include "tests/record/sample_run.h"
 

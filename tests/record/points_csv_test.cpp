@@ -1,4 +1,4 @@
-#include "record/points_csv.h"
+#include "record/csv/points.h"
 
 #include <bit>
 #include <charconv>

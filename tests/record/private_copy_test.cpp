@@ -1,4 +1,4 @@
-#include "record/private_copy.h"
+#include "record/journal/private_copy.h"
 
 #include <array>
 #include <csignal>
@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "record/files.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::record {

@@ -11,8 +11,8 @@
 #include <unistd.h>
 
 #include "record/files.h"
-#include "record/journal.h"
-#include "record/unborn_run.h"
+#include "record/journal/journal.h"
+#include "record/journal/unborn_run.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::record {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "record/run_record.h"
 
 namespace rondure::record {

@@ -1,5 +1,5 @@
 // Tables of numbers with named columns.
-#include "record/series_csv.h"
+#include "record/csv/series.h"
 
 #include <array>
 

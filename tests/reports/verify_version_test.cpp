@@ -8,7 +8,7 @@
 #include "core/version.h"
 #include "record/checksums.h"
 #include "record/files.h"
-#include "record/journal.h"
+#include "record/journal/journal.h"
 #include "record/sha256.h"
 #include "reports/exports.h"
 #include "reports/verify.h"

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "record/archive/place.h"
+
+namespace rondure::record {
+
+/// Counts changes of the archive's tables (docs/archive.md).
+inline constexpr int kArchiveVersion = 1;
+
+/// Who measured what with what: the part of a run that all its results share.
+struct ArchiveHead {
+  std::string journal_sha256;  ///< Of the bytes of the sealed journal.db: the key of a run.
+  std::string run_id;
+  std::string started_utc;  ///< "2026-11-21T02:33:02Z".
+  std::string part_id;
+  std::string part_name;
+  std::string serial;
+  std::string operator_name;
+  std::string machine;
+  std::string fixture;
+  bool simulated = false;
+  std::string plan_name;
+  std::string plan_revision;
+  std::string plan_sha256;
+  std::string version;  ///< core::kVersion that measured.
+};
+
+/// The result of one characteristic.
+struct ArchiveResult {
+  std::string feature;
+  std::string characteristic;
+  std::string symbol;                 ///< "CYLt", "RONt".
+  std::string reference;              ///< "MZCY", "LSCI", ...
+  std::string filter;                 ///< "unfiltered".
+  std::string sampling;               ///< "4 x 7 points; mean of 5 touches a point".
+  std::optional<double> value;        ///< In `unit`; nothing when it could not be evaluated.
+  std::optional<double> upper_limit;  ///< In `unit`; nothing when it is not toleranced.
+  std::string unit = "mm";
+  std::string verdict;  ///< "conforms", "does not conform", "undecided", "void", "not toleranced".
+  std::string certificate;  ///< "global", "local", "none" of the reference.
+};
+
+/// A finished run on its way to the archive.
+struct ArchiveRun {
+  ArchiveHead head;
+  std::vector<ArchiveResult> results;
+};
+
+/// A result that came back from the archive.
+struct ArchivedResult {
+  ArchiveHead head;
+  ArchiveResult result;
+  std::int64_t time_s = 0;  ///< Start of the run, seconds since 1970.
+  std::int64_t run = 0;     ///< Number of the run in this archive.
+  int number = 0;           ///< Of the result in its run, from 0.
+};
+
+/// Which results are wanted; what is not given does not matter.
+struct ArchiveFilter {
+  std::optional<std::string> part = {};
+  std::optional<std::string> feature = {};
+  std::optional<std::string> characteristic = {};
+  std::optional<std::string> machine = {};
+  std::optional<std::string> operator_name = {};
+  std::optional<std::string> serial = {};
+  std::optional<std::string> verdict = {};
+  std::optional<std::int64_t> since_s = {};  ///< Started then or later.
+  std::optional<std::int64_t> until_s = {};  ///< Started then or earlier.
+};
+
+/// Results of finished runs, in a file of SQLite or on a PostgreSQL server. Several programs may
+/// use one archive at a time. Every call can fail with kArchive (server gone, file read-only, disk
+/// full): what could not be written is not there in part.
+class Archive {
+ public:
+  enum class Access { kRead, kWrite };
+
+  /// Opens an archive; kWrite makes its tables where there are none. Gives up on a server that
+  /// does not answer after 5 s. kFile when there is no archive, something else is in its place, or
+  /// its tables are of another version; kArchive when it cannot be reached.
+  [[nodiscard]] static core::Result<Archive> open(const ArchivePlace& place, Access access);
+
+  Archive(Archive&&) noexcept;
+  Archive& operator=(Archive&&) noexcept;
+  ~Archive();
+
+  /// Adds a run with all its results, in one transaction. A run that is there already (same
+  /// journal_sha256) stays as it is.
+  /// @return Whether it was new. kBadOption for a time that is not UTC.
+  [[nodiscard]] core::Result<bool> push(const ArchiveRun& run);
+
+  /// The newest results that pass the filter, newest first, at most `count`.
+  /// @param before  Only results older than this one: goes on behind an earlier answer.
+  [[nodiscard]] core::Result<std::vector<ArchivedResult>> newest(
+      const ArchiveFilter& filter, std::size_t count, const ArchivedResult* before = nullptr);
+
+ private:
+  struct Impl;
+  explicit Archive(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Seconds since 1970 of "2026-11-21T02:33:02Z", or of "2026-11-21" (its first second); nothing for
+/// any other text or a day that does not exist.
+[[nodiscard]] std::optional<std::int64_t> seconds_of_utc(std::string_view text);
+
+}  // namespace rondure::record

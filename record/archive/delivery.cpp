@@ -1,0 +1,133 @@
+#include <chrono>
+#include <system_error>
+#include <thread>
+
+#include "record/archive/queue.h"
+
+namespace rondure::record {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The time and the patience of one delivery.
+class Patience {
+ public:
+  explicit Patience(const DeliveryOptions& options) : options_(options) {}
+
+  [[nodiscard]] bool ended() const {
+    const std::chrono::duration<double> passed = Clock::now() - start_;
+    return passed.count() > options_.give_up_after_s ||
+           (options_.stop_requested && options_.stop_requested());
+  }
+  /// Waits before attempt `number` (from 0); false when no further one is due.
+  [[nodiscard]] bool allows(int number) const {
+    if (number == 0) return true;
+    if (number >= options_.attempts || ended()) return false;
+    std::this_thread::sleep_for(std::chrono::duration<double>(options_.pause_s) *
+                                (1 << (number - 1)));
+    return !ended();
+  }
+
+ private:
+  const DeliveryOptions& options_;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// An archive that is opened again after a fault.
+class Receiver {
+ public:
+  Receiver(const ArchivePlace& place, const Patience& patience)
+      : place_(place), patience_(patience) {}
+
+  core::Result<bool> push(const ArchiveRun& run) {
+    core::Result<bool> pushed = false;
+    for (int attempt = 0; patience_.allows(attempt); ++attempt) {
+      pushed = push_once(run);
+      // Only what may pass by itself is worth another attempt.
+      if (pushed || pushed.error().code != core::Code::kArchive) return pushed;
+      archive_.reset();
+    }
+    return pushed;
+  }
+
+ private:
+  core::Result<bool> push_once(const ArchiveRun& run) {
+    if (!archive_) {
+      auto opened = Archive::open(place_, Archive::Access::kWrite);
+      if (!opened) return core::fail(opened.error());
+      archive_.emplace(std::move(*opened));
+    }
+    return archive_->push(run);
+  }
+
+  const ArchivePlace& place_;
+  const Patience& patience_;
+  std::optional<Archive> archive_;
+};
+
+void count(Delivery& delivery, const ArchiveRun& run, bool added) {
+  if (!added) return;
+  ++delivery.sent;
+  delivery.results += run.results.size();
+}
+
+core::Result<void> send_queue(ArchiveQueue& queue, const std::string& target, Receiver& receiver,
+                              const Patience& patience, Delivery& delivery) {
+  while (!delivery.failure && !patience.ended()) {
+    const auto waiting = queue.first(target);
+    if (!waiting) return core::fail(waiting.error());
+    if (!*waiting) return {};
+    const auto pushed = receiver.push(**waiting);
+    if (!pushed) {
+      delivery.failure = pushed.error();
+      return {};
+    }
+    count(delivery, **waiting, *pushed);
+    if (auto removed = queue.remove(target, **waiting); !removed) return removed;
+  }
+  return {};
+}
+
+core::Result<void> use_queue(const std::filesystem::path& file, const std::string& target,
+                             const ArchiveRun* left, Receiver& receiver, const Patience& patience,
+                             Delivery& delivery) {
+  auto queue = ArchiveQueue::open(file);
+  if (!queue) return core::fail(queue.error());
+  if (left != nullptr) {
+    if (auto added = queue->add(target, *left); !added) return added;
+  } else if (auto sent = send_queue(*queue, target, receiver, patience, delivery); !sent) {
+    return sent;
+  }
+  const auto waiting = queue->size(target);
+  if (!waiting) return core::fail(waiting.error());
+  delivery.waiting = *waiting;
+  return {};
+}
+
+}  // namespace
+
+Delivery deliver(const ArchivePlace& place, const std::filesystem::path& queue_file,
+                 const ArchiveRun* run, const DeliveryOptions& options) {
+  Delivery delivery;
+  const Patience patience(options);
+  Receiver receiver(place, patience);
+  const ArchiveRun* left = nullptr;
+  if (run != nullptr) {
+    if (const auto pushed = receiver.push(*run)) {
+      count(delivery, *run, *pushed);
+      delivery.known = !*pushed;
+    } else {
+      delivery.failure = pushed.error();
+      if (pushed.error().code == core::Code::kBadOption)
+        return delivery;  // no archive will take it
+      left = run;
+    }
+  }
+  std::error_code unknown;
+  if (left == nullptr && !std::filesystem::exists(queue_file, unknown)) return delivery;
+  auto queued = use_queue(queue_file, place.key, left, receiver, patience, delivery);
+  if (!queued) delivery.queue_failure = queued.error();
+  return delivery;
+}
+
+}  // namespace rondure::record

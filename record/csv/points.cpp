@@ -1,0 +1,266 @@
+#include "record/csv/points.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/numbers.h"
+#include "record/csv/lines.h"
+
+namespace rondure::record {
+namespace {
+
+/// Columns that belong together, and the unit of each.
+struct ColumnSet {
+  std::array<std::string_view, 3> names;
+  std::array<std::string_view, 3> units;
+  std::size_t required;  ///< The first so many must be there.
+};
+constexpr ColumnSet kPoints = {{"x", "y", "z"}, {"mm", "mm", "mm"}, 2};
+constexpr ColumnSet kSection = {{"x", "y", ""}, {"mm", "mm", ""}, 2};
+constexpr ColumnSet kPolar = {{"theta_deg", "r_um", ""}, {"deg", "um", ""}, 2};
+
+/// What a kind of file may hold.
+struct Format {
+  std::array<ColumnSet, 2> sets;
+  std::string_view columns;  ///< As a message names them.
+  std::string_view units;
+};
+constexpr Format kPointFormat = {{kPoints, kPoints}, "x,y or x,y,z", " (mm)"};
+constexpr Format kProfileFormat = {{kPolar, kSection}, "theta_deg,r_um or x,y", " (mm)"};
+
+/// The columns of a file: fields[i] is the place in the set of field i.
+struct Columns {
+  ColumnSet set;
+  std::array<std::size_t, 3> fields{};
+  std::size_t count = 0;
+
+  [[nodiscard]] std::string_view name(std::size_t i) const { return set.names[fields[i]]; }
+  [[nodiscard]] std::string_view unit(std::size_t i) const { return set.units[fields[i]]; }
+};
+
+std::optional<std::size_t> place_of(std::string_view field, const ColumnSet& set) {
+  for (std::size_t i = 0; i < set.names.size(); ++i) {
+    if (!field.empty() && field == set.names[i]) return i;
+  }
+  return std::nullopt;
+}
+
+core::Result<Columns> read_header(std::string_view line, const Format& format) {
+  if (auto foreign = foreign_format(line)) return core::fail(*std::move(foreign));
+  const auto names = split_fields(line);
+  Columns columns;
+  columns.set = place_of(names.front(), format.sets[0]) ? format.sets[0] : format.sets[1];
+  std::array<bool, 3> seen{};
+  for (const std::string_view field : names) {
+    const auto place = place_of(field, columns.set);
+    if (!place) {
+      return core::fail(core::Code::kSyntax,
+                        fmt::format("column {} is unknown; the first line must name the columns "
+                                    "{}{}",
+                                    quoted_text(field), format.columns, format.units));
+    }
+    if (std::exchange(seen[*place], true)) {
+      return core::fail(core::Code::kSyntax,
+                        fmt::format("column {} stands twice; the columns are {}, each once",
+                                    quoted_text(field), format.columns));
+    }
+    columns.fields[columns.count++] = *place;
+  }
+  for (std::size_t i = 0; i < columns.set.required; ++i) {
+    if (seen[i]) continue;
+    return core::fail(
+        core::Code::kSyntax,
+        fmt::format("column \"{}\" is missing in {}; the columns are {}{}", columns.set.names[i],
+                    quoted_text(line), format.columns, format.units));
+  }
+  return columns;
+}
+
+/// Reads a number as std::from_chars does, to the same bits. Up to 19 digits without an exponent
+/// that make an integer a double holds, over a power of ten a double holds: one division rounds
+/// correctly (Clinger's case), in a third of the time. Everything else is left to from_chars.
+std::from_chars_result read_number(const char* at, const char* end, double& value) {
+  static constexpr std::array<double, 20> kPowers = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
+                                                     1e7,  1e8,  1e9,  1e10, 1e11, 1e12, 1e13,
+                                                     1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
+  constexpr std::uint64_t kExact = std::uint64_t{1} << 53;
+  const char* next = at;
+  const bool negative = next != end && *next == '-';
+  if (negative) ++next;
+  std::uint64_t digits = 0;
+  const char* const first = next;
+  const auto take_digits = [&] {
+    while (next != end && static_cast<unsigned char>(*next - '0') < 10) {
+      digits = 10 * digits + static_cast<unsigned char>(*next++ - '0');
+    }
+  };
+  take_digits();
+  auto count = next - first;
+  std::ptrdiff_t decimals = 0;
+  if (next != end && *next == '.') {
+    const char* const point = ++next;
+    take_digits();
+    decimals = next - point;
+    count += decimals;
+  }
+  // 19 digits cannot overflow the integer; `digits` of more is never looked at.
+  if (count == 0 || count > 19 || digits > kExact || next == end || *next == 'e' || *next == 'E') {
+    return std::from_chars(at, end, value);
+  }
+  const double size = static_cast<double>(digits) / kPowers[static_cast<std::size_t>(decimals)];
+  value = negative ? -size : size;
+  return {next, std::errc()};
+}
+
+/// Reads the row at the start of `text` where it holds nothing but numbers, commas, single blanks
+/// before numbers and the end of the line: nearly every row.
+/// @return Bytes of the row with its end; 0 for any other row, which read_row() must look at.
+std::size_t read_plain_row(std::string_view text, const Columns& columns,
+                           Eigen::Vector3d& point_mm) {
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t i = 0; i < columns.count; ++i) {
+    if (i > 0 && (at == end || *at++ != ',')) return 0;
+    if (at != end && *at == ' ') ++at;
+    double& value = point_mm[static_cast<Eigen::Index>(columns.fields[i])];
+    const auto [stop, problem] = read_number(at, end, value);
+    if (problem != std::errc() || !core::is_measurable(value)) return 0;
+    at = stop;
+  }
+  if (at != end && *at == '\r') ++at;
+  if (at == end || *at != '\n') return 0;
+  return static_cast<std::size_t>(at + 1 - text.data());
+}
+
+/// Reads one row; false when anything is wrong with it: explain() then says what.
+bool read_row(std::string_view line, const Columns& columns, Eigen::Vector3d& point_mm) {
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  const auto skip_blanks = [&] {
+    while (at != end && (*at == ' ' || *at == '\t')) ++at;
+  };
+  for (std::size_t i = 0; i < columns.count; ++i) {
+    if (i > 0 && (at == end || *at++ != ',')) return false;
+    skip_blanks();
+    if (at != end && *at == '+') {  // from_chars knows no plus sign
+      ++at;
+      if (at != end && *at == '-') return false;
+    }
+    double& value = point_mm[static_cast<Eigen::Index>(columns.fields[i])];
+    const auto [stop, problem] = std::from_chars(at, end, value);
+    if (problem != std::errc() || !core::is_measurable(value)) return false;
+    at = stop;
+    skip_blanks();
+  }
+  return at == end;
+}
+
+/// Why read_row() refused a row.
+core::Error explain(std::string_view line, const Columns& columns) {
+  if (auto foreign = foreign_format(line)) return *std::move(foreign);
+  const auto fields = split_fields(line);
+  std::string names;
+  for (std::size_t i = 0; i < columns.count; ++i) {
+    if (i > 0) names += ',';
+    names += columns.name(i);
+  }
+  if (fields.size() != columns.count) {
+    return syntax_error(fmt::format(
+        "{} field{} in {}, {} expected ({}){}", fields.size(), fields.size() == 1 ? "" : "s",
+        quoted_text(line), columns.count, names,
+        fields.size() == 2 * columns.count ? "; write decimals with a point, not a comma" : ""));
+  }
+  for (std::size_t i = 0; i < columns.count; ++i) {
+    if (auto error = explain_field(fields[i], columns.name(i), columns.unit(i)))
+      return *std::move(error);
+  }
+  return syntax_error(
+      fmt::format("{} cannot be read; numbers for {} are expected", quoted_text(line), names));
+}
+
+/// Reads a whole file: `begin(columns)` once, then `row(values, rows to come)` for each
+/// row; rows to come is an estimate at the first row and 0 after it.
+template <class Begin, class Row>
+core::Result<void> parse(std::string_view text, std::string_view name, const Format& format,
+                         const Begin& begin, const Row& row) {
+  text = without_byte_order_mark(text);
+  CsvLines lines(text);
+  const auto here = [&] {
+    return fmt::format("{}:{}", name, std::max<std::size_t>(lines.number(), 1));
+  };
+  if (is_utf16(text)) {
+    return core::fail(core::Code::kSyntax, "the file is saved as UTF-16; save it as UTF-8", here());
+  }
+  auto line = lines.next();
+  while (line && holds_nothing(*line)) line = lines.next();
+  if (!line) {
+    return core::fail(core::Code::kNoPoints,
+                      fmt::format("the file {}; a header line {} and a row a point are expected",
+                                  text.empty() ? "is empty" : "holds only comments and blank lines",
+                                  format.columns),
+                      here());
+  }
+  const auto columns = read_header(*line, format);
+  if (!columns) return core::fail(columns.error().at(here()));
+  begin(*columns);
+  Eigen::Vector3d values = Eigen::Vector3d::Zero();
+  bool any = false;
+  while (lines.bytes_left() > 0) {
+    std::size_t bytes = read_plain_row(lines.rest(), *columns, values);
+    if (bytes > 0) {
+      lines.pass(bytes);
+    } else {
+      line = lines.next();
+      if (holds_nothing(*line)) continue;
+      if (!read_row(*line, *columns, values)) {
+        return core::fail(explain(*line, *columns).at(here()));
+      }
+      bytes = line->size() + 1;
+    }
+    // Rows are about as long as the first.
+    const std::size_t rows_to_come = any ? 0 : lines.bytes_left() / bytes + 1;
+    any = true;
+    row(values, rows_to_come);
+  }
+  if (any) return {};
+  return core::fail(core::Code::kNoPoints,
+                    "the file holds a header line and no points; a row a point is expected",
+                    here());
+}
+
+}  // namespace
+
+core::Result<PointTable> parse_points_csv(std::string_view text, std::string_view name) {
+  PointTable table;
+  const auto parsed = parse(
+      text, name, kPointFormat,
+      [&](const Columns& columns) { table.dimensions = static_cast<int>(columns.count); },
+      [&](const Eigen::Vector3d& values, std::size_t rows_to_come) {
+        if (rows_to_come > 0) table.points_mm.reserve(rows_to_come);
+        table.points_mm.push_back(values);
+      });
+  if (!parsed) return core::fail(parsed.error());
+  return table;
+}
+
+core::Result<ProfileTable> parse_profile_csv(std::string_view text, std::string_view name) {
+  ProfileTable table;
+  const auto parsed = parse(
+      text, name, kProfileFormat,
+      [&](const Columns& columns) { table.polar = columns.set.names[0] == kPolar.names[0]; },
+      [&](const Eigen::Vector3d& values, std::size_t rows_to_come) {
+        if (rows_to_come > 0) table.rows.reserve(rows_to_come);
+        table.rows.emplace_back(values.head<2>());
+      });
+  if (!parsed) return core::fail(parsed.error());
+  return table;
+}
+
+}  // namespace rondure::record

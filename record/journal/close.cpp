@@ -1,0 +1,76 @@
+#include <algorithm>
+
+#include "record/checksums.h"
+#include "record/files.h"
+#include "record/journal/impl.h"
+#include "record/journal/seal.h"
+#include "record/sha256.h"
+
+namespace rondure::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Puts the digest of the closed journal into the list beside it.
+core::Result<void> list_digest(const fs::path& file) {
+  const auto bytes = read_file(file);
+  if (!bytes) return core::fail(bytes.error());
+  return update_checksums(file.parent_path(), {{kJournalName, sha256_hex(*bytes)}});
+}
+
+}  // namespace
+
+core::Result<void> Journal::seal(std::span<const StoredResult> results) {
+  Impl& impl = *impl_;
+  if (impl.state == Impl::State::kOpen) {
+    auto written = impl.write("the seal", [&] {
+      insert_results(impl.sql, *impl.chain, results);
+      insert_seal(impl.sql);
+    });
+    if (!written) return written;
+    impl.state = Impl::State::kDigested;
+  }
+  if (impl.state == Impl::State::kClosed) {
+    return impl.failure("the seal", "it stands there already");
+  }
+  if (impl.state == Impl::State::kDigested) {
+    if (auto folded = impl.fold(); !folded) return folded;
+  }
+  auto listed = list_digest(impl.file);
+  if (listed) impl.state = Impl::State::kClosed;
+  return listed;
+}
+
+core::Result<void> Journal::finish_seal(const fs::path& directory) {
+  const fs::path file = fs::absolute(directory) / kJournalName;
+  std::error_code ignored;
+  if (fs::exists(directory / kChecksumsName, ignored)) {
+    const auto listed = read_checksums(directory);
+    if (!listed) return core::fail(listed.error());
+    const bool known = std::any_of(listed->begin(), listed->end(),
+                                   [](const Checksum& line) { return line.file == kJournalName; });
+    if (known) return {};
+  }
+  const auto connection = connection_string(file);
+  if (!connection) return core::fail(connection.error());
+  std::optional<soci::session> sql;
+  try {
+    sql.emplace(soci::sqlite3, *connection);
+    distrust(*sql);
+    int tables = 0;  // reading takes back a change of the mode that was not finished
+    *sql << "select count(*) from sqlite_schema", soci::into(tables);
+    fold_log(*sql);
+    leave_log(*sql);
+  } catch (const std::exception& exception) {
+    return core::fail(core::Code::kJournal,
+                      fmt::format("the log of {} cannot be folded: {}", file.string(),
+                                  reason_of(exception, sql ? &*sql : nullptr)),
+                      file.string());
+  }
+  sql.reset();
+  // Of a death in leave_log(): SQLite took back or has finished what it held, and leaves the file.
+  fs::remove(file.string() + "-journal", ignored);
+  return list_digest(file);
+}
+
+}  // namespace rondure::record

@@ -1,0 +1,115 @@
+#include <utility>
+
+#include "record/checksums.h"
+#include "record/files.h"
+#include "record/journal/impl.h"
+#include "record/journal/place.h"
+#include "record/journal/schema.h"
+
+namespace rondure::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Why a journal takes nothing more, or empty.
+std::string why_not_to_go_on(const ReadJournal& journal) {
+  if (journal.record.sealed) return "the run is finished and its journal is sealed";
+  if (journal.listed) {
+    return fmt::format(
+        "{} names {}, as of a run that is finished; take its line out if the run "
+        "was interrupted",
+        kChecksumsName, kJournalName);
+  }
+  if (journal.version != kSchemaVersion) {
+    return fmt::format(
+        "its tables have version {}, a run goes on in version {} only; start a new "
+        "run",
+        journal.version, kSchemaVersion);
+  }
+  if (journal.broken.empty()) return {};
+  return fmt::format("table {} of its journal was changed: {}; start a new run",
+                     journal.broken.front().table, journal.broken.front().what);
+}
+
+}  // namespace
+
+core::Result<Journal> Journal::create(const fs::path& directory, const Header& header,
+                                      const Artefact& artefact, std::span<const Feature> features,
+                                      std::span<const Setting> settings) {
+  fs::path folder = fs::absolute(directory);
+  if (!folder.has_filename()) folder = folder.parent_path();  // "runs/1/" is "runs/1"
+  const fs::path file = folder / kJournalName;
+  const auto connection = connection_string(file);
+  if (!connection) return core::fail(connection.error());
+
+  Undo undo;
+  auto lock = lock_new_directory(folder, undo);
+  if (!lock) return core::fail(lock.error());
+  if (auto made = make_empty_journal(file, undo); !made) return core::fail(made.error());
+  std::unique_ptr<Impl> impl;  // after `undo`: closes the file before it is removed
+  try {
+    impl = std::make_unique<Impl>(std::move(*lock), file, *connection);
+    keep_log(impl->sql);
+    insert_head(impl->sql, header, artefact, features, settings);
+    fold_log(impl->sql);
+    impl->prepare();
+    impl->header = header;
+  } catch (const std::exception& exception) {
+    return core::fail(core::Code::kJournal,
+                      fmt::format("the journal {} cannot be made: {}", file.string(),
+                                  reason_of(exception, impl ? &impl->sql : nullptr)));
+  }
+  if (auto synced = sync_names(undo); !synced) return core::fail(synced.error());
+  undo.made.clear();
+  return Journal(std::move(impl));
+}
+
+core::Result<Journal> Journal::reopen(const fs::path& directory) {
+  const fs::path file = fs::absolute(directory) / kJournalName;
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return core::fail(read_journal(directory).error());
+  auto lock = RunLock::take(directory);
+  if (!lock) return core::fail(lock.error());
+  const auto found = read_journal(directory);
+  if (!found) return core::fail(found.error());
+  if (const std::string reason = why_not_to_go_on(*found); !reason.empty()) {
+    return core::fail(core::Code::kJournal,
+                      fmt::format("the run cannot go on in {}: {}", file.string(), reason),
+                      file.string());
+  }
+  if (fs::is_symlink(file, ignored)) {  // SQLite keeps the log beside what it leads to
+    return core::fail(
+        core::Code::kFile,
+        fmt::format("{} is a link; a run goes on only where its journal stands", file.string()),
+        file.string());
+  }
+  const auto connection = connection_string(file);
+  if (!connection) return core::fail(connection.error());
+  remove_temporaries(directory);
+  std::unique_ptr<Impl> impl;
+  try {
+    impl = std::make_unique<Impl>(std::move(*lock), file, *connection);
+    int timeout_ms = 0;
+    impl->sql << "pragma busy_timeout = 0", soci::into(timeout_ms);  // a run holds it for hours
+    keep_log(impl->sql);
+    require_schema(impl->sql, kSchemaVersion);  // of the file itself, now that it is ours alone
+    impl->prepare();
+  } catch (const std::exception& exception) {
+    return core::fail(core::Code::kJournal,
+                      fmt::format("the journal {} cannot be opened again: {}", file.string(),
+                                  reason_of(exception, impl ? &impl->sql : nullptr)),
+                      file.string());
+  }
+  impl->header = found->record.header;
+  for (const PoseVisit& pose : found->record.poses) impl->poses.emplace(pose.id, pose);
+  for (const Touch& touch : found->record.touches) impl->keep(touch);
+  if (!found->record.ending.empty()) {
+    if (auto cleared = impl->write("that the run goes on", [&] { impl->clear_ending(); });
+        !cleared) {
+      return core::fail(cleared.error());
+    }
+  }
+  return Journal(std::move(impl));
+}
+
+}  // namespace rondure::record

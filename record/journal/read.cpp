@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <cerrno>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <soci/soci.h>
+#include <soci/sqlite3/soci-sqlite3.h>
+
+#include "record/journal/canonical.h"
+#include "record/checksums.h"
+#include "record/database.h"
+#include "record/files.h"
+#include "record/journal/damage.h"
+#include "record/journal/reader.h"
+#include "record/journal/schema.h"
+#include "record/journal/seal.h"
+#include "record/journal/private_copy.h"
+#include "record/sha256.h"
+
+namespace rondure::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_damage(const std::exception& exception) {
+  const auto* error = dynamic_cast<const soci::sqlite3_soci_error*>(&exception);
+  return (error != nullptr && (error->result() & 0xff) == SQLITE_CORRUPT) ||
+         dynamic_cast<const Damage*>(&exception) != nullptr;
+}
+
+constexpr const char* kCopyAgain =
+    "copy the run directory again from where it was measured, or from a backup";
+
+std::string advice_after(const std::string& loss) {
+  return fmt::format("{}{}; {}", loss.empty() ? "" : "; ", loss, kCopyAgain);
+}
+
+/// Whether nothing of a journal is there but its name.
+bool holds_nothing(const fs::path& file) {
+  std::error_code absent;
+  const auto log = fs::file_size(file.string() + "-wal", absent);
+  return (absent || log == 0) && fs::file_size(file, absent) == 0 && !absent;
+}
+
+core::Result<void> require_file(const fs::path& directory, const fs::path& file) {
+  std::error_code problem;
+  const fs::file_status status = fs::status(file, problem);
+  const auto refuse = [&](std::string what) {
+    return core::fail(core::Code::kFile, std::move(what), file.string());
+  };
+  if (fs::is_regular_file(status) && holds_nothing(file)) {
+    return core::fail(
+        core::Code::kJournal,
+        fmt::format("the journal cannot be read: it is empty; a run that died as it began left it, "
+                    "then begin again, or its contents were lost, then {}",
+                    kCopyAgain),
+        file.string());
+  }
+  if (fs::is_regular_file(status)) return {};
+  const bool lost = fs::exists(directory / kChecksumsName, problem);
+  if (status.type() == fs::file_type::not_found && lost) {
+    return refuse(fmt::format("there is no {} in {}, but a {}: the journal of a run was lost; {}",
+                              kJournalName, directory.string(), kChecksumsName, kCopyAgain));
+  }
+  if (status.type() == fs::file_type::not_found) {
+    return refuse(fmt::format("there is no {} in {}; name the directory of a run", kJournalName,
+                              directory.string()));
+  }
+  if (fs::exists(status)) return refuse("the journal is not a file; name the directory of a run");
+  return refuse(fmt::format("the journal cannot be looked at: {}", system_reason(problem.value())));
+}
+
+using Logs = PrivateCopy::Logs;
+
+core::Result<ReadJournal> read_copy(const fs::path& file, Logs logs) {
+  const auto copy = PrivateCopy::of(file, logs);
+  if (!copy) return core::fail(copy.error());
+  const auto connection = connection_string(copy->file());
+  if (!connection) return core::fail(connection.error());
+  std::optional<soci::session> sql;
+  std::string reason;
+  try {
+    sql.emplace(soci::sqlite3, *connection);
+    distrust(*sql);
+    *sql << "pragma synchronous = off";  // the copy need not survive a power cut
+    return read_tables(*sql);
+  } catch (const std::exception& exception) {
+    reason = reason_of(exception, sql ? &*sql : nullptr);
+    if (is_damage(exception)) {
+      sql.reset();
+      reason += advice_after(loss_in_words(copy->file()));
+    }
+  }
+  return core::fail(core::Code::kJournal, fmt::format("the journal cannot be read: {}", reason),
+                    file.string());
+}
+
+/// The digest of the journal in SHA256SUMS, if that names it.
+std::optional<std::string> listed_digest(const fs::path& directory) {
+  const auto list = read_checksums(directory);
+  if (!list) return std::nullopt;
+  const auto line = std::find_if(list->begin(), list->end(),
+                                 [](const Checksum& c) { return c.file == kJournalName; });
+  return line == list->end() ? std::nullopt : std::optional(line->sha256);
+}
+
+bool has_digest(const fs::path& file, const std::string& sha256) {
+  const auto bytes = read_file(file);
+  return bytes && sha256_hex(*bytes) == sha256;
+}
+
+/// What `look` finds in a private copy; nothing when that cannot be opened or read.
+template <class Look>
+auto looked_up(const fs::path& file, Logs logs, const Look& look)
+    -> std::optional<std::invoke_result_t<Look, soci::session&>> {
+  const auto copy = PrivateCopy::of(file, logs);
+  const auto connection = copy ? connection_string(copy->file()) : core::fail(copy.error());
+  if (!connection) return std::nullopt;
+  try {
+    soci::session sql(soci::sqlite3, *connection);
+    distrust(sql);
+    return look(sql);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+/// The journal by itself, if it was closed: whole and sealed without any log.
+std::optional<ReadJournal> closed_journal(const fs::path& file) {
+  if (looked_up(file, Logs::kWithout, is_sealed) != true) return std::nullopt;
+  auto alone = read_copy(file, Logs::kWithout);
+  if (!alone || !alone->record.sealed || !alone->broken.empty()) return std::nullopt;
+  return *std::move(alone);
+}
+
+/// Whether the logs change anything: a run that died as it closed its journal may leave a log whose
+/// rows are in the file already.
+bool logs_change(const fs::path& file, std::int64_t version) {
+  const auto contents = [&](soci::session& sql) {
+    std::string digests = digest_of(sql, "sqlite_schema").sha256;
+    for (const Table& table : tables_of(version)) digests += digest_of(sql, table.name).sha256;
+    return digests;
+  };
+  const auto alone = looked_up(file, Logs::kWithout, contents);
+  return !alone || looked_up(file, Logs::kWith, contents) != alone;
+}
+
+}  // namespace
+
+core::Result<ReadJournal> read_journal(const fs::path& directory) {
+  const fs::path file = directory / kJournalName;
+  if (auto found = require_file(directory, file); !found) return core::fail(found.error());
+  const auto listed = listed_digest(directory);
+  const std::vector<std::string> logs = logs_beside(file);
+  if (!listed && !logs.empty()) {
+    if (auto closed = closed_journal(file)) {
+      if (logs_change(file, closed->version)) closed->beside = logs;
+      return *std::move(closed);
+    }
+  }
+  auto read = read_copy(file, listed ? Logs::kWithout : Logs::kWith);
+  if (read) {
+    read->listed = listed.has_value();
+    read->as_listed = !listed || has_digest(file, *listed);
+    if (listed) read->beside = logs;
+  }
+  return read;
+}
+
+std::vector<std::string> faults_of(const ReadJournal& journal) {
+  std::vector<std::string> out;
+  for (const BrokenTable& broken : journal.broken) {
+    out.push_back(fmt::format("table {} of the journal was changed after the run: {}", broken.table,
+                              broken.what));
+  }
+  if (!journal.as_listed) {
+    out.push_back(
+        fmt::format("{} is not the file that {} names: its bytes were changed after its "
+                    "run closed it",
+                    kJournalName, kChecksumsName));
+  }
+  for (const std::string& log : journal.beside) {
+    out.push_back(
+        fmt::format("{} stands beside the closed journal and would change what other "
+                    "programs find in it; it was not read: move it away",
+                    log));
+  }
+  return out;
+}
+
+}  // namespace rondure::record

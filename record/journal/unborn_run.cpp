@@ -1,0 +1,105 @@
+#include "record/journal/unborn_run.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <soci/soci.h>
+#include <soci/sqlite3/soci-sqlite3.h>
+
+#include "record/database.h"
+#include "record/files.h"
+#include "record/journal/journal.h"
+#include "record/journal/private_copy.h"
+#include "record/run_lock.h"
+
+namespace rondure::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Logs = PrivateCopy::Logs;
+
+/// Whether SQLite finds a database without tables behind the name; nothing when it finds no
+/// database at all, or a damaged one.
+core::Result<std::optional<bool>> holds_no_table(const fs::path& journal, Logs logs) {
+  const auto copy = PrivateCopy::of(journal, logs);
+  if (!copy) return core::fail(copy.error());
+  const auto connection = connection_string(copy->file());
+  if (!connection) return core::fail(connection.error());
+  try {
+    soci::session sql(soci::sqlite3, *connection);
+    distrust(sql);
+    int tables = 0;
+    long long application = 0;
+    sql << "select count(*) from sqlite_schema", soci::into(tables);
+    sql << "pragma application_id", soci::into(application);
+    return std::optional(tables == 0 && application == 0);
+  } catch (const std::exception&) {
+    return std::optional<bool>();
+  }
+}
+
+/// Whether a journal has no tables, once SQLite has finished its log. One that has them without its
+/// log is a journal, whatever a log beside it says.
+core::Result<bool> is_unborn(const fs::path& journal) {
+  const auto alone = holds_no_table(journal, Logs::kWithout);
+  if (!alone) return core::fail(alone.error());
+  if (!alone->value_or(true)) return false;
+  const auto whole = holds_no_table(journal, Logs::kWith);
+  if (!whole) return core::fail(whole.error());
+  return whole->value_or(false);  // a damaged one is for the reader of journals to judge
+}
+
+constexpr std::array kSuffixes = {"-shm", "-wal", "-journal", ""};  ///< Files of one journal.
+
+/// Whether a directory holds only what a run begins with. Beside reports or a list of digests an
+/// empty journal is one that lost its contents.
+bool holds_only_a_beginning(const fs::path& directory) {
+  std::error_code problem;
+  for (const auto& entry : fs::directory_iterator(directory, problem)) {
+    const std::string name = entry.path().filename().string();
+    const bool known = name == kLockName ||
+                       std::any_of(kSuffixes.begin(), kSuffixes.end(), [&](const char* suffix) {
+                         return name == std::string(kJournalName) + suffix;
+                       });
+    if (!known) return false;
+  }
+  return !problem;
+}
+
+}  // namespace
+
+core::Result<bool> clear_unborn_run(const fs::path& directory) {
+  const fs::path journal = directory / kJournalName;
+  std::error_code problem;
+  if (!fs::exists(directory, problem) && !problem) return true;
+  if (!fs::is_directory(directory, problem)) return false;
+  if (fs::is_empty(directory, problem) && !problem) return true;
+  if (problem) {
+    return core::fail(core::Code::kFile,
+                      fmt::format("the run directory {} cannot be looked at: {}",
+                                  directory.string(), system_reason(problem.value())),
+                      directory.string());
+  }
+  if (!holds_only_a_beginning(directory)) return false;
+  if (!fs::exists(journal, problem)) return true;
+  const auto lock = RunLock::take(directory);
+  if (!lock) return core::fail(lock.error());
+  auto unborn = is_unborn(journal);
+  if (!unborn || !*unborn) return unborn;
+  for (const char* suffix : kSuffixes) {
+    if (fs::remove(journal.string() + suffix, problem); problem) {
+      return core::fail(core::Code::kFile,
+                        fmt::format("the unfinished journal {} cannot be removed: {}",
+                                    journal.string(), system_reason(problem.value())),
+                        journal.string());
+    }
+  }
+  return true;
+}
+
+}  // namespace rondure::record
