@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ascii_probe.h"
-#include "cmm/mitutoyo_itn.h"
+#include "cmm/indicators/ascii_probe.h"
+#include "cmm/indicators/mitutoyo_itn.h"
 #include "wire/serial_port.h"
 #include "wire/usb.h"
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "cmm/displacement_probe.h"
+#include "cmm/indicators/displacement_probe.h"
 #include "core/result.h"
 
 namespace rondure::app {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "cmm/ipp_survey.h"
+#include "cmm/ipp_client/survey.h"
 
 namespace rondure::app {
 

@@ -14,8 +14,8 @@
 #include "app/ippdme_text.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
-#include "cmm/ipp_grammar.h"
-#include "cmm/ipp_survey.h"
+#include "cmm/ipp/grammar.h"
+#include "cmm/ipp_client/survey.h"
 #include "core/numbers.h"
 #include "wire/tcp_line.h"
 

@@ -9,7 +9,7 @@
 #include "app/step_prompt.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
-#include "cmm/displacement_probe.h"
+#include "cmm/indicators/displacement_probe.h"
 #include "core/numbers.h"
 #include "core/units.h"
 #include "record/files.h"

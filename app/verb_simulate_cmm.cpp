@@ -8,8 +8,8 @@
 
 #include "app/terminal.h"
 #include "app/verbs.h"
-#include "cmm/ipp_server.h"
-#include "cmm/ipp_service.h"
+#include "cmm/ipp_server/server.h"
+#include "cmm/ipp_server/service.h"
 #include "plans/plan.h"
 #include "plans/served_cell.h"
 #include "wire/tcp_line.h"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "cmm/part_surface.h"
+#include "cmm/simulated/part_surface.h"
 #include "core/units.h"
 #include "plans/plan_reach.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cmm/error_model.h"
-#include "cmm/part_surface.h"
+#include "cmm/simulated/part_surface.h"
 #include "plans/plan.h"
 
 namespace rondure::plans {

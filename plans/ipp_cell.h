@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cmm/ipp_client.h"
+#include "cmm/ipp_client/client.h"
 #include "fixture/fixture.h"
 #include "plans/cell.h"
 

@@ -8,7 +8,7 @@
 
 #include "cmm/grid.h"
 #include "cmm/scan_path.h"
-#include "cmm/touch_check.h"
+#include "cmm/ipp_client/touch_check.h"
 #include "core/units.h"
 #include "plans/inspection.h"
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cmm/part_surface.h"
+#include "cmm/simulated/part_surface.h"
 #include "plans/plan_reach.h"
 
 namespace rondure::plans {

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "cmm/ipp_backend.h"
-#include "cmm/ipp_named_point.h"
-#include "cmm/ipp_server.h"
+#include "cmm/ipp_server/backend.h"
+#include "cmm/ipp/named_point.h"
+#include "cmm/ipp_server/server.h"
 #include "plans/plan.h"
 #include "plans/simulated_cell.h"
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "cmm/simulated.h"
+#include "cmm/simulated/machine.h"
 #include "fixture/simulated.h"
 #include "plans/cell.h"
 

@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "cmm/ipp_backend.h"
+#include "cmm/ipp_server/backend.h"
 
 namespace rondure::cmm {
 

@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cmm/ascii_probe.h"
-#include "cmm/digimatic.h"
-#include "cmm/displacement_probe.h"
-#include "cmm/mitutoyo_itn.h"
+#include "cmm/indicators/ascii_probe.h"
+#include "cmm/indicators/digimatic.h"
+#include "cmm/indicators/displacement_probe.h"
+#include "cmm/indicators/mitutoyo_itn.h"
 #include "tests/wire/memory_usb.h"
 
 namespace rondure::cmm {

@@ -1,4 +1,4 @@
-#include "cmm/ipp_client.h"
+#include "cmm/ipp_client/client.h"
 
 #include <algorithm>
 #include <chrono>

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cmm/ipp_client.h"
-#include "cmm/ipp_client_dialogue.h"
+#include "cmm/ipp_client/client.h"
+#include "cmm/ipp_client/dialogue.h"
 #include "core/units.h"
 #include "tests/cmm/scripted_server.h"
 

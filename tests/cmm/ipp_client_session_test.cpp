@@ -1,4 +1,4 @@
-#include "cmm/ipp_client_session.h"
+#include "cmm/ipp_client/session.h"
 
 #include <fstream>
 #include <map>
@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cmm/ipp_client_dialogue.h"
-#include "cmm/ipp_client_failure.h"
+#include "cmm/ipp_client/dialogue.h"
+#include "cmm/ipp_client/failure.h"
 #include "tests/cmm/scripted_server.h"
 
 namespace rondure::cmm::ipp::client {

@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cmm/ipp_client.h"
-#include "cmm/ipp_grammar.h"
+#include "cmm/ipp_client/client.h"
+#include "cmm/ipp/grammar.h"
 #include "core/noise.h"
 #include "core/units.h"
 #include "tests/cmm/scripted_server.h"

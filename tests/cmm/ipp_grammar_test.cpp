@@ -1,4 +1,4 @@
-#include "cmm/ipp_grammar.h"
+#include "cmm/ipp/grammar.h"
 
 #include <fstream>
 #include <string>
@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cmm/ipp_errors.h"
-#include "cmm/ipp_lines.h"
-#include "cmm/ipp_methods.h"
+#include "cmm/ipp/errors.h"
+#include "cmm/ipp/lines.h"
+#include "cmm/ipp/methods.h"
 
 namespace rondure::cmm::ipp {
 namespace {

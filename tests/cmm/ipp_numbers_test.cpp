@@ -1,4 +1,4 @@
-#include "cmm/ipp_numbers.h"
+#include "cmm/ipp/numbers.h"
 
 #include <algorithm>
 #include <cmath>

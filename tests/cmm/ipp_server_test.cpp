@@ -1,4 +1,4 @@
-#include "cmm/ipp_server.h"
+#include "cmm/ipp_server/server.h"
 
 #include <cmath>
 #include <limits>
@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cmm/ipp_frames.h"
+#include "cmm/ipp/frames.h"
 #include "ipp_talk.h"
 
 namespace rondure::cmm::ipp {

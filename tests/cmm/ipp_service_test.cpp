@@ -1,4 +1,4 @@
-#include "cmm/ipp_service.h"
+#include "cmm/ipp_server/service.h"
 
 #include <atomic>
 #include <chrono>

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cmm/ipp_server.h"
+#include "cmm/ipp_server/server.h"
 #include "ideal_backend.h"
 
 namespace rondure::cmm::ipp {

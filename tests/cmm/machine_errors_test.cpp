@@ -9,9 +9,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 
-#include "cmm/machine_map.h"
-#include "cmm/simulated.h"
-#include "cmm/typical_errors.h"
+#include "cmm/simulated/machine_map.h"
+#include "cmm/simulated/machine.h"
+#include "cmm/simulated/typical_errors.h"
 #include "core/noise.h"
 #include "core/units.h"
 

@@ -12,11 +12,11 @@
 
 #include <Eigen/Core>
 
-#include "cmm/ipp_backend.h"
-#include "cmm/ipp_frames.h"
-#include "cmm/ipp_grammar.h"
-#include "cmm/ipp_lines.h"
-#include "cmm/ipp_parameters.h"
+#include "cmm/ipp_server/backend.h"
+#include "cmm/ipp/frames.h"
+#include "cmm/ipp/grammar.h"
+#include "cmm/ipp/lines.h"
+#include "cmm/ipp_server/parameters.h"
 #include "wire/tcp_line.h"
 
 namespace rondure::cmm::ipp {

@@ -4,10 +4,10 @@
 #include <thread>
 #include <vector>
 
-#include "cmm/ipp_backend.h"
-#include "cmm/ipp_server.h"
-#include "cmm/ipp_service.h"
-#include "cmm/simulated.h"
+#include "cmm/ipp_server/backend.h"
+#include "cmm/ipp_server/server.h"
+#include "cmm/ipp_server/service.h"
+#include "cmm/simulated/machine.h"
 #include "wire/tcp_line.h"
 
 namespace rondure::cmm {

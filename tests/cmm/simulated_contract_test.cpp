@@ -1,4 +1,4 @@
-#include "cmm/simulated.h"
+#include "cmm/simulated/machine.h"
 #include "machine_contract.h"
 
 namespace rondure::cmm {

@@ -2,9 +2,9 @@
 
 #include <map>
 
-#include "cmm/ipp_grammar.h"
-#include "cmm/ipp_lines.h"
-#include "cmm/ipp_server.h"
+#include "cmm/ipp/grammar.h"
+#include "cmm/ipp/lines.h"
+#include "cmm/ipp_server/server.h"
 #include "tests/cmm/ideal_backend.h"
 
 namespace rondure::fuzz {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cmm/part_surface.h"
+#include "cmm/simulated/part_surface.h"
 #include "core/noise.h"
 #include "core/units.h"
 #include "fit/zone/center_search.h"

@@ -16,7 +16,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cmm/ipp_server.h"
+#include "cmm/ipp_server/server.h"
 #include "core/units.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "plans/cell.h"

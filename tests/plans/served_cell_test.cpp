@@ -16,8 +16,8 @@
 #include <gtest/gtest.h>
 
 #include "cmm/grid.h"
-#include "cmm/ipp_numbers.h"
-#include "cmm/ipp_service.h"
+#include "cmm/ipp/numbers.h"
+#include "cmm/ipp_server/service.h"
 #include "core/units.h"
 #include "fixture/kinematics.h"
 #include "tests/plans/files.h"

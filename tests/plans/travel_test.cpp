@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cmm/simulated.h"
+#include "cmm/simulated/machine.h"
 #include "core/noise.h"
 #include "core/units.h"
 #include "tests/plans/random_inspection.h"

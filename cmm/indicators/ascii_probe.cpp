@@ -1,0 +1,218 @@
+#include "cmm/indicators/ascii_probe.h"
+
+#include <regex.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cmm/indicators/mitutoyo_itn.h"
+#include "core/numbers.h"
+
+namespace rondure::cmm {
+namespace {
+
+using std::chrono::duration_cast;
+using std::chrono::milliseconds;
+using Parity = wire::SerialSettings::Parity;
+
+constexpr std::size_t kLongestReply = 256;
+
+struct Row {
+  const char* name;
+  int baud;
+  int data_bits;
+  Parity parity;
+  int stop_bits;
+  const char* request;
+  const char* reply;
+};
+
+constexpr const char* kNumber = "^ *([+-]? *[0-9]*[.]?[0-9]+) *$";
+
+constexpr std::array<Row, 4> kRows = {
+    {{"sylvac", 4800, 7, Parity::kEven, 2, "?\r", kNumber},
+     {"tesa", 4800, 7, Parity::kEven, 2, "?\r", kNumber},
+     {"mahr", 9600, 7, Parity::kEven, 2, "M1?\r", "^1 +([+-] *[0-9]*[.]?[0-9]+) *(mm|um|in)$"},
+     {"qm-height", 9600, 8, Parity::kNone, 1, "1\r", "^01A([+-][0-9]*[.][0-9]+)$"}}};
+
+/// A regular expression of the C library: std::regex of GCC 12 does not pass our warnings.
+class Pattern {
+ public:
+  Pattern() = default;
+  ~Pattern() {
+    if (compiled_) ::regfree(&expression_);
+  }
+  Pattern(const Pattern&) = delete;
+  Pattern& operator=(const Pattern&) = delete;
+
+  [[nodiscard]] bool compile(const std::string& text) {
+    compiled_ = ::regcomp(&expression_, text.c_str(), REG_EXTENDED) == 0;
+    return compiled_ && expression_.re_nsub >= 1;
+  }
+  /// Groups 1 and 2; empty where there is none. Nothing when the text does not match.
+  [[nodiscard]] std::optional<std::array<std::string, 2>> match(const std::string& text) const {
+    std::array<regmatch_t, 3> found = {};
+    if (::regexec(&expression_, text.c_str(), found.size(), found.data(), 0) != 0) {
+      return std::nullopt;
+    }
+    std::array<std::string, 2> out;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const regmatch_t& group = found[i + 1];
+      if (group.rm_so < 0) continue;
+      out[i] = text.substr(static_cast<std::size_t>(group.rm_so),
+                           static_cast<std::size_t>(group.rm_eo - group.rm_so));
+    }
+    return out;
+  }
+
+ private:
+  regex_t expression_ = {};
+  bool compiled_ = false;
+};
+
+std::optional<double> unit_mm_of(const std::string& unit, double otherwise_mm) {
+  if (unit.empty()) return otherwise_mm;
+  if (unit == "mm") return 1.0;
+  if (unit == "um") return 1e-3;
+  if (unit == "in") return kInch_mm;
+  return std::nullopt;
+}
+
+std::string without_spaces(std::string number) {
+  number.erase(std::remove(number.begin(), number.end(), ' '), number.end());
+  return number;
+}
+
+class AsciiProbe final : public DisplacementProbe {
+ public:
+  AsciiProbe(std::unique_ptr<wire::ByteStream> stream, const AsciiProbeSettings& settings,
+             wire::Clock& clock)
+      : stream_(std::move(stream)), settings_(settings), clock_(clock) {}
+
+  [[nodiscard]] bool prepare() { return pattern_.compile(settings_.reply); }
+
+  [[nodiscard]] std::string description() const override {
+    return fmt::format("{} at {}, resolution {:g} um", settings_.name, stream_->peer(),
+                       1e3 * settings_.resolution_mm);
+  }
+  [[nodiscard]] IndicatorTraits traits() const override { return {settings_.resolution_mm, 0.05}; }
+
+  [[nodiscard]] core::Result<double> read_mm() override {
+    if (auto quiet = drain(); !quiet) return core::fail(quiet.error());
+    if (auto sent = stream_->write(settings_.request); !sent) return core::fail(sent.error());
+    const auto reply = receive();
+    if (!reply) {
+      late_ = true;
+      return core::fail(reply.error());
+    }
+    const auto groups = pattern_.match(*reply);
+    const auto number = groups ? core::parse_number(without_spaces((*groups)[0])) : std::nullopt;
+    const auto unit_mm = groups ? unit_mm_of((*groups)[1], settings_.unit_mm) : std::nullopt;
+    if (number && unit_mm) return *number * *unit_mm;
+    late_ = true;
+    const bool says_error = reply->starts_with("ERR");
+    return core::fail(
+        core::Code::kMachine,
+        fmt::format("{} answered \"{}\", {}", description(), *reply,
+                    says_error ? "an error of the instrument; see its manual"
+                               : "which is no reading; check kind and line settings"));
+  }
+
+ private:
+  /// Throws away what was not asked for.
+  [[nodiscard]] core::Result<void> drain() {
+    const wire::Clock::Time end = clock_.now() + 5 * settings_.answer_limit;
+    for (;;) {
+      const auto old = stream_->read_some(late_ ? settings_.answer_limit : milliseconds(0));
+      if (!old) return core::fail(old.error());
+      if (old->empty()) break;
+      if (clock_.now() < end) continue;
+      return core::fail(
+          core::Code::kMachine,
+          fmt::format("{} does not stop sending; end its continuous output", description()));
+    }
+    buffer_.clear();
+    late_ = false;
+    return {};
+  }
+
+  /// The first line that is neither empty nor the echo of the request.
+  [[nodiscard]] core::Result<std::string> receive() {
+    const std::string echo = settings_.request.substr(0, settings_.request.find_first_of("\r\n"));
+    const wire::Clock::Time end = clock_.now() + settings_.answer_limit;
+    for (;;) {
+      for (std::size_t at = buffer_.find_first_of("\r\n"); at != std::string::npos;
+           at = buffer_.find_first_of("\r\n")) {
+        const std::string line = buffer_.substr(0, at);
+        buffer_.erase(0, at + 1);
+        if (!line.empty() && line != echo) return line;
+      }
+      const auto left = duration_cast<milliseconds>(end - clock_.now());
+      if (left <= milliseconds(0) || buffer_.size() > kLongestReply) break;
+      const auto part = stream_->read_some(left);
+      if (!part) return core::fail(part.error());
+      buffer_ += printable(*part);
+    }
+    return core::fail(core::Code::kMachine,
+                      fmt::format("{}: no reading within {} ms; check that it is on, its cable, "
+                                  "and its line settings",
+                                  description(), settings_.answer_limit.count()));
+  }
+
+  /// Bytes that do not print, but for line ends, become question marks.
+  [[nodiscard]] static std::string printable(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(),
+        [](char c) { return c != '\r' && c != '\n' && (c < ' ' || c > '~'); }, '?');
+    return text;
+  }
+
+  std::unique_ptr<wire::ByteStream> stream_;
+  AsciiProbeSettings settings_;
+  wire::Clock& clock_;
+  Pattern pattern_;
+  std::string buffer_;
+  bool late_ = false;  ///< An answer is missing: it may still come.
+};
+
+}  // namespace
+
+std::optional<AsciiProbeSettings> ascii_probe_settings(std::string_view name) {
+  for (const Row& row : kRows) {
+    if (name != row.name) continue;
+    AsciiProbeSettings out;
+    out.name = row.name;
+    out.line.baud = row.baud;
+    out.line.data_bits = row.data_bits;
+    out.line.parity = row.parity;
+    out.line.stop_bits = row.stop_bits;
+    out.request = row.request;
+    out.reply = row.reply;
+    return out;
+  }
+  return std::nullopt;
+}
+
+std::string ascii_probe_names() {
+  std::string out;
+  for (const Row& row : kRows) out += fmt::format("{}{}", out.empty() ? "" : ", ", row.name);
+  return out;
+}
+
+core::Result<std::unique_ptr<DisplacementProbe>> open_ascii_probe(
+    std::unique_ptr<wire::ByteStream> stream, const AsciiProbeSettings& settings,
+    wire::Clock* clock) {
+  auto probe = std::make_unique<AsciiProbe>(std::move(stream), settings,
+                                            clock != nullptr ? *clock : wire::system_clock());
+  if (!probe->prepare()) {
+    return core::fail(
+        core::Code::kBadOption,
+        fmt::format("\"{}\" is no regular expression with a group for the number", settings.reply));
+  }
+  return probe;
+}
+
+}  // namespace rondure::cmm

@@ -1,0 +1,74 @@
+#include "cmm/ipp/grammar.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cmm/ipp/errors.h"
+#include "cmm/ipp/methods.h"
+#include "cmm/ipp/numbers.h"
+#include "cmm/ipp/reader.h"
+
+namespace rondure::cmm::ipp {
+namespace {
+
+tl::unexpected<Refusal> refuse(int number, std::optional<Tag> tag, std::string what) {
+  return tl::unexpected(Refusal{number, tag, std::move(what)});
+}
+
+/// What must be right before a tag can be answered.
+tl::expected<Tag, Refusal> read_head(std::string_view line) {
+  if (line.size() > kMaxLineLength) {
+    return refuse(
+        kProtocolError, {},
+        fmt::format("a line of {} characters; {} are allowed", line.size(), kMaxLineLength));
+  }
+  if (!is_plain(line)) return refuse(kIllegalCharacter, {}, "a character outside ASCII 32 to 126");
+  const auto tag = read_tag(line.substr(0, kTagLength));
+  if (!tag || *tag == kUnsolicited) {
+    return refuse(kIllegalTag, {}, "the line does not begin with a tag of five characters");
+  }
+  if (line.size() <= kTagLength || line[kTagLength] != ' ') {
+    return refuse(kNoSpace, {}, "no space behind the tag");
+  }
+  return *tag;
+}
+
+}  // namespace
+
+tl::expected<Command, Refusal> parse_command(std::string_view line) {
+  const auto tag = read_head(line);
+  if (!tag) return tl::unexpected(tag.error());
+  ItemReader reader(line.substr(kTagLength + 1), ItemReader::Manner::kStrict);
+  Command out;
+  out.tag = *tag;
+  out.method = reader.read_name(false);
+  if (out.method.empty()) return refuse(kIncorrectArguments, *tag, "no method behind the tag");
+  if (tag->event && !out.method.ends_with('E')) {
+    return refuse(kIllegalTag, {}, fmt::format("{} is no event command", out.method));
+  }
+  if (!is_method(out.method)) {
+    return refuse(kIllegalCommand, *tag, fmt::format("there is no method {}", out.method));
+  }
+  if (!tag->event && is_event_method(out.method)) {
+    return refuse(kIllegalTag, *tag, fmt::format("{} needs an event tag", out.method));
+  }
+  auto arguments = reader.read_arguments(1);
+  if (!arguments) return refuse(arguments.error().number, *tag, std::move(arguments.error().what));
+  if (!reader.at_end()) {
+    return refuse(kIncorrectArguments, *tag, "text behind the last parenthesis");
+  }
+  out.arguments = std::move(*arguments);
+  return out;
+}
+
+std::string method_text(const Command& command, NumberForm form) {
+  return fmt::format("{}({})", command.method,
+                     to_text(std::span<const Item>(command.arguments), form));
+}
+
+std::string to_line(const Command& command, NumberForm form) {
+  return fmt::format("{} {}", to_text(command.tag), method_text(command, form));
+}
+
+}  // namespace rondure::cmm::ipp

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "cmm/ipp/grammar.h"
+
+namespace rondure::cmm::ipp {
+
+/// Whether every character is ASCII 32..126.
+[[nodiscard]] bool is_plain(std::string_view text);
+/// The first `shown` characters of a line for a message: "?" for one that is not plain, "..." for
+/// the others.
+[[nodiscard]] std::string excerpt(std::string_view line, std::size_t shown);
+
+/// Reads items out of one line, from left to right. Internal to the grammar.
+class ItemReader {
+ public:
+  enum class Manner { kStrict, kLiberal };
+
+  /// Why reading stopped.
+  struct Fault {
+    int number = 0;  ///< 0502, 0509 or 0008.
+    std::string what;
+  };
+  template <class T>
+  using Read = tl::expected<T, Fault>;
+
+  ItemReader(std::string_view text, Manner manner) : text_(text), manner_(manner) {}
+
+  /// letter {letter | digit}; of `dotted` also with points between. Empty when there is none.
+  [[nodiscard]] std::string_view read_name(bool dotted);
+  /// "(" [item {"," item}] ")" with spaces where they may stand.
+  [[nodiscard]] Read<std::vector<Item>> read_arguments(int depth);
+  /// item {"," item} up to the end of the line.
+  [[nodiscard]] Read<std::vector<Item>> read_list();
+  /// Whether nothing but spaces is left.
+  [[nodiscard]] bool at_end();
+  [[nodiscard]] std::size_t position() const { return at_; }
+
+ private:
+  void skip_spaces();
+  [[nodiscard]] bool take(char c);
+  [[nodiscard]] tl::unexpected<Fault> fault(int number, std::string_view what) const;
+  [[nodiscard]] Read<Item> read_item(int depth);
+  [[nodiscard]] Read<Item> read_string();
+  [[nodiscard]] Read<Item> read_number_item();
+  [[nodiscard]] Read<Item> read_name_or_call(int depth);
+
+  std::string_view text_;
+  Manner manner_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace rondure::cmm::ipp

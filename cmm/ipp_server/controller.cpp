@@ -1,0 +1,206 @@
+#include "cmm/ipp_server/controller.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cmm/ipp/arguments.h"
+#include "cmm/ipp/errors.h"
+
+namespace rondure::cmm::ipp {
+namespace {
+
+constexpr std::array<std::string_view, 5> kMotions = {"Home", "GoTo", "PtMeas", "ScanOnCircle",
+                                                      "AlignPart"};
+constexpr std::array<std::string_view, 9> kOfServer = {
+    "StartSession",    "EndSession",    "AbortE",     "ClearAllErrors", "GetErrStatusE",
+    "GetXtdErrStatus", "OnMoveReportE", "StopDaemon", "StopAllDaemons"};
+constexpr double kMaxOrigin_mm = 1e6;  // of a coordinate system
+
+double as_number(bool value) { return value ? 1.0 : 0.0; }
+
+}  // namespace
+
+Controller::Controller(Backend& backend, const ControllerOptions& options)
+    : backend_(backend),
+      options_(options),
+      parameters_(options.defaults, backend.machine().capabilities().least,
+                  backend.machine().capabilities().greatest) {
+  if (auto status = machine().status()) tool_ = status->tool;
+  begin_session();
+}
+
+void Controller::begin_session() {
+  touch_report_ = {"X", "Y", "Z"};
+  scan_report_ = {"X", "Y", "Z", "Q"};
+}
+
+core::Result<void> Controller::recover() { return machine().recover(); }
+
+bool Controller::is_motion(std::string_view method) { return is_one_of(method, kMotions); }
+
+const std::vector<Controller::Entry>& Controller::entries() {
+  static const std::vector<Entry> kEntries = {
+      {"GetDMEVersion", &Controller::get_version},
+      {"GetMachineClass", &Controller::get_machine_class},
+      {"IsHomed", &Controller::is_homed_query},
+      {"EnableUser", &Controller::enable_user},
+      {"DisableUser", &Controller::disable_user},
+      {"IsUserEnabled", &Controller::is_user_enabled_query},
+      {"GetErrorInfo", &Controller::get_error_info},
+      {"GetSupportedCommands", &Controller::get_supported_commands},
+      {"Get", &Controller::get_position},
+      {"OnPtMeasReport", &Controller::set_touch_report},
+      {"OnScanReport", &Controller::set_scan_report},
+      {"ScanOnCircleHint", &Controller::take_hint},
+      {"GetTemperatureSensors", &Controller::temperature_sensors},
+      {"ReadTemperatureSensor", &Controller::read_temperature},
+      {"ReadAllTemperatures", &Controller::read_all_temperatures},
+      {"SetCoordSystem", &Controller::set_coord_system},
+      {"GetCoordSystem", &Controller::get_coord_system},
+      {"SetCsyTransformation", &Controller::set_transformation},
+      {"GetCsyTransformation", &Controller::get_transformation},
+      {"EnumTools", &Controller::enum_tools},
+      {"ChangeTool", &Controller::change_tool},
+      {"SetTool", &Controller::change_tool},
+      {"FindTool", &Controller::find_tool},
+      {"GetProp", &Controller::get_properties},
+      {"GetPropE", &Controller::get_properties},
+      {"SetProp", &Controller::set_properties},
+      {"EnumProp", &Controller::enum_properties},
+      {"EnumAllProp", &Controller::enum_all_properties},
+  };
+  return kEntries;
+}
+
+Outcome Controller::execute(const Command& command) {
+  for (const Entry& entry : entries()) {
+    if (entry.method == command.method) return (this->*entry.handler)(command.arguments);
+  }
+  return refusal(kUnsupportedCommand,
+                 fmt::format("{} is not supported by this server", command.method));
+}
+
+bool Controller::is_homed() {
+  const auto status = machine().status();
+  return status && status->homed;
+}
+
+Outcome Controller::get_version(const Arguments& arguments) {
+  if (!arguments.empty()) return wrong_arguments("()");
+  return one_line(call_item("DMEVersion", {string_item(options_.version)}));
+}
+
+Outcome Controller::get_machine_class(const Arguments& arguments) {
+  if (!arguments.empty()) return wrong_arguments("()");
+  const std::string_view name =
+      backend_.table_angles_deg().empty() ? "CartCMM" : "CartCMMWithRotaryTable";
+  return one_line(call_item("GetMachineClass", {name_item(name)}));
+}
+
+Outcome Controller::is_homed_query(const Arguments& arguments) {
+  if (!arguments.empty()) return wrong_arguments("()");
+  return one_line(call_item("IsHomed", {as_number(is_homed())}));
+}
+
+Outcome Controller::enable_user(const Arguments& arguments) {
+  if (!arguments.empty()) return wrong_arguments("()");
+  user_enabled_ = true;
+  return Reply{};
+}
+
+Outcome Controller::disable_user(const Arguments& arguments) {
+  if (!arguments.empty()) return wrong_arguments("()");
+  user_enabled_ = false;
+  return Reply{};
+}
+
+Outcome Controller::is_user_enabled_query(const Arguments& arguments) {
+  if (!arguments.empty()) return wrong_arguments("()");
+  return one_line(call_item("IsUserEnabled", {as_number(user_enabled_)}));
+}
+
+Outcome Controller::get_error_info(const Arguments& arguments) {
+  if (arguments.size() != 1 || arguments[0].kind != Item::Kind::kNumber) {
+    return wrong_arguments("(number)");
+  }
+  const double number = arguments[0].number;
+  const bool whole = number >= 0.0 && number <= 9999.0;
+  const ErrorEntry* entry = whole ? find_error(static_cast<int>(number)) : nullptr;
+  if (entry == nullptr || entry->number != number) {
+    return refusal(kNotRecognized, fmt::format("there is no error {}", number));
+  }
+  return one_line(string_item(entry->text));
+}
+
+Outcome Controller::get_supported_commands(const Arguments& arguments) {
+  if (!arguments.empty()) return wrong_arguments("()");
+  Reply out;
+  for (const Entry& entry : entries()) out.lines.push_back({string_item(entry.method)});
+  for (const std::string_view method : kMotions) out.lines.push_back({string_item(method)});
+  for (const std::string_view method : kOfServer) out.lines.push_back({string_item(method)});
+  return out;
+}
+
+Outcome Controller::take_hint(const Arguments& arguments) {
+  const bool numbers = std::all_of(arguments.begin(), arguments.end(), [](const Item& item) {
+    return item.kind == Item::Kind::kNumber;
+  });
+  if (arguments.size() != 2 || !numbers) return wrong_arguments("(displacement, form)");
+  return Reply{};  // the simulated scan follows any form without being told
+}
+
+Outcome Controller::set_coord_system(const Arguments& arguments) {
+  if (arguments.size() != 1 || arguments[0].kind != Item::Kind::kName) {
+    return wrong_arguments("(MachineCsy or PartCsy)");
+  }
+  const std::string& name = arguments[0].text;
+  if (name != "MachineCsy" && name != "PartCsy") {
+    const bool known = name == "MoveableMachineCsy" || name == "MultipleArmCsy";
+    return refusal(known ? kNotSupported : kNotRecognized,
+                   fmt::format("the coordinate system {} is not there", name));
+  }
+  csy_ = name;
+  X_CW_ = name == "MachineCsy" ? Eigen::Isometry3d::Identity() : machine_to_csy(part_csy_);
+  return Reply{};
+}
+
+Outcome Controller::get_coord_system(const Arguments& arguments) {
+  if (!arguments.empty()) return wrong_arguments("()");
+  return one_line(call_item("CoordSystem", {name_item(csy_)}));
+}
+
+Outcome Controller::set_transformation(const Arguments& arguments) {
+  std::array<double, 6> n{};
+  const bool named = arguments.size() == 7 && arguments[0].kind == Item::Kind::kName;
+  for (std::size_t i = 0; named && i < n.size(); ++i) {
+    if (arguments[i + 1].kind != Item::Kind::kNumber) return wrong_arguments("six numbers");
+    n[i] = arguments[i + 1].number;
+  }
+  if (!named) return wrong_arguments("(PartCsy, x0, y0, z0, theta, psi, phi)");
+  if (arguments[0].text != "PartCsy") {
+    return refusal(kNotSupported, fmt::format("{} cannot be set", arguments[0].text));
+  }
+  if (n[3] < 0.0 || n[3] > 180.0) {
+    return refusal(kThetaOutOfRange, fmt::format("theta of {} deg is outside 0..180 deg", n[3]));
+  }
+  if (std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])}) > kMaxOrigin_mm) {
+    return refusal(kBadArgument, fmt::format("an origin beyond {} mm", kMaxOrigin_mm));
+  }
+  part_csy_ = {{n[0], n[1], n[2]}, n[3], n[4], n[5]};
+  return csy_ == "PartCsy" ? set_coord_system({name_item(csy_)}) : Reply{};
+}
+
+Outcome Controller::get_transformation(const Arguments& arguments) {
+  if (arguments.size() != 1 || arguments[0].kind != Item::Kind::kName ||
+      arguments[0].text != "PartCsy") {
+    return wrong_arguments("(PartCsy)");
+  }
+  const CsyTransformation& t = part_csy_;
+  return one_line(call_item("GetCsyTransformation", {t.x0_mm.x(), t.x0_mm.y(), t.x0_mm.z(),
+                                                     t.theta_deg, t.psi_deg, t.phi_deg}));
+}
+
+}  // namespace rondure::cmm::ipp

@@ -1,0 +1,178 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <tl/expected.hpp>
+
+#include "cmm/ipp_server/backend.h"
+#include "cmm/ipp/frames.h"
+#include "cmm/ipp/grammar.h"
+#include "cmm/ipp/named_point.h"
+#include "cmm/ipp_server/parameters.h"
+#include "cmm/machine.h"
+
+namespace rondure::cmm::ipp {
+
+/// What a server is told to be. Values the machine cannot tell itself.
+struct ControllerOptions {
+  ParameterDefaults defaults;
+  NamedPoint point = NamedPoint::kSurface;
+  NumberForm numbers = NumberForm::kSixteenDigits;
+  double tip_radius_mm = 2.0;      ///< Tool.AvrRadius().
+  double temperature_degC = 20.0;  ///< Of the part, until the first touch has told it.
+  std::string version = "1.4";     ///< GetDMEVersion().
+};
+
+/// Why a command failed: a number of the error list, and words for GetXtdErrStatus().
+struct Failure {
+  int number = 0;
+  std::string what;
+};
+
+/// What a command gives.
+struct Reply {
+  std::vector<std::vector<Item>> lines;  ///< Data.
+  int report = 0;                        ///< Number of an error to tell behind them; 0: none.
+};
+
+using Outcome = tl::expected<Reply, Failure>;
+
+/// A part of a motion.
+struct Phase {
+  /// A straight move of the tip, made when its time is over: until then it can be stopped anywhere.
+  std::function<Eigen::Vector3d()> target_W_mm;
+  /// Anything else: done at once, its time passes afterwards. Gives corners of the way of the tip.
+  std::function<core::Result<std::vector<Eigen::Vector3d>>()> act;
+};
+
+/// A command that takes time.
+struct Motion {
+  std::vector<Phase> phases;
+  std::function<Reply()> reply;  ///< After the last phase.
+};
+
+/// What a server knows and does, without tags, queues and time: tools, properties, coordinate
+/// systems, reports, and how a command becomes a motion of the machine.
+///
+/// Positions are of the centre of the tip. PtMeas(X, Y, Z, IJK) expects the surface, or by
+/// ControllerOptions::point the tip centre, at (X,Y,Z), searches from Approach * IJK before the
+/// tip centre expected at contact to Search * IJK behind it; ScanOnCircle probes its start point
+/// likewise and then expects the tip on the circle through it.
+class Controller {
+ public:
+  Controller(Backend& backend, const ControllerOptions& options);
+
+  /// Reports and hints as StartSession() leaves them.
+  void begin_session();
+  /// Takes back what keeps the machine from moving.
+  [[nodiscard]] core::Result<void> recover();
+
+  [[nodiscard]] static bool is_motion(std::string_view method);
+  /// Carries out a command that moves nothing.
+  [[nodiscard]] Outcome execute(const Command& command);
+  /// What a command that moves will do; nothing moves yet.
+  [[nodiscard]] tl::expected<Motion, Failure> plan_motion(const Command& command);
+
+  /// The failure that an error of machine or table is to a client.
+  [[nodiscard]] Failure failure_of(const core::Error& error, std::string_view method);
+  /// Values of the position, for Get() and daemons. 0505 for a name that is none.
+  [[nodiscard]] tl::expected<std::vector<Item>, Failure> position_report(
+      const std::vector<std::string>& names, const Eigen::Vector3d& tip_W_mm) const;
+
+  [[nodiscard]] Machine& machine() { return backend_.machine(); }
+  [[nodiscard]] Eigen::Vector3d position_W_mm() const { return backend_.machine().position_W_mm(); }
+  [[nodiscard]] const ControllerOptions& options() const { return options_; }
+  [[nodiscard]] bool is_homed();
+  [[nodiscard]] bool is_user_enabled() const { return user_enabled_; }
+  [[nodiscard]] double travel_speed_mm_s() const { return parameters_.speeds().travel_mm_s; }
+
+ private:
+  using Arguments = std::vector<Item>;
+  using Handler = Outcome (Controller::*)(const Arguments&);
+  struct Entry {
+    std::string_view method;
+    Handler handler;
+  };
+  static const std::vector<Entry>& entries();
+
+  // Answers and settings.
+  Outcome get_version(const Arguments& arguments);
+  Outcome get_machine_class(const Arguments& arguments);
+  Outcome is_homed_query(const Arguments& arguments);
+  Outcome enable_user(const Arguments& arguments);
+  Outcome disable_user(const Arguments& arguments);
+  Outcome is_user_enabled_query(const Arguments& arguments);
+  Outcome get_error_info(const Arguments& arguments);
+  Outcome get_supported_commands(const Arguments& arguments);
+  Outcome get_position(const Arguments& arguments);
+  Outcome set_touch_report(const Arguments& arguments);
+  Outcome set_scan_report(const Arguments& arguments);
+  Outcome take_hint(const Arguments& arguments);
+  Outcome temperature_sensors(const Arguments& arguments);
+  Outcome read_temperature(const Arguments& arguments);
+  Outcome read_all_temperatures(const Arguments& arguments);
+  // Coordinate systems.
+  Outcome set_coord_system(const Arguments& arguments);
+  Outcome get_coord_system(const Arguments& arguments);
+  Outcome set_transformation(const Arguments& arguments);
+  Outcome get_transformation(const Arguments& arguments);
+  // Tools and properties.
+  Outcome enum_tools(const Arguments& arguments);
+  Outcome change_tool(const Arguments& arguments);
+  Outcome find_tool(const Arguments& arguments);
+  Outcome get_properties(const Arguments& arguments);
+  Outcome set_properties(const Arguments& arguments);
+  Outcome enum_properties(const Arguments& arguments);
+  Outcome enum_all_properties(const Arguments& arguments);
+  [[nodiscard]] std::optional<Item> property(const std::string& name) const;
+  [[nodiscard]] int set_property(const std::string& name, double value);
+  [[nodiscard]] int set_simulation(std::string_view name, double value);
+  // Motions.
+  tl::expected<Motion, Failure> plan_home(const Arguments& arguments);
+  tl::expected<Motion, Failure> plan_go_to(const Arguments& arguments);
+  tl::expected<Motion, Failure> plan_touch(const Arguments& arguments);
+  tl::expected<Motion, Failure> plan_scan(const Arguments& arguments);
+  tl::expected<Motion, Failure> plan_align(const Arguments& arguments);
+  /// The tip centre in contact where a command names the point.
+  [[nodiscard]] Eigen::Vector3d tip_at(const Eigen::Vector3d& named_W_mm,
+                                       const Eigen::Vector3d& direction_W) const;
+  Motion touch_motion(const TouchCommand& touch);
+  Motion scan_motion(const ScanCircleCommand& scan);
+  [[nodiscard]] std::vector<double> report_values(const std::string& name,
+                                                  const TouchReading& reading,
+                                                  const Eigen::Vector3d& direction_W) const;
+  [[nodiscard]] Reply touch_reply(const TouchReading& reading,
+                                  const Eigen::Vector3d& direction_W) const;
+  [[nodiscard]] Reply align_reply(const std::vector<Alignment>& wanted,
+                                  const std::vector<double>& limits_deg,
+                                  const std::vector<Eigen::Vector3d>& reached) const;
+  [[nodiscard]] Reply scan_reply(const std::vector<TouchReading>& readings) const;
+  /// (X(..), Y(..), Z(..)) in the active system over the position now.
+  tl::expected<Eigen::Vector3d, Failure> position_argument(const Arguments& arguments,
+                                                           bool direction_allowed);
+  [[nodiscard]] tl::expected<void, Failure> ready_to_move();
+
+  Backend& backend_;
+  ControllerOptions options_;
+  ToolParameters parameters_;
+  std::string tool_;
+  std::string found_tool_;
+  std::string csy_ = "MachineCsy";
+  CsyTransformation part_csy_;
+  Eigen::Isometry3d X_CW_ = Eigen::Isometry3d::Identity();  ///< Machine to the active system.
+  std::vector<std::string> touch_report_;
+  std::vector<std::string> scan_report_;
+  std::optional<TouchReading> last_reading_;
+  bool user_enabled_ = false;
+  double expansion_ = 0.0;       ///< Part.XpanCoefficient, kept for who asks.
+  std::int64_t next_touch_ = 0;  ///< Number of the next touch: key of the simulated noise.
+  int feature_ = 0;
+};
+
+}  // namespace rondure::cmm::ipp

@@ -1,0 +1,130 @@
+#include "cmm/ipp_server/service.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cmm/ipp/errors.h"
+#include "wire/wire_log.h"
+
+namespace rondure::cmm::ipp {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kLook{100};  // between looks for a stop and for other clients
+constexpr int kEmergencyStop = 500;
+
+double now_s() {
+  const auto since = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(since).count();
+}
+
+/// How long to wait for a line: until the server has something to do.
+milliseconds waits(const Server& server) {
+  const auto next_s = server.next_event_s();
+  if (!next_s) return kLook;
+  const double left_ms = std::ceil((*next_s - now_s()) * 1e3);
+  return milliseconds(static_cast<int>(std::clamp(left_ms, 0.0, double(kLook.count()))));
+}
+
+core::Result<void> send_all(wire::LineTransport& client, Server& server) {
+  for (const std::string& line : server.take_output()) {
+    if (auto sent = client.write_line(line); !sent) return sent;
+  }
+  return {};
+}
+
+/// Takes the next line, if one comes in time, and does what is due.
+/// @return  Whether the client said something.
+core::Result<bool> serve_once(wire::LineTransport& client, Server& server) {
+  auto line = client.read_line(waits(server));
+  if (!line) return core::fail(line.error());
+  const bool said = line->has_value();
+  if (said) {
+    const auto fault = (*line)->crlf ? RawLine::Fault::kNone : RawLine::Fault::kLineEnd;
+    server.receive({std::move((*line)->text), fault}, now_s());
+  }
+  server.advance(now_s());
+  if (auto sent = send_all(client, server); !sent) return core::fail(sent.error());
+  return said;
+}
+
+void send_away(wire::LineTransport& client, const std::string& why) {
+  [[maybe_unused]] const auto told =
+      client.write_line(error_line(kUnsolicited, error_report(kBadContext, why)));
+  client.close();
+}
+
+/// How the time of a client ended.
+struct Departure {
+  std::string why;
+  std::unique_ptr<wire::LineTransport> next;  ///< Who takes the place; null: nobody yet.
+};
+
+/// Until the client goes, loses its place or a stop is requested.
+Departure serve_client(wire::TcpListener& listener, wire::LineTransport& client, Server& server,
+                       const ServiceOptions& options) {
+  const double limit_s = std::chrono::duration<double>(options.silence_limit).count();
+  double looked_s = now_s();
+  double active_s = looked_s;  // the client said something, or what it asked for moved
+  while (!options.stop_requested()) {
+    const auto said = serve_once(client, server);
+    if (!said) return {said.error().what, nullptr};
+    if (*said || server.next_event_s()) active_s = now_s();
+    if (now_s() - looked_s < std::chrono::duration<double>(kLook).count()) continue;
+    looked_s = now_s();
+    auto other = listener.accept(milliseconds(0));
+    if (!other || *other == nullptr) continue;
+    // The first one may have closed just before: its program ended, and the other is the next one.
+    const auto there = serve_once(client, server);
+    if (!there) return {there.error().what, std::move(*other)};
+    if (*there) active_s = now_s();
+    const double silent_s = now_s() - active_s;
+    if (silent_s >= limit_s) {
+      send_away(client,
+                fmt::format("silent for {:.0f} s; another client takes its place", silent_s));
+      return {fmt::format("it was silent for {:.0f} s and {} came", silent_s, (*other)->peer()),
+              std::move(*other)};
+    }
+    options.tell(fmt::format("{} was sent away: {} is connected", (*other)->peer(), client.peer()));
+    send_away(**other, fmt::format("this server has a client already, {}, silent for {:.0f} s; it "
+                                   "takes one at a time, another one after {:g} s of silence",
+                                   client.peer(), silent_s, limit_s));
+  }
+  [[maybe_unused]] const auto told = client.write_line(error_line(
+      kUnsolicited, error_report(kEmergencyStop, "the server was ended by its operator")));
+  return {"the server ends", nullptr};
+}
+
+}  // namespace
+
+core::Result<void> serve(wire::TcpListener& listener, Server& server,
+                         const ServiceOptions& options) {
+  std::unique_ptr<wire::LineTransport> client;
+  while (!options.stop_requested()) {
+    if (client == nullptr) {
+      auto accepted = listener.accept(kLook);
+      if (!accepted) return core::fail(accepted.error());
+      client = std::move(*accepted);
+    }
+    if (client == nullptr) continue;
+    if (!options.wire_log.empty()) {
+      auto logged = wire::logged(std::move(client), options.wire_log, wire::Side::kServer);
+      if (!logged) return core::fail(logged.error());
+      client = std::move(*logged);
+    }
+    options.tell(fmt::format("{} is connected", client->peer()));
+    Departure departure = serve_client(listener, *client, server, options);
+    server.disconnect(now_s());
+    options.tell(fmt::format("{} has gone: {}", client->peer(), departure.why));
+    client->close();
+    client = std::move(departure.next);
+  }
+  return {};
+}
+
+}  // namespace rondure::cmm::ipp

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "cmm/simulated/part_surface.h"
+#include "core/result.h"
+
+namespace rondure::cmm {
+
+/// Where the sphere of a probe tip first meets a part, in the part frame.
+struct Contact {
+  double travel_mm = 0.0;                                ///< From the start, >= 0.
+  Eigen::Vector3d tip_P_mm = Eigen::Vector3d::Zero();    ///< Tip centre at contact.
+  Eigen::Vector3d point_P_mm = Eigen::Vector3d::Zero();  ///< Contact point on the part.
+  Eigen::Vector3d normal_P = Eigen::Vector3d::UnitX();   ///< Unit, from the part to the tip centre.
+};
+
+/// Moves a sphere along a straight line until it first meets the real part: its side (with all of
+/// its form), a rim or a flat end; of a bore also the outer wall of the block. Exact: the contact
+/// is the least travel at which the sphere reaches any point of the part, so a tip bridges a valley
+/// that is narrower than itself.
+///
+/// @param start_P_mm  Tip centre at the start.
+/// @param direction_P  Unit vector of the motion.
+/// @param tip_radius_mm  > 0.
+/// @param max_travel_mm  How far the tip may go, >= 0.
+/// @return  The contact; kCollision when the sphere overlaps the part at its start by more than
+///          1e-9 mm, kNoTouch when it meets nothing, kNotConverged should the solver fail.
+[[nodiscard]] core::Result<Contact> first_contact(const PartSurface& surface,
+                                                  const Eigen::Vector3d& start_P_mm,
+                                                  const Eigen::Vector3d& direction_P,
+                                                  double tip_radius_mm, double max_travel_mm);
+
+/// The same question asked of a bare sphere, e.g. the reference sphere of a probe qualification.
+/// Same errors. Any frame.
+[[nodiscard]] core::Result<Contact> first_contact_with_sphere(
+    const Eigen::Vector3d& center_mm, double radius_mm, const Eigen::Vector3d& start_mm,
+    const Eigen::Vector3d& direction, double tip_radius_mm, double max_travel_mm);
+
+}  // namespace rondure::cmm

@@ -1,0 +1,436 @@
+#include "cmm/simulated/machine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cmm/simulated/contact.h"
+#include "cmm/grid.h"
+#include "cmm/simulated/machine_map.h"
+#include "cmm/place_text.h"
+#include "cmm/scan_path.h"
+#include "cmm/ipp_client/touch_check.h"
+#include "core/noise.h"
+#include "core/units.h"
+
+namespace rondure::cmm {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::uint64_t kTouchStream = 0x746f756368;  // keeps the noise apart from other devices
+constexpr std::uint64_t kDustStream = 0x64757374;
+constexpr std::uint64_t kScanStream = 0x7363616e;
+constexpr std::size_t kLeastScanned = 3;
+constexpr double kGraze_mm = 1e-6;  // a move may overlap a surface by this much
+constexpr double kSettle_s = 0.2;
+constexpr double kHalfVolume_mm = 10'000.0;  // the grid of 1e-10 mm holds it with 15 digits
+constexpr Speeds kSlowest = {0.001, 0.001, 0.001};
+constexpr Speeds kFastest = {1000.0, 50.0, 500.0};
+
+}  // namespace
+
+SimulatedMachine::SimulatedMachine(const SimulatedMachineOptions& options)
+    : options_(options), position_W_mm_(options.park_W_mm) {}
+
+void SimulatedMachine::place_part(const PartSurface& surface, const Eigen::Isometry3d& X_WP) {
+  part_ = surface;
+  warm_part_ =
+      surface.scaled(1.0 + options_.part_errors.expansion_1_K * (options_.temperature_degC - 20.0));
+  X_WP_ = X_WP;
+}
+
+void SimulatedMachine::remove_part() {
+  part_.reset();
+  warm_part_.reset();
+}
+
+void SimulatedMachine::place_sphere(const ReferenceSphere& sphere) { spheres_.push_back(sphere); }
+
+void SimulatedMachine::place_spheres(std::vector<ReferenceSphere> spheres) {
+  spheres_ = std::move(spheres);
+}
+
+std::string SimulatedMachine::description() const {
+  return fmt::format("simulated machine, tip diameter {:.7g} mm, touch speed {:.7g} mm/s",
+                     2.0 * options_.nominal_tip_radius_mm, options_.speeds.touch_mm_s);
+}
+
+Capabilities SimulatedMachine::capabilities() const {
+  Capabilities out;
+  out.name = "simulated machine";
+  out.scans_circles = true;
+  out.least = kSlowest;
+  out.greatest = kFastest;
+  out.tools = {options_.tool};
+  out.volume_min_W_mm.setConstant(-kHalfVolume_mm);
+  out.volume_max_W_mm.setConstant(kHalfVolume_mm);
+  return out;
+}
+
+core::Result<MachineStatus> SimulatedMachine::status() {
+  MachineStatus out;
+  out.homed = homed_;
+  out.stopped = stopped_;
+  out.tool = options_.tool;
+  if (lost_) out.fault = "the connection is lost";
+  return out;
+}
+
+core::Result<void> SimulatedMachine::select_tool(const std::string& name) {
+  if (name == options_.tool) return {};
+  return core::machine_fault(
+      fmt::format("there is no tool \"{}\"; the machine has \"{}\"", name, options_.tool));
+}
+
+core::Result<void> SimulatedMachine::set_speeds(const Speeds& speeds) {
+  const auto check = [](const char* what, double value, double least, double greatest) {
+    if (value >= least && value <= greatest) return core::Result<void>{};
+    return core::Result<void>(core::fail(
+        core::Code::kOutOfRange, fmt::format("a {} speed of {:.7g} mm/s is outside {:.7g}..{:.7g} "
+                                             "mm/s; no speed was changed",
+                                             what, value, least, greatest)));
+  };
+  auto fits = check("travel", speeds.travel_mm_s, kSlowest.travel_mm_s, kFastest.travel_mm_s);
+  if (fits) fits = check("touch", speeds.touch_mm_s, kSlowest.touch_mm_s, kFastest.touch_mm_s);
+  if (fits) fits = check("scan", speeds.scan_mm_s, kSlowest.scan_mm_s, kFastest.scan_mm_s);
+  if (fits) options_.speeds = speeds;
+  return fits;
+}
+
+core::Result<void> SimulatedMachine::recover() {
+  if (lost_) return check_ready();
+  stopped_ = false;
+  return {};
+}
+
+double SimulatedMachine::tip_radius_mm() const {
+  return options_.nominal_tip_radius_mm + options_.errors.tip_radius_error_mm;
+}
+
+core::Result<void> SimulatedMachine::home() {
+  const bool was_homed = std::exchange(homed_, true);
+  const double height_mm = std::max(position_W_mm_.z(), options_.park_W_mm.z());
+  const Vector3d above(position_W_mm_.x(), position_W_mm_.y(), height_mm);
+  auto moved = move_to(above);
+  if (moved) moved = move_to(options_.park_W_mm);
+  if (!moved) homed_ = was_homed;
+  return moved;
+}
+
+core::Result<SimulatedMachine::Obstacle> SimulatedMachine::first_obstacle(
+    const PartSurface* part, const Vector3d& start_W_mm, const Vector3d& direction_W,
+    double tip_radius_mm, double max_travel_mm) const {
+  auto first = core::Result<Obstacle>(
+      core::fail(core::Code::kNoTouch, fmt::format("nothing within {:.3f} mm", max_travel_mm)));
+  if (part != nullptr) {
+    const Eigen::Isometry3d X_PW = X_WP_.inverse();
+    const auto contact = first_contact(*part, X_PW * start_W_mm, X_PW.linear() * direction_W,
+                                       tip_radius_mm, max_travel_mm);
+    if (contact) {
+      first = Obstacle{contact->travel_mm, false, X_WP_ * contact->point_P_mm};
+    } else if (contact.error().code != core::Code::kNoTouch) {
+      return core::fail(contact.error());
+    }
+  }
+  for (const ReferenceSphere& sphere : spheres_) {
+    const auto contact = first_contact_with_sphere(sphere.center_W_mm, sphere.radius_mm, start_W_mm,
+                                                   direction_W, tip_radius_mm, max_travel_mm);
+    if (contact && (!first || contact->travel_mm < first->travel_mm)) {
+      first = Obstacle{contact->travel_mm, true, contact->point_P_mm};
+    } else if (!contact && contact.error().code != core::Code::kNoTouch) {
+      return core::fail(contact.error());
+    }
+  }
+  return first;
+}
+
+core::Result<void> SimulatedMachine::move_to(const Vector3d& target_W_mm) {
+  if (auto ready = check_ready(); !ready) return ready;
+  const Vector3d tip_W_mm = on_grid_mm(target_W_mm);
+  if (!tip_W_mm.allFinite())
+    return core::machine_fault("the target of a move is not a finite point; no motion");
+  if (auto within = check_volume(tip_W_mm); !within) return within;
+  const Vector3d way = tip_W_mm - position_W_mm_;
+  const double length_mm = way.norm();
+  const Vector3d direction = length_mm > 0.0 ? Vector3d(way / length_mm) : Vector3d::UnitZ();
+  const auto obstacle = first_obstacle(warm_part(), position_W_mm_, direction,
+                                       tip_radius_mm() - kGraze_mm, length_mm);
+  if (obstacle) return core::fail(stop_before(*obstacle, direction, tip_W_mm));
+  if (obstacle.error().code == core::Code::kCollision) {
+    return core::fail(core::Code::kCollision,
+                      fmt::format("the tip is in contact at {} before the move to {} starts; the "
+                                  "machine did not move",
+                                  in_words(position_W_mm_), in_words(tip_W_mm)));
+  }
+  if (obstacle.error().code != core::Code::kNoTouch) return core::fail(obstacle.error());
+  position_W_mm_ = tip_W_mm;
+  time_s_ += length_mm / options_.speeds.travel_mm_s;
+  return {};
+}
+
+core::Error SimulatedMachine::stop_before(const Obstacle& obstacle, const Vector3d& direction,
+                                          const Vector3d& target_W_mm) {
+  // One graze short of the contact, so that the tip is free to go back.
+  const double travel_mm = std::max(0.0, obstacle.travel_mm - kGraze_mm);
+  position_W_mm_ = on_grid_mm(position_W_mm_ + travel_mm * direction);
+  time_s_ += travel_mm / options_.speeds.travel_mm_s;
+  return {
+      core::Code::kCollision,
+      fmt::format("the tip met the {} at {} on the move to {}; the machine stopped at {}",
+                  obstacle.is_sphere ? "reference sphere" : "part", in_words(obstacle.point_W_mm),
+                  in_words(target_W_mm), in_words(position_W_mm_)),
+      {}};
+}
+
+core::Result<void> SimulatedMachine::check_ready() const {
+  if (lost_) {
+    return core::machine_fault(
+        "the machine does not answer: the connection is lost; check cable and controller");
+  }
+  if (stopped_) {
+    return core::fail(core::Code::kStopped,
+                      "the machine was stopped; it moves again once the stop "
+                      "is taken back");
+  }
+  if (!homed_) return core::machine_fault("the machine is not homed; home it first, no motion");
+  return {};
+}
+
+core::Result<void> SimulatedMachine::check_volume(const Vector3d& tip_W_mm) const {
+  if (tip_W_mm.cwiseAbs().maxCoeff() <= kHalfVolume_mm) return {};
+  return core::fail(core::Code::kUnreachable,
+                    fmt::format("{} is outside the volume of the machine, {:.7g}..{:.7g} mm; no "
+                                "motion",
+                                in_words(tip_W_mm), -kHalfVolume_mm, kHalfVolume_mm));
+}
+
+core::Result<void> SimulatedMachine::check_command(const TouchCommand& command) const {
+  if (auto sound = check_touch(command, position_W_mm_); !sound) return sound;
+  return check_volume(command.expected_tip_W_mm + command.search_mm * command.direction_W);
+}
+
+core::Result<TouchReading> SimulatedMachine::touch(const TouchCommand& given) {
+  lost_ = lost_ || (options_.lost_at_touch > 0 && given.id + 1 == options_.lost_at_touch);
+  if (auto ready = check_ready(); !ready) return core::fail(ready.error());
+  if (auto checked = check_command(given); !checked) return core::fail(checked.error());
+  const TouchCommand command = on_grid(given);
+  const auto found = find_contact(command, time_s_);
+  if (!found) return core::fail(touch_failed(found.error(), command));
+  true_tips_W_mm_ = {truth_of(command, *found)};
+  const double search_mm = (found->reading_W_mm - start_of(command)).norm();
+  const auto reading =
+      reading_at(*found, command, time_s_ + search_mm / options_.speeds.touch_mm_s);
+  settle(command, reading);
+  return reading;
+}
+
+TouchReading SimulatedMachine::reading_at(const Found& found, const TouchCommand& touch,
+                                          double time_s) const {
+  const auto id = static_cast<std::uint64_t>(touch.id);
+  core::KeyedNoise noise(options_.seed, {kTouchStream, id});
+  double along_mm = options_.errors.repeatability_mm * noise.normal() +
+                    trigger_delay_mm(options_.errors, touch.direction_W);
+  core::KeyedNoise dust(options_.seed, {kDustStream, id});
+  if (found.on_part && dust.uniform() < options_.part_errors.dust_share) {
+    along_mm -= options_.part_errors.dust_mm * dust.uniform();
+  }
+  TouchReading out;
+  out.tip_W_mm = found.reading_W_mm + along_mm * touch.direction_W +
+                 backlash_shift_mm(options_.errors, touch.direction_W);
+  out.temperature_degC = options_.temperature_degC;
+  out.time_s = time_s;
+  out.tip_radius_mm = options_.nominal_tip_radius_mm;
+  out.scale_temperature_degC = options_.errors.scale_temperature_degC;
+  return on_grid(out);
+}
+
+const PartSurface* SimulatedMachine::warm_part() const {
+  return warm_part_ ? &*warm_part_ : nullptr;
+}
+
+core::Result<Vector3d> SimulatedMachine::true_contact(const TouchCommand& command) const {
+  const Vector3d start = start_of(command);
+  const auto contact = first_obstacle(part_ ? &*part_ : nullptr, start, command.direction_W,
+                                      tip_radius_mm(), command.approach_mm + command.search_mm);
+  if (!contact) return core::fail(contact.error());
+  return start + contact->travel_mm * command.direction_W;
+}
+
+core::Result<SimulatedMachine::Found> SimulatedMachine::find_contact(const TouchCommand& command,
+                                                                     double time_s) const {
+  const Vector3d start = start_of(command);
+  const double reach_mm = command.approach_mm + command.search_mm;
+  if (!has_map(options_.errors) || reach_mm == 0.0) {
+    const auto contact =
+        first_obstacle(warm_part(), start, command.direction_W, tip_radius_mm(), reach_mm);
+    if (!contact) return core::fail(contact.error());
+    return Found{start + contact->travel_mm * command.direction_W, !contact->is_sphere};
+  }
+  // The errors bend the way of a few mm by less than 1e-9 mm: it stays a straight line.
+  const Vector3d from = true_position(options_.errors, start, time_s);
+  const Vector3d way =
+      true_position(options_.errors, start + reach_mm * command.direction_W, time_s) - from;
+  const Vector3d direction = way.normalized();
+  const auto contact = first_obstacle(warm_part(), from, direction, tip_radius_mm(), way.norm());
+  if (!contact) return core::fail(contact.error());
+  return Found{reading_of(options_.errors, from + contact->travel_mm * direction, time_s),
+               !contact->is_sphere};
+}
+
+Vector3d SimulatedMachine::truth_of(const TouchCommand& command, const Found& found) const {
+  const bool same_part =
+      options_.part_errors.expansion_1_K == 0.0 || options_.temperature_degC == 20.0;
+  if (same_part && !has_map(options_.errors)) return found.reading_W_mm;
+  return true_contact(command).value_or(found.reading_W_mm);
+}
+
+std::vector<TouchCommand> SimulatedMachine::points_of(const ScanCircleCommand& command) const {
+  std::vector<TouchCommand> out;
+  out.reserve(static_cast<std::size_t>(command.points));
+  const ScanScatter& scatter = options_.scan_scatter;
+  if (scatter.even()) {
+    for (int i = 0; i < command.points; ++i) out.push_back(scan_point(command, i));
+    return out;
+  }
+  core::KeyedNoise noise(options_.seed,
+                         {kScanStream, static_cast<std::uint64_t>(command.first_id)});
+  const auto about_zero = [&noise](double limit) { return limit * (2.0 * noise.uniform() - 1.0); };
+  const double step_rad = command.sweep_rad / command.points;
+  double angle_rad = about_zero(scatter.start_rad);
+  for (int i = 0; i < command.points; ++i) {
+    const bool last_chance =
+        out.size() + static_cast<std::size_t>(command.points - i) <= kLeastScanned;
+    if (noise.uniform() >= scatter.dropped_share || last_chance) {
+      out.push_back(scan_point_at(command, angle_rad, static_cast<int>(out.size())));
+    }
+    angle_rad += step_rad * (1.0 + about_zero(scatter.step_1));
+  }
+  return out;
+}
+
+core::Result<std::vector<SimulatedMachine::Found>> SimulatedMachine::find_circle(
+    const ScanCircleCommand& command, const std::vector<TouchCommand>& points) const {
+  std::vector<Found> out;
+  out.reserve(points.size());
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+    if (stopped_) {
+      return core::fail(core::Code::kStopped,
+                        fmt::format("the machine was stopped at point {} of a scan", i + 1));
+    }
+    const auto found = find_contact(points[static_cast<std::size_t>(i)], scan_time_s(command, i));
+    if (!found) return core::fail(scan_failed(found.error(), command, i));
+    out.push_back(*found);
+  }
+  return out;
+}
+
+core::Result<std::vector<TouchReading>> SimulatedMachine::scan_circle(
+    const ScanCircleCommand& given) {
+  const std::int64_t lost = options_.lost_at_touch;
+  lost_ = lost_ || (lost > given.first_id && lost <= given.first_id + given.points);
+  if (auto ready = check_ready(); !ready) return core::fail(ready.error());
+  if (auto sound = check_scan(given); !sound) return core::fail(sound.error());
+  const ScanCircleCommand command = on_grid(given);
+  if (auto checked = check_command(scan_point(command, 0)); !checked) {
+    return core::fail(checked.error());
+  }
+  const std::vector<TouchCommand> points = points_of(command);
+  const auto circle = find_circle(command, points);
+  if (!circle) return core::fail(circle.error());
+  std::vector<TouchReading> readings;
+  readings.reserve(circle->size());
+  true_tips_W_mm_.clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Found& found = (*circle)[i];
+    true_tips_W_mm_.push_back(truth_of(points[i], found));
+    readings.push_back(reading_at(found, points[i], scan_time_s(command, static_cast<int>(i))));
+  }
+  settle(command, readings.back());
+  // Full turns end where they began, to the last bit.
+  const bool full_turns = std::abs(std::remainder(command.sweep_rad, core::kTwoPi)) < 1e-9;
+  if (!full_turns) position_W_mm_ = on_grid_mm(start_of(scan_point(command, command.points)));
+  return readings;
+}
+
+// Counted with the nominal way to the surface: what is found there does not change the clock.
+double SimulatedMachine::scan_time_s(const ScanCircleCommand& command, int index) const {
+  return time_s_ + command.approach_mm / options_.speeds.touch_mm_s + index * scan_step_s(command);
+}
+
+double SimulatedMachine::scan_step_s(const ScanCircleCommand& command) const {
+  return scan_length_mm(command) / command.points / options_.speeds.scan_mm_s;
+}
+
+// From the reading, not from the hidden truth: a journal can give it again.
+void SimulatedMachine::settle(const TouchCommand& command, const TouchReading& reading) {
+  const double back_mm = (reading.tip_W_mm - start_of(command)).norm();
+  time_s_ = reading.time_s + back_mm / options_.speeds.travel_mm_s + kSettle_s;
+}
+
+void SimulatedMachine::settle(const ScanCircleCommand& command, const TouchReading& last) {
+  time_s_ = last.time_s + scan_step_s(command) + command.approach_mm / options_.speeds.travel_mm_s +
+            kSettle_s;
+}
+
+core::Result<void> SimulatedMachine::continue_after(const TouchCommand& given,
+                                                    const TouchReading& reading) {
+  const TouchCommand command = on_grid(given);
+  const auto contact = true_contact(command);
+  if (!contact) return core::fail(contact.error());
+  true_tips_W_mm_ = {*contact};
+  settle(command, reading);
+  return {};
+}
+
+core::Result<void> SimulatedMachine::continue_after(const ScanCircleCommand& given,
+                                                    const TouchReading& last) {
+  if (auto sound = check_scan(given); !sound) return sound;
+  const ScanCircleCommand command = on_grid(given);
+  const std::vector<TouchCommand> points = points_of(command);
+  std::vector<Vector3d> tips;
+  tips.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto contact = true_contact(points[i]);
+    if (!contact) return core::fail(scan_failed(contact.error(), command, static_cast<int>(i)));
+    tips.push_back(*contact);
+  }
+  true_tips_W_mm_ = std::move(tips);
+  settle(command, last);
+  return {};
+}
+
+core::Error SimulatedMachine::scan_failed(const core::Error& cause,
+                                          const ScanCircleCommand& command, int index) {
+  if (cause.code != core::Code::kNoTouch) return cause;
+  return {core::Code::kNoTouch,
+          fmt::format("the scan lost the surface at point {} of {}: no contact within {:.3f} mm "
+                      "beyond the circle at {}",
+                      index + 1, command.points, command.search_mm,
+                      in_words(scan_point(command, index).expected_tip_W_mm)),
+          {}};
+}
+
+core::Error SimulatedMachine::touch_failed(const core::Error& cause, const TouchCommand& command) {
+  if (cause.code == core::Code::kCollision) {
+    return {core::Code::kCollision,
+            fmt::format("the tip is in contact at {} before the search starts; the machine did not "
+                        "move",
+                        in_words(position_W_mm_)),
+            {}};
+  }
+  if (cause.code != core::Code::kNoTouch) return cause;
+  const double search_mm = command.approach_mm + command.search_mm;
+  time_s_ += search_mm / options_.speeds.touch_mm_s + search_mm / options_.speeds.travel_mm_s;
+  return {
+      core::Code::kNoTouch,
+      fmt::format("no contact within {:.3f} mm beyond the expected surface (search from {} to "
+                  "{})",
+                  command.search_mm, in_words(position_W_mm_),
+                  in_words(command.expected_tip_W_mm + command.search_mm * command.direction_W)),
+      {}};
+}
+
+}  // namespace rondure::cmm

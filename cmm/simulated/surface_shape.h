@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "cmm/simulated/part_surface.h"
+
+namespace rondure::cmm {
+
+/// Radius of a part surface with its partial derivatives; t stands for theta [rad], z in mm.
+struct RadiusDerivatives {
+  double r_mm = 0.0;
+  double t = 0.0;
+  double z = 0.0;
+  double tt = 0.0;
+  double tz = 0.0;
+  double zz = 0.0;
+};
+
+[[nodiscard]] RadiusDerivatives radius_derivatives(const PartSurface& surface, double theta_rad,
+                                                   double z_mm);
+
+/// A point of the surface, X = (r cos theta, r sin theta, z), with its derivatives by
+/// u = radius * theta [mm] and z [mm]: both parameters are lengths of the same size.
+struct SurfaceJet {
+  Eigen::Vector3d x_mm;
+  Eigen::Vector3d u;
+  Eigen::Vector3d z;
+  Eigen::Vector3d uu;
+  Eigen::Vector3d uz;
+  Eigen::Vector3d zz;
+};
+
+[[nodiscard]] SurfaceJet surface_jet(const PartSurface& surface, double u_mm, double z_mm);
+
+/// Bounds that hold everywhere on a surface.
+struct ShapeBounds {
+  double deviation_mm = 0.0;         ///< |r - radius|.
+  double toward_free_mm = 0.0;       ///< r - radius of a shaft, radius - r of a bore.
+  double stretch_u = 0.0;            ///< |dX/du|.
+  double stretch_z = 0.0;            ///< |dX/dz|.
+  double form_curvature_1_mm = 0.0;  ///< Of the form alone, the ideal cylinder left out [1/mm].
+  double wavelength_mm = 0.0;        ///< Of the finest undulation, either way along the surface.
+};
+
+[[nodiscard]] ShapeBounds shape_bounds(const PartSurface& surface);
+/// The same where no mark is.
+[[nodiscard]] ShapeBounds bounds_beside_marks(const PartSurface& surface);
+
+}  // namespace rondure::cmm
