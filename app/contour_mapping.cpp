@@ -10,7 +10,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "plans/json_text.h"
+#include "plans/schema/json_text.h"
 #include "record/files.h"
 
 namespace rondure::app {

@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/error.h"
-#include "plans/forecast.h"
+#include "plans/forecast/forecast.h"
 
 namespace rondure::app {
 

@@ -7,7 +7,7 @@
 
 #include "app/terminal.h"
 #include "core/numbers.h"
-#include "plans/forecast.h"
+#include "plans/forecast/forecast.h"
 #include "reports/language.h"
 
 namespace rondure::app {

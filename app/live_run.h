@@ -5,7 +5,7 @@
 #include "app/verbs.h"
 #include "core/result.h"
 #include "plans/plan.h"
-#include "plans/runner.h"
+#include "plans/run/runner.h"
 #include "reports/live_view.h"
 
 namespace rondure::app {

@@ -18,7 +18,7 @@
 #include "app/wheel_command.h"
 #include "core/numbers.h"
 #include "core/version.h"
-#include "plans/simulation_table.h"
+#include "plans/schema/simulation_table.h"
 #include "reports/exports.h"
 #include "reports/language.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "plans/forecast.h"
+#include "plans/forecast/forecast.h"
 #include "plans/plan.h"
 #include "reports/predict.h"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/shell_word.h"
-#include "plans/analysis.h"
+#include "plans/analyses/analysis.h"
 #include "record/archive/place.h"
 #include "record/journal/journal.h"
 #include "record/journal/unborn_run.h"

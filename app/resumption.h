@@ -5,7 +5,7 @@
 
 #include "app/run_ending.h"
 #include "app/verbs.h"
-#include "plans/runner.h"
+#include "plans/run/runner.h"
 
 namespace rondure::app {
 

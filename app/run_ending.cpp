@@ -12,7 +12,7 @@
 #include "app/shell_word.h"
 #include "app/sketch_style.h"
 #include "app/terminal.h"
-#include "plans/record_check.h"
+#include "plans/checks/record.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
 #include "record/run_lock.h"

@@ -4,7 +4,7 @@
 
 #include "app/verbs.h"
 #include "plans/plan.h"
-#include "plans/runner.h"
+#include "plans/run/runner.h"
 #include "record/archive/archive.h"
 #include "reports/live_view.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "plans/expected_record.h"
+#include "plans/run/expected_record.h"
 
 namespace rondure::app {
 

@@ -9,7 +9,7 @@
 
 #include "app/prediction.h"
 #include "app/sampling_layout.h"
-#include "plans/run_head.h"
+#include "plans/run/run_head.h"
 
 namespace rondure::app {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/pose.h"
 #include "core/result.h"
-#include "plans/runner.h"
+#include "plans/run/runner.h"
 
 namespace rondure::app {
 

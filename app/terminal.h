@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "plans/runner.h"
+#include "plans/run/runner.h"
 
 namespace rondure::app {
 

@@ -5,7 +5,7 @@
 
 #include "app/terminal.h"
 #include "app/verbs.h"
-#include "plans/record_check.h"
+#include "plans/checks/record.h"
 #include "record/journal/journal.h"
 #include "reports/evaluation.h"
 #include "reports/factor_study.h"

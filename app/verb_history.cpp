@@ -9,7 +9,7 @@
 #include "app/archive_step.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
-#include "plans/record_check.h"
+#include "plans/checks/record.h"
 #include "record/archive/queue.h"
 #include "record/files.h"
 #include "record/journal/journal.h"

@@ -13,8 +13,8 @@
 #include "app/sampling_search.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
-#include "plans/forecast.h"
-#include "plans/forecast_picture.h"
+#include "plans/forecast/forecast.h"
+#include "plans/forecast/picture.h"
 #include "record/files.h"
 
 namespace rondure::app {

@@ -8,7 +8,7 @@
 #include "app/sketch_style.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
-#include "plans/record_check.h"
+#include "plans/checks/record.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal/journal.h"

@@ -15,10 +15,10 @@
 #include "app/step_prompt.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
-#include "plans/json_text.h"
+#include "plans/schema/json_text.h"
 #include "plans/plan.h"
-#include "plans/runner.h"
-#include "plans/utf8.h"
+#include "plans/run/runner.h"
+#include "plans/schema/utf8.h"
 #include "record/journal/journal.h"
 
 namespace rondure::app {

@@ -5,7 +5,7 @@
 #include "app/processor.h"
 #include "app/terminal.h"
 #include "app/verbs.h"
-#include "plans/record_check.h"
+#include "plans/checks/record.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/signature.h"

@@ -11,7 +11,7 @@
 #include "cmm/ipp_server/server.h"
 #include "cmm/ipp_server/service.h"
 #include "plans/plan.h"
-#include "plans/served_cell.h"
+#include "plans/cell/served_cell.h"
 #include "wire/tcp_line.h"
 
 namespace rondure::app {

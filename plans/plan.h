@@ -9,19 +9,19 @@
 #include <vector>
 
 #include "core/result.h"
-#include "plans/contour_plan.h"
+#include "plans/analyses/contour_plan.h"
 #include "plans/fixture_drivers_plan.h"
 #include "plans/machine_errors_plan.h"
-#include "plans/rotary_plan.h"
-#include "plans/spindle_plan.h"
+#include "plans/analyses/rotary_plan.h"
+#include "plans/analyses/spindle_plan.h"
 #include "plans/uncertainty_plan.h"
-#include "plans/wheel_plan.h"
+#include "plans/analyses/wheel_plan.h"
 #include "plans/zaber_plan.h"
 
 namespace rondure::plans {
 
 // The plan as its JSON spells it: degrees and micrometres where the key says so. The one place
-// where keys, units, ranges, meanings and defaults stand is plans/plan_table.h; a member
+// where keys, units, ranges, meanings and defaults stand is plans/schema/plan_table.h; a member
 // initialiser here is the default.
 
 struct PlanHead {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "plans/plan.h"
-#include "plans/served_cell.h"
+#include "plans/cell/served_cell.h"
 #include "tests/app/cutting_proxy.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"

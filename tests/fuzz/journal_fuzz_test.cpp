@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plans/record_check.h"
+#include "plans/checks/record.h"
 #include "record/journal/journal.h"
 #include "reports/defect.h"
 #include "reports/evaluation.h"

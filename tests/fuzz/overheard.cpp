@@ -6,7 +6,7 @@
 
 #include "app/terminal.h"
 #include "app/verbs.h"
-#include "plans/utf8.h"
+#include "plans/schema/utf8.h"
 #include "reports/text.h"
 
 namespace rondure {

@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "plans/plan.h"
-#include "plans/runner.h"
+#include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "record/csv/points.h"
 

@@ -1,4 +1,4 @@
-#include "plans/fixture_datum.h"
+#include "plans/run/fixture_datum.h"
 
 #include <stdexcept>
 
@@ -7,9 +7,9 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "plans/forecast.h"
-#include "plans/plan_reach.h"
-#include "plans/runner.h"
+#include "plans/forecast/forecast.h"
+#include "plans/checks/plan_reach.h"
+#include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"

@@ -1,14 +1,14 @@
 // What is foretold is what a run does: the simulated machine is followed move by move.
 
-#include "plans/forecast.h"
+#include "plans/forecast/forecast.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/units.h"
 #include "fit/least_squares/cylinder.h"
-#include "plans/forecast_picture.h"
-#include "plans/runner.h"
+#include "plans/forecast/picture.h"
+#include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"

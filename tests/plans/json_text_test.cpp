@@ -1,13 +1,13 @@
-#include "plans/json_text.h"
+#include "plans/schema/json_text.h"
 
 #include <array>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "plans/key_spec.h"
-#include "plans/near_words.h"
-#include "plans/utf8.h"
+#include "plans/schema/key_spec.h"
+#include "plans/schema/near_words.h"
+#include "plans/schema/utf8.h"
 
 namespace rondure::plans {
 namespace {

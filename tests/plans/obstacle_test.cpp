@@ -1,4 +1,4 @@
-#include "plans/obstacle.h"
+#include "plans/path/obstacle.h"
 
 #include <cmath>
 

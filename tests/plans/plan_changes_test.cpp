@@ -1,4 +1,4 @@
-#include "plans/plan_changes.h"
+#include "plans/run/plan_changes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plans/utf8.h"
+#include "plans/schema/utf8.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {

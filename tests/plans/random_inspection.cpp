@@ -12,8 +12,8 @@
 #include "core/units.h"
 #include "fit/zone/center_search.h"
 #include "fit/references/min_zone_cylinder.h"
-#include "plans/hidden_errors.h"
-#include "plans/runner.h"
+#include "plans/cell/hidden_errors.h"
+#include "plans/run/runner.h"
 #include "record/journal/journal.h"
 
 namespace rondure::test {

@@ -1,4 +1,4 @@
-#include "plans/reached_pose.h"
+#include "plans/cell/reached_pose.h"
 
 #include <stdexcept>
 
@@ -7,9 +7,9 @@
 
 #include "core/units.h"
 #include "fixture/simulated.h"
-#include "plans/plan_reach.h"
-#include "plans/pose_grid.h"
-#include "plans/runner.h"
+#include "plans/checks/plan_reach.h"
+#include "plans/path/pose_grid.h"
+#include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "plans/run_head.h"
-#include "plans/runner.h"
+#include "plans/run/run_head.h"
+#include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"

@@ -7,7 +7,7 @@
 
 #include "core/noise.h"
 #include "core/version.h"
-#include "plans/runner.h"
+#include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"

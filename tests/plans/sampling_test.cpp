@@ -1,4 +1,4 @@
-#include "plans/sampling.h"
+#include "plans/path/sampling.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
-#include "plans/runner.h"
+#include "plans/run/runner.h"
 #include "random_inspection.h"
 #include "record/journal/journal.h"
 #include "tests/plans/files.h"

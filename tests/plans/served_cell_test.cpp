@@ -1,7 +1,7 @@
 // The virtual cell behind the I++ DME server: what comes over the wire has the bits of the machine
 // in the same process.
 
-#include "plans/served_cell.h"
+#include "plans/cell/served_cell.h"
 
 #include <array>
 #include <atomic>

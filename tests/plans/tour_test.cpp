@@ -1,4 +1,4 @@
-#include "plans/tour.h"
+#include "plans/path/tour.h"
 
 #include <algorithm>
 #include <limits>

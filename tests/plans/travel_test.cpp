@@ -1,4 +1,4 @@
-#include "plans/travel.h"
+#include "plans/path/travel.h"
 
 #include <algorithm>
 #include <cmath>

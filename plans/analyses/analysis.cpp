@@ -1,0 +1,164 @@
+#include "plans/analyses/analysis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "plans/schema/json_text.h"
+#include "plans/checks/plan_checks.h"
+#include "plans/analyses/series_file.h"
+#include "record/sha256.h"
+
+namespace rondure::plans {
+namespace {
+
+using core::Code;
+
+std::array<const AnalysisKind*, 4> kinds() {
+  return {&spindle_kind(), &wheel_kind(), &contour_kind(), &rotary_kind()};
+}
+
+core::Result<AnalysisData> read_files(const Plan& plan, std::size_t index,
+                                      const AnalysisKind& kind) {
+  AnalysisData out;
+  std::string digests;
+  for (const SeriesFile& file : kind.files(plan.features[index])) {
+    const auto bytes = read_data_file(plan.folder / file.file, file.file);
+    if (!bytes) return core::fail(bytes.error().at(feature_pointer(index) + file.where));
+    auto series = record::parse_series_csv(*bytes, file.file, file.wanted, file.names);
+    if (!series) return core::fail(series.error());
+    series->feature = static_cast<int>(index);
+    series->name = file.series;
+    out.series.push_back(*std::move(series));
+    out.sha256 = record::sha256_hex(*bytes);
+    digests += fmt::format("{} {}\n", out.sha256, file.file);
+  }
+  if (out.series.size() > 1) out.sha256 = record::sha256_hex(digests);
+  return out;
+}
+
+/// "roundness, run-out".
+std::string list_of(std::span<const std::string_view> words) {
+  std::string out;
+  for (const std::string_view word : words) {
+    if (!out.empty()) out += ", ";
+    out += word;
+  }
+  return out;
+}
+
+void check_forms(const FeaturePlan& feature, const AnalysisKind& kind, const std::string& where,
+                 Findings& findings) {
+  for (std::size_t k = 0; k < feature.characteristics.size(); ++k) {
+    const std::string place = item_pointer(where + "/characteristics", k) + "/form";
+    const std::string& form = feature.characteristics[k].form;
+    if (!findings.sound(place) ||
+        std::find(kind.forms.begin(), kind.forms.end(), form) != kind.forms.end()) {
+      continue;
+    }
+    findings.meaning(
+        Code::kMeaning, place,
+        fmt::format("a {} has no {}; ask for {}", kind.type, form, list_of(kind.forms)));
+  }
+}
+
+/// Its own section is there and no other's; nothing stands there that has no effect.
+void check_sections(const AnalysisKind& kind, const std::string& where, Findings& findings) {
+  if (!findings.is_given(fmt::format("{}/{}", where, kind.type))) {
+    findings.meaning(Code::kMissingKey, fmt::format("{}/{}", where, kind.type),
+                     fmt::format("this key is missing: it says how a {} is evaluated", kind.type));
+  }
+  for (const std::string_view key :
+       {"/nominal", "/sampling", "/pose_search", "/source/tip_diameter_mm"}) {
+    if (!findings.is_given(where + std::string(key))) continue;
+    findings.meaning(
+        Code::kMeaning, where + std::string(key),
+        fmt::format("has no effect: {}; remove it",
+                    kind.check_cell != nullptr ? std::string("balls are touched, no surface")
+                                               : fmt::format("a {} is not touched", kind.type)));
+  }
+}
+
+void check_data(const Plan& plan, std::size_t index, const AnalysisKind& kind, Findings& findings) {
+  const std::string where = feature_pointer(index);
+  if (kind.check_cell != nullptr) return kind.check_cell(plan, index, findings);
+  if (has_files(plan.features[index])) {
+    if (!findings.sound(where + "/source")) return;
+    if (const auto data = read_files(plan, index, kind); !data) {
+      findings.meaning(data.error().code, data.error().where.empty() ? where : data.error().where,
+                       data.error().what);
+    }
+    return;
+  }
+  const std::string simulated = fmt::format("/simulation/{}", kind.type);
+  if (plan.simulation && kind.is_simulated(*plan.simulation)) return;
+  findings.meaning(Code::kMissingKey, simulated,
+                   fmt::format("this key is missing: feature {} has no source; say what is "
+                               "simulated, or give the feature a \"source\" file",
+                               index + 1));
+}
+
+}  // namespace
+
+std::vector<SeriesFile> source_file(const FeaturePlan& feature,
+                                    std::span<const record::WantedColumn> wanted) {
+  if (!feature.source) return {};
+  SeriesFile out;
+  out.file = feature.source->file;
+  out.where = "/source/file";
+  out.wanted.assign(wanted.begin(), wanted.end());
+  for (const ColumnPlan& column : feature.source->columns) {
+    out.names.push_back({column.column, column.in_file});
+  }
+  return {out};
+}
+
+double sum_of(std::span<const HarmonicPlan> harmonics, double angle_rad) {
+  double sum = 0.0;
+  for (const HarmonicPlan& h : harmonics) {
+    sum += h.amplitude_um * std::cos(h.order * angle_rad - h.phase_deg * core::kDegree);
+  }
+  return sum;
+}
+
+bool has_files(const FeaturePlan& feature) {
+  const AnalysisKind* const kind = analysis_kind(feature.type);
+  return kind != nullptr && !kind->files(feature).empty();
+}
+
+bool measures_by_touch(const FeaturePlan& feature) {
+  const AnalysisKind* const kind = analysis_kind(feature.type);
+  return kind != nullptr && kind->check_cell != nullptr;
+}
+
+const AnalysisKind* analysis_kind(std::string_view type) {
+  for (const AnalysisKind* kind : kinds()) {
+    if (kind->type == type) return kind;
+  }
+  return nullptr;
+}
+
+core::Result<AnalysisData> analysis_data(const Plan& plan, std::size_t index, std::uint64_t seed) {
+  const AnalysisKind& kind = *analysis_kind(plan.features[index].type);
+  return has_files(plan.features[index]) ? read_files(plan, index, kind)
+                                         : kind.simulate(plan, index, seed);
+}
+
+void check_analysis(const Plan& plan, std::size_t index, Findings& findings) {
+  const FeaturePlan& feature = plan.features[index];
+  const AnalysisKind* kind = analysis_kind(feature.type);
+  const std::string where = feature_pointer(index);
+  if (kind == nullptr || !findings.sound(where + "/type")) return;
+  check_sections(*kind, where, findings);
+  check_forms(feature, *kind, where, findings);
+  const std::string section = fmt::format("{}/{}", where, kind->type);
+  if (findings.is_given(section) && findings.sound(section)) {
+    kind->check(feature, section, findings);
+  }
+  check_data(plan, index, *kind, findings);
+}
+
+}  // namespace rondure::plans

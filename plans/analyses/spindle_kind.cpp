@@ -1,0 +1,214 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/noise.h"
+#include "core/units.h"
+#include "fit/spindle/probe_layout.h"
+#include "fit/geometry/swing_arm.h"
+#include "plans/analyses/analysis.h"
+#include "plans/schema/setting_list.h"
+#include "plans/analyses/spindle_table.h"
+
+namespace rondure::plans {
+namespace {
+
+using core::Code;
+using core::kDegree;
+
+constexpr std::array<std::string_view, 6> kSpindleForms = {
+    "roundness",    "roundness-rms",      "harmonic-limits",
+    "motion-total", "motion-synchronous", "motion-asynchronous"};
+constexpr std::array<record::WantedColumn, 5> kProbeColumns = {
+    {{"alpha_deg"}, {"H1_um"}, {"H2_um"}, {"H3_um"}, {"beta_deg", false}}};
+constexpr std::uint64_t kProbeStream = 0x5b1d1eU;
+constexpr double kDriftCycles = 0.37;  ///< A turn: never in step with it.
+
+fit::SwingArm arm_of(const SpindlePlan& plan) {
+  return {plan.crank_radius_mm, plan.wheel_radius_mm, plan.pin_radius_mm};
+}
+
+/// The stated layout; nothing of it is guessed.
+core::Result<fit::ProbeLayout> layout_of(const SpindlePlan& plan) {
+  if (plan.layout == "published-a") return fit::published_layout_a();
+  if (plan.layout == "published-b") return fit::published_layout_b();
+  if (plan.layout == "reference") return fit::reference_layout();
+  const double p2 = plan.p1_to_p2_deg.value_or(0.0);
+  const double between = plan.p2_to_p3_deg.value_or(plan.p1_to_p3_deg.value_or(0.0) - p2);
+  return fit::ProbeLayout::of(p2 * kDegree, between * kDegree);
+}
+
+/// Angles are given once and completely, or not at all.
+bool check_angles(const SpindlePlan& plan, const std::string& where, Findings& findings) {
+  const bool own = plan.layout == "angles";
+  const auto refuse = [&](Code code, std::string_view key, std::string what) {
+    findings.meaning(code, fmt::format("{}/{}", where, key), std::move(what));
+    return false;
+  };
+  if (!own) {
+    for (const std::string_view key : {"p1_to_p2_deg", "p2_to_p3_deg", "p1_to_p3_deg"}) {
+      if (!findings.is_given(fmt::format("{}/{}", where, key))) continue;
+      return refuse(
+          Code::kMeaning, key,
+          fmt::format("has no effect: the layout is \"{}\"; remove it, or make the layout "
+                      "\"angles\"",
+                      plan.layout));
+    }
+    return true;
+  }
+  if (!plan.p1_to_p2_deg) {
+    return refuse(Code::kMissingKey, "p1_to_p2_deg",
+                  "this key is missing: the angle from probe 1 to probe 2");
+  }
+  if (plan.p2_to_p3_deg && plan.p1_to_p3_deg) {
+    return refuse(Code::kMeaning, "p1_to_p3_deg",
+                  "the place of probe 3 is given twice, from probe 1 and from probe 2; remove one");
+  }
+  if (!plan.p2_to_p3_deg && !plan.p1_to_p3_deg) {
+    return refuse(Code::kMissingKey, "p2_to_p3_deg",
+                  "this key is missing: the angle from probe 2 to probe 3; or give p1_to_p3_deg, "
+                  "from probe 1");
+  }
+  return true;
+}
+
+void check_spindle(const FeaturePlan& feature, const std::string& where, Findings& findings) {
+  const SpindlePlan& plan = *feature.spindle;
+  if (check_angles(plan, where, findings)) {
+    if (const auto layout = layout_of(plan); !layout) {
+      findings.meaning(layout.error().code, where, layout.error().what);
+    }
+  }
+  if (const auto arm = fit::check_swing_arm(arm_of(plan)); !arm) {
+    findings.meaning(arm.error().code, where, arm.error().what);
+  }
+  if (plan.samples < 2 * plan.highest_order + 2) {
+    findings.meaning(Code::kSampling, where + "/samples",
+                     fmt::format("{} samples a revolution do not carry {} undulations; at least {} "
+                                 "are needed, {} are better",
+                                 plan.samples, plan.highest_order, 2 * plan.highest_order + 2,
+                                 7 * plan.highest_order));
+  }
+  if (plan.second_order == "on" && !(plan.pin_radius_mm > 0.0)) {
+    findings.meaning(Code::kMissingKey, where + "/pin_radius_mm",
+                     "this key is missing: the second order needs the radius of the part");
+  }
+}
+
+/// What the simulated probes see at one angle of the work.
+struct ProbedWorld {
+  const SimulatedSpindlePlan& hidden;
+  fit::SwingArm arm;
+  std::array<double, 3> places_rad;  ///< Where the probes really are.
+
+  [[nodiscard]] double drift_um(double alpha) const {
+    return hidden.asynchronous_um * std::sin(kDriftCycles * alpha);
+  }
+  [[nodiscard]] double motion_x_um(double alpha) const {
+    return sum_of(hidden.motion_x, alpha) + drift_um(alpha);
+  }
+  [[nodiscard]] double motion_y_um(double alpha) const {
+    return sum_of(hidden.motion_y, alpha) +
+           hidden.asynchronous_um * std::cos(kDriftCycles * alpha) - hidden.asynchronous_um;
+  }
+  [[nodiscard]] double profile_um(double theta) const {
+    return sum_of(hidden.profile, theta) +
+           hidden.eccentricity_um * std::cos(theta - hidden.eccentricity_deg * kDegree);
+  }
+  /// The reading of probe i, without noise: the exact distance along its line for a part of a known
+  /// radius, else to first order.
+  [[nodiscard]] double reading_um(std::size_t i, double alpha) const {
+    const double beta = arm.beta_rad(alpha);
+    const double direction = places_rad[i] + beta;
+    const double along =
+        motion_y_um(alpha) * std::cos(direction) + motion_x_um(alpha) * std::sin(direction);
+    const double across =
+        motion_x_um(alpha) * std::cos(direction) - motion_y_um(alpha) * std::sin(direction);
+    const double at = alpha + beta + places_rad[i];
+    const double radius_um = arm.pin_radius_mm / core::kMicrometre;
+    double reading = profile_um(at) + along;
+    if (radius_um > 0.0) {
+      for (int pass = 0; pass < 4; ++pass) {
+        const double shift = std::atan2(across, radius_um + reading - along);
+        const double rho = radius_um + profile_um(at - shift);
+        reading = along + std::sqrt(rho * rho - across * across) - radius_um;
+      }
+    }
+    return reading * (1.0 + hidden.probe_gain_error[i]) + hidden.probe_offset_um[i];
+  }
+};
+
+record::Series readings(const ProbedWorld& world, int feature, std::uint64_t seed) {
+  record::Series out;
+  out.feature = feature;
+  out.columns = {{"alpha_deg", "deg"}, {"H1_um", "um"}, {"H2_um", "um"}, {"H3_um", "um"}};
+  const int count = world.hidden.turns * world.hidden.samples_per_turn;
+  for (int m = 0; m < count; ++m) {
+    const double alpha_deg = 360.0 * m / world.hidden.samples_per_turn;
+    out.values.push_back(alpha_deg);
+    core::KeyedNoise noise(
+        seed, {kProbeStream, static_cast<std::uint64_t>(feature), static_cast<std::uint64_t>(m)});
+    for (std::size_t i = 0; i < 3; ++i) {
+      out.values.push_back(world.reading_um(i, alpha_deg * kDegree) +
+                           world.hidden.probe_noise_um * noise.normal());
+    }
+  }
+  return out;
+}
+
+/// Profile over the part and motion over the work, each at equal angles.
+void add_truth(const ProbedWorld& world, int feature, const SpindlePlan& plan, AnalysisData& out) {
+  record::Series truth;
+  truth.feature = feature;
+  truth.name = "truth";
+  truth.role = record::Series::Role::kTruth;
+  truth.columns = {{"angle_deg", "deg"}, {"profile_um", "um"}, {"RX_um", "um"}, {"RY_um", "um"}};
+  double least = 0.0;
+  double greatest = 0.0;
+  for (int n = 0; n < plan.samples; ++n) {
+    const double angle_deg = 360.0 * n / plan.samples;
+    const double angle = angle_deg * kDegree;
+    const double form = sum_of(world.hidden.profile, angle);
+    truth.values.insert(truth.values.end(), {angle_deg, form, sum_of(world.hidden.motion_x, angle),
+                                             sum_of(world.hidden.motion_y, angle)});
+    least = n == 0 ? form : std::min(least, form);
+    greatest = n == 0 ? form : std::max(greatest, form);
+  }
+  out.series.push_back(std::move(truth));
+  out.truths.push_back({feature, "profile_peak_to_valley_um", greatest - least});
+}
+
+core::Result<AnalysisData> simulate_spindle(const Plan& plan, std::size_t index,
+                                            std::uint64_t seed) {
+  const SpindlePlan& asked = *plan.features[index].spindle;
+  const SimulatedSpindlePlan& hidden = *plan.simulation->spindle;
+  const auto layout = layout_of(asked);
+  if (!layout) return core::fail(layout.error());
+  ProbedWorld world{hidden, arm_of(asked), layout->angles_rad()};
+  world.places_rad[1] += hidden.p2_error_deg * kDegree;
+  world.places_rad[2] += hidden.p3_error_deg * kDegree;
+  const auto feature = static_cast<int>(index);
+  AnalysisData out;
+  out.series.push_back(readings(world, feature, seed));
+  add_truth(world, feature, asked, out);
+  return out;
+}
+
+}  // namespace
+
+const AnalysisKind& spindle_kind() {
+  static constexpr AnalysisKind kKind = {
+      .type = "spindle",
+      .shape = record::Shape::kSpindle,
+      .forms = kSpindleForms,
+      .is_simulated = simulates<&SimulationPlan::spindle>,
+      .settings = settings_of_section<&FeaturePlan::spindle>,
+      .files = [](const FeaturePlan& feature) { return source_file(feature, kProbeColumns); },
+      .check = check_spindle,
+      .simulate = simulate_spindle};
+  return kKind;
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,212 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <Eigen/Core>
+
+#include "core/noise.h"
+#include "core/units.h"
+#include "plans/analyses/analysis.h"
+#include "plans/schema/setting_list.h"
+#include "plans/analyses/wheel_table.h"
+
+namespace rondure::plans {
+namespace {
+
+using core::Code;
+using core::kDegree;
+using core::kMicrometre;
+
+constexpr std::array<std::string_view, 3> kWheelForms = {"radius", "run-out", "roundness"};
+constexpr std::array<record::WantedColumn, 2> kEdgeColumns = {{{"x"}, {"z"}}};
+constexpr std::uint64_t kEdgeStream = 0x3e1eeU;
+constexpr int kBodyPoints = 3600;  ///< Of the noise-free body behind the stated truth.
+
+/// Keys that belong together, and those that have no effect.
+struct Checker {
+  const std::string& where;
+  Findings& findings;
+
+  void missing(std::string_view key, std::string_view why) const {
+    findings.meaning(Code::kMissingKey, fmt::format("{}/{}", where, key),
+                     fmt::format("this key is missing: {}", why));
+  }
+  void contradiction(std::string_view key, std::string what) const {
+    findings.meaning(Code::kMeaning, fmt::format("{}/{}", where, key), std::move(what));
+  }
+  [[nodiscard]] bool given(std::string_view key) const {
+    return findings.is_given(fmt::format("{}/{}", where, key));
+  }
+};
+
+void check_axis(const FeaturePlan& feature, const Checker& checker) {
+  const WheelPlan& plan = *feature.wheel;
+  if (plan.axis_x_mm.has_value() != plan.axis_z_mm.has_value()) {
+    checker.missing(plan.axis_x_mm ? "axis_z_mm" : "axis_x_mm", "the axis has x and z");
+  }
+  const bool envelope = plan.mode == "envelope";
+  if (envelope && plan.axis_x_mm) {
+    checker.contradiction("axis_x_mm",
+                          "run-out cannot be stated in envelope mode; remove the axis, or measure "
+                          "indexed");
+  }
+  for (const CharacteristicPlan& c : feature.characteristics) {
+    if (c.form == "run-out" && envelope) {
+      checker.contradiction("mode", "run-out is asked for, which a turning wheel does not show");
+    } else if (c.form == "run-out" && !plan.axis_x_mm) {
+      checker.missing("axis_x_mm", "run-out needs the spindle axis");
+    }
+    if (c.form == "radius" && !plan.nominal_radius_mm) {
+      checker.missing("nominal_radius_mm", "the radius is judged by its departure from nominal");
+    }
+  }
+}
+
+void check_tables(const GroundSurfacePlan& s, const Checker& checker) {
+  if (s.table_x_mm.size() != s.table_z_mm.size()) {
+    checker.contradiction(
+        "surface/table_z_mm",
+        fmt::format("the table has {} x and {} z", s.table_x_mm.size(), s.table_z_mm.size()));
+  }
+  if (s.removal_x_mm.size() != s.removal_depth_um.size()) {
+    checker.contradiction("surface/removal_depth_um",
+                          fmt::format("the removal has {} x and {} depths", s.removal_x_mm.size(),
+                                      s.removal_depth_um.size()));
+  }
+}
+
+void check_surface(const GroundSurfacePlan& s, const Checker& checker) {
+  struct Needed {
+    std::string_view form;
+    std::string_view key;
+  };
+  for (const Needed& needed : {Needed{"polynomial", "coefficients"}, Needed{"table", "table_x_mm"},
+                               Needed{"table", "table_z_mm"}}) {
+    const std::string key = fmt::format("surface/{}", needed.key);
+    if (s.form == needed.form && !checker.given(key)) {
+      checker.missing(key, fmt::format("a {} is made of it", s.form));
+    } else if (s.form != needed.form && checker.given(key)) {
+      checker.contradiction(key, fmt::format("has no effect: the form is {}; remove it", s.form));
+    }
+  }
+  for (const std::string_view key : {"vertex_radius_mm", "conic", "even_terms"}) {
+    const std::string place = fmt::format("surface/{}", key);
+    if (s.form != "asphere" && checker.given(place)) {
+      checker.contradiction(place, fmt::format("has no effect: the form is {}; remove it", s.form));
+    }
+  }
+  check_tables(s, checker);
+  if (s.vertex_radius_mm == 0.0) {
+    checker.contradiction("surface/vertex_radius_mm", "is 0; a plane has no vertex radius");
+  }
+  if (!(s.to_mm > s.from_mm)) {
+    checker.contradiction("surface/to_mm",
+                          fmt::format("is {} mm, not above from_mm, {} mm", s.to_mm, s.from_mm));
+  }
+}
+
+void check_wheel(const FeaturePlan& feature, const std::string& where, Findings& findings) {
+  const Checker checker{where, findings};
+  check_axis(feature, checker);
+  if (feature.wheel->quadruples != "all" && feature.wheel->center == "least-squares") {
+    checker.contradiction("quadruples",
+                          "has no effect: the centre is that of least squares; remove it, or say "
+                          "center as-published or weighted");
+  }
+  if (feature.wheel->surface) check_surface(*feature.wheel->surface, checker);
+}
+
+/// The simulated wheel.
+struct SimulatedWheel {
+  const SimulatedWheelPlan& hidden;
+
+  [[nodiscard]] Eigen::Vector2d axis() const { return {hidden.axis_x_mm, hidden.axis_z_mm}; }
+  [[nodiscard]] Eigen::Vector2d center() const {
+    return axis() + hidden.eccentricity_um * kMicrometre * direction(hidden.eccentricity_deg);
+  }
+  static Eigen::Vector2d direction(double deg) {
+    return {std::cos(deg * kDegree), std::sin(deg * kDegree)};
+  }
+  /// A point of the edge, seen from its centre; `noise_um` along the radius.
+  [[nodiscard]] Eigen::Vector2d edge(double deg, double noise_um) const {
+    double r = hidden.radius_mm + noise_um * kMicrometre;
+    for (const WheelLobePlan& lobe : hidden.lobes) {
+      r +=
+          lobe.amplitude_um * kMicrometre * std::cos((lobe.order * deg - lobe.phase_deg) * kDegree);
+    }
+    return center() + r * direction(deg);
+  }
+};
+
+/// Distances of the noise-free body from its axis.
+struct Reach {
+  double least_mm = 0.0;
+  double greatest_mm = 0.0;
+};
+
+Reach reach_of(const SimulatedWheel& body) {
+  Reach out;
+  for (int k = 0; k < kBodyPoints; ++k) {
+    const double distance = (body.edge(360.0 * k / kBodyPoints, 0.0) - body.axis()).norm();
+    out.least_mm = k == 0 ? distance : std::min(out.least_mm, distance);
+    out.greatest_mm = std::max(out.greatest_mm, distance);
+  }
+  return out;
+}
+
+record::Series edge_points(const SimulatedWheel& body, const Reach& reach, bool envelope,
+                           int feature, std::uint64_t seed) {
+  const SimulatedWheelPlan& hidden = body.hidden;
+  record::Series out;
+  out.feature = feature;
+  out.columns = {{"x", "mm"}, {"z", "mm"}};
+  const double arc = hidden.arc_to_deg - hidden.arc_from_deg;
+  const bool whole = std::abs(arc) >= 360.0 - 1e-9;
+  const int steps = std::max(1, whole ? hidden.points : hidden.points - 1);
+  for (int i = 0; i < hidden.points; ++i) {
+    core::KeyedNoise noise(
+        seed, {kEdgeStream, static_cast<std::uint64_t>(feature), static_cast<std::uint64_t>(i)});
+    const double deg = hidden.arc_from_deg + arc * i / steps;
+    double error_um = hidden.noise_um * noise.normal();
+    if (i + 1 == hidden.chipped_point) error_um += hidden.chip_um;
+    const Eigen::Vector2d p =
+        envelope ? Eigen::Vector2d(body.axis() + (reach.greatest_mm + error_um * kMicrometre) *
+                                                     SimulatedWheel::direction(deg))
+                 : body.edge(deg, error_um);
+    out.values.insert(out.values.end(), {p.x(), p.y()});
+  }
+  return out;
+}
+
+core::Result<AnalysisData> simulate_wheel(const Plan& plan, std::size_t index, std::uint64_t seed) {
+  const SimulatedWheel body{*plan.simulation->wheel};
+  const Reach reach = reach_of(body);
+  const auto feature = static_cast<int>(index);
+  const bool envelope = plan.features[index].wheel->mode == "envelope";
+  AnalysisData out;
+  out.series.push_back(edge_points(body, reach, envelope, feature, seed));
+  out.truths = {{feature, "radius_mm", body.hidden.radius_mm},
+                {feature, "center_x_mm", body.center().x()},
+                {feature, "center_z_mm", body.center().y()},
+                {feature, "runout_um", (reach.greatest_mm - reach.least_mm) / kMicrometre},
+                {feature, "effective_radius_mm", reach.greatest_mm}};
+  return out;
+}
+
+}  // namespace
+
+const AnalysisKind& wheel_kind() {
+  static constexpr AnalysisKind kKind = {
+      .type = "wheel",
+      .shape = record::Shape::kWheel,
+      .forms = kWheelForms,
+      .is_simulated = simulates<&SimulationPlan::wheel>,
+      .settings = settings_of_section<&FeaturePlan::wheel>,
+      .files = [](const FeaturePlan& feature) { return source_file(feature, kEdgeColumns); },
+      .check = check_wheel,
+      .simulate = simulate_wheel};
+  return kKind;
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cmm/ipp_client/client.h"
+#include "fixture/fixture.h"
+#include "plans/cell/cell.h"
+
+namespace rondure::plans {
+
+/// Two rotary axes of a machine behind I++ DME as a fixture. They are turned with AlignPart (14
+/// numbers): z and y of the ring are to point where the pose puts them; where they point afterwards
+/// gives the pose that was reached.
+class IppFixture final : public fixture::Fixture {
+ public:
+  /// @param machine  Outlives the fixture.
+  IppFixture(cmm::IppMachine& machine, const fixture::FixtureLimits& limits)
+      : machine_(machine), limits_(limits) {}
+
+  [[nodiscard]] std::string description() const override;
+  [[nodiscard]] const fixture::FixtureLimits& limits() const override { return limits_; }
+  [[nodiscard]] core::Result<core::Pose> home() override { return move_to({}); }
+  [[nodiscard]] core::Result<core::Pose> move_to(const core::Pose& commanded) override;
+
+ private:
+  cmm::IppMachine& machine_;
+  fixture::FixtureLimits limits_;
+};
+
+/// Machine and fixture behind I++ DME, with a real part on them, or with the world of
+/// rondure simulate-cmm. A real part keeps no state that depends on the past; the simulator is told
+/// which feature is measured, and which turn of the fixture comes next, so that a run that was
+/// interrupted meets the noise it would have met. The fixture is the rotary axes of the machine, or
+/// a real one that this program drives.
+class IppCell final : public Cell {
+ public:
+  /// Connects. Nothing moves. kMachine when nobody answers, when the machine has no rotary axes, or
+  /// is a simulation whose part a real fixture does not turn.
+  /// @param driven  A real fixture; nullptr: the rotary axes of the machine.
+  [[nodiscard]] static core::Result<std::unique_ptr<Cell>> open(
+      const Plan& plan, const CellOptions& options,
+      std::unique_ptr<fixture::Fixture> driven = nullptr);
+
+  [[nodiscard]] fixture::Fixture& fixture() override { return *fixture_; }
+  [[nodiscard]] cmm::Machine& machine() override { return *machine_; }
+  [[nodiscard]] bool is_simulated() const override { return machine_->is_simulated(); }
+
+  void mount(const FeaturePlan& feature) override;
+  [[nodiscard]] core::Result<core::Pose> home_fixture() override;
+  [[nodiscard]] core::Result<core::Pose> turn_to(const core::Pose& commanded) override;
+
+  [[nodiscard]] core::Result<core::Pose> recall_home() override;
+  [[nodiscard]] core::Result<core::Pose> recall_turn(const core::Pose& commanded) override;
+  [[nodiscard]] core::Result<void> recall_touch(const cmm::TouchCommand&,
+                                                const cmm::TouchReading&) override {
+    return {};
+  }
+  [[nodiscard]] core::Result<core::Pose> home_again() override;
+
+  [[nodiscard]] std::optional<Eigen::Vector3d> true_tip_W_mm() const override { return {}; }
+
+ private:
+  IppCell(const Plan& plan, std::unique_ptr<cmm::IppMachine> machine,
+          std::unique_ptr<fixture::Fixture> driven);
+  /// Tells a simulator what was not told yet.
+  [[nodiscard]] core::Result<void> tell_feature();
+  void note_turn(const core::Pose& commanded);
+
+  std::unique_ptr<cmm::IppMachine> machine_;
+  std::unique_ptr<fixture::Fixture> fixture_;
+  std::vector<std::string> features_;  ///< Their ids, in the order of the plan.
+  std::int64_t feature_ = 0;           ///< That is measured.
+  std::int64_t told_feature_ = -1;     ///< That the simulator knows of.
+  std::int64_t turns_ = 0;             ///< Of the fixture since its homing.
+  core::Pose last_turn_;               ///< As commanded.
+};
+
+}  // namespace rondure::plans

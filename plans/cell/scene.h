@@ -1,0 +1,107 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "plans/path/obstacle.h"
+#include "plans/plan.h"
+#include "plans/path/travel.h"
+
+namespace rondure::plans {
+
+/// What stands in the way of the tool.
+enum class Body { kFeature, kSection, kShoulder, kRing, kRim, kTable, kSphere, kStem, kVolume };
+/// Which part of the tool met it.
+enum class Limb { kBall, kShaft, kHolder };
+
+/// How near the tool may come on a move.
+enum class Phase {
+  kTravel,  ///< The clearance, from everything.
+  kNear,    ///< Beside the surface to be touched: from the part also the approach, if that is less.
+  kTouch,  ///< From the pre-touch point to the contact: the ball meets the surface, the shaft keeps
+           ///< kTouchGap_mm from the part.
+};
+
+inline constexpr double kTouchGap_mm = 0.25;
+
+/// Moves of the tip, machine frame: `phases[i]` is the phase of the move to `corners[i + 1]`.
+struct Way {
+  Polyline corners;
+  std::vector<Phase> phases;
+};
+
+/// Sum of the lengths of the straight moves [mm].
+[[nodiscard]] double length_mm(const Polyline& path);
+
+/// Where part and clamping ring are, machine frame.
+struct Placement {
+  Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();  ///< The part, as best known.
+  Eigen::Isometry3d X_WN = Eigen::Isometry3d::Identity();  ///< Its nominal seat: there is the ring.
+};
+
+/// A place where the tool would come too near to something.
+struct Hit {
+  Body body = Body::kFeature;
+  Limb limb = Limb::kBall;
+  double room_mm = 0.0;                                ///< Distance that is to be kept.
+  Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();  ///< End of the move on which it happens.
+};
+
+/// "the shaft of the stylus would come nearer than 5.3 mm to the clamping ring on the way to
+/// machine (1.0, 2.0, 3.0) mm".
+[[nodiscard]] std::string in_words(const Hit& hit);
+
+/// The tool, pointing to machine -z: ball, shaft from its centre up, holder above the shaft. Shaft
+/// and holder have round ends, as if a ball ran along their axes: more than there is.
+struct Tool {
+  double tip_radius_mm = 2.0;
+  double shaft_length_mm = 0.0;  ///< 0: only the ball is considered.
+  double shaft_radius_mm = 0.0;
+  double holder_radius_mm = 0.0;  ///< 0: no holder.
+};
+
+[[nodiscard]] Tool tool_of(const Plan& plan);
+
+/// Everything a plan says to be in the cell while one feature is inspected, as simple solids: the
+/// surface, sections of the part beside it, clamping ring, rim of the bowl, table, reference sphere
+/// with its stem; and the volume of the machine.
+class Scene {
+ public:
+  Scene(const Plan& plan, const FeaturePlan& feature);
+
+  [[nodiscard]] const Tool& tool() const { return tool_; }
+  /// The same scene with another tool.
+  void take(const Tool& tool) { tool_ = tool; }
+  /// The first place where the tool comes too near on these moves, if there is one. Exact but for
+  /// what Obstacle::meets() says, and never too late.
+  [[nodiscard]] std::optional<Hit> first_hit(const Way& way, const Placement& placement,
+                                             const PathGeometry& geometry) const;
+
+ private:
+  enum class Frame { kMachine, kSeat, kPart };
+  struct Solid {
+    Body body = Body::kFeature;
+    Frame frame = Frame::kMachine;
+    Eigen::Vector3d origin_mm = Eigen::Vector3d::Zero();  ///< Of its own frame, axes parallel.
+    Revolved shape;
+    std::vector<Obstacle> grown = {};  ///< As far as asked for.
+  };
+
+  void add(Body body, Frame frame, const Eigen::Vector3d& origin_mm, const Revolved& shape);
+  void add_part(const Plan& plan, const FeaturePlan& feature);
+  void add_cell(const Plan& plan, const FeaturePlan& feature);
+  [[nodiscard]] std::optional<double> room_mm(Body body, Limb limb, Phase phase,
+                                              const PathGeometry& geometry) const;
+  [[nodiscard]] static const Obstacle& grown(Solid& solid, double by_mm);
+  [[nodiscard]] bool inside_volume(const Eigen::Vector3d& tip_W_mm) const;
+
+  Tool tool_;
+  Eigen::Vector3d volume_min_mm_;
+  Eigen::Vector3d volume_max_mm_;
+  mutable std::vector<Solid> solids_;
+};
+
+}  // namespace rondure::plans

@@ -1,0 +1,89 @@
+#include "plans/cell/served_cell.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "fixture/alignment.h"
+#include "fixture/kinematics.h"
+#include "plans/run/run_head.h"
+
+namespace rondure::plans {
+
+ServedCell::ServedCell(const Plan& plan, std::uint64_t seed)
+    : features_(plan.features), cell_(plan, seed, false) {
+  const auto first = std::find_if(features_.begin(), features_.end(),
+                                  [](const FeaturePlan& feature) { return is_touched(feature); });
+  if (first != features_.end()) cell_.mount(*first);
+}
+
+std::vector<double> ServedCell::table_angles_deg() const {
+  return {pose_.alpha_rad / core::kDegree, pose_.beta_rad / core::kDegree};
+}
+
+core::Result<void> ServedCell::home_table() {
+  auto homed = cell_.home_fixture();
+  if (!homed) return core::fail(homed.error());
+  pose_ = *homed;
+  return {};
+}
+
+core::Result<std::vector<Eigen::Vector3d>> ServedCell::align_part(
+    std::span<const cmm::ipp::Alignment> alignments) {
+  std::vector<fixture::DirectionPair> pairs;
+  for (const auto& [part, machine] : alignments) pairs.push_back({part, machine});
+  const auto reached = cell_.turn_to(fixture::aligning_pose(pairs, pose_));
+  if (!reached) return core::fail(reached.error());
+  pose_ = *reached;
+  const Eigen::Matrix3d turned = fixture::body_to_machine(cell_.kinematics(), pose_).linear();
+  std::vector<Eigen::Vector3d> out;
+  for (const auto& [part, machine] : alignments) out.emplace_back(turned * part);
+  return out;
+}
+
+core::Result<void> ServedCell::choose_feature(int index) {
+  const auto count = static_cast<int>(features_.size());
+  if (index < 0 || index >= count || !is_touched(features_[static_cast<std::size_t>(index)])) {
+    return core::fail(
+        core::Code::kOutOfRange,
+        fmt::format("feature {} is none of the {} that can be touched", index, count));
+  }
+  cell_.mount(features_[static_cast<std::size_t>(index)]);
+  return {};
+}
+
+cmm::ipp::NamedPoint named_point_of(const MachinePlan& machine) {
+  return machine.point == "center" ? cmm::ipp::NamedPoint::kCenter : cmm::ipp::NamedPoint::kSurface;
+}
+
+cmm::ipp::NumberForm number_form_of(const MachinePlan& machine) {
+  return machine.numbers == "16-characters" ? cmm::ipp::NumberForm::kSixteenCharacters
+                                            : cmm::ipp::NumberForm::kSixteenDigits;
+}
+
+cmm::ipp::ServerOptions server_options(const Plan& plan) {
+  cmm::ipp::ServerOptions out;
+  cmm::ipp::ControllerOptions& controller = out.controller;
+  controller.defaults.speeds.travel_mm_s = plan.machine->travel_speed_mm_s;
+  controller.defaults.speeds.touch_mm_s = plan.machine->touch_speed_mm_s;
+  controller.defaults.speeds.scan_mm_s = plan.machine->scan_speed_mm_s;
+  controller.defaults.approach_mm = plan.machine->approach_mm;
+  controller.defaults.search_mm = plan.machine->search_mm;
+  controller.point = named_point_of(*plan.machine);
+  controller.numbers = number_form_of(*plan.machine);
+  controller.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
+  controller.temperature_degC = plan.simulation->temperature_degC;
+  return out;
+}
+
+core::Result<void> check_servable(const Plan& plan) {
+  const bool touched = std::any_of(plan.features.begin(), plan.features.end(),
+                                   [](const FeaturePlan& feature) { return is_touched(feature); });
+  if (touched && plan.machine && plan.fixture && plan.probe && plan.simulation) return {};
+  return core::fail(core::Code::kMeaning,
+                    "the plan has no virtual machine to serve: it needs machine, fixture, probe, "
+                    "simulation and a feature that is touched");
+}
+
+}  // namespace rondure::plans

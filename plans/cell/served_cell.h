@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cmm/ipp_server/backend.h"
+#include "cmm/ipp/named_point.h"
+#include "cmm/ipp_server/server.h"
+#include "plans/plan.h"
+#include "plans/cell/simulated_cell.h"
+
+namespace rondure::plans {
+
+/// The virtual cell of a plan as it stands behind an I++ DME server: machine, part and the two-axis
+/// fixture, which AlignPart turns.
+class ServedCell final : public cmm::ipp::Backend {
+ public:
+  /// @param plan  Has `machine`, `fixture`, `probe` and `simulation`, and a feature to touch; the
+  ///              first of them is mounted.
+  ServedCell(const Plan& plan, std::uint64_t seed);
+
+  [[nodiscard]] cmm::Machine& machine() override { return cell_.machine(); }
+  [[nodiscard]] std::vector<double> table_angles_deg() const override;
+  [[nodiscard]] core::Result<void> home_table() override;
+  [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> align_part(
+      std::span<const cmm::ipp::Alignment> alignments) override;
+  [[nodiscard]] core::Result<void> choose_feature(int index) override;
+  void set_next_turn(std::uint64_t number) override { cell_.continue_at_turn(number); }
+
+ private:
+  std::vector<FeaturePlan> features_;
+  SimulatedCell cell_;
+  core::Pose pose_;  ///< As the fixture reads it.
+};
+
+/// The point that a command of I++ DME names by `machine.point`.
+[[nodiscard]] cmm::ipp::NamedPoint named_point_of(const MachinePlan& machine);
+/// How numbers are sent by `machine.numbers`.
+[[nodiscard]] cmm::ipp::NumberForm number_form_of(const MachinePlan& machine);
+
+/// What the server is told by the plan: speeds, distances, tip, temperature, named
+/// points, numbers.
+[[nodiscard]] cmm::ipp::ServerOptions server_options(const Plan& plan);
+
+/// kMeaning, with what to do, when nothing of the plan can be served: no simulation, nothing to
+/// touch.
+[[nodiscard]] core::Result<void> check_servable(const Plan& plan);
+
+}  // namespace rondure::plans

@@ -1,0 +1,229 @@
+#include "plans/cell/simulated_cell.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/units.h"
+#include "fixture/drawn_motion.h"
+#include "fixture/pose_range.h"
+#include "plans/cell/fixture_driver.h"
+#include "plans/cell/hidden_errors.h"
+#include "plans/checks/plan_reach.h"
+#include "plans/path/pose_grid.h"
+
+namespace rondure::plans {
+namespace {
+
+constexpr double kAnyTurn_rad = core::kTwoPi;
+
+fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t seed,
+                                                 bool resumed) {
+  const FixturePlan& fixture = *plan.fixture;
+  const SimulatedFixturePlan& hidden = plan.simulation->fixture;
+  fixture::SimulatedFixtureOptions out;
+  out.kinematics = nominal_kinematics(fixture);
+  out.limits = limits_of(fixture);
+  out.errors.axis_point_mm = vector3(hidden.axis_point_error_um) * core::kMicrometre;
+  out.errors.axis_offset_mm = vector3(hidden.axis_offset_error_um) * core::kMicrometre;
+  out.errors.zero_alpha_rad = hidden.zero_alpha_deg * core::kDegree;
+  out.errors.zero_beta_rad = hidden.zero_beta_deg * core::kDegree;
+  out.errors.squareness_rad = hidden.squareness_deg * core::kDegree;
+  out.errors.repeatability_rad = hidden.repeatability_deg * core::kDegree;
+  if (hidden.motion) {
+    const fixture::MotionClass size = {hidden.motion->offset_um * core::kMicrometre,
+                                       hidden.motion->tilt_urad * fixture::kMicroradian,
+                                       hidden.motion->shift_um * core::kMicrometre,
+                                       hidden.motion->turn_urad * fixture::kMicroradian,
+                                       hidden.motion->seed};
+    out.errors.alpha_motion = fixture::drawn_motion(size, Eigen::Vector3d::UnitX(), 0);
+    out.errors.beta_motion = fixture::drawn_motion(size, Eigen::Vector3d::UnitY(), 1);
+  }
+  out.seed = seed;
+  const int stall = plan.simulation->faults.fixture_stalls_at_move;
+  if (!resumed) out.stalls_at_move = static_cast<std::uint64_t>(stall);
+  if (drives_fixture(plan)) {  // it follows a real one, which has its own limits and steps
+    out.limits = {-kAnyTurn_rad, kAnyTurn_rad, -kAnyTurn_rad, kAnyTurn_rad, 0.0};
+  }
+  return out;
+}
+
+cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t seed, bool resumed) {
+  cmm::SimulatedMachineOptions out;
+  if (!plan.machine->tool.empty()) out.tool = plan.machine->tool;
+  out.nominal_tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
+  out.park_W_mm = vector3(plan.machine->park_mm);
+  out.speeds.travel_mm_s = plan.machine->travel_speed_mm_s;
+  out.speeds.touch_mm_s = plan.machine->touch_speed_mm_s;
+  out.speeds.scan_mm_s = plan.machine->scan_speed_mm_s;
+  out.temperature_degC = plan.simulation->temperature_degC;
+  out.errors = machine_errors(*plan.simulation);
+  out.part_errors = part_errors(plan.simulation->part);
+  out.scan_scatter = scan_scatter(plan.simulation->machine);
+  out.seed = seed;
+  if (!resumed) out.lost_at_touch = plan.simulation->faults.connection_lost_at_touch;
+  return out;
+}
+
+/// Where the simulated part really sits: shifted and tilted about the part origin, then up to the
+/// middle of the surface, where its own frame begins.
+Eigen::Isometry3d true_seat(const Eigen::Isometry3d& nominal, const SimulatedPartPlan& part,
+                            const FeaturePlan& feature) {
+  const double toward = part.tilt_toward_deg * core::kDegree;
+  Eigen::Isometry3d seat = nominal;
+  seat.translate(Eigen::Vector3d(part.offset_x_mm, part.offset_y_mm, 0.0));
+  seat.rotate(Eigen::AngleAxisd(part.tilt_deg * core::kDegree,
+                                Eigen::Vector3d(-std::sin(toward), std::cos(toward), 0.0)));
+  seat.translate(
+      Eigen::Vector3d(0.0, 0.0, 0.5 * (feature.nominal.from_mm + feature.nominal.to_mm)));
+  return seat;
+}
+
+/// Where the simulated fixture really stands on the table.
+Eigen::Isometry3d true_base(const SimulatedFixturePlan& hidden) {
+  const Eigen::Vector3d turn = vector3(hidden.base_rotation_deg) * core::kDegree;
+  Eigen::Isometry3d X_WF = Eigen::Isometry3d::Identity();
+  X_WF.translate(vector3(hidden.base_offset_mm));
+  X_WF.rotate(Eigen::AngleAxisd(turn.z(), Eigen::Vector3d::UnitZ()));
+  X_WF.rotate(Eigen::AngleAxisd(turn.y(), Eigen::Vector3d::UnitY()));
+  X_WF.rotate(Eigen::AngleAxisd(turn.x(), Eigen::Vector3d::UnitX()));
+  return X_WF;
+}
+
+}  // namespace
+
+SimulatedCell::SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
+                             std::unique_ptr<fixture::Fixture> driven)
+    : Cell(plan),
+      simulation_(*plan.simulation),
+      driven_(std::move(driven)),
+      fixture_(fixture_options(plan, seed, resumed)),
+      machine_(machine_options(plan, seed, resumed)),
+      true_X_WF_(true_base(plan.simulation->fixture)) {
+  if (const auto& datum = plan.fixture->datum) {
+    for (const DatumSpherePlan& sphere : datum->spheres) {
+      table_spheres_.push_back(
+          {true_X_WF_ * vector3(sphere.center_mm), 0.5 * datum->sphere_diameter_mm});
+    }
+  }
+  table_spheres_.push_back({vector3(plan.probe->qualification.sphere_center_mm),
+                            0.5 * plan.probe->qualification.sphere_diameter_mm});
+  machine_.place_spheres(table_spheres_);
+  if (const auto& reached = plan.fixture->reached_pose) {
+    for (const CarriedSpherePlan& sphere : reached->spheres) {
+      ring_spheres_.push_back({vector3(sphere.center_mm), 0.5 * reached->sphere_diameter_mm});
+    }
+  }
+}
+
+void SimulatedCell::mount(const FeaturePlan& feature) {
+  balls_.clear();
+  if (feature.rotary_axes) {
+    surface_.reset();
+    machine_.remove_part();
+    // The artefact sits in the ring as crooked as the part of the simulation would.
+    true_X_BP_ = true_seat(Eigen::Isometry3d::Identity(), simulation_.part, feature);
+    for (const BallPlan& ball : feature.rotary_axes->balls) {
+      balls_.push_back({vector3(ball.center_mm), 0.5 * feature.rotary_axes->ball_diameter_mm});
+    }
+    return place_part();
+  }
+  surface_ = simulated_surface(simulation_, feature);
+  true_X_BP_ = true_seat(nominal_part(), simulation_.part, feature);
+  place_part();
+}
+
+core::Result<core::Pose> SimulatedCell::home_fixture() {
+  return driven_ ? home_driven() : recall_home();
+}
+
+core::Result<core::Pose> SimulatedCell::turn_to(const core::Pose& commanded) {
+  return driven_ ? turn_driven(commanded) : turn(commanded);
+}
+
+core::Result<core::Pose> SimulatedCell::recall_home() {
+  auto reached = fixture_.home();
+  turns_ = 0;
+  place_part();
+  return reached;
+}
+
+/// The real fixture turns; where it reads to be, there the part is turned.
+core::Result<core::Pose> SimulatedCell::turn_driven(const core::Pose& commanded) {
+  const auto reached = driven_->move_to(on_grid(commanded));
+  if (!reached) return reached;
+  auto shown = turn(*reached);
+  if (shown) last_turn_ = commanded;
+  return shown;
+}
+
+core::Result<core::Pose> SimulatedCell::home_driven() {
+  const auto reached = driven_->home();
+  if (!reached) return reached;
+  if (auto shown = recall_home(); !shown) return shown;
+  return on_grid(*reached);
+}
+
+core::Result<core::Pose> SimulatedCell::recall_turn(const core::Pose& commanded) {
+  if (driven_) {
+    if (auto within = fixture::check_pose_range(driven_->limits(), commanded); !within) {
+      return core::fail(within.error());
+    }
+  }
+  return turn(commanded);
+}
+
+core::Result<core::Pose> SimulatedCell::turn(const core::Pose& commanded) {
+  const auto reached = fixture_.move_to(on_grid(commanded));
+  if (reached) {
+    ++turns_;
+    last_turn_ = commanded;
+  }
+  place_part();
+  if (!reached) return reached;
+  return on_grid(*reached);
+}
+
+core::Result<void> SimulatedCell::recall_touch(const cmm::TouchCommand& command,
+                                               const cmm::TouchReading& reading) {
+  return machine_.continue_after(command, reading);
+}
+
+core::Result<core::Pose> SimulatedCell::home_again() {
+  shift_mm_.x() = simulation_.faults.part_moved_um * core::kMicrometre;
+  fixture_.stop_beside(simulation_.faults.fixture_off_deg * core::kDegree);
+  if (auto homed = machine_.home(); !homed) return core::fail(homed.error());
+  if (driven_) {
+    const core::Pose last = last_turn_;
+    const std::uint64_t turns = turns_;
+    auto home = home_driven();
+    if (!home || turns == 0) return home;
+    fixture_.continue_after(turns - 1);
+    auto back = turn_driven(last);
+    turns_ = turns;
+    return back;
+  }
+  auto reached = fixture_.home();
+  if (reached && turns_ > 0) {
+    fixture_.continue_after(turns_ - 1);
+    reached = fixture_.move_to(on_grid(last_turn_));
+  }
+  place_part();
+  if (!reached) return reached;
+  return on_grid(*reached);
+}
+
+void SimulatedCell::place_part() {
+  const Eigen::Isometry3d X_WB = true_X_WF_ * fixture_.true_body_to_machine();
+  const Eigen::Isometry3d X_WP = X_WB * Eigen::Translation3d(shift_mm_) * true_X_BP_;
+  if (surface_) machine_.place_part(*surface_, X_WP);
+  std::vector<cmm::ReferenceSphere> spheres = table_spheres_;
+  for (const cmm::ReferenceSphere& ball : balls_) {
+    spheres.push_back({X_WP * ball.center_W_mm, ball.radius_mm});
+  }
+  for (const cmm::ReferenceSphere& sphere : ring_spheres_) {
+    spheres.push_back({X_WB * sphere.center_W_mm, sphere.radius_mm});
+  }
+  machine_.place_spheres(std::move(spheres));
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "cmm/simulated/machine.h"
+#include "fixture/simulated.h"
+#include "plans/cell/cell.h"
+
+namespace rondure::plans {
+
+/// Machine and part in software, and the fixture too, or a real one. The simulated machine cannot
+/// know how the fixture moved the part; the cell tells it after every turn. A real fixture turns
+/// nothing but itself; the part in software then follows what it reads, with the errors that the
+/// plan simulates.
+class SimulatedCell final : public Cell {
+ public:
+  /// Opens the simulated cell of a plan that has `machine`, `fixture`, `probe` and `simulation`.
+  /// @param seed     Of all noise; takes the place of the plan's.
+  /// @param resumed  The faults of the simulation lie in the past.
+  /// @param driven   A real fixture; nullptr: a simulated one.
+  SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
+                std::unique_ptr<fixture::Fixture> driven = nullptr);
+
+  [[nodiscard]] fixture::Fixture& fixture() override {
+    return driven_ ? *driven_ : static_cast<fixture::Fixture&>(fixture_);
+  }
+  [[nodiscard]] cmm::Machine& machine() override { return machine_; }
+
+  [[nodiscard]] bool is_simulated() const override { return true; }
+
+  /// Puts the part with this feature into the clamping ring.
+  void mount(const FeaturePlan& feature) override;
+  [[nodiscard]] core::Result<core::Pose> home_fixture() override;
+  [[nodiscard]] core::Result<core::Pose> turn_to(const core::Pose& commanded) override;
+
+  [[nodiscard]] core::Result<core::Pose> recall_home() override;
+  [[nodiscard]] core::Result<core::Pose> recall_turn(const core::Pose& commanded) override;
+  [[nodiscard]] core::Result<void> recall_touch(const cmm::TouchCommand& command,
+                                                const cmm::TouchReading& reading) override;
+  [[nodiscard]] core::Result<void> recall_scan(const cmm::ScanCircleCommand& command,
+                                               const cmm::TouchReading& last) override {
+    return machine_.continue_after(command, last);
+  }
+  [[nodiscard]] core::Result<core::Pose> home_again() override;
+
+  /// The next turn of the fixture has the noise of this one since its homing, which is number 0.
+  void continue_at_turn(std::uint64_t number) { fixture_.continue_after(number - 1); }
+
+  [[nodiscard]] std::optional<Eigen::Vector3d> true_tip_W_mm() const override {
+    return machine_.true_tip_W_mm();
+  }
+  [[nodiscard]] std::optional<Eigen::Isometry3d> true_body_to_machine() const override {
+    return true_X_WF_ * fixture_.true_body_to_machine();
+  }
+  [[nodiscard]] std::vector<Eigen::Vector3d> true_scan_W_mm() const override {
+    return machine_.true_tips_W_mm();
+  }
+  [[nodiscard]] std::optional<fixture::AxisErrors> true_errors(bool carried,
+                                                               double angle_rad) const override {
+    return fixture_.true_errors(carried, angle_rad);
+  }
+
+ private:
+  void place_part();
+  core::Result<core::Pose> turn(const core::Pose& commanded);
+  core::Result<core::Pose> turn_driven(const core::Pose& commanded);
+  core::Result<core::Pose> home_driven();
+
+  SimulationPlan simulation_;
+  std::unique_ptr<fixture::Fixture> driven_;
+  fixture::SimulatedFixture fixture_;  ///< Turns the part in software.
+  cmm::SimulatedMachine machine_;
+  std::optional<cmm::PartSurface> surface_;
+  std::vector<cmm::ReferenceSphere> table_spheres_;  ///< On the table, machine frame.
+  std::vector<cmm::ReferenceSphere> balls_;          ///< Carried by the ring, part frame.
+  std::vector<cmm::ReferenceSphere> ring_spheres_;   ///< Those that show its pose, body frame.
+  Eigen::Isometry3d true_X_WF_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d true_X_BP_ = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d shift_mm_ = Eigen::Vector3d::Zero();  ///< Of the part, while interrupted.
+  std::uint64_t turns_ = 0;                             ///< Of the fixture since its homing.
+  core::Pose last_turn_;                                ///< As commanded.
+};
+
+}  // namespace rondure::plans

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+
+#include "plans/schema/findings.h"
+#include "plans/plan.h"
+
+// What no single key can show: keys that contradict each other, layers that miss the part, files
+// that cannot be read. Each check judges only values without a problem of structure.
+
+namespace rondure::plans {
+
+/// Everything below, in this order.
+void check_plan(const Plan& plan, Findings& findings);
+
+/// Travel, resolution, temperature limits, and that whatever a touched feature needs is there.
+void check_equipment(const Plan& plan, Findings& findings);
+
+/// Ids, characteristics, and keys that have no effect.
+void check_feature(const Plan& plan, std::size_t index, Findings& findings);
+
+/// Nominal, layers and points of a touched feature: on the part, outside the clamp, reachable.
+void check_sampling(const Plan& plan, std::size_t index, Findings& findings);
+
+/// Start and steps of the pose search of a touched feature against the fixture.
+void check_pose_search(const Plan& plan, std::size_t index, Findings& findings);
+
+/// The points file of a feature that has one: opened, read, counted.
+void check_points_file(const Plan& plan, std::size_t index, Findings& findings);
+
+/// Parameters and statements of the decision rule, and that the uncertainty gives what it needs.
+void check_uncertainty(const Plan& plan, Findings& findings);
+
+/// The pointer of a feature: "/features/2".
+[[nodiscard]] std::string feature_pointer(std::size_t index);
+
+/// Whether a feature is touched by the machine: not read from a file, and no analysis of series.
+[[nodiscard]] bool is_touched(const Plan& plan, std::size_t index, const Findings& findings);
+
+}  // namespace rondure::plans

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/pose.h"
+#include "core/result.h"
+#include "fixture/fixture.h"
+#include "fixture/kinematics.h"
+#include "plans/plan.h"
+#include "plans/path/sampling.h"
+#include "plans/path/travel.h"
+
+namespace rondure::plans {
+
+/// Three numbers of the plan as a vector.
+[[nodiscard]] inline Eigen::Vector3d vector3(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+/// The axes of the fixture, as the plan states them.
+[[nodiscard]] fixture::Kinematics nominal_kinematics(const FixturePlan& fixture);
+
+/// Where the plan says that the part sits in the clamping ring: X_BP.
+[[nodiscard]] Eigen::Isometry3d nominal_seat(const FixturePlan& fixture);
+
+[[nodiscard]] fixture::FixtureLimits limits_of(const FixturePlan& fixture);
+
+/// The pose in which the plan has the measurement of a feature begin.
+[[nodiscard]] core::Pose start_pose(const FeaturePlan& feature);
+
+/// A pose for messages: "(12.3400, 0.0000) deg".
+[[nodiscard]] std::string in_degrees(const core::Pose& pose, int decimals = 4);
+
+/// The part beside a feature: the sections of the plan, and the other touched outside surfaces that
+/// lie above or below it (not of a bore, whose block hides them).
+[[nodiscard]] std::vector<SectionPlan> part_sections(const Plan& plan, const FeaturePlan& feature);
+
+/// The way of the tip around a feature. Shoulders, and a ring of known size, above the lower end of
+/// a shaft push the way around it out. `location_mm` is added to approach and clearance while the
+/// part is not located.
+[[nodiscard]] PathGeometry path_geometry(const Plan& plan, const FeaturePlan& feature,
+                                         double location_mm);
+
+/// Checks that no target outside lies in or below the clamped band of a ring of unknown size: the
+/// tip comes from above and cannot pass it.
+/// @return kUnreachable, naming layer and point (from 1), height and limit.
+[[nodiscard]] core::Result<void> check_clamp(const std::vector<Target>& targets,
+                                             const PathGeometry& geometry,
+                                             const FixturePlan& fixture);
+
+/// Targets of a touched feature, if the tool can reach every one of them in the start pose, with
+/// the part where the plan says it is.
+/// @return kSampling or kUnreachable with the pointer of the feature's sampling; the first target
+///         that cannot be reached, how many more there are, why, and what would help. Nothing
+///         moves.
+[[nodiscard]] core::Result<std::vector<Target>> reachable_targets(const Plan& plan,
+                                                                  std::size_t index);
+
+/// Checks what no single feature shows: that the park height clears the part in every pose and the
+/// reference sphere, and that the sphere stands beside whatever the fixture can sweep.
+/// @return kUnreachable with the pointer of the key to change.
+[[nodiscard]] core::Result<void> check_room(const Plan& plan);
+
+}  // namespace rondure::plans

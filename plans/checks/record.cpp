@@ -1,0 +1,402 @@
+#include "plans/checks/record.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/version.h"
+#include "plans/schema/json_text.h"
+#include "plans/schema/plan_table.h"
+
+namespace rondure::plans {
+namespace {
+
+using record::RunRecord;
+using record::Shape;
+using record::Strategy;
+using record::Touch;
+
+/// What is wrong, in words; nothing where all is well.
+using Fault = std::optional<std::string>;
+
+/// What a setting may say.
+struct SettingLimits {
+  bool is_number = false;
+  bool is_whole = false;
+  NumberSpec range = {};
+  std::vector<std::string_view> one_of = {};
+  std::optional<double> otherwise = {};  ///< The default, which the range need not hold.
+};
+using SettingTable = std::map<std::string, SettingLimits, std::less<>>;
+
+/// Visitor of plan_table.h: every key with its limits, by the name that SettingList writes.
+class LimitList {
+ public:
+  LimitList(std::string path, SettingTable& table) : path_(std::move(path)), table_(table) {}
+
+  template <class Text>
+  void text(std::string_view key, const Text&, const TextSpec& spec) {
+    add(key, {.one_of = spec.one_of});
+  }
+  void texts(std::string_view key, const std::vector<std::string>&, const TextSpec& spec) {
+    add(key, {.one_of = spec.one_of});
+  }
+  void number(std::string_view key, double value, const NumberSpec& spec) {
+    add(key, {.is_number = true, .range = spec, .otherwise = value});
+  }
+  void number(std::string_view key, const std::optional<double>&, const NumberSpec& spec) {
+    add(key, {.is_number = true, .range = spec});
+  }
+  template <class Numbers>
+  void numbers(std::string_view key, const Numbers&, const NumberSpec& spec) {
+    add(key, {.is_number = true, .range = spec, .otherwise = 0.0});
+  }
+  template <class Whole>
+  void whole(std::string_view key, Whole value, const NumberSpec& spec) {
+    add(key, {.is_number = true,
+              .is_whole = true,
+              .range = spec,
+              .otherwise = static_cast<double>(value)});
+  }
+  void passed_over(std::string_view, std::string_view) {}
+  template <class T>
+  void object(std::string_view key, const T&, const GroupSpec&) {
+    inner<T>(key);
+  }
+  template <class T>
+  void object(std::string_view key, const std::optional<T>&, const GroupSpec&) {
+    inner<T>(key);
+  }
+  template <class T>
+  void list(std::string_view key, const std::vector<T>&, const GroupSpec&) {
+    inner<T>(key);
+  }
+
+ private:
+  void add(std::string_view key, SettingLimits limits) {
+    table_.insert_or_assign(path_ + std::string(key), std::move(limits));
+  }
+  template <class T>
+  void inner(std::string_view key) {
+    LimitList list(path_ + std::string(key) + "/", table_);
+    T value{};
+    describe(list, value);
+  }
+
+  std::string path_;
+  SettingTable& table_;
+};
+
+template <class Section>
+SettingTable table_of(const std::string& path = {}) {
+  SettingTable out;
+  LimitList list(path, out);
+  Section section{};
+  describe(list, section);
+  return out;
+}
+
+SettingLimits within_limits(double least, double greatest) {
+  return {.is_number = true, .range = {.at_least = least, .at_most = greatest, .meaning = {}}};
+}
+
+/// Settings of the whole run, as settings_of() and fixture_settings() write them.
+SettingTable run_table() {
+  SettingTable out = table_of<DecisionRulePlan>("decision_rule/");
+  out.merge(table_of<UncertaintyPlan>("uncertainty/"));
+  out["uncertainty/declared"] = {
+      .one_of = {"probe", "machine", "thermal", "fixture", "form_spectrum"}};
+  out["uncertainty/thermal/expansion_per_K"] = within_limits(-1.0, 1.0);
+  out["environment/declared"] = {};
+  out["environment/assumed_degC"] = within_limits(-1000.0, 1000.0);
+  out["fixture/id"] = {};
+  out["fixture/calibration"] = {};
+  for (const char* place : {"fixture/axis_point_mm", "fixture/axis_offset_mm"}) {
+    out[place] = within_limits(-1e6, 1e6);
+  }
+  for (const char* angle : {"fixture/min_alpha_deg", "fixture/max_alpha_deg",
+                            "fixture/min_beta_deg", "fixture/max_beta_deg"}) {
+    out[angle] = within_limits(-360.0, 360.0);
+  }
+  for (const char* limit : {"fixture/max_age_days", "fixture/max_residual_um"}) {
+    out[limit] = within_limits(0.0, 1e6);
+  }
+  return out;
+}
+
+/// Settings of a surface, as settings_of() writes them.
+SettingTable surface_table() {
+  SettingTable out;
+  out["merge"] = {.one_of = {"joint", "kinematics"}};
+  out["merged_poses"] = within_limits(1.0, 1000.0);
+  out["merged_poses"].is_whole = true;
+  for (const char* place : {"axis_point_mm", "axis_offset_mm"})
+    out[place] = within_limits(-1e6, 1e6);
+  for (const char* part : {"part_expansion_per_K", "part_expansion_uncertainty_per_K",
+                           "scale_expansion_per_K", "scale_expansion_uncertainty_per_K"}) {
+    out[part] = within_limits(-1.0, 1.0);
+  }
+  out["temperature_uncertainty_K"] = within_limits(0.0, 1000.0);
+  return out;
+}
+
+Fault fault_of(const record::Setting& setting, const SettingLimits& limits) {
+  if (!limits.is_number) {
+    if (setting.number) return fmt::format("is the number {:g}, a text is needed", *setting.number);
+    const bool known =
+        limits.one_of.empty() ||
+        std::find(limits.one_of.begin(), limits.one_of.end(), setting.text) != limits.one_of.end();
+    return known ? Fault() : fmt::format("says {}, which is not known", in_quotes(setting.text));
+  }
+  if (!setting.number) return "is a text, a number is needed";
+  const double value = *setting.number;
+  const NumberSpec& range = limits.range;
+  if (limits.is_whole && value != std::floor(value)) {
+    return fmt::format("is {:g}, a whole number is needed", value);
+  }
+  const bool high_enough = range.above ? value > range.at_least : value >= range.at_least;
+  if ((high_enough && value <= range.at_most) || value == limits.otherwise) return {};
+  return fmt::format("is {:g}, outside {:g}..{:g}", value, range.at_least, range.at_most);
+}
+
+/// @param strict  A setting that the table does not know is a fault.
+Fault check_settings(std::span<const record::Setting> settings, const SettingTable& table,
+                     bool strict) {
+  for (const record::Setting& setting : settings) {
+    const auto known = table.find(setting.name);
+    if (known == table.end() && strict) {
+      return fmt::format("setting {} is none of this run", in_quotes(setting.name));
+    }
+    if (known == table.end()) continue;
+    if (auto fault = fault_of(setting, known->second)) {
+      return fmt::format("setting {} {}", in_quotes(setting.name), *fault);
+    }
+  }
+  return {};
+}
+
+Fault check_needed(const record::Feature& feature, std::initializer_list<const char*> needed) {
+  for (const char* name : needed) {
+    const bool there = std::any_of(feature.settings.begin(), feature.settings.end(),
+                                   [&](const record::Setting& s) { return s.name == name; });
+    if (!there) return fmt::format("setting \"{}\" is missing", name);
+  }
+  return {};
+}
+
+Fault check_feature_settings(const record::Feature& feature, bool strict) {
+  switch (feature.shape) {
+    case Shape::kSpindle:
+      if (auto fault = check_needed(feature, {"layout", "samples", "highest_order"})) return fault;
+      return check_settings(feature.settings, table_of<SpindlePlan>(), strict);
+    case Shape::kWheel:
+      if (auto fault = check_needed(feature, {"mode", "count"})) return fault;
+      return check_settings(feature.settings, table_of<WheelPlan>(), strict);
+    case Shape::kContour:
+      if (auto fault = check_needed(feature, {"crank_radius_mm", "wheel_radius_mm", "pin_radius_mm",
+                                              "samples", "path_samples"})) {
+        return fault;
+      }
+      return check_settings(feature.settings, table_of<ContourPlan>(), strict);
+    case Shape::kRotaryAxes:
+      if (auto fault = check_needed(feature, {"balls/id", "ball_diameter_mm", "valid_for_days"})) {
+        return fault;
+      }
+      return check_settings(feature.settings, table_of<RotaryPlan>(), strict);
+    default:
+      return check_settings(feature.settings, surface_table(), false);
+  }
+}
+
+/// Columns that the evaluation of a series reads, after its name.
+struct WantedSeries {
+  Shape shape;
+  std::string_view name;  ///< Of a contour without the number of the part.
+  std::array<std::string_view, 4> columns;
+};
+constexpr std::array<WantedSeries, 5> kWantedSeries = {
+    {{Shape::kSpindle, "data", {"alpha_deg", "H1_um", "H2_um", "H3_um"}},
+     {Shape::kWheel, "data", {"x", "z"}},
+     {Shape::kContour, "axes", {"c_deg", "c_error_deg", "x_error_mm"}},
+     {Shape::kContour, "pin", {"angle_deg", "deviation_um"}},
+     {Shape::kContour, "main", {"angle_deg", "deviation_um"}}}};
+
+/// The part's number behind the name of a contour's series, from 1; 0 where there is none.
+std::size_t part_number(std::string_view name, std::string_view stem) {
+  constexpr std::size_t kMostParts = kMaxListItems;
+  for (std::size_t part = 1; part <= kMostParts; ++part) {
+    if (name == fmt::format("{} {}", stem, part)) return part;
+  }
+  return 0;
+}
+
+Fault check_one_series(const record::Series& series, const record::Feature& feature) {
+  const auto wanted =
+      std::find_if(kWantedSeries.begin(), kWantedSeries.end(), [&](const WantedSeries& w) {
+        if (w.shape != feature.shape) return false;
+        return w.shape == Shape::kContour ? part_number(series.name, w.name) > 0
+                                          : series.name == w.name;
+      });
+  const std::string name = in_quotes(series.name);
+  if (wanted == kWantedSeries.end()) {
+    return fmt::format("series {} is none of a {}", name, record::name_of(feature.shape));
+  }
+  for (const std::string_view column : wanted->columns) {
+    if (!column.empty() && !series.column(column)) {
+      return fmt::format("series {} has no column {}", name, column);
+    }
+  }
+  return {};
+}
+
+/// That the parts of a contour count from 1 and each has its axes and its pin.
+Fault check_parts(const RunRecord& record, int index) {
+  for (const char* stem : {"axes", "pin", "main"}) {
+    for (const record::Series& series : record.series) {
+      if (series.feature != index || series.role != record::Series::Role::kData) continue;
+      const std::size_t part = part_number(series.name, stem);
+      for (std::size_t k = 1; k <= part; ++k) {
+        for (const char* needed : {"axes", "pin"}) {
+          const std::string name = fmt::format("{} {}", needed, k);
+          if (record.data_of(index, name) == nullptr) {
+            return fmt::format("series \"{}\" is missing, \"{}\" is there", name, series.name);
+          }
+        }
+      }
+    }
+  }
+  return {};
+}
+
+Fault check_series(const RunRecord& record, int index) {
+  const record::Feature& feature = record.features[static_cast<std::size_t>(index)];
+  std::vector<std::string_view> names;
+  for (const record::Series& series : record.series) {
+    if (series.feature != index || series.role != record::Series::Role::kData) continue;
+    if (auto fault = check_one_series(series, feature)) return fault;
+    if (std::find(names.begin(), names.end(), series.name) != names.end()) {
+      return fmt::format("series {} is there twice", in_quotes(series.name));
+    }
+    names.emplace_back(series.name);
+  }
+  const bool of_series = record::is_analysis(feature.shape) && feature.shape != Shape::kRotaryAxes;
+  if (of_series && names.empty() && record.ending == "finished") {
+    return "the run is finished and its series are missing";
+  }
+  return feature.shape == Shape::kContour ? check_parts(record, index) : Fault();
+}
+
+Fault check_feature(const RunRecord& record, int index, bool strict) {
+  const record::Feature& feature = record.features[static_cast<std::size_t>(index)];
+  constexpr int kMostLayers = 10'000;
+  constexpr int kMostPoints = 100'000;  // times the layers it stays a whole number of the computer
+  if (feature.layers < 0 || feature.layers > kMostLayers || feature.points_per_layer < 0 ||
+      feature.points_per_layer > kMostPoints) {
+    return fmt::format("{} layers of {} points are outside 0..{} and 0..{}", feature.layers,
+                       feature.points_per_layer, kMostLayers, kMostPoints);
+  }
+  constexpr double kLeastStep_deg = 1e-6;
+  constexpr double kGreatestStep_deg = 90.0;
+  for (const double step_deg : feature.search_steps_deg) {
+    if (step_deg >= kLeastStep_deg && step_deg <= kGreatestStep_deg) continue;
+    return fmt::format("a search step of {:g} deg is outside {:g}..{:g}", step_deg, kLeastStep_deg,
+                       kGreatestStep_deg);
+  }
+  constexpr int kGreatestOrder = 10'000;
+  for (const record::Characteristic& characteristic : feature.characteristics) {
+    for (const record::HarmonicLimit& line : characteristic.harmonic_limits) {
+      if (line.first >= 0 && line.first <= line.last && line.last <= kGreatestOrder) continue;
+      return fmt::format("a mask goes from order {} to {}; 0..{} are allowed", line.first,
+                         line.last, kGreatestOrder);
+    }
+    if (characteristic.form == record::Form::kHarmonicLimits &&
+        characteristic.harmonic_limits.empty()) {
+      return fmt::format("characteristic {} has no mask", in_quotes(characteristic.id));
+    }
+  }
+  const bool analysed = record::is_analysis(feature.shape);
+  const Strategy own =
+      feature.shape == Shape::kRotaryAxes ? Strategy::kStations : Strategy::kSeries;
+  const bool for_analyses =
+      feature.strategy == Strategy::kSeries || feature.strategy == Strategy::kStations;
+  if (analysed ? feature.strategy != own : for_analyses) {
+    return fmt::format("a {} is not measured by the strategy {}", record::name_of(feature.shape),
+                       record::name_of(feature.strategy));
+  }
+  if (auto fault = check_feature_settings(feature, strict)) return fault;
+  return check_series(record, index);
+}
+
+/// Whether the layer of a measuring touch is one of its feature.
+Fault check_layer(const Touch& touch, const record::Feature& feature) {
+  const auto balls = std::count_if(feature.settings.begin(), feature.settings.end(),
+                                   [](const auto& setting) { return setting.name == "balls/id"; });
+  const std::int64_t layers =
+      feature.strategy == Strategy::kStations ? balls : std::int64_t{feature.layers};
+  if (feature.strategy == Strategy::kPointsFile || touch.layer < layers) return {};
+  return fmt::format("layer {} is none of its feature, which has {}", touch.layer, layers);
+}
+
+Fault check_touch(const Touch& touch, const RunRecord& record,
+                  const std::map<int, int>& feature_of_pose) {
+  constexpr int kGreatestIndex = 100'000'000;
+  for (const int index : {touch.layer, touch.point, touch.repeat}) {
+    if (index >= 0 && index <= kGreatestIndex) continue;
+    return fmt::format("layer {}, point {}, repeat {} are outside 0..{}", touch.layer, touch.point,
+                       touch.repeat, kGreatestIndex);
+  }
+  const auto pose = feature_of_pose.find(touch.pose);
+  if (touch.pose != -1 && pose == feature_of_pose.end()) {
+    return fmt::format("pose {} is not there", touch.pose);
+  }
+  constexpr double kUnit = 1e-6;  // a direction in doubles is one to some 1e-16
+  const double length = touch.approach.norm();
+  const bool of_file =
+      pose != feature_of_pose.end() &&
+      record.features[static_cast<std::size_t>(pose->second)].strategy == Strategy::kPointsFile;
+  if (std::abs(length - 1.0) > kUnit && !(of_file && length == 0.0)) {
+    return fmt::format("its direction has the length {:g}, not 1", length);
+  }
+  if (touch.purpose != Touch::Purpose::kMeasure) return {};
+  if (pose == feature_of_pose.end()) return "it was measured in no pose";
+  return check_layer(touch, record.features[static_cast<std::size_t>(pose->second)]);
+}
+
+core::Result<void> refused(const std::string& place, const std::string& fault) {
+  return core::fail(
+      core::Code::kJournal,
+      fmt::format("the journal does not hold what its evaluation asks for: {}: {}", place, fault));
+}
+
+}  // namespace
+
+core::Result<void> check_record(const RunRecord& record) {
+  const bool strict = record.header.version == core::kVersion;
+  if (auto fault = check_settings(record.settings, run_table(), strict)) {
+    return refused("the run", *fault);
+  }
+  for (std::size_t i = 0; i < record.features.size(); ++i) {
+    if (auto fault = check_feature(record, static_cast<int>(i), strict)) {
+      return refused("feature " + in_quotes(record.features[i].id), *fault);
+    }
+  }
+  std::map<int, int> feature_of_pose;
+  for (const record::PoseVisit& pose : record.poses) feature_of_pose[pose.id] = pose.feature;
+  for (const Touch& touch : record.touches) {
+    if (auto fault = check_touch(touch, record, feature_of_pose)) {
+      return refused(fmt::format("touch {}", touch.id), *fault);
+    }
+  }
+  return {};
+}
+
+}  // namespace rondure::plans

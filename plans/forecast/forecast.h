@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/pose.h"
+#include "core/result.h"
+#include "plans/plan.h"
+#include "plans/path/sampling.h"
+#include "plans/cell/scene.h"
+#include "plans/path/travel.h"
+
+namespace rondure::plans {
+
+/// A touch of a cloud, or a point of a scan.
+struct ForecastTouch {
+  Target target;
+  Eigen::Vector3d tip_W_mm = {0.0, 0.0, 0.0};  ///< At the expected contact.
+  double time_s = 0.0;                         ///< From the first move of its stage.
+};
+
+/// One stage of a run: the touches of the reference sphere, of the spheres on the base of the
+/// fixture or on its ring, or a cloud in a pose.
+struct ForecastStage {
+  enum class Kind { kQualification, kBase, kRing, kLocation, kCloud };
+  Kind kind = Kind::kCloud;
+  int feature = -1;          ///< Index; -1 for spheres.
+  core::Pose pose;           ///< As the fixture would read it.
+  bool final_cloud = false;  ///< Its touches would be evaluated.
+  int times = 1;             ///< The cloud is touched so often.
+  int touches = 0;           ///< Of one time.
+  double path_mm = 0.0;      ///< Of all times: moves, and the strokes of the touches to and fro.
+  double time_s = 0.0;       ///< Of all times.
+  Polyline moves_W;          ///< Ends of the moves of the first time, in order.
+  Polyline contacts_W;       ///< Tip centres at the expected contacts, in the order of touching.
+  std::vector<ForecastTouch> measured;  ///< Of a cloud, the first time, in the order of touching.
+  Placement placement;                  ///< Of a cloud.
+};
+
+/// What a run would do, if part, fixture and probe were as the plan says.
+struct Forecast {
+  std::vector<ForecastStage> stages;
+  int touches = 0;
+  int poses = 0;  ///< The fixture turns so often.
+  double path_mm = 0.0;
+  double time_s =
+      0.0;  ///< By the machine's clock; turning the fixture by hand or motor not counted.
+};
+
+/// Goes through a plan as a run does, with the same pose search and the same planner, on a part
+/// without form error that sits where the plan says. Nothing moves, nothing is written. A real part
+/// sits elsewhere: `guided` then needs a pose or two more, each one more cloud.
+/// @return  kUnreachable or kSampling with the pointer of the feature; a forecast without stages
+/// for
+///          a plan whose points all come from files.
+[[nodiscard]] core::Result<Forecast> forecast(const Plan& plan);
+
+}  // namespace rondure::plans

@@ -1,0 +1,120 @@
+#include "plans/path/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+
+namespace rondure::plans {
+namespace {
+
+core::Result<void> check_layers(const FeaturePlan& feature, int layers) {
+  const SamplingPlan& sampling = feature.sampling;
+  if (layers < 1) {
+    return core::fail(core::Code::kSampling,
+                      fmt::format("{} layers cannot be probed; give at least 1", layers));
+  }
+  if (sampling.points_per_layer < 3) {
+    return core::fail(core::Code::kSampling,
+                      fmt::format("{} points a layer do not determine a circle; give at least 3",
+                                  sampling.points_per_layer));
+  }
+  const double length_mm = feature.nominal.to_mm - feature.nominal.from_mm;
+  if (layers > 1 && !(sampling.margin_mm >= 0.0 && 2.0 * sampling.margin_mm < length_mm)) {
+    return core::fail(
+        core::Code::kSampling,
+        fmt::format("a margin of {:.7g} mm at both ends leaves no room for {} layers on {:.7g} mm",
+                    sampling.margin_mm, layers, length_mm));
+  }
+  return {};
+}
+
+double layer_height(const FeaturePlan& feature, int layer, int layers) {
+  const NominalPlan& nominal = feature.nominal;
+  if (layers == 1) return 0.5 * (nominal.from_mm + nominal.to_mm);
+  const double margin_mm = feature.sampling.margin_mm;
+  const double span_mm = nominal.to_mm - nominal.from_mm - 2.0 * margin_mm;
+  return nominal.from_mm + margin_mm + layer * span_mm / (layers - 1);
+}
+
+/// Points of each ring, equator first: in proportion to its length, `points` in all.
+std::vector<int> share_among_rings(int points, int rings) {
+  std::vector<double> length;
+  double total = 0.0;
+  for (int ring = 0; ring < rings; ++ring) {
+    length.push_back(std::cos(std::numbers::pi / 2.0 * ring / rings));
+    total += length.back();
+  }
+  std::vector<int> share;
+  int placed = 0;
+  double passed = 0.0;
+  for (const double ring_length : length) {
+    passed += ring_length;
+    const int up_to_here = static_cast<int>(std::lround(points * passed / total));
+    share.push_back(up_to_here - placed);
+    placed = up_to_here;
+  }
+  return share;
+}
+
+}  // namespace
+
+core::Result<std::vector<Target>> sampling_targets(const FeaturePlan& feature) {
+  const SamplingPlan& sampling = feature.sampling;
+  const int layers = feature.type == "circle" ? 1 : sampling.layers;
+  if (auto checked = check_layers(feature, layers); !checked) return core::fail(checked.error());
+  const double step_rad = core::kTwoPi / sampling.points_per_layer;
+  std::vector<Target> targets;
+  for (int layer = 0; layer < layers; ++layer) {
+    const double z_mm = layer_height(feature, layer, layers);
+    const double start_rad =
+        sampling.start_deg * core::kDegree + sampling.stagger * layer * step_rad / layers;
+    for (int point = 0; point < sampling.points_per_layer; ++point) {
+      targets.push_back({layer, point, start_rad + point * step_rad, z_mm});
+    }
+  }
+  return targets;
+}
+
+core::Result<std::vector<Target>> locating_targets(const FeaturePlan& feature,
+                                                   double uncertainty_mm) {
+  FeaturePlan locating = feature;
+  const double length_mm = feature.nominal.to_mm - feature.nominal.from_mm;
+  locating.type = "cylinder";  // a circle's surface has an axis too
+  locating.sampling.layers = 2;
+  locating.sampling.points_per_layer = 3;
+  locating.sampling.stagger = 1.0;
+  // A fifth of the length must stay between the layers, or the tilt could not be told.
+  locating.sampling.margin_mm =
+      std::min(feature.sampling.margin_mm + uncertainty_mm, 0.4 * length_mm);
+  return sampling_targets(locating);
+}
+
+core::Result<std::vector<Eigen::Vector3d>> qualification_directions(int points) {
+  if (points < 5 || points > 100) {
+    return core::fail(core::Code::kSampling,
+                      fmt::format("{} touches of the reference sphere are outside 5..100", points));
+  }
+  // Rings as far apart as the points of an even spread: sqrt(2 pi / points) on the half sphere.
+  const double spacing_rad = std::sqrt(core::kTwoPi / points);
+  const int rings =
+      points < 9 ? 1 : static_cast<int>(std::lround(std::numbers::pi / 2.0 / spacing_rad));
+  const std::vector<int> share = share_among_rings(points - 1, rings);
+  std::vector<Eigen::Vector3d> directions = {Eigen::Vector3d::UnitZ()};
+  for (int ring = rings - 1; ring >= 0; --ring) {
+    const int around = share[static_cast<std::size_t>(ring)];
+    const double elevation_rad = std::numbers::pi / 2.0 * ring / rings;
+    for (int i = 0; i < around; ++i) {
+      const double theta_rad = core::kTwoPi * (i + 0.5 * (ring % 2)) / around;
+      directions.emplace_back(std::cos(elevation_rad) * std::cos(theta_rad),
+                              std::cos(elevation_rad) * std::sin(theta_rad),
+                              ring == 0 ? 0.0 : std::sin(elevation_rad));
+    }
+  }
+  return directions;
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/result.h"
+#include "plans/path/sampling.h"
+
+namespace rondure::plans {
+
+/// What the way of the tip around a part depends on. Part frame, heights as in the plan.
+struct PathGeometry {
+  double radius_mm = 0.0;  ///< Nominal.
+  double from_mm = 0.0;    ///< Lower end of the part.
+  double to_mm = 0.0;      ///< Upper end of the part.
+  bool inside = false;     ///< true: a bore, open above.
+  double tip_radius_mm = 2.0;
+  double approach_mm = 3.0;   ///< From the pre-touch point to the expected contact.
+  double clearance_mm = 5.0;  ///< Kept from everything while travelling.
+  double stand_off_mm = 0.0;  ///< Added to the radius of the way around a shaft.
+
+  friend bool operator==(const PathGeometry&, const PathGeometry&) = default;
+};
+
+/// Corners of a path of the tip centre, joined by straight moves, part frame [mm].
+using Polyline = std::vector<Eigen::Vector3d>;
+
+/// kMeaning when tip and approach do not fit into the bore.
+[[nodiscard]] core::Result<void> check_fits(const PathGeometry& geometry);
+
+/// Unit vector from the pre-touch point toward the surface.
+[[nodiscard]] Eigen::Vector3d approach_direction(const PathGeometry& geometry,
+                                                 const Target& target);
+
+/// Tip centre at the nominal contact.
+[[nodiscard]] Eigen::Vector3d contact_tip(const PathGeometry& geometry, const Target& target);
+
+/// Tip centre where the search begins.
+[[nodiscard]] Eigen::Vector3d pre_touch(const PathGeometry& geometry, const Target& target);
+
+/// From above the upper end of the part to a pre-touch point. The first corner lies
+/// tip radius + clearance beyond the end plane: a motion between it and the sky, straight along
+/// machine z, meets no part that is tilted by 90 deg or less.
+[[nodiscard]] Polyline entry_path(const PathGeometry& geometry, const Target& target);
+
+/// Between two pre-touch points, both included. Outside: out to the travel radius, along the axis,
+/// around (the shorter way) and in again; no point nearer to the axis than
+/// radius + tip radius + max(approach, clearance) on the way around. Inside: the straight line.
+[[nodiscard]] Polyline path_between(const PathGeometry& geometry, const Target& from,
+                                    const Target& to);
+
+/// entry_path() backwards.
+[[nodiscard]] Polyline exit_path(const PathGeometry& geometry, const Target& target);
+
+/// Around a reference sphere between two directions of qualification_directions(): from pre-touch
+/// point to pre-touch point, both included, never nearer than these to the sphere. Machine frame.
+[[nodiscard]] Polyline path_around_sphere(const Eigen::Vector3d& center_W_mm, double radius_mm,
+                                          const PathGeometry& geometry, const Eigen::Vector3d& from,
+                                          const Eigen::Vector3d& to);
+
+}  // namespace rondure::plans

@@ -1,0 +1,296 @@
+#include "plans/run/inspection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cmm/ipp_client/touch_check.h"
+#include "core/units.h"
+#include "plans/analyses/analysis.h"
+#include "plans/cell/reached_pose.h"
+
+namespace rondure::plans {
+namespace {
+
+/// Touches that are repeated before an interrupted run goes on, where the cloud has so many: one
+/// shows a shift along its own direction only.
+constexpr std::size_t kChecks = 3;
+
+constexpr double kStill_mm = 1e-6;  // a shorter move is none
+
+/// A pose of the journal that is taken again must read as before: part and targets follow the
+/// recorded reading.
+core::Result<void> check_reading(const record::PoseVisit& known, const core::Pose& reads,
+                                 double resolution_rad) {
+  constexpr double kRoundOff_rad = 1e-9;
+  const double apart_rad = std::max(std::abs(reads.alpha_rad - known.reached.alpha_rad),
+                                    std::abs(reads.beta_rad - known.reached.beta_rad));
+  if (apart_rad <= resolution_rad + kRoundOff_rad) return {};
+  const auto degrees = [](const core::Pose& pose) {
+    return fmt::format("({:.7g}, {:.7g}) deg", pose.alpha_rad / core::kDegree,
+                       pose.beta_rad / core::kDegree);
+  };
+  return core::fail(
+      core::Code::kMachine,
+      fmt::format("in pose {} the fixture reads {}, before the interruption it read {}: {:.3g} deg "
+                  "apart, its resolution allows {:g} deg (resolution_deg); it has lost its "
+                  "position, see to its homing, couplings and load, then resume",
+                  known.id, degrees(reads), degrees(known.reached), apart_rad / core::kDegree,
+                  resolution_rad / core::kDegree),
+      "/fixture/resolution_deg");
+}
+
+cmm::TouchReading reading_of(const record::Touch& touch) {
+  return {touch.tip_mm, touch.temperature_degC, touch.time_s, 0.0, touch.scale_temperature_degC};
+}
+
+}  // namespace
+
+core::Result<void> RunContext::check_stop() const {
+  if (!options.stop_requested || !options.stop_requested()) return {};
+  return core::fail(
+      core::Code::kStopped,
+      fmt::format("stopped by the operator after {} touches; all of them are kept", next_touch));
+}
+
+void RunContext::show() const {
+  if (options.progress && !recalling()) options.progress(progress);
+}
+
+core::Result<record::Touch> RunContext::touch(TouchStep step) {
+  step.command.id = next_touch;
+  step.row.id = next_touch;
+  step.row.approach = step.command.direction_W;
+  if (const record::Touch* known = past.touch(next_touch)) return recall(std::move(step), *known);
+  if (auto stop = check_stop(); !stop) return core::fail(stop.error());
+  const NextMove next = {NextMove::Kind::kTouch, doing + ": touch", cell->machine().position_W_mm(),
+                         step.command.expected_tip_W_mm};
+  if (auto go = ask(next); !go) return core::fail(go.error());
+  const auto reading = cell->machine().touch(step.command);
+  if (!reading) return core::fail(reading.error());
+  record::Touch row = step.row;
+  row.tip_mm = reading->tip_W_mm;
+  row.temperature_degC = reading->temperature_degC;
+  row.time_s = reading->time_s;
+  row.scale_temperature_degC = reading->scale_temperature_degC;
+  if (auto kept = journal.add(row); !kept) return core::fail(kept.error());
+  ++next_touch;
+  progress.touches = static_cast<std::size_t>(next_touch);
+  progress.time_s = row.time_s;
+  show();
+  return row;
+}
+
+core::Result<record::Touch> RunContext::recall(TouchStep step, const record::Touch& known) {
+  if (auto same = check_same_step(known, step.row); !same) return core::fail(same.error());
+  if (auto kept = cell->recall_touch(step.command, reading_of(known)); !kept) {
+    return core::fail(kept.error());
+  }
+  ++next_touch;
+  step.row = known;
+  if (auto kept = keep_recalled(std::move(step)); !kept) return core::fail(kept.error());
+  return known;
+}
+
+core::Result<void> RunContext::keep_recalled(TouchStep step) {
+  progress.touches = static_cast<std::size_t>(next_touch);
+  if (last_steps.size() == kChecks) last_steps.erase(last_steps.begin());
+  last_steps.push_back(std::move(step));
+  if (past.relocated_behind(next_touch)) {
+    if (!recalling()) {
+      if (const auto reads = cell->home_again(); !reads) return core::fail(reads.error());
+    }
+    relocation_due = true;
+    return core::fail(core::Code::kLocation, "the part was located again");
+  }
+  return recalling() ? core::Result<void>{} : come_back();
+}
+
+core::Result<void> RunContext::recall_state(const TouchStep& step) {
+  if (step.scan) return cell->recall_scan(*step.scan, step.scan_end);
+  return cell->recall_touch(step.command, reading_of(step.row));
+}
+
+core::Result<void> RunContext::come_back() {
+  if (auto go = ask_for_homing(); !go) return go;
+  lost_place = true;
+  doing = "repeating the last touches";
+  const auto reads = cell->home_again();
+  if (!reads) return core::fail(reads.error());
+  // A pose that was measured stands in the repeated touches themselves.
+  const bool has_encoders = !plan.fixture->reached_pose;
+  if (const record::PoseVisit* known = past.pose(last_steps.back().row.pose);
+      known != nullptr && has_encoders) {
+    if (auto same = check_reading(*known, *reads, resolution_rad()); !same) return same;
+  }
+  double largest_mm = 0.0;
+  for (std::size_t i = 0; i < last_steps.size(); ++i) {
+    const TouchStep& step = last_steps[i];
+    if (auto moved = follow(i == 0 ? step.entry_W : step.way_W); !moved) return moved;
+    if (auto moved = follow(step.aside_W); !moved) return moved;
+    const Polyline back(step.aside_W.rbegin(), step.aside_W.rend());
+    const auto difference_mm = repeat_touch(step, past.next_check() - static_cast<int>(i));
+    if (!difference_mm) {
+      if (difference_mm.error().code != core::Code::kCollision) {
+        (void)follow(back);
+        (void)follow({step.entry_W.rbegin(), step.entry_W.rend()});
+      }
+      return part_has_moved(difference_mm.error());
+    }
+    if (auto moved = follow(back); !moved) return moved;
+    largest_mm = std::max(largest_mm, *difference_mm);
+  }
+  const std::string text = fmt::format(
+      "resumed on {} after {} touches; the last {} repeated, largest difference {:.3f} um, limit "
+      "{:g} um",
+      options.started_utc, next_touch, last_steps.size(), largest_mm / core::kMicrometre,
+      plan.machine->resume_limit_um);
+  if (auto on = recall_state(last_steps.back()); !on) return on;
+  lost_place = false;
+  return journal.add(record::Decision{-1, cell->machine().time_s(), text});
+}
+
+tl::unexpected<core::Error> RunContext::part_has_moved(const core::Error& error) {
+  const bool on_part = last_steps.back().row.pose >= 0;
+  const bool moved = error.code == core::Code::kLocation || error.code == core::Code::kNoTouch;
+  if (!options.relocate || !on_part || !moved) return core::fail(error);
+  if (plan.part.location_uncertainty_mm <= 0.0) {
+    return core::fail(error.code, error.what +
+                                      "; it cannot be located again, the plan states no "
+                                      "location_uncertainty_mm");
+  }
+  const record::PoseVisit* visit = past.pose(last_steps.back().row.pose);
+  if (visit != nullptr &&
+      measures_by_touch(plan.features[static_cast<std::size_t>(visit->feature)])) {
+    return core::fail(error.code, error.what + "; balls cannot be located again");
+  }
+  if (past.goes_on_untouched(next_pose)) {
+    return core::fail(error.code, error.what +
+                                      "; it cannot be located again, since the run stood between "
+                                      "two clouds");
+  }
+  const record::Decision decision{-1, cell->machine().time_s(),
+                                  relocation_text(next_touch) + error.what};
+  if (auto kept = journal.add(decision); !kept) return core::fail(kept.error());
+  relocation_due = true;
+  lost_place = false;
+  return core::fail(error);
+}
+
+core::Result<double> RunContext::repeat_touch(const TouchStep& step, std::int64_t check_id) {
+  cmm::TouchCommand command = step.command;
+  command.id = check_id;
+  const auto reading = cell->machine().touch(command);
+  const std::string moved =
+      "; part or machine has moved while the run was interrupted, start a new run, or locate the "
+      "part again (run --resume --relocate)";
+  if (!reading) {
+    const bool nothing = reading.error().code == core::Code::kNoTouch;
+    return core::fail(reading.error().code,
+                      fmt::format("touch {} could not be repeated: {}{}", step.row.id,
+                                  reading.error().what, nothing ? moved : std::string()));
+  }
+  record::Touch check = step.row;
+  check.id = check_id;
+  check.purpose = record::Touch::Purpose::kCheck;
+  check.tip_mm = reading->tip_W_mm;
+  check.temperature_degC = reading->temperature_degC;
+  check.time_s = reading->time_s;
+  check.scale_temperature_degC = reading->scale_temperature_degC;
+  if (auto kept = journal.add(check); !kept) return core::fail(kept.error());
+  const double difference_mm = (check.tip_mm - step.row.tip_mm).norm();
+  if (difference_mm <= plan.machine->resume_limit_um * core::kMicrometre) return difference_mm;
+  return core::fail(
+      core::Code::kLocation,
+      fmt::format("touch {} was repeated and differs by {:.3f} um, the plan allows {:g} um "
+                  "(resume_limit_um){}",
+                  step.row.id, difference_mm / core::kMicrometre, plan.machine->resume_limit_um,
+                  moved),
+      "/machine/resume_limit_um");
+}
+
+double RunContext::resolution_rad() const { return cell->fixture().limits().resolution_rad; }
+
+core::Result<void> RunContext::ask(const NextMove& move) {
+  if (!options.before_move || retreating) return {};
+  auto go = options.before_move(move);
+  if (!go) retreating = true;
+  return go;
+}
+
+core::Result<void> RunContext::ask_for_homing() {
+  return ask(
+      {NextMove::Kind::kHome, "home machine and fixture: up, then to the park position", {}, {}});
+}
+
+core::Result<void> RunContext::follow(const Polyline& path_W) {
+  if (recalling()) return {};
+  cmm::Machine& machine = cell->machine();
+  Polyline passed = {machine.position_W_mm()};
+  for (const Eigen::Vector3d& corner : path_W) {
+    const NextMove next = {NextMove::Kind::kMove, doing + ": move", passed.back(), corner};
+    const bool moves = (corner - passed.back()).norm() > kStill_mm;
+    if (auto go = moves ? ask(next) : core::Result<void>{}; !go) {
+      for (auto back = passed.rbegin() + 1; back != passed.rend(); ++back) {
+        if (auto moved = machine.move_to(*back); !moved) return moved;
+      }
+      return go;
+    }
+    if (auto moved = machine.move_to(corner); !moved) return moved;
+    passed.push_back(corner);
+  }
+  return {};
+}
+
+core::Result<void> RunContext::rise() {
+  if (recalling()) return {};
+  Eigen::Vector3d up = cell->machine().position_W_mm();
+  up.z() = std::max(up.z(), plan.machine->park_mm[2]);
+  return follow({up});
+}
+
+core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& commanded) {
+  if (!recalling()) {
+    const std::string what = "turn the fixture to " + in_degrees(commanded);
+    if (auto go = ask({NextMove::Kind::kTurn, what, {}, {}}); !go) return core::fail(go.error());
+  }
+  const auto steps =  // before anybody turns it
+      reached_pose_steps(plan, cell->kinematics(), cell->nominal_part(), feature, commanded);
+  if (!steps) return core::fail(steps.error());
+  auto reached = recalling() ? cell->recall_turn(commanded) : cell->turn_to(commanded);
+  if (reached && !steps->empty()) reached = measure_reached_pose(*this, *steps, commanded);
+  if (!reached) return core::fail(reached.error());
+  if (const record::PoseVisit* known = past.pose(next_pose)) {
+    if (auto same = check_same_step(*known, feature, commanded); !same)
+      return core::fail(same.error());
+    if (!recalling() && steps->empty()) {
+      if (auto same = check_reading(*known, *reached, resolution_rad()); !same)
+        return core::fail(same.error());
+    }
+    ++next_pose;
+    return *known;
+  }
+  const record::PoseVisit visit{next_pose, feature, commanded,
+                                *reached,  false,   cell->machine().time_s()};
+  if (auto kept = journal.add(visit); !kept) return core::fail(kept.error());
+  ++next_pose;
+  return visit;
+}
+
+core::Result<void> RunContext::note(int feature, const std::string& text) {
+  const record::Decision decision{feature, cell->machine().time_s(), text};
+  if (const record::Decision* known = past.next_decision()) {
+    return check_same_step(*known, decision);
+  }
+  return journal.add(decision);
+}
+
+Polyline in_machine_frame(const Polyline& path, const Eigen::Isometry3d& X_WX) {
+  Polyline out;
+  out.reserve(path.size());
+  for (const Eigen::Vector3d& corner : path) out.emplace_back(X_WX * corner);
+  return out;
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,362 @@
+#include "plans/run/runner.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "plans/analyses/analysis.h"
+#include "plans/run/calibration_use.h"
+#include "plans/run/fixture_calibration.h"
+#include "plans/run/fixture_datum.h"
+#include "plans/run/inspection.h"
+#include "plans/run/plan_changes.h"
+#include "plans/checks/plan_reach.h"
+#include "plans/run/qualification.h"
+#include "plans/run/run_head.h"
+#include "record/csv/points.h"
+#include "record/sha256.h"
+
+namespace rondure::plans {
+namespace {
+
+/// Touches a strategy commonly needs, for the time left.
+std::size_t expected_touches(const FeaturePlan& feature, std::size_t targets) {
+  if (!is_touched(feature)) return 0;
+  const auto repeats = static_cast<std::size_t>(feature.pose_search.repeats);
+  switch (strategy_of(feature)) {
+    case record::Strategy::kGuided:
+      return targets * (feature.type == "circle" ? repeats : 2 + repeats);
+    case record::Strategy::kMerged:
+      return targets * repeats * feature.pose_search.poses.size();
+    case record::Strategy::kVirtual:
+      return targets * repeats;
+    case record::Strategy::kAsPublished:
+      return targets * (25 + repeats);
+    default:
+      return targets * (80 + repeats);
+  }
+}
+
+/// Where every feature's targets are, checked in its start pose before anything moves.
+core::Result<std::vector<std::vector<Target>>> plan_targets(const Plan& plan) {
+  std::vector<std::vector<Target>> out(plan.features.size());
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (!is_touched(plan.features[i])) continue;
+    auto targets = reachable_targets(plan, i);
+    if (!targets) return core::fail(targets.error());
+    out[i] = std::move(*targets);
+  }
+  return out;
+}
+
+/// What is known of a feature without a machine, read once: what is hashed is what is evaluated.
+struct FeatureData {
+  std::string sha256;
+  record::PointTable points;  ///< Of a points file.
+  AnalysisData series;        ///< Of an analysis.
+};
+
+core::Result<FeatureData> read_points_file(const Plan& plan, std::size_t index) {
+  const std::string& name = plan.features[index].source->file;
+  const auto bytes = record::read_file(plan.folder / name);
+  if (!bytes) return core::fail(bytes.error());
+  auto table = record::parse_points_csv(*bytes, name);
+  if (!table) return core::fail(table.error());
+  return FeatureData{record::sha256_hex(*bytes), *std::move(table), {}};
+}
+
+core::Result<std::vector<FeatureData>> read_data(const Plan& plan, std::uint64_t seed) {
+  std::vector<FeatureData> out(plan.features.size());
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (needs_machine(plan.features[i])) continue;
+    if (analysis_kind(plan.features[i].type) != nullptr) {
+      auto data = analysis_data(plan, i, seed);
+      if (!data) return core::fail(data.error());
+      out[i].sha256 = data->sha256;
+      out[i].series = *std::move(data);
+    } else {
+      auto data = read_points_file(plan, i);
+      if (!data) return core::fail(data.error());
+      out[i] = *std::move(data);
+    }
+  }
+  return out;
+}
+
+/// Puts the rows of a points file into the journal, as one cloud without a pose search.
+core::Result<void> take_points(RunContext& context, int index, const record::PointTable& table) {
+  const int pose = context.next_pose++;
+  if (context.past.pose(pose) == nullptr) {
+    if (auto kept = context.journal.add(record::PoseVisit{pose, index, {}, {}, true, 0.0}); !kept)
+      return kept;
+  }
+  const bool known = context.past.touch(context.next_touch) != nullptr;
+  std::vector<record::Touch> rows;
+  rows.reserve(table.points_mm.size());
+  for (const Eigen::Vector3d& p : table.points_mm) {
+    record::Touch row;
+    row.id = context.next_touch++;
+    row.pose = pose;
+    row.point = static_cast<int>(rows.size());
+    row.tip_mm = p;
+    rows.push_back(row);
+  }
+  if (known) return {};  // one transaction: all of them or none
+  return context.journal.add(rows);
+}
+
+/// Puts the series of an analysis into the journal: all of them or none.
+core::Result<void> take_series(RunContext& context, int index, const AnalysisData& data) {
+  if (context.past.knows_series(index)) return {};
+  return context.journal.add(data.series, data.truths);
+}
+
+core::Result<void> inspect(RunContext& context, const std::vector<std::vector<Target>>& targets,
+                           const std::vector<FeatureData>& data) {
+  for (std::size_t i = 0; i < context.plan.features.size(); ++i) {
+    const FeaturePlan& feature = context.plan.features[i];
+    const auto index = static_cast<int>(i);
+    if (!needs_machine(feature)) {
+      auto taken = analysis_kind(feature.type) != nullptr
+                       ? take_series(context, index, data[i].series)
+                       : take_points(context, index, data[i].points);
+      if (!taken) return taken;
+      continue;
+    }
+    context.cell->mount(feature);
+    if (measures_by_touch(feature)) {
+      if (auto calibrated = calibrate_fixture(context, index); !calibrated) return calibrated;
+      continue;
+    }
+    FeatureSession session(context, index, targets[i]);
+    if (auto searched = search_pose(session, feature); !searched) {
+      return core::fail(searched.error().at(fmt::format("/features/{}", i)));
+    }
+  }
+  return {};
+}
+
+/// References machine and fixture and qualifies the probe.
+core::Result<void> prepare(RunContext& context) {
+  // The part is in the ring from the start: whatever moves must keep clear of it.
+  const auto first =
+      std::find_if(context.plan.features.begin(), context.plan.features.end(), needs_machine);
+  context.cell->mount(*first);
+  if (context.recalling()) {
+    if (auto homed = context.cell->recall_home(); !homed) return core::fail(homed.error());
+  } else {
+    if (auto go = context.ask_for_homing(); !go) return go;
+    if (auto homed = context.cell->machine().home(); !homed) return homed;
+    if (auto turned = context.cell->home_fixture(); !turned) return core::fail(turned.error());
+  }
+  if (auto tip = qualify_probe(context); !tip)
+    return core::fail(tip.error().at("/probe/qualification"));
+  if (auto base = find_fixture_base(context); !base) return base;
+  return {};
+}
+
+/// The plan as its machine is driven: slower while each move is confirmed.
+Plan driven(const Plan& plan, const RunOptions& options) {
+  Plan out = plan;
+  if (options.single_step && out.machine) {
+    double& speed = out.machine->travel_speed_mm_s;
+    speed = std::min(speed, out.machine->step_speed_mm_s);
+  }
+  return out;
+}
+
+/// The record says that a run was made in single steps.
+core::Result<void> note_single_steps(RunContext& context) {
+  if (!context.options.single_step || context.past.touch(0) != nullptr) return {};
+  return context.journal.add(record::Decision{
+      -1, 0.0,
+      fmt::format("single-step mode: travel at {:g} mm/s at most, moves confirmed by the operator",
+                  context.plan.machine->step_speed_mm_s)});
+}
+
+/// Whoever watches sees what is on record, and from then on each row.
+void follow(const RunOptions& options, record::RunRecord on_record, record::Journal& journal) {
+  if (!options.followed_by) return;
+  options.followed_by->begin(std::move(on_record));
+  journal.follow(options.followed_by);
+}
+
+/// The record of a run whose journal was just made.
+record::RunRecord head_of(const record::Header& header, const record::Artefact& artefact,
+                          const std::vector<record::Feature>& features,
+                          const std::vector<record::Setting>& settings) {
+  record::RunRecord out;
+  out.header = header;
+  out.artefact = artefact;
+  out.features = features;
+  out.settings = settings;
+  return out;
+}
+
+/// What is known before the first touch.
+struct Preparation {
+  std::vector<std::vector<Target>> targets;
+  std::vector<FeatureData> data;
+  std::uint64_t seed = 0;
+  std::optional<UsedCalibration> calibration;
+};
+
+/// @param run_utc  When the run began.
+core::Result<Preparation> prepare_plan(const Plan& plan, const RunOptions& options,
+                                       std::string_view run_utc) {
+  auto targets = plan_targets(plan);
+  if (!targets) return core::fail(targets.error());
+  const std::uint64_t seed = options.seed.value_or(plan.simulation ? plan.simulation->seed : 0);
+  auto data = read_data(plan, seed);
+  if (!data) return core::fail(data.error());
+  auto calibration = used_calibration(plan, run_utc);
+  if (!calibration) return core::fail(calibration.error());
+  return Preparation{std::move(*targets), std::move(*data), seed, *std::move(calibration)};
+}
+
+/// Goes through the plan and writes how the run ended.
+void execute(const Plan& plan, const RunOptions& options, const Preparation& known, Cell* cell,
+             record::RunRecord past, Run& run) {
+  RunContext context{plan, options, cell, run.journal};
+  context.past = Past(std::move(past));
+  if (cell != nullptr && known.calibration) cell->use(known.calibration->calibration);
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    context.progress.touches_expected +=
+        measures_by_touch(plan.features[i])
+            ? calibration_touches(plan, i)
+            : expected_touches(plan.features[i], known.targets[i].size());
+  }
+  const bool touching = cell != nullptr;
+  if (touching)
+    context.progress.touches_expected += static_cast<std::size_t>(plan.probe->qualification.points);
+  if (touching && plan.fixture->datum) {
+    const DatumPlan& datum = *plan.fixture->datum;
+    context.progress.touches_expected +=
+        datum.spheres.size() * static_cast<std::size_t>(datum.points);
+  }
+  auto done = touching ? note_single_steps(context) : core::Result<void>{};
+  if (done && touching) done = prepare(context);
+  if (done) done = inspect(context, known.targets, known.data);
+  if (!done) run.failure = done.error();
+  const std::string ending = done                                        ? "finished"
+                             : run.failure->code == core::Code::kStopped ? "stopped"
+                                                                         : "failed";
+  if (auto ended = run.journal.end(ending, run.failure ? &*run.failure : nullptr);
+      !ended && !run.failure) {
+    run.failure = ended.error();
+  }
+}
+
+/// All that differs from the run on record: plan, options, and the files beside the plan.
+std::vector<core::Error> all_changes(const record::RunRecord& run, const Plan& plan,
+                                     const RunOptions& options, const Preparation& known) {
+  auto changes = changes_since(run, plan, options);
+  // A damaged journal may hold fewer features than its plan; who reads it on says so.
+  for (std::size_t i = 0; i < std::min(plan.features.size(), run.features.size()); ++i) {
+    if (changes.empty() && known.data[i].sha256 != run.features[i].points_sha256) {
+      changes.push_back(points_changed(i, run.features[i], known.data[i].sha256));
+    }
+  }
+  if (changes.empty() && known.calibration &&
+      record::word_in(run.settings, "fixture/calibration") != known.calibration->text) {
+    changes.push_back({core::Code::kMeaning,
+                       "the calibration of the fixture is not the one the run began with; put its "
+                       "file back, or start a new run",
+                       "/fixture/calibration/file"});
+  }
+  return changes;
+}
+
+}  // namespace
+
+bool is_resumable(const core::Error& failure) {
+  switch (failure.code) {
+    case core::Code::kStopped:
+    case core::Code::kMachine:
+    case core::Code::kNoTouch:
+    case core::Code::kCollision:
+    case core::Code::kJournal:
+    case core::Code::kFile:
+      return true;
+    default:
+      return false;
+  }
+}
+
+core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
+  const auto known = prepare_plan(plan, options, options.started_utc);
+  if (!known) return core::fail(known.error());
+  std::unique_ptr<Cell> cell;
+  record::Header header = header_of(plan, options, known->seed);
+  if (touches_anything(plan)) {
+    auto opened = open_cell(driven(plan, options), {known->seed, false, options.wire_log,
+                                                    options.stop_requested, options.set_by_hand});
+    if (!opened) return core::fail(opened.error());
+    cell = std::move(*opened);
+    header.simulated = cell->is_simulated() || simulates_analysis(plan);
+    if (!header.simulated) header.seed = 0;
+    header.machine = cell->machine().description();
+    header.fixture = cell->fixture().description();
+  }
+  std::vector<record::Feature> features;
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    features.push_back(feature_of(plan.features[i]));
+    features.back().points_sha256 = known->data[i].sha256;
+    if (analysis_kind(plan.features[i].type) == nullptr)
+      features.back().settings = settings_of(plan, plan.features[i]);
+  }
+  std::vector<record::Setting> settings = settings_of(plan);
+  for (record::Setting& setting : fixture_settings(plan, known->calibration)) {
+    settings.push_back(std::move(setting));
+  }
+  auto journal =
+      record::Journal::create(options.directory, header, artefact_of(plan), features, settings);
+  if (!journal) return core::fail(journal.error());
+  Run run{std::move(*journal), std::nullopt};
+  follow(options, head_of(header, artefact_of(plan), features, settings), run.journal);
+  execute(plan, options, *known, cell.get(), {}, run);
+  return run;
+}
+
+std::vector<core::Error> differences_from_run(const Plan& plan, const RunOptions& options) {
+  const auto found = record::read_journal(options.directory);
+  if (!found) return {found.error()};
+  RunOptions same = options;
+  if (!same.seed) same.seed = found->record.header.seed;
+  const auto known = prepare_plan(plan, same, found->record.header.started_utc);
+  if (!known) return {known.error()};
+  return all_changes(found->record, plan, same, *known);
+}
+
+RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
+  const auto refuse = [](const core::Error& error) {
+    return tl::unexpected(std::vector<core::Error>{error});
+  };
+  const auto found = record::read_journal(options.directory);
+  if (!found) return refuse(found.error());
+  RunOptions same = options;
+  if (!same.seed) same.seed = found->record.header.seed;
+  const auto known = prepare_plan(plan, same, found->record.header.started_utc);
+  if (!known) return refuse(known.error());
+  auto changes = all_changes(found->record, plan, same, *known);
+  if (!changes.empty()) return tl::unexpected(std::move(changes));
+  std::unique_ptr<Cell> cell;
+  if (touches_anything(plan)) {
+    auto opened = open_cell(driven(plan, options), {known->seed, true, options.wire_log,
+                                                    options.stop_requested, options.set_by_hand});
+    if (!opened) return refuse(opened.error());
+    cell = std::move(*opened);
+  }
+  auto journal = record::Journal::reopen(options.directory);
+  if (!journal) return refuse(journal.error());
+  auto past = record::read_journal(options.directory);  // again, now that no one else can write
+  if (!past) return refuse(past.error());
+  Run run{std::move(*journal), std::nullopt};
+  follow(options, past->record, run.journal);
+  past->record.ending = found->record.ending;  // reopening took it out
+  execute(plan, options, *known, cell.get(), std::move(past->record), run);
+  return run;
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,201 @@
+// Scans: the part of inspection.h that measures whole circles.
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "cmm/grid.h"
+#include "cmm/scan_path.h"
+#include "cmm/ipp_client/touch_check.h"
+#include "core/units.h"
+#include "plans/run/inspection.h"
+
+namespace rondure::plans {
+namespace {
+
+/// The rows of a scan: which point each is, and from where the tip came to the place that was read.
+std::vector<record::Touch> rows_of(const ScanStep& step, const std::vector<Eigen::Vector3d>& tips) {
+  const cmm::ScanCircleCommand command = cmm::on_grid(step.command);
+  std::vector<record::Touch> rows(tips.size(), step.row);
+  for (std::size_t i = 0; i < tips.size(); ++i) {
+    // Real machines give about the points that were asked for, not at even angles.
+    const auto index = static_cast<int>(i);
+    const cmm::TouchCommand point =
+        cmm::scan_point_at(command, cmm::scan_angle(command, tips[i]), index);
+    rows[i].id = point.id;
+    rows[i].point = index;
+    rows[i].approach = point.direction_W;
+  }
+  return rows;
+}
+
+template <class Point>
+std::vector<Eigen::Vector3d> tips_of(const std::vector<Point>& points,
+                                     Eigen::Vector3d Point::*tip) {
+  std::vector<Eigen::Vector3d> out;
+  out.reserve(points.size());
+  for (const Point& point : points) out.push_back(point.*tip);
+  return out;
+}
+/// A recorded point of a scan that lies no farther beside its start stands for the start itself.
+constexpr double kAtStart_mm = 0.01;
+
+void take_reading(const cmm::TouchReading& reading, record::Touch& row) {
+  row.tip_mm = reading.tip_W_mm;
+  row.temperature_degC = reading.temperature_degC;
+  row.scale_temperature_degC = reading.scale_temperature_degC;
+  row.time_s = reading.time_s;
+}
+
+/// From the pre-touch point at the start of a scan to that at an angle, around the surface.
+Polyline arc_to(const cmm::ScanCircleCommand& scan, double angle_rad) {
+  constexpr double kPiece_rad = 2.0 * core::kDegree;  // its chord is 0.02 % of the radius nearer
+  const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(angle_rad) / kPiece_rad)));
+  Polyline out;
+  for (int i = 0; i <= pieces; ++i) {
+    out.push_back(cmm::start_of(cmm::scan_point_at(scan, angle_rad * i / pieces, 0)));
+  }
+  return out;
+}
+
+bool of_one_scan(const record::Touch& a, const record::Touch& b) {
+  return a.purpose == b.purpose && a.pose == b.pose && a.layer == b.layer && a.repeat == b.repeat;
+}
+
+}  // namespace
+
+core::Result<std::vector<record::Touch>> RunContext::scan(ScanStep step) {
+  step.command.first_id = next_touch;
+  if (past.touch(next_touch) != nullptr) return recall_scan(std::move(step));
+  if (auto stop = check_stop(); !stop) return core::fail(stop.error());
+  const NextMove next = {NextMove::Kind::kTouch, doing + ": scan", cell->machine().position_W_mm(),
+                         step.command.start_tip_W_mm};
+  if (auto go = ask(next); !go) return core::fail(go.error());
+  const auto readings = cell->machine().scan_circle(step.command);
+  if (!readings) return core::fail(readings.error());
+  std::vector<record::Touch> rows = rows_of(step, tips_of(*readings, &cmm::TouchReading::tip_W_mm));
+  for (std::size_t i = 0; i < rows.size(); ++i) take_reading((*readings)[i], rows[i]);
+  if (auto kept = journal.add(rows); !kept) return core::fail(kept.error());
+  next_touch += static_cast<std::int64_t>(rows.size());
+  progress.touches = static_cast<std::size_t>(next_touch);
+  if (!rows.empty()) progress.time_s = rows.back().time_s;
+  show();
+  return rows;
+}
+
+core::Result<std::vector<record::Touch>> RunContext::recall_scan(ScanStep step) {
+  std::vector<record::Touch> known;
+  for (std::int64_t id = next_touch;; ++id) {
+    const record::Touch* row = past.touch(id);
+    if (row == nullptr || (!known.empty() && !of_one_scan(*row, known.front()))) break;
+    known.push_back(*row);
+  }
+  const auto planned = rows_of(step, tips_of(known, &record::Touch::tip_mm));
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (auto same = check_same_step(known[i], planned[i]); !same) return core::fail(same.error());
+  }
+  TouchStep first;
+  first.scan = step.command;
+  const record::Touch& end = known.back();
+  first.scan_end = {end.tip_mm, end.temperature_degC, end.time_s, 0.0, end.scale_temperature_degC};
+  // A real machine begins a scan where it likes: the touch is at the nearest of the points it gave.
+  const cmm::ScanCircleCommand command = cmm::on_grid(step.command);
+  const auto off_start = [&](const record::Touch& row) {
+    return std::abs(cmm::scan_angle(command, row.tip_mm));
+  };
+  const record::Touch& nearest = *std::min_element(
+      known.begin(), known.end(),
+      [&](const record::Touch& a, const record::Touch& b) { return off_start(a) < off_start(b); });
+  const double off_rad = cmm::scan_angle(command, nearest.tip_mm);
+  const double radius_mm = (command.start_tip_W_mm - command.center_W_mm).norm();
+  const bool at_start = std::abs(off_rad) * radius_mm <= kAtStart_mm;
+  first.command = at_start ? cmm::scan_point(command, 0) : cmm::scan_point_at(command, off_rad, 0);
+  if (!at_start) first.aside_W = arc_to(command, off_rad);
+  first.row = nearest;
+  first.entry_W = std::move(step.entry_W);
+  first.way_W = std::move(step.way_W);
+  if (auto state = recall_state(first); !state) return core::fail(state.error());
+  next_touch += static_cast<std::int64_t>(known.size());
+  if (auto kept = keep_recalled(std::move(first)); !kept) return core::fail(kept.error());
+  return known;
+}
+
+core::Result<std::vector<Eigen::Vector3d>> FeatureSession::measure_cloud() {
+  if (feature_.sampling.method == "scan") return scan_cloud(targets_);
+  return touch_cloud(targets_, record::Touch::Purpose::kMeasure);
+}
+
+std::vector<Target> FeatureSession::reach_targets() const {
+  constexpr int kAround = 24;  // every 15 deg: beside the shaft of the stylus nothing is finer
+  if (feature_.sampling.method != "scan") return targets_;
+  const int step = std::max(1, feature_.sampling.points_per_layer / kAround);
+  std::vector<Target> out;
+  std::copy_if(targets_.begin(), targets_.end(), std::back_inserter(out),
+               [&](const Target& target) { return target.point % step == 0; });
+  return out;
+}
+
+ScanStep FeatureSession::scan_of(const CloudPath& path, std::size_t k, int points) const {
+  TouchStep first = step_to(path, k, record::Touch::Purpose::kMeasure);
+  const Eigen::Isometry3d X_WP = part_at(reached_);
+  ScanStep out;
+  out.command.center_W_mm = X_WP * Eigen::Vector3d(0.0, 0.0, path.target(k).z_mm);
+  out.command.axis_W = X_WP.linear() * Eigen::Vector3d::UnitZ();
+  out.command.start_tip_W_mm = first.command.expected_tip_W_mm;
+  out.command.inside = geometry_.inside;
+  out.command.sweep_rad = core::kTwoPi;
+  out.command.points = points;
+  out.command.approach_mm = first.command.approach_mm;
+  out.command.search_mm = first.command.search_mm;
+  out.row = first.row;
+  out.entry_W = std::move(first.entry_W);
+  out.way_W = std::move(first.way_W);
+  return out;
+}
+
+core::Result<std::vector<Eigen::Vector3d>> FeatureSession::scan_cloud(
+    const std::vector<Target>& targets) {
+  std::vector<Target> starts;  // the tip ends a full turn where it began
+  for (const Target& target : targets) {
+    if (starts.empty() || target.layer != starts.back().layer) starts.push_back(target);
+  }
+  const auto points = static_cast<int>(targets.size() / starts.size());
+  const auto path = lay(starts, reached_);
+  if (!path) return core::fail(path.error());
+  context_.last_steps.clear();
+  std::vector<std::vector<Eigen::Vector3d>> layers(starts.size());
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const Target& start = path->target(k);
+    ScanStep step = scan_of(*path, k, points);
+    context_.doing = fmt::format("{}, layer {}", feature_.id, start.layer + 1);
+    if (auto moved = context_.follow(step.way_W); !moved) {
+      if (context_.retreating && k > 0) leave(*path, k - 1);
+      return fault_at(start, moved.error());
+    }
+    const auto rows = context_.scan(std::move(step));
+    if (!rows) {
+      // Where a relocation is due the tip is at park height already.
+      if (context_.lost_place || context_.relocation_due) return core::fail(rows.error());
+      if (rows.error().code != core::Code::kCollision) leave(*path, k);
+      return fault_at(start, rows.error());
+    }
+    for (const record::Touch& row : *rows) layers[path->order()[k]].push_back(row.tip_mm);
+    if (repeat_ > 0) continue;
+    const auto truth = context_.cell->true_scan_W_mm();
+    truth_.insert(truth_.end(), truth.begin(), truth.end());
+  }
+  context_.doing = fmt::format("{}, back to park height", feature_.id);
+  const std::size_t last = starts.size() - 1;
+  if (auto moved = context_.follow(path->exit_W(last)); !moved) {
+    if (context_.retreating) leave(*path, last);
+    return fault_at(path->target(last), moved.error());
+  }
+  if (auto moved = context_.rise(); !moved) return fault_at(path->target(last), moved.error());
+  std::vector<Eigen::Vector3d> tips;
+  for (const auto& layer : layers) tips.insert(tips.end(), layer.begin(), layer.end());
+  return tips;
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "plans/schema/key_spec.h"
+#include "plans/machine_errors_plan.h"
+
+// The part of plan_table.h that describes the hidden errors of the simulated machine and the marks
+// on the simulated part.
+
+namespace rondure::plans {
+
+/// A number about zero.
+[[nodiscard]] inline NumberSpec within(double limit, std::string_view meaning) {
+  return {.at_least = -limit, .at_most = limit, .meaning = meaning};
+}
+
+/// A number from `least` on.
+[[nodiscard]] inline NumberSpec range(double least, double most, std::string_view meaning) {
+  return {.at_least = least, .at_most = most, .meaning = meaning};
+}
+
+template <class Visitor>
+void describe(Visitor& v, TranslationErrorPlan& p) {
+  v.text("error", p.error,
+         {.one_of = {"EXX", "EYX", "EZX", "EXY", "EYY", "EZY", "EXZ", "EYZ", "EZZ"},
+          .required = true,
+          .meaning = "Which error, as ISO 230-1 names it: EYX is along y, of the x axis."});
+  v.number("linear_um_m", p.linear_um_m, within(10'000.0, "In proportion to the travel."));
+  v.number("quadratic_um_m2", p.quadratic_um_m2, within(10'000.0, "With its square."));
+  v.number("wave_um", p.wave_um, within(1000.0, "Amplitude of a wave along the travel."));
+  v.number("wave_period_mm", p.wave_period_mm, range(0.1, 100'000.0, "Its length."));
+  v.number("wave_phase_deg", p.wave_phase_deg, within(360.0, "Its phase at the machine origin."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, RotationErrorPlan& p) {
+  v.text("error", p.error,
+         {.one_of = {"EAX", "EBX", "ECX", "EAY", "EBY", "ECY", "EAZ", "EBZ", "ECZ"},
+          .required = true,
+          .meaning = "Which error, as ISO 230-1 names it: EAX is about x (A), of the x axis."});
+  v.number("linear_urad_m", p.linear_urad_m, within(10'000.0, "In proportion to the travel."));
+  v.number("quadratic_urad_m2", p.quadratic_urad_m2, within(10'000.0, "With its square."));
+  v.number("wave_urad", p.wave_urad, within(1000.0, "Amplitude of a wave along the travel."));
+  v.number("wave_period_mm", p.wave_period_mm, range(0.1, 100'000.0, "Its length."));
+  v.number("wave_phase_deg", p.wave_phase_deg, within(360.0, "Its phase at the machine origin."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, PretravelLobePlan& p) {
+  v.whole(
+      "order", p.order,
+      {.at_least = 1,
+       .at_most = 50,
+       .required = true,
+       .meaning = "Lobes in a turn about the stylus; 3 for a probe that rests on three points."});
+  v.number("amplitude_um", p.amplitude_um, range(0.0, 1000.0, "Half of peak to valley."));
+  v.number("phase_deg", p.phase_deg, within(360.0, "Phase for an approach toward +x."));
+}
+
+template <class Visitor>
+void describe_probe(Visitor& v, SimulatedMachinePlan& p) {
+  v.number("pretravel_um", p.pretravel_um,
+           within(1000.0, "Way of the machine from contact to trigger, across the stylus: mean."));
+  v.number("pretravel_z_um", p.pretravel_z_um, within(1000.0, "The same along the stylus."));
+  v.list("pretravel_lobes", p.pretravel_lobes,
+         {.meaning = "How the pre-travel changes with the direction of the approach."});
+  v.number(
+      "stylus_length_mm", p.stylus_length_mm,
+      range(0.0, 1000.0, "Length of the stylus that the trigger force bends; 0: it is rigid."));
+  v.number("stylus_diameter_mm", p.stylus_diameter_mm,
+           range(0.1, 50.0, "Diameter of its round shaft."));
+  v.number("stylus_modulus_GPa", p.stylus_modulus_GPa,
+           range(1.0, 1200.0, "Its modulus of elasticity: tungsten carbide 600, steel 210."));
+  v.number("trigger_force_N", p.trigger_force_N, range(0.0, 10.0, "Force at the trigger."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, SimulatedMachinePlan& p) {
+  v.text("errors", p.errors,
+         {.one_of = {"off", "typical"},
+          .meaning = "What every error is that is not given: 0, or as of a good bridge machine "
+                     "(docs/simulation.md)."});
+  v.list("translations", p.translations,
+         {.meaning = "Position and straightness errors of the axes; each takes the place of the "
+                     "one of its name."});
+  v.list("rotations", p.rotations, {.meaning = "Roll, pitch and yaw of the axes, likewise."});
+  constexpr std::string_view kSquare = "Departure of the angle between these axes from 90 deg.";
+  v.number("squareness_xy_urad", p.squareness_xy_urad, within(10'000.0, kSquare));
+  v.number("squareness_xz_urad", p.squareness_xz_urad, within(10'000.0, kSquare));
+  v.number("squareness_yz_urad", p.squareness_yz_urad, within(10'000.0, kSquare));
+  constexpr std::string_view kOffset =
+      "From where the ram turns to the tip: the lever of its rotations.";
+  v.number("tip_offset_x_mm", p.tip_offset_x_mm, within(2000.0, kOffset));
+  v.number("tip_offset_y_mm", p.tip_offset_y_mm, within(2000.0, kOffset));
+  v.number("tip_offset_z_mm", p.tip_offset_z_mm, within(2000.0, kOffset));
+  describe_probe(v, p);
+  constexpr std::string_view kBacklash =
+      "Hysteresis: reading when approached in the positive direction minus in the negative.";
+  v.number("backlash_x_um", p.backlash_x_um, within(1000.0, kBacklash));
+  v.number("backlash_y_um", p.backlash_y_um, within(1000.0, kBacklash));
+  v.number("backlash_z_um", p.backlash_z_um, within(1000.0, kBacklash));
+  v.number("scale_expansion_per_K", p.scale_expansion_per_K,
+           range(0.0, 1e-4, "Real expansion of the scales."));
+  v.number("scale_temperature_degC", p.scale_temperature_degC,
+           range(10.0, 40.0, "Temperature of the scales, real and as the machine reads it."));
+  constexpr std::string_view kDrift = "How far the reading of a fixed point drifts, in the end.";
+  v.number("drift_x_um", p.drift_x_um, within(1000.0, kDrift));
+  v.number("drift_y_um", p.drift_y_um, within(1000.0, kDrift));
+  v.number("drift_z_um", p.drift_z_um, within(1000.0, kDrift));
+  v.number("drift_time_s", p.drift_time_s,
+           range(1.0, 1e6, "Time constant of the drift: 63 % of it is done then."));
+  v.number("scan_start_deg", p.scan_start_deg,
+           range(0.0, 5.0, "The first point of a scan lies at most so far beside its start."));
+  v.number("scan_step_percent", p.scan_step_percent,
+           range(0.0, 50.0, "The steps of a scan are longer or shorter by at most this."));
+  v.number("scan_dropped_percent", p.scan_dropped_percent,
+           range(0.0, 50.0, "Share of the points of a scan that are missing."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, KeywayPlan& p) {
+  v.number("at_deg", p.at_deg, within(360.0, "Angle of its middle."));
+  v.number("z_mm", p.z_mm, within(10'000.0, "Height of its middle, part z."));
+  v.number("width_mm", p.width_mm, range(0.1, 500.0, "Along the circumference."));
+  v.number("length_mm", p.length_mm, range(0.1, 10'000.0, "Along the part."));
+  v.number("depth_mm", p.depth_mm, range(0.0, 50.0, "Its floor follows the surface."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, BurrPlan& p) {
+  v.number("at_deg", p.at_deg, within(360.0, "Angle of its middle."));
+  v.number("z_mm", p.z_mm, within(10'000.0, "Height of its middle, part z."));
+  v.number("width_mm", p.width_mm, range(0.05, 500.0, "Along the circumference."));
+  v.number("length_mm", p.length_mm, range(0.05, 10'000.0, "Along the part."));
+  v.number("height_um", p.height_um, range(0.0, 5000.0, "Above the surface."));
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "plans/analyses/analysis.h"
+#include "plans/schema/findings.h"
+#include "plans/schema/json_text.h"
+#include "plans/plan.h"
+#include "plans/checks/plan_checks.h"
+#include "plans/checks/plan_reach.h"
+#include "plans/schema/plan_table.h"
+#include "plans/analyses/rotary_poses.h"
+#include "plans/run/run_head.h"
+#include "plans/schema/table_reader.h"
+#include "record/csv/points.h"
+
+namespace rondure::plans {
+namespace {
+
+using core::Code;
+
+tl::unexpected<std::vector<core::Error>> refuse(core::Error problem) {
+  return tl::unexpected(std::vector<core::Error>{std::move(problem)});
+}
+
+// A circle is one layer; a plan may leave that out.
+void complete_circles(Plan& plan, const Findings& findings) {
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    FeaturePlan& feature = plan.features[i];
+    if (feature.type != "circle") continue;
+    const std::string where = feature_pointer(i);
+    if (!findings.is_given(where + "/sampling/layers")) feature.sampling.layers = 1;
+  }
+}
+
+}  // namespace
+
+PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
+                          std::string_view name) {
+  const auto json = parse_json(text, name);
+  if (!json) return refuse(json.error());
+  Plan plan;
+  plan.folder = folder;
+  plan.text = text;
+  Findings findings;
+  TableReader reader(*json, "", findings);
+  describe(reader, plan);
+  reader.finish();
+  complete_circles(plan, findings);
+  check_plan(plan, findings);
+  std::vector<core::Error> problems = findings.take();
+  // Reach can be judged only once every number is sound.
+  if (problems.empty()) {
+    if (touches_anything(plan)) {
+      if (auto free = check_room(plan); !free) problems.push_back(free.error());
+    }
+    // What stands in the way of the whole part would be found again at every feature.
+    const bool room = problems.empty();
+    for (std::size_t i = 0; room && i < plan.features.size(); ++i) {
+      if (measures_by_touch(plan.features[i])) {
+        if (auto visits = rotary_visits(plan, i); !visits) problems.push_back(visits.error());
+      }
+      if (!is_touched(plan, i, findings)) continue;
+      if (auto targets = reachable_targets(plan, i); !targets) problems.push_back(targets.error());
+    }
+  }
+  if (!problems.empty()) return tl::unexpected(std::move(problems));
+  return plan;
+}
+
+PlanOrProblems read_plan(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  std::error_code reason;
+  const std::filesystem::file_status status = std::filesystem::status(path, reason);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    return refuse(
+        {Code::kFile, "the plan does not exist; check the name and the folder", path.string()});
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    return refuse({Code::kFile, "this is not a file that can be read; give a plan, name.json",
+                   path.string()});
+  }
+  const std::uintmax_t bytes = std::filesystem::file_size(path, reason);
+  if (!reason && bytes > kMaxPlanBytes) {  // before it is read into memory
+    return refuse({Code::kSyntax,
+                   fmt::format("the file has {} bytes, the limit is {}; this is not a plan", bytes,
+                               kMaxPlanBytes),
+                   name});
+  }
+  const auto text = record::read_file(path);
+  if (!text) return refuse(text.error().at(path.string()));
+  return parse_plan(*text, path.parent_path(), name);
+}
+
+}  // namespace rondure::plans
