@@ -9,13 +9,13 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "app/analysis_verbs.h"
+#include "app/verbs/analyses.h"
 #include "app/command_documents.h"
-#include "app/indicators.h"
-#include "app/rotary_axes_command.h"
-#include "app/terminal.h"
-#include "app/verbs.h"
-#include "app/wheel_command.h"
+#include "app/run/indicators.h"
+#include "app/verbs/rotary_axes_command.h"
+#include "app/text/terminal.h"
+#include "app/verbs/verbs.h"
+#include "app/verbs/wheel_command.h"
 #include "core/numbers.h"
 #include "core/version.h"
 #include "plans/schema/simulation_table.h"

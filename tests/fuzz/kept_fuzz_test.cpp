@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/verbs.h"
+#include "app/verbs/verbs.h"
 #include "fixture/calibration.h"
 #include "record/archive/archive.h"
 #include "record/checksums.h"

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "app/terminal.h"
-#include "app/verbs.h"
+#include "app/text/terminal.h"
+#include "app/verbs/verbs.h"
 #include "plans/schema/utf8.h"
 #include "reports/text.h"
 
@@ -29,7 +29,7 @@ bool has_word(const std::string& text, const std::string& word) {
 
 }  // namespace
 
-// In place of app/terminal.cpp: nothing is printed.
+// In place of app/text/terminal.cpp: nothing is printed.
 namespace app {
 
 void say(std::string_view text) { g_said += text; }

@@ -3,9 +3,9 @@
 #include <array>
 #include <filesystem>
 
-#include "app/rotary_axes_command.h"
-#include "app/verbs.h"
-#include "app/wheel_command.h"
+#include "app/verbs/rotary_axes_command.h"
+#include "app/verbs/verbs.h"
+#include "app/verbs/wheel_command.h"
 #include "tests/app/files.h"
 #include "tests/fuzz/cases.h"
 #include "tests/fuzz/overheard.h"

@@ -1,0 +1,259 @@
+#include "app/prediction/sampling_search.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/prediction/prediction.h"
+#include "app/prediction/sampling_layout.h"
+#include "plans/run/run_head.h"
+
+namespace rondure::app {
+namespace {
+
+using reports::Measurand;
+
+constexpr std::array kRepeats = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 25, 32, 40, 50};
+
+Sampling sampling_of(const plans::FeaturePlan& feature) {
+  const int layers = feature.type == "circle" ? 1 : feature.sampling.layers;
+  return {layers, feature.sampling.points_per_layer, feature.pose_search.repeats};
+}
+
+/// Layers and points to try, the plan's own among them.
+std::vector<Sampling> layouts_of(const plans::FeaturePlan& feature, Measurand measurand) {
+  const Sampling planned = sampling_of(feature);
+  const bool whole = measurand == Measurand::kWholeSurface;
+  const bool section = feature.type == "circle";
+  const bool scan = feature.sampling.method == "scan";
+  std::set<int> layers = {planned.layers};
+  std::set<int> points = {planned.points_per_layer};
+  if (whole) {
+    if (!section) layers.insert({3, 4, 6, 9});
+    if (!scan) points.insert({6, 8, 12, 18, 27, 40});
+    if (!scan && section) points.insert({60, 90});
+  } else {  // more points hardly help to know these: only so far that it is seen
+    if (!section) layers.insert(planned.layers + (planned.layers + 1) / 2);
+    if (!scan) points.insert({planned.points_per_layer * 3 / 2, planned.points_per_layer * 2});
+  }
+  std::vector<Sampling> out;
+  for (const int l : layers) {
+    for (const int p : points) out.push_back({l, p, 1});
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Sampling& a, const Sampling& b) {
+    return a.layers * a.points_per_layer < b.layers * b.points_per_layer;
+  });
+  return out;
+}
+
+reports::PredictionOptions few_parts(Measurand measurand) {
+  reports::PredictionOptions options;
+  options.whole_surface = measurand == Measurand::kWholeSurface;
+  options.least_inspections = options.most_inspections = 24;
+  return options;
+}
+
+reports::PredictionOptions all_parts() {
+  reports::PredictionOptions options;
+  options.budget_trials = 20;
+  return options;
+}
+
+/// The search of one feature.
+class Search {
+ public:
+  Search(const plans::Plan& plan, std::size_t feature, double target_mm)
+      : plan_(plan), target_mm_(target_mm) {
+    out_.feature = feature;
+    out_.planned = sampling_of(plan.features[feature]);
+    out_.measurand = plan.decision_rule.measurand == "whole-surface" ? Measurand::kWholeSurface
+                                                                     : Measurand::kSampledPoints;
+  }
+
+  core::Result<SamplingSearch> run() {
+    const SamplingLayout planned(plan_, out_.feature, out_.planned);
+    if (!planned.forecast()) return core::fail(planned.forecast().error());
+    if (auto there = look_at_plan(planned); !there) return core::fail(there.error());
+    if (!out_.why.empty()) return out_;
+    for (const Sampling& sampling : layouts_of(plan_.features[out_.feature], out_.measurand)) {
+      const SamplingLayout layout(plan_, out_.feature, sampling);
+      if (auto tried = try_layout(layout); !tried) return core::fail(tried.error());
+    }
+    if (auto confirmed = confirm_cheapest(); !confirmed) return core::fail(confirmed.error());
+    finish();
+    return out_;
+  }
+
+ private:
+  /// The plan as it stands: the first candidate, or why there is none.
+  core::Result<void> look_at_plan(const SamplingLayout& planned) {
+    SamplingCandidate as_planned = planned.candidate(out_.planned.repeats);
+    const auto found = planned.predict(out_.measurand, all_parts(), as_planned);
+    if (!found) return core::fail(found.error());
+    if (!found->about(out_.measurand)) {
+      out_.why = !found->why.empty()
+                     ? found->why
+                     : fmt::format("nothing is stated {}", reports::name_of(out_.measurand));
+      return {};
+    }
+    stated_ = as_planned.stated;
+    // With one touch a point and no declared repeatability U would be small for want of noise.
+    if (out_.planned.repeats >= least_repeats(plan_)) keep(as_planned, *found, true);
+    return {};
+  }
+
+  /// @return Whether it meets the target, with an interval wherever the plan has one.
+  bool keep(SamplingCandidate candidate, const reports::Prediction& found, bool confirmed) {
+    candidate.confirmed = confirmed;
+    if (candidate.stated < stated_) candidate.out_of_reach = candidate.missing;
+    const bool sound = candidate.out_of_reach.empty();
+    const bool meets = sound && candidate.nine_of_ten_expanded_mm <= target_mm_;
+    candidate.meets = meets;
+    if (sound && confirmed && (smallest_mm_ < 0.0 || candidate.expanded_mm < smallest_mm_)) {
+      smallest_mm_ = candidate.expanded_mm;
+      out_.limit = largest_influences(found, out_.measurand);
+    }
+    const auto same = std::find_if(
+        out_.candidates.begin(), out_.candidates.end(),
+        [&](const SamplingCandidate& other) { return other.sampling == candidate.sampling; });
+    if (same == out_.candidates.end()) {
+      out_.candidates.push_back(std::move(candidate));
+    } else if (!same->confirmed) {
+      *same = std::move(candidate);
+    }
+    return meets;
+  }
+
+  /// Whether a candidate that takes so long could still be the cheapest.
+  [[nodiscard]] bool worth_trying(double time_s) const {
+    return std::none_of(out_.candidates.begin(), out_.candidates.end(),
+                        [&](const SamplingCandidate& c) { return c.meets && c.time_s <= time_s; });
+  }
+
+  core::Result<bool> meets(const SamplingLayout& layout, int repeats) {
+    SamplingCandidate candidate = layout.candidate(repeats);
+    const auto found = layout.predict(out_.measurand, few_parts(out_.measurand), candidate);
+    if (!found) return core::fail(found.error());
+    return keep(std::move(candidate), *found, false);
+  }
+
+  /// The fewest repeats of a layout that meet the target, among those that are worth trying.
+  core::Result<void> try_layout(const SamplingLayout& layout) {
+    if (!layout.forecast()) {
+      out_.candidates.push_back(layout.candidate(least_repeats(plan_)));
+      return {};
+    }
+    std::vector<int> repeats;
+    for (const int q : kRepeats) {
+      if (q < least_repeats(plan_)) continue;
+      if (worth_trying(layout.candidate(q).time_s)) repeats.push_back(q);
+    }
+    if (repeats.empty()) return {};
+    std::size_t low = 0;  // the fewest that may meet it
+    std::size_t high = repeats.size() - 1;
+    if (const auto most = meets(layout, repeats[high]); !most || !*most) {
+      return most ? core::Result<void>() : core::fail(most.error());
+    }
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      const auto enough = meets(layout, repeats[middle]);
+      if (!enough) return core::fail(enough.error());
+      (*enough ? high : low) = *enough ? middle : middle + 1;
+    }
+    return {};
+  }
+
+  /// Predicts the cheapest that meets the target with all parts, until one stands.
+  core::Result<void> confirm_cheapest() {
+    for (;;) {
+      const SamplingCandidate* cheapest = cheapest_that_meets();
+      if (cheapest == nullptr || cheapest->confirmed) break;
+      SamplingCandidate candidate = *cheapest;
+      const SamplingLayout layout(plan_, out_.feature, candidate.sampling);
+      const auto found = layout.predict(out_.measurand, all_parts(), candidate);
+      if (!found) return core::fail(found.error());
+      if (keep(candidate, *found, true)) break;
+      const auto* more =
+          std::upper_bound(kRepeats.begin(), kRepeats.end(), candidate.sampling.repeats);
+      if (more == kRepeats.end()) continue;
+      if (const auto next = meets(layout, *more); !next) return core::fail(next.error());
+    }
+    return confirm_smallest();
+  }
+
+  /// Where nothing meets the target: the smallest U, with what limits it.
+  core::Result<void> confirm_smallest() {
+    if (cheapest_that_meets() != nullptr) return {};
+    const SamplingCandidate* smallest = nullptr;
+    for (const SamplingCandidate& c : out_.candidates) {
+      if (!c.out_of_reach.empty()) continue;
+      if (smallest == nullptr || c.expanded_mm < smallest->expanded_mm) smallest = &c;
+    }
+    if (smallest == nullptr || smallest->confirmed) return {};
+    SamplingCandidate candidate = *smallest;
+    const SamplingLayout layout(plan_, out_.feature, candidate.sampling);
+    const auto found = layout.predict(out_.measurand, all_parts(), candidate);
+    if (!found) return core::fail(found.error());
+    smallest_mm_ = -1.0;  // what limits this one is told
+    keep(candidate, *found, true);
+    return {};
+  }
+
+  [[nodiscard]] const SamplingCandidate* cheapest_that_meets() const {
+    const SamplingCandidate* out = nullptr;
+    for (const SamplingCandidate& c : out_.candidates) {
+      if (c.meets && (out == nullptr || c.time_s < out->time_s)) out = &c;
+    }
+    return out;
+  }
+
+  void finish() {
+    std::stable_sort(
+        out_.candidates.begin(), out_.candidates.end(),
+        [](const SamplingCandidate& a, const SamplingCandidate& b) { return a.time_s < b.time_s; });
+    const SamplingCandidate* cheapest = cheapest_that_meets();
+    if (cheapest != nullptr) {
+      out_.best = static_cast<std::size_t>(cheapest - out_.candidates.data());
+      out_.limit.clear();
+    }
+  }
+
+  const plans::Plan& plan_;
+  double target_mm_;
+  SamplingSearch out_;
+  int stated_ = 0;  ///< Characteristics of the plan that have an interval.
+  double smallest_mm_ = -1.0;
+};
+
+}  // namespace
+
+std::vector<SamplingChange> changes_of(const SamplingSearch& search) {
+  std::vector<SamplingChange> out;
+  if (!search.best) return out;
+  const Sampling& wanted = search.candidates[*search.best].sampling;
+  const auto change = [&](const char* object, const char* key, int planned, int value) {
+    if (planned == value) return;
+    out.push_back({fmt::format("/features/{}/{}", search.feature, object), key, value});
+  };
+  change("sampling", "layers", search.planned.layers, wanted.layers);
+  change("sampling", "points_per_layer", search.planned.points_per_layer, wanted.points_per_layer);
+  change("pose_search", "repeats", search.planned.repeats, wanted.repeats);
+  return out;
+}
+
+core::Result<std::vector<SamplingSearch>> search_samplings(const plans::Plan& plan,
+                                                           double target_mm) {
+  std::vector<SamplingSearch> out;
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (!plans::is_touched(plan.features[i])) continue;
+    auto found = Search(plan, i, target_mm).run();
+    if (!found) return core::fail(found.error());
+    out.push_back(*std::move(found));
+  }
+  return out;
+}
+
+}  // namespace rondure::app

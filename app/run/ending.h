@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+
+#include "app/verbs/verbs.h"
+#include "plans/plan.h"
+#include "plans/run/runner.h"
+#include "record/archive/archive.h"
+#include "reports/live_view.h"
+
+namespace rondure::app {
+
+/// A run in its directory, and what its end needs.
+struct RunToFinish {
+  const RunArguments& arguments;
+  const plans::Plan& plan;
+  const record::ArchivePlace& archive;
+  std::filesystem::path directory;
+  reports::LiveView* live = nullptr;  ///< Who watches is shown the result; or none.
+};
+
+/// Evaluates what is on disk, not what is in memory; seals a finished run; writes the reports;
+/// archives a finished run.
+/// @param run  None for a run that was sealed before.
+/// @return  Exit status of the program.
+[[nodiscard]] int conclude(const RunToFinish& ending, plans::Run* run);
+
+/// A sealed run has nothing to measure; it may have died before its reports were written or its
+/// results archived.
+/// @return  Exit status of the program.
+[[nodiscard]] int finish_sealed(const RunToFinish& ending);
+
+}  // namespace rondure::app

@@ -1,0 +1,117 @@
+#include "app/run/resumption.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/text/shell_word.h"
+#include "plans/analyses/analysis.h"
+#include "record/archive/place.h"
+#include "record/journal/journal.h"
+#include "record/journal/unborn_run.h"
+
+namespace rondure::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether a run directory stands where a plan is expected.
+bool names_directory(const RunArguments& arguments) {
+  std::error_code ignored;
+  return fs::is_directory(arguments.plan, ignored);
+}
+
+/// Whether the archive of a plan is a file that is found from the plan's folder.
+bool archives_beside(const plans::Plan& plan) {
+  if (plan.reports.archive.empty()) return false;
+  const auto place = record::parse_archive_place(plan.reports.archive);
+  return place && place->kind == record::ArchivePlace::Kind::kFile &&
+         fs::path(place->address).is_relative();
+}
+
+/// Whether a plan goes on only from its folder, where its files stand.
+bool needs_folder(const plans::Plan& plan, const RunArguments& arguments) {
+  if (arguments.archive.empty() && archives_beside(plan)) return true;
+  return std::any_of(plan.features.begin(), plan.features.end(), [](const auto& feature) {
+    return feature.source || plans::has_files(feature);
+  });
+}
+
+}  // namespace
+
+core::Result<Resumption> find_resumption(const RunArguments& arguments) {
+  Resumption out;
+  const bool by_directory = names_directory(arguments);
+  out.directory = by_directory ? arguments.plan : arguments.out;
+  if (out.directory.empty()) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("--resume does not say which run goes on, {} is not a directory; "
+                                  "name the run: rondure run RUN_DIR --resume, or --out DIR beside "
+                                  "the plan",
+                                  arguments.plan));
+  }
+  if (by_directory && !arguments.out.empty() &&
+      fs::absolute(arguments.out) != fs::absolute(arguments.plan)) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("two run directories are named, {} and {}; name one",
+                                  arguments.plan, arguments.out));
+  }
+  if (!by_directory) {
+    const auto unborn = record::clear_unborn_run(out.directory);
+    if (!unborn) return core::fail(unborn.error());
+    if (*unborn) return out;
+  }
+  const auto read = record::read_journal(out.directory);
+  if (!read) return core::fail(read.error());
+  out.state = read->record.sealed ? Resumption::State::kFinished : Resumption::State::kGoesOn;
+  out.plan_text = read->record.header.plan_text;
+  out.plan_file = read->record.header.plan_file;
+  return out;
+}
+
+plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run) {
+  if (!arguments.resume || !names_directory(arguments)) return plans::read_plan(arguments.plan);
+  auto plan = plans::parse_plan(run.plan_text, {}, run.plan_file);
+  std::vector<core::Error> problems;
+  if (!plan) {  // it was good: what is missing are its points files, which stand beside it
+    problems = plan.error();
+  } else if (arguments.archive.empty() && archives_beside(*plan)) {
+    problems.push_back({core::Code::kFile,
+                        fmt::format("the archive {} stands beside the plan, which is not named; "
+                                    "name it with --archive, or",
+                                    plan->reports.archive),
+                        "/reports/archive"});
+  } else {
+    return plan;
+  }
+  problems.push_back(
+      {core::Code::kFile,
+       fmt::format("name the plan, so that its files are found: rondure run {} --out "
+                   "{} --resume",
+                   quoted(run.plan_file), quoted(run.directory.string())),
+       {}});
+  return tl::unexpected(std::move(problems));
+}
+
+std::string resume_command(const RunToFinish& run) {
+  const RunArguments& arguments = run.arguments;
+  const std::string directory = quoted(run.directory.string());
+  std::string out = "rondure run ";
+  if (needs_folder(run.plan, arguments) && !names_directory(arguments)) {
+    out += fmt::format("{} --out {}", quoted(arguments.plan), directory);
+  } else {
+    out += directory;
+  }
+  out += " --resume";
+  for (std::size_t i = 0; i < arguments.formats.size(); ++i) {
+    out += (i == 0 ? " --format " : ",") + arguments.formats[i];
+  }
+  if (arguments.language != "en") out += " --lang " + arguments.language;
+  if (!arguments.archive.empty()) out += " --archive " + quoted(run.archive.shown);
+  return out;
+}
+
+}  // namespace rondure::app

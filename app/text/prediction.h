@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/prediction/prediction.h"
+#include "app/prediction/sampling_search.h"
+
+namespace rondure::app {
+
+/// Predicted intervals for a person, at most 80 columns.
+[[nodiscard]] std::string prediction_table(const plans::Plan& plan,
+                                           const std::vector<PredictedCharacteristic>& predicted);
+/// The samplings that were tried for a target U, and what to change in the plan.
+[[nodiscard]] std::string search_table(const plans::Plan& plan,
+                                       const std::vector<SamplingSearch>& searches,
+                                       double target_mm);
+
+}  // namespace rondure::app

@@ -1,0 +1,204 @@
+#include "app/text/roundness.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/text/fit.h"
+#include "app/text/length_word.h"
+
+namespace rondure::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<double> contact_angles(const fit::RoundnessEvaluation& evaluation,
+                                   const std::vector<std::size_t>& rows) {
+  std::vector<double> out;
+  for (const std::size_t row : rows) out.push_back(deg(evaluation.theta_rad[row]));
+  return out;
+}
+
+Json filter_json(const fit::RoundnessEvaluation& evaluation) {
+  const fit::FilterOptions& filter = evaluation.filter;
+  Json out = {{"name", fit::name_of(filter.filter)}};
+  if (filter.filter == fit::ProfileFilter::kNone) return out;
+  out["pass"] = fit::name_of(filter.pass);
+  if (filter.pass == fit::PassBand::kBand) {
+    out["cutoff_upr"] = {filter.cutoff_upr, filter.upper_cutoff_upr};
+  } else {
+    out["cutoff_upr"] = filter.cutoff_upr;
+  }
+  out["points_per_undulation"] = evaluation.sampling.points_per_undulation;
+  out["sampling_overridden"] = evaluation.sampling.overridden;
+  if (evaluation.filter_iterations > 0) out["iterations"] = evaluation.filter_iterations;
+  return out;
+}
+
+Json value_json(const fit::RoundnessEvaluation& evaluation, const fit::Roundness& value) {
+  Json out = {{"RONt_um", um(value.total_mm)}};
+  if (value.parameters) {
+    out["RONp_um"] = um(value.parameters->peak_mm);
+    out["RONv_um"] = um(value.parameters->valley_mm);
+    out["RONq_um"] = um(value.parameters->rms_mm);
+  }
+  if (value.range) out["RONt_range_um"] = {um(value.range->low_mm), um(value.range->high_mm)};
+  out["center_mm"] = {value.center_mm.x(), value.center_mm.y()};
+  out["radius_mm"] = value.radius_mm;
+  if (value.reference == fit::CircleReference::kLs) return out;
+  if (value.reference != fit::CircleReference::kMi)
+    out["contacts_deg"]["outer"] = contact_angles(evaluation, value.outer);
+  if (value.reference != fit::CircleReference::kMc)
+    out["contacts_deg"]["inner"] = contact_angles(evaluation, value.inner);
+  out["certificate"] = certificate_json(value.certificate);
+  return out;
+}
+
+Json harmonics_json(const fit::HarmonicTable& table) {
+  Json out = Json::array();
+  for (const fit::Harmonic& h : table.harmonics) {
+    Json row = {{"upr", h.number}, {"amplitude_um", um(h.amplitude_mm)}};
+    row["phase_deg"] = h.phase_rad ? Json(deg(*h.phase_rad)) : Json(nullptr);
+    row["crest_deg"] = h.crest_rad() ? Json(deg(*h.crest_rad())) : Json(nullptr);
+    out.push_back(std::move(row));
+  }
+  return out;
+}
+
+std::string filter_line(const fit::RoundnessEvaluation& evaluation) {
+  const fit::FilterOptions& filter = evaluation.filter;
+  if (filter.filter == fit::ProfileFilter::kNone) return "  filter    none\n";
+  const bool band = filter.pass == fit::PassBand::kBand;
+  std::string out =
+      fmt::format("  filter    {}, {} pass, {} UPR, {:.1f} points per undulation{}",
+                  fit::name_of(filter.filter), fit::name_of(filter.pass),
+                  band ? fmt::format("{} to {}", filter.cutoff_upr, filter.upper_cutoff_upr)
+                       : fmt::format("{}", filter.cutoff_upr),
+                  evaluation.sampling.points_per_undulation,
+                  evaluation.sampling.overridden ? " (too few, overridden)" : "");
+  if (evaluation.filter_iterations > 0)
+    out += fmt::format(", {} iterations", evaluation.filter_iterations);
+  if (evaluation.interpolated) {
+    out += fmt::format("\n  resampled {} values by a periodic cubic spline, error about {:.2g} um",
+                       evaluation.samples, um(evaluation.resampling_error_mm));
+  }
+  return out + "\n";
+}
+
+std::string degrees_list(const std::vector<double>& angles) {
+  std::string out;
+  for (const double angle : angles) out += fmt::format(" {:.3f}", angle);
+  return out;
+}
+
+std::string value_lines(const fit::RoundnessEvaluation& evaluation, const fit::Roundness& value,
+                        bool polar) {
+  std::string name(fit::name_of(value.reference));
+  std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+  std::string out = fmt::format("  {}CI  RONt {:.4f} um", name, um(value.total_mm));
+  if (value.parameters) {
+    out += fmt::format(", RONp {:.4f} um, RONv {:.4f} um, RONq {:.4f} um",
+                       um(value.parameters->peak_mm), um(value.parameters->valley_mm),
+                       um(value.parameters->rms_mm));
+  }
+  if (value.range) {
+    out += fmt::format(", not unique: {:.4f} to {:.4f} um", um(value.range->low_mm),
+                       um(value.range->high_mm));
+  }
+  out += polar ? fmt::format("\n    centre off by ({:.4f}, {:.4f}) um\n", um(value.center_mm.x()),
+                             um(value.center_mm.y()))
+               : fmt::format("\n    centre ({:.6f}, {:.6f}) mm, radius {:.6f} mm\n",
+                             value.center_mm.x(), value.center_mm.y(), value.radius_mm);
+  if (value.reference == fit::CircleReference::kLs) return out;
+  out += "    contacts at deg";
+  if (!value.outer.empty())
+    out += ", outer" + degrees_list(contact_angles(evaluation, value.outer));
+  if (!value.inner.empty())
+    out += ", inner" + degrees_list(contact_angles(evaluation, value.inner));
+  out += "\n";
+  out += "    " + certificate_text(value.certificate);
+  return out + "\n";
+}
+
+/// The ten greatest harmonics from 2 on that show in four decimals, by number.
+std::string harmonic_lines(const fit::HarmonicTable& table) {
+  constexpr std::size_t kShown = 10;
+  constexpr double kLeastUm = 5e-5;
+  std::vector<fit::Harmonic> form;
+  for (const fit::Harmonic& h : table.harmonics) {
+    if (h.number > 1 && um(h.amplitude_mm) >= kLeastUm) form.push_back(h);
+  }
+  if (form.empty()) return {};
+  std::stable_sort(form.begin(), form.end(),
+                   [](const auto& a, const auto& b) { return a.amplitude_mm > b.amplitude_mm; });
+  form.resize(std::min(form.size(), kShown));
+  std::sort(form.begin(), form.end(),
+            [](const auto& a, const auto& b) { return a.number < b.number; });
+  std::string out = fmt::format(
+      "  harmonics before the filter, the {} greatest of 2 to {}\n    UPR  amplitude um  phase "
+      "deg\n",
+      form.size(), table.harmonics.back().number);
+  for (const fit::Harmonic& h : form) {
+    out += fmt::format("    {:3d}  {:12.4f}  {:>9}\n", h.number, um(h.amplitude_mm),
+                       h.phase_rad ? fmt::format("{:.3f}", deg(*h.phase_rad)) : "-");
+  }
+  return out;
+}
+
+}  // namespace
+
+nlohmann::ordered_json roundness_json(const fit::RoundnessEvaluation& evaluation, bool polar) {
+  Json out = {{"shape", "roundness"},
+              {"points", evaluation.points},
+              {"model", polar ? "profile" : "points"},
+              {"filter", filter_json(evaluation)},
+              {"samples", evaluation.samples}};
+  out["resampling"] = {{"method", evaluation.interpolated ? "periodic cubic spline" : "none"},
+                       {"error_um", um(evaluation.resampling_error_mm)}};
+  for (const fit::Roundness& value : evaluation.values) {
+    out[std::string(fit::name_of(value.reference))] = value_json(evaluation, value);
+  }
+  for (const fit::CircleReference reference : evaluation.absent) {
+    out[std::string(fit::name_of(reference))] = nullptr;
+  }
+  out["harmonics"] = harmonics_json(evaluation.harmonics);
+  out["warnings"] = Json::array();
+  for (const core::Error& w : evaluation.warnings) {
+    out["warnings"].push_back({{"code", core::code_name(w.code)}, {"what", w.what}});
+  }
+  return out;
+}
+
+std::string roundness_table(const fit::RoundnessEvaluation& evaluation, bool polar) {
+  std::string out =
+      fmt::format("roundness, {} points\n", evaluation.points) + filter_line(evaluation);
+  for (const fit::Roundness& value : evaluation.values)
+    out += value_lines(evaluation, value, polar);
+  out += harmonic_lines(evaluation.harmonics);
+  for (const core::Error& w : evaluation.warnings) {
+    out += fmt::format("  warning: {} [{}]\n", w.what, core::code_name(w.code));
+  }
+  return out;
+}
+
+std::string selftest_table(std::span<const fit::FilterSelfTest> tests) {
+  std::string out = fmt::format(
+      "Gaussian low pass (ISO 16610-21) at {} UPR, impulse on {} values\n"
+      "    n    transmission   2^-(n/fc)^2    difference\n",
+      tests.front().cutoff_upr, tests.front().samples);
+  for (const fit::TransmissionRow& row : tests.front().rows) {
+    out += fmt::format("{:5d}  {:14.12f} {:14.12f}  {:.1e}\n", row.harmonic, row.found,
+                       row.expected, row.difference);
+  }
+  for (const fit::FilterSelfTest& test : tests) {
+    out += fmt::format("{:>6} UPR: n = 1 to {}, greatest difference {:.1e}, limit {:.0e}: {}\n",
+                       test.cutoff_upr, test.rows.back().harmonic, test.greatest_difference(),
+                       fit::FilterSelfTest::kTolerance, test.passed() ? "pass" : "FAIL");
+  }
+  return out;
+}
+
+}  // namespace rondure::app

@@ -1,0 +1,158 @@
+#include "app/text/terminal.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "record/files.h"
+#include "reports/text.h"
+
+namespace rondure::app {
+namespace {
+
+std::atomic<int> g_stop = 0;  ///< Set by signals, and by threads.
+static_assert(std::atomic<int>::is_always_lock_free);
+int g_output_error = 0;  ///< Of the system, for the first write to standard output that failed.
+
+extern "C" void on_stop(int signal) {
+  if (g_stop.exchange(1) == 0) return;
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+std::string line_of(const plans::Progress& progress, double elapsed_s) {
+  if (progress.pose_number == 0) {
+    return fmt::format("qualifying the probe  touch {}/{}", progress.touches,
+                       progress.touches_expected);
+  }
+  const std::size_t expected = std::max(progress.touches_expected, progress.touches);
+  std::string out = fmt::format("{}  pose {} ({:.2f}, {:.2f}) deg  touch {}/{}", progress.feature,
+                                progress.pose_number, progress.pose.alpha_rad / core::kDegree,
+                                progress.pose.beta_rad / core::kDegree, progress.touches, expected);
+  if (progress.f_mm) out += fmt::format("  f {:.1f} um", *progress.f_mm / core::kMicrometre);
+  if (progress.touches > 0) {
+    const double left = elapsed_s * static_cast<double>(expected - progress.touches) /
+                        static_cast<double>(progress.touches);
+    const auto seconds = static_cast<long>(left + 0.5);
+    out += fmt::format("  left {}:{:02}", seconds / 60, seconds % 60);
+  }
+  return out;
+}
+
+/// Text without control characters, but for line breaks, tabs and the colours of our own charts: a
+/// name that came with an escape sequence must not rule the terminal.
+std::string without_controls(std::string_view text) {
+  constexpr std::array<std::string_view, 2> kColours = {"\x1b[31m", "\x1b[0m"};
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::string_view rest = text.substr(i);
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto* colour = std::find_if(kColours.begin(), kColours.end(),
+                                      [&](std::string_view c) { return rest.starts_with(c); });
+    // U+0080..9F are controls too, some terminals obey them.
+    const bool high = byte == 0xC2 && rest.size() > 1 && static_cast<unsigned char>(rest[1]) < 0xA0;
+    if (colour != kColours.end()) {
+      out += *colour;
+      i += colour->size() - 1;
+    } else if (high || byte == 0x7F || (byte < 0x20 && byte != '\n' && byte != '\t')) {
+      out += '?';
+      i += high ? 1 : 0;
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
+
+void write_to_terminal(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
+}  // namespace
+
+void hold_standard_streams() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(fd, F_GETFD) >= 0) continue;
+    // Read-only for standard output: what is written there is reported as lost. The lowest free
+    // number is the one that was closed.
+    (void)open("/dev/null", fd == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+void say(std::string_view text) {
+  const std::string safe = without_controls(text);
+  if (std::fwrite(safe.data(), 1, safe.size(), stdout) != safe.size()) g_output_error = errno;
+}
+
+void say_line(std::string_view line) { say(reports::printable(line) + "\n"); }
+
+bool output_reached() {
+  if (std::fflush(stdout) != 0 && g_output_error == 0) g_output_error = errno;
+  if (g_output_error == 0 && std::ferror(stdout) == 0 && std::cout.good()) return true;
+  const std::string reason = g_output_error == EBADF ? "it is closed"
+                             : g_output_error == 0   ? "an earlier part of it was lost"
+                                                     : record::system_reason(g_output_error);
+  tell(fmt::format("rondure: cannot write to standard output: {}\n", reason));
+  return false;
+}
+
+void tell(std::string_view line) {
+  const bool ends = line.ends_with('\n');
+  if (ends) line.remove_suffix(1);
+  write_to_terminal(reports::printable(line) + (ends ? "\n" : ""));
+}
+
+void complain(const core::Error& error) {
+  // A file's name stands in the sentence already.
+  const bool named = error.what.find(error.where) != std::string::npos;
+  tell(fmt::format("rondure: {}\n", core::to_line(named ? error.at({}) : error)));
+}
+
+void complain(const std::vector<core::Error>& errors) {
+  for (const core::Error& error : errors) tell(core::to_line(error) + "\n");
+}
+
+ProgressLine::ProgressLine(bool quiet) : visible_(!quiet && isatty(STDERR_FILENO) == 1) {}
+
+ProgressLine::~ProgressLine() {
+  if (drawn_) write_to_terminal("\r\x1b[K");
+}
+
+void ProgressLine::show(const plans::Progress& progress) {
+  if (!visible_) return;
+  const auto now = Clock::now();
+  if (drawn_ && now - last_ < std::chrono::milliseconds(100)) return;
+  last_ = now;
+  drawn_ = true;
+  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  write_to_terminal(
+      fmt::format("\r{:.100}\x1b[K", reports::printable(line_of(progress, elapsed_s))));
+}
+
+void listen_for_stop() {
+  struct sigaction action = {};
+  action.sa_handler = on_stop;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction present = {};
+    sigaction(signal, nullptr, &present);
+    if (present.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup stays nohup
+  }
+  // Who reads what is printed may go away, by the same Ctrl-C in a pipe: the run ends in order.
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+bool stop_requested() { return g_stop != 0; }
+
+void request_stop() { g_stop = 1; }
+
+}  // namespace rondure::app

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/text/answer.h"
+#include "app/text/forecast.h"
+#include "app/text/length_word.h"
+#include "app/prediction/prediction.h"
+#include "app/prediction/json.h"
+#include "app/text/prediction.h"
+#include "app/prediction/sampling_search.h"
+#include "app/text/terminal.h"
+#include "app/verbs/verbs.h"
+#include "plans/forecast/forecast.h"
+#include "plans/forecast/picture.h"
+#include "record/files.h"
+
+namespace rondure::app {
+namespace {
+
+int refuse(const std::vector<core::Error>& problems, const PlanArguments& arguments) {
+  complain(problems);
+  if (arguments.json) say(problems_json(problems));
+  return kBadInput;
+}
+
+/// The cloud to draw: the final one of the first feature, or of the one that is named.
+core::Result<const plans::ForecastStage*> drawn_stage(const plans::Plan& plan,
+                                                      const plans::Forecast& forecast,
+                                                      const std::string& feature) {
+  for (const plans::ForecastStage& stage : forecast.stages) {
+    if (!stage.final_cloud) continue;
+    const std::string& id = plan.features[static_cast<std::size_t>(stage.feature)].id;
+    if (feature.empty() || feature == id) return &stage;
+  }
+  return core::fail(core::Code::kBadOption,
+                    feature.empty() ? std::string("nothing is touched, so there is no picture")
+                                    : fmt::format("no touched feature has the id {}", feature));
+}
+
+core::Result<void> draw(const plans::Plan& plan, const plans::Forecast& forecast,
+                        const PlanArguments& arguments) {
+  std::error_code ignored;  // a picture that is not there yet is no plan
+  if (std::filesystem::equivalent(arguments.svg, arguments.plan, ignored)) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("--svg {} is the plan itself; name another file", arguments.svg));
+  }
+  const auto stage = drawn_stage(plan, forecast, arguments.feature);
+  if (!stage) return core::fail(stage.error());
+  return record::write_file(arguments.svg, plans::forecast_picture(plan, **stage));
+}
+
+/// All that is told besides the forecast itself.
+struct Outlook {
+  std::vector<PredictedCharacteristic> predicted;
+  std::optional<double> target_mm;
+  std::vector<SamplingSearch> searches;
+};
+
+core::Result<Outlook> look_ahead(const plans::Plan& plan, const plans::Forecast& forecast,
+                                 std::optional<double> target_mm) {
+  Outlook out;
+  out.target_mm = target_mm;
+  auto predicted = predict_plan(plan, forecast);
+  if (!predicted) return core::fail(predicted.error());
+  out.predicted = *std::move(predicted);
+  if (!target_mm) return out;
+  auto searches = search_samplings(plan, *target_mm);
+  if (!searches) return core::fail(searches.error());
+  out.searches = *std::move(searches);
+  return out;
+}
+
+nlohmann::ordered_json document_of(const plans::Plan& plan, const plans::Forecast& forecast,
+                                   const Outlook& outlook) {
+  nlohmann::ordered_json out = forecast_json(plan, forecast);
+  out["prediction"] = prediction_json(plan, outlook.predicted);
+  if (outlook.target_mm) out["target"] = search_json(plan, outlook.searches, *outlook.target_mm);
+  return out;
+}
+
+void print(const plans::Plan& plan, const plans::Forecast& forecast, const Outlook& outlook) {
+  say(forecast_table(plan, forecast));
+  say(prediction_table(plan, outlook.predicted));
+  if (outlook.target_mm) say(search_table(plan, outlook.searches, *outlook.target_mm));
+}
+
+/// Whether every touched feature has a sampling that meets the target.
+bool target_met(const Outlook& outlook) {
+  if (!outlook.target_mm) return true;
+  return !outlook.searches.empty() &&
+         std::all_of(outlook.searches.begin(), outlook.searches.end(),
+                     [](const SamplingSearch& of) { return of.best.has_value(); });
+}
+
+}  // namespace
+
+int plan(const PlanArguments& arguments) {
+  std::optional<double> target_mm;
+  if (arguments.target_expanded) {
+    const auto length = length_from(*arguments.target_expanded);
+    if (!length) return refuse({core::Error(length.error()).at("--target-U")}, arguments);
+    target_mm = *length;
+  }
+  const auto read = plans::read_plan(arguments.plan);
+  if (!read) return refuse(read.error(), arguments);
+  const auto forecast = plans::forecast(*read);
+  if (!forecast) return refuse({forecast.error()}, arguments);
+  if (!arguments.svg.empty()) {
+    if (auto drawn = draw(*read, *forecast, arguments); !drawn) {
+      return refuse({drawn.error()}, arguments);
+    }
+  }
+  const auto outlook = look_ahead(*read, *forecast, target_mm);
+  if (!outlook) return refuse({outlook.error()}, arguments);
+  const auto document = document_of(*read, *forecast, *outlook);
+  if (auto finite = check_finite(document); !finite) return refuse({finite.error()}, arguments);
+  if (arguments.json) {
+    say(document.dump(2) + "\n");
+  } else {
+    print(*read, *forecast, *outlook);
+  }
+  return target_met(*outlook) ? kAllWell : kBadInput;
+}
+
+}  // namespace rondure::app

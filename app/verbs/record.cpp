@@ -1,0 +1,151 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/run/indicators.h"
+#include "app/run/step_prompt.h"
+#include "app/text/terminal.h"
+#include "app/verbs/verbs.h"
+#include "cmm/indicators/displacement_probe.h"
+#include "core/numbers.h"
+#include "core/units.h"
+#include "record/files.h"
+#include "record/csv/series.h"
+
+namespace rondure::app {
+namespace {
+
+using Probes = std::vector<std::unique_ptr<cmm::DisplacementProbe>>;
+
+/// The names of the columns: the angle, then one reading each.
+std::vector<std::string> columns_of(std::size_t indicators) {
+  std::vector<std::string> out = {"alpha_deg"};
+  for (std::size_t i = 1; i <= indicators; ++i) out.push_back(fmt::format("H{}_um", i));
+  return out;
+}
+
+std::string angle_text(const RecordArguments& arguments, int row) {
+  return core::shortest(core::on_grid(arguments.from_deg + row * arguments.step_deg, 1e9));
+}
+
+/// How many rows a table already holds. kMeaning when it is not a beginning of this one.
+core::Result<int> rows_in(const std::string& text, const RecordArguments& arguments) {
+  const auto names = columns_of(arguments.probes.size());
+  std::vector<record::WantedColumn> wanted;
+  for (const std::string& name : names) wanted.push_back({name, true});
+  const auto table = record::parse_series_csv(text, arguments.out, wanted);
+  if (!table) {
+    if (table.error().code == core::Code::kNoPoints) return 0;
+    return core::fail(table.error());
+  }
+  const auto rows = static_cast<int>(table->values.size() / names.size());
+  for (int i = 0; i < rows; ++i) {
+    const std::string here =
+        core::shortest(table->values[static_cast<std::size_t>(i) * names.size()]);
+    if (i < arguments.count && here == angle_text(arguments, i)) continue;
+    return core::fail(core::Code::kMeaning,
+                      fmt::format("row {} is at {} deg, this recording has other angles; give the "
+                                  "angles it began with, or another file",
+                                  i + 1, here),
+                      arguments.out);
+  }
+  return rows;
+}
+
+core::Result<Probes> open_all(const RecordArguments& arguments) {
+  Probes out;
+  for (const std::string& word : arguments.probes) {
+    auto probe = open_indicator(word, arguments.inches);
+    if (!probe) return core::fail(probe.error());
+    out.push_back(std::move(*probe));
+  }
+  return out;
+}
+
+/// One row: an angle and what every indicator reads at it.
+core::Result<std::string> read_row(const std::string& angle, const Probes& probes) {
+  std::string row = angle;
+  for (const auto& probe : probes) {
+    const auto reading_mm = probe->read_mm();
+    if (!reading_mm) return core::fail(reading_mm.error());
+    row += fmt::format(",{}", core::shortest(core::on_grid(*reading_mm / core::kMicrometre, 1e6)));
+  }
+  row += '\n';
+  return row;
+}
+
+/// What stands in a file that begins.
+std::string head_of(const Probes& probes) {
+  std::string out = "# rondure record: read at stopped angles, one indicator after the other\n";
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    out += fmt::format("# H{}: {}\n", i + 1, probes[i]->description());
+  }
+  out += "alpha_deg";
+  for (std::size_t i = 1; i <= probes.size(); ++i) out += fmt::format(",H{}_um", i);
+  return out + '\n';
+}
+
+/// Reads angle by angle; every row is on disk before the next angle is asked for.
+core::Result<void> record_rows(const RecordArguments& arguments, const Probes& probes,
+                               std::string text, int from) {
+  for (int i = from; i < arguments.count; ++i) {
+    const std::string angle = angle_text(arguments, i);
+    if (auto ready = ask_to_do(fmt::format("{} of {}: turn the part to {} deg and let it stand",
+                                           i + 1, arguments.count, angle));
+        !ready) {
+      return ready;
+    }
+    const auto row = read_row(angle, probes);
+    if (!row) return core::fail(row.error());
+    text += *row;
+    if (auto kept = record::write_file(arguments.out, text); !kept) return kept;
+    tell(fmt::format("  {}", *row));
+  }
+  return {};
+}
+
+core::Result<void> record_all(const RecordArguments& arguments) {
+  if (arguments.rate_Hz) {
+    return core::fail(
+        cmm::refuse_tracking({}, *arguments.rate_Hz, static_cast<int>(arguments.probes.size())));
+  }
+  if (auto terminal = StepPrompt::check_terminal("rondure record asks for every angle");
+      !terminal) {
+    return terminal;
+  }
+  std::string text;
+  int rows = 0;
+  if (std::filesystem::exists(arguments.out)) {
+    const auto old = record::read_file(arguments.out);
+    if (!old) return core::fail(old.error());
+    const auto known = rows_in(*old, arguments);
+    if (!known) return core::fail(known.error());
+    text = *old;
+    rows = *known;
+  }
+  const auto probes = open_all(arguments);
+  if (!probes) return core::fail(probes.error());
+  if (text.empty()) text = head_of(*probes);
+  return record_rows(arguments, *probes, std::move(text), rows);
+}
+
+}  // namespace
+
+int record_readings(const RecordArguments& arguments) {
+  listen_for_stop();
+  const auto done = record_all(arguments);
+  if (done) {
+    say_line(arguments.out);
+    return kAllWell;
+  }
+  complain(done.error());
+  const core::Code code = done.error().code;
+  if (code != core::Code::kMachine && code != core::Code::kStopped) return kBadInput;
+  tell("rondure: what was read is kept; the same command goes on behind it\n");
+  return kRunFailed;
+}
+
+}  // namespace rondure::app

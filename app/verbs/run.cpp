@@ -1,0 +1,231 @@
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/run/archive_step.h"
+#include "app/run/live_run.h"
+#include "app/run/pace.h"
+#include "app/processor.h"
+#include "app/run/resumption.h"
+#include "app/run/ending.h"
+#include "app/run/step_prompt.h"
+#include "app/text/terminal.h"
+#include "app/verbs/verbs.h"
+#include "plans/schema/json_text.h"
+#include "plans/plan.h"
+#include "plans/run/runner.h"
+#include "plans/schema/utf8.h"
+#include "record/journal/journal.h"
+
+namespace rondure::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "01_spool_simulated-20261121T023302Z"; a number follows while such a directory exists.
+std::string run_name(const fs::path& plan, const std::string& utc, const fs::path& parent) {
+  std::string compact;
+  for (const char c : utc) {
+    if (c != '-' && c != ':') compact += c;
+  }
+  const std::string name = plan.stem().string() + "-" + compact;
+  std::string unique = name;
+  std::error_code unknown;  // what cannot be looked at cannot be made either, and that is reported
+  for (int i = 2; fs::exists(parent / unique, unknown); ++i) unique = fmt::format("{}-{}", name, i);
+  return unique;
+}
+
+/// The name of a run: the folder itself, also for "runs/7/" and ".".
+std::string last_folder(const fs::path& directory) {
+  const fs::path whole = fs::absolute(directory).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
+/// Where the run stands on disk, and what has to be said about it.
+plans::RunOptions options_of(const RunArguments& arguments) {
+  plans::RunOptions options;
+  options.started_utc = utc_now();
+  const fs::path parent = "runs";
+  options.directory = arguments.out.empty()
+                          ? parent / run_name(arguments.plan, options.started_utc, parent)
+                          : fs::path(arguments.out);
+  options.run_id = last_folder(options.directory);
+  options.plan_file = fs::path(arguments.plan).filename().string();
+  options.serial = arguments.serial;
+  options.operator_name = arguments.operator_name;
+  options.processor = processor();
+  options.seed = arguments.seed;
+  options.wire_log = arguments.wire_log;
+  options.stop_requested = stop_requested;
+  options.relocate = arguments.relocate;
+  options.set_by_hand = ask_to_set;
+  return options;
+}
+
+/// Measures, from the beginning or from the last touch on.
+plans::RunOrRefusals measure(const plans::Plan& plan, plans::RunOptions options, bool resume,
+                             const RunArguments& arguments) {
+  ProgressLine line(arguments.quiet || arguments.step);
+  StepPrompt prompt;
+  if (arguments.step) {
+    options.single_step = true;
+    options.before_move = [&prompt](const plans::NextMove& move) { return prompt.ask(move); };
+  }
+  std::optional<Pace> pace;
+  if (arguments.speed) pace.emplace(*arguments.speed, stop_requested);
+  options.progress = [&line, &pace](const plans::Progress& progress) {
+    line.show(progress);
+    if (pace) pace->keep(progress.time_s);
+  };
+  if (resume) return plans::resume_plan(plan, options);
+  auto run = plans::run_plan(plan, options);
+  if (!run) return tl::unexpected(std::vector<core::Error>{run.error()});
+  return std::move(*run);
+}
+
+void tell_how_to_go_on(const plans::Run& run, const RunToFinish& ending) {
+  if (!run.failure || !plans::is_resumable(*run.failure)) return;
+  tell(fmt::format("rondure: to go on behind the last touch: {}\n", resume_command(ending)));
+}
+
+/// A run directory that is not empty may hold a run to go on with.
+void tell_about_resume(const RunToFinish& ending) {
+  std::error_code ignored;
+  if (!fs::exists(ending.directory / record::kJournalName, ignored)) return;
+  tell(fmt::format("rondure: to go on with the run that lies there: {}\n", resume_command(ending)));
+}
+
+/// Says why nothing is measured: a fault, or all that changed since the run began.
+void refuse(const std::vector<core::Error>& reasons, bool resume, const fs::path& directory) {
+  if (!resume || reasons.front().code != core::Code::kMeaning) return complain(reasons.front());
+  tell(
+      fmt::format("rondure: the run in {} cannot go on, it began with something else; undo this, "
+                  "or start a new run:\n",
+                  directory.string()));
+  complain(reasons);
+}
+
+/// A machine that does not answer or has a fault is no mistake in the input.
+int status_of(const std::vector<core::Error>& reasons) {
+  return reasons.front().code == core::Code::kMachine ? kRunFailed : kBadInput;
+}
+
+/// A fixture in front of a real machine that a hand must set needs somebody to ask.
+core::Result<void> check_hand(const plans::Plan& plan) {
+  const bool by_hand = plan.fixture && plan.fixture->driver == "manual" && plan.machine &&
+                       plan.machine->driver != "simulated";
+  if (!by_hand) return {};
+  auto terminal = StepPrompt::check_terminal(
+      "the fixture \"manual\" is set by a person, who is asked for each pose");
+  if (!terminal) return core::fail(terminal.error().at("/fixture/driver"));
+  return {};
+}
+
+/// Names of the command line stand in every report, as those of the plan do.
+core::Result<void> check_names(const RunArguments& arguments) {
+  for (const auto& [option, name] : {std::pair("--serial", &arguments.serial),
+                                     std::pair("--operator", &arguments.operator_name)}) {
+    const std::size_t at = plans::first_unshowable(*name);
+    if (at == name->size()) continue;
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("{} {} contains {}, which no report can show; remove it", option,
+                                  plans::in_quotes(*name), plans::unshowable_in_words(*name, at)),
+                      option);
+  }
+  return {};
+}
+
+/// Measures, and what follows.
+int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& options, bool resume) {
+  auto run = measure(ending.plan, options, resume, ending.arguments);
+  if (!run) {
+    if (ending.live != nullptr) ending.live->show_failure(core::to_line(run.error().front()));
+    refuse(run.error(), resume, options.directory);
+    if (!ending.arguments.resume) tell_about_resume(ending);
+    return status_of(run.error());
+  }
+  if (run->failure) complain(*run->failure);
+  const int status = conclude(ending, &*run);
+  tell_how_to_go_on(*run, ending);
+  return status;
+}
+
+/// A finished run ends with its verdict only when it is the run that was asked for: of another part
+/// or plan its verdict says nothing.
+int conclude_finished(const RunToFinish& ending, const plans::RunOptions& options) {
+  const auto differences = plans::differences_from_run(ending.plan, options);
+  if (differences.empty()) return finish_sealed(ending);
+  if (differences.front().code == core::Code::kMeaning) {
+    tell(
+        fmt::format("rondure: the run in {} is finished, and began with something else; undo this, "
+                    "or name a new directory for another run:\n",
+                    options.directory.string()));
+  }
+  complain(differences);
+  return kBadInput;
+}
+
+/// The state of the run that is resumed; a run that is not resumed begins.
+core::Result<Resumption> look(const RunArguments& arguments) {
+  return arguments.resume ? find_resumption(arguments) : Resumption{};
+}
+
+}  // namespace
+
+int run(const RunArguments& arguments) {
+  if (arguments.step) {
+    if (auto terminal = StepPrompt::check_terminal("--step asks before each move"); !terminal) {
+      complain(terminal.error());
+      return kBadInput;
+    }
+  }
+  if (auto sound = check_names(arguments); !sound) {
+    complain(sound.error());
+    return kBadInput;
+  }
+  const auto resumption = look(arguments);
+  if (!resumption) {
+    complain(resumption.error());
+    return kBadInput;
+  }
+  const auto plan = plan_of(arguments, *resumption);
+  if (!plan) {
+    complain(plan.error());
+    return kBadInput;
+  }
+  for (const auto& allowed : {check_hand(*plan), check_speed(arguments, *plan)}) {
+    if (allowed) continue;
+    complain(allowed.error());
+    return kBadInput;
+  }
+  plans::RunOptions options = options_of(arguments);
+  if (!resumption->directory.empty()) {
+    options.directory = resumption->directory;
+    options.run_id = last_folder(options.directory);
+  }
+  const auto archive = archive_of(arguments.archive, *plan, options.directory);
+  if (!archive) {
+    complain(archive.error());
+    return kBadInput;
+  }
+  RunToFinish ending{arguments, *plan, *archive, options.directory};
+  listen_for_stop();
+  if (resumption->state == Resumption::State::kFinished) return conclude_finished(ending, options);
+  const bool resume = resumption->state == Resumption::State::kGoesOn;
+  if (arguments.resume && !resume && !arguments.quiet) {
+    tell(fmt::format("rondure: {} holds no run yet; it begins\n", options.directory.string()));
+  }
+  const auto live = open_live(arguments, *plan, options);
+  if (!live) {
+    complain(live.error());
+    return kBadInput;
+  }
+  ending.live = live->get();
+  return measure_and_conclude(ending, options, resume);
+}
+
+}  // namespace rondure::app

@@ -1,0 +1,63 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "app/processor.h"
+#include "app/text/terminal.h"
+#include "app/verbs/verbs.h"
+#include "plans/checks/record.h"
+#include "record/checksums.h"
+#include "record/files.h"
+#include "record/signature.h"
+#include "reports/verify.h"
+
+namespace rondure::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether the run verifies: nobody should put a name to anything else.
+bool verifies(const fs::path& directory) {
+  reports::VerifyOptions options;
+  options.processor = processor();
+  options.check = plans::check_record;
+  const auto outcome = reports::verify_run(directory, options);
+  if (!outcome) {
+    complain(outcome.error());
+    return false;
+  }
+  for (const std::string& difference : outcome->differences) {
+    tell(fmt::format("rondure: not signed, because not equal: {}\n", difference));
+  }
+  return outcome->differences.empty();
+}
+
+core::Result<fs::path> write_signature(const SignArguments& arguments) {
+  const fs::path directory = arguments.directory;
+  const auto key = record::read_file(arguments.key);
+  if (!key) return core::fail(key.error());
+  const auto sums = record::read_file(directory / record::kChecksumsName);
+  if (!sums) return core::fail(sums.error());
+  const auto signature = record::sign(*sums, *key);
+  if (!signature) return core::fail(signature.error().at(arguments.key));
+  const fs::path file = directory / record::kSignatureName;
+  if (auto written = record::write_file(file, *signature); !written) {
+    return core::fail(written.error());
+  }
+  return file;
+}
+
+}  // namespace
+
+int sign(const SignArguments& arguments) {
+  if (!verifies(arguments.directory)) return kBadInput;
+  const auto file = write_signature(arguments);
+  if (!file) {
+    complain(file.error());
+    return kBadInput;
+  }
+  say_line(file->string());
+  return kAllWell;
+}
+
+}  // namespace rondure::app

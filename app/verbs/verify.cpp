@@ -1,0 +1,38 @@
+#include <fmt/format.h>
+
+#include "app/processor.h"
+#include "app/text/terminal.h"
+#include "app/verbs/verbs.h"
+#include "plans/checks/record.h"
+#include "record/files.h"
+#include "reports/verify.h"
+
+namespace rondure::app {
+
+int verify(const VerifyArguments& arguments) {
+  reports::VerifyOptions options;
+  options.processor = processor();
+  options.check = plans::check_record;
+  if (!arguments.key.empty()) {
+    const auto key = record::read_file(arguments.key);
+    if (!key) {
+      complain(key.error());
+      return kBadInput;
+    }
+    options.public_key_pem = *key;
+  }
+  const auto outcome = reports::verify_run(arguments.directory, options);
+  if (!outcome) {
+    const bool of_key = outcome.error().code == core::Code::kBadOption;
+    complain(of_key ? outcome.error().at(arguments.key) : outcome.error());
+    return kBadInput;
+  }
+  for (const std::string& difference : outcome->differences)
+    say_line(fmt::format("not equal: {}", difference));
+  const bool equal = outcome->differences.empty();
+  if (equal) say_line(fmt::format("equal: {}", outcome->what_was_compared));
+  for (const std::string& note : outcome->notes) say_line(fmt::format("note: {}", note));
+  return equal ? kAllWell : kNotConforming;
+}
+
+}  // namespace rondure::app
