@@ -20,7 +20,7 @@
 #include "core/version.h"
 #include "plans/schema/simulation_table.h"
 #include "reports/exports.h"
-#include "reports/language.h"
+#include "reports/words/language.h"
 
 namespace rondure::app {
 namespace {

@@ -8,9 +8,9 @@
 #include "reports/conformance.h"
 #include "reports/evaluation.h"
 #include "reports/facts.h"
-#include "reports/html_sections.h"
-#include "reports/json_parts.h"
-#include "reports/language.h"
+#include "reports/html/sections.h"
+#include "reports/data/json_parts.h"
+#include "reports/words/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {

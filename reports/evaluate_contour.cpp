@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
-#include "reports/contour_document.h"
+#include "reports/data/contour.h"
 #include "reports/contour_result.h"
 #include "reports/evaluation.h"
 #include "reports/text.h"

@@ -7,7 +7,7 @@
 #include "reports/evaluation.h"
 #include "reports/facts.h"
 #include "reports/text.h"
-#include "reports/wheel_json.h"
+#include "reports/data/wheel.h"
 #include "reports/wheel_result.h"
 
 namespace rondure::reports {

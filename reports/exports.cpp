@@ -9,7 +9,7 @@
 #include "record/files.h"
 #include "record/sha256.h"
 #include "reports/pdf_report.h"
-#include "reports/qif_check.h"
+#include "reports/data/qif/check.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {

@@ -7,9 +7,9 @@
 
 #include "core/result.h"
 #include "record/run_record.h"
-#include "reports/earlier_results.h"
+#include "reports/history/earlier_results.h"
 #include "reports/evaluation.h"
-#include "reports/language.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/language.h"
+#include "reports/words/language.h"
 #include "reports/measured_cloud.h"
 #include "reports/text.h"
 

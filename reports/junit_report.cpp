@@ -7,7 +7,7 @@
 #include "reports/facts.h"
 #include "reports/text.h"
 #include "reports/writers.h"
-#include "reports/xml_parts.h"
+#include "reports/data/xml_parts.h"
 
 namespace rondure::reports {
 namespace {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/facts.h"
-#include "reports/html_plots.h"
-#include "reports/html_sections.h"
-#include "reports/language.h"
+#include "reports/html/plots.h"
+#include "reports/html/sections.h"
+#include "reports/words/language.h"
 #include "reports/live_cloud.h"
 #include "reports/live_sections.h"
 #include "reports/measured_cloud.h"

@@ -11,7 +11,7 @@
 #include "record/growing_record.h"
 #include "record/run_record.h"
 #include "reports/evaluation.h"
-#include "reports/language.h"
+#include "reports/words/language.h"
 #include "reports/live_time.h"
 
 // Private to the room: what a live page shows, as HTML by part.

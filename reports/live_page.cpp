@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "reports/html_style.h"
-#include "reports/language.h"
+#include "reports/html/style.h"
+#include "reports/words/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "reports/facts.h"
-#include "reports/html_plots.h"
-#include "reports/html_sections.h"
-#include "reports/language.h"
+#include "reports/html/plots.h"
+#include "reports/html/sections.h"
+#include "reports/words/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {

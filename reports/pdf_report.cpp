@@ -9,7 +9,7 @@
 
 #include "core/version.h"
 #include "record/sha256.h"
-#include "reports/language.h"
+#include "reports/words/language.h"
 #include "reports/pdf_flow.h"
 #include "reports/pdf_look.h"
 #include "reports/text.h"

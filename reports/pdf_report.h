@@ -7,7 +7,7 @@
 
 #include "core/result.h"
 #include "record/run_record.h"
-#include "reports/language.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 

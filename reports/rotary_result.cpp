@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "reports/language.h"
+#include "reports/words/language.h"
 #include "reports/text.h"
 
 namespace rondure::reports {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "reports/language.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {

@@ -4,10 +4,10 @@
 #include <string_view>
 
 #include "record/run_record.h"
-#include "reports/earlier_results.h"
+#include "reports/history/earlier_results.h"
 #include "reports/evaluation.h"
-#include "reports/language.h"
-#include "reports/polar_sketch.h"
+#include "reports/words/language.h"
+#include "reports/terminal/polar_sketch.h"
 
 namespace rondure::reports {
 

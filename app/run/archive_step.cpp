@@ -11,8 +11,8 @@
 #include "record/files.h"
 #include "record/journal/journal.h"
 #include "record/sha256.h"
-#include "reports/archive_entry.h"
-#include "reports/earlier_results.h"
+#include "reports/history/archive_entry.h"
+#include "reports/history/earlier_results.h"
 #include "reports/text.h"
 
 namespace rondure::app {

@@ -19,7 +19,7 @@
 #include "reports/defect.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
-#include "reports/language.h"
+#include "reports/words/language.h"
 #include "reports/verdict.h"
 #include "reports/writers.h"
 

@@ -8,7 +8,7 @@
 #include "app/text/terminal.h"
 #include "core/numbers.h"
 #include "plans/forecast/forecast.h"
-#include "reports/language.h"
+#include "reports/words/language.h"
 
 namespace rondure::app {
 

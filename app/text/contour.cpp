@@ -8,7 +8,7 @@
 
 #include "app/text/length_word.h"
 #include "core/units.h"
-#include "reports/contour_document.h"
+#include "reports/data/contour.h"
 
 namespace rondure::app {
 namespace {

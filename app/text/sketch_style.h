@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/polar_sketch.h"
+#include "reports/terminal/polar_sketch.h"
 
 namespace rondure::app {
 

@@ -14,7 +14,7 @@
 #include "core/units.h"
 #include "fit/contour/study.h"
 #include "record/files.h"
-#include "reports/contour_document.h"
+#include "reports/data/contour.h"
 
 namespace rondure::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "record/archive/queue.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
-#include "reports/history.h"
+#include "reports/history/history.h"
 #include "reports/text.h"
 
 namespace rondure::app {

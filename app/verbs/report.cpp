@@ -16,7 +16,7 @@
 #include "reports/defect.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
-#include "reports/language.h"
+#include "reports/words/language.h"
 #include "reports/writers.h"
 
 namespace rondure::app {

@@ -9,7 +9,7 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/signature.h"
-#include "reports/verify.h"
+#include "reports/verify/verify.h"
 
 namespace rondure::app {
 namespace {

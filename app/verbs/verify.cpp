@@ -5,7 +5,7 @@
 #include "app/verbs/verbs.h"
 #include "plans/checks/record.h"
 #include "record/files.h"
-#include "reports/verify.h"
+#include "reports/verify/verify.h"
 
 namespace rondure::app {
 

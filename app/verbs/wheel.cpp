@@ -14,8 +14,8 @@
 #include "core/units.h"
 #include "record/files.h"
 #include "record/csv/series.h"
-#include "reports/wheel_json.h"
-#include "reports/wheel_path_text.h"
+#include "reports/data/wheel.h"
+#include "reports/data/wheel_path.h"
 
 namespace rondure::app {
 namespace {

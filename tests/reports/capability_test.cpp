@@ -1,4 +1,4 @@
-#include "reports/capability.h"
+#include "reports/history/capability.h"
 
 #include <cmath>
 #include <cstdint>

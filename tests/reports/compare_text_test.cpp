@@ -1,4 +1,4 @@
-#include "reports/compare_text.h"
+#include "reports/verify/compare_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

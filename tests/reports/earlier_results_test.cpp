@@ -1,9 +1,9 @@
-#include "reports/earlier_results.h"
+#include "reports/history/earlier_results.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/archive_entry.h"
+#include "reports/history/archive_entry.h"
 #include "reports/writers.h"
 #include "synthetic.h"
 #include "tests/reports/page_text.h"

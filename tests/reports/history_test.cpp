@@ -1,4 +1,4 @@
-#include "reports/history.h"
+#include "reports/history/history.h"
 
 #include <unistd.h>
 
@@ -14,7 +14,7 @@
 #include "core/noise.h"
 #include "record/files.h"
 #include "record/sha256.h"
-#include "reports/archive_entry.h"
+#include "reports/history/archive_entry.h"
 #include "reports/text.h"
 #include "tests/reports/page_text.h"
 #include "tests/reports/synthetic.h"

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
-#include "reports/qif_check.h"
+#include "reports/data/qif/check.h"
 #include "reports/text.h"
 #include "reports/writers.h"
 #include "synthetic.h"

@@ -1,7 +1,7 @@
 // One table of texts: complete, nothing in it unused, both sides of a line alike; and the reports
 // that are written with it.
 
-#include "reports/language.h"
+#include "reports/words/language.h"
 
 #include <algorithm>
 #include <array>
@@ -18,8 +18,8 @@
 #include <gtest/gtest.h>
 
 #include "reports/exports.h"
-#include "reports/language_zh.h"
-#include "reports/sentence_format.h"
+#include "reports/words/zh.h"
+#include "reports/words/sentence_format.h"
 #include "reports/text.h"
 #include "reports/writers.h"
 #include "synthetic.h"

@@ -1,4 +1,4 @@
-#include "reports/qif_check.h"
+#include "reports/data/qif/check.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include "core/units.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
-#include "reports/archive_entry.h"
+#include "reports/history/archive_entry.h"
 #include "reports/evaluation.h"
 #include "reports/facts.h"
 #include "reports/warnings.h"

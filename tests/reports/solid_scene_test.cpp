@@ -1,4 +1,4 @@
-#include "reports/solid_scene.h"
+#include "reports/html/solid_scene.h"
 
 #include <cmath>
 #include <random>

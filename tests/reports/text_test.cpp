@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "reports/html_svg.h"
+#include "reports/html/svg.h"
 #include "reports/text.h"
 
 namespace rondure::reports {

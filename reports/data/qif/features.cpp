@@ -1,0 +1,187 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "reports/facts.h"
+#include "reports/data/qif/parts.h"
+#include "reports/section.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+using record::Reference;
+
+/// A cylinder or circle that a reference puts through the points; radii of the surface where the
+/// tip is known.
+struct Associated {
+  Reference reference = Reference::kLeastSquares;
+  fit::Axis axis;  ///< Of a circle: its centre and the normal of its plane.
+  double radius_mm = 0.0;
+  double deviation_mm = 0.0;
+};
+
+std::vector<Associated> cylinders_of(const FeatureResult& feature) {
+  std::vector<Associated> out;
+  const double offset_mm = surface_offset_mm(feature);
+  if (const auto& ls = feature.ls_cylinder) {
+    out.push_back(
+        {Reference::kLeastSquares, ls->axis, ls->radius_mm + offset_mm, ls->deviation_mm});
+  }
+  if (const auto zone = zone_of(feature); zone && feature.mz_cylinder) {
+    out.push_back({Reference::kMinimumZone, feature.mz_cylinder->axis, zone->mean_radius_mm,
+                   zone->deviation_mm});
+  }
+  const auto add_one = [&](Reference reference, const core::Result<fit::OneSidedCylinder>& one) {
+    if (!one) return;
+    out.push_back({reference, one->axis, one->radius_mm + offset_mm, one->deviation_mm});
+  };
+  add_one(Reference::kMinimumCircumscribed, feature.mc_cylinder);
+  add_one(Reference::kMaximumInscribed, feature.mi_cylinder);
+  return out;
+}
+
+std::vector<Associated> circles_of(const FeatureResult& feature, const LayerResult& layer) {
+  std::vector<Associated> out;
+  const double offset_mm = surface_offset_mm(feature);
+  const auto add_circle = [&](Reference reference, const Eigen::Vector2d& center_mm,
+                              double radius_mm, double deviation_mm) {
+    out.push_back(
+        {reference, section_axis(feature, layer, center_mm), radius_mm + offset_mm, deviation_mm});
+  };
+  if (const auto& ls = layer.ls) {
+    add_circle(Reference::kLeastSquares, ls->center_mm, ls->radius_mm, ls->deviation_mm);
+  }
+  if (const auto& mz = layer.mz) {
+    add_circle(Reference::kMinimumZone, mz->center_mm,
+               0.5 * (mz->inner_radius_mm + mz->outer_radius_mm), mz->width_mm());
+  }
+  const auto add_one = [&](Reference reference, const core::Result<fit::OneSidedCircle>& one) {
+    if (one) add_circle(reference, one->center_mm, one->radius_mm, one->deviation_mm);
+  };
+  add_one(Reference::kMinimumCircumscribed, layer.mc);
+  add_one(Reference::kMaximumInscribed, layer.mi);
+  return out;
+}
+
+/// Definition, nominal and item of a cylinder, or of a circle at a height above the origin.
+QifShape add_shape(QifDraft& draft, const record::Feature& asked, bool circle, double height_mm,
+                   const std::string& name) {
+  QifShape shape;
+  shape.circle = circle;
+  const int definition = draft.ids.next();
+  pugi::xml_node node = add(draft.lists.feature_definitions,
+                            circle ? "CircleFeatureDefinition" : "CylinderFeatureDefinition");
+  node.append_attribute("id").set_value(definition);
+  add(node, "InternalExternal", asked.side == record::Side::kOutside ? "EXTERNAL" : "INTERNAL");
+  add(node, "Diameter", decimal(asked.nominal_diameter_mm));
+
+  shape.nominal = draft.ids.next();
+  node =
+      add(draft.lists.feature_nominals, circle ? "CircleFeatureNominal" : "CylinderFeatureNominal");
+  node.append_attribute("id").set_value(shape.nominal);
+  add_attributes(node, {{"frame", "part: axis along z"}});
+  add(node, "FeatureDefinitionId", definition);
+  const std::string place = text_of({0.0, 0.0, height_mm});
+  if (circle) {
+    add(node, "Location", place);
+    add(node, "Normal", "0 0 1");
+  } else {
+    const pugi::xml_node axis = add(node, "Axis");
+    add(axis, "AxisPoint", place);
+    add(axis, "Direction", "0 0 1");
+  }
+
+  shape.item = draft.ids.next();
+  node = add(draft.lists.feature_items, circle ? "CircleFeatureItem" : "CylinderFeatureItem");
+  node.append_attribute("id").set_value(shape.item);
+  add(node, "FeatureNominalId", shape.nominal);
+  add(node, "FeatureName", name);
+  add(add(node, "DeterminationMode"), "Checked");
+  return shape;
+}
+
+/// Which points of a set belong to a shape; rows count from 0, nothing means all.
+struct PointRange {
+  std::optional<int> set = {};
+  std::optional<std::pair<std::size_t, std::size_t>> rows = {};
+};
+
+void add_point_list(pugi::xml_node parent, const PointRange& points) {
+  if (!points.set) return;
+  pugi::xml_node list = add_list(parent, "PointList");
+  if (!points.rows) {
+    add(list, "WholePointSetId", *points.set);
+    return;
+  }
+  pugi::xml_node range = add(list, "RangePointSetId", *points.set);
+  set(range, "range", fmt::format("{} {}", points.rows->first + 1, points.rows->second + 1));
+}
+
+void add_measurement(QifDraft& draft, QifShape& shape, const Associated& found,
+                     const PointRange& points) {
+  pugi::xml_node node =
+      add(draft.lists.measured_features,
+          shape.circle ? "CircleFeatureMeasurement" : "CylinderFeatureMeasurement");
+  const int id = draft.ids.next();
+  shape.measured[static_cast<std::size_t>(found.reference)] = id;
+  node.append_attribute("id").set_value(id);
+  add_attributes(node, {{"frame", draft.frame},
+                        {"reference",
+                         reference_of(found.reference, shape.circle ? record::Shape::kCircle
+                                                                    : record::Shape::kCylinder)}});
+  add(node, "FeatureItemId", shape.item);
+  if (draft.device) add_references(node, "MeasurementDeviceIds", {*draft.device});
+  add_point_list(node, points);
+  add_algorithm(node, found.reference);
+  if (shape.circle) {
+    add(node, "Location", text_of(found.axis.point_mm));
+    add(node, "Normal", text_of(found.axis.direction));
+  } else {
+    const pugi::xml_node axis = add(node, "Axis");
+    add(axis, "AxisPoint", text_of(found.axis.point_mm));
+    add(axis, "Direction", text_of(found.axis.direction));
+  }
+  add(node, "Diameter", decimal(2.0 * found.radius_mm));
+  add(node, "Form", decimal(found.deviation_mm));
+}
+
+/// The rows of a layer as a range, where they stand one behind the other.
+PointRange point_range(std::optional<int> set, const std::vector<std::size_t>& rows) {
+  if (rows.empty() || rows.back() - rows.front() + 1 != rows.size()) return {};
+  if (!std::is_sorted(rows.begin(), rows.end())) return {};
+  return {set, std::pair{rows.front(), rows.back()}};
+}
+
+}  // namespace
+
+QifFeature add_qif_feature(QifDraft& draft, const FeatureResult& feature) {
+  const record::Feature& asked = feature.feature;
+  QifFeature out;
+  if (record::is_analysis(asked.shape)) return out;
+  draft.frame = feature.merged ? "body, of several poses" : "machine, final pose";
+  const bool circle = asked.shape == record::Shape::kCircle;
+  const std::optional<int> set = add_qif_points(draft, feature);
+  out.whole = add_shape(draft, asked, circle, 0.0, asked.id);
+  if (circle) {
+    if (feature.layers.empty()) return out;
+    for (const Associated& found : circles_of(feature, feature.layers.front())) {
+      add_measurement(draft, *out.whole, found, {set, {}});
+    }
+    return out;
+  }
+  for (const Associated& found : cylinders_of(feature)) {
+    add_measurement(draft, *out.whole, found, {set, {}});
+  }
+  for (const LayerResult& layer : feature.layers) {
+    QifShape section = add_shape(draft, asked, true, layer.height_mm,
+                                 fmt::format("{}, section {}", asked.id, layer.layer + 1));
+    for (const Associated& found : circles_of(feature, layer)) {
+      add_measurement(draft, section, found, point_range(set, layer.rows));
+    }
+    out.sections.push_back(section);
+  }
+  return out;
+}
+
+}  // namespace rondure::reports

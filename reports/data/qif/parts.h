@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/evaluation.h"
+#include "reports/data/xml_parts.h"
+
+// Private to the room: what the parts of a QIF document share.
+
+namespace rondure::reports {
+
+/// Ids of one document: from 1, none twice. The writer's numbers, as QIF wants them (`idMax`).
+class QifIds {
+ public:
+  [[nodiscard]] int next() { return ++last_; }
+  [[nodiscard]] int last() const { return last_; }
+
+ private:
+  int last_ = 0;
+};
+
+/// The lists of a document, made in the order of the schema and filled in any.
+struct QifLists {
+  pugi::xml_node feature_definitions = {};
+  pugi::xml_node feature_nominals = {};
+  pugi::xml_node feature_items = {};
+  pugi::xml_node characteristic_definitions = {};
+  pugi::xml_node characteristic_nominals = {};
+  pugi::xml_node characteristic_items = {};
+  pugi::xml_node measured_features = {};
+  pugi::xml_node point_sets = {};
+  pugi::xml_node measured_characteristics = {};
+};
+
+/// A document while it is written.
+struct QifDraft {
+  pugi::xml_document document = {};
+  QifIds ids = {};
+  QifLists lists = {};
+  int software = 0;
+  std::optional<int> device = {};  ///< None where points came from a file.
+  std::string frame = {};          ///< Of the feature that is written: where its points lie.
+};
+
+/// References in the order of record::Reference.
+inline constexpr std::size_t kReferences = 4;
+
+/// A cylinder or circle of the document, and what was associated with its points.
+struct QifShape {
+  bool circle = false;
+  int nominal = 0;
+  int item = 0;
+  std::array<std::optional<int>, kReferences> measured = {};
+};
+
+/// What stands for one feature of the plan; nothing for an analysis of series.
+struct QifFeature {
+  std::optional<QifShape> whole = {};
+  std::vector<QifShape> sections = {};  ///< Of a cylinder: a circle a layer, in their order.
+};
+
+/// Writes the points that were evaluated: means of repeated touches, as tip centres where the tip
+/// is known, with normals out of the material and deviations where there is a zone.
+/// @return The id of the set; nothing without points.
+[[nodiscard]] std::optional<int> add_qif_points(QifDraft& draft, const FeatureResult& feature);
+
+/// Writes definition, nominal, item, point set and measurements of one feature.
+[[nodiscard]] QifFeature add_qif_feature(QifDraft& draft, const FeatureResult& feature);
+
+/// Writes definition, nominal, item and measurement of each characteristic of a feature.
+void add_qif_characteristics(QifDraft& draft, const QifFeature& places,
+                             const FeatureResult& feature);
+
+/// A list with `n`, which finish_lists() sets.
+pugi::xml_node add_list(pugi::xml_node parent, const char* name);
+/// Sets `n` of all lists below a node and removes empty ones: QIF has no list of nothing.
+void finish_lists(pugi::xml_node node);
+
+/// "x y z" in the shortest text that reads back to the same doubles.
+[[nodiscard]] std::string text_of(const Eigen::Vector3d& v);
+/// A list of references: <name n="2"><Id>4</Id><Id>9</Id></name>; nothing without ids.
+void add_references(pugi::xml_node parent, const char* name, const std::vector<int>& ids);
+/// <SubstituteFeatureAlgorithm> of a reference.
+void add_algorithm(pugi::xml_node parent, record::Reference reference);
+/// <Attributes> with texts; those that are empty are left out.
+void add_attributes(pugi::xml_node parent,
+                    const std::vector<std::pair<const char*, std::string>>& texts);
+
+}  // namespace rondure::reports

@@ -1,0 +1,94 @@
+#include <cmath>
+
+#include "reports/data/json_parts.h"
+#include "reports/rotary_result.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+Json um_list(const Eigen::Vector3d& v_mm) {
+  return Json::array({in_um(v_mm.x()), in_um(v_mm.y()), in_um(v_mm.z())});
+}
+
+Json urad_list(const Eigen::Vector3d& v_rad) {
+  return Json::array(
+      {v_rad.x() / kMicroradian, v_rad.y() / kMicroradian, v_rad.z() / kMicroradian});
+}
+
+Json location_json(const std::optional<fit::AxisOffset>& offset) {
+  if (!offset) return nullptr;
+  return {{"d_um", um_list(offset->d_mm)},
+          {"u_d_um", um_list(offset->d_u_mm)},
+          {"e_urad", urad_list(offset->e_rad)},
+          {"u_e_urad", urad_list(offset->e_u_rad)},
+          {"zero_point_urad", offset->zero_point_rad / kMicroradian}};
+}
+
+Json station_json(const fixture::AxisStation& station) {
+  const Eigen::Matrix<double, 6, 1> u = station.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  return {{"angle_deg", in_deg(station.angle_rad)},
+          {"shift_um", um_list(station.errors.shift_mm)},
+          {"u_shift_um", um_list(u.head<3>())},
+          {"tilt_urad", urad_list(station.errors.tilt_rad)},
+          {"u_tilt_urad", urad_list(u.tail<3>())}};
+}
+
+Json measured_json(const fit::RotaryStation& station) {
+  Json removed = Json::array();
+  for (const std::string& ball : station.removed) removed.push_back(ball);
+  return {{"angle_deg", in_deg(station.angle_rad)},
+          {"balls", station.balls.size()},
+          {"removed", std::move(removed)},
+          {"undetermined", station.undetermined},
+          {"flagged", station.flagged},
+          {"chi2", station.chi2},
+          {"chi2_limit", station.chi2_limit},
+          {"condition", station.condition}};
+}
+
+Json axis_json(const AxisFacts& axis) {
+  return {{"s0", axis.study->s0},
+          {"drift_um", in_um(axis.study->drift_mm)},
+          {"location", location_json(axis.study->offset)},
+          {"measured", list_json(axis.study->stations, measured_json)},
+          {"stations", list_json(axis.motion->stations(), station_json)}};
+}
+
+Json combined_json(const CombinedPose& pose) {
+  return {{"alpha_deg", in_deg(pose.pose.alpha_rad)},
+          {"beta_deg", in_deg(pose.pose.beta_rad)},
+          {"balls", pose.points},
+          {"rms_um", in_um(pose.rms_mm)},
+          {"max_um", in_um(pose.max_mm)},
+          {"tilt_urad", pose.tilt_rad / kMicroradian},
+          {"before_rms_um", in_um(pose.before_rms_mm)}};
+}
+
+}  // namespace
+
+Json RotaryResult::json() const {
+  const fixture::Calibration& c = facts_.calibration;
+  const fixture::Verification& v = c.verification;
+  Json json = {{"fixture", c.fixture_id},
+               {"measured_utc", c.measured_utc},
+               {"expires_utc", c.expires_utc},
+               {"temperature_degC", c.temperature_degC ? Json(*c.temperature_degC) : Json(nullptr)},
+               {"balls", facts_.balls.size()},
+               {"poses", facts_.poses},
+               {"touches", facts_.touches},
+               {"touch_sigma_um", in_um(facts_.touch_sigma_mm)},
+               {"center_u_um", in_um(facts_.center_u_mm)},
+               {"condition", facts_.condition}};
+  json["verification"] = {{"poses", list_json(facts_.combined, combined_json)},
+                          {"rms_um", in_um(v.rms_mm)},
+                          {"max_um", in_um(v.max_mm)},
+                          {"tilt_urad", v.max_tilt_rad / kMicroradian},
+                          {"expected_rms_um", in_um(v.expected_mm)},
+                          {"before_rms_um", in_um(v.before_rms_mm)},
+                          {"before_max_um", in_um(v.before_max_mm)}};
+  for (const AxisFacts& axis : axes_of(facts_)) json[axis.key] = axis_json(axis);
+  return json;
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,87 @@
+#include "reports/data/json_parts.h"
+
+namespace rondure::reports {
+namespace {
+
+Json statement_json(const UncertaintyStatement& s) {
+  return {{"estimate_um", in_um(s.estimate_mm)},
+          {"low_um", in_um(s.low_mm)},
+          {"high_um", in_um(s.high_mm)},
+          {"standard_uncertainty_um", in_um(s.standard_uncertainty_mm)},
+          {"expanded_um", in_um(s.expanded_mm())},
+          {"numerical_tolerance_um", in_um(s.numerical_tolerance_mm)}};
+}
+
+Json finding_json(const FormFinding& finding) {
+  return {{"noise_um", in_um(finding.noise_mm)},
+          {"unresolved_um", in_um(finding.unresolved_mm)},
+          {"groups", finding.groups},
+          {"spots", finding.spots},
+          {"spot_rows", finding.spot_rows}};
+}
+
+Json budget_json(const BudgetLine& line) {
+  return {{"name", line.name},
+          {"measurand", name_of(line.measurand)},
+          {"standard_uncertainty_um", in_um(line.standard_uncertainty_mm)},
+          {"shift_um", in_um(line.shift_mm)},
+          {"share", line.share_1}};
+}
+
+Json influence_json(const InfluenceStatement& influence) {
+  return {{"name", influence.name}, {"covered", influence.covered}, {"text", influence.text}};
+}
+
+Json prior_json(const std::optional<Prior>& prior) {
+  if (!prior) return nullptr;
+  return {{"distribution", name_of(prior->kind)},
+          {"mean_um", in_um(prior->mean_mm)},
+          {"standard_deviation_um", in_um(prior->standard_deviation_mm)}};
+}
+
+}  // namespace
+
+Json uncertainty_json(const CharacteristicResult& result) {
+  if (!result.value || !result.value->uncertainty().result()) return nullptr;
+  const UncertaintyResult& u = *result.value->uncertainty().result();
+  return {{"coverage", result.value->uncertainty().coverage_1()},
+          {"sampled_points", statement_json(u.sampled)},
+          {"whole_surface", u.whole ? statement_json(*u.whole) : Json(nullptr)},
+          {"noise_inflation_um", in_um(u.noise_inflation_mm)},
+          {"sampling_loss_um", optional_um(u.sampling_loss_mm)},
+          {"form_spectrum", u.spectrum_source},
+          {"finding", finding_json(u.finding)},
+          {"notes", u.notes},
+          {"trials", u.trials},
+          {"tolerance_reached", u.tolerance_reached},
+          {"budget", list_json(u.budget, budget_json)},
+          {"influences", list_json(u.declaration, influence_json)}};
+}
+
+Json decision_json(const CharacteristicResult& result) {
+  if (!result.outcome) return nullptr;
+  const RuleOutcome& o = *result.outcome;
+  const auto& risks = result.risks;
+  return {{"compared_um", in_um(o.compared_mm)},
+          {"acceptance_limit_um", in_um(o.acceptance_mm)},
+          {"rejection_limit_um", in_um(o.rejection_mm)},
+          {"conformance_probability", optional_json(o.conformance_1)},
+          {"specific_risk", optional_json(o.specific_risk_1())},
+          {"global_consumer_risk", risks ? Json(risks->false_acceptance_1) : Json(nullptr)},
+          {"global_producer_risk", risks ? Json(risks->false_rejection_1) : Json(nullptr)}};
+}
+
+Json rule_json(const Evaluation& evaluation) {
+  if (!evaluation.rule) return nullptr;
+  const DecisionRule& rule = *evaluation.rule;
+  return {{"rule", name_of(rule.kind)},
+          {"words", in_words(rule)},
+          {"measurand", name_of(rule.measurand)},
+          {"prior", prior_json(rule.prior)},
+          {"zones", rule.zones},
+          {"outcomes", rule.outcomes},
+          {"repeats", rule.repeats},
+          {"outliers", rule.outliers}};
+}
+
+}  // namespace rondure::reports

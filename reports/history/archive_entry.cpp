@@ -1,0 +1,111 @@
+#include "reports/history/archive_entry.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "reports/facts.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+/// "4 x 7 points; worst section; 5 touches a point".
+std::string sampling_of(const FeatureResult& feature, const record::Characteristic& asked) {
+  std::string text = pattern_of(feature);
+  if (asked.form == record::Form::kRoundness && feature.layers.size() > 1)
+    text += "; worst section";
+  if (const std::string repeats = repeats_of(feature); !repeats.empty())
+    text.append("; ").append(repeats);
+  return text;
+}
+
+using CertificateKind = fit::Certificate::Kind;
+
+template <class Fit>
+CertificateKind kind_of(const core::Result<Fit>& fit) {
+  return fit ? fit->certificate.kind : CertificateKind::kNone;
+}
+
+/// Of the reference behind a result; "none" for least squares, which proves nothing.
+CertificateKind certificate_of(const FeatureResult& feature, record::Reference reference) {
+  switch (reference) {
+    case record::Reference::kLeastSquares:
+      return CertificateKind::kNone;
+    case record::Reference::kMinimumZone:
+      return feature.mz_cylinder ? feature.mz_cylinder->certificate.kind : CertificateKind::kNone;
+    case record::Reference::kMinimumCircumscribed:
+      return kind_of(feature.mc_cylinder);
+    case record::Reference::kMaximumInscribed:
+      return kind_of(feature.mi_cylinder);
+  }
+  return CertificateKind::kNone;
+}
+CertificateKind certificate_of(const LayerResult& layer, record::Reference reference) {
+  switch (reference) {
+    case record::Reference::kLeastSquares:
+      return CertificateKind::kNone;
+    case record::Reference::kMinimumZone:
+      return kind_of(layer.mz);
+    case record::Reference::kMinimumCircumscribed:
+      return kind_of(layer.mc);
+    case record::Reference::kMaximumInscribed:
+      return kind_of(layer.mi);
+  }
+  return CertificateKind::kNone;
+}
+
+/// The same; of sections the weakest.
+CertificateKind certificate_of(const FeatureResult& feature, const record::Characteristic& asked) {
+  if (asked.form == record::Form::kCylindricity) return certificate_of(feature, asked.reference);
+  CertificateKind weakest =
+      feature.layers.empty() ? CertificateKind::kNone : CertificateKind::kGlobal;
+  for (const LayerResult& layer : feature.layers)
+    weakest = std::min(weakest, certificate_of(layer, asked.reference));
+  return weakest;
+}
+
+record::ArchiveResult result_of(const FeatureResult& feature, const CharacteristicResult& found) {
+  const record::Characteristic& asked = found.characteristic;
+  record::ArchiveResult out;
+  out.feature = well_formed(feature.feature.id);
+  out.characteristic = well_formed(asked.id);
+  out.symbol = symbol_of(asked);
+  out.reference = reference_of(asked);
+  out.filter = feature.analysis ? feature.analysis->filter_text() : "unfiltered";
+  out.sampling = feature.analysis ? feature.analysis->sampling_text() : sampling_of(feature, asked);
+  if (found.value) out.value = found.value->quoted_mm();
+  out.upper_limit = asked.tolerance_mm;
+  out.verdict = name_of(found.verdict);
+  out.certificate = fit::name_of(certificate_of(feature, asked));
+  return out;
+}
+
+}  // namespace
+
+record::ArchiveRun archive_entry(const record::RunRecord& record, const Evaluation& evaluation,
+                                 std::string journal_sha256) {
+  const record::Header& h = record.header;
+  record::ArchiveRun run;
+  run.head = {.journal_sha256 = std::move(journal_sha256),
+              .run_id = well_formed(h.run_id),
+              .started_utc = h.started_utc,
+              .part_id = well_formed(h.part_id),
+              .part_name = well_formed(h.part_name),
+              .serial = well_formed(h.serial),
+              .operator_name = well_formed(h.operator_name),
+              .machine = well_formed(h.machine),
+              .fixture = well_formed(h.fixture),
+              .simulated = h.simulated,
+              .plan_name = well_formed(h.plan_name),
+              .plan_revision = well_formed(h.plan_revision),
+              .plan_sha256 = h.plan_sha256,
+              .version = h.version};
+  for (const FeatureResult& feature : evaluation.features) {
+    for (const CharacteristicResult& found : feature.characteristics) {
+      run.results.push_back(result_of(feature, found));
+    }
+  }
+  return run;
+}
+
+}  // namespace rondure::reports

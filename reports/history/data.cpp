@@ -1,0 +1,142 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/numbers.h"
+#include "core/units.h"
+#include "reports/history/history.h"
+#include "reports/data/json_parts.h"
+
+namespace rondure::reports {
+namespace {
+
+/// Lengths leave the program in um; what is in another unit stays in it.
+std::optional<double> outside(const std::optional<double>& value, const std::string& unit) {
+  if (!value || !std::isfinite(*value)) return std::nullopt;
+  return unit == "mm" ? *value / core::kMicrometre : *value;
+}
+std::string outside_unit(const std::string& unit) { return unit == "mm" ? "um" : unit; }
+
+/// A field by RFC 4180. A spreadsheet takes text that begins with = + - @ for a formula; an
+/// apostrophe before it says that it is text.
+std::string field(const std::string& text) {
+  const bool formula =
+      !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
+  const std::string kept = fmt::format("{}{}", formula ? "'" : "", text);
+  if (kept.find_first_of(",\"\r\n") == std::string::npos) return kept;
+  std::string quoted = "\"";
+  for (const char c : kept) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::string shortest_or_empty(const std::optional<double>& value) {
+  return value ? core::shortest(*value) : std::string();
+}
+
+Json result_json(const record::ArchivedResult& r) {
+  return {{"run_id", r.head.run_id},
+          {"started_utc", r.head.started_utc},
+          {"part", r.head.part_id},
+          {"part_name", r.head.part_name},
+          {"serial", r.head.serial},
+          {"operator", r.head.operator_name},
+          {"machine", r.head.machine},
+          {"fixture", r.head.fixture},
+          {"simulated", r.head.simulated},
+          {"feature", r.result.feature},
+          {"characteristic", r.result.characteristic},
+          {"symbol", r.result.symbol},
+          {"reference", r.result.reference},
+          {"filter", r.result.filter},
+          {"sampling", r.result.sampling},
+          {"value", optional_json(outside(r.result.value, r.result.unit))},
+          {"limit", optional_json(outside(r.result.upper_limit, r.result.unit))},
+          {"unit", outside_unit(r.result.unit)},
+          {"verdict", r.result.verdict},
+          {"certificate", r.result.certificate},
+          {"plan", r.head.plan_name},
+          {"plan_revision", r.head.plan_revision},
+          {"plan_sha256", r.head.plan_sha256},
+          {"journal_sha256", r.head.journal_sha256},
+          {"version", r.head.version}};
+}
+
+Json um_json(double mm) { return mm / core::kMicrometre; }
+
+Json chart_json(const RunChart& chart) {
+  if (chart.results.empty()) return nullptr;
+  const record::ArchivedResult& newest = chart.results.back();
+  Json out = {{"part", newest.head.part_id},
+              {"feature", newest.result.feature},
+              {"characteristic", newest.result.characteristic},
+              {"results", chart.results.size()},
+              {"control_limits", nullptr},
+              {"beyond_control_limits", Json::array()},
+              {"capability", nullptr},
+              {"notes", chart.notes}};
+  if (chart.limits) {
+    out["control_limits"] = {{"method", "I-MR chart of ln x"},
+                             {"lower_um", um_json(chart.limits->lower_mm)},
+                             {"center_um", um_json(chart.limits->center_mm)},
+                             {"upper_um", um_json(chart.limits->upper_mm)}};
+  }
+  for (const std::size_t i : chart.beyond) {
+    out["beyond_control_limits"].push_back(chart.results[i].head.run_id);
+  }
+  if (!chart.capability) return out;
+  const Capability& c = *chart.capability;
+  const bool model = c.method == Capability::Method::kLogNormal;
+  out["capability"] = {{"name", chart.index_name},
+                       {"index", c.index},
+                       {"lower_bound_95", optional_json(c.lower_bound)},
+                       {"percentiles_of", model ? "log-normal" : "sample"},
+                       {"median_um", um_json(c.median_mm)},
+                       {"point_99_865_um", um_json(c.upper_point_mm)},
+                       {"anderson_darling_p", c.fit_p}};
+  return out;
+}
+
+}  // namespace
+
+std::string history_csv_header() {
+  return "run_id,started_utc,part,part_name,serial,operator,machine,fixture,simulated,feature,"
+         "characteristic,symbol,reference,filter,sampling,value,limit,unit,verdict,certificate,"
+         "plan,plan_revision,plan_sha256,journal_sha256,version\n";
+}
+
+std::string history_csv_rows(std::span<const record::ArchivedResult> newest_first) {
+  std::string out;
+  for (const record::ArchivedResult& r : newest_first) {
+    const record::ArchiveHead& h = r.head;
+    for (const std::string* text : {&h.run_id, &h.started_utc, &h.part_id, &h.part_name, &h.serial,
+                                    &h.operator_name, &h.machine, &h.fixture}) {
+      out += field(*text) + ",";
+    }
+    out += h.simulated ? "1," : "0,";
+    for (const std::string* text : {&r.result.feature, &r.result.characteristic, &r.result.symbol,
+                                    &r.result.reference, &r.result.filter, &r.result.sampling}) {
+      out += field(*text) + ",";
+    }
+    out += fmt::format("{},{},{},", shortest_or_empty(outside(r.result.value, r.result.unit)),
+                       shortest_or_empty(outside(r.result.upper_limit, r.result.unit)),
+                       outside_unit(r.result.unit));
+    out += fmt::format("{},{},{},{},{},{},{}\n", field(r.result.verdict),
+                       field(r.result.certificate), field(h.plan_name), field(h.plan_revision),
+                       field(h.plan_sha256), field(h.journal_sha256), field(h.version));
+  }
+  return out;
+}
+
+std::string history_json(const std::string& archive,
+                         std::span<const record::ArchivedResult> newest_first, bool more,
+                         const RunChart& chart) {
+  Json out = {{"archive", archive}, {"more", more}, {"results", Json::array()}};
+  for (const record::ArchivedResult& r : newest_first) out["results"].push_back(result_json(r));
+  out["chart"] = chart_json(chart);
+  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace rondure::reports

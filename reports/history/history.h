@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "record/archive/archive.h"
+#include "reports/history/run_chart.h"
+
+namespace rondure::reports {
+
+/// Results as a table of 80 columns, oldest first.
+/// @param newest_first  As Archive::newest() gives them.
+[[nodiscard]] std::string history_table(std::span<const record::ArchivedResult> newest_first);
+
+/// The run chart for a terminal of 80 columns; `coloured` marks what is beyond a limit.
+[[nodiscard]] std::string history_chart(const RunChart& chart, bool coloured);
+
+/// The run chart as a file of its own.
+[[nodiscard]] std::string history_svg(const RunChart& chart);
+
+/// The run chart as a drawing of the page, and what must be said with it.
+[[nodiscard]] std::string history_drawing(const RunChart& chart);
+[[nodiscard]] std::vector<std::string> history_sentences(const RunChart& chart);
+
+/// The header line of the CSV file, and its rows, oldest last: as they come.
+[[nodiscard]] std::string history_csv_header();
+[[nodiscard]] std::string history_csv_rows(std::span<const record::ArchivedResult> newest_first);
+
+/// Results and chart as JSON; docs/archive.md has the keys.
+/// @param archive  Its place, without a password.
+/// @param more     There are older results that pass the filter.
+[[nodiscard]] std::string history_json(const std::string& archive,
+                                       std::span<const record::ArchivedResult> newest_first,
+                                       bool more, const RunChart& chart);
+
+}  // namespace rondure::reports

@@ -1,0 +1,198 @@
+#include "reports/history/run_chart.h"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "reports/evaluation.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+using record::ArchivedResult;
+
+bool has_value(const ArchivedResult& r) {
+  return r.result.value && r.result.verdict != name_of(Verdict::kVoid);
+}
+
+/// Values of both may stand in one chart.
+bool comparable(const ArchivedResult& a, const ArchivedResult& b) {
+  return a.head.part_id == b.head.part_id && a.head.simulated == b.head.simulated &&
+         a.result.feature == b.result.feature &&
+         a.result.characteristic == b.result.characteristic && a.result.symbol == b.result.symbol &&
+         a.result.reference == b.result.reference && a.result.filter == b.result.filter &&
+         a.result.sampling == b.result.sampling && a.result.unit == b.result.unit;
+}
+
+void choose_results(RunChart& chart, std::span<const ArchivedResult> newest_first) {
+  const auto newest = std::find_if(newest_first.begin(), newest_first.end(), has_value);
+  std::size_t without = 0;
+  std::size_t others = 0;
+  for (const ArchivedResult& r : newest_first) {
+    if (!has_value(r)) {
+      ++without;
+    } else if (comparable(r, *newest)) {
+      chart.results.push_back(r);
+    } else {
+      ++others;
+    }
+  }
+  std::reverse(chart.results.begin(), chart.results.end());
+  if (others > 0) {
+    chart.notes.push_back(
+        fmt::format("{} left out: other part, characteristic, reference, filter or sampling, or "
+                    "simulated beside real; filter for them to see them",
+                    count(others, "result was", "results were")));
+  }
+  if (without > 0) {
+    chart.notes.push_back(fmt::format("{} void or without a value and left out",
+                                      count(without, "result was", "results were")));
+  }
+}
+
+/// A note when the results differ in something that may move a value, but does not make it
+/// another quantity.
+void note_mixture(RunChart& chart, std::string_view what,
+                  const std::function<std::string(const ArchivedResult&)>& part) {
+  std::set<std::string> kinds;
+  for (const ArchivedResult& r : chart.results) kinds.insert(part(r));
+  if (kinds.size() < 2) return;
+  std::string names;
+  for (const std::string& kind : kinds) {
+    if (names.size() > 60) {
+      names += ", ...";
+      break;
+    }
+    names.append(names.empty() ? "" : ", ");
+    names.append(kind.empty() ? std::string("not given") : shortened(printable(kind), 30));
+  }
+  chart.notes.push_back(fmt::format("mixed: {} {} ({})", kinds.size(), what, names));
+}
+
+void note_mixtures(RunChart& chart) {
+  if (chart.results.front().head.simulated) {
+    chart.notes.emplace_back("simulated: no real part was measured");
+  }
+  note_mixture(chart, "machines", [](const auto& r) { return r.head.machine; });
+  note_mixture(chart, "fixtures", [](const auto& r) { return r.head.fixture; });
+  note_mixture(chart, "persons", [](const auto& r) { return r.head.operator_name; });
+  note_mixture(chart, "versions of the program", [](const auto& r) { return r.head.version; });
+  note_mixture(chart, "plans", [](const auto& r) {
+    return fmt::format("{} {} {:.8}", r.head.plan_name, r.head.plan_revision, r.head.plan_sha256);
+  });
+  note_mixture(chart, "upper limits", [](const auto& r) {
+    return r.result.upper_limit ? um(*r.result.upper_limit) + " um" : std::string("none");
+  });
+}
+
+/// Repeated measurements of one part say how well it is measured, not what the process makes.
+bool is_one_part(const RunChart& chart) {
+  const std::string& serial = chart.results.front().head.serial;
+  return !serial.empty() && std::all_of(chart.results.begin(), chart.results.end(),
+                                        [&](const auto& r) { return r.head.serial == serial; });
+}
+
+void add_limits(RunChart& chart, const std::vector<double>& values) {
+  const auto limits = control_limits(values);
+  if (!limits) {
+    chart.notes.push_back(fmt::format("no control limits: {}", limits.error().what));
+    return;
+  }
+  chart.limits = *limits;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] > limits->upper_mm || values[i] < limits->lower_mm) chart.beyond.push_back(i);
+  }
+  chart.allowed_beyond = static_cast<std::size_t>(0.0027 * static_cast<double>(values.size()));
+  if (values.size() < kEnoughForLimits) {
+    chart.notes.push_back(fmt::format("control limits are provisional: {} results, {} are needed",
+                                      values.size(), kEnoughForLimits));
+  }
+}
+
+void add_capability(RunChart& chart, const std::vector<double>& values) {
+  if (!chart.upper_limit_mm) {
+    chart.notes.emplace_back("no capability: the characteristic has no tolerance");
+    return;
+  }
+  if (values.size() > 1 && is_one_part(chart)) {
+    chart.notes.emplace_back(
+        "no capability: all results are of one serial number; they show how well it is measured, "
+        "not what the process makes");
+    return;
+  }
+  const auto capability = upper_capability(values, *chart.upper_limit_mm);
+  if (!capability) {
+    chart.notes.push_back(fmt::format("no capability: {}", capability.error().what));
+    return;
+  }
+  chart.capability = *capability;
+  const bool controlled = chart.limits && chart.beyond.size() <= chart.allowed_beyond &&
+                          values.size() >= kEnoughForIndex;
+  chart.index_name = controlled ? "CpkU" : "PpkU";
+  if (values.size() < kEnoughForIndex) {
+    chart.notes.push_back(fmt::format("{} is a rough estimate: {} results, {} are needed",
+                                      chart.index_name, values.size(), kEnoughForIndex));
+  } else if (!controlled) {
+    chart.notes.push_back(
+        fmt::format("performance (PpkU), not capability (CpkU): {} beyond the control limits, {} "
+                    "expected of a stable process",
+                    count(chart.beyond.size(), "result", "results"), chart.allowed_beyond));
+  }
+}
+
+}  // namespace
+
+RunChart run_chart_of(std::span<const ArchivedResult> newest_first) {
+  RunChart chart;
+  choose_results(chart, newest_first);
+  if (chart.results.empty()) return chart;
+  chart.upper_limit_mm = chart.results.back().result.upper_limit;
+  const std::vector<double> values = values_of(chart);
+  add_limits(chart, values);
+  add_capability(chart, values);
+  note_mixtures(chart);
+  return chart;
+}
+
+ChartRange range_of(const RunChart& chart) {
+  const std::vector<double> values_mm = values_of(chart);
+  const auto [low, high] = std::minmax_element(values_mm.begin(), values_mm.end());
+  ChartRange out;
+  out.low_mm = std::min(*low, chart.limits ? chart.limits->lower_mm : *low);
+  out.high_mm = std::max(*high, chart.limits ? chart.limits->upper_mm : *high);
+  const double span_mm = std::max(out.high_mm - out.low_mm, 0.1 * out.high_mm);
+  if (chart.upper_limit_mm && *chart.upper_limit_mm < out.low_mm + 4.0 * span_mm) {
+    out.limit_shown = true;
+    out.low_mm = std::min(out.low_mm, *chart.upper_limit_mm);
+    out.high_mm = std::max(out.high_mm, *chart.upper_limit_mm);
+  }
+  const double room_mm = 0.06 * std::max(out.high_mm - out.low_mm, 0.02 * out.high_mm);
+  out.low_mm = std::max(out.low_mm - room_mm, 0.0);
+  out.high_mm += std::max(room_mm, 1e-9);
+  return out;
+}
+
+std::vector<double> values_of(const RunChart& chart) {
+  std::vector<double> out;
+  for (const ArchivedResult& r : chart.results) out.push_back(r.result.value.value_or(0.0));
+  return out;
+}
+
+std::string capability_in_words(const RunChart& chart) {
+  if (!chart.capability) return {};
+  const Capability& c = *chart.capability;
+  std::string text = fmt::format("{} {}", chart.index_name, fixed(c.index, 2));
+  if (c.lower_bound) {
+    text += fmt::format(", at least {} with 95 % confidence", fixed(*c.lower_bound, 2));
+  }
+  const bool model = c.method == Capability::Method::kLogNormal;
+  text += fmt::format("; median {} um, 99.865 % point {} um of the {}", um(c.median_mm),
+                      um(c.upper_point_mm),
+                      model ? "fitted log-normal distribution" : "results themselves");
+  return text + fmt::format(" (Anderson-Darling p = {:.2g})", c.fit_p);
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "record/archive/archive.h"
+#include "reports/history/capability.h"
+
+namespace rondure::reports {
+
+/// The results of one characteristic in the order of time, with what they allow to be said. Only
+/// results that mean the same are in one chart: same part, feature, characteristic, parameter,
+/// reference, filter, sampling and unit, all real or all simulated.
+struct RunChart {
+  std::vector<record::ArchivedResult> results;  ///< Oldest first; each has a value and is not void.
+  std::optional<double> upper_limit_mm;         ///< The tolerance of the newest result.
+  std::optional<ControlLimits> limits;
+  std::vector<std::size_t> beyond;  ///< Results beyond a control limit.
+  std::size_t allowed_beyond = 0;   ///< As many are expected of a stable process: 0.27 %.
+  std::optional<Capability> capability;
+  std::string index_name;  ///< "CpkU" in statistical control, otherwise "PpkU".
+  /// What a reader must know: what was left out, what is missing, what is mixed. Sentences.
+  std::vector<std::string> notes;
+};
+
+/// Makes the chart of the newest result's characteristic; empty when there is none with a value.
+/// @param newest_first  As Archive::newest() gives them.
+[[nodiscard]] RunChart run_chart_of(std::span<const record::ArchivedResult> newest_first);
+
+/// What a drawing of the chart shows of the value axis.
+struct ChartRange {
+  double low_mm = 0.0;
+  double high_mm = 1.0;
+  /// A tolerance far above would press the results into one line; then it is only named.
+  bool limit_shown = false;
+};
+[[nodiscard]] ChartRange range_of(const RunChart& chart);
+
+/// The value of a result in mm; the archive's only unit so far.
+[[nodiscard]] std::vector<double> values_of(const RunChart& chart);
+
+/// "PpkU 1.23, at least 1.05 with 95 % confidence; log-normal, ..."; empty without an index.
+[[nodiscard]] std::string capability_in_words(const RunChart& chart);
+
+}  // namespace rondure::reports

@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/history/history.h"
+#include "reports/html/svg.h"
+#include "reports/words/language.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+constexpr double kRunWidth = 860.0;
+constexpr double kRunLeft = 66.0;
+constexpr double kRunRight = 738.0;
+constexpr double kRunTop = 64.0;
+constexpr double kRunBottom = 344.0;
+constexpr double kText = 412.0;  ///< Where the sentences begin.
+constexpr double kLine = 18.0;
+constexpr std::size_t kSentenceLetters = 112;  ///< Of a line of sentences.
+constexpr std::size_t kIndexLetters = 84;      ///< Of a line of the index, in bold letters.
+
+/// Colours of Okabe and Ito, darkened; every mark also differs in shape, every line in its dashes.
+constexpr std::string_view kRunStyle =
+    "text{font-family:\"DejaVu Sans\",\"Noto Sans\",\"Noto Sans CJK "
+    "SC\",Arial,sans-serif;fill:#3c4752;"
+    "font-size:12px}.head{font-size:16px;font-weight:bold;fill:#16202a}.index{font-size:13px;"
+    "font-weight:bold;fill:#16202a}.frame,.tick{stroke:#7c8792;fill:none}.paper{fill:#fff}"
+    ".control{stroke:#0b5e9e;stroke-width:1.2;stroke-dasharray:6 4}"
+    ".center{stroke:#0b5e9e;stroke-width:1}.limit{stroke:#16202a;stroke-width:2}"
+    ".run{fill:none;stroke:#9aa5af;stroke-width:1}.result{fill:#16202a}"
+    ".beyond{fill:#c24e00}.cross{fill:none;stroke:#b93c00;stroke-width:2.2}";
+
+struct RunAxes {
+  Scale x;
+  Scale y;
+};
+
+RunAxes run_axes(const ChartRange& range, std::size_t results) {
+  return {
+      {0.0, static_cast<double>(results) + 1.0, kRunLeft, kRunRight},
+      {range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre, kRunBottom, kRunTop}};
+}
+
+void draw_frame(Svg& svg, const RunAxes& axes, const RunChart& chart) {
+  svg.rect(kRunLeft, kRunTop, kRunRight - kRunLeft, kRunBottom - kRunTop, "frame");
+  for (const double value : round_ticks(axes.y.low, axes.y.high, 6)) {
+    svg.line(kRunLeft - 5.0, axes.y.at(value), kRunLeft, axes.y.at(value), "tick");
+    svg.text(kRunLeft - 9.0, axes.y.at(value) + 4.0, "end", "label", tick_label(value));
+  }
+  svg.upward_text(16.0, 0.5 * (kRunTop + kRunBottom), "title",
+                  fmt::format("{} / µm", chart.results.back().result.symbol));
+  for (const double number : round_ticks(1.0, axes.x.high - 1.0, 8)) {
+    if (number != std::floor(number)) continue;
+    svg.line(axes.x.at(number), kRunBottom, axes.x.at(number), kRunBottom + 5.0, "tick");
+    svg.text(axes.x.at(number), kRunBottom + 18.0, "middle", "label", tick_label(number));
+  }
+  const auto day = [](const record::ArchivedResult& r) {
+    return printable(r.head.started_utc.substr(0, 10));
+  };
+  svg.text(0.5 * (kRunLeft + kRunRight), kRunBottom + 38.0, "middle", "title",
+           trf("number of the result, in the order of time ({} to {})", day(chart.results.front()),
+               day(chart.results.back())));
+}
+
+/// A line across the plot with its name on the right; names keep a distance from each other.
+struct Level {
+  double value_mm;
+  std::string_view css_class;
+  std::string name;
+};
+
+void draw_levels(Svg& svg, const RunAxes& axes, const RunChart& chart, bool limit_shown) {
+  std::vector<Level> levels;
+  if (chart.limits) {
+    levels.push_back({chart.limits->upper_mm, "control", "UCL"});
+    levels.push_back({chart.limits->center_mm, "center", tr("centre")});
+    levels.push_back({chart.limits->lower_mm, "control", "LCL"});
+  }
+  if (limit_shown) levels.push_back({*chart.upper_limit_mm, "limit", tr("tolerance")});
+  std::sort(levels.begin(), levels.end(),
+            [](const Level& a, const Level& b) { return a.value_mm > b.value_mm; });
+  double free = 0.0;
+  for (const Level& level : levels) {
+    const double y = axes.y.at(level.value_mm / core::kMicrometre);
+    svg.line(kRunLeft, y, kRunRight, y, level.css_class);
+    const double label = std::max(y + 4.0, free);
+    svg.text(kRunRight + 7.0, label, "start", "label",
+             fmt::format("{} {}", level.name, um(level.value_mm)));
+    free = label + 14.0;
+  }
+}
+
+void draw_results(Svg& svg, const RunAxes& axes, const RunChart& chart,
+                  const std::vector<double>& values_mm) {
+  const auto x = [&](std::size_t i) { return axes.x.at(static_cast<double>(i) + 1.0); };
+  const auto y = [&](std::size_t i) { return axes.y.at(values_mm[i] / core::kMicrometre); };
+  std::string d;
+  for (std::size_t i = 0; i < values_mm.size(); ++i) {
+    d += fmt::format("{}{:.1f} {:.1f}", i == 0 ? 'M' : 'L', x(i), y(i));
+  }
+  svg.path(d, "run");
+  const double r = values_mm.size() > 300 ? 1.6 : values_mm.size() > 100 ? 2.4 : 3.2;
+  for (std::size_t i = 0; i < values_mm.size(); ++i) {
+    if (chart.upper_limit_mm && values_mm[i] > *chart.upper_limit_mm) {
+      svg.cross(x(i), y(i), r + 1.6, "cross");
+    } else if (std::binary_search(chart.beyond.begin(), chart.beyond.end(), i)) {
+      svg.triangle(x(i), y(i), r + 2.0, "beyond");
+    } else {
+      svg.circle(x(i), y(i), r, "result");
+    }
+  }
+}
+
+/// Lines of at most kSentenceLetters columns.
+std::vector<std::string> lines_within(std::string_view text,
+                                      std::size_t letters = kSentenceLetters) {
+  std::vector<std::string> out(1);
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    if (columns(out.back()) + 1 + end > letters) out.emplace_back();
+    out.back() += fmt::format("{}{}", out.back().empty() ? "" : " ", rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return out;
+}
+
+std::string with_micro_sign(std::string text) {
+  for (std::size_t at = text.find(" um"); at != std::string::npos; at = text.find(" um", at + 1)) {
+    text.replace(at, 3, " µm");
+  }
+  return text;
+}
+
+/// The sentences below the drawing.
+std::vector<std::string> sentences_of(const RunChart& chart, bool limit_shown) {
+  std::vector<std::string> out;
+  if (chart.limits) {
+    out.emplace_back(
+        "UCL, LCL: control limits of individuals, 3 sigma from moving ranges of ln x (I-MR chart). "
+        "Triangle: beyond a control limit; cross: beyond the tolerance.");
+  }
+  if (chart.upper_limit_mm && !limit_shown) {
+    out.push_back(
+        fmt::format("The tolerance, {} um, is above the chart.", um(*chart.upper_limit_mm)));
+  }
+  for (const std::string& note : chart.notes) out.push_back(fmt::format("Note: {}.", note));
+  return out;
+}
+
+}  // namespace
+
+std::string history_drawing(const RunChart& chart) {
+  const std::vector<double> values_mm = values_of(chart);
+  const ChartRange range = range_of(chart);
+  const RunAxes axes = run_axes(range, values_mm.size());
+  const record::ArchivedResult& newest = chart.results.back();
+  Svg svg(kRunWidth, kRunBottom + 50.0, "wide chart",
+          trf("Run chart of {}", printable(newest.result.characteristic)));
+  draw_frame(svg, axes, chart);
+  draw_levels(svg, axes, chart, range.limit_shown);
+  draw_results(svg, axes, chart, values_mm);
+  return svg.str();
+}
+
+std::vector<std::string> history_sentences(const RunChart& chart) {
+  return sentences_of(chart, range_of(chart).limit_shown);
+}
+
+std::string history_svg(const RunChart& chart) {
+  const std::vector<double> values_mm = values_of(chart);
+  const ChartRange range = range_of(chart);
+  const RunAxes axes = run_axes(range, values_mm.size());
+  std::vector<std::string> lines;
+  for (const std::string& sentence : sentences_of(chart, range.limit_shown)) {
+    for (const std::string& line : lines_within(with_micro_sign(sentence))) lines.push_back(line);
+  }
+  const auto index = lines_within(with_micro_sign(capability_in_words(chart)), kIndexLetters);
+  const double height = kText + kLine * static_cast<double>(index.size() + lines.size());
+  const record::ArchivedResult& newest = chart.results.back();
+  const std::string head =
+      fmt::format("{} {} of {} / {}, part {}", newest.result.symbol, newest.result.reference,
+                  shortened(printable(newest.result.feature), 24),
+                  shortened(printable(newest.result.characteristic), 24),
+                  shortened(printable(newest.head.part_id), 24));
+  Svg svg(kRunWidth, height, "chart", head);
+  svg.rect(0.0, 0.0, kRunWidth, height, "paper");
+  svg.text(kRunLeft, 26.0, "start", "head", head);
+  svg.text(kRunLeft, 48.0, "start", "label",
+           fmt::format("{}; {}; {}", shortened(printable(newest.result.filter), 40),
+                       shortened(printable(newest.result.sampling), 60),
+                       count(chart.results.size(), "result", "results")));
+  draw_frame(svg, axes, chart);
+  draw_levels(svg, axes, chart, range.limit_shown);
+  draw_results(svg, axes, chart, values_mm);
+  double y = kText;
+  for (const std::string& line : index) {
+    svg.text(kRunLeft, y, "start", "index", line);
+    if (!line.empty()) y += kLine;
+  }
+  for (const std::string& line : lines) {
+    svg.text(kRunLeft, y, "start", "label", line);
+    y += kLine;
+  }
+  return svg.document(kRunStyle);
+}
+
+}  // namespace rondure::reports

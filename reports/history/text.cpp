@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/history/history.h"
+#include "reports/html/svg.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+constexpr std::size_t kAxis = 8;   ///< Columns of the labels on the left.
+constexpr std::size_t kPlot = 56;  ///< Columns of the plot.
+constexpr std::size_t kRows = 17;
+
+/// Text in a field of `width` columns.
+std::string cell(const std::string& text, std::size_t width) {
+  const std::string cut = shortened(printable(text), width);
+  return cut + std::string(width - std::min(width, columns(cut)), ' ');
+}
+
+std::string um_or_dash(const std::optional<double>& value_mm) {
+  return value_mm ? um(*value_mm) : std::string("-");
+}
+
+/// "2026-11-21 02:33" of "2026-11-21T02:33:02Z".
+std::string minute_of(const std::string& utc) {
+  std::string out = utc.substr(0, 16);
+  if (out.size() > 10) out[10] = ' ';
+  return out;
+}
+
+std::string broken_lines(std::string_view text, std::string_view head) {
+  std::string out;
+  std::string line(head);
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    const std::string word = shortened(rest.substr(0, end), kTerminalColumns - columns(head) - 1);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (columns(line) + 1 + columns(word) > kTerminalColumns) {
+      out += line + "\n";
+      line = std::string(head.size(), ' ');
+    }
+    line += fmt::format("{}{}", line.size() == head.size() ? "" : " ", word);
+  }
+  return out + line + "\n";
+}
+
+/// The drawing as rows of characters, the first row on top.
+class TextCanvas {
+ public:
+  TextCanvas(double low_um, double high_um) : low_(low_um), high_(high_um) {
+    rows_.fill(std::string(kPlot, ' '));
+  }
+
+  [[nodiscard]] std::size_t row_of(double value_um) const {
+    const double part = (high_ - value_um) / (high_ - low_);
+    return static_cast<std::size_t>(
+        std::lround(std::clamp(part, 0.0, 1.0) * static_cast<double>(kRows - 1)));
+  }
+  void line(double value_um, char mark, const std::string& label) {
+    if (value_um > high_ || value_um < low_) return;
+    const std::size_t row = row_of(value_um);
+    rows_[row] = std::string(kPlot, mark);
+    labels_[row].append(labels_[row].empty() ? "" : ", ").append(label);
+  }
+  void put(std::size_t column, double value_um, char mark) {
+    char& at = rows_[row_of(value_um)][column];
+    if (at != 'X' && at != '#') at = mark;
+  }
+  [[nodiscard]] std::string text(bool coloured) const;
+
+ private:
+  double low_;
+  double high_;
+  std::array<std::string, kRows> rows_;
+  std::array<std::string, kRows> labels_;
+};
+
+/// Marks beyond a limit in red.
+std::string painted(const std::string& row) {
+  std::string out;
+  for (const char c : row) {
+    out += c == 'X' || c == '#' ? fmt::format("\x1b[31m{}\x1b[0m", c) : std::string(1, c);
+  }
+  return out;
+}
+
+std::string TextCanvas::text(bool coloured) const {
+  std::array<std::string, kRows> ticks;
+  for (const double tick : round_ticks(low_, high_, 5)) ticks[row_of(tick)] = tick_label(tick);
+  std::string out;
+  for (std::size_t i = 0; i < kRows; ++i) {
+    std::string line =
+        fmt::format("{:>{}} |{}", ticks[i], kAxis - 2, coloured ? painted(rows_[i]) : rows_[i]);
+    if (!labels_[i].empty()) line.append(" ").append(labels_[i]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += line + "\n";
+  }
+  return out + fmt::format("{:>{}} +{}\n", "um", kAxis - 2, std::string(kPlot, '-'));
+}
+
+/// X beyond a control limit, # beyond the tolerance.
+char mark_of(const RunChart& chart, std::size_t index, double value_mm) {
+  if (chart.upper_limit_mm && value_mm > *chart.upper_limit_mm) return '#';
+  return std::binary_search(chart.beyond.begin(), chart.beyond.end(), index) ? 'X' : 'o';
+}
+
+void draw_results(TextCanvas& canvas, const RunChart& chart, const std::vector<double>& values_mm) {
+  const std::size_t n = values_mm.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t column = (2 * i + 1) * kPlot / (2 * n);
+    canvas.put(column, values_mm[i] / core::kMicrometre, mark_of(chart, i, values_mm[i]));
+  }
+}
+
+std::string head_of(const RunChart& chart) {
+  const record::ArchivedResult& r = chart.results.back();
+  return broken_lines(fmt::format("{} {} of {} / {}, part {}", r.result.symbol, r.result.reference,
+                                  shortened(printable(r.result.feature), 60),
+                                  shortened(printable(r.result.characteristic), 60),
+                                  shortened(printable(r.head.part_id), 60)),
+                      "") +
+         broken_lines(fmt::format("{}; {}; {}", printable(r.result.filter),
+                                  shortened(printable(r.result.sampling), 60),
+                                  count(chart.results.size(), "result", "results")),
+                      "") +
+         "\n";
+}
+
+std::string legend_of(const RunChart& chart) {
+  const std::string from = chart.results.front().head.started_utc.substr(0, 10);
+  const std::string to = chart.results.back().head.started_utc.substr(0, 10);
+  std::string out = fmt::format("{}{}{:>{}}\n\n", std::string(kAxis, ' '), printable(from),
+                                printable(to), kPlot - columns(printable(from)));
+  out += "o result   X beyond a control limit   # beyond the tolerance\n";
+  const double per_column = static_cast<double>(chart.results.size()) / static_cast<double>(kPlot);
+  if (per_column > 1.0) {
+    out += fmt::format("one column stands for {:.1f} results\n", per_column);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string history_table(std::span<const record::ArchivedResult> newest_first) {
+  std::string out = "started (UTC)    part      serial  charact.    value/um   limit verdict\n";
+  for (auto r = newest_first.rbegin(); r != newest_first.rend(); ++r) {
+    std::string line =
+        fmt::format("{} {} {} {} {:>8} {:>7} {}", cell(minute_of(r->head.started_utc), 16),
+                    cell(r->head.part_id, 9), cell(r->head.serial, 7),
+                    cell(r->result.characteristic, 11), um_or_dash(r->result.value),
+                    um_or_dash(r->result.upper_limit), cell(r->result.verdict, 16));
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += line + "\n";
+  }
+  return out;
+}
+
+std::string history_chart(const RunChart& chart, bool coloured) {
+  if (chart.results.empty()) return "no result with a value\n";
+  const std::vector<double> values_mm = values_of(chart);
+  const ChartRange range = range_of(chart);
+  TextCanvas canvas(range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre);
+  if (chart.limits) {
+    const auto label = [](double mm) { return um(mm); };
+    canvas.line(chart.limits->lower_mm / core::kMicrometre, '-',
+                fmt::format("LCL {}", label(chart.limits->lower_mm)));
+    canvas.line(chart.limits->center_mm / core::kMicrometre, '.',
+                fmt::format("CL {}", label(chart.limits->center_mm)));
+    canvas.line(chart.limits->upper_mm / core::kMicrometre, '-',
+                fmt::format("UCL {}", label(chart.limits->upper_mm)));
+  }
+  if (chart.upper_limit_mm) {
+    canvas.line(*chart.upper_limit_mm / core::kMicrometre, '=',
+                fmt::format("U {}", um(*chart.upper_limit_mm)));
+  }
+  draw_results(canvas, chart, values_mm);
+  std::string out = head_of(chart) + canvas.text(coloured) + legend_of(chart);
+  if (chart.limits) {
+    out += broken_lines(
+        "UCL, CL, LCL: control limits and centre of individuals (I-MR chart of ln x); U: tolerance",
+        "");
+  }
+  if (chart.upper_limit_mm && !range.limit_shown) {
+    out += fmt::format("the tolerance, {} um, is above the chart\n", um(*chart.upper_limit_mm));
+  }
+  if (const std::string words = capability_in_words(chart); !words.empty()) {
+    out.append("\n").append(broken_lines(words, ""));
+  }
+  for (const std::string& note : chart.notes) out += broken_lines(note, "note: ");
+  return out;
+}
+
+}  // namespace rondure::reports

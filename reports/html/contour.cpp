@@ -1,0 +1,216 @@
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/data/contour.h"
+#include "reports/contour_result.h"
+#include "reports/html/sections.h"
+#include "reports/words/language.h"
+#include "reports/html/plot_curve.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+/// Lines of the parts: black, orange, blue, dotted, dashed; then from the front again.
+constexpr std::array<std::string_view, 5> kLines = {"profile", "zone-outer", "zone-inner", "guide",
+                                                    "mean"};
+
+std::vector<double> degrees_of(std::size_t count) {
+  std::vector<double> out(count);
+  for (std::size_t m = 0; m < count; ++m) {
+    out[m] = 360.0 * static_cast<double>(m) / static_cast<double>(count);
+  }
+  return out;
+}
+
+Curve curve_of(std::string name, std::string_view css_class, const std::vector<double>& values,
+               double unit) {
+  Curve out{std::move(name), std::string(css_class), degrees_of(values.size()), values};
+  for (double& value : out.y) value /= unit;
+  return out;
+}
+
+using CurveOf = std::function<const std::vector<double>*(const fit::ContourPartResult&)>;
+
+/// One line a part; nothing where no part has the curve.
+std::string side_by_side(const ContourFacts& facts, std::string_view title,
+                         std::string_view x_title, std::string_view y_title, double unit,
+                         const CurveOf& curve) {
+  std::vector<Curve> curves;
+  for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
+    const std::vector<double>* const values = curve(facts.study.parts[i]);
+    if (values == nullptr) continue;
+    curves.push_back(
+        curve_of(trf("part {}", facts.names[i]), kLines[i % kLines.size()], *values, unit));
+  }
+  return curves.empty() ? std::string() : line_chart(title, x_title, y_title, curves);
+}
+
+constexpr const char* kBetaTitle = translatable("angle β on the pin / °");
+constexpr const char* kAlphaTitle = translatable("C position α / °");
+
+/// The hidden rest of a simulated part, its harmonics 0 and 1 left in.
+void add_truth(const record::RunRecord& record, int feature, std::size_t part,
+               std::vector<Curve>& curves) {
+  const auto* const truth = record.truth_series_of(feature, fmt::format("truth {}", part + 1));
+  if (truth == nullptr) return;
+  auto beta = truth->column("beta_deg");
+  auto rest = truth->column("rest_um");
+  if (!beta || !rest) return;
+  curves.push_back({tr("hidden truth of n"), "mean", *std::move(beta), *std::move(rest)});
+}
+
+std::string separation_plots(const ContourFacts& facts, const record::RunRecord& record,
+                             int feature) {
+  std::string html =
+      fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)", tr("Separation, part by part"),
+                  tr("t = f + n: the contour as measured, the share that follows "
+                     "from the axis errors, and the rest."));
+  for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
+    const fit::ContourPartResult& part = facts.study.parts[i];
+    std::vector<Curve> curves;
+    curves.push_back(
+        curve_of(tr("t, measured"), "profile", part.pin.contour.error_mm, core::kMicrometre));
+    curves.push_back(
+        curve_of(tr("f, following"), "zone-outer", part.following.error_mm, core::kMicrometre));
+    curves.push_back(
+        curve_of(tr("n, not following"), "zone-inner", part.direct.rest_mm, core::kMicrometre));
+    add_truth(record, feature, i, curves);
+    html += R"(<div class="scroll">)" +
+            line_chart(trf("Part {}", facts.names[i]), tr(kBetaTitle), tr("contour error / µm"),
+                       curves) +
+            "</div>";
+  }
+  return html;
+}
+
+std::string comparison_plots(const ContourFacts& facts) {
+  using Part = fit::ContourPartResult;
+  const double um_unit = core::kMicrometre;
+  const std::string beta = tr(kBetaTitle);
+  const std::string alpha = tr(kAlphaTitle);
+  const std::string error = tr("contour error / µm");
+  std::string html =
+      fmt::format(R"(<h3>{}</h3><div class="scroll">)", tr("All parts side by side"));
+  html += side_by_side(facts, tr("Contour errors t of the pins"), beta, error, um_unit,
+                       [](const Part& p) { return &p.pin.contour.error_mm; });
+  html += side_by_side(facts, tr("Main journals"), beta, error, um_unit,
+                       [](const Part& p) { return p.main ? &p.main->contour.error_mm : nullptr; });
+  html += side_by_side(facts, tr("Errors of the C axis"), alpha, "dα / mdeg", 1e-3 * core::kDegree,
+                       [](const Part& p) { return &p.axes.errors.c_rad; });
+  html += side_by_side(facts, tr("Errors of the X axis"), alpha, "dd / µm", um_unit,
+                       [](const Part& p) { return &p.axes.errors.x_mm; });
+  html += side_by_side(facts, tr("Following parts f"), beta, error, um_unit,
+                       [](const Part& p) { return &p.following.error_mm; });
+  html += side_by_side(facts, tr("Non-following parts n"), beta, error, um_unit,
+                       [](const Part& p) { return &p.direct.rest_mm; });
+  return html + "</div>";
+}
+
+/// Amplitudes of the mean contour, or of the only one, with the lines of the masks.
+std::string harmonic_plot(const ContourFacts& facts,
+                          const std::vector<record::Characteristic>& asked) {
+  const bool several = facts.study.total.has_value();
+  const auto& curve =
+      several ? facts.study.total->mean_curve : facts.study.parts.front().pin.contour.error_mm;
+  std::vector<Bar> bars;
+  for (const fit::Harmonic& h : fit::contour_harmonics(curve, 50)) {
+    bars.push_back({h.number, h.amplitude_mm / core::kMicrometre});
+  }
+  std::vector<BarLimit> limits;
+  for (const record::Characteristic& characteristic : asked) {
+    for (const record::HarmonicLimit& line : characteristic.harmonic_limits) {
+      limits.push_back({line.first, line.last, line.amplitude_mm / core::kMicrometre});
+    }
+  }
+  return fmt::format(
+      R"(<h3>{}</h3><div class="scroll">{}</div>)", tr("Harmonics"),
+      bar_chart(several ? tr("Mean contour t of all parts") : tr("Contour t"),
+                tr("undulations per revolution"), tr("amplitude / µm"), bars, limits));
+}
+
+std::string key_numbers(const ContourFacts& facts) {
+  const fit::ContourStudy& study = facts.study;
+  std::string html = R"(<dl class="keys">)";
+  const auto add = [&](const std::string& name, const std::optional<fit::Repeatability>& found) {
+    if (!found) return;
+    const auto word = found->word(facts.options.limits);
+    html += entry(name,
+                  with_note(found->index ? fixed(*found->index, 4) : "–",
+                            trf("{}mean curve {} µm rms, spread {} µm",
+                                word ? trf("{}; ", tr(fit::name_of(*word))) : std::string(),
+                                um(found->mean_rms), um(found->spread))),
+                  "lead");
+  };
+  add(tr("Stability index of t"), study.total);
+  add(tr("Stability index of f"), study.following);
+  add(tr("Stability index of n"), study.rest);
+  add(tr("Stability index of the mains"), study.main);
+  if (study.amplitude_ratio > 0.0)
+    html += entry("rms(f) / rms(n)", fixed(study.amplitude_ratio, 4));
+  html += entry(tr("Correlation would turn f by"),
+                with_note(deg(study.offset.angle_rad, 2) + "°",
+                          tr("a diagnosis; nothing was turned unless the method is as-published")));
+  html += entry(tr("Method"), tr(fit::name_of(facts.options.method)), "wide-key");
+  return html + "</dl>";
+}
+
+std::string part_row(const fit::ContourPartResult& part, const std::string& name) {
+  const fit::ContourSeparation& d = part.direct;
+  const auto cell = [](const std::string& text) {
+    return fmt::format(R"(<td class="n">{}</td>)", text);
+  };
+  const auto square = [](double mm2) {
+    return fixed(mm2 / (core::kMicrometre * core::kMicrometre), 4);
+  };
+  return fmt::format("<tr><td>{}</td>", isolated(name)) +
+         cell(um(part.pin.contour.peak_to_valley_mm)) + cell(um(part.following.peak_to_valley_mm)) +
+         cell(um(fit::peak_to_valley(d.rest_mm))) + cell(square(d.total_mm2)) +
+         cell(square(d.following_mm2)) + cell(square(d.rest_mm2)) + cell(square(d.cross_mm2)) +
+         "<td>" + (d.enlarges() ? tr("enlarges") : tr("reduces")) + "</td>" +
+         cell(part.indirect ? fixed(part.indirect->correlation, 4) : "–") + "</tr>";
+}
+
+std::string part_table(const ContourFacts& facts) {
+  std::string rows;
+  for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
+    rows += part_row(facts.study.parts[i], facts.names[i]);
+  }
+  return fmt::format(
+      R"(<h3>{}</h3><div class="scroll"><table class="short">{}<thead><tr><th scope="col">{}</th>)"
+      R"(<th scope="col" class="n">t µm</th><th scope="col" class="n">f µm</th><th scope="col" class="n">n µm</th>)"
+      R"(<th scope="col" class="n">{}</th><th scope="col" class="n">f²</th><th scope="col" class="n">n²</th>)"
+      R"(<th scope="col" class="n">2 f n</th><th scope="col">n … t</th><th scope="col" class="n">{}</th></tr></thead><tbody>{}</tbody>)"
+      R"(</table></div><p class="note">{}</p>)",
+      tr("Balance"), spoken_caption(tr("Balance")), tr("Part"), tr("mean t² µm²"),
+      tr("f from main"), rows,
+      tr("t, f, n: peak to valley. The squares add up, the cross term included; rms and peak to "
+         "valley do not. Last column: correlation of f with what the main journal leaves of t."));
+}
+
+std::string verdict_list(const ContourFacts& facts) {
+  std::string html = "<ul>";
+  for (const std::string& verdict : contour_verdicts(facts.study, facts.options.limits)) {
+    html += fmt::format("<li>{}</li>", in_sentence(verdict));
+  }
+  return html + "</ul>";
+}
+
+}  // namespace
+
+std::string ContourResult::html(const record::RunRecord& record, int feature) const {
+  const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
+  return key_numbers(facts_) + verdict_list(facts_) + part_table(facts_) +
+         comparison_plots(facts_) + separation_plots(facts_, record, feature) +
+         harmonic_plot(facts_, asked);
+}
+
+}  // namespace rondure::reports

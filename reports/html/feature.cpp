@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/facts.h"
+#include "reports/html/plots.h"
+#include "reports/html/sections.h"
+#include "reports/words/language.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+/// Nothing for a reference that does not exist: a warning says why.
+std::string one_sided_entry(const FeatureResult& feature, record::Reference reference) {
+  const auto found = one_sided_of(feature, reference);
+  if (!found) return {};
+  const record::Shape shape = feature.feature.shape;
+  const fit::Certificate& certificate = found->certificate;
+  std::string note =
+      trf("as read; radius {} mm, {}, certificate {}", fixed(found->radius_mm, 4),
+          count(found->contacts.size(), "contact", "contacts"), tr(fit::name_of(certificate.kind)));
+  if (!certificate.reason.empty()) note += tr("; ") + in_sentence(certificate.reason);
+  return entry(fmt::format("{} ({})", capitalised(words_of(reference, shape)),
+                           reference_of(reference, shape)),
+               with_note(um(found->deviation_mm) + " µm", note));
+}
+
+std::string zone_entries(const FeatureResult& feature, const Zone& zone) {
+  const bool cylinder = feature.feature.shape == record::Shape::kCylinder;
+  const std::string kind =
+      zone.of_surface
+          ? trf("of the surface, tip radius {} mm {}", fixed(*feature.tip_radius_mm, 4),
+                feature.feature.side == record::Side::kOutside ? tr("subtracted") : tr("added"))
+          : tr("of the points as given; the tip radius is unknown");
+  std::string html =
+      entry(cylinder ? tr("Minimum zone CYLt (MZCY)") : tr("Minimum zone RONt (MZCI)"),
+            with_note(um(zone.deviation_mm) + " µm", trf("as read; {} outer and {} inner contacts",
+                                                         zone.outer.size(), zone.inner.size())));
+  if (const auto ls = least_squares_of(feature)) {
+    html += entry(
+        cylinder ? tr("Least squares (LSCY)") : tr("Least squares (LSCI)"),
+        with_note(um(ls->deviation_mm) + " µm", trf("as read; radius {} mm, rms {} µm",
+                                                    fixed(ls->radius_mm, 4), um(ls->rms_mm))));
+  }
+  html += one_sided_entry(feature, record::Reference::kMinimumCircumscribed) +
+          one_sided_entry(feature, record::Reference::kMaximumInscribed);
+  html += entry(tr("Inner radius of the zone"),
+                with_note(fixed(zone.inner_radius_mm, 4) + " mm", kind));
+  html += entry(tr("Outer radius of the zone"),
+                with_note(fixed(zone.outer_radius_mm, 4) + " mm", kind));
+  return html;
+}
+
+std::string certificate_entry(const Zone& zone) {
+  const fit::Certificate& certificate = zone.certificate;
+  std::string note;
+  if (certificate.kind != fit::Certificate::Kind::kNone) {
+    note = trf("Zone minus proven lower bound: {} µm.", tiny_um(certificate.gap_mm));
+  }
+  if (!certificate.reason.empty())
+    note += trf(" Why not more: {}", in_sentence(certificate.reason));
+  return entry(tr("Certificate of the minimum zone"),
+               with_note(in_sentence(sentence_of(certificate)), note), "wide-key");
+}
+
+std::string axis_entry(const FeatureResult& feature) {
+  if (feature.mz_cylinder) {
+    const fit::Axis& axis = feature.mz_cylinder->axis;
+    const Eigen::Vector3d& d = axis.direction;
+    const double tilt = std::atan2(std::hypot(d.x(), d.y()), std::abs(d.z()));
+    return entry(
+        feature.merged ? tr("Axis of the zone (body frame)")
+                       : tr("Axis of the zone (machine frame)"),
+        trf("through ({}, {}, {}) mm, direction ({}, {}, {}), {}° off machine z",
+            fixed(axis.point_mm.x(), 6), fixed(axis.point_mm.y(), 6), fixed(axis.point_mm.z(), 6),
+            fixed(d.x(), 8), fixed(d.y(), 8), fixed(d.z(), 8), deg(tilt, 6)),
+        "wide-key");
+  }
+  if (feature.layers.empty() || !feature.layers.front().mz) return {};
+  const Eigen::Vector2d& center = feature.layers.front().mz->center_mm;
+  return entry(tr("Centre of the zone"),
+               fmt::format("({}, {}) mm", fixed(center.x(), 6), fixed(center.y(), 6)), "wide-key");
+}
+
+std::string pose_entries(const FeatureResult& feature) {
+  std::string html;
+  if (const PoseValue* pose = final_pose_of(feature)) {
+    const std::string angles =
+        fmt::format("alpha {}°, beta {}°", deg(pose->pose.alpha_rad), deg(pose->pose.beta_rad));
+    html +=
+        entry(tr("f of the final pose"), pose->valid ? with_note(f_um(pose->f_mm) + " µm", angles)
+                                                     : with_note(tr("none"), worded(pose->ending)));
+  }
+  if (feature.levelling_pose) {
+    html += entry(tr("Levelling pose"),
+                  with_note(fmt::format("{}°, {}°", deg(feature.levelling_pose->alpha_rad, 6),
+                                        deg(feature.levelling_pose->beta_rad, 6)),
+                            tr("alpha and beta that would turn the axis found to machine z")));
+  }
+  return html;
+}
+
+/// The worst filtered section of dense layers, and the largest undulation of all.
+std::string dense_entry(const FeatureResult& feature) {
+  double total_mm = -1.0;
+  fit::Harmonic largest;
+  for (const LayerResult& layer : feature.layers) {
+    if (!layer.filtered || layer.filtered->values.empty()) continue;
+    total_mm = std::max(total_mm, layer.filtered->values.back().total_mm);
+    for (const fit::Harmonic& harmonic : layer.filtered->harmonics.harmonics) {
+      if (harmonic.number > 1 && harmonic.amplitude_mm > largest.amplitude_mm) largest = harmonic;
+    }
+  }
+  if (total_mm < 0.0) return {};
+  return entry(tr("Sections through a Gaussian filter, 50 UPR"),
+               with_note(trf("{} µm, the worst (MZ)", um(total_mm)),
+                         trf("largest undulation {} UPR, amplitude {} µm", largest.number,
+                             um(largest.amplitude_mm))));
+}
+
+std::string data_entries(const FeatureResult& feature) {
+  const bool from_file = feature.feature.strategy == record::Strategy::kPointsFile;
+  std::string html = entry(
+      tr("Points"), with_note(pattern_of(feature),
+                              from_file ? trf("file {}", isolated(feature.feature.points_file))
+                                        : repeats_of(feature)));
+  if (feature.repeat_sigma_mm) {
+    html += entry(tr("Repeatability of one touch"),
+                  with_note(um(*feature.repeat_sigma_mm) + " µm", tr("pooled standard deviation")));
+  }
+  if (feature.repeat_zone_mean_mm) {
+    html += entry(tr("Zones of the single repeats"),
+                  with_note(trf("{} µm mean", um(*feature.repeat_zone_mean_mm)),
+                            feature.repeat_zone_sd_mm
+                                ? trf("{} µm standard deviation", um(*feature.repeat_zone_sd_mm))
+                                : std::string()));
+  }
+  if (feature.temperatures || !from_file) {
+    html += entry(tr("Mean temperature"),
+                  !feature.temperatures
+                      ? tr("not measured")
+                      : fixed(feature.temperatures->mean_degC, 2) + " °C" +
+                            (feature.temperatures->declared ? ", " + tr("declared, not measured")
+                                                            : std::string()));
+  }
+  html += dense_entry(feature);
+  if (feature.thermal) {
+    html += entry(tr("Brought to 20 °C"),
+                  with_note(trf("{} µm a metre", fixed(1e6 * (feature.thermal->factor - 1.0), 2)),
+                            trf("U = {} µm a metre (k = 2); part {} °C, scales {} °C",
+                                fixed(2e6 * feature.thermal->factor_uncertainty, 2),
+                                fixed(feature.thermal->part_degC, 2),
+                                fixed(feature.thermal->scale_degC, 2))));
+  }
+  return html;
+}
+
+std::string truth_box(const record::SimulationTruth* truth, const std::optional<Zone>& zone,
+                      record::Shape shape) {
+  if (truth == nullptr) return {};
+  std::string text = fmt::format("<b>{}</b> {} {} µm", tr("Hidden truth of the simulation:"),
+                                 symbol_of(shape), um(truth->cylt_mm));
+  if (zone) text += trf("; difference {} µm", signed_um(zone->deviation_mm - truth->cylt_mm));
+  return R"(<div class="truth">)" + text +
+         tr(". This is not part of the measurement: evaluation never reads it.") + "</div>";
+}
+
+std::string key_numbers(const FeatureResult& feature, const std::optional<Zone>& zone) {
+  std::string html = R"(<dl class="keys">)";
+  if (zone) html += zone_entries(feature, *zone);
+  html += pose_entries(feature) + data_entries(feature);
+  if (zone) html += certificate_entry(*zone) + axis_entry(feature);
+  return html + "</dl>";
+}
+
+}  // namespace
+
+std::string with_note(const std::string& value, const std::string& note) {
+  return note.empty() ? value : value + "<small>" + note + "</small>";
+}
+
+std::string spoken_caption(std::string_view html) {
+  return fmt::format(R"(<caption class="spoken screen-only">{}</caption>)", html);
+}
+
+std::string messages(const FeatureResult& feature) {
+  std::string html;
+  if (feature.failure) {
+    html += fmt::format(
+        R"(<div class="banner alarm"><b>{}</b> {}{} <span class="code">{}</span></div>)",
+        tr("No result."), titled(feature.failure->code), foreign(feature.failure->what),
+        core::code_name(feature.failure->code));
+  }
+  if (feature.warnings.empty()) return html;
+  html += R"(<ul class="warnings">)";
+  for (const core::Error& warning : feature.warnings) {
+    html += fmt::format(
+        R"(<li><b>{}</b> {}{} <span class="code">{}</span>{}</li>)", tr("Warning:"),
+        titled(warning.code), in_sentence(warning.what), core::code_name(warning.code),
+        warning.where.empty() ? std::string() : fmt::format(" {}", foreign(warning.where)));
+  }
+  return html + "</ul>";
+}
+
+std::string feature_section(const record::RunRecord& record, std::size_t index,
+                            const FeatureResult& feature) {
+  if (record::is_analysis(feature.feature.shape)) return analysis_section(record, index, feature);
+  const auto zone = zone_of(feature);
+  const record::Feature& asked = feature.feature;
+  std::string nominal;
+  if (asked.nominal_diameter_mm > 0.0) {
+    nominal = trf(", nominal diameter {:.10g} mm", asked.nominal_diameter_mm);
+  }
+  std::string html = fmt::format(
+      R"(<section><h2>{}</h2><p class="note">{}</p>)", trf("Feature {}", isolated(asked.id)),
+      trf("{} {}{}; {}.", capitalised(tr(record::name_of(asked.side))),
+          tr(record::name_of(asked.shape)), nominal,
+          asked.strategy == record::Strategy::kPointsFile
+              ? tr("points from a file")
+              : trf("pose search: {}", tr(record::name_of(asked.strategy)))));
+  html += messages(feature);
+  html += key_numbers(feature, zone);
+  html += truth_box(truth_of(record, index), zone, feature.feature.shape);
+  html += uncertainty_section(feature);
+  if (zone)
+    html +=
+        polar_plots(feature, *zone) + deviation_map(feature, *zone) + solid_view(feature, *zone);
+  html += harmonics_section(feature);
+  if (feature.merged) return html + merged_section(*feature.merged) + "</section>";
+  if (feature.poses.empty()) return html + "</section>";
+  html += fmt::format(
+      R"(<h3>{}</h3><p class="note">{}</p>)", tr("Search for the pose"),
+      tr("f is the narrowest zone whose axis is held parallel to machine z, so it holds the form "
+         "of the part and its remaining tilt; the minimum zone above is free of the tilt."));
+  return html + pose_plots(feature, zone) + pose_table(feature) + "</section>";
+}
+
+}  // namespace rondure::reports

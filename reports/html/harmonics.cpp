@@ -1,0 +1,73 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/harmonic_mask.h"
+#include "reports/html/plots.h"
+#include "reports/html/sections.h"
+#include "reports/words/language.h"
+#include "reports/html/plot_curve.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+std::string exceeding_row(const MaskedHarmonic& masked) {
+  return fmt::format(R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td>)"
+                     R"(<td class="n">{}</td><td class="n">{}</td></tr>)",
+                     masked.harmonic.number, masked.harmonic.layer + 1,
+                     um(masked.harmonic.amplitude_mm), um(masked.limit_mm),
+                     um(masked.harmonic.amplitude_mm - masked.limit_mm));
+}
+
+/// What goes beyond a mask, or that nothing does.
+std::string against_limits(const FeatureResult& feature, const record::Characteristic& asked) {
+  const std::vector<MaskedHarmonic> all = against_mask(feature, asked);
+  std::string rows;
+  for (const MaskedHarmonic& masked : all) {
+    if (masked.exceeds()) rows += exceeding_row(masked);
+  }
+  if (rows.empty()) {
+    return fmt::format(R"(<p class="note">{}</p>)",
+                       trf("No harmonic goes beyond the limits of {}.", isolated(asked.id)));
+  }
+  std::string html = fmt::format(R"(<table class="short"><caption>{}</caption><thead><tr>)",
+                                 trf("Harmonics beyond the limits of {}", isolated(asked.id)));
+  for (const std::string& name : {std::string("UPR"), tr("Layer"), tr("Amplitude / µm"),
+                                  tr("Limit / µm"), tr("Beyond by / µm")}) {
+    html += fmt::format(R"(<th scope="col" class="n">{}</th>)", name);
+  }
+  return html + "</tr></thead><tbody>" + rows + "</tbody></table>";
+}
+
+}  // namespace
+
+std::string harmonics_section(const FeatureResult& feature) {
+  std::vector<Bar> bars;
+  for (const SectionHarmonic& harmonic : worst_harmonics(feature)) {
+    if (harmonic.number < 2) continue;  // eccentricity is no form
+    bars.push_back({harmonic.number, harmonic.amplitude_mm / core::kMicrometre});
+  }
+  if (bars.empty()) return {};
+  std::vector<BarLimit> limits;
+  std::string words;
+  for (const record::Characteristic& asked : feature.feature.characteristics) {
+    for (const record::HarmonicLimit& line : asked.harmonic_limits) {
+      limits.push_back({line.first, line.last, line.amplitude_mm / core::kMicrometre});
+    }
+    if (!asked.harmonic_limits.empty()) words += against_limits(feature, asked);
+  }
+  const std::string note =
+      limits.empty() ? tr("Before the filter, of each undulation in the section where it is "
+                          "largest. The plan gives no limits.")
+                     : tr("Before the filter, of each undulation in the section where it is "
+                          "largest. Lines: the limits of the mask.");
+  return fmt::format(R"(<h3>{}</h3><p class="note">{}</p><div class="scroll">{}</div>{})",
+                     tr("Harmonics of the sections"), note,
+                     bar_chart(tr("Amplitudes of the harmonics"), tr("undulations per revolution"),
+                               tr("amplitude / µm"), bars, limits),
+                     words);
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,130 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "reports/html/plots.h"
+#include "reports/html/svg.h"
+#include "reports/words/language.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+
+std::string verdict_mark(Verdict verdict, int size_px) {
+  std::string_view body;
+  switch (verdict) {
+    case Verdict::kConforms:
+      body = R"(<circle class="good" cx="32" cy="32" r="30"/>)"
+             R"(<path class="stroke" d="M18 33l10 10 19-21"/>)";
+      break;
+    case Verdict::kDoesNotConform:
+      body = R"(<path class="bad" d="M20.5 3h23L61 20.5v23L43.5 61h-23L3 43.5v-23z"/>)"
+             R"(<path class="stroke" d="M21 21l22 22M43 21l-22 22"/>)";
+      break;
+    case Verdict::kUndecided:
+      body = R"(<path class="open" d="M32 3l29 29-29 29L3 32z"/>)"
+             R"(<path class="pen" d="M25 26c0-9 14-9 14 0 0 6-7 6-7 12M32 44v2"/>)";
+      break;
+    case Verdict::kVoid:
+      body = R"(<circle class="hollow" cx="32" cy="32" r="27"/>)"
+             R"(<path class="pen" d="M13 51L51 13"/>)";
+      break;
+    case Verdict::kNotToleranced:
+      body = R"(<circle class="hollow" cx="32" cy="32" r="27"/>)"
+             R"(<path class="pen" d="M20 32h24"/>)";
+      break;
+  }
+  return fmt::format(R"(<svg class="mark" viewBox="0 0 64 64" width="{0}" height="{0}" )"
+                     R"(aria-hidden="true">{1}</svg>)",
+                     size_px, body);
+}
+
+namespace {
+
+/// ISO 1101 where there is a symbol; a wave for what is no geometrical tolerance.
+std::string_view symbol_lines(record::Form form) {
+  switch (form) {
+    case record::Form::kCylindricity:
+      return R"(<circle cx="10" cy="10" r="4.5"/><path d="M2 17L8.5 3M11.5 17L18 3"/>)";
+    case record::Form::kRoundness:
+    case record::Form::kRoundnessRms:
+      return R"(<circle cx="10" cy="10" r="7"/>)";
+    case record::Form::kRunOut:
+      return R"(<path d="M4 17L15 4M9.5 5L15 4L14 9.5"/>)";
+    case record::Form::kContourDeviation:
+    case record::Form::kContourSpread:
+      return R"(<path d="M3 15a7 7 0 0 1 14 0"/>)";
+    default:
+      return R"(<path d="M2 10q4 -9 8 0t8 0"/>)";
+  }
+}
+
+}  // namespace
+
+std::string form_symbol(record::Form form) {
+  const std::string_view lines = symbol_lines(form);
+  return fmt::format(R"(<svg class="symbol" viewBox="0 0 20 20" width="18" height="18" role="img" )"
+                     R"(aria-label="{}">{}</svg>)",
+                     tr(record::name_of(form)), lines);
+}
+
+std::string tolerance_bar(const CharacteristicResult& result, double tolerance_mm) {
+  constexpr double kWidth = 150.0;
+  const double value_mm = result.value->quoted_mm();
+  const UncertaintyStatement* known = result.value->statement();
+  const auto& outcome = result.outcome;
+  double end_mm = std::max(1.25 * tolerance_mm, 1.05 * value_mm);
+  if (known != nullptr) end_mm = std::max(end_mm, 1.05 * known->high_mm);
+  if (outcome) end_mm = std::max(end_mm, 1.05 * outcome->rejection_mm);
+  const Scale x{0.0, end_mm, 1.0, kWidth - 1.0};
+  std::string label = trf("{} of {} um", result.value->value_text(), um(tolerance_mm));
+  if (outcome && outcome->acceptance_mm < tolerance_mm) {
+    label += trf(", accepted up to {} um", um(outcome->acceptance_mm));
+  }
+  Svg svg(kWidth, 26.0, "bar", label);
+  svg.rect(x.from, 8.0, x.at(tolerance_mm) - x.from, 10.0, "allowed");
+  if (outcome && outcome->acceptance_mm < outcome->rejection_mm) {
+    const double from = x.at(std::max(outcome->acceptance_mm, 0.0));
+    svg.rect(from, 5.0, x.at(outcome->rejection_mm) - from, 16.0, "guard");
+  }
+  svg.rect(x.from, 8.0, x.at(value_mm) - x.from, 10.0,
+           result.verdict == Verdict::kConforms         ? "good"
+           : result.verdict == Verdict::kDoesNotConform ? "bad"
+                                                        : "neutral");
+  if (known != nullptr) {
+    svg.line(x.at(known->low_mm), 13.0, x.at(known->high_mm), 13.0, "interval");
+    svg.line(x.at(known->low_mm), 9.5, x.at(known->low_mm), 16.5, "interval");
+    svg.line(x.at(known->high_mm), 9.5, x.at(known->high_mm), 16.5, "interval");
+  }
+  svg.line(x.at(tolerance_mm), 3.0, x.at(tolerance_mm), 23.0, "limit");
+  return svg.str();
+}
+
+std::string budget_bars(const std::vector<BudgetLine>& budget) {
+  constexpr double kRow = 24.0;
+  constexpr double kFrom = 170.0;
+  double most_mm = 0.0;
+  std::vector<const BudgetLine*> lines;
+  for (const BudgetLine& line : budget) {
+    if (!(line.standard_uncertainty_mm > 0.0)) continue;
+    lines.push_back(&line);
+    most_mm = std::max(most_mm, line.standard_uncertainty_mm);
+  }
+  if (lines.empty()) return {};
+  const Scale x{0.0, most_mm, kFrom, 500.0};
+  Svg svg(760.0, kRow * static_cast<double>(lines.size()) + 8.0, "wide budget",
+          tr("standard uncertainty by each influence alone"));
+  double y = 4.0;
+  for (const BudgetLine* line : lines) {
+    const double end = x.at(line->standard_uncertainty_mm);
+    svg.text(kFrom - 10.0, y + 16.0, "end", "label", tr(line->name));
+    svg.rect(kFrom, y + 4.0, end - kFrom, kRow - 8.0,
+             line->measurand == Measurand::kWholeSurface ? "share surface" : "share");
+    svg.text(end + 8.0, y + 16.0, "start", "label",
+             trf("{} \u00b5m, {} %; mean shift {} \u00b5m", um(line->standard_uncertainty_mm),
+                 fixed(100.0 * line->share_1, 0), signed_um(line->shift_mm)));
+    y += kRow;
+  }
+  return svg.str();
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,217 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/html/plots.h"
+#include "reports/html/svg.h"
+#include "reports/words/language.h"
+#include "reports/html/plot_scale.h"
+#include "reports/section.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+constexpr double kMapWidth = 680.0;
+constexpr double kMapLeft = 62.0;
+constexpr double kMapRight = 580.0;
+constexpr double kSideMargin = 20.0;  ///< Free space beside 0 and 360 deg.
+constexpr double kMapTop = 14.0;
+constexpr std::size_t kMostDiscs = 1200;  ///< More points than this are averaged in cells.
+constexpr int kMapCellColumns = 120;
+constexpr int kMapCellRows = 48;  ///< Where layers are unknown, or more than these.
+
+struct MapView {
+  Scale x;
+  Scale y;
+  double half_zone_mm = 1.0;
+  double bottom = 0.0;
+  double disc = 4.0;    ///< Radius of a disc.
+  bool labels = false;  ///< Discs are wide enough for their value.
+  bool cells = false;   ///< Too many points for discs: means of cells are drawn.
+  bool rows_are_layers = false;
+  double row = 4.0;  ///< Height of a cell.
+
+  [[nodiscard]] std::string colour(double deviation_mm) const {
+    return diverging_colour(deviation_mm / half_zone_mm);
+  }
+};
+
+/// Least distance between the heights of two neighbouring layers.
+double closest_layers_mm(const FeatureResult& feature) {
+  std::vector<double> heights;
+  for (const LayerResult& layer : feature.layers) heights.push_back(layer.height_mm);
+  std::sort(heights.begin(), heights.end());
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < heights.size(); ++i) {
+    least = std::min(least, heights[i] - heights[i - 1]);
+  }
+  return least;
+}
+
+std::size_t most_points_of_a_layer(const FeatureResult& feature) {
+  std::size_t most = 1;
+  for (const LayerResult& layer : feature.layers) most = std::max(most, layer.rows.size());
+  return most;
+}
+
+/// Distance of neighbouring discs on a map of the given height: exact for points in layers, a share
+/// of the mean distance where layers are unknown.
+double disc_pitch(const FeatureResult& feature, double plot, double layer_pitch) {
+  constexpr double kPlotWidth = kMapRight - kMapLeft - 2.0 * kSideMargin;
+  if (feature.layers.empty()) {
+    return 0.6 * std::sqrt(kPlotWidth * plot / static_cast<double>(feature.cloud.size()));
+  }
+  return std::min(kPlotWidth / static_cast<double>(most_points_of_a_layer(feature)), layer_pitch);
+}
+
+double plot_height(const FeatureResult& feature) {
+  if (feature.layers.empty()) return 240.0;
+  return std::clamp(48.0 * (static_cast<double>(feature.layers.size()) - 1.0), 130.0, 300.0);
+}
+
+MapView view_of(const FeatureResult& feature, const Zone& zone) {
+  const auto [lowest, highest] = std::minmax_element(
+      feature.cloud.begin(), feature.cloud.end(),
+      [](const CloudPoint& a, const CloudPoint& b) { return a.height_mm < b.height_mm; });
+  const double low = lowest->height_mm;
+  const double span = std::max(highest->height_mm - low, 1e-9);
+  const double plot = plot_height(feature);
+  const double layer_pitch = closest_layers_mm(feature) / span * plot;
+  MapView view;
+  view.half_zone_mm = std::max(0.5 * zone.deviation_mm, 1e-5);
+  view.disc = std::clamp(0.46 * disc_pitch(feature, plot, layer_pitch), 1.5, 17.0);
+  if (feature.merged) view.disc = std::min(6.0, 0.6 * view.disc);
+  view.labels = view.disc >= 14.0;
+  view.cells = feature.cloud.size() > kMostDiscs;
+  view.rows_are_layers = feature.layers.size() >= 2 && feature.layers.size() <= kMapCellRows;
+  view.row = view.rows_are_layers ? std::clamp(0.9 * layer_pitch, 2.0, 40.0) : plot / kMapCellRows;
+  const double label = feature.merged ? 8.0 : 0.0;  // the number of the pose
+  const double margin = (view.cells ? 0.5 * view.row : view.disc) + 8.0 + label;
+  view.bottom = kMapTop + plot + 2.0 * margin;
+  view.x = {0.0, 360.0, kMapLeft + kSideMargin, kMapRight - kSideMargin};
+  view.y = {low, low + span, view.bottom - margin, kMapTop + margin};
+  return view;
+}
+
+void draw_axes(Svg& svg, const MapView& view) {
+  svg.rect(kMapLeft, kMapTop, kMapRight - kMapLeft, view.bottom - kMapTop, "frame");
+  for (int tick = 0; tick <= 8; ++tick) {
+    const double x = view.x.at(45.0 * tick);
+    svg.line(x, view.bottom, x, view.bottom + 5.0, "tick");
+    svg.text(x, view.bottom + 18.0, "middle", "label", std::to_string(45 * tick));
+  }
+  svg.text(0.5 * (kMapLeft + kMapRight), view.bottom + 36.0, "middle", "title",
+           tr("angle about the axis / °"));
+  for (const double height : round_ticks(view.y.low, view.y.high, 5)) {
+    const double y = view.y.at(height);
+    svg.line(kMapLeft - 5.0, y, kMapLeft, y, "tick");
+    svg.text(kMapLeft - 8.0, y + 4.0, "end", "label", tick_label(height));
+  }
+  svg.upward_text(14.0, 0.5 * (kMapTop + view.bottom), "title", tr("height / mm"));
+}
+
+/// Three digits with their sign, short enough for a disc.
+std::string disc_label(double deviation_mm) {
+  const double value = deviation_mm / core::kMicrometre;
+  const double size = std::abs(value);
+  const int decimals = size < 9.995 ? 2 : size < 99.95 ? 1 : 0;
+  return fmt::format("{}{}", value > 0.0 ? "+" : "", fixed(value, decimals));
+}
+
+/// Where a point is drawn: one that several poses touched stands beside itself.
+double disc_x(const CloudPoint& point, const FeatureResult& feature, const MapView& view) {
+  const double x = view.x.at(point.angle_rad / core::kDegree);
+  if (!feature.merged) return x;
+  const double middle = 0.5 * (static_cast<double>(feature.merged->poses.size()) - 1.0);
+  return x + 2.0 * view.disc * (point.pose - middle);
+}
+
+void draw_discs(Svg& svg, const FeatureResult& feature, const MapView& view) {
+  for (const CloudPoint& point : feature.cloud) {
+    const double x = disc_x(point, feature, view);
+    const double y = view.y.at(point.height_mm);
+    if (feature.merged)
+      svg.text(x, y - view.disc - 1.0, "middle", "label", std::to_string(point.pose + 1));
+    const bool contact = point.outer_contact || point.inner_contact;
+    svg.circle(x, y, view.disc, contact ? "disc contact" : "disc", view.colour(point.deviation_mm));
+    if (!view.labels) continue;
+    const bool dark = std::abs(point.deviation_mm) > 0.62 * view.half_zone_mm;
+    svg.text(x, y + 3.2, "middle", dark ? "value light" : "value", disc_label(point.deviation_mm));
+  }
+}
+
+/// Height at which the cell of a point is centred: that of its layer, or of its row of cells.
+double cell_height(const CloudPoint& point, const std::map<int, double>& layer_heights,
+                   const MapView& view) {
+  const auto layer = layer_heights.find(point.layer);
+  if (layer != layer_heights.end()) return layer->second;
+  const double pitch = (view.y.high - view.y.low) / kMapCellRows;
+  const double row = std::floor((point.height_mm - view.y.low) / pitch);
+  return view.y.low + (std::clamp(row, 0.0, kMapCellRows - 1.0) + 0.5) * pitch;
+}
+
+void draw_cells(Svg& svg, const FeatureResult& feature, const MapView& view) {
+  std::map<int, double> layer_heights;
+  if (view.rows_are_layers) {
+    for (const LayerResult& layer : feature.layers) layer_heights[layer.layer] = layer.height_mm;
+  }
+  std::map<std::pair<double, int>, std::pair<double, int>> cells;
+  for (const CloudPoint& point : feature.cloud) {
+    const int column = std::clamp(
+        static_cast<int>(point.angle_rad / core::kTwoPi * kMapCellColumns), 0, kMapCellColumns - 1);
+    auto& [sum, number] = cells[{cell_height(point, layer_heights, view), column}];
+    sum += point.deviation_mm;
+    ++number;
+  }
+  const double width = (view.x.to - view.x.from) / kMapCellColumns;
+  for (const auto& [place, content] : cells) {
+    svg.rect(view.x.from + place.second * width, view.y.at(place.first) - 0.5 * view.row,
+             width + 0.3, view.row + 0.1, "swatch", view.colour(content.first / content.second));
+  }
+}
+
+void draw_contacts(Svg& svg, const FeatureResult& feature, const MapView& view) {
+  const double shift = view.labels && !view.cells ? view.disc - 1.0 : 0.0;
+  const double size = view.labels && !view.cells ? 4.0 : 5.0;
+  for (const CloudPoint& point : feature.cloud) {
+    const double x = disc_x(point, feature, view) + 0.8 * shift;
+    const double y = view.y.at(point.height_mm) - 0.8 * shift;
+    if (point.outer_contact) svg.triangle(x, y, size, "outer");
+    if (point.inner_contact) svg.square(x, y, size, "inner");
+  }
+}
+
+}  // namespace
+
+std::string deviation_map(const FeatureResult& feature, const Zone& zone) {
+  if (feature.cloud.empty()) return {};
+  const bool one_section =
+      feature.feature.shape == record::Shape::kCircle || feature.layers.size() == 1;
+  if (one_section) return section_profile(feature, zone);
+  const MapView view = view_of(feature, zone);
+  Svg svg(kMapWidth, view.bottom + 44.0, "wide", tr("Deviations on the unrolled surface"));
+  draw_axes(svg, view);
+  if (view.cells) {
+    draw_cells(svg, feature, view);
+  } else {
+    draw_discs(svg, feature, view);
+  }
+  draw_contacts(svg, feature, view);
+  deviation_scale(svg, kMapRight + 22.0, kMapTop, view.bottom, view.half_zone_mm);
+  return fmt::format(
+      R"(<h3>{}</h3><figure><div class="scroll">{}</div><figcaption>{} {}{}</figcaption></figure>)",
+      tr("Unrolled surface"), svg.str(),
+      view.cells ? tr("Mean deviation from the middle of the zone, in cells of 3°.")
+                 : tr("Deviation of each point from the middle of the zone in µm."),
+      tr("Orange: farther from the axis; blue: nearer. Triangles touch the outer, squares the "
+         "inner cylinder of the zone."),
+      feature.merged ? tr(" The number above a point is its pose.") : std::string());
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/html/plots.h"
+#include "reports/html/svg.h"
+#include "reports/words/language.h"
+#include "reports/section.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+constexpr double kSectionSize = 320.0;
+constexpr double kSectionCentre = 160.0;
+constexpr double kSectionMean = 88.0;      ///< Radius at which the middle of the zone is drawn.
+constexpr double kSectionHalfZone = 24.0;  ///< Half the zone as drawn.
+constexpr std::size_t kMostPlots = 12;
+
+/// Places deviations on a polar plot.
+struct PolarView {
+  double px_per_mm = 1.0;
+
+  [[nodiscard]] double radius(double deviation_mm) const {
+    return kSectionMean + px_per_mm * deviation_mm;
+  }
+  [[nodiscard]] double x(double angle_rad, double r) const {
+    return kSectionCentre + r * std::cos(angle_rad);
+  }
+  [[nodiscard]] double y(double angle_rad, double r) const {
+    return kSectionCentre - r * std::sin(angle_rad);
+  }
+};
+
+void draw_frame(Svg& svg, const PolarView& view) {
+  for (int tick = 0; tick < 12; ++tick) {
+    const double angle = tick * 30.0 * core::kDegree;
+    const bool labelled = tick % 3 == 0;
+    const double from = kSectionMean + kSectionHalfZone + 6.0;
+    const double to = from + (labelled ? 7.0 : 4.0);
+    svg.line(view.x(angle, from), view.y(angle, from), view.x(angle, to), view.y(angle, to),
+             "tick");
+    if (labelled)
+      svg.line(kSectionCentre, kSectionCentre, view.x(angle, from), view.y(angle, from), "grid");
+  }
+  svg.text(kSectionCentre + 127.0, kSectionCentre + 4.0, "start", "label", "0°");
+  svg.text(kSectionCentre, kSectionCentre - 130.0, "middle", "label", "90°");
+  svg.text(kSectionCentre - 127.0, kSectionCentre + 4.0, "end", "label", "180°");
+  svg.text(kSectionCentre, kSectionCentre + 139.0, "middle", "label", "270°");
+}
+
+void draw_zone(Svg& svg, const PolarView& view, double half_zone_mm) {
+  const double outer = view.radius(half_zone_mm);
+  const double inner = view.radius(-half_zone_mm);
+  svg.path(fmt::format(
+               "M{0:.1f} {2:.1f}a{1:.1f} {1:.1f} 0 1 0 {3:.1f} 0a{1:.1f} {1:.1f} 0 1 0 {4:.1f} 0z"
+               "M{5:.1f} {2:.1f}a{6:.1f} {6:.1f} 0 1 1 {7:.1f} 0a{6:.1f} {6:.1f} 0 1 1 {8:.1f} 0z",
+               kSectionCentre - outer, outer, kSectionCentre, 2.0 * outer, -2.0 * outer,
+               kSectionCentre - inner, inner, 2.0 * inner, -2.0 * inner),
+           "band");
+  svg.circle(kSectionCentre, kSectionCentre, outer, "zone-outer");
+  svg.circle(kSectionCentre, kSectionCentre, inner, "zone-inner");
+  svg.circle(kSectionCentre, kSectionCentre, kSectionMean, "mean");
+}
+
+/// The profile as a line that is straight in angle and deviation, not across the plot.
+std::string profile_path(const Section& section, const PolarView& view) {
+  constexpr double kStep = 4.0 * core::kDegree;
+  const std::vector<SectionPoint>& points = section.profile;
+  std::string d;
+  bool pen_down = false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SectionPoint& a = points[i];
+    const SectionPoint& b = points[(i + 1) % points.size()];
+    const double gap = b.angle_rad - a.angle_rad + (i + 1 == points.size() ? core::kTwoPi : 0.0);
+    if (!pen_down) {
+      const double r = view.radius(a.deviation_mm);
+      d += fmt::format("M{:.1f} {:.1f}", view.x(a.angle_rad, r), view.y(a.angle_rad, r));
+    }
+    pen_down = gap <= section.widest_gap_rad;
+    if (!pen_down) continue;
+    const int pieces = std::max(1, static_cast<int>(std::ceil(gap / kStep)));
+    for (int k = 1; k <= pieces; ++k) {
+      const double t = static_cast<double>(k) / pieces;
+      const double r = view.radius((1.0 - t) * a.deviation_mm + t * b.deviation_mm);
+      d += fmt::format("L{:.1f} {:.1f}", view.x(a.angle_rad + t * gap, r),
+                       view.y(a.angle_rad + t * gap, r));
+    }
+  }
+  return d;
+}
+
+void draw_points(Svg& svg, const Section& section, const FeatureResult& feature,
+                 const PolarView& view) {
+  const bool marks = has_marks(section);
+  const double size = section.rows.size() <= 60 ? 3.0 : 1.6;
+  for (const std::size_t row : section.rows) {
+    const CloudPoint& point = feature.cloud[row];
+    const double r = view.radius(point.deviation_mm);
+    const double x = view.x(point.angle_rad, r);
+    const double y = view.y(point.angle_rad, r);
+    if (point.outer_contact) {
+      svg.triangle(x, y, 5.5, "outer");
+    } else if (point.inner_contact) {
+      svg.square(x, y, 5.0, "inner");
+    } else if (marks) {
+      svg.circle(x, y, size, "point");
+    }
+  }
+}
+
+void draw_scale_bar(Svg& svg, const PolarView& view) {
+  const double length_um = round_below(34.0 / view.px_per_mm / core::kMicrometre);
+  const double length = length_um * core::kMicrometre * view.px_per_mm;
+  svg.path(fmt::format("M8 303v8M8 307h{0:.1f}M{1:.1f} 303v8", length, 8.0 + length), "scale");
+  svg.text(8.0, 297.0, "start", "label", tick_label(length_um) + " µm");
+}
+
+std::string roundness_of(const FeatureResult& feature, const Section& section) {
+  for (const LayerResult& layer : feature.layers) {
+    if (section.title != trf("Layer {}", layer.layer + 1)) continue;
+    return layer.mz ? fmt::format("RONt {} µm", um(layer.mz->width_mm())) : tr("no RONt");
+  }
+  return {};
+}
+
+std::string plot(const FeatureResult& feature, const Section& section, const PolarView& view,
+                 double half_zone_mm) {
+  Svg svg(kSectionSize, kSectionSize, "polar",
+          trf("{}: deviations about the minimum-zone axis", section.title));
+  draw_frame(svg, view);
+  draw_zone(svg, view, half_zone_mm);
+  const bool sparse = section.rows.size() <= 40;
+  if (has_line(section)) svg.path(profile_path(section, view), sparse ? "guide" : "profile");
+  draw_points(svg, section, feature, view);
+  draw_scale_bar(svg, view);
+  const bool layered = !feature.layers.empty();
+  std::string caption = fmt::format("<b>{}</b>", escaped(section.title));
+  if (layered && feature.feature.shape == record::Shape::kCylinder) {
+    caption += trf(" · at {} mm", fixed(section.height_mm, 3));
+  }
+  const std::string roundness = roundness_of(feature, section);
+  if (!roundness.empty()) caption += " · " + roundness;
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>", svg.str(), caption);
+}
+
+std::string legend(std::size_t shown, std::size_t all, double magnification, bool thinned,
+                   bool sparse) {
+  std::string text = trf(
+      "Deviations about the minimum-zone axis, magnified {}× against the radius, alike in all "
+      "plots. "
+      "Shaded: the zone. {} point on the outer circle, {} point on the inner circle.",
+      fixed(magnification, 0),
+      R"(<svg class="key" aria-hidden="true" viewBox="0 0 12 12" width="12" height="12"><path class="outer" )"
+      R"(d="M6 1l5 10h-10z"/></svg>)",
+      R"(<svg class="key" aria-hidden="true" viewBox="0 0 12 12" width="12" height="12"><rect class="inner" )"
+      R"(x="1.5" y="1.5" width="9" height="9"/></svg>)");
+  if (sparse) text += tr(" The line guides the eye only: nothing was measured between the points.");
+  if (thinned) text += tr(" The line runs through the extremes of 0.5° sectors.");
+  if (shown < all) {
+    text += trf(" {} of {} layers are shown, evenly spaced; all are in report.json.", shown, all);
+  }
+  return R"(<p class="note">)" + text + "</p>";
+}
+
+}  // namespace
+
+std::string polar_plots(const FeatureResult& feature, const Zone& zone) {
+  const std::vector<Section> sections = sections_of(feature);
+  if (sections.empty()) return {};
+  const double half_zone_mm = 0.5 * zone.deviation_mm;
+  const PolarView view{kSectionHalfZone / std::max(half_zone_mm, 1e-5)};
+  const std::size_t shown = std::min(sections.size(), kMostPlots);
+  bool thinned = false;
+  bool sparse = false;
+  std::string plots;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::size_t pick = shown == 1 ? 0 : i * (sections.size() - 1) / (shown - 1);
+    thinned |= sections[pick].thinned;
+    sparse |= has_line(sections[pick]) && sections[pick].rows.size() <= 40;
+    plots += plot(feature, sections[pick], view, half_zone_mm);
+  }
+  const double magnification = view.px_per_mm * zone.mean_radius_mm / kSectionMean;
+  return fmt::format(R"(<h3>{}</h3>{}<div class="multiples{}">{}</div>)", tr("Sections"),
+                     legend(shown, sections.size(), magnification, thinned, sparse),
+                     shown == 1                 ? " single"
+                     : shown == 2 || shown == 4 ? " pairs"
+                                                : "",
+                     plots);
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,136 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "reports/facts.h"
+#include "reports/html/sections.h"
+#include "reports/words/language.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+constexpr std::size_t kMostDecisions = 60;
+constexpr std::size_t kEndDecisions = 20;
+
+std::string property(std::string_view name, const std::string& html) {
+  return fmt::format(R"(<tr><th scope="row">{}</th><td>{}</td></tr>)", name, html);
+}
+
+std::string mono(const std::string& text) {
+  return fmt::format(R"(<span class="mono">{}</span>)", escaped(text));
+}
+
+std::string text_or_dash(const std::string& text) { return text.empty() ? "–" : isolated(text); }
+
+/// Of a text that is the program's own.
+std::string words_or_dash(const std::string& text) { return text.empty() ? "–" : worded(text); }
+
+std::string decision_row(const record::RunRecord& record, const record::Decision& decision) {
+  const auto index = static_cast<std::size_t>(decision.feature);
+  const bool known = decision.feature >= 0 && index < record.features.size();
+  return fmt::format(
+      R"(<tr><td class="n">{}</td><td>{}</td><td>{}</td></tr>)", fixed(decision.time_s, 1),
+      known ? isolated(record.features[index].id) : tr("run"), in_sentence(decision.text));
+}
+
+std::string qualification_rows(const record::RunRecord& record, const fit::ProbeTip& tip) {
+  const record::Artefact& artefact = record.artefact;
+  return property(tr("Effective tip radius"),
+                  trf("{} mm, standard deviation {} µm; nominal {} mm, limit ± {} µm",
+                      fixed(tip.radius_mm, 6), um(tip.radius_sigma_mm),
+                      fixed(artefact.nominal_tip_radius_mm, 6), um(artefact.radius_tolerance_mm))) +
+         property(tr("Probing form"),
+                  trf("{} µm, limit {} µm", um(tip.form_mm), um(artefact.form_limit_mm))) +
+         property(tr("Reference sphere"),
+                  trf("radius {} mm, found at ({}, {}, {}) mm", fixed(artefact.radius_mm, 6),
+                      fixed(tip.sphere_center_mm.x(), 6), fixed(tip.sphere_center_mm.y(), 6),
+                      fixed(tip.sphere_center_mm.z(), 6)));
+}
+
+std::string calibration_row(const std::optional<FixtureUse>& use) {
+  if (!use) return {};
+  std::string text = trf(
+      "{}, measured {}, valid until {}{}; left at combined poses {} µm rms, {} µm at most, {} µrad",
+      isolated(use->id), escaped(use->measured_utc), escaped(use->expires_utc),
+      use->age_days ? trf(", {} days old at the start of the run", fixed(*use->age_days, 1))
+                    : std::string(),
+      um(use->residual_rms_mm), um(use->residual_max_mm), fixed(use->residual_tilt_rad * 1e6, 1));
+  if (use->invalid) {
+    text += fmt::format("; <b>{}</b> {}{}", tr("it does not hold:"), titled(use->invalid->code),
+                        in_sentence(use->invalid->what));
+  }
+  return property(tr("Calibration of the fixture"), text);
+}
+
+}  // namespace
+
+std::string probe_section(const record::RunRecord& record, const Evaluation& evaluation) {
+  const record::Header& header = record.header;
+  std::string rows = property(tr("Machine"), words_or_dash(header.machine)) +
+                     property(tr("Fixture"), words_or_dash(header.fixture)) +
+                     calibration_row(evaluation.fixture);
+  if (header.temperature_max_degC > header.temperature_min_degC) {
+    rows += property(tr("Temperature limits"), trf("{} to {} °C; outside them a result is void",
+                                                   fixed(header.temperature_min_degC, 1),
+                                                   fixed(header.temperature_max_degC, 1)));
+  }
+  if (evaluation.probe) {
+    rows += qualification_rows(record, *evaluation.probe);
+  } else {
+    rows += property(tr("Probe qualification"), tr("none on record"));
+  }
+  return fmt::format(R"(<section><h2>{}</h2><table class="short props">{}{}</table></section>)",
+                     tr("Settings and probe"), spoken_caption(tr("Settings and probe")), rows);
+}
+
+std::string decisions_section(const record::RunRecord& record) {
+  if (record.decisions.empty()) return {};
+  std::string html = fmt::format(
+      R"(<section><h2>{}</h2><table>{}<thead><tr><th scope="col" class="n">{}</th><th scope="col">{}</th><th scope="col">{}</th></tr>)"
+      "</thead><tbody>",
+      tr("Decisions of the program"), spoken_caption(tr("Decisions of the program")),
+      tr("Machine time / s"), tr("Feature"), tr("Decision"));
+  const std::size_t total = record.decisions.size();
+  const bool all = total <= kMostDecisions;
+  for (std::size_t i = 0; i < total; ++i) {
+    if (!all && i == kEndDecisions) {
+      html += fmt::format(R"(<tr><td class="n">…</td><td></td><td>{}</td></tr>)",
+                          trf("{} left out; report.json has all",
+                              count(total - 2 * kEndDecisions, "decision", "decisions")));
+    }
+    if (all || i < kEndDecisions || i + kEndDecisions >= total) {
+      html += decision_row(record, record.decisions[i]);
+    }
+  }
+  return html + "</tbody></table></section>";
+}
+
+std::string provenance_section(const record::RunRecord& record) {
+  const record::Header& header = record.header;
+  std::string rows =
+      property(tr("Run"), text_or_dash(header.run_id)) +
+      property(tr("Started (UTC)"), text_or_dash(header.started_utc)) +
+      property(tr("Ending"), words_or_dash(record.ending)) +
+      property(tr("Touches on record"), std::to_string(record.touches.size())) +
+      property("Rondure", text_or_dash(header.version)) +
+      property(tr("Processor"), header.processor.empty() ? "–" : foreign(header.processor)) +
+      property(tr("Plan file"), text_or_dash(header.plan_file)) +
+      property(tr("Plan SHA-256"), mono(header.plan_sha256));
+  for (const record::Feature& feature : record.features) {
+    if (feature.points_file.empty()) continue;
+    rows += property(tr("Points file"),
+                     isolated(feature.points_file) + "<br/>" + mono(feature.points_sha256));
+  }
+  if (header.simulated) rows += property(tr("Seed of the simulation"), std::to_string(header.seed));
+  rows += property(tr("Decision rule"), isolated(rule_in_words(header)));
+  rows +=
+      property(tr("To verify"),
+               trf("{} computes every number here again from the touches in journal.db and says "
+                   "which digit differs, if any.",
+                   R"(<span class="mono">rondure verify RUN_DIR</span>)"));
+  return fmt::format(R"(<section><h2>{}</h2><table class="props">{}{}</table></section>)",
+                     tr("Provenance"), spoken_caption(tr("Provenance")), rows);
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,128 @@
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "record/sha256.h"
+#include "reports/html/script.h"
+#include "reports/html/sections.h"
+#include "reports/html/style.h"
+#include "reports/words/language.h"
+#include "reports/text.h"
+#include "reports/writers.h"
+
+namespace rondure::reports {
+namespace {
+
+/// A part of the page that the contents point to.
+struct PagePart {
+  std::string id;
+  std::string name;  ///< HTML.
+  std::string html;  ///< Begins with "<section".
+};
+
+/// Base64 (RFC 4648) of bytes that are given in hexadecimal; as many as fill whole groups or leave
+/// two over, as the 32 of a SHA-256 do.
+std::string base64_of_sha256(std::string_view hex) {
+  constexpr std::string_view kLetters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto digit = [](char c) {
+    return static_cast<unsigned>(c <= '9' ? c - '0' : c - 'a' + 10);
+  };
+  std::string out;
+  unsigned bits = 0;
+  unsigned held = 0;
+  for (const char c : hex) {
+    bits = (bits << 4U | digit(c)) & 0xFFFU;
+    held += 4;
+    if (held < 6) continue;
+    held -= 6;
+    out += kLetters[bits >> held & 63U];
+  }
+  if (held > 0) out += kLetters[bits << (6 - held) & 63U];
+  while (out.size() % 4 != 0) out += '=';
+  return out;
+}
+
+/// Nothing is loaded, and no script runs but the one whose digest stands here.
+std::string policy() {
+  return fmt::format(
+      R"(<meta http-equiv="Content-Security-Policy" content="default-src 'none'; )"
+      R"(style-src 'unsafe-inline'; script-src 'sha256-{}'; base-uri 'none'; form-action 'none'"/>)",
+      base64_of_sha256(record::sha256_hex(kScript)));
+}
+
+std::string style() {
+  return fmt::format(
+      "<style>{0}@media screen{{:root[data-theme=dark]{{{1}}}}}\n"
+      "@media screen and (prefers-color-scheme:dark){{:root:not([data-theme=light]){{{1}}}}}\n"
+      "</style>",
+      kStyle, kDarkColours);
+}
+
+/// What stands above the page on a screen: the way past it, the contents, the switch of the theme.
+std::string top_of(const std::vector<PagePart>& parts) {
+  std::string links;
+  for (const PagePart& part : parts) {
+    links += fmt::format(R"(<li><a href="#{}">{}</a></li>)", part.id, part.name);
+  }
+  return fmt::format(
+      R"(<a class="skip screen-only" href="#main">{}</a><header class="top screen-only"><nav )"
+      R"(aria-label="{}"><ul>{}</ul></nav><button type="button" class="theme" )"
+      R"(aria-pressed="false" hidden="hidden">{}</button></header>)",
+      tr("Skip to the result"), tr("Contents"), links, tr("Dark colours"));
+}
+
+/// The parts of the page in their order; those that a run has nothing for are left out.
+std::vector<PagePart> parts_of(const record::RunRecord& record, const Evaluation& evaluation,
+                               const EarlierResults& earlier) {
+  std::vector<PagePart> parts;
+  const auto add = [&](std::string id, std::string name, std::string html) {
+    if (!html.empty()) parts.push_back({std::move(id), std::move(name), std::move(html)});
+  };
+  add("result", tr("Result"), verdict_section(record, evaluation));
+  for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
+    add(fmt::format("feature-{}", i + 1),
+        trf("Feature {}", isolated(evaluation.features[i].feature.id)),
+        feature_section(record, i, evaluation.features[i]));
+  }
+  add("history", tr("Earlier runs"), history_section(record, evaluation, earlier));
+  add("settings", tr("Settings"), probe_section(record, evaluation));
+  add("decisions", tr("Decisions"), decisions_section(record));
+  add("provenance", tr("Provenance"), provenance_section(record));
+  return parts;
+}
+
+}  // namespace
+
+std::string write_html(const record::RunRecord& record, const Evaluation& evaluation,
+                       Language language, const EarlierResults& earlier) {
+  const LanguageScope scope(language);
+  const std::vector<PagePart> parts = parts_of(record, evaluation, earlier);
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\"/>\n{}\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+      "<title>{} {} - {}</title>\n{}\n</head>\n<body>\n{}\n<main id=\"main\">\n{}\n",
+      tag_of(language), policy(), escaped(printable(record.header.part_id)),
+      escaped(printable(record.header.serial)), tr(name_of(evaluation.verdict)), style(),
+      top_of(parts), head_section(record));
+  constexpr std::string_view kTag = "<section";
+  for (const PagePart& part : parts) {
+    html += fmt::format("{} id=\"{}\"{}\n", kTag, part.id, part.html.substr(kTag.size()));
+  }
+  html += fmt::format("</main>\n<footer>{}</footer>\n<script>",
+                      record.series.empty()
+                          ? tr("Made by Rondure from the touches on record; the raw data are in "
+                               "journal.db and touches.csv beside this page.")
+                          : tr("Made by Rondure from the data on record; the raw data are in "
+                               "journal.db and series.csv beside this page."));
+  html += kScript;
+  return html + "</script>\n</body>\n</html>\n";
+}
+
+Language language_of_page(std::string_view page) {
+  const std::string mark = fmt::format("<html lang=\"{}\">", tag_of(Language::kChinese));
+  return page.substr(0, 200).find(mark) == std::string_view::npos ? Language::kEnglish
+                                                                  : Language::kChinese;
+}
+
+}  // namespace rondure::reports

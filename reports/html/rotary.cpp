@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/html/sections.h"
+#include "reports/words/language.h"
+#include "reports/html/plot_curve.h"
+#include "reports/rotary_result.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+using core::kDegree;
+using core::kMicrometre;
+
+constexpr double kCoverage = 2.0;  // of the bands: standard uncertainties
+constexpr int kCurvePoints = 121;
+
+/// One of the six errors: place in (t; w), title of its chart, column of the hidden truth.
+struct ErrorName {
+  Eigen::Index index = 0;
+  const char* title = "";
+  const char* truth = "";
+};
+
+constexpr std::array<ErrorName, 6> kErrorNames = {
+    {{0, translatable("shift along x"), "shift_x_um"},
+     {1, translatable("shift along y"), "shift_y_um"},
+     {2, translatable("shift along z"), "shift_z_um"},
+     {3, translatable("tilt about x"), "tilt_x_urad"},
+     {4, translatable("tilt about y"), "tilt_y_urad"},
+     {5, translatable("tilt about z"), "tilt_z_urad"}}};
+
+double unit_of(Eigen::Index index) { return index < 3 ? kMicrometre : kMicroradian; }
+
+double value_of(const fixture::AxisErrors& errors, Eigen::Index index) {
+  return (index < 3 ? errors.shift_mm(index) : errors.tilt_rad(index - 3)) / unit_of(index);
+}
+
+double sigma_of(const fixture::ErrorCovariance& covariance, Eigen::Index index) {
+  return std::sqrt(std::max(0.0, covariance(index, index))) / unit_of(index);
+}
+
+/// The smooth model with its band.
+Curve model_curve(const fixture::StationMotion& motion, Eigen::Index index) {
+  Curve out;
+  out.name = tr("spline, band ±2 u");
+  out.css_class = "zone-inner";
+  for (int i = 0; i < kCurvePoints; ++i) {
+    const double angle =
+        motion.min_rad() + (motion.max_rad() - motion.min_rad()) * i / (kCurvePoints - 1);
+    out.x.push_back(angle / kDegree);
+    out.y.push_back(value_of(motion.at(angle), index));
+    out.band.push_back(kCoverage * sigma_of(motion.covariance_at(angle), index));
+  }
+  return out;
+}
+
+Curve station_marks(const fixture::StationMotion& motion, Eigen::Index index) {
+  Curve out;
+  out.name = tr("stations");
+  out.marks_only = true;
+  for (const fixture::AxisStation& station : motion.stations()) {
+    out.x.push_back(station.angle_rad / kDegree);
+    out.y.push_back(value_of(station.errors, index));
+  }
+  return out;
+}
+
+std::string axis_charts(const AxisFacts& axis, const record::Series* truth) {
+  std::string html = R"(<div class="scroll">)";
+  for (const ErrorName& error : kErrorNames) {
+    std::vector<Curve> curves = {model_curve(*axis.motion, error.index),
+                                 station_marks(*axis.motion, error.index)};
+    if (truth != nullptr) {
+      const auto x = truth->column("angle_deg");
+      const auto y = truth->column(error.truth);
+      if (x && y) curves.push_back({tr("hidden truth"), "mean", *x, *y});
+    }
+    html += line_chart(trf("Axis {}: {}", axis.key, tr(error.title)),
+                       fmt::format("phi {} / °", axis.key),
+                       error.index < 3 ? tr("error / µm") : tr("error / µrad"), curves);
+  }
+  return html + "</div>";
+}
+
+std::string with_u(double value, double u, int decimals) {
+  return fmt::format("{} ± {}", fixed(value, decimals), fixed(kCoverage * u, decimals));
+}
+
+/// Location and orientation of both axes: what does not depend on the angle.
+std::string location_table(const RotaryFacts& facts) {
+  std::string html = fmt::format(
+      R"(<div class="scroll"><table>{}<thead><tr><th scope="col">{}</th><th scope="col">d x / µm</th><th scope="col">d y / µm</th>)"
+      R"(<th scope="col">d z / µm</th><th scope="col">e x / µrad</th><th scope="col">e y / µrad</th><th scope="col">e z / µrad</th></tr></thead>)"
+      "<tbody>",
+      spoken_caption(tr("Location and orientation of the axes")), tr("Axis"));
+  for (const AxisFacts& axis : axes_of(facts)) {
+    html += fmt::format("<tr><td>{}</td>", axis.key);
+    if (!axis.study->offset) {
+      html += fmt::format(R"(<td colspan="6">{}</td></tr>)",
+                          tr("the stations span less than 45°: not separated"));
+      continue;
+    }
+    const fit::AxisOffset& o = *axis.study->offset;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      html +=
+          fmt::format("<td>{}</td>", with_u(o.d_mm(i) / kMicrometre, o.d_u_mm(i) / kMicrometre, 2));
+    }
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      html += fmt::format("<td>{}</td>",
+                          with_u(o.e_rad(i) / kMicroradian, o.e_u_rad(i) / kMicroradian, 1));
+    }
+    html += "</tr>";
+  }
+  return html + "</tbody></table></div>";
+}
+
+std::string combined_table(const RotaryFacts& facts) {
+  std::string html = fmt::format(
+      R"(<div class="scroll"><table>{}<thead><tr><th scope="col">alpha</th><th scope="col">beta</th><th scope="col">{}</th>)"
+      R"(<th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th>)"
+      R"(<th scope="col">{}</th></tr></thead><tbody>)",
+      spoken_caption(tr("Combined poses")), tr("balls"), tr("before, rms / µm"),
+      tr("left, rms / µm"), tr("largest / µm"), tr("tilt / µrad"));
+  for (const CombinedPose& pose : facts.combined) {
+    html += fmt::format(
+        "<tr><td>{}°</td><td>{}°</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+        deg(pose.pose.alpha_rad, 2), deg(pose.pose.beta_rad, 2), pose.points,
+        um(pose.before_rms_mm), um(pose.rms_mm), um(pose.max_mm),
+        fixed(pose.tilt_rad / kMicroradian, 1));
+  }
+  return html + "</tbody></table></div>";
+}
+
+std::string key_numbers(const RotaryFacts& facts) {
+  const fixture::Calibration& c = facts.calibration;
+  const fixture::Verification& v = c.verification;
+  std::string html = R"(<dl class="keys">)";
+  html += entry(tr("Left at combined poses"),
+                with_note(trf("{} µm rms", um(v.rms_mm)),
+                          trf("{} µm at most, {} µrad; {} µm rms expected", um(v.max_mm),
+                              fixed(v.max_tilt_rad / kMicroradian, 1), um(v.expected_mm))),
+                "lead");
+  html += entry(tr("Before compensation"), with_note(trf("{} µm rms", um(v.before_rms_mm)),
+                                                     trf("{} µm at most", um(v.before_max_mm))));
+  html += entry(tr("Fixture"),
+                with_note(isolated(c.fixture_id),
+                          trf("{} to {}", escaped(c.measured_utc), escaped(c.expires_utc))));
+  html += entry(tr("Touches"), with_note(trf("{} of {} balls in {} poses", facts.touches,
+                                             facts.balls.size(), facts.poses),
+                                         trf("scatter {} µm; u of a centre coordinate {} µm",
+                                             um(facts.touch_sigma_mm), um(facts.center_u_mm))));
+  html += entry(tr("Condition of the balls"),
+                with_note(fixed(facts.condition, 2), tr("1 is best, above 10 is poor")));
+  html += entry(tr("Drift of the zero pose"),
+                with_note(um(facts.alpha.drift_mm) + " µm", tr("largest, of a ball")));
+  return html + "</dl>";
+}
+
+}  // namespace
+
+std::string RotaryResult::html(const record::RunRecord& record, int feature) const {
+  std::string html = key_numbers(facts_);
+  html += fmt::format("<h3>{}</h3>{}", tr("Combined poses"), combined_table(facts_));
+  html += fmt::format("<h3>{}</h3>{}", tr("Location and orientation of the axes"),
+                      location_table(facts_));
+  html += fmt::format(
+      R"(<p class="note">{}</p>)",
+      tr("Displacement d and tilt e of the real axis against the stated one, ± 2 u, as far as an "
+         "axis beside its place explains the errors below. Compensation uses the whole errors."));
+  for (const AxisFacts& axis : axes_of(facts_)) {
+    html += fmt::format("<h3>{}</h3>", tr(axis.name));
+    html += axis_charts(axis, record.truth_series_of(feature, axis.key));
+  }
+  return html +
+         fmt::format(
+             R"(<p class="note">{}</p>)",
+             tr("Errors relative to the zero pose, at the axis. A dashed line, where there "
+                "is one, is the hidden truth of the simulation: evaluation never reads it."));
+}
+
+}  // namespace rondure::reports

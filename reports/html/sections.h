@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "record/run_record.h"
+#include "reports/history/earlier_results.h"
+#include "reports/evaluation.h"
+
+namespace rondure::reports {
+
+/// The parts of the page, in their order.
+[[nodiscard]] std::string head_section(const record::RunRecord& record);
+[[nodiscard]] std::string verdict_section(const record::RunRecord& record,
+                                          const Evaluation& evaluation);
+[[nodiscard]] std::string feature_section(const record::RunRecord& record, std::size_t index,
+                                          const FeatureResult& feature);
+/// The rule behind the verdicts, in words, with its statements.
+[[nodiscard]] std::string rule_section(const Evaluation& evaluation);
+/// Intervals, bias, budget and declaration of the values of a feature; empty without any.
+[[nodiscard]] std::string uncertainty_section(const FeatureResult& feature);
+/// Harmonics of dense sections with the limits of a mask, and what goes beyond them; empty for
+/// sparse ones.
+[[nodiscard]] std::string harmonics_section(const FeatureResult& feature);
+/// Table of the poses of a feature; empty when it has none.
+[[nodiscard]] std::string pose_table(const FeatureResult& feature);
+[[nodiscard]] std::string probe_section(const record::RunRecord& record,
+                                        const Evaluation& evaluation);
+[[nodiscard]] std::string decisions_section(const record::RunRecord& record);
+/// Run charts with earlier results; empty without any.
+[[nodiscard]] std::string history_section(const record::RunRecord& record,
+                                          const Evaluation& evaluation,
+                                          const EarlierResults& earlier);
+[[nodiscard]] std::string provenance_section(const record::RunRecord& record);
+
+/// How the clouds of several poses became one, and what the fixture adds.
+[[nodiscard]] std::string merged_section(const MergedPoses& merged);
+/// Why a feature has no result, and its warnings.
+[[nodiscard]] std::string messages(const FeatureResult& feature);
+/// A value with small print below it.
+[[nodiscard]] std::string with_note(const std::string& value, const std::string& note);
+
+/// The name of a table for those who do not see the heading above it; HTML already.
+[[nodiscard]] std::string spoken_caption(std::string_view html);
+/// "<div><dt>name</dt><dd>html</dd></div>"; both are HTML already.
+[[nodiscard]] std::string entry(std::string_view name, std::string_view html,
+                                std::string_view css_class = {});
+/// The same of a plain text; nothing without one.
+[[nodiscard]] std::string fact(std::string_view name, const std::string& text);
+
+}  // namespace rondure::reports

@@ -1,0 +1,197 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/html/sections.h"
+#include "reports/words/language.h"
+#include "reports/html/plot_curve.h"
+#include "reports/spindle_result.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+std::vector<double> scaled_um(const std::vector<double>& values_mm) {
+  std::vector<double> out;
+  out.reserve(values_mm.size());
+  for (const double value : values_mm) out.push_back(value / core::kMicrometre);
+  return out;
+}
+
+std::vector<double> profile_angles(const fit::UniformProfile& profile) {
+  std::vector<double> out;
+  for (std::size_t n = 0; n < profile.r_mm.size(); ++n) out.push_back(profile.angle_rad(n));
+  return out;
+}
+
+std::string motion_entry(const std::string& direction, const fit::AxisMotion& motion) {
+  return entry(
+      trf("Motion {}, total", direction),
+      with_note(um(motion.total_mm) + " µm",
+                trf("synchronous {} µm, {}", um(motion.synchronous_mm),
+                    motion.asynchronous_mm ? trf("asynchronous {} µm", um(*motion.asynchronous_mm))
+                                           : tr("one revolution shows no asynchronous part"))));
+}
+
+std::string key_numbers(const SpindleFacts& facts) {
+  const fit::ThreeProbeResult& s = facts.separation;
+  std::string html = R"(<dl class="keys">)";
+  for (const fit::Roundness& value : facts.roundness.values) {
+    const bool ls = value.reference == fit::CircleReference::kLs;
+    std::string note;
+    if (ls && value.parameters) {
+      note = fmt::format("RONp {}, RONv {}, RONq {} µm", um(value.parameters->peak_mm),
+                         um(value.parameters->valley_mm), um(value.parameters->rms_mm));
+    }
+    const std::string name =
+        trf("Part, RONt about {}CI", ls                                             ? "LS"
+                                     : value.reference == fit::CircleReference::kMz ? "MZ"
+                                     : value.reference == fit::CircleReference::kMc ? "MC"
+                                                                                    : "MI");
+    html += entry(name, with_note(um(value.total_mm) + " µm", note), ls ? "lead" : "");
+  }
+  html += motion_entry("X", facts.x) + motion_entry("Y", facts.y);
+  html += entry(tr("Eccentricity"),
+                with_note(um(s.eccentricity_mm) + " µm",
+                          trf("toward {}° on the part; taken out of the motion, with any "
+                              "motion of the same shape",
+                              deg(s.eccentricity_rad, 2))));
+  html +=
+      entry(tr("Noise of a reading"),
+            with_note(um(s.noise_mm) + " µm", s.noise_estimated ? tr("estimated from the readings")
+                                                                : tr("as stated in the plan")));
+  html += entry(tr("Profile known to"),
+                with_note(um(s.profile_sigma_mm) + " µm",
+                          tr("rms, one standard uncertainty from probe noise")));
+  html += entry(tr("Check at one undulation"),
+                with_note(um(s.first_harmonic_mm) + " µm",
+                          trf("must vanish; limit {} µm. A pass is no proof of the angles",
+                              um(s.first_harmonic_limit_mm))));
+  const auto angles = s.layout.angles_rad();
+  html +=
+      entry(tr("Probes"),
+            trf("{} with probes at 0°, {}° and {}°; weights 1, {}, {}",
+                facts.arm.swings() ? tr("tracking") : tr("static"), deg(angles[1]), deg(angles[2]),
+                fixed(s.layout.weights()[1], 6), fixed(s.layout.weights()[2], 6)),
+            "wide-key");
+  return html + "</dl>";
+}
+
+/// The truth of a simulation as a curve, or nothing.
+void add_truth(const record::Series* truth, const char* column, std::vector<Curve>& curves) {
+  if (truth == nullptr) return;
+  const auto angles = truth->column("angle_deg");
+  auto values = truth->column(column);
+  if (!angles || !values) return;
+  Curve curve{tr("hidden truth"), "zone-outer", {}, *std::move(values)};
+  for (const double angle : *angles) curve.x.push_back(angle * core::kDegree);
+  curves.push_back(std::move(curve));
+}
+
+std::string part_plot(const SpindleFacts& facts, const record::Series* truth) {
+  std::vector<Curve> curves;
+  add_truth(truth, "profile_um", curves);
+  const fit::UniformProfile& profile = facts.separation.profile;
+  curves.push_back({tr("part"), "profile", profile_angles(profile), scaled_um(profile.r_mm)});
+  return polar_chart(tr("Part, harmonics recovered"), curves);
+}
+
+std::string motion_plot(const std::string& title, const std::vector<double>& alpha_rad,
+                        const fit::AxisMotion& motion) {
+  std::vector<Curve> curves;
+  for (std::size_t j = 0; j < motion.turns_mm.size() && motion.turns_mm.size() > 1; ++j) {
+    curves.push_back({j == 0 ? tr("revolutions") : std::string(), "guide", alpha_rad,
+                      scaled_um(motion.turns_mm[j])});
+  }
+  curves.push_back({tr("synchronous"), "profile", alpha_rad, scaled_um(motion.mean_mm)});
+  return polar_chart(title, curves);
+}
+
+/// What the mean revolution leaves of every revolution.
+std::string asynchronous_plot(const std::string& title, const std::vector<double>& alpha_rad,
+                              const fit::AxisMotion& motion) {
+  if (motion.turns_mm.size() < 2) return {};
+  std::vector<Curve> curves;
+  for (const auto& turn : motion.turns_mm) {
+    std::vector<double> apart;
+    for (std::size_t n = 0; n < turn.size(); ++n)
+      apart.push_back((turn[n] - motion.mean_mm[n]) / core::kMicrometre);
+    curves.push_back({"", "profile", alpha_rad, std::move(apart)});
+  }
+  return polar_chart(title, curves, false);
+}
+
+std::string harmonic_plots(const SpindleFacts& facts,
+                           const std::vector<record::Characteristic>& asked) {
+  std::vector<Bar> amplitudes;
+  std::vector<Bar> gains;
+  for (const fit::RecoveredHarmonic& h : facts.separation.harmonics) {
+    amplitudes.push_back({h.order, h.amplitude_mm / core::kMicrometre, !h.recovered});
+    gains.push_back({h.order, h.recovered ? h.gain : 0.0, !h.recovered});
+  }
+  std::vector<BarLimit> limits;
+  for (const record::Characteristic& characteristic : asked) {
+    for (const record::HarmonicLimit& line : characteristic.harmonic_limits)
+      limits.push_back({line.first, line.last, line.amplitude_mm / core::kMicrometre});
+  }
+  const std::string orders = tr("undulations per revolution");
+  return fmt::format(
+      R"(<h3>{}</h3><div class="scroll">{}{}</div>)", tr("Harmonics of the part"),
+      bar_chart(tr("Amplitudes before the filter; lines: limits of the mask; crosses: not "
+                   "recovered"),
+                orders, tr("amplitude in µm"), amplitudes, limits),
+      bar_chart(tr("Noise gain: how much the separation amplifies the noise of a probe"), orders,
+                tr("gain"), gains));
+}
+
+std::string harmonic_row(const fit::RecoveredHarmonic& h) {
+  return fmt::format(
+      R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td>)"
+      R"(<td class="n">{}</td><td class="n">{}</td></tr>)",
+      h.order, h.recovered ? fixed(h.amplitude_mm / core::kMicrometre, 4) : tr("not recovered"),
+      h.phase_rad ? deg(*h.phase_rad, 2) : "–",
+      h.recovered ? fixed(h.sigma_mm / core::kMicrometre, 4) : "–", fixed(h.gain, 2),
+      h.attenuation < 1.0 ? fixed(h.attenuation, 4) : "–");
+}
+
+/// The ten largest harmonics, and all that were lost.
+std::string harmonic_table(const fit::ThreeProbeResult& s) {
+  std::vector<fit::RecoveredHarmonic> shown = s.harmonics;
+  std::stable_sort(shown.begin(), shown.end(), [](const auto& a, const auto& b) {
+    return a.recovered != b.recovered ? b.recovered : a.amplitude_mm > b.amplitude_mm;
+  });
+  const std::size_t count = std::min(shown.size(), s.unrecovered.size() + 10);
+  std::string rows;
+  for (std::size_t i = 0; i < count; ++i) rows += harmonic_row(shown[i]);
+  return fmt::format(
+      R"(<div class="scroll"><table class="short">{}<thead><tr><th scope="col" class="n">UPR</th><th scope="col" class="n">)"
+      R"({}</th><th scope="col" class="n">{}</th><th scope="col" class="n">u µm</th><th scope="col" class="n">{}</th>)"
+      R"(<th scope="col" class="n">{}</th></tr></thead><tbody>{}</tbody></table></div><p class="note">{}</p>)",
+      spoken_caption(tr("Harmonics of the part")), tr("Amplitude µm"), tr("Phase °"), tr("Gain"),
+      tr("Attenuation"), rows,
+      tr("The ten largest, and those not recovered; all are in report.json."));
+}
+
+}  // namespace
+
+std::string SpindleResult::html(const record::RunRecord& record, int feature) const {
+  const fit::ThreeProbeResult& s = facts_.separation;
+  const record::Series* truth = record.truth_series_of(feature, "truth");
+  std::string html = key_numbers(facts_);
+  html += fmt::format(
+      R"(<h3>{}</h3><p class="note">{}</p><div class="multiples">)", tr("Part and motion"),
+      tr("Deviations against a mean circle; every plot has its own magnification, the bar says "
+         "which. Motion is shown over the work angle, about the least-squares centre of its mean "
+         "revolution (ISO 230-7, fixed direction)."));
+  html += part_plot(facts_, truth);
+  html += motion_plot(tr("Motion X"), s.alpha_rad, facts_.x);
+  html += motion_plot(tr("Motion Y"), s.alpha_rad, facts_.y);
+  html += asynchronous_plot(tr("Asynchronous X"), s.alpha_rad, facts_.x);
+  html += asynchronous_plot(tr("Asynchronous Y"), s.alpha_rad, facts_.y);
+  html += "</div>";
+  const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
+  return html + harmonic_plots(facts_, asked) + harmonic_table(s);
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,148 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "reports/facts.h"
+#include "reports/html/plots.h"
+#include "reports/html/sections.h"
+#include "reports/words/language.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+/// What the letters of the formula stand for.
+constexpr const char* kFormulaLetters = translatable(
+    "T: the tolerance; y: the value corrected for noise (and, of the whole surface, for sparse "
+    "sampling); [lo, hi]: its coverage interval; U: half its width. In the bars above: the line is "
+    "T, "
+    "the shaded band about it the guard bands, the whisker the interval.");
+
+std::string statements(const DecisionRule& rule) {
+  std::string html;
+  const auto add = [&](const std::string& name, const std::string& text) {
+    if (!text.empty()) html += entry(name, isolated(text));
+  };
+  add(tr("Zones"), rule.zones);
+  add(tr("Outcomes"), rule.outcomes);
+  add(tr("Repeated measurements"), rule.repeats);
+  add(tr("Outliers"), rule.outliers);
+  return html.empty() ? html : "<dl>" + html + "</dl>";
+}
+
+std::string statement_entry(const std::string& name, const UncertaintyStatement& s,
+                            double coverage_1) {
+  const int decimals = decimals_for(s.expanded_mm());
+  const auto number = [&](double mm) { return fixed(mm * 1e3, decimals); };
+  return entry(name,
+               with_note(fmt::format("{} µm [{}, {}]", number(s.estimate_mm), number(s.low_mm),
+                                     number(s.high_mm)),
+                         trf("corrected value; {:g} % interval, U = {} µm, standard uncertainty {} "
+                             "µm; numbers stable to {} µm",
+                             100.0 * coverage_1, number(s.expanded_mm()),
+                             fixed(s.standard_uncertainty_mm * 1e3, decimals + 1),
+                             tiny_um(s.numerical_tolerance_mm))),
+               "lead");
+}
+
+std::string bias_entries(const UncertaintyResult& u) {
+  std::string html =
+      entry(tr("Bias by noise"), with_note(signed_um(u.noise_inflation_mm) + " µm",
+                                           tr("expected inflation: measured minus free of noise, "
+                                              "at the sampled points")));
+  html += u.sampling_loss_mm
+              ? entry(tr("Bias by sparse sampling"),
+                      with_note(signed_um(*u.sampling_loss_mm) + " µm",
+                                tr("expected loss: at the sampled points minus of the whole "
+                                   "surface")))
+              : entry(tr("Bias by sparse sampling"),
+                      with_note(tr("not stated"),
+                                tr("no form spectrum was declared: nothing is said of the surface "
+                                   "between the points")));
+  return html;
+}
+
+/// What the form model found in the cloud.
+std::string finding_entry(const UncertaintyResult& u) {
+  const FormFinding& found = u.finding;
+  std::string note = tr("means over the draws; spots are form and are never smoothed away");
+  if (!found.spot_rows.empty()) {
+    std::string rows;
+    for (const std::size_t row : found.spot_rows) {
+      rows += fmt::format("{}{}", rows.empty() ? "" : ", ", row + 1);
+    }
+    note += trf("; spots at points {}", rows);
+  }
+  for (const std::string& said : u.notes) note += "; " + in_sentence(said);
+  return entry(tr("Made of"),
+               with_note(trf("noise {} µm a point, rougher form {} µm, {} undulations, {} spots",
+                             fixed(1e3 * found.noise_mm, 3), fixed(1e3 * found.unresolved_mm, 3),
+                             fixed(found.groups, 1), fixed(found.spots, 1)),
+                         note),
+               "wide-key");
+}
+
+std::string declaration(const std::vector<InfluenceStatement>& influences) {
+  std::string rows;
+  for (const bool covered : {true, false}) {
+    for (const InfluenceStatement& influence : influences) {
+      if (influence.covered != covered) continue;
+      rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>", worded(influence.name),
+                          covered ? tr("covered") : fmt::format("<b>{}</b>", tr("not covered")),
+                          in_sentence(influence.text));
+    }
+  }
+  return fmt::format(
+      R"(<table class="short">{}<thead><tr><th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th></tr>)"
+      "</thead><tbody>{}</tbody></table>",
+      spoken_caption(tr("Influence")), tr("Influence"), tr("In the interval"), tr("As declared"),
+      rows);
+}
+
+std::string value_part(const CharacteristicResult& result) {
+  const UncertaintyStatus& status = result.value->uncertainty();
+  const UncertaintyResult& u = *status.result();
+  std::string html = fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)",
+                                 trf("Uncertainty of {}", isolated(result.characteristic.id)),
+                                 trf("{}. Monte Carlo of {} trials (JCGM 101).",
+                                     in_sentence(result.value->sentence()), u.trials));
+  html += R"(<dl class="keys">)";
+  html += entry(tr("As read, not corrected"), um(u.uncorrected_mm) + " µm");
+  html +=
+      statement_entry(tr("At the sampled points, free of noise"), u.sampled, status.coverage_1());
+  if (u.whole) {
+    html += statement_entry(tr("Of the whole surface"), *u.whole, status.coverage_1());
+    html += entry(tr("Form spectrum of it"), in_sentence(u.spectrum_source), "wide-key");
+  }
+  html += bias_entries(u) + finding_entry(u) + "</dl>";
+  if (const std::string bars = budget_bars(u.budget); !bars.empty()) {
+    html += fmt::format(
+        R"(<figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)", bars,
+        tr("Budget: what each influence does alone, ranked: standard uncertainty, share of the sum "
+           "of squares, mean shift of the value. Blue: at the sampled points, shares among "
+           "themselves; orange: of the whole surface, share of all."));
+  }
+  return html + declaration(u.declaration);
+}
+
+}  // namespace
+
+std::string rule_section(const Evaluation& evaluation) {
+  if (!evaluation.rule || !evaluation.rule->needs_interval()) {
+    return fmt::format(R"(<p class="note">{}</p>)",
+                       trf("Decision rule: {}.", in_sentence(rule_sentence(evaluation))));
+  }
+  return fmt::format(R"(<div class="rule"><b>{}</b> {}<div class="note">{}</div>{}</div>)",
+                     tr("Decision rule."), trf("{}.", in_sentence(rule_sentence(evaluation))),
+                     tr(kFormulaLetters), statements(*evaluation.rule));
+}
+
+std::string uncertainty_section(const FeatureResult& feature) {
+  std::string html;
+  for (const CharacteristicResult& result : feature.characteristics) {
+    if (result.value && result.value->uncertainty().result()) html += value_part(result);
+  }
+  return html;
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,205 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "reports/facts.h"
+#include "reports/html/plots.h"
+#include "reports/html/sections.h"
+#include "reports/words/language.h"
+#include "reports/text.h"
+
+namespace rondure::reports {
+namespace {
+
+std::string css_name(Verdict verdict) {
+  std::string name = fmt::format("is-{}", name_of(verdict));
+  std::replace(name.begin(), name.end(), ' ', '-');
+  return name;
+}
+
+/// Why the verdict is what it is, in one line.
+std::string sentence(const Evaluation& evaluation) {
+  std::size_t toleranced = 0;
+  std::size_t conforming = 0;
+  const CharacteristicResult* only = nullptr;
+  for (const FeatureResult& feature : evaluation.features) {
+    for (const CharacteristicResult& result : feature.characteristics) {
+      if (!result.characteristic.tolerance_mm) continue;
+      ++toleranced;
+      only = &result;
+      if (result.verdict == Verdict::kConforms) ++conforming;
+    }
+  }
+  if (toleranced == 0) return tr("No characteristic has a tolerance.");
+  if (toleranced > 1) {
+    return conforming == 1
+               ? trf("{} of {} toleranced characteristics conforms.", conforming, toleranced)
+               : trf("{} of {} toleranced characteristics conform.", conforming, toleranced);
+  }
+  const std::string limit = um(*only->characteristic.tolerance_mm);
+  if (!only->value) return trf("There is no value to hold against {} µm.", limit);
+  return trf("{} {}, limit {} µm.", tr(symbol_of(only->characteristic)),
+             in_sentence(only->value->value_text()), limit);
+}
+
+std::string unfinished_banner(const record::RunRecord& record, const Evaluation& evaluation) {
+  if (record.ending == "finished") return {};
+  std::string html =
+      fmt::format(R"(<div class="banner alarm"><b>{}</b> )", tr("This run did not finish."));
+  html += record.ending.empty() ? tr("It has no end on record.")
+                                : trf("It ended: {}.", worded(record.ending));
+  if (record.failure) {
+    html += fmt::format(R"( {} {}{} <span class="code">{}</span>)", tr("Reason:"),
+                        titled(record.failure->code), foreign(record.failure->what),
+                        core::code_name(record.failure->code));
+    if (!record.failure->where.empty()) html += trf(" at {}", foreign(record.failure->where));
+  }
+  html += "<ul>";
+  for (const std::string& part : missing_parts(record, evaluation)) {
+    html += fmt::format("<li>{}</li>", isolated(part));
+  }
+  return html + "</ul></div>";
+}
+
+/// The tolerance frame of a drawing: symbol, limit in mm.
+std::string tolerance_frame(const record::Characteristic& asked) {
+  std::string limit;
+  if (asked.tolerance_mm) limit = fmt::format("<span>{:g}</span>", *asked.tolerance_mm);
+  return fmt::format(R"(<span class="frame-box"><span>{}</span>{}</span>)", form_symbol(asked.form),
+                     limit);
+}
+
+std::string bar_cell(const CharacteristicResult& result) {
+  const auto& limit = result.characteristic.tolerance_mm;
+  if (!result.value || !limit || !(*limit > 0.0)) return "<td></td>";
+  return fmt::format(
+      R"(<td>{}<div class="note">{}</div></td>)", tolerance_bar(result, *limit),
+      trf("{} % of the limit", fixed(100.0 * result.value->quoted_mm() / *limit, 0)));
+}
+
+/// The value that decides; with an interval its estimate, that interval and the value as read.
+std::string value_cell(const StatedValue& value) {
+  std::string html =
+      fmt::format(R"(<span class="value">{}</span> µm)", value.in_digits(value.quoted_mm()));
+  if (const UncertaintyStatement* known = value.statement()) {
+    html += fmt::format(R"(<div class="note">[{}, {}]</div><div class="note">{}</div>)",
+                        value.in_digits(known->low_mm), value.in_digits(known->high_mm),
+                        trf("as read {}", value.in_digits(value.value_mm())));
+  }
+  return html;
+}
+
+/// A probability that was counted in trials, no finer than they tell.
+std::string percent(double share_1, double trials) {
+  const double finest = std::pow(10.0, std::ceil(std::log10(100.0 / trials)));  // in percent
+  if (share_1 * trials < 0.5) return trf("below {:g} %", finest);
+  if ((1.0 - share_1) * trials < 0.5) return trf("above {:g} %", 100.0 - finest);
+  const int decimals = std::max(0, -static_cast<int>(std::lround(std::log10(finest))));
+  return fixed(100.0 * share_1, decimals) + " %";
+}
+
+/// Probability of conformance and risks; empty without an interval.
+std::string risks_in_words(const CharacteristicResult& result) {
+  std::string html;
+  if (!result.outcome->conformance_1) return html;
+  const double trials = result.value->uncertainty().result()->trials;
+  html += "<br/>" +
+          trf("Probability of conformance: {}.", percent(*result.outcome->conformance_1, trials));
+  if (const auto risk = result.outcome->specific_risk_1()) {
+    html += result.verdict == Verdict::kConforms
+                ? trf(" Specific consumer's risk of this verdict: {}.", percent(*risk, trials))
+                : trf(" Specific producer's risk of this verdict: {}.", percent(*risk, trials));
+  }
+  if (result.risks) {
+    html += trf(
+        " Over the parts of the stated prior: {} conform not and are accepted (global consumer's "
+        "risk), {} conform and are rejected (global producer's risk).",
+        percent(result.risks->false_acceptance_1, trials),
+        percent(result.risks->false_rejection_1, trials));
+  }
+  return html;
+}
+
+std::string row(const FeatureResult& feature, const CharacteristicResult& result) {
+  const record::Characteristic& asked = result.characteristic;
+  std::string html =
+      fmt::format(R"(<tr><td>{}<span class="id">{}</span><div class="note">{}</div></td>)",
+                  tolerance_frame(asked), isolated(asked.id),
+                  trf("{} {} · feature {}", tr(symbol_of(asked)), reference_of(asked),
+                      isolated(feature.feature.id)));
+  html += fmt::format(R"(<td class="n" data-l="{}">{}</td>)", tr("Value"),
+                      result.value ? value_cell(*result.value) : tr("none"));
+  html += fmt::format(R"(<td class="n" data-l="{}">{}</td>)", tr("Limit"),
+                      asked.tolerance_mm ? um(*asked.tolerance_mm) + " µm" : tr("none"));
+  html += bar_cell(result);
+  html += fmt::format(R"(<td class="verdict-word {}">{}{}</td>)", css_name(result.verdict),
+                      verdict_mark(result.verdict, 20), capitalised(tr(name_of(result.verdict))));
+  html += asked.drawing_zone.empty() ? std::string("<td></td></tr>")
+                                     : fmt::format(R"(<td data-l="{}">{}</td></tr>)", tr("Zone"),
+                                                   isolated(asked.drawing_zone));
+  std::string words = opening_sentence(result.reason);
+  if (result.outcome) words += risks_in_words(result);
+  if (result.value)
+    words += "<br/>" + trf("Verification operator: {}", in_sentence(result.value->operator_text()));
+  return html + R"(<tr class="words"><td colspan="6">)" + words + "</td></tr>";
+}
+
+std::string results_table(const Evaluation& evaluation) {
+  std::string rows;
+  for (const FeatureResult& feature : evaluation.features) {
+    for (const CharacteristicResult& result : feature.characteristics) rows += row(feature, result);
+  }
+  if (rows.empty()) return fmt::format("<p>{}</p>", tr("No characteristic was asked for."));
+  return fmt::format(
+             R"(<table class="results">{}<thead><tr><th scope="col">{}</th><th scope="col" class="n">{}</th>)"
+             R"(<th scope="col" class="n">{}</th><th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th></tr></thead><tbody>)",
+             spoken_caption(tr("Result")), tr("Characteristic"), tr("Value"), tr("Limit"),
+             tr("Value against limit"), tr("Verdict"), tr("Zone")) +
+         rows + "</tbody></table>";
+}
+
+}  // namespace
+
+std::string entry(std::string_view name, std::string_view html, std::string_view css_class) {
+  if (css_class.empty()) return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, html);
+  return fmt::format(R"(<div class="{}"><dt>{}</dt><dd>{}</dd></div>)", css_class, name, html);
+}
+
+std::string fact(std::string_view name, const std::string& text) {
+  return text.empty() ? std::string() : entry(name, isolated(text));
+}
+
+std::string head_section(const record::RunRecord& record) {
+  const record::Header& header = record.header;
+  std::string html = fmt::format(
+      R"(<header><div class="brand"><span><b>RONDURE</b> {}</span><span>{}</span></div>)",
+      tr("cylindricity report"), isolated(header.started_utc));
+  html += fmt::format("<h1>{}", isolated(header.part_id));
+  if (!header.part_name.empty()) html += fmt::format(" {}", isolated(header.part_name));
+  html += R"(</h1><dl class="facts">)";
+  html += fact(tr("Serial"), header.serial) + fact(tr("Drawing"), header.drawing) +
+          fact(tr("Plan"), header.plan_name) + fact(tr("Revision"), header.plan_revision) +
+          fact(tr("Operator"), header.operator_name) + fact(tr("Run"), header.run_id);
+  return html + "</dl></header>";
+}
+
+std::string verdict_section(const record::RunRecord& record, const Evaluation& evaluation) {
+  const Verdict verdict = evaluation.verdict;
+  std::string html = "<section>";
+  html += unfinished_banner(record, evaluation);
+  html += fmt::format(
+      R"(<div class="verdict">{}<div><div class="word {}" role="heading" aria-level="2">{}</div><div class="why">{}</div>)"
+      "</div></div>",
+      verdict_mark(verdict, 76), css_name(verdict), capitalised(tr(name_of(verdict))),
+      sentence(evaluation));
+  if (record.header.simulated) {
+    html += fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)", tr("Simulated:"),
+                        tr("no real part was measured."));
+  }
+  html += results_table(evaluation);
+  return html + rule_section(evaluation) + "</section>";
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,239 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "reports/facts.h"
+#include "reports/words/language.h"
+#include "reports/text.h"
+#include "reports/writers.h"
+
+namespace rondure::reports {
+namespace {
+
+constexpr std::size_t kValueColumn = 15;  ///< Where the values of labelled lines start.
+
+/// Appends `text` wrapped to lines of at most 80 columns, the first one after `head`
+/// (`kValueColumn` columns or less), the others indented below it.
+void add_wrapped(std::string& out, std::string_view head, std::string_view text) {
+  std::string line = padded(head, kValueColumn);
+  bool fresh = true;
+  for (const LinePiece& piece : line_pieces(printable(text))) {
+    const std::string word = shortened(piece.text, kTerminalColumns - kValueColumn);
+    const std::size_t space = piece.after_space && !fresh ? 1 : 0;
+    if (!fresh && columns(line) + space + columns(word) > kTerminalColumns) {
+      out += line + "\n";
+      line = std::string(kValueColumn, ' ');
+      fresh = true;
+    }
+    line += (piece.after_space && !fresh ? " " : "") + word;
+    fresh = false;
+  }
+  out += line + "\n";
+}
+
+/// An error of another room: the title of its code, then its English sentence.
+/// Words of evaluation in the language of the report, else as they are.
+std::string words(std::string_view english) { return told(english).value_or(std::string(english)); }
+
+std::string line_of(core::Error error) {
+  error.what = words(error.what);
+  return titled(error.code) + core::to_line(error);
+}
+
+std::string upper(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+  return result;
+}
+
+void add_head(std::string& out, const record::RunRecord& record, const Evaluation& evaluation) {
+  const record::Header& header = record.header;
+  out += upper(tr(name_of(evaluation.verdict))) + "\n";
+  add_wrapped(out, tr("rule"), words(rule_sentence(evaluation)));
+  std::string part = header.part_id;
+  for (const std::string& more : {header.part_name, header.drawing}) {
+    if (!more.empty()) part += ", " + more;
+  }
+  if (!header.serial.empty()) part += trf(", serial {}", header.serial);
+  add_wrapped(out, tr("part"), part);
+  add_wrapped(out, tr("run"), header.run_id);
+  if (header.simulated) add_wrapped(out, tr("simulated"), tr("no real part was measured"));
+  if (record.ending == "finished") return;
+  add_wrapped(out, tr("not finished"),
+              record.ending.empty() ? tr("the run has no end on record") : words(record.ending));
+  if (record.failure) add_wrapped(out, tr("reason"), line_of(*record.failure));
+  for (const std::string& part_missing : missing_parts(record, evaluation)) {
+    add_wrapped(out, tr("missing"), part_missing);
+  }
+}
+
+/// Bias of a value and the influence that matters most.
+void add_uncertainty(std::string& out, const StatedValue& value) {
+  const UncertaintyResult& u = *value.uncertainty().result();
+  const auto line = [&](const std::string& name, const UncertaintyStatement& s) {
+    const auto number = [&](double mm) { return fixed(1e3 * mm, decimals_for(s.expanded_mm())); };
+    add_wrapped(out, name,
+                trf("{} um, {:g} % within [{}, {}] um {}", number(s.estimate_mm),
+                    100.0 * value.uncertainty().coverage_1(), number(s.low_mm), number(s.high_mm),
+                    tr(name_of(s.measurand))));
+  };
+  line("    " + tr("corrected"), u.sampled);
+  if (u.whole) line("", *u.whole);
+  std::string bias = trf("noise {} um", signed_um(u.noise_inflation_mm));
+  if (u.sampling_loss_mm) bias += trf(", sparse sampling {} um", signed_um(*u.sampling_loss_mm));
+  const auto most = std::find_if(u.budget.begin(), u.budget.end(), [&](const BudgetLine& one) {
+    return one.measurand == value.measurand();
+  });
+  if (most != u.budget.end() && most->share_1 > 0.0) {
+    bias += trf("; most of the spread {}: {} ({:.0f} %)", tr(name_of(most->measurand)),
+                tr(most->name), 100.0 * most->share_1);
+  }
+  add_wrapped(out, "    " + tr("bias"), bias);
+  for (const std::string& note : u.notes) add_wrapped(out, "    " + tr("note"), words(note));
+}
+
+/// "  CYLt MZCY     8.300 um   limit 10.000 um   conforms   id".
+void add_characteristic(std::string& out, const CharacteristicResult& result) {
+  const record::Characteristic& asked = result.characteristic;
+  const std::string value =
+      result.value ? result.value->in_digits(result.value->quoted_mm()) + " um" : tr("no value");
+  const std::string limit =
+      asked.tolerance_mm ? trf("limit {} um", um(*asked.tolerance_mm)) : tr("no limit");
+  std::string line =
+      fmt::format("  {} {}{:>14}   {} {}  ", tr(symbol_of(asked)), reference_of(asked), value,
+                  padded(limit, 19), padded(tr(name_of(result.verdict)), 16));
+  line += shortened(printable(asked.id), kTerminalColumns - columns(line));
+  out += line + "\n";
+  const bool simple = result.value && !result.value->uncertainty().result();
+  if (result.verdict == Verdict::kVoid || result.verdict == Verdict::kUndecided ||
+      (!simple && result.outcome)) {
+    add_wrapped(out, "    " + tr("because"), words(result.reason));
+  }
+  if (result.value) add_wrapped(out, "    " + tr("stated"), words(result.value->sentence()));
+  if (!simple && result.value) add_uncertainty(out, *result.value);
+}
+
+/// The sketch with its legend beside it.
+void add_sketch(std::string& out, const FeatureResult& feature, SketchStyle style) {
+  const auto sketch = polar_sketch(feature, style);
+  const auto zone = zone_of(feature);
+  if (!sketch || !zone) return;
+  const bool braille = style == SketchStyle::kBraille;
+  std::vector<std::string> legend(sketch->rows.size());
+  legend[3] = sketch->sections > 1
+                  ? trf("{} of {}, the one that departs most", sketch->title, sketch->sections)
+                  : sketch->title;
+  legend[4] = trf("the circles are {} um apart", um(zone->deviation_mm));
+  legend[6] = trf("{} contact outside", braille ? "\u25CF" : "O");
+  legend[7] = trf("{} contact inside", braille ? "\u25CB" : "I");
+  for (std::size_t i = 0; i < sketch->rows.size(); ++i) {
+    std::string line = fmt::format("{:{}}{}   {}", "", kValueColumn, sketch->rows[i], legend[i]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += line + "\n";
+  }
+}
+
+void add_zone(std::string& out, const FeatureResult& feature) {
+  const auto zone = zone_of(feature);
+  if (!zone) return;
+  add_wrapped(
+      out, "  " + tr("zone"),
+      trf("radii {} and {} mm {}", fixed(zone->inner_radius_mm, 4), fixed(zone->outer_radius_mm, 4),
+          zone->of_surface ? tr("of the surface") : tr("of the points, tip unknown")));
+  const fit::Certificate& certificate = zone->certificate;
+  std::string text = tr(fit::name_of(certificate.kind));
+  if (!certificate.scope.empty()) text += tr(", ") + words(certificate.scope);
+  if (certificate.kind != fit::Certificate::Kind::kNone) {
+    text += trf(", gap {} um", tiny_um(certificate.gap_mm));
+  }
+  if (!certificate.reason.empty()) text += tr("; ") + words(certificate.reason);
+  add_wrapped(out, "  " + tr("certificate"), text);
+}
+
+/// "MCCY radius 25.0052 mm, CYLt 8.812 um; MICY ..."; what does not exist is a warning.
+void add_one_sided(std::string& out, const FeatureResult& feature) {
+  using record::Reference;
+  const record::Shape shape = feature.feature.shape;
+  std::string text;
+  for (const Reference reference :
+       {Reference::kMinimumCircumscribed, Reference::kMaximumInscribed}) {
+    const auto found = one_sided_of(feature, reference);
+    if (!found) continue;
+    if (!text.empty()) text += tr("; ");
+    text += trf("{} radius {} mm, {} {} um", reference_of(reference, shape),
+                fixed(found->radius_mm, 4), symbol_of(shape), um(found->deviation_mm));
+    if (found->certificate.kind != fit::Certificate::Kind::kGlobal) {
+      text += tr(", ") + tr("certificate") + " " + tr(fit::name_of(found->certificate.kind));
+    }
+  }
+  if (!text.empty()) add_wrapped(out, "  " + tr("one-sided"), text);
+}
+
+void add_truth(std::string& out, const record::SimulationTruth* truth,
+               const FeatureResult& feature) {
+  if (truth == nullptr) return;
+  std::string text = fmt::format("{} {} um", symbol_of(feature.feature.shape), um(truth->cylt_mm));
+  if (const auto zone = zone_of(feature)) {
+    text += trf(", difference {} um", signed_um(zone->deviation_mm - truth->cylt_mm));
+  }
+  add_wrapped(out, "  " + tr("hidden truth"),
+              trf("{} (of the simulation, not of the measurement)", text));
+}
+
+/// "spool: outside cylinder, 4 x 7 points", "journal: spindle, 3 revolutions".
+std::string heading_of(const FeatureResult& feature) {
+  const std::string name = shortened(printable(feature.feature.id), 30);
+  if (record::is_analysis(feature.feature.shape)) {
+    const std::string shape = tr(record::name_of(feature.feature.shape));
+    return feature.analysis
+               ? trf("{}: {}, {}", name, shape, words(feature.analysis->sampling_text()))
+               : trf("{}: {}", name, shape);
+  }
+  return trf("{}: {} {}, {}", name, tr(record::name_of(feature.feature.side)),
+             tr(record::name_of(feature.feature.shape)), pattern_of(feature));
+}
+
+void add_analysis(std::string& out, const record::RunRecord& record, std::size_t index,
+                  const FeatureResult& feature) {
+  if (feature.analysis) {
+    for (const SummaryLine& line : feature.analysis->summary())
+      add_wrapped(out, fmt::format("  {}", tr(line.name)), words(line.text));
+  }
+  for (const record::TruthValue& truth : record.truth_values) {
+    if (static_cast<std::size_t>(truth.feature) != index) continue;
+    add_wrapped(out, "  " + tr("hidden truth"),
+                trf("{} (of the simulation, not of the measurement)",
+                    fmt::format("{} {:.6g}", words(truth.name), truth.value)));
+  }
+}
+
+}  // namespace
+
+std::string write_summary(const record::RunRecord& record, const Evaluation& evaluation,
+                          SketchStyle sketch, Language language) {
+  const LanguageScope scope(language);
+  std::string out;
+  add_head(out, record, evaluation);
+  for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
+    const FeatureResult& feature = evaluation.features[i];
+    out += "\n";
+    add_wrapped(out, tr("feature"), heading_of(feature));
+    for (const CharacteristicResult& result : feature.characteristics) {
+      add_characteristic(out, result);
+    }
+    if (feature.failure) add_wrapped(out, "  " + tr("no result"), line_of(*feature.failure));
+    add_sketch(out, feature, sketch);
+    add_analysis(out, record, i, feature);
+    add_zone(out, feature);
+    add_one_sided(out, feature);
+    add_truth(out, truth_of(record, i), feature);
+    for (const core::Error& warning : feature.warnings) {
+      add_wrapped(out, "  " + tr("warning"), line_of(warning));
+    }
+  }
+  return out;
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,40 @@
+#include <string>
+#include <vector>
+
+#include "reports/evaluation.h"
+#include "reports/data/json_document.h"
+#include "reports/data/json_parts.h"
+
+namespace rondure::reports {
+namespace {
+
+/// Every number below `node` with its JSON pointer. The cloud is left out: it is the touches again,
+/// which the journal's digests hold, and it may have a million rows. So may the curves of an
+/// analysis, which follow from its series; report.json holds them.
+void collect(const Json& node, const std::string& pointer, std::vector<record::StoredResult>& out) {
+  if (node.is_number()) {
+    out.push_back({pointer, node.get<double>()});
+    return;
+  }
+  if (node.is_object()) {
+    for (const auto& [key, value] : node.items()) {
+      if (key != "cloud" && key != "curves") collect(value, pointer + "/" + key, out);
+    }
+  }
+  if (node.is_array()) {
+    for (std::size_t i = 0; i < node.size(); ++i)
+      collect(node[i], pointer + "/" + std::to_string(i), out);
+  }
+}
+
+}  // namespace
+
+std::vector<record::StoredResult> stored_results(const Evaluation& evaluation) {
+  const Json document = report_document(record::RunRecord{}, evaluation);
+  std::vector<record::StoredResult> out;
+  for (const char* part : {"probe", "features"})
+    collect(document.at(part), std::string("/") + part, out);
+  return out;
+}
+
+}  // namespace rondure::reports

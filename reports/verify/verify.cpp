@@ -1,0 +1,270 @@
+#include "reports/verify/verify.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/version.h"
+#include "record/checksums.h"
+#include "record/files.h"
+#include "record/journal/journal.h"
+#include "record/sha256.h"
+#include "record/signature.h"
+#include "reports/verify/compare_text.h"
+#include "reports/verify/compare_values.h"
+#include "reports/history/earlier_results.h"
+#include "reports/evaluation.h"
+#include "reports/exports.h"
+#include "reports/pdf_report.h"
+#include "reports/text.h"
+#include "reports/verify/files.h"
+#include "reports/verify/results.h"
+
+namespace rondure::reports {
+namespace {
+
+namespace fs = std::filesystem;
+using State = ListedFiles::State;
+
+std::optional<std::string> compare_export(const Export& what, const std::string& expected,
+                                          const std::string& found, const Exactness& exactness,
+                                          const std::optional<State>& state) {
+  const double tolerance = exactness.tolerance();
+  if (what.format == "pdf") {
+    // Its numbers are drawn, not written: within a tolerance they cannot be compared.
+    if (tolerance > 0.0) return std::nullopt;
+    return pdf_difference(expected, found, state == State::kAsWritten);
+  }
+  if (!exactness.same_version) {
+    if (what.format == "json") return compare_json_values(expected, found, tolerance).difference;
+    if (what.format == "csv") return compare_csv_values(expected, found, tolerance).difference;
+    return std::nullopt;  // its words are those of the other version; SHA256SUMS holds them
+  }
+  if (what.format == "json") return first_json_difference(expected, found, tolerance);
+  if (what.format == "csv") return first_csv_difference(expected, found, tolerance);
+  return first_text_difference(expected, found, tolerance);
+}
+
+/// A line about one export: what differs, and whether the file or what it follows from was changed.
+std::string difference_line(const Export& what, const std::optional<std::string>& difference,
+                            const std::optional<State>& state) {
+  const bool changed = state == State::kChanged;
+  if (!difference) {
+    return fmt::format("{}: its bytes were changed after it was written ({})", what.file,
+                       record::kChecksumsName);
+  }
+  std::string note;
+  if (changed) {
+    note = fmt::format("; the file was changed after it was written ({})", record::kChecksumsName);
+  } else if (state == State::kAsWritten) {
+    note = fmt::format("; the file itself is as it was written ({})", record::kChecksumsName);
+  }
+  return fmt::format("{}: {}{}", what.file, *difference, note);
+}
+
+/// Whether an export that is not there was once: the list names it. Without a list, those that a
+/// plan asks for unless it says otherwise.
+bool was_written(const Export& what, const record::RunRecord& record, const ListedFiles& listed) {
+  if (listed.list_found) return listed.state_of(what.file).has_value();
+  const bool usual = what.format == "html" || what.format == "json" || what.format == "csv";
+  return usual && applies(what, record);
+}
+
+/// Compares each export that exists; gives their names.
+core::Result<std::string> compare_exports(const fs::path& directory,
+                                          const record::RunRecord& record,
+                                          const Evaluation& evaluation, const Exactness& exactness,
+                                          const ListedFiles& listed, Verification& out) {
+  const auto earlier = read_earlier(directory);
+  if (!earlier) {
+    out.differences.push_back(earlier.error().what);
+    return std::string("none, because of it");
+  }
+  std::string names;
+  std::string absent;
+  for (const Export& e : exports()) {
+    if (!stands_there(directory / e.file)) {
+      if (!was_written(e, record, listed)) continue;
+      absent += (absent.empty() ? "; not there: " : ", ") + e.file;
+      continue;
+    }
+    const auto bytes = record::read_file(directory / e.file);
+    if (!bytes) return core::fail(bytes.error());
+    names += (names.empty() ? "" : ", ") + e.file;
+    const auto made = render(e, record, evaluation, language_of(e, *bytes), *earlier);
+    const auto state = listed.state_of(e.file);
+    if (!made && state == State::kAsWritten) continue;  // no font here: its digest has to do
+    if (!made) return core::fail(made.error());
+    const auto difference = compare_export(e, made->bytes, *bytes, exactness, state);
+    if (difference || state == State::kChanged) {
+      out.differences.push_back(difference_line(e, difference, state));
+    }
+  }
+  return (names.empty() ? "none" : names) + absent;
+}
+
+/// What the journal and the list of digests say before anything is computed.
+void tell_damage(const record::ReadJournal& read, const ListedFiles& listed, Verification& out) {
+  const record::RunRecord& record = read.record;
+  for (const record::BrokenTable& broken : read.broken) {
+    out.differences.push_back(fmt::format("journal, table {}: {}", broken.table, broken.what));
+  }
+  for (const std::string& log : read.beside) {
+    out.differences.push_back(fmt::format(
+        "{}: it stands beside the closed journal and was not read; other programs would "
+        "read it in the journal's place: move it away",
+        log));
+  }
+  const std::string plan_sha256 = record::sha256_hex(record.header.plan_text);
+  if (plan_sha256 != record.header.plan_sha256) {
+    out.differences.push_back(
+        fmt::format("journal, table header: the plan in it is not the one that was measured: its "
+                    "SHA-256 is {}, recorded is {}",
+                    plan_sha256, printable(record.header.plan_sha256)));
+  }
+  for (const auto& [file, state] : listed.files) {
+    const auto all = exports();
+    if (std::any_of(all.begin(), all.end(), [&](const Export& e) { return e.file == file; })) {
+      continue;
+    }
+    if (state == State::kAbsent) {
+      out.differences.push_back(
+          fmt::format("{}: it is not there, and {} names it", file, record::kChecksumsName));
+    }
+    if (state != State::kChanged) continue;
+    const bool hidden = file == record::kJournalName && read.broken.empty();
+    out.differences.push_back(fmt::format(
+        "{}: its bytes were changed after it was written ({}){}", file, record::kChecksumsName,
+        hidden ? "; no value in it differs, the change is in what SQLite keeps beside the values"
+               : ""));
+  }
+  if (record.ending != "finished") {
+    out.differences.push_back(
+        fmt::format("the run did not finish ({}); it has no results to verify",
+                    record.ending.empty() ? "it was interrupted" : record.ending));
+  } else if (!record.sealed) {
+    out.differences.push_back(
+        "the journal was not closed: the run was interrupted after its last touch");
+  } else if (listed.list_found && !listed.state_of(record::kJournalName)) {
+    out.differences.push_back(fmt::format("{}: its line for {} is missing", record::kChecksumsName,
+                                          record::kJournalName));
+  }
+}
+
+std::string how_exactly(const record::Header& header, const VerifyOptions& options,
+                        const Exactness& exactness) {
+  std::string words;
+  if (!exactness.same_version) {
+    words = fmt::format(
+        "written by version {}, this is version {}: numbers that both give within 1e-9, wording "
+        "and layout of reports not compared",
+        header.version, core::kVersion);
+  }
+  if (!exactness.same_processor) {
+    words += fmt::format("{}numbers within 1e-9 (measured on {}, verified on {})",
+                         words.empty() ? "" : "; ", header.processor, options.processor);
+  }
+  return words.empty() ? "bit for bit (same kind of processor)" : words;
+}
+
+/// What an answer leaves open without being a difference.
+std::vector<std::string> notes_on(const record::ReadJournal& read, const ListedFiles& listed) {
+  std::vector<std::string> out;
+  const record::Header& header = read.record.header;
+  if (header.version != core::kVersion) {
+    out.push_back(fmt::format("version {} measured, this is version {}: it verifies what both give",
+                              printable(header.version), core::kVersion));
+  }
+  if (read.record.sealed && !listed.list_found) {
+    out.push_back(
+        fmt::format("there is no {}, which the run wrote: nothing shows whether {} and the reports "
+                    "are still the files that were written",
+                    record::kChecksumsName, record::kJournalName));
+  }
+  return out;
+}
+
+/// "part SP-25, serial 0042, conforms".
+std::string about_part(const record::Header& header, Verdict verdict) {
+  const std::string serial =
+      header.serial.empty() ? std::string("no serial") : "serial " + printable(header.serial);
+  return fmt::format("part {}, {}, {}", printable(header.part_id), serial, name_of(verdict));
+}
+
+/// ", 3072 rows of series"; empty without any.
+std::string series_in_words(const record::RunRecord& record) {
+  std::size_t rows = 0;
+  for (const record::Series& series : record.series) rows += series.rows();
+  return rows == 0 ? std::string() : fmt::format(", {} rows of series", rows);
+}
+
+std::vector<std::string> signed_files() {
+  std::vector<std::string> files = {record::kJournalName};
+  for (const Export& e : exports()) files.push_back(e.file);
+  files.emplace_back(kEarlierName);
+  return files;
+}
+
+/// Checks the signature when there is a key; says what of it was checked.
+core::Result<std::string> about_signature(const fs::path& directory, const VerifyOptions& options,
+                                          const ListedFiles& listed, Verification& out) {
+  if (!options.public_key_pem) {
+    const bool present = stands_there(directory / record::kSignatureName);
+    return present ? "; signed, the signature was not checked (--key PUBLIC.pem checks it)" : "";
+  }
+  if (auto checked = check_signature(directory, *options.public_key_pem, listed, signed_files(),
+                                     out.differences);
+      !checked) {
+    return core::fail(checked.error());
+  }
+  return "; the signature holds for this key";
+}
+
+}  // namespace
+
+core::Result<Verification> verify_run(const fs::path& directory, const VerifyOptions& options) {
+  const auto read = record::read_journal(directory);
+  if (!read) return core::fail(read.error());
+  const record::RunRecord& record = read->record;
+  Verification out;
+  const auto listed = check_listed_files(directory, out.differences);
+  if (!listed) return core::fail(listed.error());
+  tell_damage(*read, *listed, out);
+  const auto signature = about_signature(directory, options, *listed, out);
+  if (!signature) return core::fail(signature.error());
+  out.notes = notes_on(*read, *listed);
+  if (!read->broken.empty()) {  // what was changed may ask for anything
+    out.notes.emplace_back("nothing was computed from a journal that is not as it was written");
+    return out;
+  }
+
+  if (const auto checked = options.check ? options.check(record) : core::Result<void>(); !checked) {
+    out.differences.push_back(checked.error().what);
+    return out;
+  }
+  const auto evaluation = evaluate(record);
+  if (!evaluation) {
+    if (out.differences.empty()) return core::fail(evaluation.error());
+    out.differences.push_back(
+        fmt::format("the touches cannot be evaluated: {}", core::to_line(evaluation.error())));
+    return out;
+  }
+  const Exactness exactness{record.header.processor == options.processor,
+                            record.header.version == core::kVersion};
+  std::size_t results = 0;
+  if (record.sealed) {
+    const auto compared = compare_results(record.results, stored_results(*evaluation), exactness);
+    results = compared.results;
+    if (compared.difference) out.differences.push_back(*compared.difference);
+  }
+  const auto names = compare_exports(directory, record, *evaluation, exactness, *listed, out);
+  if (!names) return core::fail(names.error());
+  out.what_was_compared = fmt::format(
+      "{}: {} touches{}, {} results follow from the journal, {}; exports compared: {}{}",
+      about_part(record.header, evaluation->verdict), record.touches.size(),
+      series_in_words(record), results, how_exactly(record.header, options, exactness), *names,
+      *signature);
+  return out;
+}
+
+}  // namespace rondure::reports

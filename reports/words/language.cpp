@@ -1,0 +1,126 @@
+#include "reports/words/language.h"
+
+#include <algorithm>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "reports/words/zh.h"
+#include "reports/words/sentence_format.h"
+
+namespace rondure::reports {
+namespace {
+
+thread_local Language the_language = Language::kEnglish;
+
+using Table = std::unordered_map<std::string_view, std::string_view>;
+
+/// The whole table by its English text.
+const Table& table() {
+  static const Table all = [] {
+    Table out;
+    for (const auto& part : {chinese_page(), chinese_drawings(), chinese_analyses(),
+                             chinese_sentences(), chinese_summary(), chinese_live()}) {
+      for (const Translation& line : part) out.emplace(line.english, line.chinese);
+    }
+    return out;
+  }();
+  return all;
+}
+
+/// A format in both languages.
+struct TwoFormats {
+  SentenceFormat english;
+  SentenceFormat chinese;
+};
+
+/// The formats of sentences, those with the longest words first: the most particular one counts.
+const std::vector<TwoFormats>& sentences() {
+  static const auto all = [] {
+    std::vector<TwoFormats> out;
+    for (const Translation& line : chinese_sentences()) {
+      if (line.english.find('{') == std::string_view::npos) continue;
+      out.push_back({SentenceFormat(line.english), SentenceFormat(line.chinese)});
+    }
+    std::stable_sort(out.begin(), out.end(), [](const TwoFormats& a, const TwoFormats& b) {
+      return a.english.letters() > b.english.letters();
+    });
+    return out;
+  }();
+  return all;
+}
+
+/// The parts of a list in its order, each one told.
+std::optional<std::string> told_list(std::string_view english, std::string_view separator,
+                                     std::string_view chinese_separator) {
+  std::string out;
+  for (;;) {
+    const std::size_t end = english.find(separator);
+    const auto part = told(english.substr(0, end));
+    if (!part) return std::nullopt;
+    out += *part;
+    if (end == std::string_view::npos) return out;
+    out += chinese_separator;
+    english.remove_prefix(end + separator.size());
+  }
+}
+
+/// One format with its arguments told; nothing where one of them is not known.
+std::optional<std::string> filled(const TwoFormats& format, std::string_view english) {
+  auto arguments = format.english.arguments_of(english);
+  if (!arguments) return std::nullopt;
+  for (std::size_t i = 0; i < arguments->size(); ++i) {
+    if (format.chinese.stays(i)) continue;
+    auto in_words = told((*arguments)[i]);
+    if (!in_words) return std::nullopt;
+    (*arguments)[i] = *std::move(in_words);
+  }
+  return format.chinese.with(*arguments);
+}
+
+}  // namespace
+
+std::optional<Language> language_named(std::string_view name) {
+  if (name == "en") return Language::kEnglish;
+  if (name == "zh") return Language::kChinese;
+  return std::nullopt;
+}
+
+std::vector<std::string> language_names() { return {"en", "zh"}; }
+
+std::string_view tag_of(Language language) {
+  return language == Language::kChinese ? "zh-Hans" : "en";
+}
+
+LanguageScope::LanguageScope(Language language) : before_(std::exchange(the_language, language)) {}
+
+LanguageScope::~LanguageScope() { the_language = before_; }
+
+Language language() { return the_language; }
+
+std::string tr(std::string_view english) {
+  if (the_language == Language::kEnglish) return std::string(english);
+  const auto found = table().find(english);
+  return std::string(found == table().end() ? english : found->second);
+}
+
+std::optional<std::string> told(std::string_view english) {
+  if (the_language == Language::kEnglish || has_no_words(english)) return std::string(english);
+  if (const auto found = table().find(english); found != table().end()) {
+    return std::string(found->second);
+  }
+  for (const TwoFormats& format : sentences()) {
+    if (auto out = filled(format, english)) return out;
+  }
+  if (english.find("; ") != std::string_view::npos) return told_list(english, "; ", "；");
+  if (english.find(", ") != std::string_view::npos) return told_list(english, ", ", "，");
+  return std::nullopt;
+}
+
+std::string title_of(core::Code code) {
+  if (the_language == Language::kEnglish) return {};
+  return std::string(chinese_title(code));
+}
+
+}  // namespace rondure::reports
