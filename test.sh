@@ -9,7 +9,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 . .ci/packages.sh
-sanitized="core wire record fixture cmm fit plans reports app fuzz"
+sanitized="core wire record fixture cmm fit plans reports web app fuzz"
 # Figures of many trials and of time, held by the release build; and runs of the whole program that take long: what
 # they do, the tests of plans, record and reports do within one process.
 unsanitized="Prediction\\.WidthIs|Uncertainty\\.(DoesTen|ChangesWith|DoesNotDepend|HasTheSame)|Coverage\\."

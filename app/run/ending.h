@@ -6,7 +6,7 @@
 #include "plans/plan.h"
 #include "plans/run/runner.h"
 #include "record/archive/archive.h"
-#include "reports/live_view.h"
+#include "web/view.h"
 
 namespace rondure::app {
 

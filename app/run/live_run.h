@@ -6,7 +6,7 @@
 #include "core/result.h"
 #include "plans/plan.h"
 #include "plans/run/runner.h"
-#include "reports/live_view.h"
+#include "web/view.h"
 
 namespace rondure::app {
 

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "reports/live_page.h"
-#include "reports/live_server.h"
+#include "web/page.h"
+#include "web/server.h"
 #include "tests/fuzz/cases.h"
 #include "tests/fuzz/mutation.h"
 

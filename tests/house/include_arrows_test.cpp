@@ -22,7 +22,8 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"cmm", {"cmm", "core", "wire"}},
     {"plans", {"plans", "core", "fit", "wire", "record", "fixture", "cmm"}},
     {"reports", {"reports", "core", "fit", "record"}},
-    {"app", {"app", "core", "fit", "wire", "record", "fixture", "cmm", "plans", "reports"}},
+    {"web", {"web", "core", "record", "reports"}},
+    {"app", {"app", "core", "fit", "wire", "record", "fixture", "cmm", "plans", "reports", "web"}},
 };
 
 /// Headers that may be included from beyond the table.

@@ -9,7 +9,7 @@
 
 #include "core/units.h"
 #include "reports/facts.h"
-#include "reports/live_cloud.h"
+#include "web/cloud.h"
 
 namespace rondure::reports {
 namespace {

@@ -1,4 +1,4 @@
-#include "reports/live_guard.h"
+#include "web/guard.h"
 
 #include <sys/random.h>
 

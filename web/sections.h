@@ -7,7 +7,7 @@
 
 #include "record/run_record.h"
 #include "reports/evaluation.h"
-#include "reports/live_cloud.h"
+#include "web/cloud.h"
 
 // Private to the room: the parts of the live page. Every text of the record is escaped.
 

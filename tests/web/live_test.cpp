@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/facts.h"
-#include "reports/live_cloud.h"
-#include "reports/live_frame.h"
-#include "reports/live_guard.h"
-#include "reports/live_page.h"
-#include "reports/live_time.h"
-#include "synthetic.h"
+#include "web/cloud.h"
+#include "web/frame.h"
+#include "web/guard.h"
+#include "web/page.h"
+#include "web/time.h"
+#include "../reports/synthetic.h"
 
 namespace rondure::reports {
 namespace {

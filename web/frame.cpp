@@ -1,4 +1,4 @@
-#include "reports/live_frame.h"
+#include "web/frame.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,8 +10,8 @@
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
-#include "reports/live_cloud.h"
-#include "reports/live_sections.h"
+#include "web/cloud.h"
+#include "web/sections.h"
 #include "reports/measured_cloud.h"
 #include "reports/text.h"
 

@@ -1,4 +1,4 @@
-#include "reports/live_cloud.h"
+#include "web/cloud.h"
 
 #include <algorithm>
 #include <set>

@@ -1,4 +1,4 @@
-#include "reports/live_view.h"
+#include "web/view.h"
 
 #include <sys/resource.h>
 
@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
-#include "reports/live_frame.h"
-#include "reports/live_page.h"
-#include "reports/live_server.h"
+#include "web/frame.h"
+#include "web/page.h"
+#include "web/server.h"
 
 namespace rondure::reports {
 namespace {

@@ -1,4 +1,4 @@
-#include "reports/live_sections.h"
+#include "web/sections.h"
 
 #include <algorithm>
 #include <cmath>

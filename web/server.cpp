@@ -1,4 +1,4 @@
-#include "reports/live_server.h"
+#include "web/server.h"
 
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 #include <httplib.h>
 
-#include "reports/live_page.h"
-#include "reports/live_stream.h"
+#include "web/page.h"
+#include "web/stream.h"
 #include "reports/text.h"
 
 namespace rondure::reports {

@@ -1,4 +1,4 @@
-#include "reports/live_page.h"
+#include "web/page.h"
 
 #include <fmt/format.h>
 

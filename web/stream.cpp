@@ -1,4 +1,4 @@
-#include "reports/live_stream.h"
+#include "web/stream.h"
 
 #include <poll.h>
 #include <sys/socket.h>

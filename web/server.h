@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "core/result.h"
-#include "reports/live_guard.h"
+#include "web/guard.h"
 
 // Private to the room: HTTP on this computer only.
 

@@ -1,4 +1,4 @@
-#include "reports/live_time.h"
+#include "web/time.h"
 
 #include <algorithm>
 

@@ -12,7 +12,7 @@
 #include "record/run_record.h"
 #include "reports/evaluation.h"
 #include "reports/words/language.h"
-#include "reports/live_time.h"
+#include "web/time.h"
 
 namespace rondure::reports {
 
