@@ -21,7 +21,7 @@
 namespace rondure::plans {
 
 // The plan as its JSON spells it: degrees and micrometres where the key says so. The one place
-// where keys, units, ranges, meanings and defaults stand is plans/schema/plan_table.h; a member
+// where keys, units, ranges, meanings and defaults stand is plans/schema/internal/plan_table.h; a member
 // initialiser here is the default.
 
 struct PlanHead {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "wire/device_holders.h"
+#include "wire/internal/device_holders.h"
 #include "wire/serial_port.h"
 
 namespace rondure::wire {

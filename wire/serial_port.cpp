@@ -16,7 +16,7 @@
 
 #include <fmt/format.h>
 
-#include "wire/device_holders.h"
+#include "wire/internal/device_holders.h"
 
 namespace rondure::wire {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <libusb.h>
 
-#include "wire/usb_context.h"
+#include "wire/internal/usb_context.h"
 
 namespace rondure::wire {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "wire/usb.h"
-#include "wire/usb_context.h"
+#include "wire/internal/usb_context.h"
 
 namespace rondure::wire {
 

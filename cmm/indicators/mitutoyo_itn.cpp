@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "cmm/indicators/digimatic.h"
+#include "cmm/indicators/internal/digimatic.h"
 
 namespace rondure::cmm {
 namespace {

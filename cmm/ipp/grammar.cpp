@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/errors.h"
-#include "cmm/ipp/methods.h"
+#include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp/internal/methods.h"
 #include "cmm/ipp/numbers.h"
-#include "cmm/ipp/reader.h"
+#include "cmm/ipp/internal/reader.h"
 
 namespace rondure::cmm::ipp {
 namespace {

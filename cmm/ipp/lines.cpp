@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/errors.h"
+#include "cmm/ipp/internal/errors.h"
 
 namespace rondure::cmm::ipp {
 

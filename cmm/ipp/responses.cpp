@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/errors.h"
+#include "cmm/ipp/internal/errors.h"
 #include "cmm/ipp/grammar.h"
-#include "cmm/ipp/reader.h"
+#include "cmm/ipp/internal/reader.h"
 
 namespace rondure::cmm::ipp {
 namespace {

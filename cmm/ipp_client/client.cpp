@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
-#include "cmm/ipp_client/failure.h"
-#include "cmm/place_text.h"
+#include "cmm/ipp_client/internal/failure.h"
+#include "cmm/internal/place_text.h"
 #include "cmm/scan_path.h"
 #include "cmm/ipp_client/touch_check.h"
 #include "core/numbers.h"

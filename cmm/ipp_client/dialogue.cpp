@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp_client/failure.h"
-#include "cmm/ipp/errors.h"
+#include "cmm/ipp_client/internal/failure.h"
+#include "cmm/ipp/internal/errors.h"
 
 namespace rondure::cmm::ipp::client {
 namespace {

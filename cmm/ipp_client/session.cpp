@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/errors.h"
-#include "cmm/ipp/reader.h"
+#include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp/internal/reader.h"
 
 namespace rondure::cmm::ipp::client {
 namespace {

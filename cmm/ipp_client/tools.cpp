@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
-#include "cmm/ipp_client/failure.h"
+#include "cmm/ipp_client/internal/failure.h"
 
 // Tools and speeds of a machine behind I++ DME.
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cmm/place_text.h"
+#include "cmm/internal/place_text.h"
 #include "cmm/scan_path.h"
 #include "core/units.h"
 

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/arguments.h"
-#include "cmm/ipp/errors.h"
+#include "cmm/ipp/internal/arguments.h"
+#include "cmm/ipp/internal/errors.h"
 #include "cmm/ipp_server/server.h"
 
 // What the server answers by itself: session, errors, daemons, abort.

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/arguments.h"
-#include "cmm/ipp/errors.h"
+#include "cmm/ipp/internal/arguments.h"
+#include "cmm/ipp/internal/errors.h"
 
 namespace rondure::cmm::ipp {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/arguments.h"
+#include "cmm/ipp/internal/arguments.h"
 #include "cmm/ipp_server/controller.h"
-#include "cmm/ipp/errors.h"
+#include "cmm/ipp/internal/errors.h"
 
 // Tools and properties.
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cmm/ipp/errors.h"
+#include "cmm/ipp/internal/errors.h"
 
 namespace rondure::cmm::ipp {
 namespace {

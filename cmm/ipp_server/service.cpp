@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/errors.h"
+#include "cmm/ipp/internal/errors.h"
 #include "wire/wire_log.h"
 
 namespace rondure::cmm::ipp {

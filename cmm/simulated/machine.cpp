@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "cmm/simulated/contact.h"
+#include "cmm/simulated/internal/contact.h"
 #include "cmm/grid.h"
-#include "cmm/simulated/machine_map.h"
-#include "cmm/place_text.h"
+#include "cmm/simulated/internal/machine_map.h"
+#include "cmm/internal/place_text.h"
 #include "cmm/scan_path.h"
 #include "cmm/ipp_client/touch_check.h"
 #include "core/noise.h"

@@ -1,6 +1,6 @@
 #include "cmm/simulated/part_surface.h"
 
-#include "cmm/simulated/surface_shape.h"
+#include "cmm/simulated/internal/surface_shape.h"
 
 namespace rondure::cmm {
 

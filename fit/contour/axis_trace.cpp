@@ -9,7 +9,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "fit/profiles/dft.h"
+#include "fit/profiles/internal/dft.h"
 #include "fit/geometry/periodic_spline.h"
 
 namespace rondure::fit {

@@ -12,7 +12,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "fit/profiles/closed_profile.h"
-#include "fit/profiles/dft.h"
+#include "fit/profiles/internal/dft.h"
 #include "fit/least_squares/circle.h"
 #include "fit/geometry/periodic_spline.h"
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/profiles/dft.h"
+#include "fit/profiles/internal/dft.h"
 #include "fit/geometry/periodic_spline.h"
 #include "fit/profiles/profile_filter.h"
 

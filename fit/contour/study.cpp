@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "fit/profiles/dft.h"
+#include "fit/profiles/internal/dft.h"
 
 namespace rondure::fit {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "fit/proof/local_certificate.h"
 #include "fit/zone/working_points.h"
-#include "fit/zone/program.h"
+#include "fit/zone/simplex.h"
 
 namespace rondure::fit {
 

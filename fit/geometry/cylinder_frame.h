@@ -8,7 +8,7 @@
 #include "fit/geometry/axis.h"
 #include "fit/proof/local_certificate.h"
 #include "fit/zone/working_points.h"
-#include "fit/zone/program.h"
+#include "fit/zone/simplex.h"
 
 namespace rondure::fit {
 

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "fit/zone/center_region.h"
+#include "fit/zone/internal/center_region.h"
 #include "fit/geometry/points.h"
-#include "fit/zone/search_points.h"
-#include "fit/proof/zone_box.h"
+#include "fit/zone/internal/search_points.h"
+#include "fit/proof/internal/zone_box.h"
 
 namespace rondure::fit {
 namespace {

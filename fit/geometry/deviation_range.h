@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "fit/zone/program.h"
+#include "fit/zone/simplex.h"
 
 namespace rondure::fit {
 

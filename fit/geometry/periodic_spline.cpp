@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/units.h"
-#include "fit/profiles/dft.h"
+#include "fit/profiles/internal/dft.h"
 
 namespace rondure::fit {
 namespace {

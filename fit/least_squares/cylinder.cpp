@@ -13,9 +13,9 @@
 
 #include "core/decompositions.h"
 #include "fit/geometry/cylinder_frame.h"
-#include "fit/zone/cylinder_start.h"
-#include "fit/least_squares/gauss_newton.h"
-#include "fit/least_squares/sums.h"
+#include "fit/zone/internal/cylinder_start.h"
+#include "fit/least_squares/internal/gauss_newton.h"
+#include "fit/least_squares/internal/sums.h"
 #include "fit/geometry/points.h"
 
 namespace rondure::fit {

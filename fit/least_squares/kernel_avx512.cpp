@@ -3,7 +3,7 @@
 
 #include <immintrin.h>
 
-#include "fit/least_squares/kernel.h"
+#include "fit/least_squares/internal/kernel.h"
 
 namespace rondure::fit::ls_kernel {
 namespace {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "fit/least_squares/kernel.h"
+#include "fit/least_squares/internal/kernel.h"
 
 namespace rondure::fit::ls_kernel {
 namespace {

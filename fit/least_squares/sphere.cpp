@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "core/decompositions.h"
-#include "fit/least_squares/gauss_newton.h"
-#include "fit/least_squares/sums.h"
+#include "fit/least_squares/internal/gauss_newton.h"
+#include "fit/least_squares/internal/sums.h"
 #include "fit/geometry/points.h"
 
 namespace rondure::fit {

@@ -11,7 +11,7 @@
 #include "core/noise.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/geometry/points.h"
-#include "fit/poses/joint_model.h"
+#include "fit/poses/internal/joint_model.h"
 #include "fit/zone/fit.h"
 
 namespace rondure::fit {

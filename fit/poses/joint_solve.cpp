@@ -4,7 +4,7 @@
 #include <ceres/ceres.h>
 
 #include "core/decompositions.h"
-#include "fit/poses/joint_model.h"
+#include "fit/poses/internal/joint_model.h"
 
 namespace rondure::fit {
 namespace {

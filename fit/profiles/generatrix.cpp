@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "fit/geometry/hull_distance.h"
+#include "fit/geometry/internal/hull_distance.h"
 #include "fit/geometry/points.h"
 
 namespace rondure::fit {

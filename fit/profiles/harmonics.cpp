@@ -9,7 +9,7 @@
 
 #include "core/decompositions.h"
 #include "core/units.h"
-#include "fit/profiles/dft.h"
+#include "fit/profiles/internal/dft.h"
 
 namespace rondure::fit {
 namespace {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "fit/profiles/dft.h"
-#include "fit/profiles/robust_filter.h"
+#include "fit/profiles/internal/dft.h"
+#include "fit/profiles/internal/robust_filter.h"
 
 namespace rondure::fit {
 namespace {

@@ -12,7 +12,7 @@
 #include "fit/least_squares/circle.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/one_sided_center.h"
-#include "fit/zone/program.h"
+#include "fit/zone/simplex.h"
 
 namespace rondure::fit {
 namespace {

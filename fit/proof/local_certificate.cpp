@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/decompositions.h"
-#include "fit/zone/program.h"
+#include "fit/zone/simplex.h"
 
 namespace rondure::fit {
 namespace {

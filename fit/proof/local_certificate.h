@@ -8,7 +8,7 @@
 
 #include "fit/proof/certificate.h"
 #include "fit/zone/contacts.h"
-#include "fit/zone/program.h"
+#include "fit/zone/simplex.h"
 
 namespace rondure::fit {
 

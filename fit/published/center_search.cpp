@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fit/zone/center_search.h"
-#include "fit/geometry/hull_distance.h"
+#include "fit/geometry/internal/hull_distance.h"
 #include "fit/least_squares/circle.h"
 #include "fit/geometry/points.h"
 

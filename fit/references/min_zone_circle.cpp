@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "fit/geometry/bisectors.h"
+#include "fit/geometry/internal/bisectors.h"
 #include "fit/least_squares/circle.h"
 #include "fit/geometry/points.h"
 #include "fit/zone/fit.h"
-#include "fit/proof/zone_proof.h"
+#include "fit/proof/internal/zone_proof.h"
 
 namespace rondure::fit {
 namespace {

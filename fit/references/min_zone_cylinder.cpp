@@ -1,6 +1,6 @@
 #include "fit/references/min_zone_cylinder.h"
 
-#include "fit/proof/axis_proof.h"
+#include "fit/proof/internal/axis_proof.h"
 #include "fit/geometry/points.h"
 
 namespace rondure::fit {

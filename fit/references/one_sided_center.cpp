@@ -6,7 +6,7 @@
 
 #include "fit/geometry/points.h"
 #include "fit/zone/fit.h"
-#include "fit/proof/zone_proof.h"
+#include "fit/proof/internal/zone_proof.h"
 
 namespace rondure::fit {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "fit/proof/axis_proof.h"
+#include "fit/proof/internal/axis_proof.h"
 #include "fit/least_squares/line.h"
 #include "fit/references/min_zone_line.h"
 #include "fit/geometry/points.h"

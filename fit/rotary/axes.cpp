@@ -8,8 +8,8 @@
 
 #include "core/units.h"
 #include "fit/rotary/ball_setup.h"
-#include "fit/rotary/checks.h"
-#include "fit/rotary/station.h"
+#include "fit/rotary/internal/checks.h"
+#include "fit/rotary/internal/station.h"
 
 namespace rondure::fit {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "fit/profiles/dft.h"
+#include "fit/profiles/internal/dft.h"
 
 namespace rondure::fit {
 namespace {

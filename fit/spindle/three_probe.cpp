@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/profiles/dft.h"
-#include "fit/spindle/three_probe_parts.h"
+#include "fit/profiles/internal/dft.h"
+#include "fit/spindle/internal/three_probe_parts.h"
 
 namespace rondure::fit {
 namespace {

@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/profiles/dft.h"
+#include "fit/profiles/internal/dft.h"
 #include "fit/geometry/periodic_spline.h"
-#include "fit/spindle/three_probe_parts.h"
+#include "fit/spindle/internal/three_probe_parts.h"
 
 namespace rondure::fit {
 namespace {

@@ -6,8 +6,8 @@
 #include <Eigen/Dense>
 
 #include "core/units.h"
-#include "fit/profiles/dft.h"
-#include "fit/spindle/three_probe_parts.h"
+#include "fit/profiles/internal/dft.h"
+#include "fit/spindle/internal/three_probe_parts.h"
 
 namespace rondure::fit {
 namespace {

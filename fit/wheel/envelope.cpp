@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/units.h"
-#include "fit/profiles/dft.h"
+#include "fit/profiles/internal/dft.h"
 #include "fit/contour/ground_contour.h"
 
 namespace rondure::fit {

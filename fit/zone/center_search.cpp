@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fit/geometry/hull_distance.h"
+#include "fit/geometry/internal/hull_distance.h"
 #include "fit/least_squares/circle.h"
 
 namespace rondure::fit {

@@ -15,7 +15,7 @@
 #include "fit/geometry/scan.h"
 #include "fit/zone/working_points.h"
 #include "fit/zone/ending.h"
-#include "fit/zone/program.h"
+#include "fit/zone/simplex.h"
 
 namespace rondure::fit {
 

@@ -9,7 +9,7 @@
 #include "fit/geometry/axis.h"
 #include "fit/proof/axis_cover.h"
 #include "fit/proof/certificate.h"
-#include "fit/zone/program.h"
+#include "fit/zone/simplex.h"
 
 namespace rondure::fit {
 

@@ -8,8 +8,8 @@
 
 #include "core/units.h"
 #include "plans/schema/json_text.h"
-#include "plans/checks/plan_checks.h"
-#include "plans/analyses/series_file.h"
+#include "plans/checks/internal/plan_checks.h"
+#include "plans/analyses/internal/series_file.h"
 #include "record/sha256.h"
 
 namespace rondure::plans {

@@ -9,7 +9,7 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "fit/contour/ground_contour.h"
-#include "plans/analyses/contour_kind.h"
+#include "plans/analyses/internal/contour_kind.h"
 
 namespace rondure::plans {
 namespace {

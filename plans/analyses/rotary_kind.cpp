@@ -9,9 +9,9 @@
 
 #include "plans/analyses/analysis.h"
 #include "plans/schema/json_text.h"
-#include "plans/checks/plan_checks.h"
+#include "plans/checks/internal/plan_checks.h"
 #include "plans/analyses/rotary_table.h"
-#include "plans/schema/setting_list.h"
+#include "plans/schema/internal/setting_list.h"
 
 namespace rondure::plans {
 namespace {

@@ -9,7 +9,7 @@
 #include "fit/spindle/probe_layout.h"
 #include "fit/geometry/swing_arm.h"
 #include "plans/analyses/analysis.h"
-#include "plans/schema/setting_list.h"
+#include "plans/schema/internal/setting_list.h"
 #include "plans/analyses/spindle_table.h"
 
 namespace rondure::plans {

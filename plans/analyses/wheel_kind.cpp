@@ -8,7 +8,7 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
-#include "plans/schema/setting_list.h"
+#include "plans/schema/internal/setting_list.h"
 #include "plans/analyses/wheel_table.h"
 
 namespace rondure::plans {

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "plans/cell/fixture_driver.h"
-#include "plans/cell/ipp_cell.h"
-#include "plans/checks/plan_reach.h"
+#include "plans/cell/internal/fixture_driver.h"
+#include "plans/cell/internal/ipp_cell.h"
+#include "plans/checks/internal/plan_reach.h"
 #include "plans/run/run_head.h"
 #include "plans/cell/simulated_cell.h"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "cmm/simulated/part_surface.h"
-#include "plans/checks/plan_reach.h"
+#include "plans/checks/internal/plan_reach.h"
 
 namespace rondure::plans {
 namespace {

@@ -6,10 +6,10 @@
 #include "core/units.h"
 #include "fixture/drawn_motion.h"
 #include "fixture/pose_range.h"
-#include "plans/cell/fixture_driver.h"
-#include "plans/cell/hidden_errors.h"
-#include "plans/checks/plan_reach.h"
-#include "plans/path/pose_grid.h"
+#include "plans/cell/internal/fixture_driver.h"
+#include "plans/cell/internal/hidden_errors.h"
+#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/pose_grid.h"
 
 namespace rondure::plans {
 namespace {

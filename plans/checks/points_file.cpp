@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "plans/schema/json_text.h"
-#include "plans/checks/plan_checks.h"
-#include "plans/analyses/series_file.h"
+#include "plans/checks/internal/plan_checks.h"
+#include "plans/analyses/internal/series_file.h"
 #include "record/csv/points.h"
 
 namespace rondure::plans {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "plans/schema/json_text.h"
-#include "plans/checks/plan_checks.h"
+#include "plans/checks/internal/plan_checks.h"
 
 namespace rondure::plans {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "core/version.h"
 #include "plans/schema/json_text.h"
-#include "plans/schema/plan_table.h"
+#include "plans/schema/internal/plan_table.h"
 
 namespace rondure::plans {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "cmm/simulated/part_surface.h"
 #include "core/units.h"
-#include "plans/checks/plan_reach.h"
+#include "plans/checks/internal/plan_reach.h"
 
 namespace rondure::plans {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "core/units.h"
 #include "fit/references/min_zone_cylinder.h"
-#include "plans/run/inspection.h"
-#include "plans/path/merged_reach.h"
+#include "plans/run/internal/inspection.h"
+#include "plans/path/internal/merged_reach.h"
 
 namespace rondure::plans {
 

@@ -1,4 +1,4 @@
-#include "plans/run/inspection.h"
+#include "plans/run/internal/inspection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "cmm/ipp_client/touch_check.h"
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
-#include "plans/cell/reached_pose.h"
+#include "plans/cell/internal/reached_pose.h"
 
 namespace rondure::plans {
 namespace {

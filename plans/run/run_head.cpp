@@ -7,8 +7,8 @@
 #include "core/version.h"
 #include "fit/poses/walk.h"
 #include "plans/analyses/analysis.h"
-#include "plans/schema/setting_list.h"
-#include "plans/schema/uncertainty_table.h"
+#include "plans/schema/internal/setting_list.h"
+#include "plans/schema/internal/uncertainty_table.h"
 #include "record/sha256.h"
 
 namespace rondure::plans {

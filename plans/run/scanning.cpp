@@ -10,7 +10,7 @@
 #include "cmm/scan_path.h"
 #include "cmm/ipp_client/touch_check.h"
 #include "core/units.h"
-#include "plans/run/inspection.h"
+#include "plans/run/internal/inspection.h"
 
 namespace rondure::plans {
 namespace {

@@ -9,12 +9,12 @@
 #include "plans/schema/findings.h"
 #include "plans/schema/json_text.h"
 #include "plans/plan.h"
-#include "plans/checks/plan_checks.h"
-#include "plans/checks/plan_reach.h"
-#include "plans/schema/plan_table.h"
-#include "plans/analyses/rotary_poses.h"
+#include "plans/checks/internal/plan_checks.h"
+#include "plans/checks/internal/plan_reach.h"
+#include "plans/schema/internal/plan_table.h"
+#include "plans/analyses/internal/rotary_poses.h"
 #include "plans/run/run_head.h"
-#include "plans/schema/table_reader.h"
+#include "plans/schema/internal/table_reader.h"
 #include "record/csv/points.h"
 
 namespace rondure::plans {

@@ -9,7 +9,7 @@
 
 #include "plans/schema/key_spec.h"
 #include "plans/plan.h"
-#include "plans/schema/plan_table.h"
+#include "plans/schema/internal/plan_table.h"
 
 namespace rondure::plans {
 namespace {

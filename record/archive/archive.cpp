@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <soci/soci.h>
 
-#include "record/archive/rows.h"
-#include "record/archive/session.h"
+#include "record/archive/internal/rows.h"
+#include "record/archive/internal/session.h"
 
 namespace rondure::record {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "record/archive/server_url.h"
+#include "record/archive/internal/server_url.h"
 
 namespace rondure::record {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <soci/soci.h>
 
-#include "record/archive/rows.h"
-#include "record/archive/session.h"
+#include "record/archive/internal/rows.h"
+#include "record/archive/internal/session.h"
 
 namespace rondure::record {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "record/csv/lines.h"
+#include "record/csv/internal/lines.h"
 #include "record/csv/series.h"
 
 namespace rondure::record {

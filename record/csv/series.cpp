@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "record/csv/lines.h"
+#include "record/csv/internal/lines.h"
 
 namespace rondure::record {
 namespace {

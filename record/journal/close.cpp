@@ -2,8 +2,8 @@
 
 #include "record/checksums.h"
 #include "record/files.h"
-#include "record/journal/impl.h"
-#include "record/journal/seal.h"
+#include "record/journal/internal/impl.h"
+#include "record/journal/internal/seal.h"
 #include "record/sha256.h"
 
 namespace rondure::record {

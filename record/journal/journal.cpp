@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "record/growing_record.h"
-#include "record/journal/impl.h"
-#include "record/journal/series.h"
+#include "record/journal/internal/impl.h"
+#include "record/journal/internal/series.h"
 
 namespace rondure::record {
 

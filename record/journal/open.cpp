@@ -2,9 +2,9 @@
 
 #include "record/checksums.h"
 #include "record/files.h"
-#include "record/journal/impl.h"
-#include "record/journal/place.h"
-#include "record/journal/schema.h"
+#include "record/journal/internal/impl.h"
+#include "record/journal/internal/place.h"
+#include "record/journal/internal/schema.h"
 
 namespace rondure::record {
 namespace {

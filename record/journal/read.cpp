@@ -8,15 +8,15 @@
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
-#include "record/journal/canonical.h"
+#include "record/journal/internal/canonical.h"
 #include "record/checksums.h"
-#include "record/database.h"
+#include "record/internal/database.h"
 #include "record/files.h"
-#include "record/journal/damage.h"
-#include "record/journal/reader.h"
-#include "record/journal/schema.h"
-#include "record/journal/seal.h"
-#include "record/journal/private_copy.h"
+#include "record/journal/internal/damage.h"
+#include "record/journal/internal/reader.h"
+#include "record/journal/internal/schema.h"
+#include "record/journal/internal/seal.h"
+#include "record/journal/internal/private_copy.h"
 #include "record/sha256.h"
 
 namespace rondure::record {

@@ -10,10 +10,10 @@
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
-#include "record/database.h"
+#include "record/internal/database.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
-#include "record/journal/private_copy.h"
+#include "record/journal/internal/private_copy.h"
 #include "record/run_lock.h"
 
 namespace rondure::record {

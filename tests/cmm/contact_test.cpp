@@ -1,4 +1,4 @@
-#include "cmm/simulated/contact.h"
+#include "cmm/simulated/internal/contact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cmm/simulated/surface_shape.h"
+#include "cmm/simulated/internal/surface_shape.h"
 #include "random_parts.h"
 
 namespace rondure::cmm {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "cmm/ipp_client/dialogue.h"
-#include "cmm/ipp_client/failure.h"
+#include "cmm/ipp_client/internal/failure.h"
 #include "tests/cmm/scripted_server.h"
 
 namespace rondure::cmm::ipp::client {

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cmm/ipp/errors.h"
+#include "cmm/ipp/internal/errors.h"
 #include "cmm/ipp/lines.h"
-#include "cmm/ipp/methods.h"
+#include "cmm/ipp/internal/methods.h"
 
 namespace rondure::cmm::ipp {
 namespace {

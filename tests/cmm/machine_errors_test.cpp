@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 
-#include "cmm/simulated/machine_map.h"
+#include "cmm/simulated/internal/machine_map.h"
 #include "cmm/simulated/machine.h"
 #include "cmm/simulated/typical_errors.h"
 #include "core/noise.h"

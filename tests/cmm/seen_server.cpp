@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
-#include "cmm/ipp/errors.h"
+#include "cmm/ipp/internal/errors.h"
 #include "core/units.h"
 
 namespace rondure::cmm::ipp {

@@ -1,4 +1,4 @@
-#include "cmm/simulated/surface_shape.h"
+#include "cmm/simulated/internal/surface_shape.h"
 
 #include <cmath>
 

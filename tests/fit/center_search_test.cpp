@@ -7,7 +7,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/geometry/bisectors.h"
+#include "fit/geometry/internal/bisectors.h"
 #include "fit/least_squares/circle.h"
 
 // Worked examples: method specification, cylindricity section 13. Point numbers there start at 1.

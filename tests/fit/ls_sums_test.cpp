@@ -1,4 +1,4 @@
-#include "fit/least_squares/sums.h"
+#include "fit/least_squares/internal/sums.h"
 
 #include <bit>
 #include <cmath>

@@ -18,7 +18,7 @@
 
 #include "fit/rotary/ball_setup.h"
 #include "fit/chi_square.h"
-#include "fit/published/axes.h"
+#include "fit/published/internal/axes.h"
 #include "tests/fit/oracles/dial.h"
 #include "tests/fit/rotary_cases.h"
 #include "tests/fit/spec_cases.h"

@@ -9,13 +9,13 @@
 #include <soci/sqlite3/soci-sqlite3.h>
 #include <nlohmann/json.hpp>
 
-#include "record/journal/chain.h"
+#include "record/journal/internal/chain.h"
 #include "record/checksums.h"
-#include "record/database.h"
+#include "record/internal/database.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
-#include "record/journal/schema.h"
-#include "record/journal/seal.h"
+#include "record/journal/internal/schema.h"
+#include "record/journal/internal/seal.h"
 #include "record/sha256.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"

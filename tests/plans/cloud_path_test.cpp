@@ -1,7 +1,7 @@
 // The oracle of clearance: every sampled place of ball, shaft and holder on the way against closed
 // distances of the solids, written here once more.
 
-#include "plans/path/cloud_path.h"
+#include "plans/path/internal/cloud_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,9 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "plans/forecast/feature_planner.h"
-#include "plans/checks/plan_reach.h"
-#include "plans/checks/reach_advice.h"
+#include "plans/forecast/internal/feature_planner.h"
+#include "plans/checks/internal/plan_reach.h"
+#include "plans/checks/internal/reach_advice.h"
 #include "tests/plans/random_inspection.h"
 
 namespace rondure::plans {

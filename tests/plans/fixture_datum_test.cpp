@@ -1,4 +1,4 @@
-#include "plans/run/fixture_datum.h"
+#include "plans/run/internal/fixture_datum.h"
 
 #include <stdexcept>
 
@@ -8,7 +8,7 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "plans/forecast/forecast.h"
-#include "plans/checks/plan_reach.h"
+#include "plans/checks/internal/plan_reach.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "tests/plans/files.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "plans/schema/key_spec.h"
-#include "plans/schema/near_words.h"
+#include "plans/schema/internal/near_words.h"
 #include "plans/schema/utf8.h"
 
 namespace rondure::plans {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "plans/schema/key_list.h"
+#include "plans/schema/internal/key_list.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {
@@ -17,7 +17,7 @@ TEST(PlanSchema, TheCommittedSchemaIsTheOneOfTheTable) {
 
 TEST(PlanSchema, TheKeysInTheDocumentationAreThoseOfTheTable) {
   const auto path = testing::source_dir() / "docs" / "plan.md";
-  const std::string mark = "<!-- keys: written by the test, from plans/schema/plan_table.h -->\n";
+  const std::string mark = "<!-- keys: written by the test, from plans/schema/internal/plan_table.h -->\n";
   const std::string document = testing::bytes_of(path);
   const std::size_t at = document.find(mark);
   ASSERT_NE(at, std::string::npos);

@@ -12,7 +12,7 @@
 #include "core/units.h"
 #include "fit/zone/center_search.h"
 #include "fit/references/min_zone_cylinder.h"
-#include "plans/cell/hidden_errors.h"
+#include "plans/cell/internal/hidden_errors.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
 

@@ -1,4 +1,4 @@
-#include "plans/cell/reached_pose.h"
+#include "plans/cell/internal/reached_pose.h"
 
 #include <stdexcept>
 
@@ -7,8 +7,8 @@
 
 #include "core/units.h"
 #include "fixture/simulated.h"
-#include "plans/checks/plan_reach.h"
-#include "plans/path/pose_grid.h"
+#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/pose_grid.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "tests/plans/files.h"

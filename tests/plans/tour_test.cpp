@@ -1,4 +1,4 @@
-#include "plans/path/tour.h"
+#include "plans/path/internal/tour.h"
 
 #include <algorithm>
 #include <limits>

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "record/archive/server_url.h"
+#include "record/archive/internal/server_url.h"
 
 namespace rondure::record {
 namespace {

@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "record/archive/schema.h"
+#include "record/archive/internal/schema.h"
 #include "record/files.h"
 #include "tests/record/archive_samples.h"
 

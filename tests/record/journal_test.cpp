@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "record/files.h"
-#include "record/journal/schema.h"
+#include "record/journal/internal/schema.h"
 #include "record/sha256.h"
 #include "tests/record/sample_run.h"
 

@@ -1,4 +1,4 @@
-#include "record/journal/private_copy.h"
+#include "record/journal/internal/private_copy.h"
 
 #include <array>
 #include <csignal>

@@ -15,7 +15,7 @@
 #include "web/guard.h"
 #include "web/page.h"
 #include "web/time.h"
-#include "../reports/synthetic.h"
+#include "tests/reports/synthetic.h"
 
 namespace rondure::reports {
 namespace {

@@ -1,0 +1,129 @@
+#include "cmm/simulated/internal/contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include <fmt/format.h>
+
+#include "cmm/internal/clearance.h"
+#include "cmm/simulated/internal/side_contact.h"
+#include "cmm/simulated/internal/surface_shape.h"
+
+namespace rondure::cmm {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kOverlap_mm = 1e-9;
+
+/// True for a point of an end plane that belongs to the flat end.
+bool on_end(const PartSurface& surface, const Vector3d& p) {
+  const double from_axis = std::hypot(p.x(), p.y());
+  const double rim = surface.radius_at(std::atan2(p.y(), p.x()), p.z());
+  if (!surface.inside) return from_axis <= rim;
+  return from_axis >= rim && from_axis <= surface.radius_mm + kBlockWall_mm;
+}
+
+/// True for a point within the material.
+bool in_material(const PartSurface& surface, const Vector3d& p) {
+  return std::abs(p.z()) <= surface.half_length_mm && on_end(surface, p);
+}
+
+/// Contact with the flat of the upper (side = 1) or lower (-1) end, rim excluded.
+std::optional<SideContact> end_contact(const PartSurface& surface, const SphereSweep& sweep,
+                                       double side) {
+  const double height = side * sweep.start_P_mm.z() - surface.half_length_mm;  // above the end
+  if (height < 0.0) return std::nullopt;
+  const auto foot = [&](double travel) {
+    Vector3d p = sweep.start_P_mm + travel * sweep.direction_P;
+    p.z() = side * surface.half_length_mm;
+    return p;
+  };
+  if (height < sweep.radius_mm && on_end(surface, foot(0.0))) {
+    return SideContact{height - sweep.radius_mm, foot(0.0)};
+  }
+  const double speed = -side * sweep.direction_P.z();
+  if (speed <= 0.0 || height < sweep.radius_mm) return std::nullopt;
+  const double travel = (height - sweep.radius_mm) / speed;
+  if (travel > sweep.travel_mm || !on_end(surface, foot(travel))) return std::nullopt;
+  return SideContact{travel, foot(travel)};
+}
+
+/// The outer wall of the block around a bore, as a shaft of ideal form.
+PartSurface block_wall(const PartSurface& bore) {
+  return {bore.radius_mm + kBlockWall_mm, bore.half_length_mm, false, {}, {}};
+}
+
+core::Error in_contact_already() {
+  return {core::Code::kCollision, "the tip overlaps the part before the motion starts", {}};
+}
+
+core::Error no_contact(double max_travel_mm) {
+  return {core::Code::kNoTouch,
+          fmt::format("no contact within {:.3f} mm of travel", max_travel_mm),
+          {}};
+}
+
+core::Result<Contact> as_contact(const std::optional<SideContact>& first,
+                                 const SphereSweep& sweep) {
+  if (!first) return core::fail(no_contact(sweep.travel_mm));
+  if (first->travel_mm < -kOverlap_mm) return core::fail(in_contact_already());
+  Contact contact;
+  contact.travel_mm = std::max(first->travel_mm, 0.0);
+  contact.tip_P_mm = sweep.start_P_mm + contact.travel_mm * sweep.direction_P;
+  contact.point_P_mm = first->point_P_mm;
+  contact.normal_P = (contact.tip_P_mm - contact.point_P_mm).normalized();
+  return contact;
+}
+
+}  // namespace
+
+core::Result<Contact> first_contact(const PartSurface& surface, const Vector3d& start_P_mm,
+                                    const Vector3d& direction_P, double tip_radius_mm,
+                                    double max_travel_mm) {
+  const SphereSweep sweep = {start_P_mm, direction_P, tip_radius_mm, max_travel_mm};
+  const Vector3d end_P_mm = start_P_mm + max_travel_mm * direction_P;
+  if (surely_clear(surface, shape_bounds(surface).toward_free_mm, start_P_mm, end_P_mm,
+                   tip_radius_mm)) {
+    return core::fail(no_contact(max_travel_mm));
+  }
+  if (in_material(surface, start_P_mm)) return core::fail(in_contact_already());
+  const auto side = first_side_contact(surface, sweep);
+  if (!side) return core::fail(side.error());
+  std::optional<SideContact> first = *side;
+  const auto keep_first = [&first](const std::optional<SideContact>& other) {
+    if (other && (!first || other->travel_mm < first->travel_mm)) first = other;
+  };
+  keep_first(end_contact(surface, sweep, 1.0));
+  keep_first(end_contact(surface, sweep, -1.0));
+  const bool within_bore = start_P_mm.head<2>().norm() < surface.radius_mm &&
+                           std::abs(start_P_mm.z()) < surface.half_length_mm;
+  if (surface.inside && !within_bore) {
+    const auto wall = first_side_contact(block_wall(surface), sweep);
+    if (!wall) return core::fail(wall.error());
+    keep_first(*wall);
+  }
+  return as_contact(first, sweep);
+}
+
+core::Result<Contact> first_contact_with_sphere(const Vector3d& center_mm, double radius_mm,
+                                                const Vector3d& start_mm, const Vector3d& direction,
+                                                double tip_radius_mm, double max_travel_mm) {
+  const SphereSweep sweep = {start_mm, direction, tip_radius_mm, max_travel_mm};
+  const Vector3d to_center = center_mm - start_mm;
+  const double reach = radius_mm + tip_radius_mm;
+  if (to_center.norm() < reach - kOverlap_mm) return core::fail(in_contact_already());
+  const double along = direction.dot(to_center);
+  const double depth2 = reach * reach - (to_center - along * direction).squaredNorm();
+  if (along < 0.0 || depth2 < 0.0) return core::fail(no_contact(max_travel_mm));
+  const double travel = along - std::sqrt(depth2);
+  if (travel > max_travel_mm) return core::fail(no_contact(max_travel_mm));
+  const Vector3d tip = start_mm + travel * direction;
+  return as_contact(SideContact{travel, center_mm + radius_mm * (tip - center_mm).normalized()},
+                    sweep);
+}
+
+}  // namespace rondure::cmm

@@ -1,0 +1,84 @@
+#include "fit/profiles/internal/dft.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <numbers>
+
+#include <fftw3.h>
+
+namespace rondure::fit {
+namespace {
+
+using Plan = std::unique_ptr<fftw_plan_s, void (*)(fftw_plan)>;
+
+/// Nothing is timed and no alignment is used: the same transform, and the same bits, every time.
+constexpr unsigned kFlags = FFTW_ESTIMATE | FFTW_UNALIGNED;
+
+/// FFTW makes and destroys plans one at a time; it executes them side by side.
+std::mutex& planning() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+template <class Make>
+void execute(const Make& make) {
+  const auto destroy = [](fftw_plan plan) {
+    const std::lock_guard lock(planning());
+    fftw_destroy_plan(plan);
+  };
+  const auto planned = [&] {
+    const std::lock_guard lock(planning());
+    return Plan(make(), destroy);
+  };
+  fftw_execute(planned().get());
+}
+
+/// FFTW's complex is two doubles, as std::complex is by the standard.
+fftw_complex* raw(std::vector<Complex>& values) {
+  return reinterpret_cast<fftw_complex*>(values.data());
+}
+
+}  // namespace
+
+Spectrum spectrum(std::span<const double> series) {
+  std::vector<double> in(series.begin(), series.end());
+  std::vector<Complex> out(series.size() / 2 + 1);
+  const int count = static_cast<int>(series.size());
+  execute([&] { return fftw_plan_dft_r2c_1d(count, in.data(), raw(out), kFlags); });
+  return out;
+}
+
+std::vector<double> series_of(std::span<const Complex> half, std::size_t count) {
+  assert(half.size() == count / 2 + 1);
+  std::vector<Complex> in(half.begin(), half.end());  // is overwritten
+  std::vector<double> out(count);
+  const int size = static_cast<int>(count);
+  execute([&] { return fftw_plan_dft_c2r_1d(size, raw(in), out.data(), kFlags); });
+  for (double& x : out) x /= static_cast<double>(count);
+  return out;
+}
+
+double last_untouched(std::size_t count, double kept) {
+  return std::max(kept, 0.375 * static_cast<double>(count));
+}
+
+std::vector<double> decimated(std::span<const double> series, std::size_t count, double kept) {
+  assert(series.size() % count == 0);
+  if (series.size() == count) return {series.begin(), series.end()};
+  auto f = spectrum(series);
+  f.resize(count / 2 + 1);
+  const double first = last_untouched(count, kept);
+  const double last = 0.5 * static_cast<double>(count);
+  const double scale = static_cast<double>(count) / static_cast<double>(series.size());
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    // A step instead of the cosine would ring along the whole turn where its ends do not meet.
+    const double beyond = (static_cast<double>(k) - first) / (last - first);
+    f[k] *= scale * (beyond > 0.0 ? 0.5 + 0.5 * std::cos(std::numbers::pi * beyond) : 1.0);
+  }
+  return series_of(f, count);
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,128 @@
+#include "fit/profiles/internal/robust_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "fit/profiles/internal/dft.h"
+#include "fit/profiles/profile_filter.h"
+
+namespace rondure::fit {
+namespace {
+
+constexpr int kIterationLimit = 3000;
+/// After so many iterations only half of each step is taken, then a quarter, then an eighth: where
+/// strong undulations lie next to the cut-off the full step overshoots for ever. A line that
+/// settles does so with any share.
+constexpr int kIterationsPerDamping = 100;
+constexpr int kDampings = 3;
+constexpr double kStandardised = 4.4478;  // 3 standard deviations: median|e| = 0.67449 sigma
+constexpr double kSettledStep = 1e-9;
+/// Weight of a neighbourhood below which its mean is round-off of the transform.
+constexpr double kLeastWeight = 1e-6;
+/// The floor of the scale over the largest change of the mean line by one more filtering. A spike
+/// lifts the first line by a bump b, of which the second filtering takes (1 - 1/sqrt(2)) b; at
+/// twice b the points beside the spike stay inside, and what the filter takes from smooth
+/// undulations has a weight above 0.95.
+constexpr double kFloor = 2.0 / (1.0 - 1.0 / std::numbers::sqrt2);
+
+/// Where the scale of the residuals comes from.
+enum class Scale {
+  kMedian,   ///< The standard's.
+  kFloored,  ///< The same, not below what the filter itself takes from its mean line.
+};
+
+std::vector<double> gaussian_mean(std::span<const double> r, double cutoff) {
+  auto f = spectrum(r);
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    f[k] *= gaussian_transmission(static_cast<double>(k), cutoff);
+  }
+  return series_of(f, r.size());
+}
+
+double median_distance(std::span<const double> r, std::span<const double> w) {
+  std::vector<double> distance(r.size());
+  for (std::size_t i = 0; i < r.size(); ++i) distance[i] = std::abs(r[i] - w[i]);
+  const std::size_t half = distance.size() / 2;
+  const auto middle = distance.begin() + static_cast<std::ptrdiff_t>(half);
+  std::nth_element(distance.begin(), middle, distance.end());
+  if (distance.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(distance.begin(), middle));
+}
+
+/// Tukey's weights of the residuals.
+std::vector<double> weights(std::span<const double> r, std::span<const double> w, double c) {
+  std::vector<double> out(r.size(), 0.0);
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const double ratio = (r[i] - w[i]) / c;
+    if (std::abs(ratio) <= 1.0) out[i] = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
+  }
+  return out;
+}
+
+double greatest_step(std::span<const double> a, std::span<const double> b) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) out = std::max(out, std::abs(a[i] - b[i]));
+  return out;
+}
+
+/// The iteration, for a profile whose mean is 0.
+core::Result<RobustMeanLine> settled_line(const std::vector<double>& r, double cutoff_upr,
+                                          Scale scale) {
+  RobustMeanLine out{gaussian_mean(r, cutoff_upr), 0, scale == Scale::kFloored};
+  const auto [low, high] = std::minmax_element(r.begin(), r.end());
+  const double round_off = 64.0 * std::numeric_limits<double>::epsilon() * (*high - *low);
+  std::vector<double> weighted(r.size());
+  while (out.iterations < kIterationLimit) {
+    ++out.iterations;
+    double c = kStandardised * median_distance(r, out.r_mm);
+    if (scale == Scale::kFloored) {
+      c = std::max(c, kFloor * greatest_step(out.r_mm, gaussian_mean(out.r_mm, cutoff_upr)));
+    }
+    if (c <= round_off) return out;  // half of the profile is its own mean line
+    const auto delta = weights(r, out.r_mm, c);
+    for (std::size_t i = 0; i < delta.size(); ++i) weighted[i] = delta[i] * r[i];
+    auto line = gaussian_mean(weighted, cutoff_upr);
+    const auto weight = gaussian_mean(delta, cutoff_upr);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      if (weight[i] < kLeastWeight) {
+        return core::fail(core::Code::kNotConverged,
+                          fmt::format("the robust filter at {} UPR finds only outliers round row "
+                                      "{}; take a lower cut-off or the linear filter",
+                                      cutoff_upr, i));
+      }
+      line[i] /= weight[i];
+    }
+    const double step = greatest_step(line, out.r_mm);
+    const double share = std::exp2(-std::min(out.iterations / kIterationsPerDamping, kDampings));
+    for (std::size_t i = 0; i < line.size(); ++i) out.r_mm[i] += share * (line[i] - out.r_mm[i]);
+    if (step <= kSettledStep * c + round_off) return out;
+  }
+  return core::fail(core::Code::kNotConverged,
+                    fmt::format("the robust filter at {} UPR still moves after {} iterations; take "
+                                "another cut-off or the linear filter",
+                                cutoff_upr, kIterationLimit));
+}
+
+}  // namespace
+
+core::Result<RobustMeanLine> robust_mean_line(std::span<const double> r_mm, double cutoff_upr) {
+  // The profile is taken relative to its mean, so that a radius of many mm costs no digits.
+  const double mean =
+      std::accumulate(r_mm.begin(), r_mm.end(), 0.0) / static_cast<double>(r_mm.size());
+  std::vector<double> r(r_mm.begin(), r_mm.end());
+  for (double& value : r) value -= mean;
+  auto line = settled_line(r, cutoff_upr, Scale::kMedian);
+  // A smooth profile leaves residuals that are not noise but what the filter takes from its
+  // undulations: their median says nothing of the places where these are largest.
+  if (!line) line = settled_line(r, cutoff_upr, Scale::kFloored);
+  if (!line) return line;
+  for (double& value : line->r_mm) value += mean;
+  return line;
+}
+
+}  // namespace rondure::fit

@@ -1,0 +1,228 @@
+#include "fit/rotary/internal/station.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <Eigen/LU>
+
+#include "core/decompositions.h"
+#include "fit/rotary/ball_setup.h"
+#include "fit/chi_square.h"
+#include "fit/geometry/registration.h"
+
+namespace rondure::fit {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// The linear equations of a station: unknowns (shift of the centroid, l times rotation), so that
+/// all six are lengths of one size.
+struct Equations {
+  Vector3d centroid = Vector3d::Zero();
+  double length = 1.0;
+  std::vector<Matrix36> rows;     ///< One a ball.
+  std::vector<Matrix3d> weights;  ///< Inverse covariances.
+  Matrix6 inverse = Matrix6::Zero();
+  Matrix6 back = Matrix6::Identity();  ///< From the unknowns to (t; w) at the origin.
+
+  /// What the unknowns gain from a discrepancy of ball i.
+  [[nodiscard]] Eigen::Matrix<double, 6, 3> gain(std::size_t i) const {
+    return inverse * rows[i].transpose() * weights[i];
+  }
+};
+
+Equations equations_at(const std::vector<Vector3d>& places, std::span<const StationBall> balls) {
+  Equations out;
+  const auto n = static_cast<double>(places.size());
+  for (const Vector3d& p : places) out.centroid += p / n;
+  double squares = 0.0;
+  for (const Vector3d& p : places) squares += (p - out.centroid).squaredNorm() / n;
+  out.length = std::sqrt(squares);
+  Matrix6 normal = Matrix6::Zero();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Matrix36 rows;
+    rows << Matrix3d::Identity(), -cross_matrix(places[i] - out.centroid) / out.length;
+    out.rows.push_back(rows);
+    out.weights.emplace_back((balls[i].measured_mm2 + balls[i].nominal_mm2).inverse());
+    normal += rows.transpose() * out.weights[i] * rows;
+  }
+  out.inverse = normal.ldlt().solve(Matrix6::Identity());
+  out.back.topRightCorner<3, 3>() = cross_matrix(out.centroid) / out.length;
+  out.back.bottomRightCorner<3, 3>() = Matrix3d::Identity() / out.length;
+  return out;
+}
+
+std::vector<Vector3d> nominal_places(std::span<const StationBall> balls) {
+  std::vector<Vector3d> out;
+  for (const StationBall& ball : balls) out.push_back(ball.nominal_mm);
+  return out;
+}
+
+bool alike_in_all_directions(std::span<const StationBall> balls) {
+  return std::all_of(balls.begin(), balls.end(), [](const StationBall& ball) {
+    const Matrix3d c = ball.measured_mm2 + ball.nominal_mm2;
+    const double mean = c.trace() / 3.0;
+    return (c - mean * Matrix3d::Identity()).norm() <= 1e-12 * mean;
+  });
+}
+
+/// Least squares of the full model with full weights, from a rigid registration.
+Eigen::Isometry3d refined_motion(Eigen::Isometry3d motion, std::span<const StationBall> balls) {
+  for (int pass = 0; pass < 20; ++pass) {
+    std::vector<Vector3d> places;
+    for (const StationBall& ball : balls) places.emplace_back(motion * ball.nominal_mm);
+    const Equations at = equations_at(places, balls);
+    Vector6 step = Vector6::Zero();
+    for (std::size_t i = 0; i < balls.size(); ++i)
+      step += at.gain(i) * (balls[i].measured_mm - places[i]);
+    const Vector3d turn = step.tail<3>() / at.length;
+    const Eigen::Isometry3d about_centroid = Eigen::Translation3d(at.centroid + step.head<3>()) *
+                                             error_motion(Vector3d::Zero(), turn) *
+                                             Eigen::Translation3d(-at.centroid);
+    motion = about_centroid * motion;
+    if (step.norm() <= 1e-15 * at.length) break;
+  }
+  return motion;
+}
+
+/// The motion that takes the nominal balls to the measured ones.
+core::Result<Eigen::Isometry3d> exact_motion(std::span<const StationBall> balls) {
+  std::vector<Vector3d> measured;
+  std::vector<double> weights;
+  for (const StationBall& ball : balls) {
+    measured.push_back(ball.measured_mm);
+    weights.push_back(1.0 / (ball.measured_mm2 + ball.nominal_mm2).trace());
+  }
+  const auto found = rigid_registration(nominal_places(balls), measured, weights);
+  if (!found) return core::fail(found.error());
+  if (alike_in_all_directions(balls)) return found->motion;
+  return refined_motion(found->motion, balls);
+}
+
+Vector6 linear_errors(const Equations& at, std::span<const StationBall> balls) {
+  Vector6 sum = Vector6::Zero();
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    sum += at.gain(i) * (balls[i].measured_mm - balls[i].nominal_mm);
+  return at.back * sum;
+}
+
+Vector6 printed_errors(const PublishedMatrix& printed, std::span<const StationBall> balls) {
+  Eigen::Matrix<double, 9, 1> dp;
+  for (std::size_t i = 0; i < 3; ++i) {
+    dp.segment<3>(3 * static_cast<Eigen::Index>(i)) = balls[i].measured_mm - balls[i].nominal_mm;
+  }
+  PublishedMatrix scaled = printed;
+  scaled.rightCols<3>() /= 100.0;
+  const Matrix6 normal = scaled.transpose() * scaled;
+  Vector6 out = normal.ldlt().solve(scaled.transpose() * dp);
+  out.tail<3>() /= 100.0;
+  return out;
+}
+
+void state_covariance(const Equations& at, std::span<const StationBall> balls, RotaryStation& out) {
+  out.errors.covariance = at.back * at.inverse * at.back.transpose();
+  Matrix6 measured = Matrix6::Zero();
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    measured += at.gain(i) * balls[i].measured_mm2 * at.gain(i).transpose();
+  }
+  out.measured_covariance = at.back * measured * at.back.transpose();
+}
+
+/// Residuals, chi square and redundancy of a solution.
+void state_fit(const Equations& at, std::span<const StationBall> balls, bool linear,
+               RotaryStation& out) {
+  const Eigen::Isometry3d motion = error_motion(out.errors.t_mm, out.errors.w_rad);
+  out.chi2 = 0.0;
+  out.residuals_mm.clear();
+  out.redundancy.clear();
+  out.balls.clear();
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const Vector3d& p = balls[i].nominal_mm;
+    const Vector3d adjusted =
+        linear ? Vector3d(p + out.errors.t_mm + out.errors.w_rad.cross(p)) : Vector3d(motion * p);
+    const Vector3d v = balls[i].measured_mm - adjusted;
+    out.chi2 += v.dot(at.weights[i] * v);
+    out.residuals_mm.push_back(v);
+    out.redundancy.emplace_back(Vector3d::Ones() - (at.rows[i] * at.gain(i)).diagonal());
+    out.balls.push_back(balls[i].ball);
+  }
+}
+
+/// By how much chi square falls when ball i is left out: v^T Q^-1 v, Q the covariance of its
+/// residual; directions in which the residual cannot move do not count.
+double normalised_residual(const Equations& at, const RotaryStation& station, std::size_t i) {
+  const Matrix3d root = at.weights[i].llt().matrixL();  // weights = root root^T
+  const Vector3d v = root.transpose() * station.residuals_mm[i];
+  const Matrix3d redundancy = Matrix3d::Identity() - root.transpose() * at.rows[i] * at.inverse *
+                                                         at.rows[i].transpose() * root;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(redundancy);
+  double out = 0.0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double share = eigen.eigenvalues()(k);
+    if (share > 1e-6) out += std::pow(eigen.eigenvectors().col(k).dot(v), 2) / share;
+  }
+  return out;
+}
+
+bool determined(std::span<const StationBall> balls) {
+  std::vector<std::string> names;
+  for (const StationBall& ball : balls) names.push_back(ball.ball);
+  return check_setup(nominal_places(balls), names).has_value();
+}
+
+/// One solution with the balls given; false when there is none. `at` receives its equations.
+bool solve_once(std::span<const StationBall> balls, const RotaryOptions& options,
+                const std::optional<PublishedMatrix>& printed, Equations& at, RotaryStation& out) {
+  if (!determined(balls)) return false;
+  at = equations_at(nominal_places(balls), balls);
+  const bool linear = options.solver != RotaryOptions::Solver::kExact;
+  if (linear) {
+    const Vector6 x = printed ? printed_errors(*printed, balls) : linear_errors(at, balls);
+    out.errors.t_mm = x.head<3>();
+    out.errors.w_rad = x.tail<3>();
+  } else {
+    const auto motion = exact_motion(balls);
+    if (!motion) return false;
+    out.errors.t_mm = motion->translation();
+    out.errors.w_rad = rotation_vector(motion->linear());
+  }
+  state_covariance(at, balls, out);
+  state_fit(at, balls, linear, out);
+  out.condition = judge_setup(nominal_places(balls)).condition;
+  out.dof = 3 * static_cast<int>(balls.size()) - 6;
+  out.chi2_limit = chi_square_quantile(options.outlier_probability, out.dof);
+  return true;
+}
+
+}  // namespace
+
+RotaryStation solve_station(std::vector<StationBall> balls, const RotaryOptions& options,
+                            const std::optional<PublishedMatrix>& printed) {
+  RotaryStation out;
+  Equations at;
+  if (!solve_once(balls, options, printed, at, out)) {
+    out.undetermined = true;
+    return out;
+  }
+  while (out.chi2 > out.chi2_limit) {
+    out.flagged = true;
+    if (!options.remove_outliers || balls.size() < 5) break;
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < balls.size(); ++i) sizes.push_back(normalised_residual(at, out, i));
+    const auto worst = std::max_element(sizes.begin(), sizes.end()) - sizes.begin();
+    std::vector<StationBall> rest = balls;
+    rest.erase(rest.begin() + worst);
+    RotaryStation next;
+    next.removed = out.removed;
+    next.removed.push_back(balls[static_cast<std::size_t>(worst)].ball);
+    if (!solve_once(rest, options, printed, at, next)) break;
+    out = std::move(next);
+    balls = std::move(rest);
+  }
+  return out;
+}
+
+}  // namespace rondure::fit

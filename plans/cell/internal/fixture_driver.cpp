@@ -1,0 +1,78 @@
+#include "plans/cell/internal/fixture_driver.h"
+
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/units.h"
+#include "fixture/zaber.h"
+#include "fixture/zaber_connection.h"
+#include "plans/checks/internal/plan_reach.h"
+#include "plans/cell/internal/thorlabs_driver.h"
+
+namespace rondure::plans {
+namespace {
+
+using core::kDegree;
+
+fixture::ZaberAxisOptions axis_options(const ZaberAxisPlan& plan, int usual_axis) {
+  fixture::ZaberAxisOptions out;
+  out.axis = plan.axis == 0 ? usual_axis : plan.axis;
+  out.microstep_rad = plan.microstep_deg * kDegree;
+  out.reversed = plan.sense == "reversed";
+  out.zero_rad = plan.zero_deg * kDegree;
+  out.max_speed_rad_s = plan.max_speed_deg_s * kDegree;
+  return out;
+}
+
+core::Result<std::unique_ptr<fixture::Fixture>> open_zaber(const FixturePlan& fixture,
+                                                           const CellOptions& cell) {
+  const ZaberPlan plan = fixture.zaber.value_or(ZaberPlan{});
+  fixture::ZaberConnection connection;
+  if (plan.connection == "serial") connection.device = plan.device;
+  connection.usb_serial = plan.usb_serial;
+  connection.baud = plan.baud;
+  connection.wire_log = cell.wire_log;
+  auto lines = fixture::connect_zaber(connection);
+  if (!lines) return core::fail(lines.error().at("/fixture"));
+  fixture::ZaberOptions options;
+  options.device = plan.address;
+  options.alpha = axis_options(plan.alpha, 1);
+  options.beta = axis_options(plan.beta, 2);
+  options.limits = limits_of(fixture);
+  options.tolerance_rad = plan.pose_tolerance_deg * kDegree;
+  options.motion_limit = std::chrono::milliseconds(std::llround(1000.0 * plan.motion_limit_s));
+  options.stop_requested = cell.stop_requested;
+  auto opened = fixture::ZaberFixture::open(*std::move(lines), options);
+  if (!opened) return core::fail(opened.error().at("/fixture"));
+  return *std::move(opened);
+}
+
+core::Result<std::unique_ptr<fixture::Fixture>> open_manual(const FixturePlan& plan,
+                                                            const CellOptions& cell) {
+  if (cell.set_by_hand) {
+    return std::make_unique<fixture::ManualFixture>(limits_of(plan), cell.set_by_hand);
+  }
+  return core::fail(core::Code::kBadOption,
+                    "the fixture is set by hand, and there is nobody to ask; run it from a "
+                    "terminal",
+                    "/fixture/driver");
+}
+
+}  // namespace
+
+bool drives_fixture(const Plan& plan) {
+  const std::string& driver = plan.fixture->driver;
+  if (driver == "manual") return plan.machine->driver != "simulated";
+  return driver == "zaber" || driver == "thorlabs";
+}
+
+core::Result<std::unique_ptr<fixture::Fixture>> open_fixture(const FixturePlan& plan,
+                                                             const CellOptions& options) {
+  if (plan.driver == "thorlabs") return open_thorlabs(plan);
+  if (plan.driver == "manual") return open_manual(plan, options);
+  return open_zaber(plan, options);
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,426 @@
+#include "plans/checks/internal/plan_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "plans/analyses/analysis.h"
+#include "plans/run/internal/calibration_use.h"
+#include "plans/schema/json_text.h"
+#include "record/archive/place.h"
+
+namespace rondure::plans {
+namespace {
+
+using core::Code;
+
+// The first earlier entry with the same id, as an index.
+template <class Entries>
+std::optional<std::size_t> earlier_with_same_id(const Entries& entries, std::size_t index) {
+  for (std::size_t k = 0; k < index; ++k) {
+    if (!entries[k].id.empty() && entries[k].id == entries[index].id) return k;
+  }
+  return std::nullopt;
+}
+
+void check_travel(double min_deg, double max_deg, std::string_view axis, Findings& findings) {
+  const std::string lower = fmt::format("/fixture/min_{}_deg", axis);
+  if (!findings.sound(lower) || !findings.sound(fmt::format("/fixture/max_{}_deg", axis))) return;
+  if (min_deg >= max_deg) {
+    findings.meaning(Code::kMeaning, lower,
+                     fmt::format("the lower limit {} deg is not below the upper limit {} deg; "
+                                 "exchange or correct them",
+                                 plain(min_deg), plain(max_deg)));
+  } else if (min_deg > 0.0 || max_deg < 0.0) {
+    findings.meaning(
+        Code::kPoseRange, lower,
+        fmt::format("the travel {}..{} deg leaves out 0 deg, the pose where the fixture "
+                    "starts; widen it",
+                    plain(min_deg), plain(max_deg)));
+  }
+}
+
+void check_environment(const Plan& plan, Findings& findings) {
+  if (!plan.environment || !findings.sound("/environment")) return;
+  const EnvironmentPlan& environment = *plan.environment;
+  const double assumed_degC = environment.assumed_degC.value_or(environment.min_degC);
+  if (environment.min_degC < environment.max_degC) {
+    if (assumed_degC >= environment.min_degC && assumed_degC <= environment.max_degC) return;
+    findings.meaning(
+        Code::kMeaning, "/environment/assumed_degC",
+        fmt::format("{} degC is outside the limits {}..{} degC of this plan; every result would "
+                    "be void",
+                    plain(assumed_degC), plain(environment.min_degC), plain(environment.max_degC)));
+    return;
+  }
+  findings.meaning(Code::kMeaning, "/environment",
+                   fmt::format("min_degC {} is not below max_degC {}; every temperature would make "
+                               "the result void",
+                               plain(environment.min_degC), plain(environment.max_degC)));
+}
+
+void check_stylus(const ProbePlan& probe, Findings& findings) {
+  if (!findings.sound("/probe")) return;
+  const bool long_enough = probe.stylus_length_mm > 0.0;
+  if (long_enough != (probe.stylus_diameter_mm > 0.0)) {
+    findings.meaning(Code::kMeaning, "/probe/stylus_length_mm",
+                     "length and diameter of the stylus belong together; give both, or neither");
+  } else if (!long_enough && probe.holder_diameter_mm > 0.0) {
+    findings.meaning(Code::kMeaning, "/probe/holder_diameter_mm",
+                     "where the holder begins is not known; give stylus_length_mm and "
+                     "stylus_diameter_mm");
+  } else if (long_enough && probe.stylus_diameter_mm >= probe.tip_diameter_mm) {
+    findings.meaning(Code::kMeaning, "/probe/stylus_diameter_mm",
+                     fmt::format("a shaft of {} mm is not thinner than the ball of {} mm: it would "
+                                 "touch first; correct one of them",
+                                 plain(probe.stylus_diameter_mm), plain(probe.tip_diameter_mm)));
+  }
+}
+
+void check_sections(const PartPlan& part, Findings& findings) {
+  for (std::size_t i = 0; i < part.sections.size(); ++i) {
+    const std::string where = item_pointer("/part/sections", i);
+    if (!findings.sound(where)) continue;
+    const SectionPlan& s = part.sections[i];
+    if (s.from_mm >= s.to_mm) {
+      findings.meaning(Code::kMeaning, where + "/from_mm",
+                       fmt::format("the lower end {} mm is not below the upper end {} mm; exchange "
+                                   "or correct them",
+                                   plain(s.from_mm), plain(s.to_mm)));
+    }
+    if (s.bore_diameter_mm >= s.diameter_mm) {
+      findings.meaning(Code::kMeaning, where + "/bore_diameter_mm",
+                       fmt::format("a hole of {} mm leaves nothing of a section of {} mm; correct "
+                                   "one of them",
+                                   plain(s.bore_diameter_mm), plain(s.diameter_mm)));
+    }
+  }
+}
+
+void check_datum(const FixturePlan& fixture, Findings& findings) {
+  if (!fixture.datum || !findings.sound("/fixture/datum")) return;
+  const std::size_t spheres = fixture.datum->spheres.size();
+  if (spheres >= 3) return;
+  findings.meaning(
+      Code::kTooFewPoints, "/fixture/datum/spheres",
+      fmt::format("{} spheres do not tell where the base is; at least 3 are needed", spheres));
+}
+
+void check_archive(const Plan& plan, Findings& findings) {
+  constexpr std::string_view kWhere = "/reports/archive";
+  const std::string& archive = plan.reports.archive;
+  if (archive.empty() || !findings.sound(kWhere)) return;
+  const auto place = record::parse_archive_place(archive, plan.folder);
+  if (!place) {
+    findings.meaning(place.error().code, std::string(kWhere), place.error().what);
+  } else if (place->has_password()) {
+    findings.meaning(Code::kMeaning, std::string(kWhere),
+                     "the URL holds a password, which every report of the plan would show; take it "
+                     "out and put it into ~/.pgpass");
+  }
+}
+
+void check_needs(const Plan& plan, std::size_t touched, Findings& findings) {
+  constexpr std::array<std::string_view, 3> kNeeded = {"/machine", "/fixture", "/probe"};
+  for (const std::string_view section : kNeeded) {
+    if (findings.is_given(std::string(section))) continue;
+    findings.meaning(
+        Code::kMissingKey, std::string(section),
+        fmt::format("this key is missing: feature {} is touched by the machine; add it, or "
+                    "give the feature a \"source\" file",
+                    touched + 1));
+  }
+  const bool simulated = (plan.machine && plan.machine->driver == "simulated") ||
+                         (plan.fixture && plan.fixture->driver == "simulated");
+  if (simulated && !findings.is_given("/simulation")) {
+    findings.meaning(
+        Code::kMissingKey, "/simulation",
+        "this key is missing: the driver is \"simulated\"; say what is simulated, {} is "
+        "a part and a machine without errors");
+  }
+}
+
+// The lines of a mask, and that it stands where it has an effect.
+void check_mask(const CharacteristicPlan& c, const std::string& where, Findings& findings) {
+  const bool masked = c.form == "harmonic-limits";
+  if (masked && c.harmonic_limits.empty() && !findings.is_given(where + "/harmonic_limits")) {
+    findings.meaning(Code::kMissingKey, where + "/harmonic_limits",
+                     "this key is missing: the mask, e.g. [{\"from\": 2, \"to\": 50, "
+                     "\"amplitude_um\": 0.3}]");
+  }
+  if (!masked && !c.harmonic_limits.empty()) {
+    findings.meaning(Code::kMeaning, where + "/harmonic_limits",
+                     "has no effect: the form is not \"harmonic-limits\"; remove it");
+  }
+  if (masked && c.tolerance_um) {
+    findings.meaning(Code::kMeaning, where + "/tolerance_um",
+                     "has no effect: the mask holds the limits; remove it");
+  }
+  for (std::size_t i = 0; i < c.harmonic_limits.size(); ++i) {
+    const HarmonicLimitPlan& line = c.harmonic_limits[i];
+    if (line.from <= line.to) continue;
+    findings.meaning(Code::kMeaning, item_pointer(where + "/harmonic_limits", i),
+                     fmt::format("from {} is above to {}; exchange them", line.from, line.to));
+  }
+}
+
+/// Harmonics of touched sections need as many points as reports filter: 7 at 50 undulations.
+void check_dense(const FeaturePlan& feature, const CharacteristicPlan& c,
+                 const std::string& feature_where, const std::string& where, Findings& findings) {
+  constexpr int kDense = 350;
+  constexpr int kHighest = 50;
+  for (std::size_t i = 0; i < c.harmonic_limits.size(); ++i) {
+    if (c.harmonic_limits[i].to <= kHighest) continue;
+    findings.meaning(Code::kMeaning, item_pointer(where + "/harmonic_limits", i),
+                     fmt::format("to {} is above {}, the highest harmonic of a touched section",
+                                 c.harmonic_limits[i].to, kHighest));
+  }
+  if (!findings.is_given(feature_where + "/source")) {
+    if (feature.sampling.points_per_layer >= kDense) return;
+    findings.meaning(Code::kSampling, where + "/form",
+                     fmt::format("{} points a layer are too few: harmonics need at least {}",
+                                 feature.sampling.points_per_layer, kDense));
+  } else if (feature.type == "cylinder") {
+    findings.meaning(Code::kMeaning, where + "/form",
+                     "the points of a file have no layers, so a cylinder from a file has no "
+                     "harmonics; give each section as a \"circle\"");
+  }
+}
+
+/// What the driver "zaber" needs, and that nothing is said to another driver that it ignores.
+void check_zaber(const FixturePlan& fixture, Findings& findings) {
+  constexpr std::string_view kWhere = "/fixture/zaber";
+  const bool is_zaber = fixture.driver == "zaber";
+  if (!is_zaber && findings.is_given(std::string(kWhere))) {
+    findings.meaning(Code::kMeaning, std::string(kWhere),
+                     fmt::format("has no effect: the driver is \"{}\"; remove it", fixture.driver));
+  }
+  if (!is_zaber || !findings.sound(kWhere)) return;
+  const ZaberPlan stages = fixture.zaber.value_or(ZaberPlan{});
+  if (stages.connection == "serial" && stages.device.empty()) {
+    findings.meaning(Code::kMissingKey, "/fixture/zaber/device",
+                     "this key is missing: the connection is \"serial\"; give its device, e.g. "
+                     "\"/dev/ttyUSB0\"");
+  }
+  const int alpha = stages.alpha.axis == 0 ? 1 : stages.alpha.axis;
+  const int beta = stages.beta.axis == 0 ? 2 : stages.beta.axis;
+  if (alpha == beta) {
+    findings.meaning(Code::kMeaning, "/fixture/zaber/beta/axis",
+                     fmt::format("axis {} turns alpha already; give beta another one", beta));
+  }
+}
+
+/// A part that is simulated here does not stand in front of a machine elsewhere, nor the reverse.
+/// A device of its own turns either, as a hand does.
+void check_drivers(const Plan& plan, Findings& findings) {
+  if (!plan.machine || !plan.fixture || !findings.sound("/machine/driver") ||
+      !findings.sound("/fixture/driver")) {
+    return;
+  }
+  const std::string& machine = plan.machine->driver;
+  const std::string& fixture = plan.fixture->driver;
+  check_zaber(*plan.fixture, findings);
+  if (fixture == "manual" || fixture == "thorlabs" || fixture == "zaber" || machine == fixture) {
+    return;
+  }
+  findings.meaning(Code::kMeaning, "/fixture/driver",
+                   fmt::format("a fixture \"{}\" cannot carry a part in front of a machine \"{}\"; "
+                               "give both the same driver",
+                               fixture, machine));
+}
+
+/// A section that one driver needs and no other reads.
+void check_driver_section(const FixturePlan& fixture, std::string_view driver, std::string_view key,
+                          bool given, std::string_view what, Findings& findings) {
+  const std::string where = fmt::format("/fixture/{}", key);
+  if (fixture.driver == driver && !given && !findings.is_given(where)) {
+    findings.meaning(
+        Code::kMissingKey, where,
+        fmt::format("this key is missing: the driver is \"{}\"; say {}", driver, what));
+  }
+  if (fixture.driver != driver && given) {
+    findings.meaning(Code::kMeaning, where,
+                     fmt::format("has no effect: the driver is not \"{}\"; remove it", driver));
+  }
+}
+
+void check_thorlabs_axis(const ThorlabsAxisPlan& axis, const std::string& where,
+                         Findings& findings) {
+  if (!findings.sound(where)) return;
+  const bool complete =
+      axis.counts_per_deg && axis.velocity_per_deg_s && axis.acceleration_per_deg_s2;
+  if (axis.stage == "other" && !complete) {
+    findings.meaning(Code::kMissingKey, where + "/counts_per_deg",
+                     "this key is missing: of the stage \"other\" counts_per_deg, "
+                     "velocity_per_deg_s and acceleration_per_deg_s2 must be given");
+  }
+  if (axis.stage != "other" && findings.is_given(where + "/motor")) {
+    findings.meaning(Code::kMeaning, where + "/motor",
+                     "has no effect: the stage is not \"other\"; remove it");
+  }
+}
+
+/// What only single drivers need.
+void check_driver_sections(const FixturePlan& fixture, Findings& findings) {
+  if (!findings.sound("/fixture/driver")) return;
+  check_driver_section(fixture, "thorlabs", "thorlabs", fixture.thorlabs.has_value(),
+                       "which unit turns which axis", findings);
+  check_driver_section(fixture, "manual", "reached_pose", fixture.reached_pose.has_value(),
+                       "on which spheres the pose is measured", findings);
+  if (fixture.thorlabs) {
+    check_thorlabs_axis(fixture.thorlabs->alpha, "/fixture/thorlabs/alpha", findings);
+    check_thorlabs_axis(fixture.thorlabs->beta, "/fixture/thorlabs/beta", findings);
+    if (!fixture.thorlabs->alpha.serial.empty() &&
+        fixture.thorlabs->alpha.serial == fixture.thorlabs->beta.serial) {
+      findings.meaning(Code::kMeaning, "/fixture/thorlabs/beta/serial",
+                       "one unit cannot turn both axes; give the serial number of the other one");
+    }
+  }
+  if (fixture.reached_pose && findings.sound("/fixture/reached_pose") &&
+      fixture.reached_pose->spheres.size() < 2) {
+    findings.meaning(Code::kTooFewPoints, "/fixture/reached_pose/spheres",
+                     "1 sphere does not tell two angles; at least 2 are needed, 3 are better");
+  }
+}
+
+void check_characteristic(const FeaturePlan& feature, std::size_t index,
+                          const std::string& feature_where, Findings& findings) {
+  const std::string where = item_pointer(feature_where + "/characteristics", index);
+  const CharacteristicPlan& c = feature.characteristics[index];
+  check_mask(c, where, findings);
+  if (const auto twin = earlier_with_same_id(feature.characteristics, index)) {
+    findings.meaning(
+        Code::kMeaning, where + "/id",
+        fmt::format("the id {} names characteristic {} of this feature already; choose "
+                    "another",
+                    in_quotes(c.id), *twin + 1));
+  }
+  if (c.form == "cylindricity" && feature.type == "circle") {
+    findings.meaning(Code::kMeaning, where + "/form",
+                     "a circle has no cylindricity; ask for \"roundness\", or make the feature a "
+                     "\"cylinder\" with at least 2 layers");
+  }
+  if (c.form == "roundness" && feature.type == "cylinder") {
+    if (findings.is_given(feature_where + "/source")) {
+      findings.meaning(
+          Code::kMeaning, where + "/form",
+          "the points of a file have no layers, so a cylinder from a file has no roundness; "
+          "ask for \"cylindricity\", or give each section as a \"circle\"");
+    } else if (feature.sampling.points_per_layer < 4) {
+      findings.meaning(Code::kSampling, where + "/form",
+                       fmt::format("{} points a layer lie on a circle exactly, whatever the part; "
+                                   "roundness needs at least 4",
+                                   feature.sampling.points_per_layer));
+    }
+  }
+  const bool analysis = analysis_kind(feature.type) != nullptr;
+  const bool masked = c.form == "harmonic-limits";
+  if (!analysis && !masked && c.form != "cylindricity" && c.form != "roundness") {
+    findings.meaning(
+        Code::kMeaning, where + "/form",
+        fmt::format("a {} has no {}; ask for \"roundness\", \"harmonic-limits\" or, of "
+                    "a cylinder, for \"cylindricity\"",
+                    feature.type, c.form));
+  }
+  if (!analysis && masked) check_dense(feature, c, feature_where, where, findings);
+  const bool has_reference = c.form == "cylindricity" || c.form == "roundness";
+  if (has_reference && c.tolerance_um && !c.reference && !findings.is_given(where + "/reference")) {
+    findings.meaning(
+        Code::kMeaning, where + "/reference",
+        fmt::format("the tolerance of {} um has no reference; add \"reference\": \"mz\" "
+                    "(minimum zone, the ISO default), \"ls\" (least squares), \"mc\" (minimum "
+                    "circumscribed) or \"mi\" (maximum inscribed), as the drawing says",
+                    plain(*c.tolerance_um)));
+  }
+}
+
+// Keys of a feature that would be read and then ignored.
+void check_without_effect(const FeaturePlan& feature, const std::string& where,
+                          Findings& findings) {
+  const auto refuse = [&](const std::string& key, std::string_view why) {
+    if (!findings.is_given(where + key)) return;
+    findings.meaning(Code::kMeaning, where + key, fmt::format("has no effect: {}; remove it", why));
+  };
+  if (analysis_kind(feature.type) != nullptr) return;  // check_analysis() says it
+  refuse("/spindle", "the feature is touched, not probed by three probes");
+  refuse("/wheel", "the feature is no wheel");
+  refuse("/contour", "the feature is touched, not ground after axis traces");
+  refuse("/rotary_axes", "the feature is a surface, not the fixture");
+  refuse("/source/columns", "points have the columns x,y or x,y,z");
+  if (findings.is_given(where + "/source")) {
+    refuse("/sampling", "the points come from a file");
+    refuse("/pose_search", "the points come from a file");
+  } else if (feature.type == "circle") {
+    for (const std::string_view key : {"strategy", "steps_deg", "min_step_deg", "max_poses"}) {
+      refuse(fmt::format("/pose_search/{}", key), "a circle is measured in its start pose");
+    }
+  }
+}
+
+}  // namespace
+
+std::string feature_pointer(std::size_t index) { return item_pointer("/features", index); }
+
+bool is_touched(const Plan& plan, std::size_t index, const Findings& findings) {
+  return !findings.is_given(feature_pointer(index) + "/source") &&
+         analysis_kind(plan.features[index].type) == nullptr;
+}
+
+void check_equipment(const Plan& plan, Findings& findings) {
+  if (plan.fixture) {
+    check_travel(plan.fixture->min_alpha_deg, plan.fixture->max_alpha_deg, "alpha", findings);
+    check_travel(plan.fixture->min_beta_deg, plan.fixture->max_beta_deg, "beta", findings);
+  }
+  check_drivers(plan, findings);
+  check_environment(plan, findings);
+  if (plan.probe) check_stylus(*plan.probe, findings);
+  check_sections(plan.part, findings);
+  if (plan.fixture) check_datum(*plan.fixture, findings);
+  if (plan.fixture) check_driver_sections(*plan.fixture, findings);
+  check_calibration_use(plan, findings);
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    if (is_touched(plan, i, findings) || measures_by_touch(plan.features[i])) {
+      return check_needs(plan, i, findings);
+    }
+  }
+}
+
+void check_feature(const Plan& plan, std::size_t index, Findings& findings) {
+  const FeaturePlan& feature = plan.features[index];
+  const std::string where = feature_pointer(index);
+  if (const auto twin = earlier_with_same_id(plan.features, index)) {
+    findings.meaning(Code::kMeaning, where + "/id",
+                     fmt::format("the id {} names feature {} already; choose another",
+                                 in_quotes(feature.id), *twin + 1));
+  }
+  for (std::size_t k = 0; k < feature.characteristics.size(); ++k) {
+    const std::string place = item_pointer(where + "/characteristics", k);
+    if (findings.sound(place) && findings.sound(where + "/type")) {
+      check_characteristic(feature, k, where, findings);
+    }
+  }
+  check_without_effect(feature, where, findings);
+}
+
+void check_plan(const Plan& plan, Findings& findings) {
+  check_equipment(plan, findings);
+  check_archive(plan, findings);
+  check_uncertainty(plan, findings);
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    check_feature(plan, i, findings);
+    if (is_touched(plan, i, findings)) {
+      check_sampling(plan, i, findings);
+      check_pose_search(plan, i, findings);
+    } else if (analysis_kind(plan.features[i].type) != nullptr) {
+      check_analysis(plan, i, findings);
+    } else {
+      check_points_file(plan, i, findings);
+    }
+  }
+}
+
+}  // namespace rondure::plans

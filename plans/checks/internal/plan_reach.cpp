@@ -1,0 +1,191 @@
+#include "plans/checks/internal/plan_reach.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "plans/forecast/internal/feature_planner.h"
+#include "plans/path/internal/merged_reach.h"
+#include "plans/checks/internal/reach_advice.h"
+#include "plans/run/run_head.h"
+
+namespace rondure::plans {
+namespace {
+
+/// The targets that are out of reach besides the first: "; nor can layer 1 points 2, 3, layer 2
+/// point 1 be reached".
+std::string others(const std::vector<Unreachable>& missed) {
+  constexpr std::size_t kNamed = 20;
+  if (missed.size() < 2) return {};
+  std::string out = "; nor can";
+  int layer = -1;
+  for (std::size_t i = 1; i < std::min(missed.size(), kNamed + 1); ++i) {
+    const Target& t = missed[i].target;
+    const char* between = i == 1 ? "" : ",";
+    if (t.layer != layer) {
+      out += fmt::format("{} layer {} point {}", between, t.layer + 1, t.point + 1);
+    } else {
+      out += fmt::format("{} {}", between, t.point + 1);
+    }
+    layer = t.layer;
+  }
+  if (missed.size() > kNamed + 1) out += fmt::format(" and {} more", missed.size() - kNamed - 1);
+  return out + " be reached";
+}
+
+}  // namespace
+
+fixture::Kinematics nominal_kinematics(const FixturePlan& fixture) {
+  return {vector3(fixture.axis_point_mm), vector3(fixture.axis_offset_mm)};
+}
+
+Eigen::Isometry3d nominal_seat(const FixturePlan& fixture) {
+  Eigen::Isometry3d X_BP = Eigen::Isometry3d::Identity();
+  X_BP.translation() = vector3(fixture.part_position_mm);
+  return X_BP;
+}
+
+fixture::FixtureLimits limits_of(const FixturePlan& fixture) {
+  return {fixture.min_alpha_deg * core::kDegree, fixture.max_alpha_deg * core::kDegree,
+          fixture.min_beta_deg * core::kDegree, fixture.max_beta_deg * core::kDegree,
+          fixture.resolution_deg * core::kDegree};
+}
+
+core::Pose start_pose(const FeaturePlan& feature) {
+  return {feature.pose_search.start_alpha_deg * core::kDegree,
+          feature.pose_search.start_beta_deg * core::kDegree};
+}
+
+std::string in_degrees(const core::Pose& pose, int decimals) {
+  return fmt::format("({:.{}f}, {:.{}f}) deg", pose.alpha_rad / core::kDegree, decimals,
+                     pose.beta_rad / core::kDegree, decimals);
+}
+
+std::vector<SectionPlan> part_sections(const Plan& plan, const FeaturePlan& feature) {
+  std::vector<SectionPlan> out = plan.part.sections;
+  const NominalPlan& mine = feature.nominal;
+  for (const FeaturePlan& other : plan.features) {
+    const NominalPlan& n = other.nominal;
+    const bool beside = n.from_mm >= mine.to_mm || n.to_mm <= mine.from_mm;
+    if (!is_touched(other) || other.side == "inside" || feature.side == "inside" || !beside)
+      continue;
+    out.push_back({n.from_mm, n.to_mm, n.diameter_mm, 0.0});
+  }
+  return out;
+}
+
+PathGeometry path_geometry(const Plan& plan, const FeaturePlan& feature, double location_mm) {
+  PathGeometry out;
+  out.radius_mm = 0.5 * feature.nominal.diameter_mm;
+  out.from_mm = feature.nominal.from_mm;
+  out.to_mm = feature.nominal.to_mm;
+  out.inside = feature.side == "inside";
+  out.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
+  out.approach_mm = plan.machine->approach_mm + location_mm;
+  out.clearance_mm = plan.machine->clearance_mm + location_mm;
+  const auto pass_outside = [&](double diameter_mm, double to_mm) {
+    if (to_mm <= feature.nominal.from_mm) return;
+    out.to_mm = std::max(out.to_mm, to_mm);
+    out.stand_off_mm = std::max(out.stand_off_mm, 0.5 * diameter_mm - out.radius_mm);
+  };
+  const FixturePlan& fixture = *plan.fixture;
+  if (fixture.clamp_from_mm < fixture.clamp_to_mm && fixture.ring_diameter_mm > 0.0) {
+    pass_outside(fixture.ring_diameter_mm, fixture.clamp_to_mm);
+  }
+  for (const SectionPlan& section : part_sections(plan, feature)) {
+    out.from_mm = std::min(out.from_mm, section.from_mm);
+    pass_outside(section.diameter_mm, section.to_mm);
+  }
+  return out;
+}
+
+core::Result<void> check_clamp(const std::vector<Target>& targets, const PathGeometry& geometry,
+                               const FixturePlan& fixture) {
+  const bool band = fixture.clamp_from_mm < fixture.clamp_to_mm;
+  if (geometry.inside || !band || fixture.ring_diameter_mm > 0.0) return {};
+  const double limit_mm = fixture.clamp_to_mm + geometry.clearance_mm + geometry.tip_radius_mm;
+  for (const Target& target : targets) {
+    if (target.z_mm >= limit_mm) continue;
+    return core::fail(
+        core::Code::kUnreachable,
+        fmt::format(
+            "layer {}, point {}: height {:.3f} mm on the part is below {:.3f} mm, where the "
+            "clamp, the tip and the clearance end",
+            target.layer + 1, target.point + 1, target.z_mm, limit_mm));
+  }
+  return {};
+}
+
+core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_t index) {
+  const FeaturePlan& feature = plan.features[index];
+  const std::string where = fmt::format("/features/{}/sampling", index);
+  auto targets = sampling_targets(feature);
+  if (!targets) return core::fail(targets.error().at(where));
+  const PathGeometry geometry = path_geometry(plan, feature, plan.part.location_uncertainty_mm);
+  if (auto fits = check_fits(geometry); !fits) return core::fail(fits.error().at(where));
+  if (auto clamp = check_clamp(*targets, geometry, *plan.fixture); !clamp) {
+    return core::fail(clamp.error().at(where));
+  }
+  if (feature.pose_search.strategy == "merged") {
+    if (auto reached = check_merged_reach(plan, index); !reached)
+      return core::fail(reached.error());
+    return targets;
+  }
+  const std::vector<Unreachable> missed = unreachable_targets(plan, feature, start_pose(feature));
+  if (missed.empty()) return targets;
+  return core::fail(core::Code::kUnreachable,
+                    in_words(missed.front()) + others(missed) + "; " + reach_advice(plan, feature),
+                    where);
+}
+
+core::Result<void> check_room(const Plan& plan) {
+  const FixturePlan& fixture = *plan.fixture;
+  const QualificationPlan& sphere = plan.probe->qualification;
+  // Ball about the base-fixed axis that holds the part, wherever the fixture turns it.
+  double reach_mm = 0.0;
+  for (const FeaturePlan& feature : plan.features) {
+    if (feature.source) continue;
+    const double height =
+        std::max(std::abs(feature.nominal.from_mm), std::abs(feature.nominal.to_mm));
+    reach_mm = std::max(reach_mm, std::hypot(0.5 * feature.nominal.diameter_mm, height));
+    if (!feature.rotary_axes) continue;
+    for (const BallPlan& ball : feature.rotary_axes->balls) {
+      reach_mm = std::max(reach_mm, vector3(ball.center_mm).norm() +
+                                        0.5 * feature.rotary_axes->ball_diameter_mm +
+                                        feature.rotary_axes->uncertainty_mm);
+    }
+  }
+  reach_mm += vector3(fixture.axis_offset_mm).norm() + vector3(fixture.part_position_mm).norm() +
+              plan.part.location_uncertainty_mm;
+  const double tip_mm = 0.5 * plan.probe->tip_diameter_mm;
+  const double room_mm = tip_mm + plan.machine->clearance_mm;
+  const Eigen::Vector3d axis = vector3(fixture.axis_point_mm);
+  const Eigen::Vector3d center = vector3(sphere.sphere_center_mm);
+  const double top_mm =
+      std::max(axis.z() + reach_mm, center.z() + 0.5 * sphere.sphere_diameter_mm) + room_mm;
+  if (plan.machine->park_mm[2] < top_mm) {
+    return core::fail(
+        core::Code::kUnreachable,
+        fmt::format("park height {:g} mm is below {:.3f} mm, where part or reference sphere, "
+                    "tip and clearance end; raise it",
+                    plan.machine->park_mm[2], top_mm),
+        "/machine/park_mm");
+  }
+  const double apart_mm = (center - axis).norm();
+  const double needed_mm =
+      reach_mm + 0.5 * sphere.sphere_diameter_mm + 2.0 * tip_mm + plan.machine->approach_mm;
+  if (apart_mm < needed_mm) {
+    return core::fail(
+        core::Code::kUnreachable,
+        fmt::format("the reference sphere stands {:.3f} mm from the fixture's axis, the part "
+                    "can sweep it below {:.3f} mm; move it away",
+                    apart_mm, needed_mm),
+        "/probe/qualification/sphere_center_mm");
+  }
+  return {};
+}
+
+}  // namespace rondure::plans

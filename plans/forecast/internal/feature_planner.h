@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "core/result.h"
+#include "plans/path/internal/cloud_path.h"
+
+namespace rondure::plans {
+
+/// Lays the ways of the tip for one feature: what stands in the cell is built once, the order of
+/// touches found once for a list of targets. Runs and forecasts both ask here: one planner, one
+/// path.
+class FeaturePlanner {
+ public:
+  FeaturePlanner(const Plan& plan, const FeaturePlan& feature);
+
+  /// @param X_WB  The clamping ring (body frame) in the machine.
+  /// @param X_BP  The part in the body frame, as best known.
+  /// @return kUnreachable, naming the first target that cannot be reached and why.
+  [[nodiscard]] core::Result<CloudPath> lay(const std::vector<Target>& targets,
+                                            const PathGeometry& geometry,
+                                            const Eigen::Isometry3d& X_WB,
+                                            const Eigen::Isometry3d& X_BP);
+
+  /// Those of the targets that the tool can reach, in their order.
+  [[nodiscard]] std::vector<Target> reachable(const std::vector<Target>& targets,
+                                              const PathGeometry& geometry,
+                                              const Eigen::Isometry3d& X_WB,
+                                              const Eigen::Isometry3d& X_BP) const;
+
+ private:
+  const Plan& plan_;
+  const FeaturePlan& feature_;
+  Scene scene_;
+  std::vector<Target> ordered_;  ///< What `order_` was found for.
+  PathGeometry ordered_geometry_;
+  std::vector<std::size_t> order_;
+};
+
+/// "layer 1, point 3 (102.9 deg): the shaft of the stylus would come nearer than ...".
+[[nodiscard]] std::string in_words(const Unreachable& unreachable);
+
+}  // namespace rondure::plans

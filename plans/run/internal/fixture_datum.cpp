@@ -1,0 +1,106 @@
+#include "plans/run/internal/fixture_datum.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "plans/run/internal/qualification.h"
+
+namespace rondure::plans {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr const char* kDatumPointer = "/fixture/datum";
+
+/// Where the base is, in words for the journal.
+std::string in_words(const fit::Registration& base) {
+  const Vector3d shift = base.motion.translation();
+  const Eigen::AngleAxisd turn(base.motion.rotation());
+  const Vector3d angles = turn.angle() * turn.axis() / core::kDegree;
+  return fmt::format(
+      "base of the fixture: shifted by ({:.4f}, {:.4f}, {:.4f}) mm, turned by ({:.5f}, {:.5f}, "
+      "{:.5f}) deg, largest residual {:.3f} um",
+      shift.x(), shift.y(), shift.z(), angles.x(), angles.y(), angles.z(),
+      base.largest_residual_mm / core::kMicrometre);
+}
+
+core::Result<Vector3d> center_near_nominal(const Plan& plan, std::size_t sphere,
+                                           const std::vector<Vector3d>& tips) {
+  const DatumPlan& datum = *plan.fixture->datum;
+  const auto center =
+      sphere_center(plan, tips, fmt::format("sphere {} of the fixture", sphere + 1));
+  if (!center) return core::fail(center.error().at(kDatumPointer));
+  const double off_mm = (*center - vector3(datum.spheres[sphere].center_mm)).norm();
+  if (off_mm <= datum.uncertainty_mm) return *center;
+  return core::fail(core::Code::kLocation,
+                    fmt::format("sphere {} of the fixture stands {:.3f} mm from its nominal "
+                                "place, the plan allows {:g} mm (uncertainty_mm); check where the "
+                                "fixture is bolted",
+                                sphere + 1, off_mm, datum.uncertainty_mm),
+                    kDatumPointer);
+}
+
+}  // namespace
+
+core::Result<std::vector<TouchStep>> datum_steps(const Plan& plan) {
+  std::vector<TouchStep> out;
+  if (!plan.fixture->datum) return out;
+  const DatumPlan& datum = *plan.fixture->datum;
+  for (std::size_t i = 0; i < datum.spheres.size(); ++i) {
+    const SphereToTouch sphere = {vector3(datum.spheres[i].center_mm),
+                                  0.5 * datum.sphere_diameter_mm, datum.points,
+                                  datum.uncertainty_mm};
+    auto steps = sphere_steps(plan, sphere);
+    if (!steps) return core::fail(steps.error().at(kDatumPointer));
+    for (TouchStep& step : *steps) {
+      step.row.purpose = record::Touch::Purpose::kLocate;
+      step.row.layer = static_cast<int>(i);
+      out.push_back(std::move(step));
+    }
+  }
+  return out;
+}
+
+core::Result<fit::Registration> fixture_base(const Plan& plan,
+                                             std::span<const std::vector<Vector3d>> tips_W_mm) {
+  const DatumPlan& datum = *plan.fixture->datum;
+  std::vector<Vector3d> nominal;
+  std::vector<Vector3d> found;
+  for (std::size_t i = 0; i < tips_W_mm.size(); ++i) {
+    const auto center = center_near_nominal(plan, i, tips_W_mm[i]);
+    if (!center) return core::fail(center.error());
+    nominal.push_back(vector3(datum.spheres[i].center_mm));
+    found.push_back(*center);
+  }
+  const auto base = fit::rigid_registration(nominal, found);
+  if (!base) return core::fail(base.error().at(kDatumPointer));
+  if (base->largest_residual_mm > datum.residual_limit_um * core::kMicrometre) {
+    return core::fail(
+        core::Code::kCalibration,
+        fmt::format(
+            "the spheres of the fixture fit their nominal places to {:.3f} um, the limit is "
+            "{:g} um (residual_limit_um); check their certified centres and that none is "
+            "loose",
+            base->largest_residual_mm / core::kMicrometre, datum.residual_limit_um),
+        kDatumPointer);
+  }
+  return *base;
+}
+
+core::Result<void> find_fixture_base(RunContext& context) {
+  auto steps = datum_steps(context.plan);
+  if (!steps) return core::fail(steps.error());
+  if (steps->empty()) return {};
+  const auto tips = touch_spheres(context, *steps, "sphere of the fixture");
+  if (!tips) return core::fail(tips.error());
+  const auto base = fixture_base(context.plan, *tips);
+  if (!base) return core::fail(base.error());
+  context.cell->set_base(base->motion);
+  const std::string text = in_words(*base);
+  if (context.past.has_decision(text)) return {};
+  return context.journal.add(record::Decision{-1, context.cell->machine().time_s(), text});
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,299 @@
+#include "plans/run/internal/inspection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "fit/least_squares/cylinder.h"
+#include "fit/references/min_zone_circle.h"
+#include "fit/references/min_zone_cylinder.h"
+
+namespace rondure::plans {
+
+FeatureSession::FeatureSession(RunContext& context, int feature_index, std::vector<Target> targets)
+    : context_(context),
+      index_(feature_index),
+      feature_(context.plan.features[static_cast<std::size_t>(feature_index)]),
+      targets_(std::move(targets)),
+      X_BP_(context.cell->nominal_part()),
+      geometry_(path_geometry(context.plan, feature_, context.plan.part.location_uncertainty_mm)),
+      planner_(context.plan, feature_) {
+  context_.progress.feature = feature_.id;
+}
+
+const fixture::FixtureLimits& FeatureSession::limits() const {
+  return context_.cell->fixture().limits();
+}
+
+Eigen::Isometry3d FeatureSession::part_at(const core::Pose& pose) const {
+  return fixture::body_to_machine(context_.cell->kinematics(), pose) * X_BP_;
+}
+
+/// The same fault with the point it happened at, and what a person can do about it.
+tl::unexpected<core::Error> FeatureSession::fault_at(const Target& target,
+                                                     const core::Error& error) const {
+  // A stop by the operator and a journal that cannot be written have no place on the part.
+  if (error.code == core::Code::kStopped || error.code == core::Code::kJournal) {
+    return core::fail(error);
+  }
+  std::string advice;
+  if (error.code == core::Code::kNoTouch || error.code == core::Code::kCollision) {
+    advice =
+        "; check that the part of the plan is clamped where the plan says "
+        "(location_uncertainty_mm)";
+  }
+  if (error.code == core::Code::kCollision)
+    advice += ", and move the tip clear by hand before the next run";
+  return core::fail(
+      error.code, fmt::format("feature {}, layer {}, point {}: {}{}", feature_.id, target.layer + 1,
+                              target.point + 1, error.what, advice));
+}
+
+core::Pose FeatureSession::commanded_for(const core::Pose& wanted) const {
+  core::Pose out = fixture::commanded_for(context_.cell->kinematics(), wanted);
+  out.alpha_rad = std::clamp(out.alpha_rad, limits().min_alpha_rad, limits().max_alpha_rad);
+  out.beta_rad = std::clamp(out.beta_rad, limits().min_beta_rad, limits().max_beta_rad);
+  return out;
+}
+
+bool FeatureSession::must_locate() const {
+  return context_.plan.part.location_uncertainty_mm > 0.0;
+}
+
+core::Result<void> FeatureSession::turn(const core::Pose& commanded,
+                                        const std::vector<Target>& targets) {
+  if (const auto path = lay(targets, commanded); !path) return core::fail(path.error());
+  commanded_ = commanded;
+  const auto visit = context_.turn(index_, commanded);
+  if (!visit) return core::fail(visit.error());
+  reached_ = visit->reached;
+  repeat_ = 0;
+  pose_id_ = visit->id;
+  context_.progress.pose_number = ++visits_;
+  context_.progress.pose = reached_;
+  return {};
+}
+
+Eigen::Vector3d FeatureSession::expected_axis() const {
+  return part_at(reached_).linear() * Eigen::Vector3d::UnitZ();
+}
+
+core::Result<void> FeatureSession::check_location(const fit::LsCylinder& found) const {
+  const double allowed = context_.plan.part.location_uncertainty_mm;
+  const auto refuse = [&](const char* what, double value) {
+    return core::fail(
+        core::Code::kLocation,
+        fmt::format("feature {}: the {} of the located part differs by {:.3f} mm, the plan "
+                    "allows {:g} mm (location_uncertainty_mm); check the part and its "
+                    "clamping, nothing was measured",
+                    feature_.id, what, value, allowed));
+  };
+  const double sign = geometry_.inside ? -1.0 : 1.0;
+  const double radius = found.radius_mm - sign * geometry_.tip_radius_mm;
+  if (!(std::abs(radius - geometry_.radius_mm) <= allowed)) {
+    return refuse("radius", std::abs(radius - geometry_.radius_mm));
+  }
+  if (!(found.deviation_mm <= allowed)) return refuse("form", found.deviation_mm);
+  const double cosine = std::min(1.0, std::abs(found.axis.direction.dot(expected_axis())));
+  const double half_mm = 0.5 * (feature_.nominal.to_mm - feature_.nominal.from_mm);
+  const double reach = half_mm * std::sqrt(1.0 - cosine * cosine);
+  if (!(reach <= allowed)) return refuse("end of the axis", reach);
+  return {};
+}
+
+core::Result<fit::Axis> FeatureSession::locate_once(const core::Pose& commanded) {
+  const auto targets = locating_targets(feature_, context_.plan.part.location_uncertainty_mm);
+  if (!targets) return core::fail(targets.error());
+  if (auto turned = turn(commanded, *targets); !turned) return core::fail(turned.error());
+  const auto tips = touch_cloud(*targets, record::Touch::Purpose::kLocate);
+  if (!tips) return core::fail(tips.error());
+  const auto cylinder = fit::ls_cylinder(*tips, expected_axis());
+  if (!cylinder) return core::fail(cylinder.error());
+  if (auto plausible = check_location(*cylinder); !plausible) return core::fail(plausible.error());
+  follow_axis(cylinder->axis);
+  return cylinder->axis;
+}
+
+core::Result<fit::Axis> FeatureSession::locate(const core::Pose& commanded) {
+  for (;;) {
+    auto axis = locate_once(commanded);
+    if (axis || !context_.relocation_due) return axis;
+    context_.relocation_due = false;  // it moved while it was located: begin again
+  }
+}
+
+core::Result<void> FeatureSession::locate_again() {
+  context_.relocation_due = false;
+  geometry_ = path_geometry(context_.plan, feature_, context_.plan.part.location_uncertainty_mm);
+  if (const auto axis = locate(commanded_); !axis) return core::fail(axis.error());
+  return {};
+}
+
+core::Result<std::vector<Eigen::Vector3d>> FeatureSession::turn_and_touch(
+    const core::Pose& commanded) {
+  for (;;) {
+    if (auto turned = turn(commanded, reach_targets()); !turned) return core::fail(turned.error());
+    truth_.clear();
+    auto tips = measure_cloud();
+    if (tips || !context_.relocation_due || merging()) return tips;
+    if (auto located = locate_again(); !located) return core::fail(located.error());
+  }
+}
+
+core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
+  auto tips = turn_and_touch(commanded);
+  if (!tips) return core::fail(tips.error());
+  return Cloud{reached_, std::move(*tips)};
+}
+
+core::Result<void> FeatureSession::repeat(int times) {
+  for (int i = 0; i < times; ++i) {
+    ++repeat_;
+    const auto tips = measure_cloud();
+    if (tips) continue;
+    if (!context_.relocation_due || merging()) return core::fail(tips.error());
+    // The whole final cloud anew: touches of two placements are never merged.
+    if (auto located = locate_again(); !located) return located;
+    if (const auto anew = turn_and_touch(commanded_); !anew) return core::fail(anew.error());
+    if (auto kept = keep_as_final(); !kept) return kept;
+    i = -1;
+  }
+  return {};
+}
+
+core::Result<void> FeatureSession::keep_as_final() {
+  const record::PoseVisit* known = context_.past.pose(pose_id_);
+  if (known == nullptr || !known->final_cloud) {
+    if (auto marked = context_.journal.mark_final(pose_id_); !marked) return marked;
+  }
+  if (merging()) {
+    keep_merged_truth();
+    return {};
+  }
+  if (truth_.empty()) return {};
+  // Only a comparison for simulations: a truth that cannot be evaluated must not end the run.
+  std::optional<double> zone_mm;
+  if (feature_.type == "circle") {
+    const auto frame = fit::across(expected_axis());
+    std::vector<Eigen::Vector2d> section;
+    for (const Eigen::Vector3d& tip : truth_) section.emplace_back(frame.transpose() * tip);
+    if (const auto zone = fit::min_zone_circle(section)) zone_mm = zone->width_mm();
+  } else if (const auto zone = fit::min_zone_cylinder(truth_, expected_axis())) {
+    zone_mm = zone->width_mm();
+  }
+  if (!zone_mm || ++truths_ <= context_.past.truths_of(index_)) return {};
+  return context_.journal.add(record::SimulationTruth{index_, *zone_mm});
+}
+
+void FeatureSession::follow_axis(const fit::Axis& axis_W) {
+  const Eigen::Isometry3d X_BW =
+      fixture::body_to_machine(context_.cell->kinematics(), reached_).inverse();
+  Eigen::Vector3d z = X_BW.linear() * axis_W.direction;
+  if (z.z() < 0.0) z = -z;  // a cylinder's axis has two directions; the part stands upright
+  // Neither the turn about the axis nor the shift along it shows in a cylinder: both stay nominal.
+  const Eigen::Isometry3d nominal = context_.cell->nominal_part();
+  const Eigen::Vector3d on_axis = X_BW * axis_W.point_mm;
+  X_BP_.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), z).toRotationMatrix();
+  X_BP_.translation() = on_axis + z * (nominal.translation() - on_axis).dot(z);
+  geometry_ = path_geometry(context_.plan, feature_, 0.0);
+}
+
+core::Pose FeatureSession::levelling(const Eigen::Vector3d& direction_W) const {
+  const Eigen::Matrix3d R =
+      fixture::body_to_machine(context_.cell->kinematics(), reached_).linear();
+  Eigen::Vector3d t_B = R.transpose() * direction_W;
+  if (t_B.z() < 0.0) t_B = -t_B;
+  return fixture::levelling_pose(context_.cell->kinematics(), t_B);
+}
+
+core::Result<void> FeatureSession::note(const std::string& text) {
+  return context_.note(index_, text);
+}
+
+void FeatureSession::show(double f_mm) {
+  context_.progress.f_mm = f_mm;
+  context_.show();
+}
+
+core::Result<CloudPath> FeatureSession::lay(const std::vector<Target>& targets,
+                                            const core::Pose& pose) {
+  return planner_.lay(targets, geometry_,
+                      fixture::body_to_machine(context_.cell->kinematics(), pose), X_BP_);
+}
+
+TouchStep FeatureSession::step_to(const CloudPath& path, std::size_t k,
+                                  record::Touch::Purpose purpose) const {
+  const Target& target = path.target(k);
+  const Eigen::Isometry3d X_WP = part_at(reached_);
+  TouchStep step;
+  step.command.expected_tip_W_mm = X_WP * contact_tip(geometry_, target);
+  step.command.direction_W = X_WP.linear() * approach_direction(geometry_, target);
+  step.command.approach_mm = geometry_.approach_mm;
+  step.command.search_mm =
+      context_.plan.machine->search_mm + geometry_.approach_mm - context_.plan.machine->approach_mm;
+  step.row.purpose = purpose;
+  step.row.pose = pose_id_;
+  step.row.layer = target.layer;
+  step.row.point = target.point;
+  step.row.repeat = repeat_;
+  step.entry_W = path.entry_W(k);
+  step.way_W = path.way_W(k);
+  return step;
+}
+
+void FeatureSession::leave(const CloudPath& path, std::size_t k) {
+  if (auto out = context_.follow(path.exit_W(k)); out) (void)context_.rise();
+}
+
+core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud(
+    const std::vector<Target>& targets, record::Touch::Purpose purpose) {
+  const auto path = lay(targets, reached_);
+  if (!path) return core::fail(path.error());
+  context_.last_steps.clear();
+  std::vector<Eigen::Vector3d> tips(targets.size());
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    const Target& target = path->target(k);
+    const TouchStep step = step_to(*path, k, purpose);
+    context_.doing =
+        fmt::format("{}, layer {}, point {}", feature_.id, target.layer + 1, target.point + 1);
+    if (auto moved = context_.follow(step.way_W); !moved) {
+      // Refused by the operator: the tip is back at the touch before. After a fault it stays.
+      if (context_.retreating && k > 0) leave(*path, k - 1);
+      return fault_at(target, moved.error());
+    }
+    const auto tip = touch(step, target);
+    if (!tip) {
+      // The tip stands at the pre-touch point, except after a collision: then the machine has
+      // stopped and only a person may move it.
+      const bool standing = tip.error().code != core::Code::kCollision;
+      if (standing && !context_.lost_place && !context_.relocation_due) leave(*path, k);
+      return core::fail(tip.error());
+    }
+    tips[path->order()[k]] = *tip;
+  }
+  context_.doing = fmt::format("{}, back to park height", feature_.id);
+  const std::size_t last = targets.size() - 1;
+  if (auto moved = context_.follow(path->exit_W(last)); !moved) {
+    if (context_.retreating) leave(*path, last);
+    return fault_at(path->target(last), moved.error());
+  }
+  if (auto moved = context_.rise(); !moved) return fault_at(path->target(last), moved.error());
+  return tips;
+}
+
+core::Result<Eigen::Vector3d> FeatureSession::touch(TouchStep step, const Target& target) {
+  const bool shows_truth = step.row.purpose == record::Touch::Purpose::kMeasure && repeat_ == 0;
+  const auto touched = context_.touch(std::move(step));
+  if (!touched) {
+    return context_.lost_place ? core::fail(touched.error()) : fault_at(target, touched.error());
+  }
+  if (const auto truth = context_.cell->true_tip_W_mm(); truth && shows_truth) {
+    truth_.push_back(*truth);
+  }
+  return touched->tip_mm;
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,194 @@
+#include "plans/run/internal/pose_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "fit/zone/center_search.h"
+#include "fit/references/min_zone_cylinder.h"
+#include "fit/poses/walk.h"
+#include "plans/checks/internal/plan_reach.h"
+
+namespace rondure::plans {
+namespace {
+
+/// An angle no fixture resolves: at 35 mm it moves a point by 1 nm.
+constexpr double kFinestStep = 2e-6 * core::kDegree;
+
+core::Pose start_pose(const PoseSession& session, const FeaturePlan& feature) {
+  return session.commanded_for(start_pose(feature));
+}
+
+bool within(const fixture::FixtureLimits& limits, const core::Pose& pose) {
+  return pose.alpha_rad >= limits.min_alpha_rad && pose.alpha_rad <= limits.max_alpha_rad &&
+         pose.beta_rad >= limits.min_beta_rad && pose.beta_rad <= limits.max_beta_rad;
+}
+
+double f_of(const Cloud& cloud, bool as_published) {
+  std::vector<Eigen::Vector2d> section;
+  section.reserve(cloud.tips_W_mm.size());
+  for (const Eigen::Vector3d& tip : cloud.tips_W_mm) section.emplace_back(tip.head<2>());
+  const auto search =
+      as_published ? fit::center_search_as_published(section) : fit::center_search(section);
+  return search ? search->width_mm() : std::numeric_limits<double>::infinity();
+}
+
+core::Result<void> finish(PoseSession& session, const FeaturePlan& feature) {
+  if (auto kept = session.keep_as_final(); !kept) return kept;
+  return session.repeat(feature.pose_search.repeats - 1);
+}
+
+/// What the guided search does after a cloud.
+struct NextStep {
+  bool stop = false;
+  core::Pose pose;        ///< Where to go otherwise.
+  double size_rad = 0.0;  ///< Largest angle from the present pose to it.
+  std::string why;
+};
+
+NextStep next_step(const PoseSession& session, const Cloud& cloud,
+                   const Eigen::Vector3d& direction_W, double last_rad) {
+  NextStep out;
+  out.pose = session.levelling(direction_W);
+  out.size_rad = std::max(std::abs(out.pose.alpha_rad - cloud.reached.alpha_rad),
+                          std::abs(out.pose.beta_rad - cloud.reached.beta_rad));
+  const double finest = std::max(0.5 * session.limits().resolution_rad, kFinestStep);
+  const double step_deg = out.size_rad / core::kDegree;
+  if (out.size_rad <= finest * (1.0 + 1e-9)) {
+    out.why = fmt::format(
+        "as level as the fixture can be set: {:.6f} deg is left, its resolution is {:.6f} deg",
+        step_deg, session.limits().resolution_rad / core::kDegree);
+  } else if (!within(session.limits(), out.pose)) {
+    out.why = fmt::format("not level: the levelling pose {} is beyond the limits of the fixture",
+                          in_degrees(out.pose));
+  } else if (out.size_rad >= 0.5 * last_rad) {
+    out.why = fmt::format(
+        "as level as probe and fixture scatter: the step of {:.6f} deg is not below half the last "
+        "one",
+        step_deg);
+  }
+  out.stop = !out.why.empty();
+  return out;
+}
+
+/// Solves each cloud as a cylinder and steps to the pose it predicts, until the fixture cannot do
+/// better.
+///
+/// @param pose  First pose: where the located part should be level.
+core::Result<void> guided(PoseSession& session, const FeaturePlan& feature, core::Pose pose) {
+  double last_rad = std::numeric_limits<double>::infinity();
+  for (int visit = 1;; ++visit) {
+    const auto cloud = session.measure(pose);
+    if (!cloud) {
+      // The start pose is asked for by the plan; any other is only wanted.
+      const bool wanted = visit > 1 || !(pose == start_pose(session, feature));
+      if (!wanted || cloud.error().code != core::Code::kUnreachable)
+        return core::fail(cloud.error());
+      if (auto noted = session.note("not level: " + cloud.error().what); !noted) return noted;
+      if (visit > 1) break;
+      pose = start_pose(session, feature);
+      continue;
+    }
+    session.show(f_of(*cloud, false));
+    const auto zone = fit::min_zone_cylinder(cloud->tips_W_mm, session.expected_axis());
+    if (!zone) return core::fail(zone.error());
+    NextStep next = next_step(session, *cloud, zone->axis.direction, last_rad);
+    if (!next.stop && visit == feature.pose_search.max_poses) {
+      next.stop = true;
+      next.why = fmt::format("not level after {} poses: a step of {:.4f} deg is left", visit,
+                             next.size_rad / core::kDegree);
+    }
+    const std::string zone_text =
+        fmt::format("pose {}: zone of the cloud {:.3f} um; ", in_degrees(cloud->reached),
+                    zone->width_mm() / core::kMicrometre);
+    if (next.stop) {
+      if (auto noted = session.note(zone_text + next.why); !noted) return noted;
+      break;
+    }
+    if (auto noted = session.note(zone_text + "turning to " + in_degrees(next.pose)); !noted)
+      return noted;
+    pose = next.pose;
+    last_rad = next.size_rad;
+  }
+  return finish(session, feature);
+}
+
+/// The published grid, or the same followed by step halving; then the best pose measured anew.
+core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool as_published) {
+  const PoseSearchPlan& plan = feature.pose_search;
+  const auto f = [&](const core::Pose& pose) -> core::Result<double> {
+    const auto cloud = session.measure(pose);
+    if (!cloud) {
+      // A pose that cannot be measured is passed over, like one beyond the limits.
+      const bool unreachable = cloud.error().code == core::Code::kUnreachable;
+      return core::fail(unreachable ? core::Code::kPoseRange : cloud.error().code,
+                        cloud.error().what);
+    }
+    const double value = f_of(*cloud, as_published);
+    session.show(value);
+    return value;
+  };
+  const auto steps =
+      as_published ? plan.steps_deg : fit::halved_steps(plan.steps_deg, plan.min_step_deg);
+  const auto walk = fit::walk_poses(f, start_pose(session, feature), steps);
+  if (!walk) return core::fail(walk.error());
+  const fit::PoseStep& best = walk->visited[walk->best];
+  const std::string text = fmt::format(
+      "pose search ended at {} after {} poses with f = {:.3f} um, a search value; that pose is "
+      "measured anew",
+      in_degrees(best.pose), walk->visited.size(), best.f_mm / core::kMicrometre);
+  if (auto noted = session.note(text); !noted) return noted;
+  if (const auto cloud = session.measure(best.pose); !cloud) return core::fail(cloud.error());
+  return finish(session, feature);
+}
+
+/// One cloud in the start pose: a circle, or the cloud that is turned in software afterwards.
+core::Result<void> single(PoseSession& session, const FeaturePlan& feature) {
+  const auto cloud = session.measure(start_pose(session, feature));
+  if (!cloud) return core::fail(cloud.error());
+  session.show(f_of(*cloud, false));
+  return finish(session, feature);
+}
+
+/// What can be reached in each of the plan's poses, with its repeats; together one cloud.
+core::Result<void> merged(PoseSession& session, const FeaturePlan& feature) {
+  const int targets = feature.sampling.layers * feature.sampling.points_per_layer;
+  for (const MeasuringPosePlan& at : feature.pose_search.poses) {
+    const core::Pose pose{at.alpha_deg * core::kDegree, at.beta_deg * core::kDegree};
+    const auto cloud = session.measure_reachable(pose);
+    if (!cloud) return core::fail(cloud.error());
+    session.show(f_of(*cloud, false));
+    const std::string text = fmt::format("pose {}: {} of {} targets can be reached",
+                                         in_degrees(pose), cloud->tips_W_mm.size(), targets);
+    if (auto noted = session.note(text); !noted) return noted;
+    if (auto done = finish(session, feature); !done) return done;
+  }
+  return session.end_merged();
+}
+
+}  // namespace
+
+core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature) {
+  const std::string& strategy = feature.pose_search.strategy;
+  core::Pose pose = start_pose(session, feature);
+  // No pose of a part that is reached in several shows enough of it to locate it.
+  if (session.must_locate() && strategy != "merged") {
+    const auto axis = session.locate(pose);
+    if (!axis) return core::fail(axis.error());
+    const core::Pose level = session.levelling(axis->direction);
+    const std::string text = fmt::format("part located in pose {}: its axis is level at {}",
+                                         in_degrees(pose), in_degrees(level));
+    if (auto noted = session.note(text); !noted) return noted;
+    // The other strategies start where the plan says: that is what they are compared for.
+    if (feature.type == "cylinder" && strategy == "guided" && within(session.limits(), level))
+      pose = level;
+  }
+  if (feature.type == "circle" || strategy == "virtual") return single(session, feature);
+  if (strategy == "merged") return merged(session, feature);
+  if (strategy == "guided") return guided(session, feature, pose);
+  return grid(session, feature, strategy == "as-published");
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,161 @@
+#include "plans/run/internal/qualification.h"
+
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "fit/least_squares/sphere.h"
+
+namespace rondure::plans {
+namespace {
+
+core::Result<void> check_limits(const fit::ProbeTip& tip, const ProbePlan& plan) {
+  const double nominal = 0.5 * plan.tip_diameter_mm;
+  const QualificationPlan& limits = plan.qualification;
+  if (!(tip.radius_mm > 0.0) ||
+      std::abs(tip.radius_mm - nominal) > limits.radius_tolerance_um * core::kMicrometre) {
+    return core::fail(
+        core::Code::kCalibration,
+        fmt::format("effective tip radius {:.6f} mm differs from the nominal {:g} mm by more than "
+                    "{:g} um: check tip_diameter_mm and the certified sphere diameter",
+                    tip.radius_mm, nominal, limits.radius_tolerance_um));
+  }
+  if (tip.form_mm > limits.form_limit_um * core::kMicrometre) {
+    return core::fail(
+        core::Code::kCalibration,
+        fmt::format("probing form {:.3f} um is above its limit of {:g} um: clean tip and sphere, "
+                    "check that both are tight, and run again",
+                    tip.form_mm / core::kMicrometre, limits.form_limit_um));
+  }
+  return {};
+}
+
+core::Result<Eigen::Vector3d> touch_sphere(RunContext& context, TouchStep step,
+                                           const std::string& name) {
+  const int point = step.row.point;
+  const auto touched = context.touch(std::move(step));
+  if (touched) return touched->tip_mm;
+  if (touched.error().code == core::Code::kStopped || context.lost_place) {
+    return core::fail(touched.error());
+  }
+  return core::fail(touched.error().code,
+                    fmt::format("{}, point {}: {}", name, point + 1, touched.error().what));
+}
+
+}  // namespace
+
+core::Result<std::vector<Eigen::Vector3d>> touch_sphere_steps(RunContext& context,
+                                                              const std::vector<TouchStep>& steps,
+                                                              const std::string& name) {
+  context.last_steps.clear();
+  std::vector<Eigen::Vector3d> tips;
+  for (const TouchStep& step : steps) {
+    context.doing = fmt::format("{}, point {}", name, step.row.point + 1);
+    if (auto moved = context.follow(step.way_W); !moved) {
+      if (context.retreating) (void)context.rise();
+      return core::fail(moved.error());
+    }
+    auto tip = touch_sphere(context, step, name);
+    if (!tip) {
+      const bool movable = tip.error().code != core::Code::kCollision && !context.lost_place;
+      if (movable) (void)context.rise();
+      return core::fail(tip.error());
+    }
+    tips.push_back(*tip);
+  }
+  // The last touch is at or above the equator, outside the sphere: upward is free.
+  context.doing = "back to park height";
+  if (auto moved = context.rise(); !moved) {
+    if (context.retreating) (void)context.rise();
+    return core::fail(moved.error());
+  }
+  return tips;
+}
+
+core::Result<std::vector<std::vector<Eigen::Vector3d>>> touch_spheres(
+    RunContext& context, const std::vector<TouchStep>& steps, const std::string& name) {
+  std::vector<std::vector<Eigen::Vector3d>> tips;
+  std::vector<TouchStep> of_one;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    of_one.push_back(steps[i]);
+    if (i + 1 < steps.size() && steps[i + 1].row.layer == steps[i].row.layer) continue;
+    auto touched = touch_sphere_steps(context, of_one, fmt::format("{} {}", name, tips.size() + 1));
+    if (!touched) return core::fail(touched.error());
+    tips.push_back(std::move(*touched));
+    of_one.clear();
+  }
+  return tips;
+}
+
+core::Result<Eigen::Vector3d> sphere_center(const Plan& plan,
+                                            const std::vector<Eigen::Vector3d>& tips,
+                                            const std::string& name) {
+  const auto found = fit::ls_sphere(tips);
+  if (!found) return core::fail(found.error());
+  const double limit_um = plan.probe->qualification.form_limit_um;
+  if (found->deviation_mm <= limit_um * core::kMicrometre) return found->center_mm;
+  return core::fail(core::Code::kCalibration,
+                    fmt::format("{} has a form of {:.3f} um, the limit is {:g} um "
+                                "(form_limit_um); clean it and check that it is tight",
+                                name, found->deviation_mm / core::kMicrometre, limit_um));
+}
+
+core::Result<std::vector<TouchStep>> sphere_steps(const Plan& plan, const SphereToTouch& sphere) {
+  const auto directions = qualification_directions(sphere.points);
+  if (!directions) return core::fail(directions.error());
+  const Eigen::Vector3d& center = sphere.center_W_mm;
+  PathGeometry geometry;
+  geometry.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
+  geometry.approach_mm = plan.machine->approach_mm + sphere.uncertainty_mm;
+  geometry.clearance_mm = plan.machine->clearance_mm + sphere.uncertainty_mm;
+  const double reach_mm = sphere.radius_mm + geometry.tip_radius_mm;
+
+  // From park height straight down to the pole; from there around the sphere.
+  const Eigen::Vector3d pole = center + (reach_mm + geometry.approach_mm) * directions->front();
+  const Polyline down = {{pole.x(), pole.y(), std::max(pole.z(), plan.machine->park_mm[2])}, pole};
+  std::vector<TouchStep> steps;
+  for (std::size_t i = 0; i < directions->size(); ++i) {
+    const Eigen::Vector3d& outward = (*directions)[i];
+    const auto around = [&](const Eigen::Vector3d& from) {
+      return path_around_sphere(center, sphere.radius_mm, geometry, from, outward);
+    };
+    TouchStep step;
+    step.command.expected_tip_W_mm = center + reach_mm * outward;
+    step.command.direction_W = -outward;
+    step.command.approach_mm = geometry.approach_mm;
+    step.command.search_mm = plan.machine->search_mm + sphere.uncertainty_mm;
+    step.row.purpose = record::Touch::Purpose::kQualification;
+    step.row.point = static_cast<int>(i);
+    step.entry_W = down;
+    step.way_W = i == 0 ? down : around((*directions)[i - 1]);
+    if (i > 0) {
+      const Polyline way = around(directions->front());
+      step.entry_W.insert(step.entry_W.end(), way.begin(), way.end());
+    }
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan) {
+  const QualificationPlan& sphere = plan.probe->qualification;
+  return sphere_steps(plan, {vector3(sphere.sphere_center_mm), 0.5 * sphere.sphere_diameter_mm,
+                             sphere.points, 0.0});
+}
+
+core::Result<fit::ProbeTip> qualify_probe(RunContext& context) {
+  const auto steps = qualification_steps(context.plan);
+  if (!steps) return core::fail(steps.error());
+  const auto tips = touch_sphere_steps(context, *steps, "reference sphere");
+  if (!tips) return core::fail(tips.error());
+  const auto tip =
+      fit::qualify_tip(*tips, 0.5 * context.plan.probe->qualification.sphere_diameter_mm);
+  if (!tip) return core::fail(tip.error());
+  if (auto checked = check_limits(*tip, *context.plan.probe); !checked)
+    return core::fail(checked.error());
+  return *tip;
+}
+
+}  // namespace rondure::plans

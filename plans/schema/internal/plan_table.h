@@ -1,0 +1,625 @@
+#pragma once
+
+#include "core/error.h"
+#include "plans/analyses/contour_table.h"
+#include "plans/schema/internal/fixture_drivers_table.h"
+#include "plans/schema/key_spec.h"
+#include "plans/plan.h"
+#include "plans/analyses/rotary_table.h"
+#include "plans/schema/simulation_table.h"
+#include "plans/analyses/spindle_table.h"
+#include "plans/schema/internal/uncertainty_table.h"
+#include "plans/analyses/wheel_table.h"
+#include "plans/schema/internal/zaber_table.h"
+
+// The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
+// meaning, once. Defaults are the member initialisers of plan.h. A visitor walks it: TableReader
+// reads a plan, SchemaWriter writes the JSON Schema, KeyList the table of docs/plan.md.
+
+namespace rondure::plans {
+
+inline constexpr double kMaxCoordinate_mm = 10'000.0;
+inline constexpr double kMaxStep_deg = 5.0;
+
+template <class Visitor>
+void describe(Visitor& v, PlanHead& p) {
+  v.text("name", p.name,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Name of the plan, as the report shows it."});
+  v.text("revision", p.revision,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Revision of the plan, e.g. \"A\" or \"2\"."});
+  v.text("note", p.note, {.meaning = "Anything a reader of the plan should know."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, SectionPlan& p) {
+  const auto height = [](std::string_view meaning) {
+    return NumberSpec{.at_least = -kMaxCoordinate_mm,
+                      .at_most = kMaxCoordinate_mm,
+                      .required = true,
+                      .meaning = meaning};
+  };
+  v.number("from_mm", p.from_mm, height("Lower end of the section, part z."));
+  v.number("to_mm", p.to_mm, height("Upper end of the section, part z."));
+  v.number("diameter_mm", p.diameter_mm,
+           {.at_least = 0.0,
+            .at_most = 2000.0,
+            .above = true,
+            .required = true,
+            .meaning = "Outer diameter of the section."});
+  v.number("bore_diameter_mm", p.bore_diameter_mm,
+           {.at_least = 0.0, .at_most = 2000.0, .meaning = "Of its hole; 0: solid."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, PartPlan& p) {
+  v.text("id", p.id, {.required = true, .empty_allowed = false, .meaning = "Part number."});
+  v.text("name", p.name, {.meaning = "What the part is called."});
+  v.text("drawing", p.drawing, {.meaning = "Drawing number with its issue."});
+  v.number("location_uncertainty_mm", p.location_uncertainty_mm,
+           {.at_least = 0.0,
+            .at_most = 100.0,
+            .meaning = "How far the surface may be from its nominal place at the first touch, from "
+                       "a tilted or shifted clamping."});
+  v.number("expansion_per_K", p.expansion_per_K,
+           {.at_least = 0.0,
+            .at_most = 1e-4,
+            .meaning = "Thermal expansion of the material, e.g. 11.5e-6 of steel; sizes and forms "
+                       "are then brought to 20 degC. Left out: they stay as measured."});
+  v.number("expansion_uncertainty_per_K", p.expansion_uncertainty_per_K,
+           {.at_least = 0.0, .at_most = 1e-4, .meaning = "Its standard uncertainty."});
+  v.list("sections", p.sections,
+         {.meaning = "The part beside the inspected surfaces: shoulders, necks, neighbours. The "
+                     "path of the tip keeps clear of them."});
+}
+
+/// What the driver "ippdme" needs to know of its server.
+template <class Visitor>
+void describe_server(Visitor& v, MachinePlan& p) {
+  v.text("host", p.host,
+         {.empty_allowed = false,
+          .meaning = "ippdme: name or address of the computer that serves the machine."});
+  v.whole("port", p.port,
+          {.at_least = 1, .at_most = 65'535, .meaning = "ippdme: port of the server."});
+  v.text(
+      "tool", p.tool,
+      {.meaning = "ippdme: the tool to take, as the machine calls it. Left out: the tool that is "
+                  "active."});
+  v.number("answer_limit_s", p.answer_limit_s,
+           {.at_least = 0.1,
+            .at_most = 600.0,
+            .meaning = "ippdme: a command that is not acknowledged, or a question not answered, "
+                       "within this time ends the run."});
+  v.number("motion_limit_s", p.motion_limit_s,
+           {.at_least = 1.0,
+            .at_most = 3600.0,
+            .meaning = "ippdme: a motion, a tool change or the homing that takes this much longer "
+                       "than its way explains is stopped."});
+  v.text("abort", p.abort,
+         {.one_of = {"works", "broken"},
+          .meaning = "ippdme: whether AbortE of the server stops a motion; with \"broken\" a stop "
+                     "waits for the end of the motion."});
+  v.text("retract", p.retract,
+         {.one_of = {"to-approach", "by-distance"},
+          .meaning = "ippdme: \"by-distance\" for a server that refuses a negative Retract, which "
+                     "means back to the start of the touch."});
+  v.text("numbers", p.numbers,
+         {.one_of = {"16-digits", "16-characters"},
+          .meaning = "ippdme and simulate-cmm: length of the numbers that are sent. "
+                     "\"16-characters\" counts sign, point and exponent, for a server or client "
+                     "that refuses longer ones; directions are then rounded to 1e-13."});
+  v.text("point", p.point,
+         {.one_of = {"surface", "center"},
+          .meaning = "ippdme: the point that PtMeas and ScanOnCircle name. \"surface\" by the "
+                     "specification; \"center\" for a server that takes it for the centre of the "
+                     "tip. The first touch shows which, and ends a run that says the other."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, MachinePlan& p) {
+  v.text("driver", p.driver,
+         {.one_of = {"simulated", "ippdme"},
+          .meaning = "Which machine measures: a simulation in this program, or a machine behind "
+                     "I++ DME (docs/ipp-dme.md)."});
+  v.number("approach_mm", p.approach_mm,
+           {.at_least = 0.0,
+            .at_most = 100.0,
+            .above = true,
+            .meaning = "The slow search starts this far before the expected contact."});
+  v.number("search_mm", p.search_mm,
+           {.at_least = 0.0,
+            .at_most = 100.0,
+            .above = true,
+            .meaning = "The slow search gives up this far behind the expected contact."});
+  v.number("clearance_mm", p.clearance_mm,
+           {.at_least = 0.0,
+            .at_most = 500.0,
+            .above = true,
+            .meaning = "Distance kept from part, fixture and table while travelling."});
+  v.number(
+      "travel_speed_mm_s", p.travel_speed_mm_s,
+      {.at_least = 0.0, .at_most = 1000.0, .above = true, .meaning = "Speed between touches."});
+  v.number("touch_speed_mm_s", p.touch_speed_mm_s,
+           {.at_least = 0.0,
+            .at_most = 50.0,
+            .above = true,
+            .meaning = "Speed while searching the surface."});
+  v.number("scan_speed_mm_s", p.scan_speed_mm_s,
+           {.at_least = 0.0,
+            .at_most = 500.0,
+            .above = true,
+            .meaning = "Speed of the tip along a scanned circle."});
+  v.number("scale_expansion_per_K", p.scale_expansion_per_K,
+           {.at_least = 0.0,
+            .at_most = 1e-4,
+            .meaning = "Expansion of the scales; what they read is then brought to 20 degC with "
+                       "their measured temperature. Left out: the machine does it, or nobody."});
+  v.number("scale_expansion_uncertainty_per_K", p.scale_expansion_uncertainty_per_K,
+           {.at_least = 0.0, .at_most = 1e-4, .meaning = "Its standard uncertainty."});
+  v.numbers("park_mm", p.park_mm,
+            {.at_least = -kMaxCoordinate_mm,
+             .at_most = kMaxCoordinate_mm,
+             .meaning = "Where the tip waits, above everything: x, y, z in the machine frame."});
+  const auto corner = [](std::string_view meaning) {
+    return NumberSpec{
+        .at_least = -kMaxCoordinate_mm, .at_most = kMaxCoordinate_mm, .meaning = meaning};
+  };
+  v.numbers("volume_min_mm", p.volume_min_mm,
+            corner("Lower ends of the travel of the tip: x, y, z in the machine frame."));
+  v.numbers("volume_max_mm", p.volume_max_mm,
+            corner("Upper ends of the travel of the tip: x, y, z in the machine frame."));
+  v.number("step_speed_mm_s", p.step_speed_mm_s,
+           {.at_least = 0.0,
+            .at_most = 50.0,
+            .above = true,
+            .meaning = "Speed between touches of a first run in single steps (run --step)."});
+  v.number("resume_limit_um", p.resume_limit_um,
+           {.at_least = 0.0,
+            .at_most = 1000.0,
+            .above = true,
+            .meaning = "A resumed run repeats its last touches; when one of them differs by more, "
+                       "part or machine has moved and the run must start again."});
+  describe_server(v, p);
+}
+
+template <class Visitor>
+void describe(Visitor& v, DatumSpherePlan& p) {
+  v.numbers("center_mm", p.center_mm,
+            {.at_least = -kMaxCoordinate_mm,
+             .at_most = kMaxCoordinate_mm,
+             .meaning = "Nominal centre: x, y, z in the base frame, which is the machine frame "
+                        "when the fixture stands in its nominal place."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, DatumPlan& p) {
+  v.number("sphere_diameter_mm", p.sphere_diameter_mm,
+           {.at_least = 1.0, .at_most = 200.0, .meaning = "Diameter of the spheres."});
+  v.list("spheres", p.spheres,
+         {.required = true, .empty_allowed = false, .meaning = "Three or more, not on one line."});
+  v.whole("points", p.points,
+          {.at_least = 5, .at_most = 100, .meaning = "Touches of each sphere."});
+  v.number("uncertainty_mm", p.uncertainty_mm,
+           {.at_least = 0.0,
+            .at_most = 50.0,
+            .meaning = "How far a sphere may be from its nominal place, from the bolting of the "
+                       "fixture."});
+  v.number("residual_limit_um", p.residual_limit_um,
+           {.at_least = 0.0,
+            .at_most = 1000.0,
+            .above = true,
+            .meaning = "Largest distance of a sphere from its place in the base that was found."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, FixturePlan& p) {
+  const NumberSpec coordinate = {
+      .at_least = -kMaxCoordinate_mm, .at_most = kMaxCoordinate_mm, .meaning = {}};
+  const auto place = [&](std::string_view meaning) {
+    NumberSpec spec = coordinate;
+    spec.meaning = meaning;
+    return spec;
+  };
+  const auto limit = [](std::string_view meaning) {
+    return NumberSpec{
+        .at_least = -90.0, .at_most = 90.0, .code = core::Code::kPoseRange, .meaning = meaning};
+  };
+  v.text("id", p.id,
+         {.meaning = "What this fixture is called, as on its label: a calibration belongs to it."});
+  v.text("driver", p.driver,
+         {.one_of = {"simulated", "ippdme", "zaber", "thorlabs", "manual"},
+          .meaning = "Which fixture carries the part: a simulation in this program, two rotary "
+                     "axes of the machine behind I++ DME (AlignPart), two rotary stages on a "
+                     "Zaber controller or on Thorlabs APT units, or a fixture that a hand sets and "
+                     "friction holds, whose pose the machine then measures. Stages may also turn "
+                     "the part of a simulated machine."});
+  v.numbers("axis_point_mm", p.axis_point_mm,
+            place("A point of the base-fixed axis (alpha): x, y, z in the machine frame."));
+  v.numbers("axis_offset_mm", p.axis_offset_mm,
+            place("From that axis to the carried axis (beta): x, y, z in the hoop frame; 0, 0, 0 "
+                  "when the axes intersect."));
+  v.numbers("part_position_mm", p.part_position_mm,
+            place("Origin of the part in the clamping ring: x, y, z in the frame of the ring."));
+  v.number("min_alpha_deg", p.min_alpha_deg,
+           limit("Lower end of travel about the base-fixed axis."));
+  v.number("max_alpha_deg", p.max_alpha_deg,
+           limit("Upper end of travel about the base-fixed axis."));
+  v.number("min_beta_deg", p.min_beta_deg, limit("Lower end of travel about the carried axis."));
+  v.number("max_beta_deg", p.max_beta_deg, limit("Upper end of travel about the carried axis."));
+  v.number(
+      "resolution_deg", p.resolution_deg,
+      {.at_least = 0.0, .at_most = 5.0, .meaning = "Smallest step the fixture can hold; 0: any."});
+  v.number("rim_height_mm", p.rim_height_mm,
+           place("Height of the rim of the bowl, machine z: the tip never goes below."));
+  v.number("clamp_from_mm", p.clamp_from_mm,
+           place("Lower end of the band that the clamping ring covers, part z. No band when it is "
+                 "not below clamp_to_mm."));
+  v.number("clamp_to_mm", p.clamp_to_mm, place("Upper end of the clamped band, part z."));
+  const auto diameter = [](std::string_view meaning) {
+    return NumberSpec{.at_least = 0.0, .at_most = 5000.0, .meaning = meaning};
+  };
+  v.number(
+      "ring_diameter_mm", p.ring_diameter_mm,
+      diameter("Outer diameter of the clamping ring; 0: unknown, then nothing is touched at or "
+               "below the clamped band."));
+  v.number(
+      "rim_diameter_mm", p.rim_diameter_mm,
+      diameter("Outer diameter of the bowl, about axis_point_mm; 0: unknown, then the tip goes "
+               "nowhere below rim_height_mm."));
+  v.number("table_height_mm", p.table_height_mm, place("Height of the table, machine z."));
+  v.object("datum", p.datum,
+           {.meaning = "Reference spheres on the base of the fixture, touched before a run: then "
+                       "axis_point_mm is in the base frame they show."});
+  v.object("calibration", p.calibration,
+           {.meaning = "Errors of the fixture, found by a feature of the type rotary_axes: the run "
+                       "reckons with them (docs/fixture-calibration.md). Left out: the fixture is "
+                       "taken as nominal."});
+  v.object("zaber", p.zaber, {.meaning = "Connection and stages of the driver zaber."});
+  v.object("thorlabs", p.thorlabs, {.meaning = "thorlabs: the units of the two axes."});
+  v.object("reached_pose", p.reached_pose,
+           {.meaning = "manual: reference spheres that turn with the part, touched in every pose, "
+                       "from which the pose is taken that was reached."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, QualificationPlan& p) {
+  v.number("sphere_diameter_mm", p.sphere_diameter_mm,
+           {.at_least = 1.0,
+            .at_most = 200.0,
+            .meaning = "Certified diameter of the reference sphere."});
+  v.numbers("sphere_center_mm", p.sphere_center_mm,
+            {.at_least = -kMaxCoordinate_mm,
+             .at_most = kMaxCoordinate_mm,
+             .meaning = "Where the reference sphere stands: x, y, z in the machine frame."});
+  v.whole("points", p.points,
+          {.at_least = 5, .at_most = 100, .meaning = "Touches on the reference sphere."});
+  v.number(
+      "form_limit_um", p.form_limit_um,
+      {.at_least = 0.0,
+       .at_most = 1000.0,
+       .above = true,
+       .meaning =
+           "Largest probing form (spread of the touches about the sphere) of a usable probe."});
+  v.number("radius_tolerance_um", p.radius_tolerance_um,
+           {.at_least = 0.0,
+            .at_most = 1000.0,
+            .above = true,
+            .meaning = "Largest difference between the effective and the nominal tip radius."});
+  v.number("stem_diameter_mm", p.stem_diameter_mm,
+           {.at_least = 0.0,
+            .at_most = 200.0,
+            .meaning = "Diameter of the stem below the sphere; 0: a third of the sphere's."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, ProbePlan& p) {
+  v.number("tip_diameter_mm", p.tip_diameter_mm,
+           {.at_least = 0.0,
+            .at_most = 50.0,
+            .above = true,
+            .meaning = "Nominal diameter of the ball of the stylus."});
+  v.number("stylus_length_mm", p.stylus_length_mm,
+           {.at_least = 0.0,
+            .at_most = 1000.0,
+            .meaning = "From the centre of the ball up to the holder; 0: unknown, then only the "
+                       "ball is kept clear of everything."});
+  v.number("stylus_diameter_mm", p.stylus_diameter_mm,
+           {.at_least = 0.0,
+            .at_most = 50.0,
+            .meaning = "Diameter of the shaft, less than the ball's. Needed with a length."});
+  v.number("holder_diameter_mm", p.holder_diameter_mm,
+           {.at_least = 0.0,
+            .at_most = 500.0,
+            .meaning = "Diameter of what carries the stylus (extension, probe head); 0: none."});
+  v.object(
+      "qualification", p.qualification,
+      {.meaning = "How the effective tip radius is found on a reference sphere before a run."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, EnvironmentPlan& p) {
+  v.number("min_degC", p.min_degC,
+           {.at_least = 10.0,
+            .at_most = 40.0,
+            .meaning = "A part colder than this makes the result void."});
+  v.number("max_degC", p.max_degC,
+           {.at_least = 10.0,
+            .at_most = 40.0,
+            .meaning = "A part warmer than this makes the result void."});
+  v.number("temperature_uncertainty_K", p.temperature_uncertainty_K,
+           {.at_least = 0.0,
+            .at_most = 5.0,
+            .meaning = "Standard uncertainty of a measured or assumed temperature."});
+  v.number("assumed_degC", p.assumed_degC,
+           {.at_least = 10.0,
+            .at_most = 40.0,
+            .meaning = "Temperature of part and scales where no sensor gives one; reports print it "
+                       "as declared. Left out: what nobody measured makes the result void."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, NominalPlan& p) {
+  v.number("diameter_mm", p.diameter_mm,
+           {.at_least = 1.0,
+            .at_most = 1000.0,
+            .code = core::Code::kUnits,
+            .hint = "that suggests metres or micrometres, give the diameter in mm",
+            .meaning = "Diameter on the drawing. Needed unless the points come from a file."});
+  v.number(
+      "from_mm", p.from_mm,
+      {.at_least = -kMaxCoordinate_mm,
+       .at_most = kMaxCoordinate_mm,
+       .meaning =
+           "Lower end of the surface, part z. A circle is touched in the middle of its surface."});
+  v.number("to_mm", p.to_mm,
+           {.at_least = -kMaxCoordinate_mm,
+            .at_most = kMaxCoordinate_mm,
+            .meaning = "Upper end of the surface, part z."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, SamplingPlan& p) {
+  v.text(
+      "method", p.method,
+      {.one_of = {"touch", "scan"},
+       .meaning = "touch: single touches. scan: every layer in one circle, where the machine can; "
+                  "then hundreds of points a layer cost seconds."});
+  v.whole("layers", p.layers,
+          {.at_least = 1,
+           .at_most = 1000,
+           .meaning = "Sections along the axis: at least 2 for a cylinder; 1 for a circle, also "
+                      "when left out."});
+  v.whole("points_per_layer", p.points_per_layer,
+          {.at_least = 3,
+           .at_most = 100'000,
+           .meaning = "Equispaced points of every section; at least 4 for a circle."});
+  v.number("margin_mm", p.margin_mm,
+           {.at_least = 0.0,
+            .at_most = kMaxCoordinate_mm,
+            .meaning = "Distance of the first and the last layer from the ends of the surface."});
+  v.number("start_deg", p.start_deg,
+           {.at_least = -360.0,
+            .at_most = 360.0,
+            .meaning = "Angle of the first point of the lowest layer."});
+  v.number("stagger", p.stagger,
+           {.at_least = 0.0,
+            .at_most = 1.0,
+            .meaning = "Shift of the angles from layer to layer: 0, every layer starts alike; 1, "
+                       "the layers interleave evenly."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, MeasuringPosePlan& p) {
+  const NumberSpec angle = {.at_least = -90.0,
+                            .at_most = 90.0,
+                            .required = true,
+                            .code = core::Code::kPoseRange,
+                            .meaning = "Angle of the fixture."};
+  v.number("alpha_deg", p.alpha_deg, angle);
+  v.number("beta_deg", p.beta_deg, angle);
+}
+
+template <class Visitor>
+void describe(Visitor& v, PoseSearchPlan& p) {
+  const NumberSpec start = {.at_least = -90.0,
+                            .at_most = 90.0,
+                            .code = core::Code::kPoseRange,
+                            .meaning = "Angle of the fixture before the first touch."};
+  v.text("strategy", p.strategy,
+         {.one_of = {"guided", "refined", "as-published", "virtual", "merged"},
+          .meaning = "How the levelling pose is found. guided: solves each cloud and steps to the "
+                     "pose it predicts. as-published: grid of steps_deg. refined: that grid, then "
+                     "halved steps. virtual: one cloud, turned in software. merged: no search; the "
+                     "part is measured in each of `poses`, where it can be reached, and the "
+                     "clouds are one (docs/several-poses.md)."});
+  v.list("poses", p.poses,
+         {.meaning = "merged: the poses, at least two; every target must be reached in one of "
+                     "them, and should be in several."});
+  v.text("merge", p.merge,
+         {.one_of = {"joint", "kinematics"},
+          .meaning = "merged: how clouds come together. joint: the errors of the poses are solved "
+                     "together with the part. kinematics: the fixture is believed."});
+  v.number("start_alpha_deg", p.start_alpha_deg, start);
+  v.number("start_beta_deg", p.start_beta_deg, start);
+  v.numbers(
+      "steps_deg", p.steps_deg,
+      {.at_least = 0.0,
+       .at_most = kMaxStep_deg,
+       .above = true,
+       .code = core::Code::kStep,
+       .meaning =
+           "Steps of the grid search, from coarse to fine (as-published, refined, virtual)."});
+  v.number("min_step_deg", p.min_step_deg,
+           {.at_least = 0.0,
+            .at_most = kMaxStep_deg,
+            .above = true,
+            .code = core::Code::kStep,
+            .meaning = "Step halving ends below this step (refined, virtual)."});
+  v.whole("max_poses", p.max_poses,
+          {.at_least = 1,
+           .at_most = 100,
+           .meaning = "Levelling gives up after so many poses (guided)."});
+  v.whole("repeats", p.repeats,
+          {.at_least = 1,
+           .at_most = 1000,
+           .meaning = "Touches of every point of the final cloud; their mean is evaluated."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, HarmonicLimitPlan& p) {
+  const auto order = [](std::string_view meaning) {
+    return NumberSpec{.at_least = 2, .at_most = 10'000, .required = true, .meaning = meaning};
+  };
+  v.whole("from", p.from, order("First undulation number of this line of the mask."));
+  v.whole("to", p.to, order("Last undulation number."));
+  v.number("amplitude_um", p.amplitude_um,
+           {.at_least = 0.0,
+            .at_most = 1000.0,
+            .above = true,
+            .required = true,
+            .meaning = "Largest amplitude (half of peak to valley) of each of them."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, CharacteristicPlan& p) {
+  v.text("id", p.id,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Name in the report, unique within the feature."});
+  v.text("form", p.form,
+         {.one_of = {"cylindricity", "roundness", "roundness-rms", "harmonic-limits",
+                     "motion-total", "motion-synchronous", "motion-asynchronous", "radius",
+                     "run-out", "contour-deviation", "contour-spread", "fixture-residual",
+                     "fixture-residual-rms"},
+          .required = true,
+          .meaning =
+              "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
+              "layer of a cylinder or of a spindle feature; harmonic-limits, a mask on the "
+              "amplitudes of every layer of at least 350 points. Of a spindle feature also: "
+              "roundness-rms (RONq); harmonic-limits; motion-total, motion-synchronous, "
+              "motion-asynchronous (values of ISO 230-7, the greater of X and Y). Of a wheel: "
+              "roundness of its edge; radius, the departure from nominal; run-out. Of a contour "
+              "feature: contour-deviation (peak to valley, the greatest of all parts); "
+              "contour-spread (standard deviation from part to part); harmonic-limits. Of "
+              "rotary_axes: fixture-residual, the largest distance of a ball from where the "
+              "calibration has it, and fixture-residual-rms."});
+  v.text("reference", p.reference,
+         {.one_of = {"mz", "ls", "mc", "mi"},
+          .meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
+                     "mc, minimum circumscribed (a ring gauge on a shaft); mi, maximum inscribed "
+                     "(a plug gauge in a bore). Needed with a tolerance."});
+  v.number(
+      "tolerance_um", p.tolerance_um,
+      {.at_least = 0.0,
+       .at_most = 10'000.0,
+       .above = true,
+       .meaning = "Upper limit on the drawing; without it the value is reported, not judged."});
+  v.text("drawing_zone", p.drawing_zone,
+         {.meaning = "Where it stands on the drawing, e.g. \"C4\"."});
+  v.list("harmonic_limits", p.harmonic_limits,
+         {.meaning = "The mask of harmonic-limits, instead of tolerance_um."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, ColumnPlan& p) {
+  v.text("column", p.column,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Name that the analysis gives it, with its unit, e.g. H1_um."});
+  v.text("in_file", p.in_file,
+         {.required = true, .empty_allowed = false, .meaning = "Name in the file."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, SourcePlan& p) {
+  v.text("file", p.file,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "CSV of tip centres in mm, with a header line x,y or x,y,z; for a spindle, of "
+                     "readings (docs/spindle.md). Relative to the plan."});
+  v.number(
+      "tip_diameter_mm", p.tip_diameter_mm,
+      {.at_least = 0.0,
+       .at_most = 50.0,
+       .above = true,
+       .meaning =
+           "Of the probe that took the points; without it radii stay those of the tip centre."});
+  v.list("columns", p.columns,
+         {.meaning = "Columns that the file of a spindle names otherwise; with this list columns "
+                     "that nobody asks for are passed over."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, FeaturePlan& p) {
+  v.text("id", p.id,
+         {.required = true,
+          .empty_allowed = false,
+          .meaning = "Name of the feature, unique in the plan."});
+  v.text("type", p.type,
+         {.one_of = {"cylinder", "circle", "spindle", "wheel", "contour", "rotary_axes"},
+          .required = true,
+          .meaning = "What the surface is; spindle: form of a part and motion of its axis, from "
+                     "three probes; wheel: a grinding wheel, from points of its edge; contour: "
+                     "crank pins in follow grinding, and what of their error follows the axes; "
+                     "rotary_axes: calibration of the fixture with balls that it carries."});
+  v.text("side", p.side,
+         {.one_of = {"outside", "inside"}, .meaning = "outside: a shaft; inside: a bore."});
+  v.object("nominal", p.nominal, {.meaning = "The surface on the drawing, part frame: axis z."});
+  v.object("sampling", p.sampling, {.meaning = "Where it is touched."});
+  v.object("pose_search", p.pose_search, {.meaning = "How the fixture levels it."});
+  v.object("spindle", p.spindle, {.meaning = "Probes and evaluation of the type spindle."});
+  v.object("wheel", p.wheel, {.meaning = "Points and evaluation of the type wheel."});
+  v.object("contour", p.contour, {.meaning = "Crank, files and evaluation of the type contour."});
+  v.object("rotary_axes", p.rotary_axes,
+           {.meaning = "Balls, stations and poses of the type rotary_axes."});
+  v.object("source", p.source,
+           {.meaning = "Points from a file in place of touches; no machine is needed then."});
+  v.list("characteristics", p.characteristics,
+         {.meaning = "What the drawing asks for, and what else is to be reported."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, ReportsPlan& p) {
+  v.texts("formats", p.formats,
+          {.one_of = {"html", "pdf", "json", "csv", "qif", "dmis", "junit"},
+           .empty_allowed = false,
+           .meaning =
+               "Reports that a run writes: a page, the same on paper (PDF), all numbers, tables, "
+               "QIF 3.0 results, a DMIS output block, a JUnit summary for pipelines."});
+  v.text("archive", p.archive,
+         {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "
+                     "relative to the plan; postgresql://user@host/database without a password; "
+                     "none. Left out or empty: archive.db beside the run directory."});
+}
+
+template <class Visitor>
+void describe(Visitor& v, Plan& p) {
+  v.passed_over("$schema",
+                "Where an editor finds the schema of this file; the program does not read it.");
+  v.object("plan", p.plan, {.required = true, .meaning = "The plan itself."});
+  v.object("part", p.part, {.required = true, .meaning = "What is inspected."});
+  v.object("machine", p.machine,
+           {.meaning = "The coordinate measuring machine. Needed when a feature is touched."});
+  v.object("fixture", p.fixture,
+           {.meaning = "The two-axis fixture. Needed when a feature is touched."});
+  v.object("probe", p.probe, {.meaning = "The touch probe. Needed when a feature is touched."});
+  v.object("environment", p.environment,
+           {.meaning = "Temperature limits outside which a result is void. They hold for points of "
+                       "files and series only where this object stands."});
+  v.list("features", p.features,
+         {.required = true, .empty_allowed = false, .meaning = "What is measured, in this order."});
+  v.object("decision_rule", p.decision_rule,
+           {.meaning = "How a value and its tolerance make a verdict."});
+  v.object("uncertainty", p.uncertainty,
+           {.meaning = "What is declared about the measurement, for the intervals of touched "
+                       "features and points of a file. Left out: none are stated."});
+  v.object("simulation", p.simulation,
+           {.meaning = "The hidden truth of a simulation; no evaluation reads it. Needed with "
+                       "simulated drivers."});
+  v.object("reports", p.reports, {.meaning = "What a run writes besides its journal."});
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,145 @@
+#include "record/csv/internal/lines.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/numbers.h"
+
+namespace rondure::record {
+namespace {
+
+constexpr std::string_view kBlanks = " \t";
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+}  // namespace
+
+core::Error syntax_error(std::string what) { return {core::Code::kSyntax, std::move(what), {}}; }
+
+std::optional<std::string_view> CsvLines::next() {
+  if (rest_.empty()) return std::nullopt;
+  ++number_;
+  const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+  std::string_view line = rest_.substr(0, end);
+  rest_.remove_prefix(std::min(end + 1, rest_.size()));
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+bool holds_nothing(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(kBlanks);
+  return first == std::string_view::npos || line[first] == '#';
+}
+
+std::vector<std::string_view> split_fields(std::string_view line) {
+  std::vector<std::string_view> fields;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    fields.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+std::string quoted_text(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string shown = "\"";
+  for (const char c : text.substr(0, kLongest)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte >= 0x7f) {
+      shown += fmt::format("\\x{:02x}", byte);
+    } else {
+      shown += c;
+    }
+  }
+  return shown + (text.size() > kLongest ? "...\"" : "\"");
+}
+
+std::optional<core::Error> foreign_format(std::string_view line) {
+  const auto has = [&](char c) { return line.find(c) != std::string_view::npos; };
+  if (has('\0')) {
+    return syntax_error(
+        fmt::format("the line holds a NUL byte ({}); plain text is expected, saved as UTF-8 "
+                    "and not as UTF-16",
+                    quoted_text(line)));
+  }
+  if (has('\r')) {
+    return syntax_error(
+        fmt::format("{} holds a carriage return without a line feed; end lines with LF or "
+                    "CRLF",
+                    quoted_text(line)));
+  }
+  if (has('"') || has('\'')) {
+    return syntax_error(
+        fmt::format("{} holds quotes; write names and numbers without them", quoted_text(line)));
+  }
+  if (has(';')) {
+    return syntax_error(
+        fmt::format("{} is separated by semicolons; separate fields by commas and write "
+                    "12.5 with a point",
+                    quoted_text(line)));
+  }
+  if (!has(',') && trimmed(line).find_first_of(kBlanks) != std::string_view::npos) {
+    return syntax_error(
+        fmt::format("{} is separated by blanks; separate fields by commas", quoted_text(line)));
+  }
+  return std::nullopt;
+}
+
+std::optional<core::Error> explain_field(std::string_view field, std::string_view column,
+                                         std::string_view unit) {
+  double value = 0.0;
+  std::string_view digits = field;
+  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, problem] = std::from_chars(digits.data(), end, value);
+  const bool whole = !digits.empty() && stop == end;
+  if (whole && problem == std::errc() && core::is_measurable(value)) return std::nullopt;
+  if (whole && problem == std::errc::result_out_of_range) {
+    return core::Error{core::Code::kNotFinite,
+                       fmt::format("{} is {}, beyond the range of numbers (4.9e-324 to 1.8e308)",
+                                   column, quoted_text(field)),
+                       {}};
+  }
+  if (whole && problem == std::errc() && std::isfinite(value)) {
+    return core::Error{core::Code::kOutOfRange,
+                       fmt::format("{} is {} {}, beyond the limit of {:g} {} for any number; is it "
+                                   "a mark for a missing value? Remove the row",
+                                   column, field, unit, core::kGreatestNumber, unit),
+                       {}};
+  }
+  if (whole && problem == std::errc()) {
+    return core::Error{core::Code::kNotFinite,
+                       fmt::format("{} is {}; a finite number in {} is expected", column,
+                                   quoted_text(field), unit),
+                       {}};
+  }
+  if (field.empty()) {
+    return syntax_error(
+        fmt::format("{} is empty; a number in {} such as 12.5 is expected", column, unit));
+  }
+  return syntax_error(fmt::format(
+      "{} is {}; a number in {} such as 12.5 is expected{}", column, quoted_text(field), unit,
+      field.find('#') == std::string_view::npos ? "" : " (a comment needs a line of its own)"));
+}
+
+bool is_utf16(std::string_view text) {
+  return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  return text;
+}
+
+}  // namespace rondure::record

@@ -1,0 +1,158 @@
+#include "record/journal/internal/chain.h"
+
+#include <map>
+#include <optional>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "record/journal/internal/schema.h"
+#include "record/sha256.h"
+
+namespace rondure::record {
+namespace {
+
+using soci::into;
+using soci::use;
+
+/// The digest of a link: over the digest of the one before (empty text for the first) and all that
+/// this one says.
+std::string link_sha256(std::string_view before, std::int64_t id, std::string_view table,
+                        std::int64_t row, std::string_view row_sha256) {
+  std::string bytes;
+  append_text(bytes, before);
+  append_integer(bytes, id);
+  append_text(bytes, table);
+  append_integer(bytes, row);
+  append_text(bytes, row_sha256);
+  return sha256_hex(bytes);
+}
+
+/// "touch 41", "the header".
+std::string name_of_row(std::string_view table, std::int64_t row) {
+  if (table == "header" || table == "artefact") return fmt::format("the {}", table);
+  return fmt::format("{} {}", table, row);
+}
+
+/// What the links say of the rows of one table: the last digest of each.
+using Expected = std::unordered_map<std::int64_t, std::string>;
+
+/// Gathers complaints about one table: the first in words, the others by number.
+class Complaints {
+ public:
+  void add(std::string what) {
+    if (++count_ == 1) first_ = std::move(what);
+  }
+  void give(std::string_view table, std::vector<BrokenTable>& out) const {
+    if (count_ == 0) return;
+    out.push_back({std::string(table),
+                   count_ == 1 ? first_ : fmt::format("{} (and {} more)", first_, count_ - 1)});
+  }
+
+ private:
+  std::string first_;
+  std::size_t count_ = 0;
+};
+
+/// Reads all links; tells those that do not follow from the one before.
+std::map<std::string, Expected> follow_links(soci::session& sql, std::vector<BrokenTable>& out) {
+  std::map<std::string, Expected> expected;
+  Complaints complaints;
+  std::int64_t id = 0;
+  std::int64_t row = 0;
+  std::string table;
+  std::string row_sha256;
+  std::string sha256;
+  soci::statement links =
+      (sql.prepare << "select id, table_name, row_id, row_sha256, sha256 from chain order by id",
+       into(id), into(table), into(row), into(row_sha256), into(sha256));
+  links.execute();
+  std::int64_t next = 0;
+  std::string before;
+  while (links.fetch()) {
+    if (id != next) {
+      complaints.add(id == next + 1 ? fmt::format("link {} was removed", next)
+                                    : fmt::format("links {} to {} were removed", next, id - 1));
+    } else if (link_sha256(before, id, table, row, row_sha256) != sha256) {
+      complaints.add(fmt::format("link {} ({}) does not follow from the links before it", id,
+                                 name_of_row(table, row)));
+    }
+    next = id + 1;
+    before = sha256;
+    expected[table][row] = row_sha256;
+  }
+  complaints.give(chain_table().name, out);
+  return expected;
+}
+
+/// Compares the rows of one table with what the links say of them.
+void compare_rows(soci::session& sql, std::string_view table, Expected expected,
+                  std::vector<BrokenTable>& out) {
+  Complaints complaints;
+  for_each_row(sql, table, [&](std::int64_t id, const std::string& bytes) {
+    const auto link = expected.find(id);
+    if (link == expected.end()) {
+      complaints.add(
+          fmt::format("{} has no link: it was not written by the run", name_of_row(table, id)));
+      return;
+    }
+    if (link->second != sha256_hex(bytes)) {
+      complaints.add(fmt::format("{} was changed after it was written", name_of_row(table, id)));
+    }
+    expected.erase(link);
+  });
+  std::optional<std::int64_t> first;
+  for (const auto& [id, digest] : expected) first = first ? std::min(*first, id) : id;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    complaints.add(fmt::format("{} was removed after it was written", name_of_row(table, *first)));
+  }
+  complaints.give(table, out);
+}
+
+}  // namespace
+
+Chain::Chain(soci::session& sql)
+    : sql_(sql),
+      tip_(chain_head(sql)),
+      kept_(tip_),
+      insert_((sql.prepare << "insert into chain values (:id, :table, :row, :row_sha256, :sha256)",
+               use(link_.id), use(link_.table), use(link_.row), use(link_.row_sha256),
+               use(tip_.sha256))) {}
+
+void Chain::append_all(std::string_view table) {
+  for_each_row(sql_, table, [&](std::int64_t row, const std::string& bytes) {
+    append_bytes(table, row, bytes);
+  });
+}
+
+void Chain::append_bytes(std::string_view table, std::int64_t row, const std::string& bytes) {
+  link_ = {tip_.rows, std::string(table), row, sha256_hex(bytes)};
+  tip_.sha256 = link_sha256(tip_.sha256, link_.id, table, row, link_.row_sha256);
+  insert_.execute(true);
+  ++tip_.rows;
+}
+
+Digest chain_head(soci::session& sql) {
+  Digest head;
+  sql << "select count(*) from chain", into(head.rows);
+  if (head.rows > 0) {
+    sql << "select sha256 from chain order by id desc limit 1", into(head.sha256);
+  }
+  return head;
+}
+
+std::vector<BrokenTable> check_chain(soci::session& sql, std::int64_t version) {
+  std::vector<BrokenTable> out;
+  auto expected = follow_links(sql, out);
+  for (const Table& table : chained_tables(version)) {
+    compare_rows(sql, table.name, std::move(expected[std::string(table.name)]), out);
+    expected.erase(std::string(table.name));
+  }
+  for (const auto& [table, rows] : expected) {
+    out.push_back({std::string(chain_table().name),
+                   fmt::format("a link names the unknown table \"{}\"", table.substr(0, 40))});
+  }
+  return out;
+}
+
+}  // namespace rondure::record

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <soci/soci.h>
+#include <soci/sqlite3/soci-sqlite3.h>
+
+#include "record/journal/internal/chain.h"
+#include "record/internal/database.h"
+#include "record/journal/journal.h"
+#include "record/journal/internal/log.h"
+#include "record/journal/internal/reader.h"
+#include "record/journal/internal/rows.h"
+#include "record/run_lock.h"
+
+// Private to the room: the open journal. journal_open.cpp makes it, journal.cpp writes rows,
+// journal_close.cpp seals it.
+
+namespace rondure::record {
+
+struct Journal::Impl {
+  enum class State { kOpen, kDigested, kFolded, kClosed };
+
+  RunLock lock;  ///< Before the session: given back after the journal is closed.
+  std::filesystem::path file;
+  soci::session sql;
+  std::optional<Statements> statements;
+  std::optional<Chain> chain;
+  std::optional<std::int64_t> last_touch;
+  Header header;                   ///< As it was given, and the poses: rows that change later.
+  std::map<int, PoseVisit> poses;  ///< By id.
+  bool ended = false;
+  State state = State::kOpen;
+  std::shared_ptr<GrowingRecord> follower;  ///< Or none.
+
+  Impl(RunLock taken, std::filesystem::path path, const std::string& connection)
+      : lock(std::move(taken)), file(std::move(path)), sql(soci::sqlite3, connection) {
+    distrust(sql);
+  }
+
+  /// Why `subject` is not in the journal, and what is safe.
+  [[nodiscard]] tl::unexpected<core::Error> failure(std::string_view subject,
+                                                    std::string_view reason) const {
+    return core::fail(
+        core::Code::kJournal,
+        fmt::format("{} cannot be written to {}: {}{}", subject, file.string(), reason,
+                    last_touch ? fmt::format("; the touches up to number {} are kept", *last_touch)
+                               : std::string()));
+  }
+
+  /// Runs `action`, which writes `subject` in one transaction.
+  template <class Action>
+  core::Result<void> write(std::string_view subject, const Action& action) {
+    if (state != State::kOpen) {
+      return failure(subject, "the journal is sealed and takes nothing more; start a new run");
+    }
+    try {
+      soci::transaction transaction(sql);
+      action();
+      transaction.commit();
+      chain->keep();
+      return {};
+    } catch (const std::exception& exception) {
+      chain->forget();
+      return failure(subject, reason_of(exception, &sql));
+    }
+  }
+
+  /// Prepares what runs during a measurement.
+  void prepare() {
+    statements.emplace(sql);
+    chain.emplace(sql);
+  }
+
+  void insert(const Touch& touch) {
+    require_touch(touch);
+    statements->touch = touch;
+    statements->purpose = name_of(touch.purpose);
+    statements->temperature_degC.take(touch.temperature_degC, "temperature_degC");
+    statements->scale_temperature_degC.take(touch.scale_temperature_degC, "scale_temperature_degC");
+    statements->insert_touch.execute(true);
+    chain->append("touch", touch.id, statements->purpose, touch.pose, touch.layer, touch.point,
+                  touch.repeat, touch.tip_mm.x(), touch.tip_mm.y(), touch.tip_mm.z(),
+                  touch.approach.x(), touch.approach.y(), touch.approach.z(),
+                  touch.temperature_degC, touch.time_s, touch.scale_temperature_degC);
+  }
+
+  void link(const PoseVisit& pose) {
+    chain->append("pose", pose.id, pose.feature, pose.commanded.alpha_rad, pose.commanded.beta_rad,
+                  pose.reached.alpha_rad, pose.reached.beta_rad, pose.final_cloud ? 1 : 0,
+                  pose.time_s);
+  }
+
+  void link_header(const std::string& ending, const core::Error* failure) {
+    const Header& h = header;
+    const auto of_failure = [&](const std::string& text) {
+      return failure == nullptr ? std::optional<std::string>() : std::optional(text);
+    };
+    const core::Error none;
+    const core::Error& why = failure == nullptr ? none : *failure;
+    chain->append("header", 0, h.run_id, h.version, h.processor, h.started_utc, h.plan_file,
+                  h.plan_name, h.plan_revision, h.plan_text, h.plan_sha256, h.part_id, h.part_name,
+                  h.drawing, h.serial, h.operator_name, h.machine, h.fixture, h.decision_rule,
+                  h.simulated ? 1 : 0, std::to_string(h.seed), h.temperature_min_degC,
+                  h.temperature_max_degC, ending,
+                  of_failure(std::string(core::code_name(why.code))), of_failure(why.what),
+                  of_failure(why.where));
+  }
+
+  void clear_ending() {
+    sql << "update header set ending = '', failure_code = null, failure_what = null, "
+           "failure_where = null";
+    link_header("", nullptr);
+  }
+
+  /// Makes one closed file of the journal and its log.
+  core::Result<void> fold() {
+    try {
+      fold_log(sql);
+      statements.reset();
+      chain.reset();
+      leave_log(sql);
+      sql.close();
+      state = State::kFolded;
+      return {};
+    } catch (const std::exception& exception) {  // the digests are safe
+      return failure("the folded log", reason_of(exception, &sql));
+    }
+  }
+
+  void keep(const Touch& touch) {
+    last_touch = last_touch ? std::max(*last_touch, touch.id) : touch.id;
+  }
+};
+
+}  // namespace rondure::record

@@ -1,0 +1,398 @@
+#include "record/journal/internal/reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <initializer_list>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <soci/soci.h>
+#include <soci/sqlite3/soci-sqlite3.h>
+
+#include "core/numbers.h"
+#include "record/csv/internal/lines.h"
+#include "record/journal/internal/rows.h"
+#include "record/journal/internal/schema.h"
+#include "record/journal/internal/seal.h"
+#include "record/journal/internal/series.h"
+
+namespace rondure::record {
+namespace {
+
+using soci::into;
+
+template <class Number>
+Number single(soci::session& sql, const std::string& query) {
+  Number number{};
+  sql << query, into(number);
+  return number;
+}
+
+/// The version of its tables.
+std::int64_t require_journal(soci::session& sql) {
+  const auto application = single<long long>(sql, "pragma application_id");
+  if (application != kApplicationId) {
+    throw Contradiction(
+        fmt::format("it is no journal of Rondure (application_id {:#x}, expected "
+                    "{:#x})",
+                    application, kApplicationId));
+  }
+  const auto version = single<long long>(sql, "pragma user_version");
+  if (version < kOldestSchemaVersion || version > kSchemaVersion) {
+    throw Contradiction(
+        fmt::format("its tables have version {}, this program reads versions {} to {}; read "
+                    "it with the program that wrote it",
+                    version, kOldestSchemaVersion, kSchemaVersion));
+  }
+  require_schema(sql, version);
+  const auto verdict = single<std::string>(sql, "pragma integrity_check(1)");
+  if (verdict != "ok") throw Damage("it is damaged: " + verdict);
+  return version;
+}
+
+/// The enumerator that is spelled `text`.
+template <class Enum>
+Enum named(std::string_view column, const std::string& text, std::initializer_list<Enum> all) {
+  for (const Enum candidate : all) {
+    if (name_of(candidate) == text) return candidate;
+  }
+  throw Contradiction(fmt::format("{} holds the unknown word \"{}\"", column, text.substr(0, 40)));
+}
+
+core::Code code_named(const std::string& text) {
+  for (int i = 0; i <= static_cast<int>(core::kLastCode); ++i) {
+    if (core::code_name(static_cast<core::Code>(i)) == text) return static_cast<core::Code>(i);
+  }
+  throw Contradiction(fmt::format("header.failure_code is the unknown \"{}\"", text.substr(0, 40)));
+}
+
+std::uint64_t seed_from(const std::string& text) {
+  char* end = nullptr;
+  errno = 0;
+  const std::uint64_t seed = std::strtoull(text.c_str(), &end, 10);
+  if (errno != 0 || text.empty() || std::to_string(seed) != text) {
+    throw Contradiction(fmt::format("header.seed is \"{}\", no whole number", text.substr(0, 40)));
+  }
+  return seed;
+}
+
+/// Throws unless `feature` is an index into the features read before (or -1, where that is
+/// allowed).
+void require_feature(const RunRecord& record, int feature, int lowest, std::string_view table) {
+  if (feature >= lowest && feature < static_cast<int>(record.features.size())) return;
+  throw Contradiction(fmt::format("table {} names feature {}, the journal has {}", table, feature,
+                                  record.features.size()));
+}
+
+void read_header(soci::session& sql, RunRecord& record) {
+  Header& h = record.header;
+  int simulated = 0;
+  std::string seed;
+  std::array<std::string, 3> failure;
+  soci::indicator failed = soci::i_null;
+  sql << "select run_id, version, processor, started_utc, plan_file, plan_name, plan_revision, "
+         "plan_text, plan_sha256, part_id, part_name, drawing, serial, operator_name, machine, "
+         "fixture, decision_rule, simulated, seed, temperature_min_degC, temperature_max_degC, "
+         "ending, failure_code, coalesce(failure_what, ''), coalesce(failure_where, '') from "
+         "header",
+      into(h.run_id), into(h.version), into(h.processor), into(h.started_utc), into(h.plan_file),
+      into(h.plan_name), into(h.plan_revision), into(h.plan_text), into(h.plan_sha256),
+      into(h.part_id), into(h.part_name), into(h.drawing), into(h.serial), into(h.operator_name),
+      into(h.machine), into(h.fixture), into(h.decision_rule), into(simulated), into(seed),
+      into(h.temperature_min_degC), into(h.temperature_max_degC), into(record.ending),
+      into(failure[0], failed), into(failure[1]), into(failure[2]);
+  if (!sql.got_data()) throw Contradiction("its table header is empty");
+  require_numbers("header.temperature_degC", {h.temperature_min_degC, h.temperature_max_degC});
+  h.simulated = simulated != 0;
+  h.seed = seed_from(seed);
+  if (failed == soci::i_ok) {
+    record.failure = core::Error{code_named(failure[0]), failure[1], failure[2]};
+  }
+}
+
+void read_artefact(soci::session& sql, RunRecord& record) {
+  Artefact& artefact = record.artefact;
+  sql << "select radius_mm, nominal_tip_radius_mm, radius_tolerance_mm, form_limit_mm from "
+         "artefact",
+      into(artefact.radius_mm), into(artefact.nominal_tip_radius_mm),
+      into(artefact.radius_tolerance_mm), into(artefact.form_limit_mm);
+  if (!sql.got_data()) throw Contradiction("its table artefact is empty");
+  require_numbers("artefact", {artefact.radius_mm, artefact.nominal_tip_radius_mm,
+                               artefact.radius_tolerance_mm, artefact.form_limit_mm});
+}
+
+void read_features(soci::session& sql, RunRecord& record) {
+  Feature row;
+  std::string shape;
+  std::string side;
+  std::string strategy;
+  double tip_radius_mm = 0.0;
+  soci::indicator tip_given = soci::i_null;
+  std::int64_t id = 0;
+  soci::statement rows =
+      (sql.prepare
+           << "select id, name, shape, side, nominal_diameter_mm, layers, points_per_layer, "
+              "strategy, points_file, points_sha256, tip_radius_mm from feature order by id",
+       into(id), into(row.id), into(shape), into(side), into(row.nominal_diameter_mm),
+       into(row.layers), into(row.points_per_layer), into(strategy), into(row.points_file),
+       into(row.points_sha256), into(tip_radius_mm, tip_given));
+  rows.execute();
+  while (rows.fetch()) {
+    if (id != static_cast<std::int64_t>(record.features.size())) {
+      throw Contradiction(fmt::format("feature {} is missing", record.features.size()));
+    }
+    row.shape = named("feature.shape", shape,
+                      {Shape::kCylinder, Shape::kCircle, Shape::kSpindle, Shape::kWheel,
+                       Shape::kContour, Shape::kRotaryAxes});
+    row.side = named("feature.side", side, {Side::kOutside, Side::kInside});
+    row.strategy =
+        named("feature.strategy", strategy,
+              {Strategy::kGuided, Strategy::kRefined, Strategy::kAsPublished, Strategy::kVirtual,
+               Strategy::kPointsFile, Strategy::kSeries, Strategy::kMerged, Strategy::kStations});
+    row.tip_radius_mm = tip_given == soci::i_ok ? std::optional(tip_radius_mm) : std::nullopt;
+    require_number("feature.nominal_diameter_mm", row.nominal_diameter_mm);
+    require_number("feature.tip_radius_mm", row.tip_radius_mm.value_or(0.0));
+    record.features.push_back(row);
+  }
+}
+
+void read_search_steps(soci::session& sql, RunRecord& record) {
+  int feature = 0;
+  double step_deg = 0.0;
+  soci::statement rows = (sql.prepare << "select feature, step_deg from search_step order by id",
+                          into(feature), into(step_deg));
+  rows.execute();
+  while (rows.fetch()) {
+    require_feature(record, feature, 0, "search_step");
+    require_number("search_step.step_deg", step_deg);
+    record.features[static_cast<std::size_t>(feature)].search_steps_deg.push_back(step_deg);
+  }
+}
+
+void read_characteristics(soci::session& sql, RunRecord& record) {
+  Characteristic row;
+  int feature = 0;
+  std::string form;
+  std::string reference;
+  double tolerance_mm = 0.0;
+  soci::indicator given = soci::i_null;
+  soci::statement rows =
+      (sql.prepare << "select feature, name, form, reference, tolerance_mm, drawing_zone "
+                      "from characteristic order by id",
+       into(feature), into(row.id), into(form), into(reference), into(tolerance_mm, given),
+       into(row.drawing_zone));
+  rows.execute();
+  while (rows.fetch()) {
+    require_feature(record, feature, 0, "characteristic");
+    row.form =
+        named("characteristic.form", form,
+              {Form::kCylindricity, Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits,
+               Form::kMotionTotal, Form::kMotionSynchronous, Form::kMotionAsynchronous,
+               Form::kRadius, Form::kRunOut, Form::kContourDeviation, Form::kContourSpread,
+               Form::kFixtureResidual, Form::kFixtureResidualRms});
+    row.reference = named("characteristic.reference", reference,
+                          {Reference::kLeastSquares, Reference::kMinimumZone,
+                           Reference::kMinimumCircumscribed, Reference::kMaximumInscribed});
+    row.tolerance_mm = given == soci::i_ok ? std::optional(tolerance_mm) : std::nullopt;
+    require_number("characteristic.tolerance_mm", row.tolerance_mm.value_or(0.0));
+    record.features[static_cast<std::size_t>(feature)].characteristics.push_back(row);
+  }
+}
+
+void read_poses(soci::session& sql, RunRecord& record) {
+  PoseVisit row;
+  int final_cloud = 0;
+  soci::statement rows =
+      (sql.prepare << "select id, feature, commanded_alpha_rad, commanded_beta_rad, "
+                      "reached_alpha_rad, reached_beta_rad, final_cloud, time_s from pose "
+                      "order by id",
+       into(row.id), into(row.feature), into(row.commanded.alpha_rad), into(row.commanded.beta_rad),
+       into(row.reached.alpha_rad), into(row.reached.beta_rad), into(final_cloud),
+       into(row.time_s));
+  rows.execute();
+  while (rows.fetch()) {
+    require_feature(record, row.feature, 0, "pose");
+    require_numbers("pose", {row.commanded.alpha_rad, row.commanded.beta_rad, row.reached.alpha_rad,
+                             row.reached.beta_rad, row.time_s});
+    row.final_cloud = final_cloud != 0;
+    record.poses.push_back(row);
+  }
+}
+
+Touch::Purpose purpose_of(const std::string& word) {
+  for (const auto purpose : {Touch::Purpose::kQualification, Touch::Purpose::kLocate,
+                             Touch::Purpose::kMeasure, Touch::Purpose::kCheck}) {
+    if (word == name_of(purpose)) return purpose;
+  }
+  throw Contradiction(
+      fmt::format("touch.purpose holds the unknown word \"{}\"", word.substr(0, 40)));
+}
+
+void read_touches(soci::session& sql, RunRecord& record, std::int64_t version) {
+  Touch row;
+  std::string purpose;
+  Measured temperature;
+  Measured scales;
+  // Before version 3 nothing was brought to 20 degC, and nobody asked how warm the scales were.
+  const std::string query = fmt::format(
+      "select id, purpose, pose, layer, point, repeat, tip_x_mm, tip_y_mm, tip_z_mm, approach_x, "
+      "approach_y, approach_z, temperature_degC, time_s, {} from touch order by id",
+      version < 3 ? "null" : "scale_temperature_degC");
+  soci::statement rows =
+      (sql.prepare << query, into(row.id), into(purpose), into(row.pose), into(row.layer),
+       into(row.point), into(row.repeat), into(row.tip_mm.x()), into(row.tip_mm.y()),
+       into(row.tip_mm.z()), into(row.approach.x()), into(row.approach.y()), into(row.approach.z()),
+       into(temperature.value, temperature.given), into(row.time_s),
+       into(scales.value, scales.given));
+  rows.execute();
+  while (rows.fetch()) {
+    row.purpose = purpose_of(purpose);
+    row.temperature_degC = temperature.get();
+    row.scale_temperature_degC = scales.get();
+    require_touch(row);
+    const bool check = row.purpose == Touch::Purpose::kCheck;
+    if (check != (row.id < 0)) {
+      throw Contradiction(fmt::format("touch {} has the purpose {}", row.id, purpose));
+    }
+    (check ? record.checks : record.touches).push_back(row);
+  }
+  std::reverse(record.checks.begin(), record.checks.end());  // their numbers count downward
+}
+
+void read_decisions(soci::session& sql, RunRecord& record) {
+  Decision row;
+  soci::statement rows = (sql.prepare << "select feature, time_s, text from decision order by id",
+                          into(row.feature), into(row.time_s), into(row.text));
+  rows.execute();
+  while (rows.fetch()) {
+    require_feature(record, row.feature, -1, "decision");
+    require_number("decision.time_s", row.time_s);
+    record.decisions.push_back(row);
+  }
+}
+
+void read_truths(soci::session& sql, RunRecord& record) {
+  SimulationTruth row;
+  soci::statement rows = (sql.prepare << "select feature, cylt_mm from truth order by id",
+                          into(row.feature), into(row.cylt_mm));
+  rows.execute();
+  while (rows.fetch()) {
+    require_feature(record, row.feature, 0, "truth");
+    require_number("truth.cylt_mm", row.cylt_mm);
+    record.truths.push_back(row);
+  }
+}
+
+void read_results(soci::session& sql, RunRecord& record) {
+  StoredResult row;
+  soci::statement rows = (sql.prepare << "select name, value from result order by id",
+                          into(row.name), into(row.value));
+  rows.execute();
+  while (rows.fetch()) record.results.push_back(row);
+}
+
+/// One object of a schema: table, index, view or trigger.
+struct SchemaObject {
+  std::string type;
+  std::string name;
+  std::string table;
+  std::string sql;
+};
+
+std::vector<SchemaObject> schema_of(soci::session& sql) {
+  std::vector<SchemaObject> out;
+  SchemaObject row;
+  soci::statement rows =
+      (sql.prepare << "select coalesce(type, ''), coalesce(name, ''), coalesce(tbl_name, ''), "
+                      "coalesce(sql, '') from sqlite_schema",
+       into(row.type), into(row.name), into(row.table), into(row.sql));
+  rows.execute();
+  while (rows.fetch()) out.push_back(row);
+  return out;
+}
+
+/// Takes the one object out of a schema that is this table, and neither a view nor a look-alike.
+void take_table(std::vector<SchemaObject>& schema, const Table& table, std::int64_t version) {
+  const auto found = std::find_if(schema.begin(), schema.end(), [&](const SchemaObject& object) {
+    return object.type == "table" && object.name == table.name;
+  });
+  if (found == schema.end()) throw Contradiction(fmt::format("it has no table {}", table.name));
+  // SQLite keeps "CREATE TABLE " in capitals, and what follows it as it was written: the columns
+  // with their types, checks and defaults.
+  constexpr std::string_view kVerb = "CREATE TABLE ";
+  if (!found->sql.starts_with(kVerb) ||
+      std::string_view(found->sql).substr(kVerb.size()) != table.sql.substr(kVerb.size())) {
+    throw Contradiction(fmt::format("the columns of its table {} are not those of version {}",
+                                    table.name, version));
+  }
+  schema.erase(found);
+}
+
+}  // namespace
+
+void require_schema(soci::session& sql, std::int64_t version) {
+  std::vector<SchemaObject> schema = schema_of(sql);
+  for (const Table& table : tables_of(version)) take_table(schema, table, version);
+  for (const SchemaObject& object : schema) {
+    // SQLite's own, which keeps `unique` in table seal.
+    const bool of_seal = object.type == "index" && object.name == "sqlite_autoindex_seal_1" &&
+                         object.table == seal_table().name && object.sql.empty();
+    if (of_seal) continue;
+    throw Contradiction(fmt::format(
+        "it holds the {} {}{}, which no journal of version {} has: somebody else put it there",
+        object.type, quoted_text(object.name),
+        object.type == "table" ? std::string() : " on table " + quoted_text(object.table),
+        version));
+  }
+}
+
+void require_number(std::string_view column, double value) {
+  if (core::is_measurable(value)) return;
+  if (std::isnan(value)) throw Contradiction(fmt::format("{} is not a number (NaN)", column));
+  throw Contradiction(fmt::format("{} holds {:g}, beyond the limit of {:g} for any number", column,
+                                  value, core::kGreatestNumber));
+}
+
+void require_numbers(std::string_view column, std::initializer_list<double> values) {
+  for (const double value : values) require_number(column, value);
+}
+
+void require_touch(const Touch& touch) {
+  const std::array<std::pair<std::string_view, double>, 9> numbers = {
+      {{"touch.tip_x_mm", touch.tip_mm.x()},
+       {"touch.tip_y_mm", touch.tip_mm.y()},
+       {"touch.tip_z_mm", touch.tip_mm.z()},
+       {"touch.approach_x", touch.approach.x()},
+       {"touch.approach_y", touch.approach.y()},
+       {"touch.approach_z", touch.approach.z()},
+       {"touch.temperature_degC", touch.temperature_degC.value_or(0.0)},
+       {"touch.time_s", touch.time_s},
+       {"touch.scale_temperature_degC", touch.scale_temperature_degC.value_or(0.0)}}};
+  for (const auto& [column, value] : numbers) require_number(column, value);
+}
+
+ReadJournal read_tables(soci::session& sql) {
+  ReadJournal journal;
+  journal.version = static_cast<int>(require_journal(sql));
+  read_header(sql, journal.record);
+  read_artefact(sql, journal.record);
+  read_features(sql, journal.record);
+  read_search_steps(sql, journal.record);
+  read_characteristics(sql, journal.record);
+  read_poses(sql, journal.record);
+  read_touches(sql, journal.record, journal.version);
+  read_decisions(sql, journal.record);
+  read_truths(sql, journal.record);
+  read_series_tables(sql, journal.record, journal.version);
+  read_results(sql, journal.record);
+  journal.record.sealed = is_sealed(sql);
+  journal.broken = check_seal(sql, journal.version);
+  return journal;
+}
+
+}  // namespace rondure::record

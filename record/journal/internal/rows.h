@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include <soci/soci.h>
+
+#include "record/journal/internal/chain.h"
+#include "record/run_record.h"
+
+// Private to the room: how records become rows. Everything here throws soci::soci_error.
+
+namespace rondure::record {
+
+/// A number that is bound with its indicator, null where nobody measured it.
+struct Measured {
+  double value = 0.0;
+  soci::indicator given = soci::i_null;
+
+  /// @throws  std::runtime_error of NaN, which SQLite would take for null.
+  void take(const std::optional<double>& number, const std::string& name);
+  [[nodiscard]] std::optional<double> get() const;
+};
+
+/// The statements that run during a measurement: prepared once, bound to the rows beside them.
+struct Statements {
+  Touch touch;
+  std::string purpose;
+  Measured temperature_degC;
+  Measured scale_temperature_degC;
+  PoseVisit pose;
+  int final_cloud = 0;
+  Decision decision;
+  SimulationTruth truth;
+  int marked_pose = 0;
+  soci::statement insert_touch;
+  soci::statement insert_pose;
+  soci::statement insert_decision;
+  soci::statement insert_truth;
+  soci::statement update_final;
+
+  explicit Statements(soci::session& sql);
+  Statements(const Statements&) = delete;
+  Statements& operator=(const Statements&) = delete;
+};
+
+/// Makes the tables, fills those that are known before the first touch and links their rows, in one
+/// transaction.
+void insert_head(soci::session& sql, const Header& header, const Artefact& artefact,
+                 std::span<const Feature> features, std::span<const Setting> settings);
+
+/// Writes the results and links them.
+void insert_results(soci::session& sql, Chain& chain, std::span<const StoredResult> results);
+
+}  // namespace rondure::record
