@@ -1,0 +1,122 @@
+// What the compiler finds for a file of each room: its own headers and the public ones of the rooms it links.
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace rondure {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::map<std::string, std::set<std::string>> kLinks = {
+    {"core", {}},
+    {"fit", {"core"}},
+    {"wire", {"core"}},
+    {"record", {"core"}},
+    {"fixture", {"core", "wire"}},
+    {"cmm", {"core", "wire"}},
+    {"plans", {"core", "fit", "wire", "record", "fixture", "cmm"}},
+    {"reports", {"core", "fit", "record"}},
+    {"web", {"core", "fit", "record", "reports"}},
+};
+/// Of these two rooms, evaluation may know the error model and what that header includes.
+const std::set<std::string> kErrorModel = {"cmm/error_model.h", "fixture/axis_motion.h",
+                                           "fixture/calibration.h", "fixture/error_model.h",
+                                           "fixture/kinematics.h"};
+
+bool is_internal(const std::string& header) {
+  return header.find("/internal/") != std::string::npos;
+}
+
+std::set<std::string> headers_of(const std::string& room) {
+  std::set<std::string> out;
+  const fs::path root = RONDURE_SOURCE_DIR;
+  for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+    if (entry.path().extension() == ".h") out.insert(fs::relative(entry.path(), root).string());
+  }
+  return out;
+}
+
+/// The compiler and the include paths that a file of the room is compiled with.
+std::string compiler_of(const std::string& room) {
+  std::ifstream file(fs::path(RONDURE_BINARY).parent_path() / "compile_commands.json");
+  for (const auto& entry : nlohmann::json::parse(file)) {
+    std::istringstream words(entry.at("command").get<std::string>());
+    if (words.str().find("/rondure_" + room + ".dir/") == std::string::npos) continue;
+    std::string out;
+    words >> out;
+    for (std::string word; words >> word;) {
+      if (word.rfind("-I", 0) == 0) out += " " + word;
+      if (word == "-isystem" && words >> word) out += " -isystem " + word;
+    }
+    return out + " -std=c++20 -x c++ ";
+  }
+  return "";
+}
+
+/// What the command says, and with it how it ended.
+std::string said(const std::string& command, int& status) {
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  std::string out;
+  char part[4096];
+  while (const std::size_t count = std::fread(part, 1, sizeof part, pipe)) out.append(part, count);
+  status = pclose(pipe);
+  return out;
+}
+
+TEST(CompiledArrows, ARoomFindsItsOwnHeadersAndThePublicOnesOfTheRoomsItLinks) {
+  std::set<std::string> headers;
+  for (const auto& [room, links] : kLinks) headers.merge(headers_of(room));
+  headers.merge(headers_of("app"));
+  const fs::path question = fs::path(testing::TempDir()) / "has_include.cpp";
+  std::ofstream(question) << [&] {
+    std::string text;
+    for (const std::string& header : headers) {
+      text += "#if __has_include(\"" + header + "\")\nseen<" + header + ">\n#endif\n";
+    }
+    return text;
+  }();
+  for (const auto& [room, links] : kLinks) {
+    int status = 1;
+    const std::string compiler = compiler_of(room);
+    ASSERT_FALSE(compiler.empty()) << room;
+    const std::string seen = said(compiler + "-E -P " + question.string(), status);
+    ASSERT_EQ(status, 0) << seen;
+    for (const std::string& header : headers) {
+      const std::string owner = header.substr(0, header.find('/'));
+      const bool public_one = links.count(owner) == 1 && !is_internal(header);
+      const bool model = kErrorModel.count(header) == 1 && (room == "reports" || room == "web");
+      EXPECT_EQ(seen.find("seen<" + header + ">") != std::string::npos,
+                owner == room || public_one || model)
+          << "for " << room << ": " << header;
+    }
+  }
+}
+
+TEST(CompiledArrows, AWrongIncludeDoesNotCompile) {
+  const auto compiled = [](const std::string& room, const std::string& header) {
+    const fs::path file = fs::path(testing::TempDir()) / "wrong.cpp";
+    std::ofstream(file) << "#include \"" << header << "\"\n";
+    int status = 0;
+    const std::string text = said(compiler_of(room) + "-fsyntax-only " + file.string(), status);
+    if (status != 0) EXPECT_THAT(text, testing::HasSubstr(header + ": No such file or directory"));
+    return status == 0;
+  };
+  EXPECT_TRUE(compiled("fit", "core/result.h"));
+  EXPECT_FALSE(compiled("fit", "record/run_record.h"));   // against the arrows
+  EXPECT_FALSE(compiled("reports", "cmm/machine.h"));     // judging knows no drivers
+  EXPECT_TRUE(compiled("reports", "cmm/error_model.h"));  // but the error model
+  EXPECT_FALSE(compiled("plans", "record/journal/internal/rows.h"));
+}
+
+}  // namespace
+}  // namespace rondure
