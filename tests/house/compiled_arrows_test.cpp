@@ -1,6 +1,8 @@
-// What the compiler finds for a file of each room: its own headers and the public ones of the rooms it links.
+// What the compiler finds for a file of each room: its own headers and the public ones of the rooms
+// it links.
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -116,6 +118,22 @@ TEST(CompiledArrows, AWrongIncludeDoesNotCompile) {
   EXPECT_FALSE(compiled("reports", "cmm/machine.h"));     // judging knows no drivers
   EXPECT_TRUE(compiled("reports", "cmm/error_model.h"));  // but the error model
   EXPECT_FALSE(compiled("plans", "record/journal/internal/rows.h"));
+}
+
+TEST(PublicHeaders, CompileAlone) {
+  if (std::getenv("RONDURE_FULL") == nullptr) {
+    GTEST_SKIP() << "Several minutes: run by ./test.sh --full";
+  }
+  for (const auto& [room, links] : kLinks) {
+    const std::string compiler = compiler_of(room);
+    for (const std::string& header : headers_of(room)) {
+      int status = 0;
+      const std::string text =
+          said(compiler + "-fsyntax-only -Wall -Wextra -Werror -include " + header + " /dev/null",
+               status);
+      EXPECT_EQ(status, 0) << header << "\n" << text;
+    }
+  }
 }
 
 }  // namespace
