@@ -111,7 +111,7 @@ struct ZoneCounters {
   double width_um = 0.0;
   int faults = 0;  ///< Fits that failed or whose witness does not prove them.
   int passes = 0;  ///< Over all points.
-  int pivots = 0;  ///< Of the linear programmes.
+  int pivots = 0;  ///< Of the linear programs.
 
   void write(benchmark::State& state) const {
     state.counters["excess"] = excess;

@@ -115,7 +115,7 @@ void scale(FormSpectrum& spectrum, double factor) {
 }
 
 /// Mean value of parts of a form, found without errors.
-core::Result<double> mean_value_mm(const Rehearsal& rehearsal, const FormSpectrum& form,
+core::Result<double> mean_value_mm(const TrialInspection& rehearsal, const FormSpectrum& form,
                                    const record::Characteristic& asked) {
   double sum = 0.0;
   for (int k = 1; k <= kScalingParts; ++k) {
@@ -141,8 +141,8 @@ double point_error_mm(const FormCloud& cloud, const Influences& influences) {
 
 }  // namespace
 
-core::Result<Rehearsal> Rehearsal::of(const record::RunRecord& expected, int feature) {
-  Rehearsal out;
+core::Result<TrialInspection> TrialInspection::of(const record::RunRecord& expected, int feature) {
+  TrialInspection out;
   out.result_.feature = expected.features[static_cast<std::size_t>(feature)];
   out.result_.cloud = places_of(expected, feature);
   if (out.result_.cloud.empty()) {
@@ -159,8 +159,8 @@ core::Result<Rehearsal> Rehearsal::of(const record::RunRecord& expected, int fea
   return out;
 }
 
-FeatureResult Rehearsal::result_of(const FormCloud& simulated,
-                                   const record::Characteristic& asked) const {
+FeatureResult TrialInspection::result_of(const FormCloud& simulated,
+                                         const record::Characteristic& asked) const {
   FeatureResult out = result_;
   for (std::size_t i = 0; i < out.cloud.size(); ++i) {
     out.cloud[i].tip_mm = position_mm(simulated, simulated.points[i]);
@@ -171,7 +171,8 @@ FeatureResult Rehearsal::result_of(const FormCloud& simulated,
   return out;
 }
 
-double Rehearsal::value_mm(const FormCloud& simulated, const record::Characteristic& asked) const {
+double TrialInspection::value_mm(const FormCloud& simulated,
+                                 const record::Characteristic& asked) const {
   if (asked.form != record::Form::kRoundness) {
     FormCloud about = simulated;
     about.reference = asked.reference;
@@ -182,7 +183,7 @@ double Rehearsal::value_mm(const FormCloud& simulated, const record::Characteris
   return worst ? worst->value_mm : 0.0;
 }
 
-core::Result<FormSpectrum> expected_form(const Rehearsal& rehearsal, const Declared& declared,
+core::Result<FormSpectrum> expected_form(const TrialInspection& rehearsal, const Declared& declared,
                                          const record::Characteristic& asked) {
   const FormCloud& cloud = rehearsal.nominal();
   if (declared.spectrum && !declared.spectrum->terms.empty()) {

@@ -10,10 +10,11 @@ namespace rondure::reports {
 
 /// Inspections of parts that nobody has touched yet: a feature of a record without errors, with the
 /// deviations of parts and errors that are made up.
-class Rehearsal {
+class TrialInspection {
  public:
   /// @return  Why the feature has no cloud; kNoPoints when it is not touched.
-  [[nodiscard]] static core::Result<Rehearsal> of(const record::RunRecord& expected, int feature);
+  [[nodiscard]] static core::Result<TrialInspection> of(const record::RunRecord& expected,
+                                                        int feature);
 
   /// The points, as an inspection without errors finds them.
   [[nodiscard]] const FormCloud& nominal() const { return nominal_; }
@@ -36,7 +37,7 @@ class Rehearsal {
 
 /// The form that parts are assumed to have, as an absolute spectrum whose `source` says so in
 /// words: as declared, or of a documented size. See predict().
-[[nodiscard]] core::Result<FormSpectrum> expected_form(const Rehearsal& rehearsal,
+[[nodiscard]] core::Result<FormSpectrum> expected_form(const TrialInspection& rehearsal,
                                                        const Declared& declared,
                                                        const record::Characteristic& asked);
 

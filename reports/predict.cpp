@@ -140,7 +140,7 @@ class Budgets {
 };
 
 /// The repeatability that the run would find by itself; in words what is assumed of it.
-std::string assume_repeatability(const record::RunRecord& record, Rehearsal& rehearsal) {
+std::string assume_repeatability(const record::RunRecord& record, TrialInspection& rehearsal) {
   const auto declared = declared_for(record, rehearsal.result(), std::nullopt);
   if (!declared || !declared->influences.probe) return {};
   if (record::number_in(record.settings, "uncertainty/probe/repeatability_um")) return {};
@@ -175,7 +175,7 @@ UncertaintyOptions trials_of(const UncertaintyOptions& declared, const Predictio
 }
 
 /// Inspects parts and puts together what is said of them.
-Prediction rehearsed(const record::RunRecord& record, const Rehearsal& rehearsal,
+Prediction rehearsed(const record::RunRecord& record, const TrialInspection& rehearsal,
                      const Declared& declared, const FormSpectrum& form,
                      const record::Characteristic& asked, const PredictionOptions& options) {
   Statements sampled;
@@ -231,7 +231,7 @@ core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
     return none("intervals are computed of CYLt and RONt only");
   }
   if (auto why = why_no_interval(expected, of)) return none(*std::move(why));
-  auto rehearsal = Rehearsal::of(expected, feature);
+  auto rehearsal = TrialInspection::of(expected, feature);
   if (!rehearsal) return none(rehearsal.error().what);
   std::string repeatability = assume_repeatability(expected, *rehearsal);
   const auto declared = declared_for(expected, rehearsal->result(), std::nullopt);

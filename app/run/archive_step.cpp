@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 
 void tell_failure(const record::ArchivePlace& place, const fs::path& directory,
                   const fs::path& queue, const record::Delivery& delivery) {
-  if (delivery.failure) complain(*delivery.failure);
+  if (delivery.failure) print_error(*delivery.failure);
   if (delivery.queue_failure) {
-    complain(*delivery.queue_failure);
+    print_error(*delivery.queue_failure);
     tell(fmt::format("rondure: the run is kept; archive it later: rondure history {} --add {}\n",
                      quoted(place.shown), quoted(directory.string())));
   } else if (delivery.waiting > 0) {
@@ -69,7 +69,8 @@ void keep_earlier_results(const record::ArchivePlace& place, const fs::path& dir
   std::erase_if(*earlier, [&](const record::ArchivedResult& r) {
     return r.head.run_id == record.header.run_id && r.head.started_utc == record.header.started_utc;
   });
-  if (const auto kept = reports::keep_earlier(directory, *earlier); !kept) complain(kept.error());
+  if (const auto kept = reports::keep_earlier(directory, *earlier); !kept)
+    print_error(kept.error());
 }
 
 bool archive_run(const record::ArchivePlace& place, const fs::path& directory,
@@ -78,7 +79,7 @@ bool archive_run(const record::ArchivePlace& place, const fs::path& directory,
   std::fflush(stdout);  // the result is read while a server is waited for
   const auto entry = entry_of(directory, record, evaluation);
   if (!entry) {
-    complain(entry.error());
+    print_error(entry.error());
     return true;
   }
   const fs::path queue = record::folder_beside(directory) / record::kArchiveQueueName;

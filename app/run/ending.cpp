@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "app/run/archive_step.h"
 #include "app/processor.h"
+#include "app/run/archive_step.h"
 #include "app/run/resumption.h"
 #include "app/text/shell_word.h"
 #include "app/text/sketch_style.h"
@@ -19,8 +19,8 @@
 #include "reports/defect.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
-#include "reports/words/language.h"
 #include "reports/verdict.h"
+#include "reports/words/language.h"
 #include "reports/writers.h"
 
 namespace rondure::app {
@@ -103,7 +103,7 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
 
 /// To the terminal, and to the page, which would wait for a verdict that never comes.
 void tell_failure(const core::Error& error, reports::LiveView* live) {
-  complain(error);
+  print_error(error);
   if (live != nullptr) live->show_failure(core::to_line(error));
 }
 
@@ -158,17 +158,17 @@ int finish_sealed(const RunToFinish& ending) {
   const auto& [arguments, plan, archive, directory, live] = ending;
   const auto lock = record::RunLock::take(directory);
   if (!lock) {
-    complain(lock.error());
+    print_error(lock.error());
     return kBadInput;
   }
   record::remove_temporaries(directory);
   if (auto closed = close_sealed(directory); !closed) {
-    complain(closed.error());
+    print_error(closed.error());
     return kRunFailed;
   }
   const auto told = read_and_evaluate(directory);
   if (!told) {
-    complain(told.error());
+    print_error(told.error());
     return kRunFailed;
   }
   const auto formats = arguments.formats.empty() ? plan.reports.formats : arguments.formats;

@@ -11,7 +11,7 @@
 #include "plans/analyses/analysis.h"
 #include "record/archive/place.h"
 #include "record/journal/journal.h"
-#include "record/journal/unborn_run.h"
+#include "record/journal/unstarted_run.h"
 
 namespace rondure::app {
 namespace {
@@ -60,7 +60,7 @@ core::Result<Resumption> find_resumption(const RunArguments& arguments) {
                                   arguments.plan, arguments.out));
   }
   if (!by_directory) {
-    const auto unborn = record::clear_unborn_run(out.directory);
+    const auto unborn = record::clear_unstarted_run(out.directory);
     if (!unborn) return core::fail(unborn.error());
     if (*unborn) return out;
   }

@@ -36,7 +36,7 @@ core::Result<void> check_finite(const Json& found) {
 
 int answer(const Json& found, bool as_json, const std::function<std::string()>& table) {
   if (const auto finite = check_finite(found); !finite) {
-    complain(finite.error());
+    print_error(finite.error());
     return kBadInput;
   }
   say(as_json ? found.dump(1) + "\n" : table());

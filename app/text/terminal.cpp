@@ -112,13 +112,13 @@ void tell(std::string_view line) {
   write_to_terminal(reports::printable(line) + (ends ? "\n" : ""));
 }
 
-void complain(const core::Error& error) {
+void print_error(const core::Error& error) {
   // A file's name stands in the sentence already.
   const bool named = error.what.find(error.where) != std::string::npos;
   tell(fmt::format("rondure: {}\n", core::to_line(named ? error.at({}) : error)));
 }
 
-void complain(const std::vector<core::Error>& errors) {
+void print_error(const std::vector<core::Error>& errors) {
   for (const core::Error& error : errors) tell(core::to_line(error) + "\n");
 }
 

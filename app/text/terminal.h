@@ -27,8 +27,8 @@ void say_line(std::string_view line);
 /// of names and devices become "?". Never fails: a terminal that went away must not stop a machine.
 void tell(std::string_view line);
 /// Prints one line an error on standard error.
-void complain(const core::Error& error);
-void complain(const std::vector<core::Error>& errors);
+void print_error(const core::Error& error);
+void print_error(const std::vector<core::Error>& errors);
 
 /// One line that follows a run on standard error: feature, pose, touches, f, time left. Silent when
 /// standard error is no terminal. Redrawn ten times a second at most.

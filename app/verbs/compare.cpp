@@ -15,7 +15,7 @@ namespace rondure::app {
 int compare(const CompareArguments& arguments) {
   const auto read = record::read_journal(arguments.directory);
   if (!read) {
-    complain(read.error());
+    print_error(read.error());
     return kBadInput;
   }
   const std::vector<std::string> faults = record::faults_of(*read);
@@ -24,7 +24,7 @@ int compare(const CompareArguments& arguments) {
   }
   if (!faults.empty()) return kBadInput;
   if (const auto checked = plans::check_record(read->record); !checked) {
-    complain(checked.error().at(arguments.directory));
+    print_error(checked.error().at(arguments.directory));
     return kBadInput;
   }
   if (read->record.ending != "finished") {
@@ -35,12 +35,12 @@ int compare(const CompareArguments& arguments) {
   }
   const auto evaluation = reports::evaluate(read->record);
   if (!evaluation) {
-    complain(evaluation.error());
+    print_error(evaluation.error());
     return kBadInput;
   }
   const auto comparison = reports::compare_run(*evaluation);
   if (!comparison) {
-    complain(comparison.error().at(arguments.directory));
+    print_error(comparison.error().at(arguments.directory));
     return kBadInput;
   }
   const std::string& id = read->record.header.run_id;

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/text/answer.h"
-#include "app/verbs/contour_files.h"
-#include "app/verbs/contour_mapping.h"
 #include "app/text/contour.h"
 #include "app/text/terminal.h"
+#include "app/verbs/contour_files.h"
+#include "app/verbs/contour_mapping.h"
 #include "app/verbs/verbs.h"
 #include "core/units.h"
 #include "fit/contour/study.h"
@@ -108,7 +108,7 @@ core::Error named(const core::Error& error, const ContourArguments& arguments) {
 
 int contour(const ContourArguments& arguments) {
   const auto refuse = [](const core::Error& error) {
-    complain(error);
+    print_error(error);
     return kBadInput;
   };
   const auto input = read_parts(arguments);

@@ -48,7 +48,7 @@ std::optional<ServerPlace> server_place(std::string_view text) {
 int devices(const DevicesArguments& arguments) {
   const auto plugged_in = wire::list_usb_devices();
   if (!plugged_in) {
-    complain(plugged_in.error().error());
+    print_error(plugged_in.error().error());
     return kBadInput;
   }
   const auto found = found_devices(*plugged_in, wire::list_serial_ports());
@@ -59,10 +59,10 @@ int devices(const DevicesArguments& arguments) {
 int server_device(const ServerDeviceArguments& arguments) {
   const auto place = server_place(arguments.place);
   if (!place) {
-    complain({core::Code::kMeaning,
-              fmt::format("{} is no HOST:PORT with a port from 1 to 65535, as 127.0.0.1:1294",
-                          arguments.place),
-              {}});
+    print_error({core::Code::kMeaning,
+                 fmt::format("{} is no HOST:PORT with a port from 1 to 65535, as 127.0.0.1:1294",
+                             arguments.place),
+                 {}});
     return kBadInput;
   }
   const std::chrono::milliseconds limit(std::llround(1000.0 * arguments.limit_s));
@@ -70,12 +70,12 @@ int server_device(const ServerDeviceArguments& arguments) {
   tcp.connect_limit = tcp.write_limit = limit;
   auto line = wire::connect_tcp(place->host, place->port, tcp);
   if (!line) {
-    complain(line.error());
+    print_error(line.error());
     return kBadInput;
   }
   const auto found = cmm::ipp::client::survey(std::move(*line), limit);
   if (!found) {
-    complain(found.error());
+    print_error(found.error());
     return kBadInput;
   }
   const nlohmann::ordered_json document = survey_json(*found, *place);

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/text/answer.h"
-#include "app/verbs/fit_shapes.h"
 #include "app/text/fit.h"
 #include "app/text/terminal.h"
+#include "app/verbs/fit_shapes.h"
 #include "app/verbs/verbs.h"
 #include "record/csv/points.h"
 
@@ -34,13 +34,13 @@ core::Result<record::PointTable> load_points(const FitArguments& arguments) {
 int fit(const FitArguments& arguments) {
   const auto table = load_points(arguments);
   if (!table) {
-    complain(table.error());
+    print_error(table.error());
     return kBadInput;
   }
   const auto outcome = fit_shape(arguments.shape, arguments.reference, table->points_mm);
   if (!outcome) {
     const core::Error& error = outcome.error();
-    complain(error.at(error.where.empty() ? arguments.file : error.where));
+    print_error(error.at(error.where.empty() ? arguments.file : error.where));
     return kBadInput;
   }
   return answer(fit_json(*outcome), arguments.json, [&] { return fit_table(*outcome); });

@@ -159,8 +159,8 @@ bool push_to(const record::ArchivePlace& place, const fs::path& queue) {
   record::DeliveryOptions options;
   options.give_up_after_s = 600.0;  // somebody waits for it, and may press Ctrl-C
   const record::Delivery delivery = record::deliver(place, queue, nullptr, options);
-  if (delivery.failure) complain(*delivery.failure);
-  if (delivery.queue_failure) complain(*delivery.queue_failure);
+  if (delivery.failure) print_error(*delivery.failure);
+  if (delivery.queue_failure) print_error(*delivery.queue_failure);
   say_line(fmt::format("{}: {} sent ({}), {}", place.shown,
                        reports::count(delivery.sent, "run", "runs"),
                        reports::count(delivery.results, "result", "results"),
@@ -178,7 +178,7 @@ int push(const record::ArchivePlace& place, const HistoryArguments& arguments) {
   auto queue = record::ArchiveQueue::open(arguments.queue);
   const auto targets = queue ? queue->targets() : core::fail(queue.error());
   if (!targets) {
-    complain(targets.error());
+    print_error(targets.error());
     return kBadInput;
   }
   if (targets->empty()) say("nothing waits\n");
@@ -186,7 +186,7 @@ int push(const record::ArchivePlace& place, const HistoryArguments& arguments) {
   for (const std::string& target : *targets) {
     auto waited_for = record::parse_archive_place(target);
     if (!waited_for) {
-      complain(waited_for.error());
+      print_error(waited_for.error());
       well = false;
       continue;
     }
@@ -220,7 +220,7 @@ int add(record::Archive& archive, const std::vector<std::string>& directories) {
     const auto run = finished_run(directory);
     const auto added = run ? archive.push(*run) : core::fail(run.error());
     if (!added) {
-      complain(added.error());
+      print_error(added.error());
       status = kBadInput;
       continue;
     }
@@ -236,8 +236,8 @@ int add(record::Archive& archive, const std::vector<std::string>& directories) {
 int history(const HistoryArguments& arguments) {
   const auto place = record::parse_archive_place(arguments.archive);
   if (!place || place->kind == record::ArchivePlace::Kind::kNone) {
-    complain(place ? bad("none is no archive; give a file or postgresql://...").value()
-                   : place.error());
+    print_error(place ? bad("none is no archive; give a file or postgresql://...").value()
+                      : place.error());
     return kBadInput;
   }
   if (arguments.push) return push(*place, arguments);
@@ -245,12 +245,12 @@ int history(const HistoryArguments& arguments) {
   auto archive =
       record::Archive::open(*place, arguments.add.empty() ? Access::kRead : Access::kWrite);
   if (!archive) {
-    complain(archive.error());
+    print_error(archive.error());
     return kBadInput;
   }
   if (!arguments.add.empty()) return add(*archive, arguments.add);
   if (auto shown = show(*archive, place->shown, arguments); !shown) {
-    complain(shown.error());
+    print_error(shown.error());
     return kBadInput;
   }
   return kAllWell;

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/prediction/json.h"
+#include "app/prediction/prediction.h"
+#include "app/prediction/sampling_search.h"
 #include "app/text/answer.h"
 #include "app/text/forecast.h"
 #include "app/text/length_word.h"
-#include "app/prediction/prediction.h"
-#include "app/prediction/json.h"
 #include "app/text/prediction.h"
-#include "app/prediction/sampling_search.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "plans/forecast/forecast.h"
@@ -21,7 +21,7 @@ namespace rondure::app {
 namespace {
 
 int refuse(const std::vector<core::Error>& problems, const PlanArguments& arguments) {
-  complain(problems);
+  print_error(problems);
   if (arguments.json) say(problems_json(problems));
   return kBadInput;
 }

@@ -12,8 +12,8 @@
 #include "cmm/indicators/displacement_probe.h"
 #include "core/numbers.h"
 #include "core/units.h"
-#include "record/files.h"
 #include "record/csv/series.h"
+#include "record/files.h"
 
 namespace rondure::app {
 namespace {
@@ -141,7 +141,7 @@ int record_readings(const RecordArguments& arguments) {
     say_line(arguments.out);
     return kAllWell;
   }
-  complain(done.error());
+  print_error(done.error());
   const core::Code code = done.error().code;
   if (code != core::Code::kMachine && code != core::Code::kStopped) return kBadInput;
   tell("rondure: what was read is kept; the same command goes on behind it\n");

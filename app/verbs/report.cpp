@@ -33,7 +33,7 @@ std::string signed_checksums(const std::filesystem::path& directory) {
 int report(const ReportArguments& arguments) {
   const auto read = record::read_journal(arguments.directory);
   if (!read) {
-    complain(read.error());
+    print_error(read.error());
     return kBadInput;
   }
   const std::vector<std::string> faults = record::faults_of(*read);
@@ -42,12 +42,12 @@ int report(const ReportArguments& arguments) {
   }
   if (!faults.empty()) return kBadInput;
   if (const auto checked = plans::check_record(read->record); !checked) {
-    complain(checked.error().at(arguments.directory));
+    print_error(checked.error().at(arguments.directory));
     return kBadInput;
   }
   const auto evaluation = reports::evaluate_run(read->record, arguments.directory, processor());
   if (!evaluation) {
-    complain(evaluation.error());
+    print_error(evaluation.error());
     return kBadInput;
   }
   const std::string signed_sums = signed_checksums(arguments.directory);
@@ -57,7 +57,7 @@ int report(const ReportArguments& arguments) {
   const auto written =
       reports::write_exports(arguments.directory, formats, read->record, *evaluation, language);
   if (!written) {
-    complain(written.error());
+    print_error(written.error());
     return kBadInput;
   }
   for (const std::string& warning : written->warnings) tell(fmt::format("rondure: {}\n", warning));

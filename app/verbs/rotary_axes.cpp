@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/text/answer.h"
-#include "app/verbs/rotary_axes_command.h"
-#include "app/verbs/rotary_axes_files.h"
 #include "app/text/rotary_axes.h"
 #include "app/text/terminal.h"
+#include "app/verbs/rotary_axes_command.h"
+#include "app/verbs/rotary_axes_files.h"
 #include "app/verbs/verbs.h"
 
 namespace rondure::app {
@@ -61,7 +61,7 @@ core::Result<std::vector<RotaryFacts>> identify(const RotaryAxesArguments& argum
 int rotary_axes(const RotaryAxesArguments& arguments) {
   const auto facts = identify(arguments);
   if (!facts) {
-    complain(facts.error());
+    print_error(facts.error());
     return kBadInput;
   }
   return answer(rotary_axes_json(*facts), arguments.json,

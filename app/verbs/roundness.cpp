@@ -128,18 +128,18 @@ core::Error placed(const core::Error& error, const std::string& file) {
 int roundness(const RoundnessArguments& arguments) {
   const auto options = options_of(arguments);
   if (!options) {
-    complain(options.error());
+    print_error(options.error());
     return kBadInput;
   }
   const auto table = load_profile(arguments.file);
   if (!table) {
-    complain(table.error());
+    print_error(table.error());
     return kBadInput;
   }
   const auto out =
       table->polar ? evaluate_polar(*table, *options) : evaluate_points(*table, *options);
   if (!out) {
-    complain(placed(out.error(), arguments.file));
+    print_error(placed(out.error(), arguments.file));
     return kBadInput;
   }
   return answer(roundness_json(*out, table->polar), arguments.json,
@@ -155,7 +155,7 @@ int selftest_filters(const SelfTestArguments& arguments) {
   for (const double cutoff : cutoffs) {
     auto test = fit::filter_selftest(cutoff);
     if (!test) {
-      complain(test.error());
+      print_error(test.error());
       return kBadInput;
     }
     tests.push_back(*std::move(test));

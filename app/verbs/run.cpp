@@ -6,18 +6,18 @@
 
 #include <fmt/format.h>
 
+#include "app/processor.h"
 #include "app/run/archive_step.h"
+#include "app/run/ending.h"
 #include "app/run/live_run.h"
 #include "app/run/pace.h"
-#include "app/processor.h"
 #include "app/run/resumption.h"
-#include "app/run/ending.h"
 #include "app/run/step_prompt.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
-#include "plans/schema/json_text.h"
 #include "plans/plan.h"
 #include "plans/run/runner.h"
+#include "plans/schema/json_text.h"
 #include "plans/schema/utf8.h"
 #include "record/journal/journal.h"
 
@@ -101,12 +101,12 @@ void tell_about_resume(const RunToFinish& ending) {
 
 /// Says why nothing is measured: a fault, or all that changed since the run began.
 void refuse(const std::vector<core::Error>& reasons, bool resume, const fs::path& directory) {
-  if (!resume || reasons.front().code != core::Code::kMeaning) return complain(reasons.front());
+  if (!resume || reasons.front().code != core::Code::kMeaning) return print_error(reasons.front());
   tell(
       fmt::format("rondure: the run in {} cannot go on, it began with something else; undo this, "
                   "or start a new run:\n",
                   directory.string()));
-  complain(reasons);
+  print_error(reasons);
 }
 
 /// A machine that does not answer or has a fault is no mistake in the input.
@@ -148,7 +148,7 @@ int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& opt
     if (!ending.arguments.resume) tell_about_resume(ending);
     return status_of(run.error());
   }
-  if (run->failure) complain(*run->failure);
+  if (run->failure) print_error(*run->failure);
   const int status = conclude(ending, &*run);
   tell_how_to_go_on(*run, ending);
   return status;
@@ -165,7 +165,7 @@ int conclude_finished(const RunToFinish& ending, const plans::RunOptions& option
                     "or name a new directory for another run:\n",
                     options.directory.string()));
   }
-  complain(differences);
+  print_error(differences);
   return kBadInput;
 }
 
@@ -179,27 +179,27 @@ core::Result<Resumption> look(const RunArguments& arguments) {
 int run(const RunArguments& arguments) {
   if (arguments.step) {
     if (auto terminal = StepPrompt::check_terminal("--step asks before each move"); !terminal) {
-      complain(terminal.error());
+      print_error(terminal.error());
       return kBadInput;
     }
   }
   if (auto sound = check_names(arguments); !sound) {
-    complain(sound.error());
+    print_error(sound.error());
     return kBadInput;
   }
   const auto resumption = look(arguments);
   if (!resumption) {
-    complain(resumption.error());
+    print_error(resumption.error());
     return kBadInput;
   }
   const auto plan = plan_of(arguments, *resumption);
   if (!plan) {
-    complain(plan.error());
+    print_error(plan.error());
     return kBadInput;
   }
   for (const auto& allowed : {check_hand(*plan), check_speed(arguments, *plan)}) {
     if (allowed) continue;
-    complain(allowed.error());
+    print_error(allowed.error());
     return kBadInput;
   }
   plans::RunOptions options = options_of(arguments);
@@ -209,7 +209,7 @@ int run(const RunArguments& arguments) {
   }
   const auto archive = archive_of(arguments.archive, *plan, options.directory);
   if (!archive) {
-    complain(archive.error());
+    print_error(archive.error());
     return kBadInput;
   }
   RunToFinish ending{arguments, *plan, *archive, options.directory};
@@ -221,7 +221,7 @@ int run(const RunArguments& arguments) {
   }
   const auto live = open_live(arguments, *plan, options);
   if (!live) {
-    complain(live.error());
+    print_error(live.error());
     return kBadInput;
   }
   ending.live = live->get();

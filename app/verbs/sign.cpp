@@ -23,7 +23,7 @@ bool verifies(const fs::path& directory) {
   options.check = plans::check_record;
   const auto outcome = reports::verify_run(directory, options);
   if (!outcome) {
-    complain(outcome.error());
+    print_error(outcome.error());
     return false;
   }
   for (const std::string& difference : outcome->differences) {
@@ -53,7 +53,7 @@ int sign(const SignArguments& arguments) {
   if (!verifies(arguments.directory)) return kBadInput;
   const auto file = write_signature(arguments);
   if (!file) {
-    complain(file.error());
+    print_error(file.error());
     return kBadInput;
   }
   say_line(file->string());

@@ -10,8 +10,8 @@
 #include "app/verbs/verbs.h"
 #include "cmm/ipp_server/server.h"
 #include "cmm/ipp_server/service.h"
-#include "plans/plan.h"
 #include "plans/cell/served_cell.h"
+#include "plans/plan.h"
 #include "wire/tcp_line.h"
 
 namespace rondure::app {
@@ -48,7 +48,7 @@ int serve(const SimulateCmmArguments& arguments, const plans::Plan& plan) {
   limits.max_line_bytes = 2 * cmm::ipp::kMaxLineLength;  // what is longer is no client of ours
   auto listener = wire::TcpListener::open(arguments.address, arguments.port, limits);
   if (!listener) {
-    complain(listener.error());
+    print_error(listener.error());
     return kBadInput;
   }
   plans::ServedCell cell(plan, arguments.seed.value_or(plan.simulation->seed));
@@ -66,7 +66,7 @@ int serve(const SimulateCmmArguments& arguments, const plans::Plan& plan) {
   service.silence_limit =
       std::chrono::milliseconds(std::llround(1000.0 * arguments.silence_limit_s));
   if (auto served = cmm::ipp::serve(*listener, server, service); !served) {
-    complain(served.error());
+    print_error(served.error());
     return kBadInput;
   }
   tell("rondure: ended\n");
@@ -78,16 +78,16 @@ int serve(const SimulateCmmArguments& arguments, const plans::Plan& plan) {
 int simulate_cmm(const SimulateCmmArguments& arguments) {
   const auto plan = plans::read_plan(arguments.plan);
   if (!plan) {
-    complain(plan.error());
+    print_error(plan.error());
     return kBadInput;
   }
   if (auto servable = plans::check_servable(*plan); !servable) {
-    complain(servable.error().at(arguments.plan));
+    print_error(servable.error().at(arguments.plan));
     return kBadInput;
   }
   // Said now, not when the first client comes.
   if (!arguments.wire_log.empty() && !std::ofstream(arguments.wire_log, std::ios::app)) {
-    complain(
+    print_error(
         {core::Code::kFile, "cannot be written; choose another --wire-log", arguments.wire_log});
     return kBadInput;
   }

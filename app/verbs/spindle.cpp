@@ -10,8 +10,8 @@
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "core/units.h"
-#include "record/files.h"
 #include "record/csv/series.h"
+#include "record/files.h"
 #include "reports/spindle_result.h"
 
 namespace rondure::app {
@@ -91,7 +91,7 @@ core::Result<fit::LayoutSearch> search_of(const DesignArguments& arguments) {
 int spindle(const SpindleArguments& arguments) {
   const auto facts = separate(arguments);
   if (!facts) {
-    complain(facts.error());
+    print_error(facts.error());
     return kBadInput;
   }
   return answer(spindle_json(*facts), arguments.json, [&] { return spindle_table(*facts); });
@@ -100,12 +100,12 @@ int spindle(const SpindleArguments& arguments) {
 int design_probes(const DesignArguments& arguments) {
   const auto search = search_of(arguments);
   if (!search) {
-    complain(search.error());
+    print_error(search.error());
     return kBadInput;
   }
   const auto found = fit::design_layout(*search);
   if (!found) {
-    complain(found.error());
+    print_error(found.error());
     return kBadInput;
   }
   return answer(layouts_json(*found, *search), arguments.json,

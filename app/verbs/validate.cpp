@@ -9,7 +9,7 @@ namespace rondure::app {
 int validate(const ValidateArguments& arguments) {
   const auto plan = plans::read_plan(arguments.plan);
   if (!plan) {
-    complain(plan.error());
+    print_error(plan.error());
     tell(fmt::format("{}: {} problem{}\n", arguments.plan, plan.error().size(),
                      plan.error().size() == 1 ? "" : "s"));
     return kBadInput;

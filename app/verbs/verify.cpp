@@ -16,7 +16,7 @@ int verify(const VerifyArguments& arguments) {
   if (!arguments.key.empty()) {
     const auto key = record::read_file(arguments.key);
     if (!key) {
-      complain(key.error());
+      print_error(key.error());
       return kBadInput;
     }
     options.public_key_pem = *key;
@@ -24,7 +24,7 @@ int verify(const VerifyArguments& arguments) {
   const auto outcome = reports::verify_run(arguments.directory, options);
   if (!outcome) {
     const bool of_key = outcome.error().code == core::Code::kBadOption;
-    complain(of_key ? outcome.error().at(arguments.key) : outcome.error());
+    print_error(of_key ? outcome.error().at(arguments.key) : outcome.error());
     return kBadInput;
   }
   for (const std::string& difference : outcome->differences)

@@ -8,12 +8,12 @@
 #include "app/text/answer.h"
 #include "app/text/surface_words.h"
 #include "app/text/terminal.h"
+#include "app/text/wheel.h"
 #include "app/verbs/verbs.h"
 #include "app/verbs/wheel_command.h"
-#include "app/text/wheel.h"
 #include "core/units.h"
-#include "record/files.h"
 #include "record/csv/series.h"
+#include "record/files.h"
 #include "reports/data/wheel.h"
 #include "reports/data/wheel_path.h"
 
@@ -123,7 +123,7 @@ core::Result<void> write_files(const WheelArguments& a, const fit::WheelPath& pa
 
 int refuse(const core::Error& error, const std::string& file) {
   const std::string name = std::filesystem::path(file).filename().string();
-  complain(error.where.empty() && !file.empty() ? error.at(name) : error);
+  print_error(error.where.empty() && !file.empty() ? error.at(name) : error);
   return kBadInput;
 }
 

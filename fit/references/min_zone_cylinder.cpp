@@ -1,7 +1,7 @@
 #include "fit/references/min_zone_cylinder.h"
 
-#include "fit/proof/internal/axis_proof.h"
 #include "fit/geometry/points.h"
+#include "fit/proof/internal/axis_proof.h"
 
 namespace rondure::fit {
 
@@ -17,7 +17,7 @@ core::Result<MinZoneCylinder> min_zone_cylinder(
   out.axis = conventional(proof.axis, mean_point(points_mm));
   out.inner_radius_mm = proof.proven.zone.low;
   out.outer_radius_mm = proof.proven.zone.high;
-  out.programmes = proof.programmes;
+  out.linear_programs = proof.linear_programs;
   out.boxes = proof.boxes;
   out.ending = proof.ending;
   out.certificate = proof.certificate;

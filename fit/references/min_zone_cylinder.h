@@ -22,8 +22,8 @@ struct MinZoneCylinder {
   std::vector<Contact> outer;  ///< Points on the outer cylinder that carry the minimum.
   std::vector<Contact> inner;
   Certificate certificate;
-  int programmes = 0;  ///< Linear programmes solved: of every start and every restart.
-  int boxes = 0;       ///< Boxes of directions the global search bounded.
+  int linear_programs = 0;  ///< Linear programs solved: of every start and every restart.
+  int boxes = 0;            ///< Boxes of directions the global search bounded.
   ZoneEnding ending = ZoneEnding::kLimit;  ///< Of the descent that led to the axis.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }

@@ -11,7 +11,7 @@
 namespace rondure::fit {
 namespace {
 
-constexpr int kProgrammeLimit = 200;
+constexpr int kLinearProgramLimit = 200;
 constexpr int kPassLimit = 100;
 constexpr int kSaddleLimit = 20;
 constexpr int kLevelLimit = 4;
@@ -177,7 +177,7 @@ void ZoneDescent<Frame>::minimise(Result& state, const Frame& start, double limi
       return;
     }
     state.ending = ZoneEnding::kLimit;
-    if (state.programmes >= kProgrammeLimit * (state.passes + 1)) return;
+    if (state.linear_programs >= kLinearProgramLimit * (state.passes + 1)) return;
     state.ending = ZoneEnding::kConverged;
     if (coarse_) return;
     if (vertex_) return slip(state);
@@ -214,14 +214,14 @@ auto ZoneDescent<Frame>::programme(Result& state, double box) -> ZoneStep<K> {
   const ZoneStep<K> step =
       warm_ ? program_.solve_again(rows_, box, weights_) : program_.solve(rows_, box, weights_);
   warm_ = true;
-  ++state.programmes;
+  ++state.linear_programs;
   state.pivots += step.pivots;
   state.outer = step.outer;
   state.inner = step.inner;
   return step;
 }
 
-/// Linear programmes inside a trust region, then Newton: to a stationary point.
+/// linear programs inside a trust region, then Newton: to a stationary point.
 template <class Frame>
 void ZoneDescent<Frame>::settle(Result& state) {
   state.zone = linearise(state.frame, rows_);
@@ -229,8 +229,8 @@ void ZoneDescent<Frame>::settle(Result& state) {
   bool rejected = false;
   int levels = 0;
   vertex_ = polished_ = false;
-  const int limit = state.programmes + kProgrammeLimit;
-  while (state.programmes < limit && box > round_off_) {
+  const int limit = state.linear_programs + kLinearProgramLimit;
+  while (state.linear_programs < limit && box > round_off_) {
     const ZoneStep<K> step = programme(state, box);
     const double base = (weights_.outer - weights_.inner) * state.zone.low;
     const double promised = value(state.zone) - base - step.value;
@@ -290,7 +290,7 @@ bool ZoneDescent<Frame>::is_vertex(const ZoneStep<K>& step) const {
          std::all_of(step.inner.begin(), step.inner.end(), firm);
 }
 
-// From here on what linear programmes cannot see: Newton on the equations of the contacts where
+// From here on what linear programs cannot see: Newton on the equations of the contacts where
 // curvature holds the place, and the ways out of places it does not hold.
 
 /// A step of Newton's method on the contact equations, with its multipliers.

@@ -8,14 +8,14 @@
 #include <Eigen/Core>
 
 #include "fit/geometry/center_frame.h"
-#include "fit/zone/contacts.h"
 #include "fit/geometry/cylinder_frame.h"
 #include "fit/geometry/enclosing_ball.h"
-#include "fit/proof/local_certificate.h"
 #include "fit/geometry/scan.h"
-#include "fit/zone/working_points.h"
+#include "fit/proof/local_certificate.h"
+#include "fit/zone/contacts.h"
 #include "fit/zone/ending.h"
 #include "fit/zone/simplex.h"
+#include "fit/zone/working_points.h"
 
 namespace rondure::fit {
 
@@ -35,14 +35,14 @@ struct Descent {
   Extremes zone;   ///< Of all points.
   Contacts outer;  ///< By row of the data, multipliers of each side sum to 1.
   Contacts inner;
-  int passes = 0;      ///< Over all points.
-  int programmes = 0;  ///< Linear programmes solved.
+  int passes = 0;           ///< Over all points.
+  int linear_programs = 0;  ///< Linear programs solved.
   int pivots = 0;
   ZoneEnding ending = ZoneEnding::kLimit;
 };
 
 /// Goes from a place to a local minimum of  outer weight * max r - inner weight * min r  (minimum
-/// zone, minimum circumscribed, maximum inscribed): linear programmes inside a trust region, Newton
+/// zone, minimum circumscribed, maximum inscribed): linear programs inside a trust region, Newton
 /// on the stationarity equations of the contacts where curvature holds the place, and ways out of
 /// saddles and of valleys that weak contacts close. Circumscribed circles and spheres need none of
 /// it: EnclosingBall.
@@ -110,7 +110,7 @@ class ZoneDescent {
   ZoneRows<K> rows_;
   ZoneRows<K> trial_rows_;   ///< At the place a step leads to.
   ZoneRows<K> looked_rows_;  ///< Of extremes(), which wants no more than these.
-  ZoneProgram<K> program_;
+  ZoneSimplex<K> program_;
   EnclosingBall<D> ball_;
   BlockScan blocks_;
   std::vector<std::size_t> order_;

@@ -9,11 +9,11 @@
 #include <Eigen/LU>
 
 #include "core/units.h"
-#include "fit/zone/column_extremes.h"
+#include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/sphere.h"
-#include "fit/geometry/points.h"
+#include "fit/zone/column_extremes.h"
 
 namespace rondure::fit {
 namespace {
@@ -55,7 +55,7 @@ ZoneFit<Place> zone_of(const Descent<Frame>& descent, const Place& place) {
   out.outer = descent.outer;
   out.inner = descent.inner;
   out.passes = descent.passes;
-  out.programmes = descent.programmes;
+  out.linear_programs = descent.linear_programs;
   out.pivots = descent.pivots;
   out.ending = descent.ending;
   return out;
@@ -222,7 +222,7 @@ CylinderZone CylinderZoneFitter::fit_best(std::span<const Eigen::Vector3d> point
   const Axis& axis = start.axis;
   const double limit = limit_of(weights, start.radius_mm);
   CylinderZone best = fit_from(points_mm, axis, weights, limit);
-  int programmes = best.programmes;
+  int linear_programs = best.linear_programs;
   int pivots = best.pivots;
   const auto side = across(axis.direction);
   for (const double tilt : other_tilts(points_mm, start, weights)) {
@@ -232,13 +232,13 @@ CylinderZone CylinderZoneFitter::fit_best(std::span<const Eigen::Vector3d> point
       const Eigen::Vector3d direction = axis.direction + std::tan(tilt) * (side * lean);
       const CylinderZone zone =
           fit_from(points_mm, {axis.point_mm, direction.normalized()}, weights, limit);
-      programmes += zone.programmes;
+      linear_programs += zone.linear_programs;
       pivots += zone.pivots;
       const bool found = zone.ending == ZoneEnding::kConverged;
       if (found && value_of(zone, weights) < value_of(best, weights)) best = zone;
     }
   }
-  best.programmes = programmes;
+  best.linear_programs = linear_programs;
   best.pivots = pivots;
   return best;
 }

@@ -9,8 +9,8 @@
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
-#include "fit/zone/contacts.h"
 #include "fit/least_squares/cylinder.h"
+#include "fit/zone/contacts.h"
 #include "fit/zone/descent.h"
 
 namespace rondure::fit {
@@ -28,9 +28,9 @@ struct ZoneFit {
   double outer_radius_mm = 0.0;
   Contacts outer;  ///< Rows that touch, with multipliers >= 0 that sum to 1.
   Contacts inner;
-  int passes = 0;      ///< Over all points; 0 where all are worked on at once.
-  int programmes = 0;  ///< Linear programmes solved, those of every start.
-  int pivots = 0;      ///< Their pivots.
+  int passes = 0;           ///< Over all points; 0 where all are worked on at once.
+  int linear_programs = 0;  ///< Linear programs solved, those of every start.
+  int pivots = 0;           ///< Their pivots.
   ZoneEnding ending = ZoneEnding::kLimit;
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }

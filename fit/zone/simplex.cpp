@@ -55,7 +55,7 @@ bool invert(Eigen::Matrix<double, N, N> a, Eigen::Matrix<double, N, N>& inverse)
 }  // namespace
 
 template <int K>
-ZoneStep<K> ZoneProgram<K>::solve(const ZoneRows<K>& rows, double box_mm,
+ZoneStep<K> ZoneSimplex<K>::solve(const ZoneRows<K>& rows, double box_mm,
                                   const ZoneWeights& weights, int pivot_limit) {
   set(rows, box_mm, weights);
   start_basis();
@@ -63,7 +63,7 @@ ZoneStep<K> ZoneProgram<K>::solve(const ZoneRows<K>& rows, double box_mm,
 }
 
 template <int K>
-ZoneStep<K> ZoneProgram<K>::solve_again(const ZoneRows<K>& rows, double box_mm,
+ZoneStep<K> ZoneSimplex<K>::solve_again(const ZoneRows<K>& rows, double box_mm,
                                         const ZoneWeights& weights, int pivot_limit) {
   set(rows, box_mm, weights);
   for (int k = 0; k < kRows; ++k) put(k, basis_[static_cast<std::size_t>(k)]);
@@ -72,7 +72,7 @@ ZoneStep<K> ZoneProgram<K>::solve_again(const ZoneRows<K>& rows, double box_mm,
 }
 
 template <int K>
-void ZoneProgram<K>::set(const ZoneRows<K>& rows, double box_mm, const ZoneWeights& weights) {
+void ZoneSimplex<K>::set(const ZoneRows<K>& rows, double box_mm, const ZoneWeights& weights) {
   rows_ = &rows;
   box_ = box_mm;
   weights_ = weights;
@@ -81,7 +81,7 @@ void ZoneProgram<K>::set(const ZoneRows<K>& rows, double box_mm, const ZoneWeigh
 }
 
 template <int K>
-void ZoneProgram<K>::start_basis() {
+void ZoneSimplex<K>::start_basis() {
   const std::vector<double>& distances = rows_->distances();
   const ColumnExtremes extremes = column_extremes(distances);
   // Violations below this are round-off of the distances; they are not worth a pivot.
@@ -107,7 +107,7 @@ void ZoneProgram<K>::start_basis() {
 
 /// Makes a column basic.
 template <int K>
-void ZoneProgram<K>::put(int place, const Column& c) {
+void ZoneSimplex<K>::put(int place, const Column& c) {
   basis_[static_cast<std::size_t>(place)] = c;
   auto column = columns_.col(place);
   if (c.kind == Column::Kind::kOuter || c.kind == Column::Kind::kInner) {
@@ -128,7 +128,7 @@ void ZoneProgram<K>::put(int place, const Column& c) {
 
 /// Inverse of the basis from its columns. @return Whether it has one.
 template <int K>
-bool ZoneProgram<K>::factorise() {
+bool ZoneSimplex<K>::factorise() {
   if (!invert<kRows>(columns_, inverse_)) return false;
   values_ = inverse_.col(0) + inverse_.col(1);
   return true;
@@ -137,9 +137,9 @@ bool ZoneProgram<K>::factorise() {
 /// Swiftly, and where the end does not stand up to its residuals once more from the beginning, with
 /// every basis factorised.
 template <int K>
-ZoneStep<K> ZoneProgram<K>::run(int pivot_limit) {
+ZoneStep<K> ZoneSimplex<K>::run(int pivot_limit) {
   ZoneStep<K> out = attempt(pivot_limit, kSwiftPivots);
-  if (!sound()) {
+  if (!solves_basis()) {
     const int spent = out.pivots;
     start_basis();
     out = attempt(pivot_limit, 0);
@@ -151,41 +151,41 @@ ZoneStep<K> ZoneProgram<K>::run(int pivot_limit) {
 
 /// @param swift  Pivots that update the inverse; later ones factorise and refine.
 template <int K>
-ZoneStep<K> ZoneProgram<K>::attempt(int pivot_limit, int swift) {
+ZoneStep<K> ZoneSimplex<K>::attempt(int pivot_limit, int swift) {
   ZoneStep<K> out;
   bool fresh = false;
   for (; out.pivots < pivot_limit; ++out.pivots) {
     const bool careful = out.pivots >= swift;
     if (careful && !factorise()) return out;
     settle_prices();
-    if (careful) worn();
+    if (careful) needs_refactorization();
     const Entering entering = price(out.pivots >= kDantzigPivots);
     if (entering.found && pivot(entering.column)) {
       fresh = false;
       continue;
     }
     out.solved = true;
-    const bool again = worn() && !fresh;
+    const bool again = needs_refactorization() && !fresh;
     if (!again || !factorise()) break;
     fresh = true;
   }
   if (!out.solved) {
     settle_prices();
-    worn();
+    needs_refactorization();
   }
   return out;
 }
 
-/// Whether multipliers and prices solved the equations of the basis when worn() refined them, and
-/// no multiplier is negative.
+/// Whether multipliers and prices solved the equations of the basis when needs_refactorization()
+/// refined them, and no multiplier is negative.
 template <int K>
-bool ZoneProgram<K>::sound() const {
+bool ZoneSimplex<K>::solves_basis() const {
   return value_flaw_ <= kSound && price_flaw_ <= kSound * (1.0 + box_) &&
          values_.minCoeff() >= -kSound;
 }
 
 template <int K>
-auto ZoneProgram<K>::value_residual() const -> Vector {
+auto ZoneSimplex<K>::value_residual() const -> Vector {
   Vector out = Vector::Zero();
   out(0) = out(1) = 1.0;
   for (int k = 0; k < kRows; ++k) out -= values_(k) * columns_.col(k);
@@ -193,7 +193,7 @@ auto ZoneProgram<K>::value_residual() const -> Vector {
 }
 
 template <int K>
-auto ZoneProgram<K>::price_residual() const -> Vector {
+auto ZoneSimplex<K>::price_residual() const -> Vector {
   Vector out;
   for (int k = 0; k < kRows; ++k) out(k) = costs_(k) - columns_.col(k).dot(prices_);
   return out;
@@ -201,14 +201,14 @@ auto ZoneProgram<K>::price_residual() const -> Vector {
 
 /// Prices of the rows, c_B times the inverse of the basis.
 template <int K>
-void ZoneProgram<K>::settle_prices() {
+void ZoneSimplex<K>::settle_prices() {
   for (int k = 0; k < kRows; ++k) prices_(k) = inverse_.col(k).dot(costs_);
 }
 
 /// Refines multipliers and prices once with their residuals.
 /// @return Whether these were so large that the inverse should be computed anew.
 template <int K>
-bool ZoneProgram<K>::worn() {
+bool ZoneSimplex<K>::needs_refactorization() {
   const Vector value_rest = value_residual();
   const Vector price_rest = price_residual();
   value_flaw_ = value_rest.cwiseAbs().maxCoeff();
@@ -227,7 +227,7 @@ bool ZoneProgram<K>::worn() {
 
 /// The column that violates its constraint most (or, Bland, the first that does).
 template <int K>
-auto ZoneProgram<K>::price(bool bland) -> Entering {
+auto ZoneSimplex<K>::price(bool bland) -> Entering {
   const Unknowns move = -prices_.template tail<K>();
   const std::size_t count = rows_->size();
   const ColumnExtremes extremes =
@@ -267,7 +267,7 @@ auto ZoneProgram<K>::price(bool bland) -> Entering {
 
 /// The column as a mixture of the basic ones.
 template <int K>
-auto ZoneProgram<K>::in_basis(const Column& c) const -> Vector {
+auto ZoneSimplex<K>::in_basis(const Column& c) const -> Vector {
   if (c.kind == Column::Kind::kBoxUp) return inverse_.col(static_cast<Eigen::Index>(c.index) + 2);
   if (c.kind == Column::Kind::kBoxDown)
     return -inverse_.col(static_cast<Eigen::Index>(c.index) + 2);
@@ -282,7 +282,7 @@ auto ZoneProgram<K>::in_basis(const Column& c) const -> Vector {
 
 /// Exchanges the entering column; false when no basic column limits it (never: the box bounds).
 template <int K>
-bool ZoneProgram<K>::pivot(const Column& entering) {
+bool ZoneSimplex<K>::pivot(const Column& entering) {
   const Vector direction = in_basis(entering);
   int leaving = -1;
   double least = std::numeric_limits<double>::infinity();
@@ -308,7 +308,7 @@ bool ZoneProgram<K>::pivot(const Column& entering) {
 }
 
 template <int K>
-void ZoneProgram<K>::report(ZoneStep<K>& out) const {
+void ZoneSimplex<K>::report(ZoneStep<K>& out) const {
   out.step = -prices_.template tail<K>();
   out.value = prices_(0) + prices_(1);
   out.inside_box = true;
@@ -329,9 +329,9 @@ void ZoneProgram<K>::report(ZoneStep<K>& out) const {
   std::sort(out.inner.begin(), out.inner.end(), by_index);
 }
 
-template class ZoneProgram<1>;
-template class ZoneProgram<2>;
-template class ZoneProgram<3>;
-template class ZoneProgram<4>;
+template class ZoneSimplex<1>;
+template class ZoneSimplex<2>;
+template class ZoneSimplex<3>;
+template class ZoneSimplex<4>;
 
 }  // namespace rondure::fit

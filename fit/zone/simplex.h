@@ -81,7 +81,7 @@ inline constexpr int kBoundPivotLimit = 60;  ///< Where only a bound is wanted.
 /// little. Cost: O(n K) a pivot, commonly 5 to 20 pivots.
 /// Source: methods, cylindricity sections 9.3, 11.2 (the box is its trust region) and 11.4.
 template <int K>
-class ZoneProgram {
+class ZoneSimplex {
  public:
   /// @param rows  At least one point. Where both weights are the same, distances may be given minus
   ///              a common value; else `value` misses weight * that value.
@@ -119,11 +119,11 @@ class ZoneProgram {
   bool factorise();
   ZoneStep<K> run(int pivot_limit);
   ZoneStep<K> attempt(int pivot_limit, int swift);
-  [[nodiscard]] bool sound() const;
+  [[nodiscard]] bool solves_basis() const;
   [[nodiscard]] Vector value_residual() const;
   [[nodiscard]] Vector price_residual() const;
   void settle_prices();
-  bool worn();
+  bool needs_refactorization();
   Entering price(bool bland);
   bool pivot(const Column& entering);
   void report(ZoneStep<K>& out) const;
@@ -149,12 +149,12 @@ template <int K>
 [[nodiscard]] ZoneStep<K> solve_zone_program(const ZoneRows<K>& rows, double box_mm,
                                              const ZoneWeights& weights = kMinimumZone,
                                              int pivot_limit = kZonePivotLimit) {
-  return ZoneProgram<K>().solve(rows, box_mm, weights, pivot_limit);
+  return ZoneSimplex<K>().solve(rows, box_mm, weights, pivot_limit);
 }
 
-extern template class ZoneProgram<1>;
-extern template class ZoneProgram<2>;
-extern template class ZoneProgram<3>;
-extern template class ZoneProgram<4>;
+extern template class ZoneSimplex<1>;
+extern template class ZoneSimplex<2>;
+extern template class ZoneSimplex<3>;
+extern template class ZoneSimplex<4>;
 
 }  // namespace rondure::fit

@@ -60,9 +60,9 @@ class Cell {
   [[nodiscard]] virtual core::Result<core::Pose> recall_turn(const core::Pose& commanded) = 0;
   /// A touch; kNoTouch or kCollision when the part cannot have given it. Also called once after the
   /// checks: the clock goes on as if there had been no interruption.
-  [[nodiscard]] virtual core::Result<void> recall_touch(const cmm::TouchCommand& command,
-                                                        const cmm::TouchReading& reading) = 0;
-  /// A scan, by its last reading; otherwise like recall_touch().
+  [[nodiscard]] virtual core::Result<void> restore_touch(const cmm::TouchCommand& command,
+                                                         const cmm::TouchReading& reading) = 0;
+  /// A scan, by its last reading; otherwise like restore_touch().
   [[nodiscard]] virtual core::Result<void> recall_scan(const cmm::ScanCircleCommand& command,
                                                        const cmm::TouchReading& last);
   /// Homes machine and fixture and turns the part to where the last recalled turn left it; gives

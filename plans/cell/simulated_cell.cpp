@@ -183,8 +183,8 @@ core::Result<core::Pose> SimulatedCell::turn(const core::Pose& commanded) {
   return on_grid(*reached);
 }
 
-core::Result<void> SimulatedCell::recall_touch(const cmm::TouchCommand& command,
-                                               const cmm::TouchReading& reading) {
+core::Result<void> SimulatedCell::restore_touch(const cmm::TouchCommand& command,
+                                                const cmm::TouchReading& reading) {
   return machine_.continue_after(command, reading);
 }
 

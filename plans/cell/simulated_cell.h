@@ -40,8 +40,8 @@ class SimulatedCell final : public Cell {
 
   [[nodiscard]] core::Result<core::Pose> recall_home() override;
   [[nodiscard]] core::Result<core::Pose> recall_turn(const core::Pose& commanded) override;
-  [[nodiscard]] core::Result<void> recall_touch(const cmm::TouchCommand& command,
-                                                const cmm::TouchReading& reading) override;
+  [[nodiscard]] core::Result<void> restore_touch(const cmm::TouchCommand& command,
+                                                 const cmm::TouchReading& reading) override;
   [[nodiscard]] core::Result<void> recall_scan(const cmm::ScanCircleCommand& command,
                                                const cmm::TouchReading& last) override {
     return machine_.continue_after(command, last);

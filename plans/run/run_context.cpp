@@ -84,7 +84,7 @@ core::Result<record::Touch> RunContext::touch(TouchStep step) {
 
 core::Result<record::Touch> RunContext::recall(TouchStep step, const record::Touch& known) {
   if (auto same = check_same_step(known, step.row); !same) return core::fail(same.error());
-  if (auto kept = cell->recall_touch(step.command, reading_of(known)); !kept) {
+  if (auto kept = cell->restore_touch(step.command, reading_of(known)); !kept) {
     return core::fail(kept.error());
   }
   ++next_touch;
@@ -109,7 +109,7 @@ core::Result<void> RunContext::keep_recalled(TouchStep step) {
 
 core::Result<void> RunContext::recall_state(const TouchStep& step) {
   if (step.scan) return cell->recall_scan(*step.scan, step.scan_end);
-  return cell->recall_touch(step.command, reading_of(step.row));
+  return cell->restore_touch(step.command, reading_of(step.row));
 }
 
 core::Result<void> RunContext::come_back() {

@@ -10,9 +10,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// The time and the patience of one delivery.
-class Patience {
+class RetryPolicy {
  public:
-  explicit Patience(const DeliveryOptions& options) : options_(options) {}
+  explicit RetryPolicy(const DeliveryOptions& options) : options_(options) {}
 
   [[nodiscard]] bool ended() const {
     const std::chrono::duration<double> passed = Clock::now() - start_;
@@ -36,7 +36,7 @@ class Patience {
 /// An archive that is opened again after a fault.
 class Receiver {
  public:
-  Receiver(const ArchivePlace& place, const Patience& patience)
+  Receiver(const ArchivePlace& place, const RetryPolicy& patience)
       : place_(place), patience_(patience) {}
 
   core::Result<bool> push(const ArchiveRun& run) {
@@ -61,7 +61,7 @@ class Receiver {
   }
 
   const ArchivePlace& place_;
-  const Patience& patience_;
+  const RetryPolicy& patience_;
   std::optional<Archive> archive_;
 };
 
@@ -72,7 +72,7 @@ void count(Delivery& delivery, const ArchiveRun& run, bool added) {
 }
 
 core::Result<void> send_queue(ArchiveQueue& queue, const std::string& target, Receiver& receiver,
-                              const Patience& patience, Delivery& delivery) {
+                              const RetryPolicy& patience, Delivery& delivery) {
   while (!delivery.failure && !patience.ended()) {
     const auto waiting = queue.first(target);
     if (!waiting) return core::fail(waiting.error());
@@ -89,8 +89,8 @@ core::Result<void> send_queue(ArchiveQueue& queue, const std::string& target, Re
 }
 
 core::Result<void> use_queue(const std::filesystem::path& file, const std::string& target,
-                             const ArchiveRun* left, Receiver& receiver, const Patience& patience,
-                             Delivery& delivery) {
+                             const ArchiveRun* left, Receiver& receiver,
+                             const RetryPolicy& patience, Delivery& delivery) {
   auto queue = ArchiveQueue::open(file);
   if (!queue) return core::fail(queue.error());
   if (left != nullptr) {
@@ -109,7 +109,7 @@ core::Result<void> use_queue(const std::filesystem::path& file, const std::strin
 Delivery deliver(const ArchivePlace& place, const std::filesystem::path& queue_file,
                  const ArchiveRun* run, const DeliveryOptions& options) {
   Delivery delivery;
-  const Patience patience(options);
+  const RetryPolicy patience(options);
   Receiver receiver(place, patience);
   const ArchiveRun* left = nullptr;
   if (run != nullptr) {

@@ -59,8 +59,8 @@ core::Result<void> Journal::finish_seal(const fs::path& directory) {
     distrust(*sql);
     int tables = 0;  // reading takes back a change of the mode that was not finished
     *sql << "select count(*) from sqlite_schema", soci::into(tables);
-    fold_log(*sql);
-    leave_log(*sql);
+    checkpoint_wal(*sql);
+    disable_wal(*sql);
   } catch (const std::exception& exception) {
     return core::fail(core::Code::kJournal,
                       fmt::format("the log of {} cannot be folded: {}", file.string(),
@@ -68,7 +68,8 @@ core::Result<void> Journal::finish_seal(const fs::path& directory) {
                       file.string());
   }
   sql.reset();
-  // Of a death in leave_log(): SQLite took back or has finished what it held, and leaves the file.
+  // Of a death in disable_wal(): SQLite took back or has finished what it held, and leaves the
+  // file.
   fs::remove(file.string() + "-journal", ignored);
   return list_digest(file);
 }

@@ -49,9 +49,9 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
   std::unique_ptr<Impl> impl;  // after `undo`: closes the file before it is removed
   try {
     impl = std::make_unique<Impl>(std::move(*lock), file, *connection);
-    keep_log(impl->sql);
+    enable_wal(impl->sql);
     insert_head(impl->sql, header, artefact, features, settings);
-    fold_log(impl->sql);
+    checkpoint_wal(impl->sql);
     impl->prepare();
     impl->header = header;
   } catch (const std::exception& exception) {
@@ -91,7 +91,7 @@ core::Result<Journal> Journal::reopen(const fs::path& directory) {
     impl = std::make_unique<Impl>(std::move(*lock), file, *connection);
     int timeout_ms = 0;
     impl->sql << "pragma busy_timeout = 0", soci::into(timeout_ms);  // a run holds it for hours
-    keep_log(impl->sql);
+    enable_wal(impl->sql);
     require_schema(impl->sql, kSchemaVersion);  // of the file itself, now that it is ours alone
     impl->prepare();
   } catch (const std::exception& exception) {

@@ -229,7 +229,7 @@ TEST(MinZoneCylinder, CountsTheProgrammesOfEveryStartAndSaysHowItEnded) {
   const Points3 few = test::random_cylinder(2, 21, {3, 3, 35.0, 0.003});
   const auto zone = min_zone_cylinder(few, Eigen::Vector3d::UnitZ());
   ASSERT_TRUE(zone.has_value());
-  EXPECT_GE(zone->programmes, 25);
+  EXPECT_GE(zone->linear_programs, 25);
   EXPECT_EQ(zone->ending, ZoneEnding::kConverged);
   // Restarts of the global search add theirs.
   int restarted = 0;
@@ -242,9 +242,9 @@ TEST(MinZoneCylinder, CountsTheProgrammesOfEveryStartAndSaysHowItEnded) {
         min_zone_cylinder(arc, Eigen::Vector3d::UnitZ(), {.scopes = {cone}, .search = {}});
     ASSERT_TRUE(local && global);
     EXPECT_EQ(global->ending, ZoneEnding::kConverged);
-    EXPECT_GE(global->programmes, local->programmes);
+    EXPECT_GE(global->linear_programs, local->linear_programs);
     if (global->width_mm() >= local->width_mm() - 1e-9) continue;
-    EXPECT_GT(global->programmes, local->programmes);
+    EXPECT_GT(global->linear_programs, local->linear_programs);
     ++restarted;
   }
   EXPECT_GT(restarted, 0);

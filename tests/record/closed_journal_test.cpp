@@ -7,7 +7,7 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
-#include "record/journal/unborn_run.h"
+#include "record/journal/unstarted_run.h"
 #include "tests/record/meddle.h"
 #include "tests/record/sample_run.h"
 
@@ -100,7 +100,7 @@ TEST_F(ClosedJournal, IsNoUnbornRunWhateverALogSays) {
   for (const char* name : {"run/SHA256SUMS", "other/SHA256SUMS"}) fs::remove(scratch / name);
   meddle(scratch / "empty.db", "pragma user_version = 0; vacuum");
   lay_beside("-wal", log_that_replaces(file, scratch / "empty.db"));
-  const auto unborn = clear_unborn_run(scratch / "run");
+  const auto unborn = clear_unstarted_run(scratch / "run");
   ASSERT_TRUE(unborn) << unborn.error().what;
   EXPECT_FALSE(*unborn);
   EXPECT_TRUE(fs::exists(file));

@@ -12,7 +12,7 @@
 
 #include "record/files.h"
 #include "record/journal/journal.h"
-#include "record/journal/unborn_run.h"
+#include "record/journal/unstarted_run.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::record {
@@ -135,39 +135,39 @@ TEST(RunLock, WhoseBytesAPowerCutLostLocksNothing) {
 
 TEST(UnbornRun, IsAnAbsentOrEmptyDirectory) {
   const Scratch scratch;
-  EXPECT_TRUE(clear_unborn_run(scratch / "run").value());
+  EXPECT_TRUE(clear_unstarted_run(scratch / "run").value());
   fs::create_directory(scratch / "run");
-  EXPECT_TRUE(clear_unborn_run(scratch / "run").value());
+  EXPECT_TRUE(clear_unstarted_run(scratch / "run").value());
   ASSERT_TRUE(write_file(scratch / "run/run.lock", "process 1 on host gone\n"));
-  EXPECT_TRUE(clear_unborn_run(scratch / "run").value());
+  EXPECT_TRUE(clear_unstarted_run(scratch / "run").value());
 }
 
 TEST(UnbornRun, IsAJournalWhoseHeadNeverReachedTheDisk) {
   const Scratch scratch;
   fs::create_directory(scratch / "run");
   ASSERT_TRUE(write_file(scratch / "run/journal.db", ""));
-  EXPECT_TRUE(clear_unborn_run(scratch / "run").value());
+  EXPECT_TRUE(clear_unstarted_run(scratch / "run").value());
   EXPECT_THAT(scratch.names(), ::testing::ElementsAre("run"));
 }
 
 TEST(UnbornRun, IsNothingThatHoldsAnything) {
   const Scratch scratch;
   ASSERT_TRUE(Journal::create(scratch / "run", {}, {}, {}));
-  EXPECT_FALSE(clear_unborn_run(scratch / "run").value());
+  EXPECT_FALSE(clear_unstarted_run(scratch / "run").value());
   EXPECT_TRUE(read_journal(scratch / "run"));
   fs::create_directory(scratch / "text");
   ASSERT_TRUE(write_file(scratch / "text/journal.db", "my journal"));
-  EXPECT_FALSE(clear_unborn_run(scratch / "text").value());
+  EXPECT_FALSE(clear_unstarted_run(scratch / "text").value());
   EXPECT_EQ(read_file(scratch / "text/journal.db").value(), "my journal");
   fs::create_directory(scratch / "mine");
   ASSERT_TRUE(write_file(scratch / "mine/mine.txt", "keep"));
-  EXPECT_FALSE(clear_unborn_run(scratch / "mine").value());
+  EXPECT_FALSE(clear_unstarted_run(scratch / "mine").value());
   EXPECT_FALSE(fs::exists(scratch / "mine/run.lock"));
   // A journal that lost its contents beside its reports is no beginning.
   fs::create_directory(scratch / "lost");
   ASSERT_TRUE(write_file(scratch / "lost/journal.db", ""));
   ASSERT_TRUE(write_file(scratch / "lost/SHA256SUMS", ""));
-  EXPECT_FALSE(clear_unborn_run(scratch / "lost").value());
+  EXPECT_FALSE(clear_unstarted_run(scratch / "lost").value());
   EXPECT_TRUE(fs::exists(scratch / "lost/journal.db"));
 }
 

@@ -12,8 +12,8 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "fit/proof/axis_cover.h"
 #include "fit/geometry/points.h"
+#include "fit/proof/axis_cover.h"
 
 namespace rondure::fit {
 namespace {
@@ -62,7 +62,7 @@ class ScopeSearcher {
       }
       AxisProof next = prove_axis(points_, descended(*search.better, value), weights_);
       if (!(minimised(next.proven.zone, weights_) < value)) {
-        proof.programmes += next.programmes;
+        proof.linear_programs += next.linear_programs;
         proof.certificate.reason = fmt::format(
             "a better axis was met, its optimum was not reached; better by {:.3g} mm at least",
             value - value_about(*search.better));
@@ -106,8 +106,8 @@ class ScopeSearcher {
                        [&](const auto& a, const auto& b) { return depth(a) < depth(b); });
       close.resize(kAllWorked);
       CylinderZone next = fitter_.fit_from(close, place, weights_);
-      next.programmes += out.programmes;
-      out.programmes = next.programmes;
+      next.linear_programs += out.linear_programs;
+      out.linear_programs = next.linear_programs;
       const double reached = value_about(next.place);
       if (!(reached < value)) return out;
       out = next;
@@ -182,13 +182,13 @@ class ScopeSearcher {
 
   /// The next place of the search. @return false where it is not one the reference may take.
   [[nodiscard]] bool take(AxisProof next, AxisProof& proof) const {
-    proof.programmes += next.programmes;
+    proof.linear_programs += next.linear_programs;
     if (!minimum_zone() && !within_reach(next)) {
       proof.other = next.axis;
       proof.certificate.reason = "a better axis lies outside the reach of the reference";
       return false;
     }
-    next.programmes = proof.programmes;
+    next.linear_programs = proof.linear_programs;
     next.boxes = proof.boxes;
     next.other = proof.other;
     proof = std::move(next);
@@ -208,7 +208,7 @@ AxisProof prove_axis(SpacePoints points_mm, const CylinderZone& found, const Zon
   AxisProof out;
   out.axis = found.place;
   out.ending = found.ending;
-  out.programmes = found.programmes;
+  out.linear_programs = found.linear_programs;
   const Eigen::Vector3d& along = out.axis.direction;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;

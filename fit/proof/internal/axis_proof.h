@@ -8,8 +8,8 @@
 #include "fit/geometry/axis.h"
 #include "fit/geometry/axis_scope.h"
 #include "fit/proof/certificate.h"
-#include "fit/zone/fit.h"
 #include "fit/proof/internal/zone_proof.h"
+#include "fit/zone/fit.h"
 
 namespace rondure::fit {
 
@@ -20,8 +20,8 @@ struct AxisProof {
   ProvenZone<CylinderFrame> proven;
   Certificate certificate;
   ZoneEnding ending = ZoneEnding::kLimit;
-  int programmes = 0;  ///< Of all descents.
-  int boxes = 0;       ///< Bounded by all searches.
+  int linear_programs = 0;  ///< Of all descents.
+  int boxes = 0;            ///< Bounded by all searches.
   /// A better axis that was met but is not taken, because it lies outside the reach.
   std::optional<Axis> other;
 };

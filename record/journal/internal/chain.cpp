@@ -114,7 +114,7 @@ void compare_rows(soci::session& sql, std::string_view table, Expected expected,
 Chain::Chain(soci::session& sql)
     : sql_(sql),
       tip_(chain_head(sql)),
-      kept_(tip_),
+      committed_(tip_),
       insert_((sql.prepare << "insert into chain values (:id, :table, :row, :row_sha256, :sha256)",
                use(link_.id), use(link_.table), use(link_.row), use(link_.row_sha256),
                use(tip_.sha256))) {}

@@ -39,8 +39,8 @@ class Chain {
   void append_all(std::string_view table);
 
   /// The transaction around the links was committed, or was rolled back.
-  void keep() { kept_ = tip_; }
-  void forget() { tip_ = kept_; }
+  void commit() { committed_ = tip_; }
+  void roll_back() { tip_ = committed_; }
 
  private:
   struct Link {
@@ -52,9 +52,9 @@ class Chain {
   void append_bytes(std::string_view table, std::int64_t row, const std::string& bytes);
 
   soci::session& sql_;
-  Digest tip_;   ///< Number of links and the last one's digest.
-  Digest kept_;  ///< The same as it is on disk.
-  Link link_;    ///< Bound to the statement.
+  Digest tip_;        ///< Number of links and the last one's digest.
+  Digest committed_;  ///< The same as it is on disk.
+  Link link_;         ///< Bound to the statement.
   soci::statement insert_;
 };
 

@@ -13,12 +13,12 @@
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
-#include "record/journal/internal/chain.h"
 #include "record/internal/database.h"
-#include "record/journal/journal.h"
+#include "record/journal/internal/chain.h"
 #include "record/journal/internal/log.h"
 #include "record/journal/internal/reader.h"
 #include "record/journal/internal/rows.h"
+#include "record/journal/journal.h"
 #include "record/run_lock.h"
 
 // Private to the room: the open journal. journal_open.cpp makes it, journal.cpp writes rows,
@@ -66,10 +66,10 @@ struct Journal::Impl {
       soci::transaction transaction(sql);
       action();
       transaction.commit();
-      chain->keep();
+      chain->commit();
       return {};
     } catch (const std::exception& exception) {
-      chain->forget();
+      chain->roll_back();
       return failure(subject, reason_of(exception, &sql));
     }
   }
@@ -124,10 +124,10 @@ struct Journal::Impl {
   /// Makes one closed file of the journal and its log.
   core::Result<void> fold() {
     try {
-      fold_log(sql);
+      checkpoint_wal(sql);
       statements.reset();
       chain.reset();
-      leave_log(sql);
+      disable_wal(sql);
       sql.close();
       state = State::kFolded;
       return {};

@@ -5,7 +5,7 @@
 
 namespace rondure::record {
 
-void keep_log(soci::session& sql) {
+void enable_wal(soci::session& sql) {
   std::string mode;
   sql << "pragma locking_mode = exclusive", soci::into(mode);
   sql << "pragma journal_mode = wal", soci::into(mode);
@@ -13,7 +13,7 @@ void keep_log(soci::session& sql) {
   sql << "pragma synchronous = full";
 }
 
-void fold_log(soci::session& sql) {
+void checkpoint_wal(soci::session& sql) {
   int busy = 0;
   int frames = 0;
   int moved = 0;
@@ -21,7 +21,7 @@ void fold_log(soci::session& sql) {
   if (busy != 0) throw std::runtime_error("another program reads it; close that program");
 }
 
-void leave_log(soci::session& sql) {
+void disable_wal(soci::session& sql) {
   std::string mode;
   sql << "pragma journal_mode = delete", soci::into(mode);
 }

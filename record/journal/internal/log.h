@@ -8,12 +8,12 @@ namespace rondure::record {
 
 /// Exclusive: no other program can hold up a touch. WAL and synchronous=full: one flush a commit,
 /// on disk when the call returns.
-void keep_log(soci::session& sql);
+void enable_wal(soci::session& sql);
 
 /// Moves the write-ahead log into the file.
-void fold_log(soci::session& sql);
+void checkpoint_wal(soci::session& sql);
 
 /// From then on the journal is one file.
-void leave_log(soci::session& sql);
+void disable_wal(soci::session& sql);
 
 }  // namespace rondure::record

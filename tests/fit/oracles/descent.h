@@ -49,7 +49,8 @@ struct AxisOptimum {
 
 /// The local optimum below a start. No step is longer than the trust region, which starts at
 /// `reach_mm` and shrinks where the linearisation does not hold; ends when no gain above 1e-19 of
-/// the radius is in sight, or after 600 programmes. A cylinder's tilts count in mm at its ends.
+/// the radius is in sight, or after 600 linear programs. A cylinder's tilts count in mm at its
+/// ends.
 [[nodiscard]] CircleOptimum descend(std::span<const Eigen::Vector2d> points_mm,
                                     const Vector2r& center_mm, Reference reference, Real reach_mm);
 [[nodiscard]] AxisOptimum descend(std::span<const Eigen::Vector3d> points_mm,

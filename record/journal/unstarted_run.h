@@ -11,6 +11,6 @@ namespace rondure::record {
 /// begin there.
 /// @return  false for everything else; kFile when another process is at work in the directory, or
 ///          it cannot be looked at.
-[[nodiscard]] core::Result<bool> clear_unborn_run(const std::filesystem::path& directory);
+[[nodiscard]] core::Result<bool> clear_unstarted_run(const std::filesystem::path& directory);
 
 }  // namespace rondure::record

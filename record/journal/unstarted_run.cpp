@@ -1,4 +1,4 @@
-#include "record/journal/unborn_run.h"
+#include "record/journal/unstarted_run.h"
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,10 @@
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
-#include "record/internal/database.h"
 #include "record/files.h"
-#include "record/journal/journal.h"
+#include "record/internal/database.h"
 #include "record/journal/internal/private_copy.h"
+#include "record/journal/journal.h"
 #include "record/run_lock.h"
 
 namespace rondure::record {
@@ -73,7 +73,7 @@ bool holds_only_a_beginning(const fs::path& directory) {
 
 }  // namespace
 
-core::Result<bool> clear_unborn_run(const fs::path& directory) {
+core::Result<bool> clear_unstarted_run(const fs::path& directory) {
   const fs::path journal = directory / kJournalName;
   std::error_code problem;
   if (!fs::exists(directory, problem) && !problem) return true;
