@@ -13,7 +13,7 @@
 #include "record/sha256.h"
 #include "reports/archive_entry.h"
 #include "reports/earlier_results.h"
-#include "reports/text.h"
+#include "reports/language.h"
 
 namespace rondure::app {
 namespace {

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include "reports/conformance.h"
+#include "reports/escaping.h"
 #include "reports/evaluation.h"
 #include "reports/facts.h"
 #include "reports/html_sections.h"
 #include "reports/json_parts.h"
 #include "reports/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {

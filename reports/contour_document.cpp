@@ -8,7 +8,7 @@
 
 #include "core/units.h"
 #include "reports/json_parts.h"
-#include "reports/text.h"
+#include "reports/language.h"
 
 namespace rondure::reports {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "reports/evaluation.h"
 #include "reports/facts.h"
-#include "reports/text.h"
 #include "reports/wheel_json.h"
 #include "reports/wheel_result.h"
 
@@ -15,6 +15,7 @@ namespace {
 
 using core::kDegree;
 using core::kMicrometre;
+using core::um;
 
 fit::WheelOptions wheel_options(const record::Feature& feature, std::uint64_t seed) {
   fit::WheelOptions out;

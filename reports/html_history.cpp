@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include "reports/earlier_results.h"
+#include "reports/escaping.h"
 #include "reports/history.h"
 #include "reports/html_sections.h"
 #include "reports/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 

@@ -1,15 +1,21 @@
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "reports/escaping.h"
 #include "reports/html_sections.h"
 #include "reports/language.h"
 #include "reports/plot_curve.h"
 #include "reports/plot_wheel.h"
-#include "reports/text.h"
 #include "reports/wheel_result.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::deg;
+using core::fixed;
+using core::signed_um;
+using core::um;
 
 std::string radius_entries(const WheelFacts& facts) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;

@@ -123,4 +123,17 @@ std::string title_of(core::Code code) {
   return std::string(chinese_title(code));
 }
 
+std::string count(std::size_t number, std::string_view one, std::string_view many) {
+  if (language() != Language::kEnglish) return fmt::format("{} {}", number, tr(many));
+  return fmt::format("{} {}", number, number == 1 ? one : many);
+}
+
+std::string capitalised(std::string_view text) {
+  std::string result(text);
+  if (!result.empty() && result.front() >= 'a' && result.front() <= 'z') {
+    result.front() = static_cast<char>(result.front() - 'a' + 'A');
+  }
+  return result;
+}
+
 }  // namespace rondure::reports

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/utf8.h"
+#include "reports/escaping.h"
 #include "reports/facts.h"
 #include "reports/html_plots.h"
 #include "reports/html_sections.h"
@@ -13,10 +15,11 @@
 #include "reports/live_cloud.h"
 #include "reports/live_sections.h"
 #include "reports/measured_cloud.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::well_formed;
 
 /// The strategy by which f of a single pose is found.
 record::Strategy strategy_of(const record::RunRecord& record, const record::PoseVisit& visit) {

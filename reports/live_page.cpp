@@ -4,7 +4,6 @@
 
 #include "reports/html_style.h"
 #include "reports/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {

@@ -16,7 +16,6 @@
 
 #include "reports/live_page.h"
 #include "reports/live_stream.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {

@@ -3,15 +3,19 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "reports/escaping.h"
 #include "reports/html_plots.h"
 #include "reports/html_svg.h"
 #include "reports/language.h"
 #include "reports/section.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::fixed;
+using core::um;
 
 constexpr double kSectionSize = 320.0;
 constexpr double kSectionCentre = 160.0;

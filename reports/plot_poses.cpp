@@ -8,7 +8,6 @@
 #include "reports/html_plots.h"
 #include "reports/html_svg.h"
 #include "reports/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {

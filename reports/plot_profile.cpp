@@ -7,7 +7,6 @@
 #include "reports/html_svg.h"
 #include "reports/language.h"
 #include "reports/section.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {

@@ -6,7 +6,6 @@
 #include "record/sha256.h"
 #include "reports/facts.h"
 #include "reports/qif_parts.h"
-#include "reports/text.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {

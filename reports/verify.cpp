@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/utf8.h"
 #include "core/version.h"
 #include "record/checksums.h"
 #include "record/files.h"
@@ -16,12 +17,13 @@
 #include "reports/evaluation.h"
 #include "reports/exports.h"
 #include "reports/pdf_report.h"
-#include "reports/text.h"
 #include "reports/verify_files.h"
 #include "reports/verify_results.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::printable;
 
 namespace fs = std::filesystem;
 using State = ListedFiles::State;

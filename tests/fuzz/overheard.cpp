@@ -6,8 +6,8 @@
 
 #include "app/terminal.h"
 #include "app/verbs.h"
+#include "core/utf8.h"
 #include "plans/utf8.h"
-#include "reports/text.h"
 
 namespace rondure {
 namespace {
@@ -33,8 +33,8 @@ bool has_word(const std::string& text, const std::string& word) {
 namespace app {
 
 void say(std::string_view text) { g_said += text; }
-void say_line(std::string_view line) { g_said += reports::printable(line) + "\n"; }
-void tell(std::string_view line) { g_told += reports::printable(line); }
+void say_line(std::string_view line) { g_said += core::printable(line) + "\n"; }
+void tell(std::string_view line) { g_told += core::printable(line); }
 void complain(const core::Error& error) { tell(core::to_line(error)); }
 void complain(const std::vector<core::Error>& errors) {
   for (const core::Error& error : errors) complain(error);
