@@ -4,6 +4,10 @@
 #include <charconv>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "core/units.h"
+
 namespace rondure::core {
 
 std::string shortest(double value) {
@@ -11,6 +15,37 @@ std::string shortest(double value) {
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
   return {text.data(), end.ptr};
 }
+
+std::string decimal(double value) {
+  std::array<char, 1100> digits{};  // the longest double has 1 + 309 or 1 + 1 + 1074 of them
+  const auto [end, problem] =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed);
+  if (problem != std::errc()) return "0";
+  const std::string text(digits.data(), end);
+  return text == "-0" ? "0" : text;
+}
+
+std::string fixed(double value, int decimals) {
+  if (!std::isfinite(value)) return "\xE2\x80\x93";
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
+  return text;
+}
+
+std::string um(double length_mm) {
+  return fixed(length_mm / kMicrometre, std::abs(length_mm) < 1.0 ? 3 : 1);
+}
+
+std::string signed_um(double length_mm) {
+  std::string text = um(length_mm);
+  return text.front() == '-' || !std::isfinite(length_mm) ? text : text.insert(0, 1, '+');
+}
+
+std::string f_um(double f_mm) { return fixed(f_mm / kMicrometre, std::abs(f_mm) > 0.1 ? 2 : 3); }
+
+std::string tiny_um(double length_mm) { return fmt::format("{:.2g}", length_mm / kMicrometre); }
+
+std::string deg(double angle_rad, int decimals) { return fixed(angle_rad / kDegree, decimals); }
 
 std::optional<double> parse_number(std::string_view text) {
   double value = 0.0;

@@ -20,6 +20,24 @@ inline constexpr double kGreatestNumber = 1e9;
 /// `value` must be finite.
 [[nodiscard]] std::string shortest(double value);
 
+/// The shortest decimal text, without an exponent, that reads back to the same double
+/// ("0.0000001"). `value` must be finite.
+[[nodiscard]] std::string decimal(double value);
+
+/// Numbers as reports and sentences print them. No locale: same value, same text. A value that is
+/// not finite is an en dash, a rounded zero has no sign.
+[[nodiscard]] std::string fixed(double value, int decimals);
+/// A length in um: three decimals below 1 mm, one above.
+[[nodiscard]] std::string um(double length_mm);
+/// The same with its sign, also "+".
+[[nodiscard]] std::string signed_um(double length_mm);
+/// f of a pose in um: three decimals, two above 100 um.
+[[nodiscard]] std::string f_um(double f_mm);
+/// A very small length in um, two digits: "1.2e-09".
+[[nodiscard]] std::string tiny_um(double length_mm);
+/// An angle in degrees.
+[[nodiscard]] std::string deg(double angle_rad, int decimals = 4);
+
 /// Reads the whole of `text` as one number that is_measurable(), or nothing. Spaces around it are
 /// not accepted.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include "reports/conformance.h"
+#include "reports/data/json_parts.h"
+#include "reports/escaping.h"
 #include "reports/evaluation.h"
 #include "reports/facts.h"
 #include "reports/html/sections.h"
-#include "reports/data/json_parts.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {

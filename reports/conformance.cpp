@@ -13,10 +13,11 @@
 #include "reports/facts.h"
 #include "reports/harmonic_mask.h"
 #include "reports/measured_cloud.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::micrometres;
 
 using record::Form;
 

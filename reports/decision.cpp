@@ -5,12 +5,16 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
+#include "core/units.h"
 #include "reports/decision_risks.h"
 #include "reports/stated_value.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::fixed;
+using core::micrometres;
 
 tl::unexpected<core::Error> no_verdict(std::string why) {
   return core::fail(core::Code::kMeaning, std::move(why));

@@ -7,10 +7,11 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::kMicroradian;
 
 constexpr double kPerMetre = 1e-3;  // 1/mm in 1/m
 

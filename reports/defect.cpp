@@ -6,12 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "core/utf8.h"
 #include "core/version.h"
 #include "record/files.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::printable;
 
 /// Lines of "name = value", numbers with 17 digits.
 class Lines {

@@ -8,11 +8,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/numbers.h"
 #include "core/units.h"
-#include "reports/data/contour.h"
 #include "reports/contour_result.h"
+#include "reports/data/contour.h"
 #include "reports/evaluation.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
@@ -20,6 +21,7 @@ namespace {
 using core::Code;
 using core::kDegree;
 using core::kMicrometre;
+using core::um;
 using record::Form;
 
 double number(const record::Feature& feature, std::string_view name, double otherwise) {

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "reports/data/wheel.h"
 #include "reports/evaluation.h"
 #include "reports/facts.h"
-#include "reports/text.h"
-#include "reports/data/wheel.h"
 #include "reports/wheel_result.h"
 
 namespace rondure::reports {
@@ -15,6 +15,7 @@ namespace {
 
 using core::kDegree;
 using core::kMicrometre;
+using core::um;
 
 fit::WheelOptions wheel_options(const record::Feature& feature, std::uint64_t seed) {
   fit::WheelOptions out;

@@ -6,12 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "reports/factor_outliers.h"
 #include "reports/facts.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::signed_um;
 
 using record::Reference;
 

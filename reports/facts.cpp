@@ -4,12 +4,14 @@
 
 #include <fmt/format.h>
 
-#include "reports/words/language.h"
+#include "core/utf8.h"
 #include "reports/measured_cloud.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::printable;
 
 std::vector<fit::Contact> in_rows(const std::vector<fit::Contact>& contacts,
                                   const std::vector<std::size_t>& rows) {

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
+
+using core::um;
 
 std::vector<AxisFacts> axes_of(const RotaryFacts& facts) {
   return {{"alpha", translatable("Axis alpha (base-fixed, about x)"), &facts.alpha,

@@ -5,15 +5,17 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "reports/deviation.h"
 #include "reports/facts.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
 
 using core::Code;
+using core::um;
 using record::Form;
 
 fit::CircleReference circle_of(record::Reference reference) {

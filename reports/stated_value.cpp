@@ -6,10 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
+
+using core::fixed;
+using core::um;
 ValueOperator::ValueOperator(ReferenceTerm reference, FilterTerm filter, SamplingTerm sampling,
                              TipTerm tip, TemperatureTerm temperature)
     : words_(fmt::format("{}; {}; {}; {}; {}", reference.words(), filter.words(), sampling.words(),

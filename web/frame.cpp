@@ -6,17 +6,20 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/utf8.h"
+#include "reports/escaping.h"
 #include "reports/facts.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
+#include "reports/measured_cloud.h"
 #include "reports/words/language.h"
 #include "web/cloud.h"
 #include "web/sections.h"
-#include "reports/measured_cloud.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::well_formed;
 
 /// The strategy by which f of a single pose is found.
 record::Strategy strategy_of(const record::RunRecord& record, const record::PoseVisit& visit) {

@@ -4,7 +4,6 @@
 
 #include "reports/html/style.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {

@@ -5,14 +5,20 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
+#include "reports/escaping.h"
 #include "reports/facts.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::deg;
+using core::f_um;
+using core::fixed;
+using core::um;
 
 constexpr std::size_t kTouchRows = 10;
 

@@ -16,7 +16,6 @@
 
 #include "web/page.h"
 #include "web/stream.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {

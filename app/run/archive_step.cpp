@@ -13,7 +13,7 @@
 #include "record/sha256.h"
 #include "reports/history/archive_entry.h"
 #include "reports/history/earlier_results.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::app {
 namespace {

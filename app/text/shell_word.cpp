@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/text.h"
+#include "core/utf8.h"
 
 namespace rondure::app {
 namespace {
@@ -28,7 +28,7 @@ std::string quoted(const std::string& word) {
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
   const bool controls =
       std::any_of(word.begin(), word.end(), [](unsigned char c) { return c < 0x20 || c >= 0x7F; });
-  if (controls && reports::printable(word) != word) return with_escapes(word);
+  if (controls && core::printable(word) != word) return with_escapes(word);
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";

@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "core/utf8.h"
 #include "record/files.h"
-#include "reports/text.h"
 
 namespace rondure::app {
 namespace {
@@ -94,7 +94,7 @@ void say(std::string_view text) {
   if (std::fwrite(safe.data(), 1, safe.size(), stdout) != safe.size()) g_output_error = errno;
 }
 
-void say_line(std::string_view line) { say(reports::printable(line) + "\n"); }
+void say_line(std::string_view line) { say(core::printable(line) + "\n"); }
 
 bool output_reached() {
   if (std::fflush(stdout) != 0 && g_output_error == 0) g_output_error = errno;
@@ -109,7 +109,7 @@ bool output_reached() {
 void tell(std::string_view line) {
   const bool ends = line.ends_with('\n');
   if (ends) line.remove_suffix(1);
-  write_to_terminal(reports::printable(line) + (ends ? "\n" : ""));
+  write_to_terminal(core::printable(line) + (ends ? "\n" : ""));
 }
 
 void print_error(const core::Error& error) {
@@ -135,8 +135,7 @@ void ProgressLine::show(const plans::Progress& progress) {
   last_ = now;
   drawn_ = true;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  write_to_terminal(
-      fmt::format("\r{:.100}\x1b[K", reports::printable(line_of(progress, elapsed_s))));
+  write_to_terminal(fmt::format("\r{:.100}\x1b[K", core::printable(line_of(progress, elapsed_s))));
 }
 
 void listen_for_stop() {

@@ -9,12 +9,13 @@
 #include "app/run/archive_step.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
+#include "core/utf8.h"
 #include "plans/checks/record.h"
 #include "record/archive/queue.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
 #include "reports/history/history.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::app {
 namespace {
@@ -38,7 +39,7 @@ core::Result<std::optional<std::int64_t>> time_of(const std::string& text, const
     return bad(
         fmt::format("{} {}: give a day or a time in UTC, 2026-11-21 or "
                     "2026-11-21T14:30:00Z",
-                    option, reports::printable(text)));
+                    option, core::printable(text)));
   }
   const bool day = text.size() == 10;
   return std::optional<std::int64_t>(*seconds + (day && end_of_day ? 86'399 : 0));
@@ -65,7 +66,7 @@ core::Result<record::ArchiveFilter> filter_of(const HistoryArguments& arguments)
   return bad(
       fmt::format("--verdict {} is unknown; give conforms, does-not-conform, undecided, void "
                   "or not-toleranced",
-                  reports::printable(arguments.verdict)));
+                  core::printable(arguments.verdict)));
 }
 
 /// The newest `count` results, page by page; `take` gets each page, newest first.

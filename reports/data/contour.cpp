@@ -8,7 +8,7 @@
 
 #include "core/units.h"
 #include "reports/data/json_parts.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "reports/text.h"
+#include "reports/escaping.h"
 
 namespace rondure::reports {
 

@@ -3,13 +3,17 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
+#include "core/utf8.h"
 #include "reports/facts.h"
 #include "reports/section.h"
-#include "reports/text.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::decimal;
+using core::printable;
 
 using record::Form;
 using record::Reference;

@@ -1,11 +1,13 @@
 #include <cmath>
 
+#include "core/units.h"
 #include "reports/data/json_parts.h"
 #include "reports/rotary_result.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::kMicroradian;
 
 Json um_list(const Eigen::Vector3d& v_mm) {
   return Json::array({in_um(v_mm.x()), in_um(v_mm.y()), in_um(v_mm.z())});

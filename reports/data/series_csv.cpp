@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/utf8.h"
 #include "reports/data/csv_field.h"
-#include "reports/text.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {
+
+using core::printable;
 
 std::string write_series_csv(const record::RunRecord& record) {
   std::string text = fmt::format("# rondure series, run {}\n", printable(record.header.run_id));

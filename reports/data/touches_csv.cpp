@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/utf8.h"
 #include "reports/data/csv_field.h"
-#include "reports/text.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::printable;
 
 std::string number(double value) { return std::isfinite(value) ? core::shortest(value) : ""; }
 

@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include "core/units.h"
 #include "reports/data/json_parts.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::micrometres;
 
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "reports/text.h"
+#include "reports/escaping.h"
 
 namespace rondure::reports {
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/utf8.h"
 #include "reports/facts.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::well_formed;
 
 /// "4 x 7 points; worst section; 5 touches a point".
 std::string sampling_of(const FeatureResult& feature, const record::Characteristic& asked) {

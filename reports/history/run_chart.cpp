@@ -6,11 +6,18 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
+#include "core/utf8.h"
+#include "reports/columns.h"
 #include "reports/evaluation.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::fixed;
+using core::printable;
+using core::um;
 
 using record::ArchivedResult;
 

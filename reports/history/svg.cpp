@@ -3,14 +3,19 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "core/utf8.h"
+#include "reports/columns.h"
 #include "reports/history/history.h"
 #include "reports/html/svg.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::printable;
+using core::um;
 
 constexpr double kRunWidth = 860.0;
 constexpr double kRunLeft = 66.0;

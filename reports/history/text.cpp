@@ -4,13 +4,19 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "core/utf8.h"
+#include "reports/columns.h"
 #include "reports/history/history.h"
 #include "reports/html/svg.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::printable;
+using core::um;
 
 constexpr std::size_t kAxis = 8;   ///< Columns of the labels on the left.
 constexpr std::size_t kPlot = 56;  ///< Columns of the plot.

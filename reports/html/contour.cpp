@@ -8,16 +8,21 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
-#include "reports/data/contour.h"
 #include "reports/contour_result.h"
+#include "reports/data/contour.h"
+#include "reports/escaping.h"
+#include "reports/html/plot_curve.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
-#include "reports/html/plot_curve.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::deg;
+using core::fixed;
+using core::um;
 
 /// Lines of the parts: black, orange, blue, dotted, dashed; then from the front again.
 constexpr std::array<std::string_view, 5> kLines = {"profile", "zone-outer", "zone-inner", "guide",

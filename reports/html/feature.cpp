@@ -3,15 +3,23 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "reports/escaping.h"
 #include "reports/facts.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::deg;
+using core::f_um;
+using core::fixed;
+using core::signed_um;
+using core::tiny_um;
+using core::um;
 
 /// Nothing for a reference that does not exist: a warning says why.
 std::string one_sided_entry(const FeatureResult& feature, record::Reference reference) {

@@ -2,16 +2,19 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "reports/escaping.h"
 #include "reports/harmonic_mask.h"
+#include "reports/html/plot_curve.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
-#include "reports/html/plot_curve.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::um;
 
 std::string exceeding_row(const MaskedHarmonic& masked) {
   return fmt::format(R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td>)"

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
+#include "reports/escaping.h"
 #include "reports/history/earlier_results.h"
 #include "reports/history/history.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
+
+using core::fixed;
+using core::signed_um;
+using core::um;
 
 std::string verdict_mark(Verdict verdict, int size_px) {
   std::string_view body;

@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "reports/escaping.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::deg;
+using core::fixed;
 
 /// "+1.234 ± 0.100", or a dash where the kinematics are all that is known.
 std::string cell(double value, double u, bool from_kinematics) {

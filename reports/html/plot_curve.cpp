@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "reports/escaping.h"
 #include "reports/html/svg.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {

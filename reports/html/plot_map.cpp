@@ -6,16 +6,18 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "reports/html/plot_scale.h"
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
-#include "reports/words/language.h"
-#include "reports/html/plot_scale.h"
 #include "reports/section.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::fixed;
 
 constexpr double kMapWidth = 680.0;
 constexpr double kMapLeft = 62.0;

@@ -3,15 +3,19 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
-#include "reports/words/language.h"
 #include "reports/section.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::fixed;
+using core::um;
 
 constexpr double kSectionSize = 320.0;
 constexpr double kSectionCentre = 160.0;

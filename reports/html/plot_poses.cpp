@@ -8,7 +8,6 @@
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {

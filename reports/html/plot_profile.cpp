@@ -5,9 +5,8 @@
 #include "core/units.h"
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
-#include "reports/words/language.h"
 #include "reports/section.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {

@@ -1,8 +1,10 @@
 #include "reports/html/plot_scale.h"
 
-#include "reports/text.h"
+#include "core/numbers.h"
 
 namespace rondure::reports {
+
+using core::signed_um;
 
 void deviation_scale(Svg& svg, double x, double top, double bottom, double half_zone_mm) {
   constexpr int kSteps = 41;

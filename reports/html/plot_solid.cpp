@@ -3,16 +3,20 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "reports/escaping.h"
+#include "reports/html/plot_scale.h"
 #include "reports/html/plots.h"
+#include "reports/html/solid_scene.h"
 #include "reports/html/svg.h"
 #include "reports/words/language.h"
-#include "reports/html/plot_scale.h"
-#include "reports/html/solid_scene.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::fixed;
+using core::um;
 
 // The drawing is complete as it stands. What the script needs to draw it from another side stands
 // in data attributes: "p" is a place (angle, radius, height), "ring" a closed line (height, radii),

@@ -6,13 +6,15 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "reports/html/svg.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::fixed;
 
 constexpr double kEdgeSize = 340.0;
 constexpr double kEdgeCentre = 170.0;

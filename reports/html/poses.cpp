@@ -3,12 +3,16 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
+#include "reports/escaping.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::deg;
+using core::f_um;
 
 constexpr std::size_t kMostRows = 40;
 constexpr std::size_t kEndRows = 10;

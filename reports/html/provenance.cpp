@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
+#include "reports/escaping.h"
 #include "reports/facts.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::fixed;
+using core::um;
 
 constexpr std::size_t kMostDecisions = 60;
 constexpr std::size_t kEndDecisions = 20;

@@ -2,16 +2,19 @@
 
 #include <fmt/format.h>
 
+#include "core/utf8.h"
 #include "record/sha256.h"
+#include "reports/escaping.h"
 #include "reports/html/script.h"
 #include "reports/html/sections.h"
 #include "reports/html/style.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::printable;
 
 /// A part of the page that the contents point to.
 struct PagePart {

@@ -4,18 +4,23 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
-#include "reports/html/sections.h"
-#include "reports/words/language.h"
+#include "reports/escaping.h"
 #include "reports/html/plot_curve.h"
+#include "reports/html/sections.h"
 #include "reports/rotary_result.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
 
+using core::deg;
+using core::fixed;
 using core::kDegree;
 using core::kMicrometre;
+using core::kMicroradian;
+using core::um;
 
 constexpr double kCoverage = 2.0;  // of the bands: standard uncertainties
 constexpr int kCurvePoints = 121;

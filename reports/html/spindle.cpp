@@ -2,15 +2,19 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
-#include "reports/html/sections.h"
-#include "reports/words/language.h"
 #include "reports/html/plot_curve.h"
+#include "reports/html/sections.h"
 #include "reports/spindle_result.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::deg;
+using core::fixed;
+using core::um;
 
 std::vector<double> scaled_um(const std::vector<double>& values_mm) {
   std::vector<double> out;

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/text.h"
+#include "reports/escaping.h"
 
 namespace rondure::reports {
 namespace {

@@ -2,14 +2,20 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
+#include "reports/escaping.h"
 #include "reports/facts.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::fixed;
+using core::signed_um;
+using core::tiny_um;
+using core::um;
 
 /// What the letters of the formula stand for.
 constexpr const char* kFormulaLetters = translatable(

@@ -3,15 +3,19 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "reports/escaping.h"
 #include "reports/facts.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::fixed;
+using core::um;
 
 std::string css_name(Verdict verdict) {
   std::string name = fmt::format("is-{}", name_of(verdict));

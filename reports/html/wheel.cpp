@@ -1,15 +1,21 @@
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
-#include "reports/html/sections.h"
-#include "reports/words/language.h"
+#include "reports/escaping.h"
 #include "reports/html/plot_curve.h"
 #include "reports/html/plot_wheel.h"
-#include "reports/text.h"
+#include "reports/html/sections.h"
 #include "reports/wheel_result.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::deg;
+using core::fixed;
+using core::signed_um;
+using core::um;
 
 std::string radius_entries(const WheelFacts& facts) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;

@@ -6,11 +6,18 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
+#include "core/utf8.h"
+#include "reports/columns.h"
 #include "reports/factor_study.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::printable;
+using core::signed_um;
+using core::um;
 
 constexpr std::size_t kLabel = 34;
 constexpr std::size_t kNumber = 9;  ///< Of a reference.

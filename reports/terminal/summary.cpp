@@ -2,13 +2,22 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
+#include "core/utf8.h"
+#include "reports/columns.h"
+#include "reports/escaping.h"
 #include "reports/facts.h"
 #include "reports/words/language.h"
-#include "reports/text.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::fixed;
+using core::printable;
+using core::signed_um;
+using core::tiny_um;
+using core::um;
 
 constexpr std::size_t kValueColumn = 15;  ///< Where the values of labelled lines start.
 

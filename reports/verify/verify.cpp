@@ -4,24 +4,26 @@
 
 #include <fmt/format.h>
 
+#include "core/utf8.h"
 #include "core/version.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
 #include "record/sha256.h"
 #include "record/signature.h"
-#include "reports/verify/compare_text.h"
-#include "reports/verify/compare_values.h"
-#include "reports/history/earlier_results.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
+#include "reports/history/earlier_results.h"
 #include "reports/pdf_report.h"
-#include "reports/text.h"
+#include "reports/verify/compare_text.h"
+#include "reports/verify/compare_values.h"
 #include "reports/verify/files.h"
 #include "reports/verify/results.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::printable;
 
 namespace fs = std::filesystem;
 using State = ListedFiles::State;

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "reports/words/zh.h"
 #include "reports/words/sentence_format.h"
+#include "reports/words/zh.h"
 
 namespace rondure::reports {
 namespace {
@@ -121,6 +121,19 @@ std::optional<std::string> told(std::string_view english) {
 std::string title_of(core::Code code) {
   if (the_language == Language::kEnglish) return {};
   return std::string(chinese_title(code));
+}
+
+std::string count(std::size_t number, std::string_view one, std::string_view many) {
+  if (language() != Language::kEnglish) return fmt::format("{} {}", number, tr(many));
+  return fmt::format("{} {}", number, number == 1 ? one : many);
+}
+
+std::string capitalised(std::string_view text) {
+  std::string result(text);
+  if (!result.empty() && result.front() >= 'a' && result.front() <= 'z') {
+    result.front() = static_cast<char>(result.front() - 'a' + 'A');
+  }
+  return result;
 }
 
 }  // namespace rondure::reports

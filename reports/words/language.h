@@ -59,6 +59,12 @@ template <class... Args>
   return fmt::vformat(tr(std::string_view(key.data(), key.size())), fmt::make_format_args(args...));
 }
 
+/// "1 touch", "3 touches": the number and the word in its number; in Chinese the word of `many`.
+[[nodiscard]] std::string count(std::size_t number, std::string_view one, std::string_view many);
+
+/// The text with the first letter in upper case (ASCII).
+[[nodiscard]] std::string capitalised(std::string_view text);
+
 /// A sentence that evaluation made in English ("8.3 um is within the tolerance of 10 um by 1.7
 /// um"), in the language of the report: recognised by the formats of the table, and so are its
 /// parts. In English the sentence itself. Nothing where it is not known or not whole: the report

@@ -9,7 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "reports/text.h"
+#include "core/utf8.h"
+#include "reports/columns.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 #include "tests/record/postgres_server.h"
@@ -175,7 +176,7 @@ TEST(History, OfHostileNamesIsPlainText) {
     std::istringstream lines(outcome.out);
     for (std::string line; std::getline(lines, line);) {
       EXPECT_LE(reports::columns(line), 80U);
-      EXPECT_EQ(reports::printable(line), line);
+      EXPECT_EQ(core::printable(line), line);
     }
   }
   const Outcome svg = rondure({"history", archive, "--svg", folder / "chart.svg"});

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/text.h"
+#include "reports/columns.h"
 #include "tests/app/files.h"
 #include "tests/app/on_terminal.h"
 #include "tests/app/program.h"

@@ -7,13 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "app/verbs/verbs.h"
+#include "core/utf8.h"
 #include "fixture/calibration.h"
 #include "record/archive/archive.h"
 #include "record/checksums.h"
 #include "record/journal/journal.h"
 #include "reports/history/earlier_results.h"
 #include "reports/history/history.h"
-#include "reports/text.h"
 #include "reports/writers.h"
 #include "tests/app/files.h"
 #include "tests/fuzz/cases.h"
@@ -136,7 +136,7 @@ TEST(KeptFuzz, NoDamagedEarlierResultsUpsetThePage) {
   ASSERT_TRUE(evaluation);
   try_cases({600, 100'000}, [&](unsigned seed) -> std::string {
     const auto parsed = reports::parse_earlier(mutation.input(seed));
-    if (!parsed) return wrong_with_text(reports::printable(core::to_line(parsed.error())));
+    if (!parsed) return wrong_with_text(core::printable(core::to_line(parsed.error())));
     for (const reports::RunChart& chart : reports::run_charts(read->record, *evaluation, *parsed)) {
       std::string text = reports::history_drawing(chart) + reports::history_svg(chart) +
                          reports::history_chart(chart, false) + reports::capability_in_words(chart);
@@ -153,7 +153,7 @@ TEST(KeptFuzz, NoDamagedCalibrationUpsetsTheFixture) {
       json_words());
   try_cases({600, 100'000}, [&](unsigned seed) -> std::string {
     const auto parsed = fixture::parse_calibration(mutation.input(seed), "calibration.json");
-    if (!parsed) return wrong_with_text(reports::printable(core::to_line(parsed.error())));
+    if (!parsed) return wrong_with_text(core::printable(core::to_line(parsed.error())));
     const auto again = fixture::parse_calibration(fixture::calibration_text(*parsed), "again");
     if (!again) return "its own text is not read back: " + again.error().what;
     const fixture::Kinematics kinematics = fixture::compensated({}, *parsed);
@@ -175,7 +175,7 @@ TEST(KeptFuzz, NoDamagedListOfDigestsUpsetsItsReader) {
   try_cases({600, 100'000}, [&](unsigned seed) -> std::string {
     app::testing::write(folder / record::kChecksumsName, mutation.input(seed));
     const auto read = record::read_checksums(folder);
-    if (!read) return wrong_with_text(reports::printable(core::to_line(read.error())));
+    if (!read) return wrong_with_text(core::printable(core::to_line(read.error())));
     for (const record::Checksum& line : *read) {
       if (fs::path(line.file).has_parent_path() || line.sha256.size() != 64) {
         return "a place outside: " + line.file;

@@ -6,8 +6,8 @@
 
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
+#include "core/utf8.h"
 #include "plans/schema/utf8.h"
-#include "reports/text.h"
 
 namespace rondure {
 namespace {
@@ -33,11 +33,11 @@ bool has_word(const std::string& text, const std::string& word) {
 namespace app {
 
 void say(std::string_view text) { g_said += text; }
-void say_line(std::string_view line) { g_said += reports::printable(line) + "\n"; }
-void tell(std::string_view line) { g_told += reports::printable(line); }
-void print_error(const core::Error& error) { tell(core::to_line(error)); }
-void print_error(const std::vector<core::Error>& errors) {
-  for (const core::Error& error : errors) print_error(error);
+void say_line(std::string_view line) { g_said += core::printable(line) + "\n"; }
+void tell(std::string_view line) { g_told += core::printable(line); }
+void complain(const core::Error& error) { tell(core::to_line(error)); }
+void complain(const std::vector<core::Error>& errors) {
+  for (const core::Error& error : errors) complain(error);
 }
 bool stop_requested() { return false; }
 

@@ -9,12 +9,15 @@
 #include <pugixml.hpp>
 
 #include "core/numbers.h"
-#include "reports/text.h"
+#include "reports/columns.h"
+#include "reports/words/language.h"
 #include "reports/writers.h"
 #include "synthetic.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::decimal;
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;

@@ -12,15 +12,20 @@
 #include <nlohmann/json.hpp>
 
 #include "core/noise.h"
+#include "core/utf8.h"
 #include "record/files.h"
 #include "record/sha256.h"
+#include "reports/columns.h"
 #include "reports/history/archive_entry.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 #include "tests/reports/page_text.h"
 #include "tests/reports/synthetic.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::printable;
+using core::well_formed;
 
 using record::ArchivedResult;
 using ::testing::AllOf;

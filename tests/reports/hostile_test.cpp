@@ -10,8 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
+#include "core/utf8.h"
+#include "reports/columns.h"
 #include "reports/data/qif/check.h"
-#include "reports/text.h"
+#include "reports/escaping.h"
+#include "reports/words/language.h"
 #include "reports/writers.h"
 #include "synthetic.h"
 #include "tests/reports/page_text.h"
@@ -19,6 +22,8 @@
 
 namespace rondure::reports {
 namespace {
+
+using core::well_formed;
 
 using testing::first_unbalanced_tag;
 

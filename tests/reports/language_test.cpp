@@ -17,10 +17,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "reports/columns.h"
+#include "reports/escaping.h"
 #include "reports/exports.h"
-#include "reports/words/zh.h"
 #include "reports/words/sentence_format.h"
-#include "reports/text.h"
+#include "reports/words/zh.h"
 #include "reports/writers.h"
 #include "synthetic.h"
 #include "tests/reports/english_left.h"

@@ -3,11 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include "core/numbers.h"
+#include "core/utf8.h"
+#include "reports/columns.h"
+#include "reports/escaping.h"
 #include "reports/html/svg.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::f_um;
+using core::printable;
+using core::signed_um;
+using core::um;
 
 TEST(Text, MicrometresHaveThreeDecimalsBelowAMillimetre) {
   EXPECT_EQ(um(0.0083), "8.300");

@@ -9,17 +9,21 @@
 #include <gtest/gtest.h>
 
 #include "core/units.h"
+#include "core/utf8.h"
 #include "fixture/calibration.h"
 #include "reports/conformance.h"
 #include "reports/declared.h"
 #include "reports/defect.h"
-#include "reports/text.h"
+#include "reports/escaping.h"
+#include "reports/words/language.h"
 #include "reports/writers.h"
 #include "tests/reports/page_text.h"
 #include "tests/reports/points_run.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::printable;
 
 using record::RunRecord;
 using ::testing::HasSubstr;

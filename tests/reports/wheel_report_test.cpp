@@ -8,15 +8,19 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/utf8.h"
 #include "record/run_record.h"
+#include "reports/escaping.h"
 #include "reports/evaluation.h"
-#include "reports/text.h"
+#include "reports/words/language.h"
 #include "reports/writers.h"
 #include "tests/fit/wheel_cases.h"
 #include "tests/reports/page_text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::printable;
 
 using ::testing::HasSubstr;
 using ::testing::Not;

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "reports/facts.h"
+#include "core/numbers.h"
 #include "reports/data/qif/parts.h"
+#include "reports/facts.h"
 #include "reports/section.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::decimal;
 
 using record::Reference;
 

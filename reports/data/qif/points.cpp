@@ -1,11 +1,12 @@
 #include "core/numbers.h"
-#include "reports/measured_cloud.h"
 #include "reports/data/qif/parts.h"
+#include "reports/measured_cloud.h"
 #include "reports/section.h"
-#include "reports/text.h"
 
 namespace rondure::reports {
 namespace {
+
+using core::decimal;
 
 /// The axis that angles and deviations of the cloud are about, where there is a zone.
 std::optional<fit::Axis> zone_axis(const FeatureResult& feature) {

@@ -4,9 +4,8 @@
 
 #include "core/utc.h"
 #include "record/sha256.h"
-#include "reports/facts.h"
 #include "reports/data/qif/parts.h"
-#include "reports/text.h"
+#include "reports/facts.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {

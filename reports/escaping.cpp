@@ -1,0 +1,100 @@
+#include "reports/escaping.h"
+
+#include <fmt/format.h>
+
+#include "core/utf8.h"
+#include "reports/words/language.h"
+
+namespace rondure::reports {
+
+std::string clean(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  while (!text.empty()) {
+    const core::Utf8Character c = core::next_character(text);
+    const bool refused = (core::is_control(c.code) && c.code != '\n' && c.code != '\t') ||
+                         core::is_noncharacter(c.code);
+    result += c.valid && !refused ? text.substr(0, c.bytes) : core::kReplacement;
+    text.remove_prefix(c.bytes);
+  }
+  return result;
+}
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  result.reserve(text.size() + text.size() / 8);
+  while (!text.empty()) {
+    const core::Utf8Character c = core::next_character(text);
+    if (!c.valid || core::is_noncharacter(c.code) ||
+        (core::is_control(c.code) && c.code != '\n' && c.code != '\t')) {
+      result += core::kReplacement;
+    } else if (c.code == '&') {
+      result += "&amp;";
+    } else if (c.code == '<') {
+      result += "&lt;";
+    } else if (c.code == '>') {
+      result += "&gt;";
+    } else if (c.code == '"') {
+      result += "&quot;";
+    } else if (c.code == '\'') {
+      result += "&#39;";
+    } else {
+      result += text.substr(0, c.bytes);
+    }
+    text.remove_prefix(c.bytes);
+  }
+  return result;
+}
+
+std::string isolated(std::string_view text) { return fmt::format("<bdi>{}</bdi>", escaped(text)); }
+
+namespace {
+
+/// " um" and " degC" with their signs.
+std::string with_signs(std::string_view text) {
+  std::string out(text);
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto replace = [&](std::string_view from, std::string_view to) {
+    for (std::size_t at = out.find(from); at != std::string::npos; at = out.find(from, at + 1)) {
+      const std::size_t end = at + from.size();
+      if (end == out.size() || !letter(out[end])) out.replace(at, from.size(), to);
+    }
+  };
+  replace(" um", " \u00b5m");
+  replace(" degC", " \u00b0C");
+  return out;
+}
+
+}  // namespace
+
+std::string foreign(std::string_view text) {
+  if (language() == Language::kEnglish) return isolated(text);
+  return fmt::format(R"(<bdi lang="en">{}</bdi>)", escaped(text));
+}
+
+std::string worded(std::string_view text) {
+  const auto known = told(text);
+  return known ? isolated(*known) : foreign(text);
+}
+
+std::string plain_words(std::string_view text) {
+  const auto known = told(text);
+  return known ? escaped(*known) : foreign(text);
+}
+
+std::string in_sentence(std::string_view text) {
+  const auto known = told(text);
+  return known ? isolated(with_signs(*known)) : foreign(with_signs(text));
+}
+
+std::string opening_sentence(std::string_view text) {
+  const auto known = told(text);
+  return known ? isolated(with_signs(capitalised(*known))) : foreign(with_signs(capitalised(text)));
+}
+
+std::string titled(core::Code code) {
+  const std::string title = title_of(code);
+  return title.empty() ? title : title + "：";
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace rondure::reports {
+
+/// Text that any file format can hold: well-formed UTF-8 without control characters (line feed and
+/// tab stay) and without noncharacters, which XML and HTML refuse; each of these becomes U+FFFD.
+[[nodiscard]] std::string clean(std::string_view text);
+
+/// Text that stays text in HTML, in elements and in quoted attributes: & < > " ' become entities,
+/// control characters and noncharacters the replacement character.
+[[nodiscard]] std::string escaped(std::string_view text);
+/// Escaped and isolated (<bdi>), so that a right-to-left name does not reorder its neighbours.
+[[nodiscard]] std::string isolated(std::string_view text);
+
+/// Text of the program that is English whatever the language of the report (an error made in
+/// another room, a device's name): escaped, isolated and, in a report that is not English, marked
+/// as English.
+[[nodiscard]] std::string foreign(std::string_view text);
+/// Words that evaluation or another room chose ("finished", "guided"), as told() knows them, else
+/// foreign().
+[[nodiscard]] std::string worded(std::string_view text);
+/// The same, not isolated where the words are known: of words that no user can write.
+[[nodiscard]] std::string plain_words(std::string_view text);
+/// worded() of a sentence, which spells units in ASCII: " um" and " degC" with their signs.
+[[nodiscard]] std::string in_sentence(std::string_view text);
+/// in_sentence() that begins with an upper-case letter.
+[[nodiscard]] std::string opening_sentence(std::string_view text);
+/// What stands before the sentence of an error: the title of its code; empty in English.
+[[nodiscard]] std::string titled(core::Code code);
+
+}  // namespace rondure::reports
