@@ -14,7 +14,7 @@ inline constexpr std::size_t kTerminalColumns = 80;
 
 inline constexpr double kMicroradian = 1e-6;  ///< in rad
 /// A length in um, as a number.
-[[nodiscard]] inline double micrometres(double length_mm) { return length_mm / core::kMicrometre; }
+using core::micrometres;
 
 /// Numbers and names as reports print them. No locale, no clock: same value, same text. A value
 /// that is not finite is an en dash, a rounded zero has no sign.
