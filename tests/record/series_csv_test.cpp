@@ -1,4 +1,5 @@
 // Tables of numbers with named columns.
+#include "record/csv_lines.h"
 #include "record/series_csv.h"
 
 #include <array>
