@@ -1,7 +1,8 @@
 # Sourced by run.sh, test.sh and benchmarks/run.sh: what must be installed on Debian 12, and how it gets there.
 # Nothing else is used: neither CMake nor the scripts look for what a machine happens to have.
 
-# git names the commit in rondure --version. SOCI's headers include Boost, its package does not depend on it.
+# git names the commit in rondure --version. Boost: distributions (headers only), and SOCI's headers
+# include it.
 rondure_build_packages="g++ cmake ninja-build git libeigen3-dev nlohmann-json3-dev libexpected-dev libcli11-dev libfmt-dev
   libasio-dev libsoci-dev libpq-dev libboost-dev libsqlite3-dev libssl-dev libfftw3-dev libcgal-dev
   pkg-config libusb-1.0-0-dev libceres-dev libpugixml-dev libcpp-httplib-dev libcairo2-dev libpango1.0-dev

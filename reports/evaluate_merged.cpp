@@ -166,7 +166,6 @@ core::Result<MergedCloud> merged_cloud(const RunRecord& record, int index,
 }
 
 std::string share_in_words(const MergedPoses& merged) {
-  const auto um = [](double mm) { return mm / core::kMicrometre; };
   if (!merged.solved) {
     return fmt::format("what the fixture adds to CYLt is not known: {}",
                        merged.refusal ? merged.refusal->what : std::string());
@@ -178,14 +177,16 @@ std::string share_in_words(const MergedPoses& merged) {
         "have "
         "added {:.3f} um; they were solved for, and what is left of them is uncertain by {:.3f} um "
         "(standard uncertainty)",
-        um(solved.naive_mm), um(solved.share_mm()), um(solved.u_joint_mm));
+        core::micrometres(solved.naive_mm), core::micrometres(solved.share_mm()),
+        core::micrometres(solved.u_joint_mm));
   }
   return fmt::format(
       "the poses were merged by the kinematics alone: their stated uncertainty changes CYLt by "
       "{:.3f} um (root mean square); solved together with the part it would be {:.3f} um, {:.3f} "
       "um "
       "less",
-      um(solved.u_naive_mm), um(solved.joint_mm), um(solved.share_mm()));
+      core::micrometres(solved.u_naive_mm), core::micrometres(solved.joint_mm),
+      core::micrometres(solved.share_mm()));
 }
 
 }  // namespace rondure::reports

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/statistics.h"
 #include "fit/geometry/axis.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
@@ -19,13 +20,6 @@ constexpr double kSigmas = 3.0;
 constexpr double kMedianScales = 5.0;
 constexpr double kLeastScaleMm = 1e-4;
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
 /// Which of the deviations a rule calls outliers.
 /// @param parameters  Of the least-squares fit they come from.
 std::vector<bool> flagged(const std::vector<double>& deviations, OutlierRule rule,
@@ -38,10 +32,12 @@ std::vector<bool> flagged(const std::vector<double>& deviations, OutlierRule rul
     const double freedoms = static_cast<double>(deviations.size()) - parameters;
     limit = freedoms > 0.0 ? kSigmas * std::sqrt(squares / freedoms) : squares + 1.0;
   } else {
-    middle = median(deviations);
+    middle = core::median(deviations);
     std::vector<double> apart;
     for (const double d : deviations) apart.push_back(std::abs(d - middle));
-    limit = kMedianScales * std::max(1.4826 * median(std::move(apart)), kLeastScaleMm);
+    limit =
+        kMedianScales *
+        std::max(core::kSigmaPerMedianDeviation * core::median(std::move(apart)), kLeastScaleMm);
   }
   std::vector<bool> out;
   for (const double d : deviations) out.push_back(std::abs(d - middle) > limit);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/decompositions.h"
+#include "core/statistics.h"
 #include "core/units.h"
 
 namespace rondure::reports {
@@ -48,9 +49,7 @@ double median_size(const VectorXd& values) {
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     sizes[i] = std::abs(values[static_cast<Index>(i)]);
   }
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle;
+  return core::upper_median(std::move(sizes));
 }
 
 void free_of(const MatrixXd& rigid, VectorXd& values) {
@@ -165,7 +164,7 @@ void FormModel::start() {
   VectorXd rest = y_;
   std::vector<bool> flagged(static_cast<std::size_t>(y_.size()), false);
   for (int round = 0; round < kStartRounds && !declared_; ++round) {
-    const double scale = 1.4826 * median_size(rest);
+    const double scale = core::kSigmaPerMedianDeviation * median_size(rest);
     const double w = std::max(noise_mm2_, scale * scale);
     const double top = rest.cwiseAbs2().maxCoeff();
     const VectorXd products = columns_.products(rest);

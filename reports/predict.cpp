@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/statistics.h"
 #include "core/units.h"
 #include "reports/expected_form.h"
 
@@ -77,12 +78,8 @@ class Statements {
   [[nodiscard]] bool settled(double share) const {
     const auto count = static_cast<double>(widths_.size());
     if (count < 2.0) return widths_.empty();
-    double sum = 0.0;
-    for (const double width : widths_) sum += width;
-    const double mean = sum / count;
-    double squares = 0.0;
-    for (const double width : widths_) squares += (width - mean) * (width - mean);
-    return std::sqrt(squares / (count - 1.0) / count) <= share * mean;
+    const double mean = core::mean(widths_);
+    return core::standard_deviation(widths_, mean) <= share * mean * std::sqrt(count);
   }
 
   [[nodiscard]] std::optional<PredictedStatement> mean(Measurand measurand) {

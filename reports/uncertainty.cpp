@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/statistics.h"
 #include "reports/form_chains.h"
 
 namespace rondure::reports {
@@ -15,23 +16,11 @@ namespace {
 
 using core::Code;
 
-double mean_of(std::span<const double> values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-double spread_of(std::span<const double> values, double mean) {
-  double sum = 0.0;
-  for (const double value : values) sum += (value - mean) * (value - mean);
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
-
 /// Estimate, standard uncertainty and interval of trials: JCGM 101 sections 7.6 and 7.7.
 UncertaintyStatement statement_of(std::vector<double> trials, double coverage) {
   UncertaintyStatement out;
-  out.estimate_mm = mean_of(trials);
-  out.standard_uncertainty_mm = spread_of(trials, out.estimate_mm);
+  out.estimate_mm = core::mean(trials);
+  out.standard_uncertainty_mm = core::standard_deviation(trials, out.estimate_mm);
   std::sort(trials.begin(), trials.end());
   const auto count = static_cast<double>(trials.size());
   const double rank = std::round(0.5 * (1.0 - coverage) * (count + 1.0));
@@ -69,7 +58,7 @@ double left_open(const FormChains& chains, ValuesOf values, double coverage) {
   }
   double worst = 0.0;
   for (const auto& of_chains : numbers) {
-    const double spread = spread_of(of_chains, mean_of(of_chains));
+    const double spread = core::standard_deviation(of_chains, core::mean(of_chains));
     worst = std::max(worst, 2.0 * spread / std::sqrt(static_cast<double>(of_chains.size())));
   }
   return worst;
@@ -256,8 +245,8 @@ core::Result<void> guard_reading(const FormChains& chains, const UncertaintyResu
   std::vector<double> read = all_of(chains, &ChainValues::read_mm);
   std::erase_if(read, [](double value) { return !std::isfinite(value); });
   if (read.size() < 8) return {};
-  const double mean = mean_of(read);
-  const double spread = spread_of(read, mean);
+  const double mean = core::mean(read);
+  const double spread = core::standard_deviation(read, mean);
   if (std::abs(found.uncorrected_mm - mean) <= kReadLimit * spread + 1e-6) return {};
   return void_interval(
       Code::kInconsistent,
@@ -322,8 +311,8 @@ core::Result<std::vector<BudgetLine>> budget_of(const FormChains& chains, const 
     BudgetLine line;
     line.name = errors.names()[k];
     if (!changes.empty()) {
-      line.shift_mm = mean_of(changes);
-      line.standard_uncertainty_mm = spread_of(changes, line.shift_mm);
+      line.shift_mm = core::mean(changes);
+      line.standard_uncertainty_mm = core::standard_deviation(changes, line.shift_mm);
     }
     budget.push_back(line);
   }
@@ -334,8 +323,8 @@ core::Result<std::vector<BudgetLine>> budget_of(const FormChains& chains, const 
     BudgetLine line;
     line.name = "sampling";
     line.measurand = Measurand::kWholeSurface;
-    line.shift_mm = mean_of(loss);
-    line.standard_uncertainty_mm = spread_of(loss, line.shift_mm);
+    line.shift_mm = core::mean(loss);
+    line.standard_uncertainty_mm = core::standard_deviation(loss, line.shift_mm);
     budget.push_back(line);
   }
   share_out(budget);
@@ -407,7 +396,7 @@ tl::unexpected<core::Error> only_bounds(const FormCloud& cloud, const Influences
     const FormModel lowest(cloud, errors, nullptr, options.expected_spots);
     FormChains chains(cloud, errors, lowest, std::nullopt, options.seed, 1, 1);
     chains.run(200, 0);
-    const double low = mean_of(chains.values().front().sampled_mm);
+    const double low = core::mean(chains.values().front().sampled_mm);
     why = fmt::format("{}; the value lies between {:.2f} and {:.2f} um, without a probability", why,
                       1e3 * std::min(low, chains.uncorrected_mm()), 1e3 * chains.uncorrected_mm());
   }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/text/length_word.h"
+#include "core/units.h"
 
 namespace rondure::app {
 namespace {
@@ -13,19 +13,19 @@ using reports::PredictedStatement;
 
 ordered_json statement_json(const std::optional<PredictedStatement>& said) {
   if (!said) return nullptr;
-  return {{"expected_um", um(said->expected_mm)},
-          {"below_um", um(said->below_mm)},
-          {"above_um", um(said->above_mm)},
-          {"width_um", um(said->width_mm())},
-          {"expanded_um", um(said->expanded_mm())},
-          {"nine_of_ten_expanded_um", um(said->nine_of_ten_expanded_mm())}};
+  return {{"expected_um", core::micrometres(said->expected_mm)},
+          {"below_um", core::micrometres(said->below_mm)},
+          {"above_um", core::micrometres(said->above_mm)},
+          {"width_um", core::micrometres(said->width_mm())},
+          {"expanded_um", core::micrometres(said->expanded_mm())},
+          {"nine_of_ten_expanded_um", core::micrometres(said->nine_of_ten_expanded_mm())}};
 }
 
 ordered_json budget_json(const reports::BudgetLine& line) {
   return {{"name", line.name},
           {"measurand", reports::name_of(line.measurand)},
-          {"standard_uncertainty_um", um(line.standard_uncertainty_mm)},
-          {"shift_um", um(line.shift_mm)},
+          {"standard_uncertainty_um", core::micrometres(line.standard_uncertainty_mm)},
+          {"shift_um", core::micrometres(line.shift_mm)},
           {"share", line.share_1}};
 }
 
@@ -39,8 +39,8 @@ ordered_json candidate_json(const SamplingCandidate& c) {
   }
   out["touches"] = c.touches;
   out["time_s"] = c.time_s;
-  out["expanded_um"] = um(c.expanded_mm);
-  out["nine_of_ten_expanded_um"] = um(c.nine_of_ten_expanded_mm);
+  out["expanded_um"] = core::micrometres(c.expanded_mm);
+  out["nine_of_ten_expanded_um"] = core::micrometres(c.nine_of_ten_expanded_mm);
   out["meets"] = c.meets;
   return out;
 }
@@ -93,7 +93,7 @@ ordered_json search_json(const plans::Plan& plan, const std::vector<SamplingSear
     for (const auto& c : of.candidates) one["candidates"].push_back(candidate_json(c));
     features.push_back(std::move(one));
   }
-  return {{"expanded_um", um(target_mm)}, {"features", features}};
+  return {{"expanded_um", core::micrometres(target_mm)}, {"features", features}};
 }
 
 }  // namespace rondure::app

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/text/length_word.h"
+#include "core/statistics.h"
 #include "core/units.h"
 #include "reports/data/contour.h"
 
@@ -33,7 +33,8 @@ std::string head(const fit::ContourStudy& study, const fit::ContourStudyOptions&
 std::string part_lines(const fit::ContourPartResult& part, const std::string& name) {
   const auto line = [](const char* what, const std::vector<double>& curve) {
     return fmt::format("    {:<26} PV {:9.4f} um   RMS {:8.4f} um\n", what,
-                       um(fit::peak_to_valley(curve)), um(fit::rms_of(curve)));
+                       core::micrometres(fit::peak_to_valley(curve)),
+                       core::micrometres(core::root_mean_square(curve)));
   };
   std::string out = fmt::format("  part {}\n", name);
   out += line("t, total", part.pin.contour.error_mm);
@@ -50,10 +51,11 @@ std::string part_lines(const fit::ContourPartResult& part, const std::string& na
                      d.enlarges() ? "enlarges" : "reduces");
   if (part.indirect) {
     out += fmt::format("    indirect: correlation with f {:.4f}, rms difference {:.4f} um\n",
-                       part.indirect->correlation, um(part.indirect->rms_difference_mm));
+                       part.indirect->correlation,
+                       core::micrometres(part.indirect->rms_difference_mm));
   }
   return out + fmt::format("    {:.1f} samples a turn; correlation would turn f by {:.2f} deg\n",
-                           part.axes.samples_per_turn, deg(part.offset.angle_rad));
+                           part.axes.samples_per_turn, core::degrees(part.offset.angle_rad));
 }
 
 std::string stability_line(const char* what, const std::optional<fit::Repeatability>& found,

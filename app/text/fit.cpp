@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/text/length_word.h"
+#include "core/units.h"
 
 namespace rondure::app {
 namespace {
@@ -86,12 +86,13 @@ std::string proof_lines(const FitReference& found) {
 std::string reference_lines(const FitOutcome::Entry& entry) {
   if (!entry.found) return fmt::format("  {}  does not exist for these points\n", entry.title);
   const FitReference& found = *entry.found;
-  std::string out = fmt::format("  {}  deviation {:.4f} um", entry.title, um(found.deviation_mm));
+  std::string out =
+      fmt::format("  {}  deviation {:.4f} um", entry.title, core::micrometres(found.deviation_mm));
   if (found.range) {
-    out += fmt::format(", not unique: {:.4f} to {:.4f} um", um(found.range->low_mm),
-                       um(found.range->high_mm));
+    out += fmt::format(", not unique: {:.4f} to {:.4f} um", core::micrometres(found.range->low_mm),
+                       core::micrometres(found.range->high_mm));
   }
-  if (found.rms_mm) out += fmt::format(", rms {:.4f} um", um(*found.rms_mm));
+  if (found.rms_mm) out += fmt::format(", rms {:.4f} um", core::micrometres(*found.rms_mm));
   return out + "\n" + place_line(found.place) + radii_line(found) + proof_lines(found);
 }
 

@@ -4,16 +4,11 @@
 #include <string_view>
 
 #include "core/result.h"
-#include "core/units.h"
 
 namespace rondure::app {
 
 /// A length with its unit, as "1um", "0.5 um", "2e-3mm", "800nm", in mm.
 /// @return  kBadOption: no unit, another unit, no number, or not above 0; says what to write.
 [[nodiscard]] core::Result<double> length_from(std::string_view word);
-
-/// Lengths in um and angles in degrees, as tables and JSON give them.
-[[nodiscard]] inline double um(double mm) { return mm / core::kMicrometre; }
-[[nodiscard]] inline double deg(double rad) { return rad / core::kDegree; }
 
 }  // namespace rondure::app

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/text/forecast.h"
-#include "app/text/length_word.h"
+#include "core/units.h"
 #include "reports/stated_value.h"
 
 namespace rondure::app {
@@ -40,10 +40,11 @@ std::string statement_row(const std::optional<PredictedStatement>& said) {
   if (!said) return {};
   const int digits = reports::decimals_for(said->expanded_mm());
   return fmt::format("    {:<24} {:>8.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f}\n",
-                     reports::name_of(said->measurand), um(said->expected_mm), digits,
-                     um(said->below_mm), digits, um(said->above_mm), digits, um(said->width_mm()),
-                     digits, um(said->expanded_mm()), digits, um(said->nine_of_ten_expanded_mm()),
-                     digits);
+                     reports::name_of(said->measurand), core::micrometres(said->expected_mm),
+                     digits, core::micrometres(said->below_mm), digits,
+                     core::micrometres(said->above_mm), digits, core::micrometres(said->width_mm()),
+                     digits, core::micrometres(said->expanded_mm()), digits,
+                     core::micrometres(said->nine_of_ten_expanded_mm()), digits);
 }
 
 std::string characteristic_rows(const plans::Plan& plan, const PredictedCharacteristic& of) {
@@ -119,15 +120,16 @@ std::string candidate_row(const SamplingCandidate& c, const SamplingSearch& of, 
         c.missing.empty() ? "out of reach" : "without an interval that the plan has");
   }
   return fmt::format("  {:<20} {:>7} {:>8} {:>9} {:>8.3g} {:>8.3g}  {}\n", layout, s.repeats,
-                     c.touches, clock_text(c.time_s), um(c.expanded_mm),
-                     um(c.nine_of_ten_expanded_mm),
+                     c.touches, clock_text(c.time_s), core::micrometres(c.expanded_mm),
+                     core::micrometres(c.nine_of_ten_expanded_mm),
                      best ? "meets, cheapest" : (c.meets ? "meets" : "no"));
 }
 
 std::string advice(const SamplingSearch& of, double target_mm) {
   if (!of.best) {
-    std::string text = fmt::format(
-        "No sampling that was tried meets {:.6g} um. What limits the smallest U", um(target_mm));
+    std::string text =
+        fmt::format("No sampling that was tried meets {:.6g} um. What limits the smallest U",
+                    core::micrometres(target_mm));
     text += of.limit.empty() ? ": nothing that is declared." : ": " + of.limit + ".";
     return wrapped(text, "  ", "  ");
   }
@@ -180,7 +182,8 @@ std::string search_table(const plans::Plan& plan, const std::vector<SamplingSear
   std::string out;
   for (const SamplingSearch& of : searches) {
     out += fmt::format("\nSamplings of {} for U of at most {:.6g} um {}\n",
-                       plan.features[of.feature].id, um(target_mm), reports::name_of(of.measurand));
+                       plan.features[of.feature].id, core::micrometres(target_mm),
+                       reports::name_of(of.measurand));
     if (!of.why.empty()) {
       out += wrapped("none: " + of.why, "  ", "  ");
       continue;

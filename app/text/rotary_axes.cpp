@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/text/length_word.h"
+#include "core/units.h"
 
 namespace rondure::app {
 namespace {
@@ -54,7 +54,7 @@ Vector3d point_u_mm(const RotaryFacts& facts, const fit::Matrix6& covariance, do
 }
 
 Json station_json(const RotaryFacts& facts, const fit::RotaryStation& s) {
-  Json out = {{"station_deg", deg(s.angle_rad)}, {"direction", name_of(s.approach)}};
+  Json out = {{"station_deg", core::degrees(s.angle_rad)}, {"direction", name_of(s.approach)}};
   out["undetermined"] = s.undetermined;
   if (s.undetermined) return out;
   const fit::Vector6 u = s.errors.sigma();
@@ -87,7 +87,7 @@ Json offset_json(const fit::AxisOffset& o) {
           {"c_um", um_list(o.c_mm)},
           {"c_urad", urad_list(o.c_rad)},
           {"zero_point_urad", urad(o.zero_point_rad)},
-          {"arc_deg", deg(o.arc_rad)},
+          {"arc_deg", core::degrees(o.arc_rad)},
           {"arc_factor", o.arc_factor},
           {"point_mm", list(o.axis.origin_mm)},
           {"direction", list(o.axis.direction)}};
@@ -105,7 +105,7 @@ Json curve_json(const RotaryFacts& facts) {
     const auto at = facts.model->at(angle);
     if (!at) continue;
     const fit::Vector6 u = at->sigma();
-    out.push_back({{"angle_deg", deg(angle)},
+    out.push_back({{"angle_deg", core::degrees(angle)},
                    {"t_um", um_list(at->t_mm)},
                    {"w_urad", urad_list(at->w_rad)},
                    {"u_t_um", um_list(u.head<3>())},
@@ -121,13 +121,13 @@ Json axis_json(const RotaryFacts& facts) {
   out["axis"] = facts.name;
   out["direction"] = list(study.table.axis.direction);
   out["origin_mm"] = list(study.table.axis.origin_mm);
-  out["reference_deg"] = deg(study.reference_rad);
+  out["reference_deg"] = core::degrees(study.reference_rad);
   out["reference"] = Json::array();
   for (const fit::BallCentre& ball : study.reference) {
     out["reference"].push_back(
         {{"ball", ball.ball}, {"centre_mm", list(ball.centre_mm)}, {"u_um", um_list(ball.u_mm)}});
   }
-  out["drift_um"] = um(study.drift_mm);
+  out["drift_um"] = core::micrometres(study.drift_mm);
   out["method"] = facts.method;
   out["s0"] = study.s0;
   out["dof"] = study.dof;
@@ -169,7 +169,7 @@ std::string station_lines(const RotaryFacts& facts) {
   fit::Vector6 largest = fit::Vector6::Zero();
   double point = 0.0;
   for (const fit::RotaryStation& s : facts.study.stations) {
-    out += fmt::format("{:10.3f}{:1}", deg(s.angle_rad), name_of(s.approach));
+    out += fmt::format("{:10.3f}{:1}", core::degrees(s.angle_rad), name_of(s.approach));
     if (s.undetermined) {
       out += " undetermined\n";
       continue;
@@ -181,7 +181,7 @@ std::string station_lines(const RotaryFacts& facts) {
   out += fmt::format("  largest u{}\n", six(largest));
   const Vector3d& p = facts.place_mm;
   return out + fmt::format("  at ({:g}, {:g}, {:g}) mm a point is known to {:.2f} um or better\n",
-                           p.x(), p.y(), p.z(), um(point));
+                           p.x(), p.y(), p.z(), core::micrometres(point));
 }
 
 std::string offset_lines(const fit::AxisOffset& o) {
@@ -194,7 +194,7 @@ std::string offset_lines(const fit::AxisOffset& o) {
   return line("axis off by", o.d_mm, o.d_u_mm, 1e3, "um") +
          line("tilted by", o.e_rad, o.e_u_rad, 1e6, "urad") +
          fmt::format("  zero point   {:.2f} urad; arc {:.0f} deg, noise of the split x {:.2f}\n",
-                     urad(o.zero_point_rad), deg(o.arc_rad), o.arc_factor);
+                     urad(o.zero_point_rad), core::degrees(o.arc_rad), o.arc_factor);
 }
 
 /// A warning in lines of at most 78 columns, the later ones indented.
@@ -223,7 +223,7 @@ std::string axis_table(const RotaryFacts& facts) {
                   a.x(), a.y(), a.z(), study.stations.size(), study.reference.size(),
                   study.table.full_circle ? "full circle" : "arc");
   out += fmt::format("  errors relative to {:g} deg, {}; s0 {:.3f} ({} degrees of freedom)\n",
-                     deg(study.reference_rad), facts.method, study.s0, study.dof);
+                     core::degrees(study.reference_rad), facts.method, study.s0, study.dof);
   out += station_lines(facts);
   if (study.offset) out += offset_lines(*study.offset);
   if (study.table.hysteresis_rms.maxCoeff() > 0.0) {

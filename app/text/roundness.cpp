@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/text/fit.h"
-#include "app/text/length_word.h"
+#include "core/units.h"
 
 namespace rondure::app {
 namespace {
@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 std::vector<double> contact_angles(const fit::RoundnessEvaluation& evaluation,
                                    const std::vector<std::size_t>& rows) {
   std::vector<double> out;
-  for (const std::size_t row : rows) out.push_back(deg(evaluation.theta_rad[row]));
+  for (const std::size_t row : rows) out.push_back(core::degrees(evaluation.theta_rad[row]));
   return out;
 }
 
@@ -37,13 +37,15 @@ Json filter_json(const fit::RoundnessEvaluation& evaluation) {
 }
 
 Json value_json(const fit::RoundnessEvaluation& evaluation, const fit::Roundness& value) {
-  Json out = {{"RONt_um", um(value.total_mm)}};
+  Json out = {{"RONt_um", core::micrometres(value.total_mm)}};
   if (value.parameters) {
-    out["RONp_um"] = um(value.parameters->peak_mm);
-    out["RONv_um"] = um(value.parameters->valley_mm);
-    out["RONq_um"] = um(value.parameters->rms_mm);
+    out["RONp_um"] = core::micrometres(value.parameters->peak_mm);
+    out["RONv_um"] = core::micrometres(value.parameters->valley_mm);
+    out["RONq_um"] = core::micrometres(value.parameters->rms_mm);
   }
-  if (value.range) out["RONt_range_um"] = {um(value.range->low_mm), um(value.range->high_mm)};
+  if (value.range)
+    out["RONt_range_um"] = {core::micrometres(value.range->low_mm),
+                            core::micrometres(value.range->high_mm)};
   out["center_mm"] = {value.center_mm.x(), value.center_mm.y()};
   out["radius_mm"] = value.radius_mm;
   if (value.reference == fit::CircleReference::kLs) return out;
@@ -58,9 +60,9 @@ Json value_json(const fit::RoundnessEvaluation& evaluation, const fit::Roundness
 Json harmonics_json(const fit::HarmonicTable& table) {
   Json out = Json::array();
   for (const fit::Harmonic& h : table.harmonics) {
-    Json row = {{"upr", h.number}, {"amplitude_um", um(h.amplitude_mm)}};
-    row["phase_deg"] = h.phase_rad ? Json(deg(*h.phase_rad)) : Json(nullptr);
-    row["crest_deg"] = h.crest_rad() ? Json(deg(*h.crest_rad())) : Json(nullptr);
+    Json row = {{"upr", h.number}, {"amplitude_um", core::micrometres(h.amplitude_mm)}};
+    row["phase_deg"] = h.phase_rad ? Json(core::degrees(*h.phase_rad)) : Json(nullptr);
+    row["crest_deg"] = h.crest_rad() ? Json(core::degrees(*h.crest_rad())) : Json(nullptr);
     out.push_back(std::move(row));
   }
   return out;
@@ -81,7 +83,7 @@ std::string filter_line(const fit::RoundnessEvaluation& evaluation) {
     out += fmt::format(", {} iterations", evaluation.filter_iterations);
   if (evaluation.interpolated) {
     out += fmt::format("\n  resampled {} values by a periodic cubic spline, error about {:.2g} um",
-                       evaluation.samples, um(evaluation.resampling_error_mm));
+                       evaluation.samples, core::micrometres(evaluation.resampling_error_mm));
   }
   return out + "\n";
 }
@@ -98,18 +100,20 @@ std::string value_lines(const fit::RoundnessEvaluation& evaluation, const fit::R
   std::transform(name.begin(), name.end(), name.begin(), [](char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   });
-  std::string out = fmt::format("  {}CI  RONt {:.4f} um", name, um(value.total_mm));
+  std::string out = fmt::format("  {}CI  RONt {:.4f} um", name, core::micrometres(value.total_mm));
   if (value.parameters) {
     out += fmt::format(", RONp {:.4f} um, RONv {:.4f} um, RONq {:.4f} um",
-                       um(value.parameters->peak_mm), um(value.parameters->valley_mm),
-                       um(value.parameters->rms_mm));
+                       core::micrometres(value.parameters->peak_mm),
+                       core::micrometres(value.parameters->valley_mm),
+                       core::micrometres(value.parameters->rms_mm));
   }
   if (value.range) {
-    out += fmt::format(", not unique: {:.4f} to {:.4f} um", um(value.range->low_mm),
-                       um(value.range->high_mm));
+    out += fmt::format(", not unique: {:.4f} to {:.4f} um", core::micrometres(value.range->low_mm),
+                       core::micrometres(value.range->high_mm));
   }
-  out += polar ? fmt::format("\n    centre off by ({:.4f}, {:.4f}) um\n", um(value.center_mm.x()),
-                             um(value.center_mm.y()))
+  out += polar ? fmt::format("\n    centre off by ({:.4f}, {:.4f}) um\n",
+                             core::micrometres(value.center_mm.x()),
+                             core::micrometres(value.center_mm.y()))
                : fmt::format("\n    centre ({:.6f}, {:.6f}) mm, radius {:.6f} mm\n",
                              value.center_mm.x(), value.center_mm.y(), value.radius_mm);
   if (value.reference == fit::CircleReference::kLs) return out;
@@ -129,7 +133,7 @@ std::string harmonic_lines(const fit::HarmonicTable& table) {
   constexpr double kLeastUm = 5e-5;
   std::vector<fit::Harmonic> form;
   for (const fit::Harmonic& h : table.harmonics) {
-    if (h.number > 1 && um(h.amplitude_mm) >= kLeastUm) form.push_back(h);
+    if (h.number > 1 && core::micrometres(h.amplitude_mm) >= kLeastUm) form.push_back(h);
   }
   if (form.empty()) return {};
   std::stable_sort(form.begin(), form.end(),
@@ -142,8 +146,8 @@ std::string harmonic_lines(const fit::HarmonicTable& table) {
       "deg\n",
       form.size(), table.harmonics.back().number);
   for (const fit::Harmonic& h : form) {
-    out += fmt::format("    {:3d}  {:12.4f}  {:>9}\n", h.number, um(h.amplitude_mm),
-                       h.phase_rad ? fmt::format("{:.3f}", deg(*h.phase_rad)) : "-");
+    out += fmt::format("    {:3d}  {:12.4f}  {:>9}\n", h.number, core::micrometres(h.amplitude_mm),
+                       h.phase_rad ? fmt::format("{:.3f}", core::degrees(*h.phase_rad)) : "-");
   }
   return out;
 }
@@ -157,7 +161,7 @@ nlohmann::ordered_json roundness_json(const fit::RoundnessEvaluation& evaluation
               {"filter", filter_json(evaluation)},
               {"samples", evaluation.samples}};
   out["resampling"] = {{"method", evaluation.interpolated ? "periodic cubic spline" : "none"},
-                       {"error_um", um(evaluation.resampling_error_mm)}};
+                       {"error_um", core::micrometres(evaluation.resampling_error_mm)}};
   for (const fit::Roundness& value : evaluation.values) {
     out[std::string(fit::name_of(value.reference))] = value_json(evaluation, value);
   }

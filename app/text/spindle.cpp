@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/text/length_word.h"
+#include "core/units.h"
 
 namespace rondure::app {
 namespace {
@@ -19,10 +19,11 @@ std::string harmonic_lines(const fit::ThreeProbeResult& s) {
   std::string out = "   UPR  amplitude um   phase deg       u um    gain  |G|\n";
   for (const fit::RecoveredHarmonic& h : s.harmonics) {
     out += fmt::format("  {:4}  ", h.order);
-    out += h.recovered ? fmt::format("{:12.5f}  {:>10}  {:9.5f}", um(h.amplitude_mm),
-                                     h.phase_rad ? fmt::format("{:.3f}", deg(*h.phase_rad)) : "-",
-                                     um(h.sigma_mm))
-                       : fmt::format("{:>12}  {:>10}  {:>9}", "lost", "-", "-");
+    out += h.recovered
+               ? fmt::format("{:12.5f}  {:>10}  {:9.5f}", core::micrometres(h.amplitude_mm),
+                             h.phase_rad ? fmt::format("{:.3f}", core::degrees(*h.phase_rad)) : "-",
+                             core::micrometres(h.sigma_mm))
+               : fmt::format("{:>12}  {:>10}  {:>9}", "lost", "-", "-");
     out += fmt::format("  {:6.2f}  {:.4f}\n", h.gain, h.transfer);
   }
   return out;
@@ -30,10 +31,10 @@ std::string harmonic_lines(const fit::ThreeProbeResult& s) {
 
 std::string motion_line(const char* name, const fit::AxisMotion& m) {
   return fmt::format("  motion {}  total {:.4f} um, synchronous {:.4f} um{}\n", name,
-                     um(m.total_mm), um(m.synchronous_mm),
-                     m.asynchronous_mm
-                         ? fmt::format(", asynchronous {:.4f} um", um(*m.asynchronous_mm))
-                         : std::string());
+                     core::micrometres(m.total_mm), core::micrometres(m.synchronous_mm),
+                     m.asynchronous_mm ? fmt::format(", asynchronous {:.4f} um",
+                                                     core::micrometres(*m.asynchronous_mm))
+                                       : std::string());
 }
 
 /// A layout with its name, for comparison.
@@ -51,7 +52,8 @@ std::array<NamedLayout, 3> known_layouts() {
 /// P2 and P3 from P1 in -180..180 deg.
 std::array<double, 2> places_deg(const fit::ProbeLayout& layout) {
   const auto angles = layout.angles_rad();
-  return {std::remainder(deg(angles[1]), 360.0), std::remainder(deg(angles[2]), 360.0)};
+  return {std::remainder(core::degrees(angles[1]), 360.0),
+          std::remainder(core::degrees(angles[2]), 360.0)};
 }
 
 double rms_gain(const fit::ProbeLayout& layout, const fit::LayoutSearch& search) {
@@ -66,7 +68,7 @@ Json layout_json(const fit::ProbeLayout& layout, const fit::LayoutSearch& search
   const fit::WorstGain worst = fit::worst_gain(layout, search.first, search.last);
   return {{"p1_to_p2_deg", places[0]},
           {"p1_to_p3_deg", places[1]},
-          {"p2_to_p3_deg", deg(layout.phi3_rad())},
+          {"p2_to_p3_deg", core::degrees(layout.phi3_rad())},
           {"worst_gain", worst.gain},
           {"worst_order", worst.order},
           {"rms_gain", rms_gain(layout, search)},
@@ -104,23 +106,24 @@ std::string spindle_table(const reports::SpindleFacts& facts) {
   out += fmt::format("  probes    P1 0, P2 {:.4f}, P3 {:.4f} deg; weights 1, {:.6f}, {:.6f}\n",
                      places[0], places[1], s.layout.weights()[1], s.layout.weights()[2]);
   for (const fit::Roundness& value : facts.roundness.values) {
-    out += fmt::format(
-        "  part      RONt {} {:.4f} um{}\n", fit::name_of(value.reference), um(value.total_mm),
-        value.parameters ? fmt::format("  RONq {:.4f} um", um(value.parameters->rms_mm))
-                         : std::string());
+    out += fmt::format("  part      RONt {} {:.4f} um{}\n", fit::name_of(value.reference),
+                       core::micrometres(value.total_mm),
+                       value.parameters ? fmt::format("  RONq {:.4f} um",
+                                                      core::micrometres(value.parameters->rms_mm))
+                                        : std::string());
   }
   out += motion_line("X", facts.x) + motion_line("Y", facts.y);
   out += fmt::format("  eccentricity {:.4f} um at {:.2f} deg, taken out of the motion\n",
-                     um(s.eccentricity_mm), deg(s.eccentricity_rad));
+                     core::micrometres(s.eccentricity_mm), core::degrees(s.eccentricity_rad));
   out += fmt::format("  noise     {:.5f} um a reading ({}); profile known to {:.5f} um rms\n",
-                     um(s.noise_mm), s.noise_estimated ? "estimated" : "stated",
-                     um(s.profile_sigma_mm));
+                     core::micrometres(s.noise_mm), s.noise_estimated ? "estimated" : "stated",
+                     core::micrometres(s.profile_sigma_mm));
   out += fmt::format(
-      "  check     {:.5f} um at one undulation, limit {:.5f} um; {}\n", um(s.first_harmonic_mm),
-      um(s.first_harmonic_limit_mm),
+      "  check     {:.5f} um at one undulation, limit {:.5f} um; {}\n",
+      core::micrometres(s.first_harmonic_mm), core::micrometres(s.first_harmonic_limit_mm),
       s.least_error_shown < 0.1
           ? fmt::format("shows a probe gain from {:.2g} % off, an angle from {:.2g} deg",
-                        100.0 * s.least_error_shown, deg(s.least_error_shown))
+                        100.0 * s.least_error_shown, core::degrees(s.least_error_shown))
           : std::string("blind to gains and angles: mount 5 to 20 um off centre"));
   for (const auto* warnings : {&s.warnings, &facts.roundness.warnings}) {
     for (const core::Error& w : *warnings) out += fmt::format("  warning   {}\n", core::to_line(w));

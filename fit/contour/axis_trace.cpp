@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/statistics.h"
 #include "core/units.h"
-#include "fit/profiles/internal/dft.h"
 #include "fit/geometry/periodic_spline.h"
+#include "fit/profiles/internal/dft.h"
 
 namespace rondure::fit {
 namespace {
@@ -202,8 +202,7 @@ void warn_of_units(AxisTurn& turn) {
   };
   const double x = greatest(turn.errors.x_mm);
   const double c = greatest(turn.errors.c_rad);
-  const double mean = std::accumulate(turn.errors.x_mm.begin(), turn.errors.x_mm.end(), 0.0) /
-                      static_cast<double>(turn.errors.x_mm.size());
+  const double mean = core::mean(turn.errors.x_mm);
   const auto warn = [&](std::string what) {
     turn.warnings.push_back({core::Code::kUnits, std::move(what), {}});
   };

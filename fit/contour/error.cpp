@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/statistics.h"
 #include "core/units.h"
+#include "fit/geometry/periodic_spline.h"
+#include "fit/least_squares/circle.h"
 #include "fit/profiles/closed_profile.h"
 #include "fit/profiles/internal/dft.h"
-#include "fit/least_squares/circle.h"
-#include "fit/geometry/periodic_spline.h"
 
 namespace rondure::fit {
 namespace {
@@ -71,8 +71,7 @@ core::Result<void> take_circle(ContourError& out, double nominal_mm) {
   if (!ordered) return core::fail(ordered.error());
   const PeriodicSpline spline(ordered->theta_rad, ordered->r_mm);
   for (std::size_t m = 0; m < n; ++m) out.error_mm[m] = spline(angle_of(m, n));
-  const double mean =
-      std::accumulate(out.error_mm.begin(), out.error_mm.end(), 0.0) / static_cast<double>(n);
+  const double mean = core::mean(out.error_mm);
   for (double& v : out.error_mm) v -= mean;
   return {};
 }
@@ -95,12 +94,6 @@ double peak_to_valley(std::span<const double> curve) {
   return *high - *low;
 }
 
-double rms_of(std::span<const double> curve) {
-  if (curve.empty()) return 0.0;
-  const double sum = std::inner_product(curve.begin(), curve.end(), curve.begin(), 0.0);
-  return std::sqrt(sum / static_cast<double>(curve.size()));
-}
-
 core::Result<ContourError> contour_error(std::span<const double> deviation_mm, double nominal_mm,
                                          const ContourErrorOptions& options) {
   if (auto checked = check_values(deviation_mm); !checked) return core::fail(checked.error());
@@ -117,7 +110,7 @@ core::Result<ContourError> contour_error(std::span<const double> deviation_mm, d
     out.error_mm = std::move(filtered->r_mm);
   }
   out.peak_to_valley_mm = peak_to_valley(out.error_mm);
-  out.rms_mm = rms_of(out.error_mm);
+  out.rms_mm = core::root_mean_square(out.error_mm);
   return out;
 }
 

@@ -40,9 +40,8 @@ struct ContourError {
   [[nodiscard]] double valley_rad() const;
 };
 
-/// Peak to valley and root mean square of a curve; 0 for an empty one.
+/// Peak to valley of a curve; 0 for an empty one.
 [[nodiscard]] double peak_to_valley(std::span<const double> curve);
-[[nodiscard]] double rms_of(std::span<const double> curve);
 
 /// Takes base circle and filter off a contour.
 ///

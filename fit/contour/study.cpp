@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/statistics.h"
 #include "fit/profiles/internal/dft.h"
 
 namespace rondure::fit {
@@ -77,7 +78,7 @@ core::Result<void> check_positions(const AxisTurn& axes, const CrankGeometry& ge
   double mean = 0.0;
   for (std::size_t i = 0; i < n; ++i) mean += (axes.x_mm[i] - ideal[i]) / static_cast<double>(n);
   for (std::size_t i = 0; i < n; ++i) ideal[i] = axes.x_mm[i] - ideal[i] - mean;
-  const double off = rms_of(ideal);
+  const double off = core::root_mean_square(ideal);
   if (std::abs(stroke - expected) <= kStrokeLimit && off <= kPositionLimit) return {};
   // d = R cos(alpha) + Lc - R^2/(4 Lc) (1 - cos(2 alpha)) ...: the first harmonic holds crank
   // radius and zero, the second one R^2/Lc.
@@ -137,7 +138,8 @@ IndirectSeparation indirect(const ContourPartResult& part, const ContourStudyOpt
   }
   const auto& direct = part.following.error_mm;
   out.correlation = correlation_of(out.following_mm, direct);
-  out.rms_difference_mm = rms_of(separate_contour(out.following_mm, direct).rest_mm);
+  out.rms_difference_mm =
+      core::root_mean_square(separate_contour(out.following_mm, direct).rest_mm);
   return out;
 }
 

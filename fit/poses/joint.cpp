@@ -9,8 +9,9 @@
 
 #include "core/decompositions.h"
 #include "core/noise.h"
-#include "fit/least_squares/cylinder.h"
+#include "core/statistics.h"
 #include "fit/geometry/points.h"
+#include "fit/least_squares/cylinder.h"
 #include "fit/poses/internal/joint_model.h"
 #include "fit/zone/fit.h"
 
@@ -162,10 +163,9 @@ void set_chi2(const Eigen::VectorXd& z, const Eigen::MatrixXd& unit, PoseJoint& 
     joint.chi2 += along * along / value;
     ++joint.chi2_freedom;
   }
-  // Wilson and Hilferty: the cube root of chi2 / f is nearly normal; 3.0902 is its 0.999 quantile.
-  const double f = joint.chi2_freedom;
-  if (f > 0.0)
-    joint.chi2_limit = f * std::pow(1.0 - 2.0 / (9.0 * f) + 3.0902 * std::sqrt(2.0 / (9.0 * f)), 3);
+  if (joint.chi2_freedom > 0) {
+    joint.chi2_limit = core::chi_square_quantile(0.999, joint.chi2_freedom);
+  }
 }
 
 /// Root mean square change of CYLt when the poses differ by draws with this square root of a

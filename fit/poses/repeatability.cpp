@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
+#include "core/statistics.h"
 #include "fit/contour/error.h"
 #include "fit/contour/separation.h"
 
@@ -47,7 +47,7 @@ void compare_places(std::span<const std::vector<double>> curves, Repeatability& 
     out.spread_curve[m] = std::sqrt(squares / (parts - 1.0));
     sum += squares;
   }
-  out.mean_rms = rms_of(out.mean_curve);
+  out.mean_rms = core::root_mean_square(out.mean_curve);
   out.spread = std::sqrt(sum / ((parts - 1.0) * static_cast<double>(places)));
   const double repeating = out.mean_rms * out.mean_rms - out.spread * out.spread / parts;
   const double all = repeating + out.spread * out.spread;
@@ -57,15 +57,11 @@ void compare_places(std::span<const std::vector<double>> curves, Repeatability& 
 void compare_sizes(std::span<const std::vector<double>> curves, Repeatability& out) {
   for (const auto& curve : curves) {
     out.peak_to_valley.push_back(peak_to_valley(curve));
-    out.rms.push_back(rms_of(curve));
+    out.rms.push_back(core::root_mean_square(curve));
   }
-  const auto parts = static_cast<double>(curves.size());
-  const double mean =
-      std::accumulate(out.peak_to_valley.begin(), out.peak_to_valley.end(), 0.0) / parts;
+  const double mean = core::mean(out.peak_to_valley);
   if (mean <= 0.0) return;
-  double squares = 0.0;
-  for (const double value : out.peak_to_valley) squares += std::pow(value - mean, 2);
-  out.variation = std::sqrt(squares / (parts - 1.0)) / mean;
+  out.variation = core::standard_deviation(out.peak_to_valley, mean) / mean;
 }
 
 void correlate(std::span<const std::vector<double>> curves, Repeatability& out) {

@@ -9,9 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "core/statistics.h"
 #include "core/units.h"
-#include "fit/profiles/internal/dft.h"
 #include "fit/geometry/periodic_spline.h"
+#include "fit/profiles/internal/dft.h"
 #include "fit/spindle/internal/three_probe_parts.h"
 
 namespace rondure::fit {
@@ -102,14 +103,12 @@ LoneReading against_neighbours(std::span<const double> h, std::span<const double
 
 /// Standard deviation of the scores: by the greater of their median and their 95 % quantile, so
 /// that heavy tails and undulations near the limit of the sampling do not all seem gross.
-double scale_of(std::vector<double> distances) {
+double scale_of(const std::vector<double>& distances) {
   const auto quantile = [&](double share) {
-    const auto at = distances.begin() +
-                    static_cast<std::ptrdiff_t>(share * static_cast<double>(distances.size() - 1));
-    std::nth_element(distances.begin(), at, distances.end());
-    return *at;
+    return core::order_statistic(
+        distances, static_cast<std::size_t>(share * static_cast<double>(distances.size() - 1)));
   };
-  return std::max(1.4826 * quantile(0.5), quantile(0.95) / 1.96);
+  return std::max(core::kSigmaPerMedianDeviation * quantile(0.5), quantile(0.95) / 1.96);
 }
 
 /// Rows of one probe beyond the limit, the largest first.
@@ -227,9 +226,7 @@ std::optional<double> estimated_noise_mm(const ProbeSamples& samples, const Spec
   if (power.empty()) return std::nullopt;
   // The median, so that chatter in some of them is not taken for noise; of chi square with two
   // degrees it is ln 2 of the mean.
-  const auto middle = power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2);
-  std::nth_element(power.begin(), middle, power.end());
-  return noise_of(*middle / std::numbers::ln2, samples, layout);
+  return noise_of(core::upper_median(std::move(power)) / std::numbers::ln2, samples, layout);
 }
 
 void find_contradictions(const ProbeReadings& readings, const ProbeSamples& samples,

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "core/statistics.h"
 #include "core/units.h"
-#include "fit/wheel/spread.h"
 
 namespace rondure::fit {
 namespace {
@@ -53,13 +54,14 @@ void fill_deviations(std::span<const Eigen::Vector2d> points_mm, const OutlierOp
                      Outliers& out) {
   for (const Eigen::Vector2d& p : points_mm)
     out.deviations_mm.push_back((p - out.center_mm).norm());
-  const double middle = median(out.deviations_mm);
+  const double middle = core::median(out.deviations_mm);
   std::vector<double> sizes;
   for (double& d : out.deviations_mm) {
     d -= middle;
     sizes.push_back(std::abs(d));
   }
-  out.scale_mm = std::max(1.4826 * median(std::move(sizes)), options.least_scale_mm);
+  out.scale_mm = std::max(core::kSigmaPerMedianDeviation * core::median(std::move(sizes)),
+                          options.least_scale_mm);
 }
 
 core::Result<void> check_count(const Outliers& out, std::size_t n) {
@@ -90,7 +92,7 @@ core::Result<Outliers> find_outliers(std::span<const Eigen::Vector2d> points_mm,
     z.push_back(c.center_mm.y());
   }
   Outliers out;
-  out.center_mm = {median(std::move(x)), median(std::move(z))};
+  out.center_mm = {core::median(std::move(x)), core::median(std::move(z))};
   fill_deviations(points_mm, options, out);
   const AngularOrder order = angular_order(points_mm, out.center_mm);
   std::vector<std::size_t> flagged;

@@ -77,11 +77,4 @@ double correlation_time(std::span<const double> residuals, bool closed) {
   return tau;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  if (values.size() % 2 == 1) return values[half];
-  return 0.5 * (values[half - 1] + values[half]);
-}
-
 }  // namespace rondure::fit

@@ -37,7 +37,4 @@ struct CircleFactors {
 /// @param closed  Whether the last is a neighbour of the first.
 [[nodiscard]] double correlation_time(std::span<const double> residuals, bool closed);
 
-/// Middle of sorted values, or the mean of the two middle ones. n >= 1.
-[[nodiscard]] double median(std::vector<double> values);
-
 }  // namespace rondure::fit

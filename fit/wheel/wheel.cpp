@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/statistics.h"
 #include "fit/geometry/points.h"
 
 namespace rondure::fit {
@@ -163,7 +164,7 @@ void fill_circle(const Points& used, WheelMeasurement& out) {
   const auto n = static_cast<double>(used.size());
   std::vector<double> distances;
   for (const auto& p : used) distances.push_back((p - out.center_mm).norm());
-  out.radius_mm = std::accumulate(distances.begin(), distances.end(), 0.0) / n;
+  out.radius_mm = core::mean(distances);
   const auto [low, high] = std::minmax_element(distances.begin(), distances.end());
   out.deviation_mm = *high - *low;
   out.order = angular_order(used, out.center_mm);

@@ -7,7 +7,6 @@
 
 #include "core/numbers.h"
 #include "record/csv/internal/lines.h"
-#include "record/csv/series.h"
 
 namespace rondure::record {
 namespace {
@@ -30,27 +29,16 @@ std::optional<std::size_t> index_of(std::string_view column) {
   return static_cast<std::size_t>(at - kColumns.begin());
 }
 
-core::Error unknown_column(std::string_view field) {
-  for (const std::string_view column : kColumns) {
-    if (field == column || unit_of_column(column).empty() || stem_of(field) != stem_of(column))
-      continue;
-    return {Code::kWrongUnit,
-            fmt::format("column {} is not in {}; give {}: all centres are in mm and all "
-                        "uncertainties in um",
-                        quoted_text(field), unit_of_column(column), column),
-            {}};
-  }
-  return syntax_error(fmt::format("column {} is unknown; the first line must name the columns {}",
-                                  quoted_text(field), kColumnList));
-}
-
 core::Result<Places> read_header(std::string_view line) {
   if (auto foreign = foreign_format(line)) return core::fail(*std::move(foreign));
   Places out;
   const auto fields = split_fields(line);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const auto column = index_of(fields[i]);
-    if (!column) return core::fail(unknown_column(fields[i]));
+    if (!column) {
+      return core::fail(unknown_column(fields[i], kColumns, kColumnList,
+                                       ": all centres are in mm and all uncertainties in um"));
+    }
     if (out[*column]) {
       return core::fail(syntax_error(fmt::format("column {} stands twice", fields[i])));
     }
@@ -151,37 +139,28 @@ core::Result<BallRow> read_row(std::string_view line, const Places& places, std:
 }  // namespace
 
 core::Result<std::vector<BallRow>> parse_ball_csv(std::string_view text, std::string_view name) {
-  CsvLines lines(without_byte_order_mark(text));
-  const auto here = [&] {
-    return fmt::format("{}:{}", name, std::max<std::size_t>(lines.number(), 1));
-  };
-  if (is_utf16(text)) {
-    return core::fail(Code::kSyntax, "the file is saved as UTF-16; save it as UTF-8", here());
-  }
   std::vector<BallRow> out;
-  std::optional<Places> places;
+  Places places;
   std::size_t columns = 0;
-  while (const auto line = lines.next()) {
-    if (holds_nothing(*line)) continue;
-    if (!places) {
-      auto header = read_header(*line);
-      if (!header) return core::fail(header.error().at(here()));
-      places = *header;
-      columns = split_fields(*line).size();
-      continue;
-    }
-    auto row = read_row(*line, *places, columns);
-    if (!row) return core::fail(row.error().at(here()));
-    row->line = lines.number();
+  const auto header = [&](std::string_view line) -> core::Result<void> {
+    const auto found = read_header(line);
+    if (!found) return core::fail(found.error());
+    places = *found;
+    columns = split_fields(line).size();
+    return {};
+  };
+  const auto add = [&](std::string_view line, std::size_t number) -> core::Result<void> {
+    auto row = read_row(line, places, columns);
+    if (!row) return core::fail(row.error());
+    row->line = number;
     out.push_back(*std::move(row));
-  }
-  if (out.empty()) {
-    return core::fail(Code::kNoPoints,
-                      fmt::format("the file holds no rows; a header line {} and a row a ball are "
-                                  "expected",
-                                  kColumnList),
-                      here());
-  }
+    return {};
+  };
+  const auto read = read_table(text, name, header, add, [](bool) {
+    return fmt::format("the file holds no rows; a header line {} and a row a ball are expected",
+                       kColumnList);
+  });
+  if (!read) return core::fail(read.error());
   return out;
 }
 

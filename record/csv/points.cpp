@@ -185,54 +185,45 @@ core::Error explain(std::string_view line, const Columns& columns) {
       fmt::format("{} cannot be read; numbers for {} are expected", quoted_text(line), names));
 }
 
-/// Reads a whole file: `begin(columns)` once, then `row(values, rows to come)` for each
-/// row; rows to come is an estimate at the first row and 0 after it.
-template <class Begin, class Row>
+/// Reads a whole file: `begin(columns)` once, then `add(values, rows to come)` for each row; rows
+/// to come is an estimate at the first row and 0 after it.
+template <class Begin, class Add>
 core::Result<void> parse(std::string_view text, std::string_view name, const Format& format,
-                         const Begin& begin, const Row& row) {
-  text = without_byte_order_mark(text);
-  CsvLines lines(text);
-  const auto here = [&] {
-    return fmt::format("{}:{}", name, std::max<std::size_t>(lines.number(), 1));
-  };
-  if (is_utf16(text)) {
-    return core::fail(core::Code::kSyntax, "the file is saved as UTF-16; save it as UTF-8", here());
-  }
-  auto line = lines.next();
-  while (line && holds_nothing(*line)) line = lines.next();
-  if (!line) {
-    return core::fail(core::Code::kNoPoints,
-                      fmt::format("the file {}; a header line {} and a row a point are expected",
-                                  text.empty() ? "is empty" : "holds only comments and blank lines",
-                                  format.columns),
-                      here());
-  }
-  const auto columns = read_header(*line, format);
-  if (!columns) return core::fail(columns.error().at(here()));
-  begin(*columns);
+                         const Begin& begin, const Add& add) {
+  Columns columns;
   Eigen::Vector3d values = Eigen::Vector3d::Zero();
-  bool any = false;
-  while (lines.bytes_left() > 0) {
-    std::size_t bytes = read_plain_row(lines.rest(), *columns, values);
-    if (bytes > 0) {
-      lines.pass(bytes);
-    } else {
-      line = lines.next();
-      if (holds_nothing(*line)) continue;
-      if (!read_row(*line, *columns, values)) {
-        return core::fail(explain(*line, *columns).at(here()));
-      }
-      bytes = line->size() + 1;
-    }
+  bool first = true;
+  const auto add_row = [&](std::size_t bytes) {
     // Rows are about as long as the first.
-    const std::size_t rows_to_come = any ? 0 : lines.bytes_left() / bytes + 1;
-    any = true;
-    row(values, rows_to_come);
-  }
-  if (any) return {};
-  return core::fail(core::Code::kNoPoints,
-                    "the file holds a header line and no points; a row a point is expected",
-                    here());
+    add(values, std::exchange(first, false) ? text.size() / bytes + 1 : 0);
+  };
+  const auto header = [&](std::string_view line) -> core::Result<void> {
+    const auto found = read_header(line, format);
+    if (!found) return core::fail(found.error());
+    columns = *found;
+    begin(columns);
+    return {};
+  };
+  const auto row = [&](std::string_view line, std::size_t) -> core::Result<void> {
+    if (!read_row(line, columns, values)) return core::fail(explain(line, columns));
+    add_row(line.size() + 1);
+    return {};
+  };
+  const auto plain = [&](std::string_view rest) {
+    const std::size_t bytes = read_plain_row(rest, columns, values);
+    if (bytes > 0) add_row(bytes);
+    return bytes;
+  };
+  const auto no_rows = [&](bool has_header) {
+    if (has_header) {
+      return std::string("the file holds a header line and no points; a row a point is expected");
+    }
+    return fmt::format(
+        "the file {}; a header line {} and a row a point are expected",
+        without_byte_order_mark(text).empty() ? "is empty" : "holds only comments and blank lines",
+        format.columns);
+  };
+  return read_table(text, name, header, row, no_rows, plain);
 }
 
 }  // namespace

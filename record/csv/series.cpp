@@ -15,9 +15,6 @@ namespace {
 
 using core::Code;
 
-constexpr std::array<std::string_view, 14> kUnits = {
-    "um", "mm", "m", "nm", "inch", "deg", "rad", "s", "ms", "rpm", "degC", "V", "mV", "N"};
-
 std::string list_of(std::span<const WantedColumn> wanted) {
   std::string out;
   for (const WantedColumn& column : wanted) {
@@ -33,19 +30,6 @@ std::string_view name_in_file(const WantedColumn& column, std::span<const Column
     if (name.wanted == column.name) return name.in_file;
   }
   return column.name;
-}
-
-/// Why a field of the header that nobody wants is refused.
-core::Error unknown_column(std::string_view field, std::span<const WantedColumn> wanted) {
-  for (const WantedColumn& column : wanted) {
-    const std::string_view unit = unit_of_column(column.name);
-    if (unit.empty() || field == column.name || stem_of(field) != stem_of(column.name)) continue;
-    return {Code::kWrongUnit,
-            fmt::format("column {} is not in {}; give {}", quoted_text(field), unit, column.name),
-            {}};
-  }
-  return syntax_error(fmt::format("column {} is unknown; the first line must name the columns {}",
-                                  quoted_text(field), list_of(wanted)));
 }
 
 /// A table's columns, as the file orders them.
@@ -72,8 +56,11 @@ core::Result<Layout> read_layout(std::string_view line, std::span<const WantedCo
     out.places[static_cast<std::size_t>(found - out.fields.begin())] = out.wanted.size();
     out.wanted.push_back(w);
   }
+  std::vector<std::string_view> known;
+  for (const WantedColumn& column : wanted) known.push_back(column.name);
   for (std::size_t i = 0; i < out.fields.size(); ++i) {
-    if (!out.places[i] && names.empty()) return core::fail(unknown_column(out.fields[i], wanted));
+    if (out.places[i] || !names.empty()) continue;
+    return core::fail(unknown_column(out.fields[i], known, list_of(wanted)));
   }
   for (std::size_t w = 0; w < wanted.size(); ++w) {
     if (!wanted[w].required || std::count(out.wanted.begin(), out.wanted.end(), w) > 0) continue;
@@ -124,58 +111,36 @@ core::Result<void> check_names(std::span<const WantedColumn> wanted,
 
 }  // namespace
 
-std::string_view unit_of_column(std::string_view name) {
-  const std::size_t cut = name.rfind('_');
-  if (cut == std::string_view::npos || cut == 0) return {};
-  const std::string_view unit = name.substr(cut + 1);
-  return std::find(kUnits.begin(), kUnits.end(), unit) == kUnits.end() ? std::string_view() : unit;
-}
-
-std::string_view stem_of(std::string_view name) {
-  const std::string_view unit = unit_of_column(name);
-  return unit.empty() ? name : name.substr(0, name.size() - unit.size() - 1);
-}
-
 core::Result<Series> parse_series_csv(std::string_view text, std::string_view name,
                                       std::span<const WantedColumn> wanted,
                                       std::span<const ColumnName> names) {
   if (auto known = check_names(wanted, names); !known) return core::fail(known.error());
-  CsvLines lines(without_byte_order_mark(text));
-  const auto here = [&] {
-    return fmt::format("{}:{}", name, std::max<std::size_t>(lines.number(), 1));
-  };
-  if (is_utf16(text)) {
-    return core::fail(Code::kSyntax, "the file is saved as UTF-16; save it as UTF-8", here());
-  }
   Series out;
-  std::optional<Layout> layout;
-  while (const auto line = lines.next()) {
-    if (holds_nothing(*line)) continue;
-    if (!layout) {
-      auto found = read_layout(*line, wanted, names);
-      if (!found) return core::fail(found.error().at(here()));
-      layout = *std::move(found);
-      if (layout->wanted.empty()) {
-        return core::fail(
-            syntax_error(fmt::format("none of the columns {} stands in the first line, {}",
-                                     list_of(wanted), quoted_text(*line)))
-                .at(here()));
-      }
-      for (const std::size_t w : layout->wanted) {
-        out.columns.push_back(
-            {std::string(wanted[w].name), std::string(unit_of_column(wanted[w].name))});
-      }
-    } else if (auto row = read_row(*line, *layout, out); !row) {
-      return core::fail(row.error().at(here()));
+  Layout layout;
+  const auto header = [&](std::string_view line) -> core::Result<void> {
+    auto found = read_layout(line, wanted, names);
+    if (!found) return core::fail(found.error());
+    layout = *std::move(found);
+    if (layout.wanted.empty()) {
+      return core::fail(
+          syntax_error(fmt::format("none of the columns {} stands in the first line, {}",
+                                   list_of(wanted), quoted_text(line))));
     }
-  }
-  if (!layout || out.values.empty()) {
-    return core::fail(Code::kNoPoints,
-                      fmt::format("the file holds no rows; a header line {} and a row a sample are "
-                                  "expected",
-                                  list_of(wanted)),
-                      here());
-  }
+    for (const std::size_t w : layout.wanted) {
+      out.columns.push_back(
+          {std::string(wanted[w].name), std::string(unit_of_column(wanted[w].name))});
+    }
+    return {};
+  };
+  const auto read = read_table(
+      text, name, header,
+      [&](std::string_view line, std::size_t) { return read_row(line, layout, out); },
+      [&](bool) {
+        return fmt::format(
+            "the file holds no rows; a header line {} and a row a sample are expected",
+            list_of(wanted));
+      });
+  if (!read) return core::fail(read.error());
   return out;
 }
 

@@ -21,12 +21,6 @@ struct ColumnName {
   std::string in_file;
 };
 
-/// The unit that a column's name ends with ("um" of "H1_um"), or "".
-[[nodiscard]] std::string_view unit_of_column(std::string_view name);
-
-/// The name without its unit ("H1" of "H1_um").
-[[nodiscard]] std::string_view stem_of(std::string_view name);
-
 /// Reads a table of numbers: a header line with the names of the columns, in any order, then a row
 /// a line. Blank lines, `#` comments, CRLF and a byte order mark as in parse_points_csv().
 ///

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/statistics.h"
 #include "core/units.h"
 #include "reports/data/json_parts.h"
 #include "reports/words/language.h"
@@ -39,7 +40,7 @@ Json contour_json(const fit::ContourError& contour) {
 
 Json curve_json(const std::vector<double>& error_mm) {
   return {{"pv_um", in_um(fit::peak_to_valley(error_mm))},
-          {"rms_um", in_um(fit::rms_of(error_mm))},
+          {"rms_um", in_um(core::root_mean_square(error_mm))},
           {"harmonics", harmonics_json(error_mm)}};
 }
 

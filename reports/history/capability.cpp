@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/noise.h"
+#include "core/statistics.h"
 
 namespace rondure::reports {
 namespace {
@@ -65,21 +67,18 @@ double sample_percentile(const std::vector<double>& sorted, double share) {
 
 /// Lower confidence bound of the index of a log-normal model: the 5 % point of its generalised
 /// pivotal quantity. Mean and standard deviation are drawn as the sample leaves them open, sd / sd*
-/// from chi square (Wilson and Hilferty) and the mean from sd* / sqrt(n). Fixed seed, same bits.
+/// from chi square and the mean from sd* / sqrt(n). Fixed seed, same bits.
 double lower_bound(double limit_mm, const Moments& ln, double n) {
   core::KeyedNoise noise(kSeed, {});
   const double freedom = n - 1.0;
-  const double width = 2.0 / (9.0 * freedom);
   std::vector<double> drawn(kDraws);
   for (double& index : drawn) {
-    const double root = std::max(1.0 - width + noise.normal() * std::sqrt(width), 1e-3);
-    const double sd = ln.sd / std::sqrt(root * root * root);
+    const double probability = 0.5 * std::erfc(-noise.normal() / std::sqrt(2.0));
+    const double sd = ln.sd * std::sqrt(freedom / core::chi_square_quantile(probability, freedom));
     const double mean = ln.mean + noise.normal() * sd / std::sqrt(n);
     index = std::expm1(std::log(limit_mm) - mean) / std::expm1(3.0 * sd);
   }
-  const auto at = drawn.begin() + static_cast<std::ptrdiff_t>(kDraws / 20);
-  std::nth_element(drawn.begin(), at, drawn.end());
-  return *at;
+  return core::order_statistic(std::move(drawn), kDraws / 20);
 }
 
 Capability log_normal(const Moments& ln, double n, double limit_mm) {

@@ -1,3 +1,4 @@
+#include "core/statistics.h"
 #include "fit/contour/study.h"
 
 #include <algorithm>
@@ -375,7 +376,7 @@ ContourStudy random_pin(std::uint64_t seed, double rest_share, double turned_rad
       rest[m] += amplitude * std::cos(k * test::turn_angle(m, kPoints) - phase);
     }
   }
-  const double scale = rest_share * following.rms_mm / rms_of(rest);
+  const double scale = rest_share * following.rms_mm / core::root_mean_square(rest);
   for (double& v : rest) v *= scale;
   part.pin = rows_of(turned_curve(sum(following.error_mm, rest), turned_rad));
   ContourStudyOptions options;

@@ -16,9 +16,8 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
-#include "fit/rotary/ball_setup.h"
-#include "fit/chi_square.h"
 #include "fit/published/internal/axes.h"
+#include "fit/rotary/ball_setup.h"
 #include "tests/fit/oracles/dial.h"
 #include "tests/fit/rotary_cases.h"
 #include "tests/fit/spec_cases.h"
@@ -382,15 +381,6 @@ TEST(RotaryStation, RedundancyNumbersAreThoseOfTheSpecification) {
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_LT((station.redundancy[i] - expected[i]).cwiseAbs().maxCoeff(), 0.0051) << i;
   EXPECT_EQ(station.dof, 3);
-}
-
-TEST(ChiSquare, QuantilesAreThoseOfTables) {
-  EXPECT_NEAR(chi_square_quantile(0.999, 3), 16.266236, 1e-5);
-  EXPECT_NEAR(chi_square_quantile(0.999, 6), 22.457744, 1e-5);
-  EXPECT_NEAR(chi_square_quantile(0.95, 1), 3.841459, 1e-5);
-  EXPECT_NEAR(chi_square_quantile(0.5, 2), 2.0 * std::log(2.0), 1e-10);
-  EXPECT_NEAR(chi_square_quantile(0.95, 100), 124.342113, 1e-5);
-  EXPECT_NEAR(chi_square_quantile(0.999, 1000), 1143.917, 2e-3);
 }
 
 TEST(RotaryStation, AnOutlierOfThreeIsDetectedButNotLocated) {

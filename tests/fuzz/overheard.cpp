@@ -35,9 +35,9 @@ namespace app {
 void say(std::string_view text) { g_said += text; }
 void say_line(std::string_view line) { g_said += core::printable(line) + "\n"; }
 void tell(std::string_view line) { g_told += core::printable(line); }
-void complain(const core::Error& error) { tell(core::to_line(error)); }
-void complain(const std::vector<core::Error>& errors) {
-  for (const core::Error& error : errors) complain(error);
+void print_error(const core::Error& error) { tell(core::to_line(error)); }
+void print_error(const std::vector<core::Error>& errors) {
+  for (const core::Error& error : errors) print_error(error);
 }
 bool stop_requested() { return false; }
 

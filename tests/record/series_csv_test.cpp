@@ -1,4 +1,5 @@
 // Tables of numbers with named columns.
+#include "record/csv/internal/lines.h"
 #include "record/csv/series.h"
 
 #include <array>

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "core/statistics.h"
 #include "fit/profiles/internal/dft.h"
 #include "fit/profiles/profile_filter.h"
 
@@ -47,11 +48,7 @@ std::vector<double> gaussian_mean(std::span<const double> r, double cutoff) {
 double median_distance(std::span<const double> r, std::span<const double> w) {
   std::vector<double> distance(r.size());
   for (std::size_t i = 0; i < r.size(); ++i) distance[i] = std::abs(r[i] - w[i]);
-  const std::size_t half = distance.size() / 2;
-  const auto middle = distance.begin() + static_cast<std::ptrdiff_t>(half);
-  std::nth_element(distance.begin(), middle, distance.end());
-  if (distance.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(distance.begin(), middle));
+  return core::median(std::move(distance));
 }
 
 /// Tukey's weights of the residuals.
@@ -112,8 +109,7 @@ core::Result<RobustMeanLine> settled_line(const std::vector<double>& r, double c
 
 core::Result<RobustMeanLine> robust_mean_line(std::span<const double> r_mm, double cutoff_upr) {
   // The profile is taken relative to its mean, so that a radius of many mm costs no digits.
-  const double mean =
-      std::accumulate(r_mm.begin(), r_mm.end(), 0.0) / static_cast<double>(r_mm.size());
+  const double mean = core::mean(r_mm);
   std::vector<double> r(r_mm.begin(), r_mm.end());
   for (double& value : r) value -= mean;
   auto line = settled_line(r, cutoff_upr, Scale::kMedian);

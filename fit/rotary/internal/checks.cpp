@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/statistics.h"
 #include "core/units.h"
 #include "fit/geometry/points.h"
 #include "fit/geometry/registration.h"
@@ -21,8 +22,6 @@ namespace {
 
 using core::Code;
 using Eigen::Vector3d;
-
-double deg(double rad) { return rad / core::kDegree; }
 
 const BallCentre* find_ball(std::span<const BallCentre> balls, const std::string& name) {
   const auto at = std::find_if(balls.begin(), balls.end(),
@@ -88,20 +87,21 @@ core::Result<void> check_station(const RotaryMeasurement& m, std::size_t index,
     return core::fail(Code::kNotFinite,
                       fmt::format("the angle of station {} is not finite", index + 1));
   }
-  const std::string place = fmt::format("at {:g} deg", deg(station.angle_rad));
+  const std::string place = fmt::format("at {:g} deg", core::degrees(station.angle_rad));
   if (station.angle_rad < m.lowest_rad - core::kSameAngle ||
       station.angle_rad > m.highest_rad + core::kSameAngle) {
     return core::fail(Code::kPoseRange,
                       fmt::format("station {:g} deg is outside the range of the axis, {:g}..{:g} "
                                   "deg",
-                                  deg(station.angle_rad), deg(m.lowest_rad), deg(m.highest_rad)));
+                                  core::degrees(station.angle_rad), core::degrees(m.lowest_rad),
+                                  core::degrees(m.highest_rad)));
   }
   for (std::size_t i = 0; i < index; ++i) {
     if (!repeats(m.stations[i], station)) continue;
     return core::fail(Code::kRepeatedKey,
                       fmt::format("station {:g} deg stands twice; state the direction of approach "
                                   "where it was measured forward and backward",
-                                  deg(station.angle_rad)));
+                                  core::degrees(station.angle_rad)));
   }
   if (auto fine = check_balls(station.balls, place, false); !fine) return fine;
   for (const BallCentre& ball : station.balls) {
@@ -168,12 +168,6 @@ std::vector<MeasuredTurn> measured_turns(const RotaryMeasurement& m,
     if (found) out.push_back({station.angle_rad, station.approach, found->motion.linear()});
   }
   return out;
-}
-
-double upper_median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Rotation about its own axis that a station has left.
@@ -285,14 +279,15 @@ core::Error misfit_error(const std::vector<Misfit>& found, double reference_rad)
   std::string what;
   for (const Misfit& one : found) {
     if (!what.empty()) what += "; ";
-    const std::string name = one.turn.reference
-                                 ? fmt::format("the reference pose ({:g} deg)", deg(reference_rad))
-                                 : fmt::format("station {:g} deg", deg(one.turn.angle_rad));
+    const std::string name =
+        one.turn.reference
+            ? fmt::format("the reference pose ({:g} deg)", core::degrees(reference_rad))
+            : fmt::format("station {:g} deg", core::degrees(one.turn.angle_rad));
     what += fmt::format(
         "{} does not fit its neighbours: {:.0f} urad about the axis beside {:.0f} "
         "of the others, limit {:.0f}; a label of {:.4g} deg would fit",
         name, one.off_rad * 1e6, one.others_rad * 1e6, one.limit_rad * 1e6,
-        deg(one.turn.angle_rad + one.off_rad));
+        core::degrees(one.turn.angle_rad + one.off_rad));
   }
   return {Code::kInconsistent, what + ". Correct the angle, or measure there again", {}};
 }
@@ -325,7 +320,7 @@ core::Result<void> check_distance(const DistanceChanges& changes, const std::str
   const std::vector<double>& all = changes.change_mm;
   if (all.size() < 3) return {};
   const double limit = 4.0 * std::hypot(changes.u_mm, changes.reference_u_mm);
-  const double change = upper_median(all);
+  const double change = core::upper_median(all);
   if (std::abs(change) > limit) {
     return core::fail(Code::kInconsistent,
                       fmt::format("the distance of balls {} is {:.2f} um off that of the reference "
@@ -334,8 +329,8 @@ core::Result<void> check_distance(const DistanceChanges& changes, const std::str
   }
   const auto third = static_cast<std::ptrdiff_t>(all.size() / 3);
   if (third < 2) return {};
-  const double drift = upper_median({all.end() - third, all.end()}) -
-                       upper_median({all.begin(), all.begin() + third});
+  const double drift = core::upper_median({all.end() - third, all.end()}) -
+                       core::upper_median({all.begin(), all.begin() + third});
   const double drift_limit = 4.0 * std::sqrt(2.0) * changes.u_mm;
   if (std::abs(drift) <= drift_limit) return {};
   return core::fail(Code::kInconsistent,
@@ -376,7 +371,7 @@ core::Result<void> check_sizes(const RotaryMeasurement& measurement,
             Code::kUnits,
             fmt::format("balls {} and {} are {:g} mm apart at {:g} deg and {:g} mm in the "
                         "reference pose: {}",
-                        a.ball, b.ball, here, deg(station.angle_rad), there,
+                        a.ball, b.ball, here, core::degrees(station.angle_rad), there,
                         unit_hint(here / there)));
       }
     }
@@ -471,7 +466,8 @@ core::Result<bool> check_periodicity(std::span<const RotaryStation> stations) {
             Code::kInconsistent,
             fmt::format("{:g} and {:g} deg are one place, but error E{} differs by {:.2f} {}, "
                         "limit {:.2f}: drift or hysteresis",
-                        deg(a.angle_rad), deg(b.angle_rad), kNames[static_cast<std::size_t>(k)],
+                        core::degrees(a.angle_rad), core::degrees(b.angle_rad),
+                        kNames[static_cast<std::size_t>(k)],
                         std::abs(difference(k)) * (k < 3 ? 1e3 : 1e6), k < 3 ? "um" : "urad",
                         limit(k) * (k < 3 ? 1e3 : 1e6)));
       }

@@ -8,9 +8,9 @@
 #include <Eigen/LU>
 
 #include "core/decompositions.h"
-#include "fit/rotary/ball_setup.h"
-#include "fit/chi_square.h"
+#include "core/statistics.h"
 #include "fit/geometry/registration.h"
+#include "fit/rotary/ball_setup.h"
 
 namespace rondure::fit {
 namespace {
@@ -193,7 +193,7 @@ bool solve_once(std::span<const StationBall> balls, const RotaryOptions& options
   state_fit(at, balls, linear, out);
   out.condition = judge_setup(nominal_places(balls)).condition;
   out.dof = 3 * static_cast<int>(balls.size()) - 6;
-  out.chi2_limit = chi_square_quantile(options.outlier_probability, out.dof);
+  out.chi2_limit = core::chi_square_quantile(options.outlier_probability, out.dof);
   return true;
 }
 

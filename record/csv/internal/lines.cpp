@@ -1,6 +1,7 @@
 #include "record/csv/internal/lines.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -14,12 +15,20 @@ namespace rondure::record {
 namespace {
 
 constexpr std::string_view kBlanks = " \t";
+constexpr std::array<std::string_view, 14> kUnits = {
+    "um", "mm", "m", "nm", "inch", "deg", "rad", "s", "ms", "rpm", "degC", "V", "mV", "N"};
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+/// The name without its unit ("H1" of "H1_um").
+std::string_view stem_of(std::string_view name) {
+  const std::string_view unit = unit_of_column(name);
+  return unit.empty() ? name : name.substr(0, name.size() - unit.size() - 1);
 }
 
 }  // namespace
@@ -131,6 +140,27 @@ std::optional<core::Error> explain_field(std::string_view field, std::string_vie
   return syntax_error(fmt::format(
       "{} is {}; a number in {} such as 12.5 is expected{}", column, quoted_text(field), unit,
       field.find('#') == std::string_view::npos ? "" : " (a comment needs a line of its own)"));
+}
+
+std::string_view unit_of_column(std::string_view name) {
+  const std::size_t cut = name.rfind('_');
+  if (cut == std::string_view::npos || cut == 0) return {};
+  const std::string_view unit = name.substr(cut + 1);
+  return std::find(kUnits.begin(), kUnits.end(), unit) == kUnits.end() ? std::string_view() : unit;
+}
+
+core::Error unknown_column(std::string_view field, std::span<const std::string_view> columns,
+                           std::string_view list, std::string_view rule) {
+  for (const std::string_view column : columns) {
+    const std::string_view unit = unit_of_column(column);
+    if (unit.empty() || field == column || stem_of(field) != stem_of(column)) continue;
+    return {
+        core::Code::kWrongUnit,
+        fmt::format("column {} is not in {}; give {}{}", quoted_text(field), unit, column, rule),
+        {}};
+  }
+  return syntax_error(fmt::format("column {} is unknown; the first line must name the columns {}",
+                                  quoted_text(field), list));
 }
 
 bool is_utf16(std::string_view text) {

@@ -1,12 +1,17 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "core/error.h"
+#include <fmt/format.h>
+
+#include "core/result.h"
 
 // Private to the room: what every CSV reader here does alike. Plain CSV: a header line naming the
 // columns, a row a line, fields between commas, decimals with a point, no quotes.
@@ -55,7 +60,63 @@ class CsvLines {
                                                        std::string_view column,
                                                        std::string_view unit);
 
+/// The unit that a column's name ends with ("um" of "H1_um"), or "".
+[[nodiscard]] std::string_view unit_of_column(std::string_view name);
+
+/// Why a field of the header that names none of the columns is refused: kWrongUnit where one of
+/// them has the same name with another unit, kSyntax otherwise.
+/// @param list  The columns as a message names them.
+/// @param rule  What the sentence on a wrong unit ends with.
+[[nodiscard]] core::Error unknown_column(std::string_view field,
+                                         std::span<const std::string_view> columns,
+                                         std::string_view list, std::string_view rule = "");
+
 [[nodiscard]] bool is_utf16(std::string_view text);
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
+
+/// Reads a whole table. The first line that holds anything is the header, each later one a row.
+///
+/// @param name     The file's name for `where` ("name:line").
+/// @param header   Takes the header line; returns core::Result<void>.
+/// @param row      Takes a row and the number of its line; returns core::Result<void>.
+/// @param no_rows  The sentence for a table without rows; is told whether it has a header line.
+/// @param plain    Tried first where a row begins: takes the text from there on, and returns the
+/// bytes of the row
+///                 with the end of its line, or 0 for a line that `row` must look at.
+/// @return  The error of `header` or `row` with its place, kSyntax for UTF-16, kNoPoints.
+template <class Header, class Row, class NoRows, class Plain>
+core::Result<void> read_table(std::string_view text, std::string_view name, const Header& header,
+                              const Row& row, const NoRows& no_rows, const Plain& plain) {
+  CsvLines lines(without_byte_order_mark(text));
+  const auto here = [&] {
+    return fmt::format("{}:{}", name, std::max<std::size_t>(lines.number(), 1));
+  };
+  if (is_utf16(text)) {
+    return core::fail(core::Code::kSyntax, "the file is saved as UTF-16; save it as UTF-8", here());
+  }
+  bool in_rows = false;
+  bool any = false;
+  while (lines.bytes_left() > 0) {
+    if (const std::size_t bytes = in_rows ? plain(lines.rest()) : 0; bytes > 0) {
+      lines.pass(bytes);
+      any = true;
+      continue;
+    }
+    const std::string_view line = *lines.next();
+    if (holds_nothing(line)) continue;
+    const core::Result<void> read = in_rows ? row(line, lines.number()) : header(line);
+    if (!read) return core::fail(read.error().at(here()));
+    any = in_rows;
+    in_rows = true;
+  }
+  if (any) return {};
+  return core::fail(core::Code::kNoPoints, no_rows(in_rows), here());
+}
+template <class Header, class Row, class NoRows>
+core::Result<void> read_table(std::string_view text, std::string_view name, const Header& header,
+                              const Row& row, const NoRows& no_rows) {
+  return read_table(text, name, header, row, no_rows,
+                    [](std::string_view) { return std::size_t{0}; });
+}
 
 }  // namespace rondure::record
