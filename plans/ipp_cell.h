@@ -52,9 +52,9 @@ class IppCell final : public Cell {
   [[nodiscard]] core::Result<core::Pose> home_fixture() override;
   [[nodiscard]] core::Result<core::Pose> turn_to(const core::Pose& commanded) override;
 
-  [[nodiscard]] core::Result<core::Pose> recall_home() override;
-  [[nodiscard]] core::Result<core::Pose> recall_turn(const core::Pose& commanded) override;
-  [[nodiscard]] core::Result<void> recall_touch(const cmm::TouchCommand&,
+  [[nodiscard]] core::Result<core::Pose> replay_home() override;
+  [[nodiscard]] core::Result<core::Pose> replay_turn(const core::Pose& commanded) override;
+  [[nodiscard]] core::Result<void> replay_touch(const cmm::TouchCommand&,
                                                 const cmm::TouchReading&) override {
     return {};
   }
