@@ -6,9 +6,9 @@
 
 #include "plans/cell/internal/fixture_driver.h"
 #include "plans/cell/internal/ipp_cell.h"
+#include "plans/cell/simulated_cell.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "plans/run/run_head.h"
-#include "plans/cell/simulated_cell.h"
 
 namespace rondure::plans {
 
@@ -50,7 +50,7 @@ core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan, const CellOption
 }
 
 // A real machine keeps no state that depends on the past.
-core::Result<void> Cell::recall_scan(const cmm::ScanCircleCommand& /*command*/,
+core::Result<void> Cell::replay_scan(const cmm::ScanCircleCommand& /*command*/,
                                      const cmm::TouchReading& /*last*/) {
   return {};
 }

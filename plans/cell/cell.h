@@ -55,17 +55,17 @@ class Cell {
   // clock and the hidden truth of the run that was interrupted.
 
   /// The homing of the fixture.
-  [[nodiscard]] virtual core::Result<core::Pose> recall_home() = 0;
+  [[nodiscard]] virtual core::Result<core::Pose> replay_home() = 0;
   /// A turn of the fixture; kPoseRange for one that was refused.
-  [[nodiscard]] virtual core::Result<core::Pose> recall_turn(const core::Pose& commanded) = 0;
+  [[nodiscard]] virtual core::Result<core::Pose> replay_turn(const core::Pose& commanded) = 0;
   /// A touch; kNoTouch or kCollision when the part cannot have given it. Also called once after the
   /// checks: the clock goes on as if there had been no interruption.
-  [[nodiscard]] virtual core::Result<void> restore_touch(const cmm::TouchCommand& command,
-                                                         const cmm::TouchReading& reading) = 0;
-  /// A scan, by its last reading; otherwise like restore_touch().
-  [[nodiscard]] virtual core::Result<void> recall_scan(const cmm::ScanCircleCommand& command,
+  [[nodiscard]] virtual core::Result<void> replay_touch(const cmm::TouchCommand& command,
+                                                        const cmm::TouchReading& reading) = 0;
+  /// A scan, by its last reading; otherwise like replay_touch().
+  [[nodiscard]] virtual core::Result<void> replay_scan(const cmm::ScanCircleCommand& command,
                                                        const cmm::TouchReading& last);
-  /// Homes machine and fixture and turns the part to where the last recalled turn left it; gives
+  /// Homes machine and fixture and turns the part to where the last replayed turn left it; gives
   /// the pose that the fixture reads there.
   [[nodiscard]] virtual core::Result<core::Pose> home_again() = 0;
 

@@ -133,14 +133,14 @@ void SimulatedCell::mount(const FeaturePlan& feature) {
 }
 
 core::Result<core::Pose> SimulatedCell::home_fixture() {
-  return driven_ ? home_driven() : recall_home();
+  return driven_ ? home_driven() : replay_home();
 }
 
 core::Result<core::Pose> SimulatedCell::turn_to(const core::Pose& commanded) {
   return driven_ ? turn_driven(commanded) : turn(commanded);
 }
 
-core::Result<core::Pose> SimulatedCell::recall_home() {
+core::Result<core::Pose> SimulatedCell::replay_home() {
   auto reached = fixture_.home();
   turns_ = 0;
   place_part();
@@ -159,11 +159,11 @@ core::Result<core::Pose> SimulatedCell::turn_driven(const core::Pose& commanded)
 core::Result<core::Pose> SimulatedCell::home_driven() {
   const auto reached = driven_->home();
   if (!reached) return reached;
-  if (auto shown = recall_home(); !shown) return shown;
+  if (auto shown = replay_home(); !shown) return shown;
   return on_grid(*reached);
 }
 
-core::Result<core::Pose> SimulatedCell::recall_turn(const core::Pose& commanded) {
+core::Result<core::Pose> SimulatedCell::replay_turn(const core::Pose& commanded) {
   if (driven_) {
     if (auto within = fixture::check_pose_range(driven_->limits(), commanded); !within) {
       return core::fail(within.error());
@@ -183,8 +183,8 @@ core::Result<core::Pose> SimulatedCell::turn(const core::Pose& commanded) {
   return on_grid(*reached);
 }
 
-core::Result<void> SimulatedCell::restore_touch(const cmm::TouchCommand& command,
-                                                const cmm::TouchReading& reading) {
+core::Result<void> SimulatedCell::replay_touch(const cmm::TouchCommand& command,
+                                               const cmm::TouchReading& reading) {
   return machine_.continue_after(command, reading);
 }
 

@@ -38,11 +38,11 @@ class SimulatedCell final : public Cell {
   [[nodiscard]] core::Result<core::Pose> home_fixture() override;
   [[nodiscard]] core::Result<core::Pose> turn_to(const core::Pose& commanded) override;
 
-  [[nodiscard]] core::Result<core::Pose> recall_home() override;
-  [[nodiscard]] core::Result<core::Pose> recall_turn(const core::Pose& commanded) override;
-  [[nodiscard]] core::Result<void> restore_touch(const cmm::TouchCommand& command,
-                                                 const cmm::TouchReading& reading) override;
-  [[nodiscard]] core::Result<void> recall_scan(const cmm::ScanCircleCommand& command,
+  [[nodiscard]] core::Result<core::Pose> replay_home() override;
+  [[nodiscard]] core::Result<core::Pose> replay_turn(const core::Pose& commanded) override;
+  [[nodiscard]] core::Result<void> replay_touch(const cmm::TouchCommand& command,
+                                                const cmm::TouchReading& reading) override;
+  [[nodiscard]] core::Result<void> replay_scan(const cmm::ScanCircleCommand& command,
                                                const cmm::TouchReading& last) override {
     return machine_.continue_after(command, last);
   }

@@ -4,8 +4,8 @@
 
 #include "core/units.h"
 #include "fit/references/min_zone_cylinder.h"
-#include "plans/run/internal/inspection.h"
 #include "plans/path/internal/merged_reach.h"
+#include "plans/run/internal/inspection.h"
 
 namespace rondure::plans {
 
@@ -27,7 +27,7 @@ void FeatureSession::keep_merged_truth() {
 }
 
 core::Result<void> FeatureSession::end_merged() {
-  if (merged_truth_B_.empty() || context_.past.truths_of(index_) > 0) return {};
+  if (merged_truth_B_.empty() || context_.recorded.truths_of(index_) > 0) return {};
   const auto zone = fit::min_zone_cylinder(merged_truth_B_, Eigen::Vector3d::UnitZ());
   if (!zone) return {};  // only a comparison: it must not end the run
   return context_.journal.add(record::SimulationTruth{index_, zone->width_mm()});

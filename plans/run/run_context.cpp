@@ -55,14 +55,15 @@ core::Result<void> RunContext::check_stop() const {
 }
 
 void RunContext::show() const {
-  if (options.progress && !recalling()) options.progress(progress);
+  if (options.progress && !replaying()) options.progress(progress);
 }
 
 core::Result<record::Touch> RunContext::touch(TouchStep step) {
   step.command.id = next_touch;
   step.row.id = next_touch;
   step.row.approach = step.command.direction_W;
-  if (const record::Touch* known = past.touch(next_touch)) return recall(std::move(step), *known);
+  if (const record::Touch* known = recorded.touch(next_touch))
+    return replay(std::move(step), *known);
   if (auto stop = check_stop(); !stop) return core::fail(stop.error());
   const NextMove next = {NextMove::Kind::kTouch, doing + ": touch", cell->machine().position_W_mm(),
                          step.command.expected_tip_W_mm};
@@ -82,34 +83,34 @@ core::Result<record::Touch> RunContext::touch(TouchStep step) {
   return row;
 }
 
-core::Result<record::Touch> RunContext::recall(TouchStep step, const record::Touch& known) {
+core::Result<record::Touch> RunContext::replay(TouchStep step, const record::Touch& known) {
   if (auto same = check_same_step(known, step.row); !same) return core::fail(same.error());
-  if (auto kept = cell->restore_touch(step.command, reading_of(known)); !kept) {
+  if (auto kept = cell->replay_touch(step.command, reading_of(known)); !kept) {
     return core::fail(kept.error());
   }
   ++next_touch;
   step.row = known;
-  if (auto kept = keep_recalled(std::move(step)); !kept) return core::fail(kept.error());
+  if (auto kept = keep_replayed(std::move(step)); !kept) return core::fail(kept.error());
   return known;
 }
 
-core::Result<void> RunContext::keep_recalled(TouchStep step) {
+core::Result<void> RunContext::keep_replayed(TouchStep step) {
   progress.touches = static_cast<std::size_t>(next_touch);
   if (last_steps.size() == kChecks) last_steps.erase(last_steps.begin());
   last_steps.push_back(std::move(step));
-  if (past.relocated_behind(next_touch)) {
-    if (!recalling()) {
+  if (recorded.relocated_behind(next_touch)) {
+    if (!replaying()) {
       if (const auto reads = cell->home_again(); !reads) return core::fail(reads.error());
     }
     relocation_due = true;
     return core::fail(core::Code::kLocation, "the part was located again");
   }
-  return recalling() ? core::Result<void>{} : come_back();
+  return replaying() ? core::Result<void>{} : come_back();
 }
 
-core::Result<void> RunContext::recall_state(const TouchStep& step) {
-  if (step.scan) return cell->recall_scan(*step.scan, step.scan_end);
-  return cell->restore_touch(step.command, reading_of(step.row));
+core::Result<void> RunContext::replay_state(const TouchStep& step) {
+  if (step.scan) return cell->replay_scan(*step.scan, step.scan_end);
+  return cell->replay_touch(step.command, reading_of(step.row));
 }
 
 core::Result<void> RunContext::come_back() {
@@ -120,7 +121,7 @@ core::Result<void> RunContext::come_back() {
   if (!reads) return core::fail(reads.error());
   // A pose that was measured stands in the repeated touches themselves.
   const bool has_encoders = !plan.fixture->reached_pose;
-  if (const record::PoseVisit* known = past.pose(last_steps.back().row.pose);
+  if (const record::PoseVisit* known = recorded.pose(last_steps.back().row.pose);
       known != nullptr && has_encoders) {
     if (auto same = check_reading(*known, *reads, resolution_rad()); !same) return same;
   }
@@ -130,7 +131,7 @@ core::Result<void> RunContext::come_back() {
     if (auto moved = follow(i == 0 ? step.entry_W : step.way_W); !moved) return moved;
     if (auto moved = follow(step.aside_W); !moved) return moved;
     const Polyline back(step.aside_W.rbegin(), step.aside_W.rend());
-    const auto difference_mm = repeat_touch(step, past.next_check() - static_cast<int>(i));
+    const auto difference_mm = repeat_touch(step, recorded.next_check() - static_cast<int>(i));
     if (!difference_mm) {
       if (difference_mm.error().code != core::Code::kCollision) {
         (void)follow(back);
@@ -146,7 +147,7 @@ core::Result<void> RunContext::come_back() {
       "{:g} um",
       options.started_utc, next_touch, last_steps.size(), largest_mm / core::kMicrometre,
       plan.machine->resume_limit_um);
-  if (auto on = recall_state(last_steps.back()); !on) return on;
+  if (auto on = replay_state(last_steps.back()); !on) return on;
   lost_place = false;
   return journal.add(record::Decision{-1, cell->machine().time_s(), text});
 }
@@ -160,12 +161,12 @@ tl::unexpected<core::Error> RunContext::part_has_moved(const core::Error& error)
                                       "; it cannot be located again, the plan states no "
                                       "location_uncertainty_mm");
   }
-  const record::PoseVisit* visit = past.pose(last_steps.back().row.pose);
+  const record::PoseVisit* visit = recorded.pose(last_steps.back().row.pose);
   if (visit != nullptr &&
       measures_by_touch(plan.features[static_cast<std::size_t>(visit->feature)])) {
     return core::fail(error.code, error.what + "; balls cannot be located again");
   }
-  if (past.goes_on_untouched(next_pose)) {
+  if (recorded.goes_on_untouched(next_pose)) {
     return core::fail(error.code, error.what +
                                       "; it cannot be located again, since the run stood between "
                                       "two clouds");
@@ -225,7 +226,7 @@ core::Result<void> RunContext::ask_for_homing() {
 }
 
 core::Result<void> RunContext::follow(const Polyline& path_W) {
-  if (recalling()) return {};
+  if (replaying()) return {};
   cmm::Machine& machine = cell->machine();
   Polyline passed = {machine.position_W_mm()};
   for (const Eigen::Vector3d& corner : path_W) {
@@ -244,27 +245,27 @@ core::Result<void> RunContext::follow(const Polyline& path_W) {
 }
 
 core::Result<void> RunContext::rise() {
-  if (recalling()) return {};
+  if (replaying()) return {};
   Eigen::Vector3d up = cell->machine().position_W_mm();
   up.z() = std::max(up.z(), plan.machine->park_mm[2]);
   return follow({up});
 }
 
 core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& commanded) {
-  if (!recalling()) {
+  if (!replaying()) {
     const std::string what = "turn the fixture to " + in_degrees(commanded);
     if (auto go = ask({NextMove::Kind::kTurn, what, {}, {}}); !go) return core::fail(go.error());
   }
   const auto steps =  // before anybody turns it
       reached_pose_steps(plan, cell->kinematics(), cell->nominal_part(), feature, commanded);
   if (!steps) return core::fail(steps.error());
-  auto reached = recalling() ? cell->recall_turn(commanded) : cell->turn_to(commanded);
+  auto reached = replaying() ? cell->replay_turn(commanded) : cell->turn_to(commanded);
   if (reached && !steps->empty()) reached = measure_reached_pose(*this, *steps, commanded);
   if (!reached) return core::fail(reached.error());
-  if (const record::PoseVisit* known = past.pose(next_pose)) {
+  if (const record::PoseVisit* known = recorded.pose(next_pose)) {
     if (auto same = check_same_step(*known, feature, commanded); !same)
       return core::fail(same.error());
-    if (!recalling() && steps->empty()) {
+    if (!replaying() && steps->empty()) {
       if (auto same = check_reading(*known, *reached, resolution_rad()); !same)
         return core::fail(same.error());
     }
@@ -280,7 +281,7 @@ core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& 
 
 core::Result<void> RunContext::note(int feature, const std::string& text) {
   const record::Decision decision{feature, cell->machine().time_s(), text};
-  if (const record::Decision* known = past.next_decision()) {
+  if (const record::Decision* known = recorded.next_decision()) {
     return check_same_step(*known, decision);
   }
   return journal.add(decision);

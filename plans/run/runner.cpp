@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include "plans/analyses/analysis.h"
+#include "plans/checks/internal/plan_reach.h"
 #include "plans/run/internal/calibration_use.h"
 #include "plans/run/internal/fixture_calibration.h"
 #include "plans/run/internal/fixture_datum.h"
 #include "plans/run/internal/inspection.h"
 #include "plans/run/internal/plan_changes.h"
-#include "plans/checks/internal/plan_reach.h"
 #include "plans/run/internal/qualification.h"
 #include "plans/run/run_head.h"
 #include "record/csv/points.h"
@@ -87,11 +87,11 @@ core::Result<std::vector<FeatureData>> read_data(const Plan& plan, std::uint64_t
 /// Puts the rows of a points file into the journal, as one cloud without a pose search.
 core::Result<void> take_points(RunContext& context, int index, const record::PointTable& table) {
   const int pose = context.next_pose++;
-  if (context.past.pose(pose) == nullptr) {
+  if (context.recorded.pose(pose) == nullptr) {
     if (auto kept = context.journal.add(record::PoseVisit{pose, index, {}, {}, true, 0.0}); !kept)
       return kept;
   }
-  const bool known = context.past.touch(context.next_touch) != nullptr;
+  const bool known = context.recorded.touch(context.next_touch) != nullptr;
   std::vector<record::Touch> rows;
   rows.reserve(table.points_mm.size());
   for (const Eigen::Vector3d& p : table.points_mm) {
@@ -108,7 +108,7 @@ core::Result<void> take_points(RunContext& context, int index, const record::Poi
 
 /// Puts the series of an analysis into the journal: all of them or none.
 core::Result<void> take_series(RunContext& context, int index, const AnalysisData& data) {
-  if (context.past.knows_series(index)) return {};
+  if (context.recorded.knows_series(index)) return {};
   return context.journal.add(data.series, data.truths);
 }
 
@@ -143,8 +143,8 @@ core::Result<void> prepare(RunContext& context) {
   const auto first =
       std::find_if(context.plan.features.begin(), context.plan.features.end(), needs_machine);
   context.cell->mount(*first);
-  if (context.recalling()) {
-    if (auto homed = context.cell->recall_home(); !homed) return core::fail(homed.error());
+  if (context.replaying()) {
+    if (auto homed = context.cell->replay_home(); !homed) return core::fail(homed.error());
   } else {
     if (auto go = context.ask_for_homing(); !go) return go;
     if (auto homed = context.cell->machine().home(); !homed) return homed;
@@ -168,7 +168,7 @@ Plan driven(const Plan& plan, const RunOptions& options) {
 
 /// The record says that a run was made in single steps.
 core::Result<void> note_single_steps(RunContext& context) {
-  if (!context.options.single_step || context.past.touch(0) != nullptr) return {};
+  if (!context.options.single_step || context.recorded.touch(0) != nullptr) return {};
   return context.journal.add(record::Decision{
       -1, 0.0,
       fmt::format("single-step mode: travel at {:g} mm/s at most, moves confirmed by the operator",
@@ -219,7 +219,7 @@ core::Result<Preparation> prepare_plan(const Plan& plan, const RunOptions& optio
 void execute(const Plan& plan, const RunOptions& options, const Preparation& known, Cell* cell,
              record::RunRecord past, Run& run) {
   RunContext context{plan, options, cell, run.journal};
-  context.past = Past(std::move(past));
+  context.recorded = RecordedRun(std::move(past));
   if (cell != nullptr && known.calibration) cell->use(known.calibration->calibration);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     context.progress.touches_expected +=

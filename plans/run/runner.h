@@ -91,11 +91,11 @@ struct Run {
 using RunOrRefusals = tl::expected<Run, std::vector<core::Error>>;
 
 /// Goes on with the interrupted run in `options.directory`. The program goes through the journal
-/// with the machine at rest (see past.h); behind the last touch it homes machine and fixture, goes
-/// to that touch, repeats it and up to two before it, and continues when none differs by more than
-/// the plan's resume_limit_um. The repeated touches enter no result. On a simulated cell the record
-/// becomes that of a run without interruption, bit for bit, but for checks and the decision that
-/// tells of the interruption.
+/// with the machine at rest (see recorded_run.h); behind the last touch it homes machine and
+/// fixture, goes to that touch, repeats it and up to two before it, and continues when none differs
+/// by more than the plan's resume_limit_um. The repeated touches enter no result. On a simulated
+/// cell the record becomes that of a run without interruption, bit for bit, but for checks and the
+/// decision that tells of the interruption.
 ///
 /// With `relocate` a touch on the part that differs by more than the limit does not end the run:
 /// the part is located again in that pose and the present cloud, with its repeats, is measured

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
-#include "cmm/scan_path.h"
 #include "cmm/ipp_client/touch_check.h"
+#include "cmm/scan_path.h"
 #include "core/units.h"
 #include "plans/run/internal/inspection.h"
 
@@ -68,7 +68,7 @@ bool of_one_scan(const record::Touch& a, const record::Touch& b) {
 
 core::Result<std::vector<record::Touch>> RunContext::scan(ScanStep step) {
   step.command.first_id = next_touch;
-  if (past.touch(next_touch) != nullptr) return recall_scan(std::move(step));
+  if (recorded.touch(next_touch) != nullptr) return replay_scan(std::move(step));
   if (auto stop = check_stop(); !stop) return core::fail(stop.error());
   const NextMove next = {NextMove::Kind::kTouch, doing + ": scan", cell->machine().position_W_mm(),
                          step.command.start_tip_W_mm};
@@ -85,10 +85,10 @@ core::Result<std::vector<record::Touch>> RunContext::scan(ScanStep step) {
   return rows;
 }
 
-core::Result<std::vector<record::Touch>> RunContext::recall_scan(ScanStep step) {
+core::Result<std::vector<record::Touch>> RunContext::replay_scan(ScanStep step) {
   std::vector<record::Touch> known;
   for (std::int64_t id = next_touch;; ++id) {
-    const record::Touch* row = past.touch(id);
+    const record::Touch* row = recorded.touch(id);
     if (row == nullptr || (!known.empty() && !of_one_scan(*row, known.front()))) break;
     known.push_back(*row);
   }
@@ -116,9 +116,9 @@ core::Result<std::vector<record::Touch>> RunContext::recall_scan(ScanStep step) 
   first.row = nearest;
   first.entry_W = std::move(step.entry_W);
   first.way_W = std::move(step.way_W);
-  if (auto state = recall_state(first); !state) return core::fail(state.error());
+  if (auto state = replay_state(first); !state) return core::fail(state.error());
   next_touch += static_cast<std::int64_t>(known.size());
-  if (auto kept = keep_recalled(std::move(first)); !kept) return core::fail(kept.error());
+  if (auto kept = keep_replayed(std::move(first)); !kept) return core::fail(kept.error());
   return known;
 }
 

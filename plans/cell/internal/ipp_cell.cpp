@@ -10,9 +10,9 @@
 #include "core/units.h"
 #include "fixture/kinematics.h"
 #include "fixture/pose_range.h"
+#include "plans/cell/served_cell.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "plans/path/internal/pose_grid.h"
-#include "plans/cell/served_cell.h"
 #include "wire/tcp_line.h"
 #include "wire/wire_log.h"
 
@@ -155,12 +155,12 @@ core::Result<core::Pose> IppCell::turn_to(const core::Pose& commanded) {
   return on_grid(*reached);
 }
 
-core::Result<core::Pose> IppCell::recall_home() {
+core::Result<core::Pose> IppCell::replay_home() {
   turns_ = 0;
   return core::Pose{};
 }
 
-core::Result<core::Pose> IppCell::recall_turn(const core::Pose& commanded) {
+core::Result<core::Pose> IppCell::replay_turn(const core::Pose& commanded) {
   if (auto within = fixture::check_pose_range(fixture_->limits(), commanded); !within) {
     return core::fail(within.error());
   }

@@ -52,10 +52,10 @@ class IppCell final : public Cell {
   [[nodiscard]] core::Result<core::Pose> home_fixture() override;
   [[nodiscard]] core::Result<core::Pose> turn_to(const core::Pose& commanded) override;
 
-  [[nodiscard]] core::Result<core::Pose> recall_home() override;
-  [[nodiscard]] core::Result<core::Pose> recall_turn(const core::Pose& commanded) override;
-  [[nodiscard]] core::Result<void> restore_touch(const cmm::TouchCommand&,
-                                                 const cmm::TouchReading&) override {
+  [[nodiscard]] core::Result<core::Pose> replay_home() override;
+  [[nodiscard]] core::Result<core::Pose> replay_turn(const core::Pose& commanded) override;
+  [[nodiscard]] core::Result<void> replay_touch(const cmm::TouchCommand&,
+                                                const cmm::TouchReading&) override {
     return {};
   }
   [[nodiscard]] core::Result<core::Pose> home_again() override;

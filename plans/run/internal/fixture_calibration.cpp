@@ -9,8 +9,8 @@
 
 #include "core/units.h"
 #include "fixture/axis_motion.h"
-#include "plans/run/internal/qualification.h"
 #include "plans/analyses/internal/rotary_poses.h"
+#include "plans/run/internal/qualification.h"
 
 namespace rondure::plans {
 namespace {
@@ -65,7 +65,7 @@ record::Series truth_of(const Cell& cell, int feature, bool carried,
 }
 
 core::Result<void> keep_truth(RunContext& context, int feature, const RotaryPlan& rotary) {
-  if (context.past.knows_series(feature)) return {};
+  if (context.recorded.knows_series(feature)) return {};
   if (!context.cell->true_errors(false, 0.0)) return {};  // a real fixture hides nothing here
   const std::vector<record::Series> truth = {
       truth_of(*context.cell, feature, false, rotary.alpha_stations_deg),

@@ -99,7 +99,7 @@ core::Result<void> find_fixture_base(RunContext& context) {
   if (!base) return core::fail(base.error());
   context.cell->set_base(base->motion);
   const std::string text = in_words(*base);
-  if (context.past.has_decision(text)) return {};
+  if (context.recorded.has_decision(text)) return {};
   return context.journal.add(record::Decision{-1, context.cell->machine().time_s(), text});
 }
 

@@ -164,7 +164,7 @@ core::Result<void> FeatureSession::repeat(int times) {
 }
 
 core::Result<void> FeatureSession::keep_as_final() {
-  const record::PoseVisit* known = context_.past.pose(pose_id_);
+  const record::PoseVisit* known = context_.recorded.pose(pose_id_);
   if (known == nullptr || !known->final_cloud) {
     if (auto marked = context_.journal.mark_final(pose_id_); !marked) return marked;
   }
@@ -183,7 +183,7 @@ core::Result<void> FeatureSession::keep_as_final() {
   } else if (const auto zone = fit::min_zone_cylinder(truth_, expected_axis())) {
     zone_mm = zone->width_mm();
   }
-  if (!zone_mm || ++truths_ <= context_.past.truths_of(index_)) return {};
+  if (!zone_mm || ++truths_ <= context_.recorded.truths_of(index_)) return {};
   return context_.journal.add(record::SimulationTruth{index_, *zone_mm});
 }
 

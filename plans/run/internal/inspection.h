@@ -8,13 +8,13 @@
 #include "core/result.h"
 #include "fit/least_squares/cylinder.h"
 #include "plans/cell/cell.h"
-#include "plans/forecast/internal/feature_planner.h"
-#include "plans/run/internal/past.h"
 #include "plans/checks/internal/plan_reach.h"
-#include "plans/run/internal/pose_search.h"
-#include "plans/run/runner.h"
+#include "plans/forecast/internal/feature_planner.h"
 #include "plans/path/sampling.h"
 #include "plans/path/travel.h"
+#include "plans/run/internal/pose_search.h"
+#include "plans/run/internal/recorded_run.h"
+#include "plans/run/runner.h"
 #include "record/journal/journal.h"
 
 namespace rondure::plans {
@@ -49,15 +49,15 @@ struct RunContext {
   std::int64_t next_touch = 0;
   int next_pose = 0;
   Progress progress = {};
-  Past past = {};
-  std::vector<TouchStep> last_steps = {};  ///< The last recalled touches of the present cloud.
+  RecordedRun recorded = {};
+  std::vector<TouchStep> last_steps = {};  ///< The last replayed touches of the present cloud.
   bool retreating = false;      ///< The operator refused a motion: back and up without asking.
   std::string doing = {};       ///< What the next motions are for, in words.
   bool relocation_due = false;  ///< The part has moved: locate it, measure the cloud anew.
   bool lost_place = false;  ///< An interruption was not overcome: only a person may move the tip.
 
   /// While touches come from the journal nothing moves.
-  [[nodiscard]] bool recalling() const { return past.recalling(next_touch); }
+  [[nodiscard]] bool replaying() const { return recorded.replaying(next_touch); }
   /// kStopped when the operator asked for it.
   [[nodiscard]] core::Result<void> check_stop() const;
   void show() const;
@@ -86,16 +86,16 @@ struct RunContext {
 
  private:
   [[nodiscard]] core::Result<void> ask(const NextMove& move);
-  [[nodiscard]] core::Result<record::Touch> recall(TouchStep step, const record::Touch& known);
+  [[nodiscard]] core::Result<record::Touch> replay(TouchStep step, const record::Touch& known);
   /// What follows when the part is not where it was: kLocation, with relocation_due set if the part
   /// may be located again. The tip is at park height.
   [[nodiscard]] tl::unexpected<core::Error> part_has_moved(const core::Error& error);
-  [[nodiscard]] core::Result<std::vector<record::Touch>> recall_scan(ScanStep step);
+  [[nodiscard]] core::Result<std::vector<record::Touch>> replay_scan(ScanStep step);
   /// A step that came from the journal is among those that are checked before the run goes on, and
   /// behind the last of them it does.
-  [[nodiscard]] core::Result<void> keep_recalled(TouchStep step);
-  /// The simulation takes the state behind a recalled step.
-  [[nodiscard]] core::Result<void> recall_state(const TouchStep& step);
+  [[nodiscard]] core::Result<void> keep_replayed(TouchStep step);
+  /// The simulation takes the state behind a replayed step.
+  [[nodiscard]] core::Result<void> replay_state(const TouchStep& step);
   /// Of the fixture: how far two readings of one pose may differ.
   [[nodiscard]] double resolution_rad() const;
   /// Repeats a touch; the difference to the recorded one [mm].

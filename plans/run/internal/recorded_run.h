@@ -16,14 +16,14 @@ namespace rondure::plans {
 ///
 /// A step that is not the recorded one ends the run (kJournal): then this program, on this
 /// processor, does not follow the way of the one that measured, and its touches would not fit.
-class Past {
+class RecordedRun {
  public:
-  Past() = default;
-  explicit Past(record::RunRecord run);
+  RecordedRun() = default;
+  explicit RecordedRun(record::RunRecord run);
 
   /// Whether the machine has still to stand while the program goes through known touches.
   /// @param next_touch  Number of the touch that comes next.
-  [[nodiscard]] bool recalling(std::int64_t next_touch) const;
+  [[nodiscard]] bool replaying(std::int64_t next_touch) const;
   /// The recorded touch of that number, or nullptr.
   [[nodiscard]] const record::Touch* touch(std::int64_t id) const;
   /// The recorded pose of that number, or nullptr.

@@ -1,5 +1,5 @@
-#include "plans/run/internal/past.h"
-
+<#include "plans/run/internal/recorded_run.h"
+>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -22,7 +22,7 @@ tl::unexpected<core::Error> other_way(const std::string& what) {
 
 }  // namespace
 
-Past::Past(record::RunRecord run) : run_(std::move(run)) {
+RecordedRun::RecordedRun(record::RunRecord run) : run_(std::move(run)) {
   for (const record::Touch& touch : run_.touches) {
     const record::PoseVisit* visit = touch.pose < 0 ? nullptr : pose(touch.pose);
     const bool from_file =
@@ -32,21 +32,21 @@ Past::Past(record::RunRecord run) : run_(std::move(run)) {
   }
 }
 
-bool Past::recalling(std::int64_t next_touch) const {
+bool RecordedRun::replaying(std::int64_t next_touch) const {
   return run_.ending == "finished" || next_touch < machine_touches_end_;
 }
 
-const record::Touch* Past::touch(std::int64_t id) const {
+const record::Touch* RecordedRun::touch(std::int64_t id) const {
   const auto index = static_cast<std::size_t>(id);
   return index < run_.touches.size() ? &run_.touches[index] : nullptr;
 }
 
-const record::PoseVisit* Past::pose(int id) const {
+const record::PoseVisit* RecordedRun::pose(int id) const {
   const auto index = static_cast<std::size_t>(id);
   return index < run_.poses.size() ? &run_.poses[index] : nullptr;
 }
 
-const record::Decision* Past::next_decision() {
+const record::Decision* RecordedRun::next_decision() {
   while (next_decision_ < run_.decisions.size()) {
     const record::Decision& decision = run_.decisions[next_decision_++];
     if (decision.feature >= 0) return &decision;
@@ -54,35 +54,35 @@ const record::Decision* Past::next_decision() {
   return nullptr;
 }
 
-std::ptrdiff_t Past::truths_of(int feature) const {
+std::ptrdiff_t RecordedRun::truths_of(int feature) const {
   return std::count_if(run_.truths.begin(), run_.truths.end(),
                        [&](const auto& truth) { return truth.feature == feature; });
 }
 
-bool Past::relocated_behind(std::int64_t touches) const {
+bool RecordedRun::relocated_behind(std::int64_t touches) const {
   const std::string text = relocation_text(touches);
   return std::any_of(run_.decisions.begin(), run_.decisions.end(), [&](const auto& d) {
     return d.feature < 0 && d.text.compare(0, text.size(), text) == 0;
   });
 }
 
-bool Past::goes_on_untouched(int next_pose) const {
+bool RecordedRun::goes_on_untouched(int next_pose) const {
   const auto ahead = run_.decisions.begin() + static_cast<std::ptrdiff_t>(next_decision_);
   return pose(next_pose) != nullptr ||
          std::any_of(ahead, run_.decisions.end(), [](const auto& d) { return d.feature >= 0; });
 }
 
-bool Past::has_decision(const std::string& text) const {
+bool RecordedRun::has_decision(const std::string& text) const {
   return std::any_of(run_.decisions.begin(), run_.decisions.end(),
                      [&](const auto& d) { return d.feature < 0 && d.text == text; });
 }
 
-bool Past::knows_series(int feature) const {
+bool RecordedRun::knows_series(int feature) const {
   return std::any_of(run_.series.begin(), run_.series.end(),
                      [&](const auto& series) { return series.feature == feature; });
 }
 
-std::int64_t Past::next_check() const {
+std::int64_t RecordedRun::next_check() const {
   return run_.checks.empty() ? -1 : run_.checks.back().id - 1;
 }
 
