@@ -98,5 +98,27 @@ TEST(Documents, PromiseNothingOfReliabilityWithoutATest) {
   EXPECT_GT(checked, 8U);
 }
 
+// A path that a document names is one that a reader can open: of the sources, from the root.
+TEST(Documents, NameSourcesThatAreThere) {
+  const fs::path root = RONDURE_SOURCE_DIR;
+  std::vector<fs::path> all = documents();
+  std::set<std::string> rooms;
+  for (const auto& entry : fs::directory_iterator(root)) {
+    if (!fs::exists(entry.path() / "README.md")) continue;
+    rooms.insert(entry.path().filename());
+    all.push_back(entry.path() / "README.md");
+  }
+  std::size_t checked = 0;
+  for (const fs::path& document : all) {
+    for (const auto& quoted :
+         matches_of(text_of(document), R"(`(([a-z]+)/[\w/]+\.(h|cpp|py|sh))`)")) {
+      if (rooms.count(quoted[2]) == 0 && quoted[2] != "tests") continue;
+      EXPECT_TRUE(fs::exists(root / quoted.str(1))) << document << ": " << quoted[1];
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 50U);
+}
+
 }  // namespace
 }  // namespace rondure
