@@ -47,6 +47,13 @@ void add_language(CLI::App& verb, std::string& language) {
       ->type_name("LANG");
 }
 
+void add_paper(CLI::App& verb, std::string& paper) {
+  verb.add_option("--paper", paper,
+                  "Paper of report.pdf: a4 or letter (default: as the plan says, else a4)")
+      ->check(CLI::IsMember(reports::paper_names()))
+      ->type_name("PAPER");
+}
+
 /// Whole numbers that every reader of JSON keeps, as in a plan.
 std::string check_seed(const std::string& text) {
   const bool digits = !text.empty() && text.size() <= 16 &&
@@ -138,6 +145,7 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   add_formats(*verb, arguments.formats,
               "html,pdf,json,csv,qif,dmis,junit (default: as the plan says)");
   add_language(*verb, arguments.language);
+  add_paper(*verb, arguments.paper);
   verb->add_option("--archive", arguments.archive,
                    "Where the results are kept besides: a file, postgresql://... or none\n"
                    "(default: as the plan says, else archive.db beside the run directory)");
@@ -351,8 +359,10 @@ void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
 void add_report(CLI::App& app, ReportArguments& arguments) {
   auto* verb = app.add_subcommand("report", "Writes the reports of a run again, from its journal");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
-  add_formats(*verb, arguments.formats, "html,pdf,json,csv,qif,dmis,junit (default: all)");
+  add_formats(*verb, arguments.formats,
+              "html,pdf,json,csv,qif,dmis,junit (default: all; pdf where there is Chromium)");
   add_language(*verb, arguments.language);
+  add_paper(*verb, arguments.paper);
   verb->footer("\nExample: rondure report runs/01_spool_simulated-20261121T023302Z --format html");
 }
 

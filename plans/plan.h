@@ -279,7 +279,8 @@ struct SimulationPlan {
 
 struct ReportsPlan {
   std::vector<std::string> formats = {"html", "json", "csv"};
-  std::string archive;  ///< Empty: archive.db beside the run directory.
+  std::string paper = "a4";  ///< Of the PDF: "a4" or "letter".
+  std::string archive;       ///< Empty: archive.db beside the run directory.
 };
 
 struct Plan {
@@ -310,6 +311,9 @@ using PlanOrProblems = tl::expected<Plan, std::vector<core::Error>>;
 /// The same for text; `folder` resolves points files, `name` stands in places of syntax errors.
 [[nodiscard]] PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
                                         std::string_view name);
+
+/// The paper that the plan in a journal asks for; of text that is no plan, what plans default to.
+[[nodiscard]] std::string recorded_paper(std::string_view text);
 
 /// The JSON Schema (draft 7) of a plan, from the same table that reads it.
 [[nodiscard]] std::string plan_schema();

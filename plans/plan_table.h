@@ -589,6 +589,8 @@ void describe(Visitor& v, ReportsPlan& p) {
            .meaning =
                "Reports that a run writes: a page, the same on paper (PDF), all numbers, tables, "
                "QIF 3.0 results, a DMIS output block, a JUnit summary for pipelines."});
+  v.text("paper", p.paper,
+         {.one_of = {"a4", "letter"}, .meaning = "Paper that the PDF is printed on."});
   v.text("archive", p.archive,
          {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "
                      "relative to the plan; postgresql://user@host/database without a password; "

@@ -1,265 +1,209 @@
 #include "reports/pdf_report.h"
 
-#include <algorithm>
-#include <memory>
-#include <utility>
+#include <unistd.h>
 
-#include <cairo-pdf.h>
+#include <cstdlib>
+
 #include <fmt/format.h>
 
-#include "core/version.h"
+#include "record/external_program.h"
+#include "record/files.h"
 #include "record/sha256.h"
-#include "reports/language.h"
-#include "reports/pdf_flow.h"
-#include "reports/pdf_look.h"
 #include "reports/text.h"
 #include "reports/writers.h"
 
-namespace rondure::reports::pdf {
+namespace rondure::reports {
 namespace {
 
-constexpr double kTextWidth = kPdfWidth - 2.0 * kPdfMargin;
-constexpr double kTextHeight = kPdfHeight - kPdfTop - kPdfBottom;
-constexpr double kHeadSize = 7.4;
+namespace fs = std::filesystem;
+
 constexpr std::string_view kDigestMark = "page-sha256-";
-constexpr std::string_view kLanguageMark = ", page-language-";
+constexpr std::string_view kPaperMark = ", paper-";
+constexpr std::string_view kPageLanguageMark = ", page-language-";
 
-struct ReleaseSurface {
-  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-  void operator()(cairo_t* cairo) const { cairo_destroy(cairo); }
-};
+std::string_view name_of_paper(Paper paper) { return paper == Paper::kLetter ? "letter" : "a4"; }
 
-cairo_status_t append(void* bytes, const unsigned char* data, unsigned int length) {
-  static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
-  return CAIRO_STATUS_SUCCESS;
+std::string page_mark(std::string_view html) {
+  return fmt::format("{}{}", kDigestMark, record::sha256_hex(std::string(html)));
 }
 
-/// One document while it is set.
-class Document {
- public:
-  Document(const record::RunRecord& record, const Source& page)
-      : record_(record),
-        page_(page),
-        surface_(cairo_pdf_surface_create_for_stream(append, &bytes_, kPdfWidth, kPdfHeight)),
-        cairo_(cairo_create(surface_.get())),
-        press_(cairo_.get(), page) {}
+/// What a document states of its page. The last such text: what a name says stands before it. Up to
+/// version 0.2 it stood in the document information and ended with a parenthesis.
+std::string_view print_statement(std::string_view pdf) {
+  const std::size_t at = pdf.rfind(kDigestMark);
+  if (at == std::string_view::npos) return {};
+  const std::string_view rest = pdf.substr(at, 200);
+  return rest.substr(0, rest.find_first_of(")\n"));
+}
 
-  core::Result<Pdf> write(std::string_view html);
+/// A folder of our own, removed at the end with the profile that Chromium makes in it.
+class PrintFolder {
+ public:
+  PrintFolder() {
+    std::error_code problem;
+    const fs::path place = fs::temp_directory_path(problem);
+    std::string name = ((problem ? fs::path("/tmp") : place) / "rondure-pdf-XXXXXX").string();
+    if (::mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  ~PrintFolder() {
+    std::error_code problem;
+    // A process that was just killed may still put a file into a folder that is being emptied.
+    for (int i = 0; i < 5; ++i) {
+      fs::remove_all(path_, problem);
+      if (!problem) return;
+      ::usleep(20'000);
+    }
+  }
+  PrintFolder(const PrintFolder&) = delete;
+  PrintFolder& operator=(const PrintFolder&) = delete;
+
+  /// Empty when none can be made (errno).
+  [[nodiscard]] const fs::path& path() const { return path_; }
+  [[nodiscard]] fs::path operator/(const char* name) const { return path_ / name; }
 
  private:
-  [[nodiscard]] std::vector<Brick> bricks();
-  [[nodiscard]] TextStyle small() const;
-  void describe(std::string_view html);
-  void draw(const Placed& placed, std::vector<PdfFigure>& figures);
-  void draw_head_and_foot(int page, int pages);
-  void draw_line(double x, double y, double width, Align align, const std::string& text,
-                 const TextStyle& style);
-  void draw_rule(double y);
-  void add_to_outline(const Placed& placed);
-
-  const record::RunRecord& record_;
-  const Source& page_;
-  std::string bytes_;
-  std::unique_ptr<cairo_surface_t, ReleaseSurface> surface_;
-  std::unique_ptr<cairo_t, ReleaseSurface> cairo_;
-  Press press_;
-  std::vector<int> outline_ = {CAIRO_PDF_OUTLINE_ROOT};
+  fs::path path_;
 };
 
-TextStyle Document::small() const {
-  TextStyle style;
-  style.size_pt = kHeadSize;
-  style.colour = page_.colour("--soft");
-  return style;
+/// A text as a string of CSS within <style>: nothing in it can end either.
+std::string css_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const bool plain = static_cast<unsigned char>(c) >= 0x80 || std::isalnum(c) != 0 || c == ' ';
+    out += plain ? std::string(1, c) : fmt::format("\\{:x} ", c);
+  }
+  return out + "\"";
 }
 
-std::vector<Brick> Document::bricks() {
-  Flow flow(press_);
-  Setting setting;
-  setting.width = kTextWidth;
-  setting.style.size_pt = kBodySize;
-  setting.style.colour = page_.colour("--ink");
-  std::vector<Brick> out = flow.bricks(page_.tree.child("body"), setting);
-  for (Brick& brick : out) brick.box->lay(kTextWidth);
-  if (press_.missing().empty()) return out;
-  Words note(press_);
-  note.add(missing_in_words({press_.missing().begin(), press_.missing().end()}), setting.style);
-  Brick brick;
-  brick.box = note.set(Align::kLeft);
-  brick.may_be_cut = true;
-  brick.box->lay(kTextWidth);
-  out.insert(out.begin(), std::move(brick));
-  return out;
-}
-
-/// The document's own information, as a viewer lists it.
-void Document::describe(std::string_view html) {
-  const record::Header& header = record_.header;
-  const auto set = [&](cairo_pdf_metadata_t what, const std::string& text) {
-    cairo_pdf_surface_set_metadata(surface_.get(), what, clean(text).c_str());
-  };
-  set(CAIRO_PDF_METADATA_TITLE, page_.title);
-  set(CAIRO_PDF_METADATA_AUTHOR, header.operator_name);
-  set(CAIRO_PDF_METADATA_SUBJECT, trf("Cylindricity report: {}, revision {}, run {}",
-                                      header.plan_name, header.plan_revision, header.run_id));
-  set(CAIRO_PDF_METADATA_KEYWORDS,
-      fmt::format("{}, {}, {}, {}", header.part_id, header.serial, header.drawing, header.run_id));
-  // Of the page: ASCII, which Cairo writes as it is.
-  set(CAIRO_PDF_METADATA_CREATOR, fmt::format("rondure {}, {}{}{}{}", core::kVersion, kDigestMark,
-                                              record::sha256_hex(std::string(html)), kLanguageMark,
-                                              tag_of(language_of_page(html))));
-  set(CAIRO_PDF_METADATA_CREATE_DATE,
-      header.started_utc.empty() ? "1970-01-01T00:00:00Z" : header.started_utc);
-}
-
-void Document::draw_line(double x, double y, double width, Align align, const std::string& text,
-                         const TextStyle& style) {
-  Words words(press_);
-  words.add(text, style);
-  const BoxPtr box = words.set(align, true);
-  box->lay(width);
-  box->draw(cairo_.get(), x, y, {});
-}
-
-void Document::draw_rule(double y) {
-  const Colour line = page_.colour("--line");
-  cairo_set_source_rgb(cairo_.get(), line.red, line.green, line.blue);
-  cairo_set_line_width(cairo_.get(), 0.6);
-  cairo_move_to(cairo_.get(), kPdfMargin, y);
-  cairo_line_to(cairo_.get(), kPdfMargin + kTextWidth, y);
-  cairo_stroke(cairo_.get());
-}
-
-/// "Part ... | Revision ... | Run ..." above, "Page x of y" below.
-void Document::draw_head_and_foot(int page, int pages) {
-  constexpr double kHeadY = 30.0;
-  constexpr double kFootY = kPdfHeight - 40.0;
-  const record::Header& header = record_.header;
-  const TextStyle style = small();
-  const auto field = [](std::string_view name, const std::string& value) {
-    constexpr std::size_t kMost = 160;  // no line holds more; Pango need not try with 10 kB
-    return fmt::format("{} \u2068{}\u2069", name,
-                       value.empty() ? "\u2013" : shortened(clean(value), kMost));
+/// What the page cannot say itself: the paper, and what its sheets are told apart by.
+std::string sheet_style(const record::Header& header, Paper paper) {
+  const auto field = [](std::string_view place, std::string_view name, std::string_view value) {
+    constexpr std::size_t kMost = 44;  // columns: a third of a line, and a little more
+    const std::string text = value.empty() ? "\u2013" : shortened(printable(value), kMost);
+    return fmt::format(
+        "@top-{}{{content:{};font:8pt system-ui,sans-serif;color:#55616d;white-space:nowrap}}",
+        place, css_string(fmt::format("{} {}", name, text)));
   };
   const std::string part =
       header.serial.empty() ? header.part_id : header.part_id + " / " + header.serial;
-  draw_line(kPdfMargin, kHeadY, 0.40 * kTextWidth, Align::kLeft, field(tr("Part"), part), style);
-  draw_line(kPdfMargin + 0.42 * kTextWidth, kHeadY, 0.16 * kTextWidth, Align::kLeft,
-            field(tr("Revision"), header.plan_revision), style);
-  draw_line(kPdfMargin + 0.60 * kTextWidth, kHeadY, 0.40 * kTextWidth, Align::kRight,
-            field(tr("Run"), header.run_id), style);
-  draw_rule(kHeadY + 13.0);
-  draw_line(kPdfMargin, kFootY, 0.5 * kTextWidth, Align::kLeft,
-            fmt::format("Rondure {}", core::kVersion), style);
-  draw_line(kPdfMargin + 0.5 * kTextWidth, kFootY, 0.5 * kTextWidth, Align::kRight,
-            trf("Page {} of {}", page, pages), style);
+  return fmt::format("<style>@page{{size:{};{}{}{}}}</style>", name_of_paper(paper),
+                     field("left", tr("Part"), part),
+                     field("center", tr("Revision"), header.plan_revision),
+                     field("right", tr("Run"), header.run_id));
 }
 
-/// Headings as bookmarks, each below the last one of a higher level.
-void Document::add_to_outline(const Placed& placed) {
-  const Brick& brick = *placed.brick;
-  if (brick.level < 1 || placed.box != brick.box.get() || placed.slice.from > 0.0) return;
-  const auto depth = std::min(static_cast<std::size_t>(brick.level), outline_.size());
-  outline_.resize(depth);
-  const std::string place =
-      fmt::format("page={} pos=[{:.2f} {:.2f}]", placed.page + 1, kPdfMargin, kPdfTop + placed.top);
-  outline_.push_back(cairo_pdf_surface_add_outline(surface_.get(), outline_.back(),
-                                                   shortened(clean(brick.heading), 200).c_str(),
-                                                   place.c_str(), CAIRO_PDF_OUTLINE_FLAG_OPEN));
-}
-
-void Document::draw(const Placed& placed, std::vector<PdfFigure>& figures) {
-  const double y = kPdfTop + placed.top;
-  placed.box->draw(cairo_.get(), kPdfMargin, y - placed.slice.from, placed.slice);
-  add_to_outline(placed);
-  if (!placed.brick->figure) return;
-  const bool whole = placed.slice.from <= 0.0 && placed.slice.to >= placed.box->height();
-  figures.push_back({placed.page + 1, kPdfMargin, y, kPdfMargin + placed.box->width(),
-                     y + placed.height(), whole});
-}
-
-core::Result<Pdf> Document::write(std::string_view html) {
-  if (!press_.has_fonts()) {
-    return core::fail(core::Code::kFile,
-                      "no font is installed, a PDF cannot be set; install one "
-                      "(Debian: fonts-dejavu-core)",
-                      "report.pdf");
+std::string file_url(const fs::path& file) {
+  std::string out = "file://";
+  for (const char c : file.string()) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                       std::string_view("/-_.~").find(c) != std::string_view::npos;
+    out += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
   }
-  const std::vector<Brick> all = bricks();
-  const std::vector<Placed> placed = paginate(all, kTextHeight);
-  Pdf out;
-  out.pages = placed.empty() ? 1 : placed.back().page + 1;
-  describe(html);
-  std::size_t next = 0;
-  for (int page = 0; page < out.pages; ++page) {
-    draw_head_and_foot(page + 1, out.pages);
-    for (; next < placed.size() && placed[next].page == page; ++next) {
-      draw(placed[next], out.figures);
-    }
-    cairo_show_page(cairo_.get());
-  }
-  cairo_surface_finish(surface_.get());
-  const cairo_status_t status = cairo_surface_status(surface_.get());
-  if (status != CAIRO_STATUS_SUCCESS) press_.note_fault(cairo_status_to_string(status));
-  if (!press_.faults().empty()) {
-    return core::fail(core::Code::kInternal,
-                      fmt::format("the report cannot be set: {}", press_.faults().front()),
-                      "report.pdf");
-  }
-  out.missing.assign(press_.missing().begin(), press_.missing().end());
-  out.bytes = std::move(bytes_);
   return out;
 }
 
-/// What a document states of its page: digest, then language. Cairo writes it behind the names,
-/// which may hold anything.
-std::string_view statement_in(std::string_view bytes) {
-  const std::size_t at = bytes.rfind(kDigestMark);
-  if (at == std::string_view::npos) return {};
-  const std::string_view rest = bytes.substr(at + kDigestMark.size(), 200);
-  return rest.substr(0, rest.find(')'));
+/// Nothing of a desktop is needed. What Chromium would keep at home goes with the folder; fonts
+/// that a user installed are found nevertheless.
+std::vector<std::string> print_environment(const PrintFolder& folder) {
+  const std::string place = folder.path().string();
+  std::vector<std::string> out = {"HOME=" + place, "TMPDIR=" + place, "LANG=C.UTF-8", "TZ=UTC",
+                                  "DBUS_SESSION_BUS_ADDRESS=disabled:"};
+  for (const char* name : {"PATH", "FONTCONFIG_FILE", "FONTCONFIG_PATH", "XDG_DATA_HOME"}) {
+    if (const char* value = std::getenv(name)) out.push_back(fmt::format("{}={}", name, value));
+  }
+  const char* home = std::getenv("HOME");
+  if (home != nullptr && std::getenv("XDG_DATA_HOME") == nullptr) {
+    out.push_back(fmt::format("XDG_DATA_HOME={}/.local/share", home));
+  }
+  return out;
+}
+
+std::vector<std::string> print_arguments(const PrintFolder& folder) {
+  std::vector<std::string> out = {"--headless",
+                                  "--disable-gpu",
+                                  "--no-pdf-header-footer",
+                                  "--export-tagged-pdf",
+                                  "--generate-pdf-document-outline",
+                                  "--no-first-run",
+                                  "--disable-extensions",
+                                  "--disable-sync",
+                                  "--disable-breakpad",
+                                  "--disable-background-networking",
+                                  "--disable-component-update",
+                                  "--disable-dev-shm-usage",
+                                  "--host-resolver-rules=MAP * ~NOTFOUND",
+                                  "--user-data-dir=" + (folder / "profile").string(),
+                                  "--print-to-pdf=" + (folder / "report.pdf").string()};
+  // Chromium refuses its sandbox to root. The page loads nothing and runs no script but ours.
+  if (::geteuid() == 0) out.emplace_back("--no-sandbox");
+  out.push_back(file_url(folder / "report.html"));
+  return out;
+}
+
+tl::unexpected<core::Error> not_printed(const std::string& why) {
+  return core::fail(core::Code::kFile, fmt::format("the page cannot be printed: {}", why),
+                    "report.pdf");
 }
 
 }  // namespace
-}  // namespace rondure::reports::pdf
 
-namespace rondure::reports {
+std::optional<Paper> paper_named(std::string_view name) {
+  if (name == "a4") return Paper::kA4;
+  if (name == "letter") return Paper::kLetter;
+  return std::nullopt;
+}
 
-core::Result<Pdf> write_pdf(const record::RunRecord& record, std::string_view html) {
+std::vector<std::string> paper_names() { return {"a4", "letter"}; }
+
+core::Result<fs::path> find_browser() {
+  fs::path browser =
+      record::find_program({"chromium", "chromium-browser", "google-chrome", "google-chrome-stable",
+                            "chrome", "chromium-headless-shell"});
+  if (!browser.empty()) return browser;
+  return core::fail(core::Code::kFile,
+                    "a PDF is printed by Chromium, and none is on PATH; install it (Debian: "
+                    "chromium), or leave pdf out of the formats and print report.html",
+                    "report.pdf");
+}
+
+core::Result<std::string> print_pdf(const record::Header& header, std::string_view html,
+                                    Paper paper, std::chrono::milliseconds time_limit) {
   const LanguageScope scope(language_of_page(html));
-  const auto page = pdf::read_page(html);
-  if (!page) return core::fail(page.error());
-  return pdf::Document(record, *page).write(html);
-}
-
-std::string missing_in_words(const std::vector<char32_t>& missing) {
-  if (missing.empty()) return {};
-  constexpr std::size_t kMost = 8;
-  std::string codes;
-  for (std::size_t i = 0; i < std::min(missing.size(), kMost); ++i) {
-    codes += fmt::format("{}U+{:04X}", i == 0 ? "" : ", ", static_cast<unsigned>(missing[i]));
+  const auto browser = find_browser();
+  if (!browser) return core::fail(browser.error());
+  const PrintFolder folder;
+  if (folder.path().empty()) return not_printed(record::system_reason(errno));
+  std::string page(html);
+  page.insert(std::min(page.find("</head>"), page.size()), sheet_style(header, paper));
+  if (auto done = record::write_file(folder / "report.html", page); !done) {
+    return not_printed(done.error().what);
   }
-  if (missing.size() > kMost) codes += ", ...";
-  return trf(
-      "No installed font has these characters of the report: {}. They are shown as boxes with "
-      "their codes. Install a font that has them and write the report again (Debian: "
-      "fonts-noto-cjk for "
-      "Chinese, fonts-noto-core for others).",
-      codes);
+  const auto ran = record::run_program(
+      {*browser, print_arguments(folder), print_environment(folder), folder / "said", time_limit});
+  if (!ran) return not_printed(printable(ran.error().what));
+  auto bytes = record::read_file(folder / "report.pdf");
+  const std::size_t end = bytes ? bytes->rfind("startxref") : std::string::npos;
+  if (end == std::string::npos || !bytes->starts_with("%PDF-") ||
+      bytes->find("%%EOF", end) == std::string::npos) {
+    return not_printed(fmt::format("{} ended without a whole document", browser->string()));
+  }
+  // A comment where no offset of the document is counted across it.
+  bytes->insert(end,
+                fmt::format("% {}{}{}{}{}\n", page_mark(html), kPaperMark, name_of_paper(paper),
+                            kPageLanguageMark, tag_of(language_of_page(html))));
+  return std::move(*bytes);
 }
 
-std::optional<std::string> pdf_difference(std::string_view expected, std::string_view found,
-                                          bool as_written) {
-  if (expected == found) return std::nullopt;
-  const bool same_page = pdf::statement_in(expected) == pdf::statement_in(found);
-  if (!same_page) return "it was set from another page than the journal gives";
-  if (as_written) return std::nullopt;
-  return "its bytes are not those that are set now from the same page";
+bool is_printed_from(std::string_view html, std::string_view pdf, std::optional<Paper> paper) {
+  const std::string_view statement = print_statement(pdf);
+  if (!statement.starts_with(page_mark(html))) return false;
+  return !paper || statement.find(fmt::format("{}{},", kPaperMark, name_of_paper(*paper))) !=
+                       std::string_view::npos;
 }
 
-Language language_of_pdf(std::string_view bytes) {
-  const std::string mark = fmt::format("{}{}", pdf::kLanguageMark, tag_of(Language::kChinese));
-  return pdf::statement_in(bytes).ends_with(mark) ? Language::kChinese : Language::kEnglish;
+Language language_of_pdf(std::string_view pdf) {
+  const std::string mark = fmt::format("{}{}", kPageLanguageMark, tag_of(Language::kChinese));
+  return print_statement(pdf).ends_with(mark) ? Language::kChinese : Language::kEnglish;
 }
 
 }  // namespace rondure::reports

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,49 +13,36 @@
 
 namespace rondure::reports {
 
-/// Where a drawing with its caption stands in a PDF [pt, from the top left of the paper].
-struct PdfFigure {
-  int page = 0;  ///< From 1.
-  double left = 0.0;
-  double top = 0.0;
-  double right = 0.0;
-  double bottom = 0.0;
-  bool whole = true;  ///< Not cut: one that is no higher than a page never is.
-};
+/// What report.pdf is printed on.
+enum class Paper { kA4, kLetter };
 
-/// A report on paper.
-struct Pdf {
-  std::string bytes;
-  int pages = 0;
-  std::vector<PdfFigure> figures;
-  /// Characters for which no font is installed. The PDF shows their codes in boxes, and says so.
-  std::vector<char32_t> missing;
-};
+/// "a4" or "letter"; nothing for any other name.
+[[nodiscard]] std::optional<Paper> paper_named(std::string_view name);
+/// Every name that paper_named() knows.
+[[nodiscard]] std::vector<std::string> paper_names();
 
-/// Paper and margins [pt]: A4, text 180 x 259 mm.
-inline constexpr double kPdfWidth = 595.276;
-inline constexpr double kPdfHeight = 841.89;
-inline constexpr double kPdfMargin = 42.52;
-inline constexpr double kPdfTop = 53.0;
-inline constexpr double kPdfBottom = 54.0;
+/// The Chromium of this machine, which prints report.pdf; kFile, naming the package to install,
+/// when none is on PATH.
+[[nodiscard]] core::Result<std::filesystem::path> find_browser();
 
-/// report.pdf, set from the page that write_html() made of the same record, so that both say the
-/// same. All fonts are embedded. No clock: the creation date is the start of the run; the same page
-/// gives the same bytes with the same fonts and libraries.
-/// @return  The document; kFile when no font is installed; kInternal for a page that is not
-/// well-formed or a drawing that cannot be drawn.
-[[nodiscard]] core::Result<Pdf> write_pdf(const record::RunRecord& record, std::string_view html);
+/// How long Chromium may take; a report takes some seconds.
+inline constexpr std::chrono::milliseconds kPrintTime = std::chrono::minutes(2);
 
-/// What `rondure` tells of characters without a font: "report.pdf: no installed font has ..." with
-/// what to do; empty without any.
-[[nodiscard]] std::string missing_in_words(const std::vector<char32_t>& missing);
+/// report.pdf: the page printed by a headless Chromium in its own print style, on that paper; above
+/// each page part, revision and run. It states the digest of the page that it was printed from.
+/// @param html  As write_html() makes it.
+/// @return  The bytes, which differ from call to call; kFile when there is no Chromium, when it
+///          fails, is killed or takes longer than `time_limit`.
+[[nodiscard]] core::Result<std::string> print_pdf(
+    const record::Header& header, std::string_view html, Paper paper,
+    std::chrono::milliseconds time_limit = kPrintTime);
 
-/// Why a PDF on disk is not the one that is set now, or nothing. Bytes that are as they were
-/// written (`as_written`) and were set from the same page differ in fonts and libraries alone.
-[[nodiscard]] std::optional<std::string> pdf_difference(std::string_view expected,
-                                                        std::string_view found, bool as_written);
+/// Whether a report.pdf states that it was printed from this page, and, unless `paper` is empty, on
+/// that paper.
+[[nodiscard]] bool is_printed_from(std::string_view html, std::string_view pdf,
+                                   std::optional<Paper> paper = std::nullopt);
 
-/// The language of the page that a PDF was set from, as the PDF states it.
-[[nodiscard]] Language language_of_pdf(std::string_view bytes);
+/// The language of the page that a report.pdf was printed from; English for anything else.
+[[nodiscard]] Language language_of_pdf(std::string_view pdf);
 
 }  // namespace rondure::reports
