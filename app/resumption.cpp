@@ -74,7 +74,7 @@ core::Result<Resumption> find_resumption(const RunArguments& arguments) {
 
 plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run) {
   if (!arguments.resume || !names_directory(arguments)) return plans::read_plan(arguments.plan);
-  auto plan = plans::parse_plan(run.plan_text, {}, run.plan_file);
+  auto plan = plans::parse_plan(run.plan_text, {}, run.plan_file, true);
   std::vector<core::Error> problems;
   if (!plan) {  // it was good: what is missing are its points files, which stand beside it
     problems = plan.error();

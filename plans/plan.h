@@ -309,8 +309,17 @@ using PlanOrProblems = tl::expected<Plan, std::vector<core::Error>>;
 [[nodiscard]] PlanOrProblems read_plan(const std::filesystem::path& path);
 
 /// The same for text; `folder` resolves points files, `name` stands in places of syntax errors.
+/// @param recorded  The text is that of a journal: formats that this version does not write are
+/// left
+///                  out.
 [[nodiscard]] PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
-                                        std::string_view name);
+                                        std::string_view name, bool recorded = false);
+
+/// Why nobody gets a format of earlier versions, and what to use.
+inline constexpr std::string_view kInsteadOfJunit =
+    "\"junit\" is no longer written; use \"json\", whose report.json holds each verdict, or the "
+    "exit "
+    "status of the run, 0 when all conform";
 
 /// The paper that the plan in a journal asks for; of text that is no plan, what plans default to.
 [[nodiscard]] std::string recorded_paper(std::string_view text);

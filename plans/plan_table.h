@@ -584,11 +584,13 @@ void describe(Visitor& v, FeaturePlan& p) {
 template <class Visitor>
 void describe(Visitor& v, ReportsPlan& p) {
   v.texts("formats", p.formats,
-          {.one_of = {"html", "pdf", "json", "csv", "qif", "dmis", "junit"},
+          {.one_of = {"html", "pdf", "json", "csv", "qif", "dmis"},
+           .former = "junit",
+           .instead = kInsteadOfJunit,
            .empty_allowed = false,
            .meaning =
                "Reports that a run writes: a page, the same on paper (PDF), all numbers, tables, "
-               "QIF 3.0 results, a DMIS output block, a JUnit summary for pipelines."});
+               "QIF 3.0 results, a DMIS output block."});
   v.text("paper", p.paper,
          {.one_of = {"a4", "letter"}, .meaning = "Paper that the PDF is printed on."});
   v.text("archive", p.archive,

@@ -67,11 +67,10 @@ core::Result<record::Checksum> write_one(const Export& what, const std::filesyst
 }  // namespace
 
 const std::vector<Export>& exports() {
-  static const std::vector<Export> all = {{"html", "report.html"},    {"json", "report.json"},
-                                          {"csv", "touches.csv"},     {"csv", kSeriesFile},
-                                          {"csv", kResultsFile},      {"qif", "report.qif"},
-                                          {"dmis", "report.dmo"},     {"junit", "report.junit.xml"},
-                                          {"json", kCalibrationFile}, {"pdf", "report.pdf"}};
+  static const std::vector<Export> all = {
+      {"html", "report.html"}, {"json", "report.json"},    {"csv", "touches.csv"},
+      {"csv", kSeriesFile},    {"csv", kResultsFile},      {"qif", "report.qif"},
+      {"dmis", "report.dmo"},  {"json", kCalibrationFile}, {"pdf", "report.pdf"}};
   return all;
 }
 
@@ -105,7 +104,6 @@ std::string render(const Export& what, const record::RunRecord& record,
   if (what.format == "json") return write_json(record, evaluation);
   if (what.format == "qif") return write_qif(record, evaluation);
   if (what.format == "dmis") return write_dmis(record, evaluation);
-  if (what.format == "junit") return write_junit(record, evaluation);
   if (what.file == kSeriesFile) return write_series_csv(record);
   if (what.file == kResultsFile) return write_results_csv(record, evaluation);
   return write_touches_csv(record);

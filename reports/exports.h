@@ -16,7 +16,7 @@ namespace rondure::reports {
 
 /// One file that is derived from a record.
 struct Export {
-  std::string format;  ///< "html", "pdf", "json", "csv", "qif", "dmis", "junit".
+  std::string format;  ///< "html", "pdf", "json", "csv", "qif", "dmis".
   std::string file;    ///< Name in the run directory: report.html, touches.csv, ...
 };
 

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "record/sha256.h"
 #include "reports/text.h"
 #include "tests/app/files.h"
 #include "tests/app/on_terminal.h"
@@ -20,7 +21,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr const char* kAll = "html,json,csv,qif,dmis,junit";
+constexpr const char* kAll = "html,json,csv,qif,dmis";
 
 /// A PATH for programs that are started meanwhile.
 class OtherPath {
@@ -47,8 +48,7 @@ class Formats : public ::testing::Test {
 };
 
 TEST_F(Formats, AreListedVerifiedAndWrittenAgainByteForByte) {
-  const std::vector<std::string> files = {"report.qif", "report.dmo", "report.junit.xml",
-                                          "results.csv"};
+  const std::vector<std::string> files = {"report.qif", "report.dmo", "results.csv"};
   std::vector<std::string> bytes;
   for (const std::string& file : files) {
     bytes.push_back(read(run_ / file));
@@ -56,15 +56,14 @@ TEST_F(Formats, AreListedVerifiedAndWrittenAgainByteForByte) {
     EXPECT_THAT(read(run_ / "SHA256SUMS"), HasSubstr("  " + file + "\n"));
   }
   EXPECT_THAT(rondure({"verify", run_}).out,
-              AllOf(HasSubstr("results.csv, report.qif, report.dmo, report.junit.xml"),
-                    Not(HasSubstr("not there"))));
+              AllOf(HasSubstr("results.csv, report.qif, report.dmo"), Not(HasSubstr("not there"))));
   for (const std::string& file : files) std::filesystem::remove(run_ / file);
   EXPECT_EQ(rondure({"report", run_, "--format", kAll}).status, 0);
   for (std::size_t i = 0; i < files.size(); ++i) EXPECT_EQ(read(run_ / files[i]), bytes[i]);
 }
 
 TEST_F(Formats, AChangedDigitIsFoundInEach) {
-  for (const char* file : {"report.qif", "report.dmo", "report.junit.xml", "results.csv"}) {
+  for (const char* file : {"report.qif", "report.dmo", "results.csv"}) {
     SCOPED_TRACE(file);
     const std::string bytes = read(run_ / file);
     std::string changed = bytes;
@@ -155,12 +154,32 @@ TEST_F(FormatPdf, IsVerifiedByItsDigestAndByThePageThatItNames) {
 }
 
 TEST_F(Formats, ThePlanMayAskForThem) {
-  write_plan(folder_ / "plan.json", {{"/reports/formats", {"qif", "junit"}}});
+  write_plan(folder_ / "plan.json", {{"/reports/formats", {"qif", "dmis"}}});
   ASSERT_LE(
       rondure({"run", folder_ / "plan.json", "--out", folder_ / "two", "--archive", "none"}).status,
       1);
   EXPECT_THAT(names_in(folder_ / "two"),
-              ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.junit.xml", "report.qif"));
+              ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.dmo", "report.qif"));
+}
+
+TEST_F(Formats, JunitIsRefusedWithWhatToUseAndLeftOutOfAPlanInAJournal) {
+  const std::string instead = R"("junit" is no longer written; use "json")";
+  const Outcome asked = rondure({"report", run_, "--format", "json,junit"});
+  EXPECT_EQ(asked.status, 2);
+  EXPECT_THAT(asked.err, HasSubstr(instead));
+  write_plan(folder_ / "plan.json", {{"/reports/formats", {"json", "junit"}}});
+  const Outcome planned = rondure({"validate", folder_ / "plan.json"});
+  EXPECT_EQ(planned.status, 2);
+  EXPECT_THAT(planned.out + planned.err, HasSubstr("/reports/formats/1: " + instead));
+  record::RunRecord before = journal_of(run_);
+  const std::size_t at = before.header.plan_text.rfind('}');
+  before.header.plan_text.insert(at, R"(, "reports": {"formats": ["json", "junit"]})");
+  before.header.plan_sha256 = record::sha256_hex(before.header.plan_text);
+  write_resealed(before, folder_ / "before");
+  const Outcome resumed = rondure({"run", folder_ / "before", "--resume", "--archive", "none"});
+  EXPECT_EQ(resumed.status, 0) << resumed.err;
+  EXPECT_THAT(names_in(folder_ / "before"),
+              ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.json"));
 }
 
 /// Lines of a terminal, without what ends them.
