@@ -5,11 +5,10 @@
 # include it.
 rondure_build_packages="g++ cmake ninja-build git libeigen3-dev nlohmann-json3-dev libexpected-dev libcli11-dev libfmt-dev
   libasio-dev libsoci-dev libpq-dev libboost-dev libsqlite3-dev libssl-dev libfftw3-dev libcgal-dev
-  pkg-config libusb-1.0-0-dev libceres-dev libpugixml-dev libcpp-httplib-dev libcairo2-dev libpango1.0-dev
-  librsvg2-dev fonts-dejavu-core"
+  pkg-config libusb-1.0-0-dev libceres-dev libpugixml-dev libcpp-httplib-dev"
 rondure_test_packages="libgtest-dev libgmock-dev python3-jsonschema postgresql openssl libumockdev-dev umockdev
-  libxml2-utils poppler-utils fonts-noto-cjk dpkg-dev lintian zsh fish"
-rondure_browser_packages="chromium nodejs npm fonts-dejavu-core poppler-utils"
+  libxml2-utils dpkg-dev lintian zsh fish"
+rondure_browser_packages="chromium nodejs npm fonts-dejavu-core fonts-noto-cjk poppler-utils"
 rondure_benchmark_packages="libbenchmark-dev libnlopt-cxx-dev libalglib-dev python3"
 rondure_fuzz_packages="clang-14 libclang-rt-14-dev"
 

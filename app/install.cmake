@@ -66,7 +66,8 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME rondure)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-dejavu-core")
+# Chromium prints report.pdf; everything else works without it.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "chromium, fonts-dejavu-core")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "fonts-noto-cjk")
 # After a first line that CPack takes from the project.
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "A plan in JSON says what to inspect. The program turns the fixture

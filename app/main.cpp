@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "app/verbs/analyses.h"
 #include "app/command_documents.h"
 #include "app/run/indicators.h"
-#include "app/verbs/rotary_axes_command.h"
 #include "app/text/terminal.h"
+#include "app/verbs/analyses.h"
+#include "app/verbs/rotary_axes_command.h"
 #include "app/verbs/verbs.h"
 #include "app/verbs/wheel_command.h"
 #include "core/numbers.h"
@@ -33,11 +33,16 @@ constexpr const char* kExits =
     "or 2.";
 
 /// "--format html,json": one argument, so that the plan may follow it.
+std::string check_format(const std::string& format) {
+  return format == "junit" ? std::string(plans::kInsteadOfJunit)
+                           : CLI::IsMember(reports::all_formats())(format);
+}
+
 void add_formats(CLI::App& verb, std::vector<std::string>& formats, const char* meaning) {
   verb.add_option("--format", formats, meaning)
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(reports::all_formats()))
+      ->check(check_format)
       ->type_name("LIST");
 }
 
@@ -45,6 +50,13 @@ void add_language(CLI::App& verb, std::string& language) {
   verb.add_option("--lang", language, "Language of page and summary: en or zh (default: en)")
       ->check(CLI::IsMember(reports::language_names()))
       ->type_name("LANG");
+}
+
+void add_paper(CLI::App& verb, std::string& paper) {
+  verb.add_option("--paper", paper,
+                  "Paper of report.pdf: a4 or letter (default: as the plan says, else a4)")
+      ->check(CLI::IsMember(reports::paper_names()))
+      ->type_name("PAPER");
 }
 
 /// Whole numbers that every reader of JSON keeps, as in a plan.
@@ -135,9 +147,9 @@ void add_run(CLI::App& app, RunArguments& arguments) {
   verb->add_option("--operator", arguments.operator_name, "Who measures");
   verb->add_option("--seed", arguments.seed, "Seed of the simulation, in place of the plan's")
       ->check(check_seed);
-  add_formats(*verb, arguments.formats,
-              "html,pdf,json,csv,qif,dmis,junit (default: as the plan says)");
+  add_formats(*verb, arguments.formats, "html,pdf,json,csv,qif,dmis (default: as the plan says)");
   add_language(*verb, arguments.language);
+  add_paper(*verb, arguments.paper);
   verb->add_option("--archive", arguments.archive,
                    "Where the results are kept besides: a file, postgresql://... or none\n"
                    "(default: as the plan says, else archive.db beside the run directory)");
@@ -351,8 +363,10 @@ void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
 void add_report(CLI::App& app, ReportArguments& arguments) {
   auto* verb = app.add_subcommand("report", "Writes the reports of a run again, from its journal");
   verb->add_option("RUN_DIR", arguments.directory, "Run directory")->required();
-  add_formats(*verb, arguments.formats, "html,pdf,json,csv,qif,dmis,junit (default: all)");
+  add_formats(*verb, arguments.formats,
+              "html,pdf,json,csv,qif,dmis (default: all; pdf where there is Chromium)");
   add_language(*verb, arguments.language);
+  add_paper(*verb, arguments.paper);
   verb->footer("\nExample: rondure report runs/01_spool_simulated-20261121T023302Z --format html");
 }
 

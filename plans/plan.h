@@ -10,19 +10,19 @@
 
 #include "core/result.h"
 #include "plans/analyses/contour_plan.h"
-#include "plans/fixture_drivers_plan.h"
-#include "plans/machine_errors_plan.h"
 #include "plans/analyses/rotary_plan.h"
 #include "plans/analyses/spindle_plan.h"
-#include "plans/uncertainty_plan.h"
 #include "plans/analyses/wheel_plan.h"
+#include "plans/fixture_drivers_plan.h"
+#include "plans/machine_errors_plan.h"
+#include "plans/uncertainty_plan.h"
 #include "plans/zaber_plan.h"
 
 namespace rondure::plans {
 
 // The plan as its JSON spells it: degrees and micrometres where the key says so. The one place
-// where keys, units, ranges, meanings and defaults stand is plans/schema/internal/plan_table.h; a member
-// initialiser here is the default.
+// where keys, units, ranges, meanings and defaults stand is plans/schema/internal/plan_table.h; a
+// member initialiser here is the default.
 
 struct PlanHead {
   std::string name;
@@ -279,7 +279,8 @@ struct SimulationPlan {
 
 struct ReportsPlan {
   std::vector<std::string> formats = {"html", "json", "csv"};
-  std::string archive;  ///< Empty: archive.db beside the run directory.
+  std::string paper = "a4";  ///< Of the PDF: "a4" or "letter".
+  std::string archive;       ///< Empty: archive.db beside the run directory.
 };
 
 struct Plan {
@@ -308,8 +309,20 @@ using PlanOrProblems = tl::expected<Plan, std::vector<core::Error>>;
 [[nodiscard]] PlanOrProblems read_plan(const std::filesystem::path& path);
 
 /// The same for text; `folder` resolves points files, `name` stands in places of syntax errors.
+/// @param recorded  The text is that of a journal: formats that this version does not write are
+/// left
+///                  out.
 [[nodiscard]] PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
-                                        std::string_view name);
+                                        std::string_view name, bool recorded = false);
+
+/// Why nobody gets a format of earlier versions, and what to use.
+inline constexpr std::string_view kInsteadOfJunit =
+    "\"junit\" is no longer written; use \"json\", whose report.json holds each verdict, or the "
+    "exit "
+    "status of the run, 0 when all conform";
+
+/// The paper that the plan in a journal asks for; of text that is no plan, what plans default to.
+[[nodiscard]] std::string recorded_paper(std::string_view text);
 
 /// The JSON Schema (draft 7) of a plan, from the same table that reads it.
 [[nodiscard]] std::string plan_schema();

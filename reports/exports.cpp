@@ -8,7 +8,6 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
-#include "reports/pdf_report.h"
 #include "reports/data/qif/check.h"
 #include "reports/writers.h"
 
@@ -51,45 +50,27 @@ core::Result<void> look_through(const Export& what, const std::string& bytes) {
                     fmt::format("{} would not be sound: {}", what.file, faults.front()), what.file);
 }
 
-std::string export_text(const Export& what, const record::RunRecord& record,
-                        const Evaluation& evaluation, Language language,
-                        const EarlierResults& earlier) {
-  if (what.file == kCalibrationFile) return calibration_of(evaluation);
-  if (what.format == "html") return write_html(record, evaluation, language, earlier);
-  if (what.format == "json") return write_json(record, evaluation);
-  if (what.format == "qif") return write_qif(record, evaluation);
-  if (what.format == "dmis") return write_dmis(record, evaluation);
-  if (what.format == "junit") return write_junit(record, evaluation);
-  if (what.file == kSeriesFile) return write_series_csv(record);
-  if (what.file == kResultsFile) return write_results_csv(record, evaluation);
-  return write_touches_csv(record);
-}
-
-/// Writes one export whole, when it is sound; gives its digest and what is to be told of it.
-core::Result<record::Checksum> write_one(const Export& what, const std::filesystem::path& directory,
-                                         const record::RunRecord& record,
-                                         const Evaluation& evaluation, Language language,
-                                         const EarlierResults& earlier, WrittenExports& out) {
-  const auto made = render(what, record, evaluation, language, earlier);
-  if (!made) return core::fail(made.error());
-  if (auto sound = look_through(what, made->bytes); !sound) return core::fail(sound.error());
-  const auto path = directory / what.file;
-  if (auto done = record::write_file(path, made->bytes); !done) return core::fail(done.error());
-  out.files.push_back(path);
-  if (!made->warning.empty()) {
-    out.warnings.push_back(fmt::format("{}: {}", path.string(), made->warning));
+/// Writes one export whole, when it is sound; gives its digest.
+core::Result<record::Checksum> write_one(const Export& what, const std::filesystem::path& path,
+                                         const record::Header& header, std::string bytes,
+                                         Paper paper) {
+  if (what.format == "pdf") {
+    auto printed = print_pdf(header, bytes, paper);
+    if (!printed) return core::fail(printed.error());
+    bytes = std::move(*printed);
   }
-  return record::Checksum{what.file, record::sha256_hex(made->bytes)};
+  if (auto sound = look_through(what, bytes); !sound) return core::fail(sound.error());
+  if (auto done = record::write_file(path, bytes); !done) return core::fail(done.error());
+  return record::Checksum{what.file, record::sha256_hex(bytes)};
 }
 
 }  // namespace
 
 const std::vector<Export>& exports() {
   static const std::vector<Export> all = {
-      {"html", "report.html"},   {"pdf", "report.pdf"},  {"json", "report.json"},
-      {"csv", "touches.csv"},    {"csv", kSeriesFile},   {"csv", kResultsFile},
-      {"qif", "report.qif"},     {"dmis", "report.dmo"}, {"junit", "report.junit.xml"},
-      {"json", kCalibrationFile}};
+      {"html", "report.html"}, {"json", "report.json"},    {"csv", "touches.csv"},
+      {"csv", kSeriesFile},    {"csv", kResultsFile},      {"qif", "report.qif"},
+      {"dmis", "report.dmo"},  {"json", kCalibrationFile}, {"pdf", "report.pdf"}};
   return all;
 }
 
@@ -114,15 +95,18 @@ bool applies(const Export& what, const record::RunRecord& record) {
          });
 }
 
-core::Result<Rendered> render(const Export& what, const record::RunRecord& record,
-                              const Evaluation& evaluation, Language language,
-                              const EarlierResults& earlier) {
-  if (what.format != "pdf") {
-    return Rendered{export_text(what, record, evaluation, language, earlier), {}};
+std::string render(const Export& what, const record::RunRecord& record,
+                   const Evaluation& evaluation, Language language, const EarlierResults& earlier) {
+  if (what.file == kCalibrationFile) return calibration_of(evaluation);
+  if (what.format == "html" || what.format == "pdf") {
+    return write_html(record, evaluation, language, earlier);
   }
-  auto made = write_pdf(record, write_html(record, evaluation, language, earlier));
-  if (!made) return core::fail(made.error());
-  return Rendered{std::move(made->bytes), missing_in_words(made->missing)};
+  if (what.format == "json") return write_json(record, evaluation);
+  if (what.format == "qif") return write_qif(record, evaluation);
+  if (what.format == "dmis") return write_dmis(record, evaluation);
+  if (what.file == kSeriesFile) return write_series_csv(record);
+  if (what.file == kResultsFile) return write_results_csv(record, evaluation);
+  return write_touches_csv(record);
 }
 
 Language language_of(const Export& what, std::string_view bytes) {
@@ -132,22 +116,21 @@ Language language_of(const Export& what, std::string_view bytes) {
 
 bool exports_are_current(const std::filesystem::path& directory,
                          const std::vector<std::string>& formats, const record::RunRecord& record,
-                         const Evaluation& evaluation, Language language) {
+                         const Evaluation& evaluation, Language language, Paper paper) {
   const auto earlier = read_earlier(directory);
   if (!earlier) return false;
   return std::all_of(exports().begin(), exports().end(), [&](const Export& e) {
     if (!applies(e, record)) return true;
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) return true;
     const auto bytes = record::read_file(directory / e.file);
-    const auto made = render(e, record, evaluation, language, *earlier);
-    return bytes && made && *bytes == made->bytes;
+    const std::string made = render(e, record, evaluation, language, *earlier);
+    return bytes && (e.format == "pdf" ? is_printed_from(made, *bytes, paper) : *bytes == made);
   });
 }
 
-core::Result<WrittenExports> write_exports(const std::filesystem::path& directory,
-                                           const std::vector<std::string>& formats,
-                                           const record::RunRecord& record,
-                                           const Evaluation& evaluation, Language language) {
+core::Result<std::vector<std::filesystem::path>> write_exports(
+    const std::filesystem::path& directory, const std::vector<std::string>& formats,
+    const record::RunRecord& record, const Evaluation& evaluation, Language language, Paper paper) {
   for (const std::string& format : formats) {
     const auto known = all_formats();
     if (std::find(known.begin(), known.end(), format) == known.end()) {
@@ -158,17 +141,19 @@ core::Result<WrittenExports> write_exports(const std::filesystem::path& director
   }
   const auto earlier = read_earlier(directory);
   if (!earlier) return core::fail(earlier.error());
-  WrittenExports written;
+  std::vector<std::filesystem::path> written;
   std::vector<record::Checksum> sums;
   core::Result<void> done;
   for (const Export& e : exports()) {
     if (!applies(e, record)) continue;
     if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) continue;
-    auto sum = write_one(e, directory, record, evaluation, language, *earlier, written);
+    auto sum = write_one(e, directory / e.file, record.header,
+                         render(e, record, evaluation, language, *earlier), paper);
     if (!sum) {
       done = core::fail(sum.error());
       break;
     }
+    written.push_back(directory / e.file);
     sums.push_back(std::move(*sum));
   }
   // Also of those written before one failed: a list with an old digest would call them changed.

@@ -7,15 +7,16 @@
 
 #include "core/result.h"
 #include "record/run_record.h"
-#include "reports/history/earlier_results.h"
 #include "reports/evaluation.h"
+#include "reports/history/earlier_results.h"
+#include "reports/pdf.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
 
 /// One file that is derived from a record.
 struct Export {
-  std::string format;  ///< "html", "pdf", "json", "csv", "qif", "dmis", "junit".
+  std::string format;  ///< "html", "pdf", "json", "csv", "qif", "dmis".
   std::string file;    ///< Name in the run directory: report.html, touches.csv, ...
 };
 
@@ -27,45 +28,34 @@ struct Export {
 /// fixture-calibration.json only of a finished calibration of the fixture.
 [[nodiscard]] bool applies(const Export& what, const record::RunRecord& record);
 
-/// One export as it would be written now.
-struct Rendered {
-  std::string bytes;
-  std::string warning;  ///< What a reader must be told besides, in a sentence; usually empty.
-};
-
-/// The bytes of one export. What people read is in `language`; what programs read is English.
-/// @return  Those, or why this machine cannot make them; only report.pdf fails, see write_pdf().
+/// The bytes of one export as it would be written now; of report.pdf the page that it is printed
+/// from. What people read is in `language`; what programs read is English.
 /// @param earlier  As earlier.json of the run directory holds them.
-[[nodiscard]] core::Result<Rendered> render(const Export& what, const record::RunRecord& record,
-                                            const Evaluation& evaluation,
-                                            Language language = Language::kEnglish,
-                                            const EarlierResults& earlier = {});
+[[nodiscard]] std::string render(const Export& what, const record::RunRecord& record,
+                                 const Evaluation& evaluation,
+                                 Language language = Language::kEnglish,
+                                 const EarlierResults& earlier = {});
 
 /// The language that a file of a run was written in, as the file itself states it.
 [[nodiscard]] Language language_of(const Export& what, std::string_view bytes);
 
-/// Whether a run directory holds these exports with the bytes that they would have now.
+/// Whether a run directory holds these exports with the bytes that they would have now, and a
+/// report.pdf that was printed from such a page on that paper.
 [[nodiscard]] bool exports_are_current(const std::filesystem::path& directory,
                                        const std::vector<std::string>& formats,
                                        const record::RunRecord& record,
                                        const Evaluation& evaluation,
-                                       Language language = Language::kEnglish);
-
-/// What write_exports() did.
-struct WrittenExports {
-  std::vector<std::filesystem::path> files;
-  std::vector<std::string> warnings;  ///< File first, in sentences.
-};
+                                       Language language = Language::kEnglish,
+                                       Paper paper = Paper::kA4);
 
 /// Writes exports into a run directory, each whole or not at all, and their digests into
 /// SHA256SUMS.
 /// @return The files written; kBadOption for an unknown format, kInternal when report.qif would
-/// break check_qif(), kFile with the system's reason or when there is no font for report.pdf,
-/// kSyntax for a SHA256SUMS that is none.
-[[nodiscard]] core::Result<WrittenExports> write_exports(const std::filesystem::path& directory,
-                                                         const std::vector<std::string>& formats,
-                                                         const record::RunRecord& record,
-                                                         const Evaluation& evaluation,
-                                                         Language language = Language::kEnglish);
+/// break check_qif(), kFile with the system's reason or when report.pdf cannot be printed, which is
+/// tried last, kSyntax for a SHA256SUMS that is none.
+[[nodiscard]] core::Result<std::vector<std::filesystem::path>> write_exports(
+    const std::filesystem::path& directory, const std::vector<std::string>& formats,
+    const record::RunRecord& record, const Evaluation& evaluation,
+    Language language = Language::kEnglish, Paper paper = Paper::kA4);
 
 }  // namespace rondure::reports

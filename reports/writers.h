@@ -4,10 +4,10 @@
 #include <string_view>
 
 #include "record/run_record.h"
-#include "reports/history/earlier_results.h"
 #include "reports/evaluation.h"
-#include "reports/words/language.h"
+#include "reports/history/earlier_results.h"
 #include "reports/terminal/polar_sketch.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 
@@ -40,11 +40,6 @@ namespace rondure::reports {
 
 /// report.dmo: actual features and tolerances as a DMIS (ISO 22093) output block. ASCII, mm.
 [[nodiscard]] std::string write_dmis(const record::RunRecord& record, const Evaluation& evaluation);
-
-/// report.junit.xml: a test case a characteristic, for pipelines. What does not conform and what is
-/// undecided fail, void is an error, what has no tolerance is skipped.
-[[nodiscard]] std::string write_junit(const record::RunRecord& record,
-                                      const Evaluation& evaluation);
 
 /// A few lines for the terminal: verdict, each characteristic, the zone, warnings; with a small
 /// drawing of the worst section of each feature where the terminal can show one.

@@ -51,6 +51,11 @@ reports::Language language_of(const RunArguments& arguments) {
   return reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
 }
 
+reports::Paper paper_of(const RunArguments& arguments, const plans::Plan& plan) {
+  const std::string& name = arguments.paper.empty() ? plan.reports.paper : arguments.paper;
+  return reports::paper_named(name).value_or(reports::Paper::kA4);
+}
+
 /// A run as its directory tells it.
 struct Told {
   record::RunRecord record;
@@ -109,6 +114,10 @@ void tell_failure(const core::Error& error, reports::LiveView* live) {
 
 }  // namespace
 
+const std::vector<std::string>& formats_of(const RunArguments& arguments, const plans::Plan& plan) {
+  return arguments.formats.empty() ? plan.reports.formats : arguments.formats;
+}
+
 int conclude(const RunToFinish& ending, plans::Run* run) {
   const auto& [arguments, plan, archive, directory, live] = ending;
   const auto told = read_and_evaluate(directory);
@@ -128,11 +137,10 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
     }
   }
   if (!failed) keep_earlier_results(archive, directory, told->record);
-  const auto formats = with_those_there(
-      arguments.formats.empty() ? plan.reports.formats : arguments.formats, directory);
+  const auto formats = with_those_there(formats_of(arguments, plan), directory);
   const reports::Language language = language_of(arguments);
-  const auto written =
-      reports::write_exports(directory, formats, told->record, evaluation, language);
+  const auto written = reports::write_exports(directory, formats, told->record, evaluation,
+                                              language, paper_of(arguments, plan));
   if (!written) {
     tell_failure(written.error(), live);
     if (!failed) {
@@ -142,13 +150,12 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
     }
     return kRunFailed;
   }
-  for (const std::string& warning : written->warnings) tell(fmt::format("rondure: {}\n", warning));
   if (live != nullptr) {
     live->show_result(told->record, evaluation, fs::absolute(directory).string());
   }
   if (!arguments.quiet) {
     say(reports::write_summary(told->record, evaluation, sketch_style(), language));
-    for (const fs::path& file : written->files) say_line(file.string());
+    for (const fs::path& file : *written) say_line(file.string());
   }
   if (!failed) (void)archive_run(archive, directory, told->record, evaluation);
   return exit_status(failed, evaluation.verdict);
@@ -171,9 +178,9 @@ int finish_sealed(const RunToFinish& ending) {
     print_error(told.error());
     return kRunFailed;
   }
-  const auto formats = arguments.formats.empty() ? plan.reports.formats : arguments.formats;
-  if (reports::exports_are_current(directory, formats, told->record, told->evaluation,
-                                   language_of(arguments))) {
+  if (reports::exports_are_current(directory, formats_of(arguments, plan), told->record,
+                                   told->evaluation, language_of(arguments),
+                                   paper_of(arguments, plan))) {
     return finish_archived(archive, directory, *told);
   }
   tell(fmt::format("rondure: the run in {} is finished and sealed; only its reports are written\n",

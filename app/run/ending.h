@@ -19,6 +19,10 @@ struct RunToFinish {
   reports::LiveView* live = nullptr;  ///< Who watches is shown the result; or none.
 };
 
+/// The formats that a run is to write: of the command line, else of the plan.
+[[nodiscard]] const std::vector<std::string>& formats_of(const RunArguments& arguments,
+                                                         const plans::Plan& plan);
+
 /// Evaluates what is on disk, not what is in memory; seals a finished run; writes the reports;
 /// archives a finished run.
 /// @param run  None for a run that was sealed before.

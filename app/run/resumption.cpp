@@ -74,7 +74,7 @@ core::Result<Resumption> find_resumption(const RunArguments& arguments) {
 
 plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run) {
   if (!arguments.resume || !names_directory(arguments)) return plans::read_plan(arguments.plan);
-  auto plan = plans::parse_plan(run.plan_text, {}, run.plan_file);
+  auto plan = plans::parse_plan(run.plan_text, {}, run.plan_file, true);
   std::vector<core::Error> problems;
   if (!plan) {  // it was good: what is missing are its points files, which stand beside it
     problems = plan.error();
@@ -110,6 +110,7 @@ std::string resume_command(const RunToFinish& run) {
     out += (i == 0 ? " --format " : ",") + arguments.formats[i];
   }
   if (arguments.language != "en") out += " --lang " + arguments.language;
+  if (!arguments.paper.empty()) out += " --paper " + arguments.paper;
   if (!arguments.archive.empty()) out += " --archive " + quoted(run.archive.shown);
   return out;
 }

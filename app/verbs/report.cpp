@@ -9,6 +9,7 @@
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "plans/checks/record.h"
+#include "plans/plan.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
@@ -26,6 +27,17 @@ namespace {
 std::string signed_checksums(const std::filesystem::path& directory) {
   if (!record::read_file(directory / record::kSignatureName)) return {};
   return record::read_file(directory / record::kChecksumsName).value_or("");
+}
+
+/// The formats that were asked for, else all that can be written here.
+std::vector<std::string> formats_of(const ReportArguments& arguments) {
+  if (!arguments.formats.empty()) return arguments.formats;
+  std::vector<std::string> all = reports::all_formats();
+  if (const auto browser = reports::find_browser(); !browser) {
+    tell(fmt::format("rondure: report.pdf is not written: {}\n", browser.error().what));
+    std::erase(all, "pdf");
+  }
+  return all;
 }
 
 }  // namespace
@@ -51,21 +63,23 @@ int report(const ReportArguments& arguments) {
     return kBadInput;
   }
   const std::string signed_sums = signed_checksums(arguments.directory);
-  const auto formats = arguments.formats.empty() ? reports::all_formats() : arguments.formats;
   const auto language =
       reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
+  const auto paper = reports::paper_named(arguments.paper.empty()
+                                              ? plans::recorded_paper(read->record.header.plan_text)
+                                              : arguments.paper);
   const auto written =
-      reports::write_exports(arguments.directory, formats, read->record, *evaluation, language);
+      reports::write_exports(arguments.directory, formats_of(arguments), read->record, *evaluation,
+                             language, paper.value_or(reports::Paper::kA4));
   if (!written) {
     print_error(written.error());
     return kBadInput;
   }
-  for (const std::string& warning : written->warnings) tell(fmt::format("rondure: {}\n", warning));
   if (signed_sums != signed_checksums(arguments.directory)) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }
   say(reports::write_summary(read->record, *evaluation, sketch_style(), language));
-  for (const auto& file : written->files) say_line(file.string());
+  for (const auto& file : *written) say_line(file.string());
   const bool well = evaluation->verdict == reports::Verdict::kConforms ||
                     evaluation->verdict == reports::Verdict::kNotToleranced;
   return well ? kAllWell : kNotConforming;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -20,6 +21,7 @@
 #include "plans/schema/json_text.h"
 #include "plans/schema/utf8.h"
 #include "record/journal/journal.h"
+#include "reports/pdf.h"
 
 namespace rondure::app {
 namespace {
@@ -125,6 +127,14 @@ core::Result<void> check_hand(const plans::Plan& plan) {
   return {};
 }
 
+/// Nobody shall measure for an hour and then learn that the report cannot be printed.
+core::Result<void> check_printing(const RunArguments& arguments, const plans::Plan& plan) {
+  const auto& formats = formats_of(arguments, plan);
+  if (std::find(formats.begin(), formats.end(), "pdf") == formats.end()) return {};
+  const auto browser = reports::find_browser();
+  return browser ? core::Result<void>() : core::fail(browser.error());
+}
+
 /// Names of the command line stand in every report, as those of the plan do.
 core::Result<void> check_names(const RunArguments& arguments) {
   for (const auto& [option, name] : {std::pair("--serial", &arguments.serial),
@@ -215,6 +225,10 @@ int run(const RunArguments& arguments) {
   RunToFinish ending{arguments, *plan, *archive, options.directory};
   listen_for_stop();
   if (resumption->state == Resumption::State::kFinished) return conclude_finished(ending, options);
+  if (auto printing = check_printing(arguments, *plan); !printing) {
+    print_error(printing.error());
+    return kBadInput;
+  }
   const bool resume = resumption->state == Resumption::State::kGoesOn;
   if (arguments.resume && !resume && !arguments.quiet) {
     tell(fmt::format("rondure: {} holds no run yet; it begins\n", options.directory.string()));

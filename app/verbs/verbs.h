@@ -44,6 +44,7 @@ struct RunArguments {
   std::optional<std::uint64_t> seed;
   std::vector<std::string> formats;  ///< Empty: as the plan says.
   std::string language = "en";       ///< Of page and summary: "en" or "zh".
+  std::string paper;                 ///< Of report.pdf, "a4" or "letter"; empty: as the plan says.
   std::string archive;               ///< Empty: as the plan says.
   std::string wire_log;              ///< Empty: none.
   bool quiet = false;
@@ -69,6 +70,7 @@ struct ReportArguments {
   std::string directory;
   std::vector<std::string> formats;
   std::string language = "en";  ///< Of page and summary: "en" or "zh".
+  std::string paper;            ///< Of report.pdf, "a4" or "letter"; empty: as the plan says.
 };
 [[nodiscard]] int report(const ReportArguments& arguments);
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cmm/simulated/part_surface.h"
+#include "core/round_values.h"
 #include "core/units.h"
 #include "plans/checks/internal/plan_reach.h"
 
@@ -215,14 +216,7 @@ std::string panel(const View& view, const std::vector<Shape>& shapes, const Poly
 }
 
 /// A round length that is about a fifth of a panel.
-double bar_mm(double px_per_mm) {
-  const double want = 0.2 * kPanel_px / px_per_mm;
-  const double ten = std::pow(10.0, std::floor(std::log10(want)));
-  for (const double step : {5.0, 2.0}) {
-    if (step * ten <= want) return step * ten;
-  }
-  return ten;
-}
+double bar_mm(double px_per_mm) { return core::round_below(0.2 * kPanel_px / px_per_mm); }
 
 }  // namespace
 

@@ -25,6 +25,8 @@ struct NumberSpec {
 /// A text, or each text of an array. With `one_of`, only these; otherwise at most kMaxTextBytes.
 struct TextSpec {
   std::vector<std::string_view> one_of = {};
+  std::string_view former = {};   ///< One that an earlier version still took,
+  std::string_view instead = {};  ///< and what to do in its place.
   bool required = false;
   bool empty_allowed = true;
   std::string_view meaning;

@@ -6,15 +6,15 @@
 #include <fmt/format.h>
 
 #include "plans/analyses/analysis.h"
-#include "plans/schema/findings.h"
-#include "plans/schema/json_text.h"
-#include "plans/plan.h"
+#include "plans/analyses/internal/rotary_poses.h"
 #include "plans/checks/internal/plan_checks.h"
 #include "plans/checks/internal/plan_reach.h"
-#include "plans/schema/internal/plan_table.h"
-#include "plans/analyses/internal/rotary_poses.h"
+#include "plans/plan.h"
 #include "plans/run/run_head.h"
+#include "plans/schema/findings.h"
+#include "plans/schema/internal/plan_table.h"
 #include "plans/schema/internal/table_reader.h"
+#include "plans/schema/json_text.h"
 #include "record/csv/points.h"
 
 namespace rondure::plans {
@@ -39,7 +39,7 @@ void complete_circles(Plan& plan, const Findings& findings) {
 }  // namespace
 
 PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
-                          std::string_view name) {
+                          std::string_view name, bool recorded) {
   const auto json = parse_json(text, name);
   if (!json) return refuse(json.error());
   Plan plan;
@@ -52,6 +52,11 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
   complete_circles(plan, findings);
   check_plan(plan, findings);
   std::vector<core::Error> problems = findings.take();
+  if (recorded) {
+    std::erase_if(problems, [](const core::Error& problem) {
+      return problem.where.starts_with("/reports/formats/");
+    });
+  }
   // Reach can be judged only once every number is sound.
   if (problems.empty()) {
     if (touches_anything(plan)) {
@@ -69,6 +74,13 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
   }
   if (!problems.empty()) return tl::unexpected(std::move(problems));
   return plan;
+}
+
+std::string recorded_paper(std::string_view text) {
+  const auto json = parse_json(text, "the plan in the journal");
+  const JsonValue* reports = json ? json->find("reports") : nullptr;
+  const JsonValue* paper = reports != nullptr ? reports->find("paper") : nullptr;
+  return paper != nullptr ? paper->text : ReportsPlan{}.paper;
 }
 
 PlanOrProblems read_plan(const std::filesystem::path& path) {

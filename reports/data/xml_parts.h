@@ -5,7 +5,7 @@
 
 #include <pugixml.hpp>
 
-// Private to the room: what the writers of XML (QIF, JUnit) share.
+// Private to the room: what the writer of QIF is made of.
 
 namespace rondure::reports {
 

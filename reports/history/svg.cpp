@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/round_values.h"
 #include "core/units.h"
 #include "core/utf8.h"
 #include "reports/columns.h"
 #include "reports/history/history.h"
+#include "reports/html/plot_scale.h"
 #include "reports/html/svg.h"
 #include "reports/words/language.h"
 
@@ -51,16 +53,14 @@ RunAxes run_axes(const ChartRange& range, std::size_t results) {
 
 void draw_frame(Svg& svg, const RunAxes& axes, const RunChart& chart) {
   svg.rect(kRunLeft, kRunTop, kRunRight - kRunLeft, kRunBottom - kRunTop, "frame");
-  for (const double value : round_ticks(axes.y.low, axes.y.high, 6)) {
-    svg.line(kRunLeft - 5.0, axes.y.at(value), kRunLeft, axes.y.at(value), "tick");
-    svg.text(kRunLeft - 9.0, axes.y.at(value) + 4.0, "end", "label", tick_label(value));
+  for (const double value : core::round_ticks(axes.y.low, axes.y.high, 6)) {
+    tick_beside(svg, kRunLeft, axes.y.at(value), tick_label(value), 9.0);
   }
   svg.upward_text(16.0, 0.5 * (kRunTop + kRunBottom), "title",
                   fmt::format("{} / µm", chart.results.back().result.symbol));
-  for (const double number : round_ticks(1.0, axes.x.high - 1.0, 8)) {
+  for (const double number : core::round_ticks(1.0, axes.x.high - 1.0, 8)) {
     if (number != std::floor(number)) continue;
-    svg.line(axes.x.at(number), kRunBottom, axes.x.at(number), kRunBottom + 5.0, "tick");
-    svg.text(axes.x.at(number), kRunBottom + 18.0, "middle", "label", tick_label(number));
+    tick_below(svg, axes.x.at(number), kRunBottom, tick_label(number));
   }
   const auto day = [](const record::ArchivedResult& r) {
     return printable(r.head.started_utc.substr(0, 10));

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/round_values.h"
 #include "core/units.h"
 #include "core/utf8.h"
 #include "reports/columns.h"
@@ -97,7 +98,8 @@ std::string painted(const std::string& row) {
 
 std::string TextCanvas::text(bool coloured) const {
   std::array<std::string, kRows> ticks;
-  for (const double tick : round_ticks(low_, high_, 5)) ticks[row_of(tick)] = tick_label(tick);
+  for (const double tick : core::round_ticks(low_, high_, 5))
+    ticks[row_of(tick)] = tick_label(tick);
   std::string out;
   for (std::size_t i = 0; i < kRows; ++i) {
     std::string line =

@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "core/round_values.h"
 #include "core/units.h"
 #include "reports/escaping.h"
+#include "reports/html/plot_scale.h"
 #include "reports/html/svg.h"
 
 namespace rondure::reports {
@@ -85,22 +87,8 @@ std::string polar_path(const Curve& curve, double px_per_um, bool closed) {
 }
 
 void polar_frame(Svg& svg) {
-  constexpr double kEdge = kMeanCircle + kPolarReach + 6.0;
   svg.circle(kPolarCentre, kPolarCentre, kMeanCircle, "mean");
-  for (int tick = 0; tick < 12; ++tick) {
-    const double angle = tick * 30.0 * core::kDegree;
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    svg.line(kPolarCentre + kEdge * c, kPolarCentre - kEdge * s, kPolarCentre + (kEdge + 5.0) * c,
-             kPolarCentre - (kEdge + 5.0) * s, "tick");
-    if (tick % 3 == 0)
-      svg.line(kPolarCentre, kPolarCentre, kPolarCentre + kEdge * c, kPolarCentre - kEdge * s,
-               "grid");
-  }
-  svg.text(kPolarCentre + 133.0, kPolarCentre + 4.0, "start", "label", "0°");
-  svg.text(kPolarCentre, kPolarCentre - 134.0, "middle", "label", "90°");
-  svg.text(kPolarCentre - 133.0, kPolarCentre + 4.0, "end", "label", "180°");
-  svg.text(kPolarCentre, kPolarCentre + 143.0, "middle", "label", "270°");
+  draw_polar_axes(svg, {kPolarCentre, kMeanCircle + kPolarReach + 6.0, 5.0, 5.0, 133.0, 134.0});
 }
 
 /// Axes of an ordinary chart, with room round the values.
@@ -118,15 +106,13 @@ ChartAxes axes_over(double x_low, double x_high, double y_low, double y_high) {
 
 void draw_axes(Svg& svg, const ChartAxes& axes, std::string_view x_title,
                std::string_view y_title) {
-  for (const double tick : round_ticks(axes.y.low, axes.y.high, 5)) {
+  for (const double tick : core::round_ticks(axes.y.low, axes.y.high, 5)) {
     const double y = axes.y.at(tick);
     svg.line(kChartLeft, y, kChartWidth - kChartRight, y, "grid");
-    svg.text(kChartLeft - 6.0, y + 4.0, "end", "label", tick_label(tick));
+    label_beside(svg, kChartLeft, y, tick_label(tick), 6.0);
   }
-  for (const double tick : round_ticks(axes.x.low, axes.x.high, 8)) {
-    const double x = axes.x.at(tick);
-    svg.line(x, kChartHeight - kChartBottom, x, kChartHeight - kChartBottom + 5.0, "tick");
-    svg.text(x, kChartHeight - kChartBottom + 18.0, "middle", "label", tick_label(tick));
+  for (const double tick : core::round_ticks(axes.x.low, axes.x.high, 8)) {
+    tick_below(svg, axes.x.at(tick), kChartHeight - kChartBottom, tick_label(tick));
   }
   svg.rect(kChartLeft, kChartTop, kChartWidth - kChartRight - kChartLeft,
            kChartHeight - kChartBottom - kChartTop, "frame", "none");
@@ -154,11 +140,8 @@ std::string polar_chart(std::string_view title, const std::vector<Curve>& curves
   polar_frame(svg);
   const double px_per_um = kPolarReach / std::max(largest(curves), 1e-9);
   for (const Curve& curve : curves) svg.path(polar_path(curve, px_per_um, closed), curve.css_class);
-  const double bar_um = round_below(kPolarReach / px_per_um);
-  svg.path(fmt::format("M8 303v8M8 307h{0:.1f}M{1:.1f} 303v8", bar_um * px_per_um,
-                       8.0 + bar_um * px_per_um),
-           "scale");
-  svg.text(8.0, 297.0, "start", "label", tick_label(bar_um) + " µm");
+  const double bar_um = core::round_below(kPolarReach / px_per_um);
+  scale_bar(svg, 303, bar_um * px_per_um, bar_um);
   return figure(svg, title, curves);
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/round_values.h"
 #include "core/units.h"
 #include "reports/html/plot_scale.h"
 #include "reports/html/plots.h"
@@ -104,16 +105,12 @@ MapView view_of(const FeatureResult& feature, const Zone& zone) {
 void draw_axes(Svg& svg, const MapView& view) {
   svg.rect(kMapLeft, kMapTop, kMapRight - kMapLeft, view.bottom - kMapTop, "frame");
   for (int tick = 0; tick <= 8; ++tick) {
-    const double x = view.x.at(45.0 * tick);
-    svg.line(x, view.bottom, x, view.bottom + 5.0, "tick");
-    svg.text(x, view.bottom + 18.0, "middle", "label", std::to_string(45 * tick));
+    tick_below(svg, view.x.at(45.0 * tick), view.bottom, std::to_string(45 * tick));
   }
   svg.text(0.5 * (kMapLeft + kMapRight), view.bottom + 36.0, "middle", "title",
            tr("angle about the axis / °"));
-  for (const double height : round_ticks(view.y.low, view.y.high, 5)) {
-    const double y = view.y.at(height);
-    svg.line(kMapLeft - 5.0, y, kMapLeft, y, "tick");
-    svg.text(kMapLeft - 8.0, y + 4.0, "end", "label", tick_label(height));
+  for (const double height : core::round_ticks(view.y.low, view.y.high, 5)) {
+    tick_beside(svg, kMapLeft, view.y.at(height), tick_label(height));
   }
   svg.upward_text(14.0, 0.5 * (kMapTop + view.bottom), "title", tr("height / mm"));
 }

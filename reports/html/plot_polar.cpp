@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/round_values.h"
 #include "core/units.h"
 #include "reports/escaping.h"
+#include "reports/html/plot_scale.h"
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
 #include "reports/section.h"
@@ -37,23 +39,6 @@ struct PolarView {
     return kSectionCentre - r * std::sin(angle_rad);
   }
 };
-
-void draw_frame(Svg& svg, const PolarView& view) {
-  for (int tick = 0; tick < 12; ++tick) {
-    const double angle = tick * 30.0 * core::kDegree;
-    const bool labelled = tick % 3 == 0;
-    const double from = kSectionMean + kSectionHalfZone + 6.0;
-    const double to = from + (labelled ? 7.0 : 4.0);
-    svg.line(view.x(angle, from), view.y(angle, from), view.x(angle, to), view.y(angle, to),
-             "tick");
-    if (labelled)
-      svg.line(kSectionCentre, kSectionCentre, view.x(angle, from), view.y(angle, from), "grid");
-  }
-  svg.text(kSectionCentre + 127.0, kSectionCentre + 4.0, "start", "label", "0°");
-  svg.text(kSectionCentre, kSectionCentre - 130.0, "middle", "label", "90°");
-  svg.text(kSectionCentre - 127.0, kSectionCentre + 4.0, "end", "label", "180°");
-  svg.text(kSectionCentre, kSectionCentre + 139.0, "middle", "label", "270°");
-}
 
 void draw_zone(Svg& svg, const PolarView& view, double half_zone_mm) {
   const double outer = view.radius(half_zone_mm);
@@ -116,10 +101,9 @@ void draw_points(Svg& svg, const Section& section, const FeatureResult& feature,
 }
 
 void draw_scale_bar(Svg& svg, const PolarView& view) {
-  const double length_um = round_below(34.0 / view.px_per_mm / core::kMicrometre);
+  const double length_um = core::round_below(34.0 / view.px_per_mm / core::kMicrometre);
   const double length = length_um * core::kMicrometre * view.px_per_mm;
-  svg.path(fmt::format("M8 303v8M8 307h{0:.1f}M{1:.1f} 303v8", length, 8.0 + length), "scale");
-  svg.text(8.0, 297.0, "start", "label", tick_label(length_um) + " µm");
+  scale_bar(svg, 303, length, length_um);
 }
 
 std::string roundness_of(const FeatureResult& feature, const Section& section) {
@@ -134,7 +118,8 @@ std::string plot(const FeatureResult& feature, const Section& section, const Pol
                  double half_zone_mm) {
   Svg svg(kSectionSize, kSectionSize, "polar",
           trf("{}: deviations about the minimum-zone axis", section.title));
-  draw_frame(svg, view);
+  draw_polar_axes(svg,
+                  {kSectionCentre, kSectionMean + kSectionHalfZone + 6.0, 4.0, 7.0, 127.0, 130.0});
   draw_zone(svg, view, half_zone_mm);
   const bool sparse = section.rows.size() <= 40;
   if (has_line(section)) svg.path(profile_path(section, view), sparse ? "guide" : "profile");

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "core/round_values.h"
 #include "core/units.h"
+#include "reports/html/plot_scale.h"
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
 #include "reports/words/language.h"
@@ -49,17 +51,17 @@ void draw_pose(Svg& svg, double x, double y, const PoseValue& pose, double size,
 }
 
 void draw_f_axes(Svg& svg, const Scale& x, const Scale& y, std::size_t visits) {
-  const auto ticks = y.decades ? decade_ticks(y.low, y.high) : round_ticks(y.low, y.high, 5);
+  const auto ticks =
+      y.decades ? core::decade_ticks(y.low, y.high) : core::round_ticks(y.low, y.high, 5);
   for (const double f : ticks) {
     svg.line(kPoseLeft, y.at(f), kPoseRight, y.at(f), "grid");
-    svg.text(kPoseLeft - 8.0, y.at(f) + 4.0, "end", "label", tick_label(f));
+    label_beside(svg, kPoseLeft, y.at(f), tick_label(f));
   }
   svg.rect(kPoseLeft, kPoseTop, kPoseRight - kPoseLeft, kPoseBottom - kPoseTop, "frame");
-  for (const double visit :
-       round_ticks(1.0, static_cast<double>(visits), std::min<int>(12, static_cast<int>(visits)))) {
+  for (const double visit : core::round_ticks(1.0, static_cast<double>(visits),
+                                              std::min<int>(12, static_cast<int>(visits)))) {
     if (visit != std::floor(visit)) continue;
-    svg.line(x.at(visit), kPoseBottom, x.at(visit), kPoseBottom + 5.0, "tick");
-    svg.text(x.at(visit), kPoseBottom + 18.0, "middle", "label", tick_label(visit));
+    tick_below(svg, x.at(visit), kPoseBottom, tick_label(visit));
   }
   svg.text(0.5 * (kPoseLeft + kPoseRight), kPoseBottom + 36.0, "middle", "title", tr("visit"));
   svg.upward_text(14.0, 0.5 * (kPoseTop + kPoseBottom), "title",
@@ -141,13 +143,13 @@ std::string pose_map(const FeatureResult& feature, const Range& range) {
   const Scale x = angle_scale(box.alpha_low, box.alpha_high, kPoseLeft, kPoseMapRight);
   const Scale y = angle_scale(box.beta_low, box.beta_high, kPoseMapBottom, kPoseTop);
   Svg svg(kPoseWidth, 334.0, "wide", tr("Poses visited, coloured by f"));
-  for (const double alpha : round_ticks(x.low, x.high, 6)) {
+  for (const double alpha : core::round_ticks(x.low, x.high, 6)) {
     svg.line(x.at(alpha), kPoseTop, x.at(alpha), kPoseMapBottom, "grid");
     svg.text(x.at(alpha), kPoseMapBottom + 18.0, "middle", "label", tick_label(alpha));
   }
-  for (const double beta : round_ticks(y.low, y.high, 6)) {
+  for (const double beta : core::round_ticks(y.low, y.high, 6)) {
     svg.line(kPoseLeft, y.at(beta), kPoseMapRight, y.at(beta), "grid");
-    svg.text(kPoseLeft - 8.0, y.at(beta) + 4.0, "end", "label", tick_label(beta));
+    label_beside(svg, kPoseLeft, y.at(beta), tick_label(beta));
   }
   svg.rect(kPoseLeft, kPoseTop, kPoseMapRight - kPoseLeft, kPoseMapBottom - kPoseTop, "frame");
   svg.text(0.5 * (kPoseLeft + kPoseMapRight), kPoseMapBottom + 38.0, "middle", "title",

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "core/round_values.h"
 #include "core/units.h"
+#include "reports/html/plot_scale.h"
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
 #include "reports/section.h"
@@ -27,14 +29,12 @@ void draw_axes(Svg& svg, const Scale& x, const Scale& y, double half_zone_um) {
   svg.rect(kProfileLeft, kProfileTop, kProfileRight - kProfileLeft, kProfileBottom - kProfileTop,
            "frame");
   for (int angle = 0; angle <= 360; angle += 45) {
-    svg.line(x.at(angle), kProfileBottom, x.at(angle), kProfileBottom + 5.0, "tick");
-    svg.text(x.at(angle), kProfileBottom + 18.0, "middle", "label", std::to_string(angle));
+    tick_below(svg, x.at(angle), kProfileBottom, std::to_string(angle));
   }
   svg.text(0.5 * (kProfileLeft + kProfileRight), kProfileBottom + 36.0, "middle", "title",
            tr("angle about the centre / °"));
-  for (const double value : round_ticks(y.low, y.high, 6)) {
-    svg.line(kProfileLeft - 5.0, y.at(value), kProfileLeft, y.at(value), "tick");
-    svg.text(kProfileLeft - 8.0, y.at(value) + 4.0, "end", "label", tick_label(value));
+  for (const double value : core::round_ticks(y.low, y.high, 6)) {
+    tick_beside(svg, kProfileLeft, y.at(value), tick_label(value));
   }
   svg.upward_text(14.0, 0.5 * (kProfileTop + kProfileBottom), "title", tr("deviation / µm"));
 }

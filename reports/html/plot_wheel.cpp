@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/round_values.h"
 #include "core/units.h"
+#include "reports/html/plot_scale.h"
 #include "reports/html/svg.h"
 #include "reports/words/language.h"
 
@@ -114,10 +116,9 @@ void draw_middle(Svg& svg, const EdgeView& view) {
 }
 
 void draw_scale_bar(Svg& svg, const EdgeView& view) {
-  const double length_um = round_below(36.0 / view.px_per_mm / core::kMicrometre);
+  const double length_um = core::round_below(36.0 / view.px_per_mm / core::kMicrometre);
   const double length = length_um * core::kMicrometre * view.px_per_mm;
-  svg.path(fmt::format("M8 323v8M8 327h{0:.1f}M{1:.1f} 323v8", length, 8.0 + length), "scale");
-  svg.text(8.0, 317.0, "start", "label", tick_label(length_um) + " µm");
+  scale_bar(svg, 323, length, length_um);
 }
 
 /// Place and scale of a side view.
@@ -166,16 +167,15 @@ SideView side_view(const fit::WheelPath& path) {
 
 void draw_axes(Svg& svg, const SideView& view) {
   const Eigen::Vector2d corner = view.at(view.high);
-  for (const double x : round_ticks(view.low.x(), view.high.x(), 8)) {
+  for (const double x : core::round_ticks(view.low.x(), view.high.x(), 8)) {
     const double px = view.at({x, view.low.y()}).x();
     svg.line(px, kViewTop, px, view.bottom, "grid");
-    svg.line(px, view.bottom, px, view.bottom + 5.0, "tick");
-    svg.text(px, view.bottom + 18.0, "middle", "label", tick_label(x));
+    tick_below(svg, px, view.bottom, tick_label(x));
   }
-  for (const double z : round_ticks(view.low.y(), view.high.y(), 6)) {
+  for (const double z : core::round_ticks(view.low.y(), view.high.y(), 6)) {
     const double py = view.at({view.low.x(), z}).y();
     svg.line(view.left, py, corner.x(), py, "grid");
-    svg.text(view.left - 7.0, py + 4.0, "end", "label", tick_label(z));
+    label_beside(svg, view.left, py, tick_label(z), 7.0);
   }
   svg.rect(view.left, kViewTop, corner.x() - view.left, view.bottom - kViewTop, "frame");
   svg.text(0.5 * (view.left + corner.x()), view.bottom + 36.0, "middle", "title", "x / mm");

@@ -52,12 +52,6 @@ struct Scale {
   [[nodiscard]] double at(double value) const;
 };
 
-/// Round values within [low, high], about `wanted` of them (1, 2 or 5 times a power of ten apart).
-[[nodiscard]] std::vector<double> round_ticks(double low, double high, int wanted);
-/// 1, 2, 5, 10, ... within [low, high]; powers of ten alone when there are more than three decades.
-[[nodiscard]] std::vector<double> decade_ticks(double low, double high);
-/// The largest 1, 2 or 5 times a power of ten that is not above `limit`.
-[[nodiscard]] double round_below(double limit);
 /// A tick's label: at most six significant digits, no trailing zeros.
 [[nodiscard]] std::string tick_label(double value);
 

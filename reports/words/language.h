@@ -12,7 +12,7 @@
 namespace rondure::reports {
 
 /// Languages of the reports that people read: the page and the terminal's summary. What programs
-/// read (JSON, CSV, QIF, DMIS, JUnit) is English always.
+/// read (JSON, CSV, QIF, DMIS) is English always.
 enum class Language { kEnglish, kChinese };
 
 /// "en" or "zh"; nothing for any other name.

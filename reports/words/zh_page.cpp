@@ -4,13 +4,6 @@ namespace rondure::reports {
 namespace {
 
 constexpr Translation kPageTexts[] = {
-    // PDF
-    {"No installed font has these characters of the report: {}. They are shown as boxes with their "
-     "codes. Install a font that has them and write the report again (Debian: fonts-noto-cjk for "
-     "Chinese, fonts-noto-core for others).",
-     "已安装的字体都没有报告中的这些字符：{}"
-     "。它们显示为带编码的方框。请安装含有这些字符的字体后重新生成报告"
-     "（Debian：中文用 fonts-noto-cjk，其他用 fonts-noto-core）。"},
     // Head, verdict
     {"cylindricity report", "圆柱度检测报告"},
     {"Serial", "序列号"},
@@ -300,9 +293,6 @@ constexpr Translation kPageTexts[] = {
     {"Result", "结果"},
     {"Settings", "设置"},
     {"Decisions", "决定"},
-    // Pages of the PDF
-    {"Cylindricity report: {}, revision {}, run {}", "圆柱度检测报告：{}，版本 {}，检测编号 {}"},
-    {"Page {} of {}", "第 {} 页，共 {} 页"},
     // Run charts
     {"results were", "个结果"},
     {"results", "个结果"},

@@ -5,11 +5,9 @@
 #include <sstream>
 #include <string>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/pdf_report.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 
@@ -83,27 +81,11 @@ std::string qif_fault(const fs::path& folder) {
   return std::system(command.c_str()) == 0 ? std::string() : read(folder / "said");
 }
 
-/// What is wrong with the PDF of a run: a figure that is cut or outside the margins, a character
-/// without a font, other bytes than its page gives; "" for a sound one.
-std::string pdf_fault(const fs::path& run) {
-  const auto made = reports::write_pdf(journal_of(run), read(run / "report.html"));
-  if (!made) return made.error().what;
-  for (const reports::PdfFigure& figure : made->figures) {
-    const bool inside = figure.top >= reports::kPdfTop - 1e-6 &&
-                        figure.bottom <= reports::kPdfHeight - reports::kPdfBottom + 1e-6;
-    if (!figure.whole || !inside) {
-      return fmt::format("page {}: a figure from {} to {}", figure.page, figure.top, figure.bottom);
-    }
-  }
-  if (made->bytes != read(run / "report.pdf")) return "other bytes than its page gives";
-  return reports::missing_in_words(made->missing);
-}
-
 /// A run that stops at a fault, with all reports: void results, a QIF file nevertheless.
 void run_until_a_fault(const fs::path& folder) {
   write_plan(folder / "fault.json", {{"/simulation/faults", {{"connection_lost_at_touch", 60}}}});
   EXPECT_EQ(rondure({"run", folder / "fault.json", "--out", folder / "fault", "--format",
-                     "html,pdf,json,csv,qif,dmis,junit"})
+                     "html,json,csv,qif,dmis"})
                 .status,
             3);
 }
@@ -117,15 +99,13 @@ TEST(Examples, RunConformVerifyAndWriteTheirReports) {
     if (needs_server(plan)) continue;  // ipp_run_test.cpp
     SCOPED_TRACE(plan.filename().string());
     const fs::path run = folder / plan.stem().string();
-    const Outcome ran =
-        rondure({"run", plan, "--out", run, "--format", "html,pdf,json,csv,qif,dmis,junit"});
+    const Outcome ran = rondure({"run", plan, "--out", run, "--format", "html,json,csv,qif,dmis"});
     const json report = json::parse(read(run / "report.json"));
     const std::string verdict = report.at("verdict");
     EXPECT_EQ(ran.status, verdict == "conforms" || verdict == "not toleranced" ? 0 : 1) << ran.err;
     EXPECT_THAT(ran.err, IsEmpty());
-    std::vector<std::string> files = {"SHA256SUMS",  "journal.db",  "report.dmo",
-                                      "report.html", "report.json", "report.junit.xml",
-                                      "report.pdf",  "report.qif",  "results.csv"};
+    std::vector<std::string> files = {"SHA256SUMS",  "journal.db", "report.dmo", "report.html",
+                                      "report.json", "report.qif", "results.csv"};
     const json asked = json::parse(read(plan));
     if (calibrates(asked)) files.insert(files.begin() + 1, "fixture-calibration.json");
     // Examples of one part stand in one archive: the later ones show the earlier ones.
@@ -137,10 +117,9 @@ TEST(Examples, RunConformVerifyAndWriteTheirReports) {
     const Outcome verified = rondure({"verify", run});
     EXPECT_EQ(verified.status, 0);
     EXPECT_THAT(verified.out, HasSubstr("equal: "));
-    for (const char* file : {"report.html", "report.pdf", "report.json", "touches.csv"}) {
+    for (const char* file : {"report.html", "report.json", "touches.csv"}) {
       EXPECT_THAT(verified.out, HasSubstr(file));
     }
-    EXPECT_EQ(pdf_fault(run), "");
   }
   run_until_a_fault(folder.path());
   EXPECT_EQ(reports_fault(folder.path()), "");

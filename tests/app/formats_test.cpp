@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "record/sha256.h"
 #include "reports/columns.h"
 #include "tests/app/files.h"
 #include "tests/app/on_terminal.h"
@@ -20,17 +21,18 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr const char* kAll = "html,pdf,json,csv,qif,dmis,junit";
+constexpr const char* kAll = "html,json,csv,qif,dmis";
 
-/// Fonts as a file of fontconfig says, for programs that are started meanwhile.
-class OtherFonts {
+/// A PATH for programs that are started meanwhile.
+class OtherPath {
  public:
-  explicit OtherFonts(const std::filesystem::path& file) {
-    ::setenv("FONTCONFIG_FILE", file.c_str(), 1);
-  }
-  ~OtherFonts() { ::unsetenv("FONTCONFIG_FILE"); }
-  OtherFonts(const OtherFonts&) = delete;
-  OtherFonts& operator=(const OtherFonts&) = delete;
+  explicit OtherPath(const std::string& path) { ::setenv("PATH", path.c_str(), 1); }
+  ~OtherPath() { ::setenv("PATH", before_.c_str(), 1); }
+  OtherPath(const OtherPath&) = delete;
+  OtherPath& operator=(const OtherPath&) = delete;
+
+ private:
+  std::string before_ = std::getenv("PATH");
 };
 
 class Formats : public ::testing::Test {
@@ -46,8 +48,7 @@ class Formats : public ::testing::Test {
 };
 
 TEST_F(Formats, AreListedVerifiedAndWrittenAgainByteForByte) {
-  const std::vector<std::string> files = {"report.pdf", "report.qif", "report.dmo",
-                                          "report.junit.xml", "results.csv"};
+  const std::vector<std::string> files = {"report.qif", "report.dmo", "results.csv"};
   std::vector<std::string> bytes;
   for (const std::string& file : files) {
     bytes.push_back(read(run_ / file));
@@ -55,16 +56,14 @@ TEST_F(Formats, AreListedVerifiedAndWrittenAgainByteForByte) {
     EXPECT_THAT(read(run_ / "SHA256SUMS"), HasSubstr("  " + file + "\n"));
   }
   EXPECT_THAT(rondure({"verify", run_}).out,
-              AllOf(HasSubstr("results.csv, report.qif, report.dmo, report.junit.xml"),
-                    Not(HasSubstr("not there"))));
+              AllOf(HasSubstr("results.csv, report.qif, report.dmo"), Not(HasSubstr("not there"))));
   for (const std::string& file : files) std::filesystem::remove(run_ / file);
   EXPECT_EQ(rondure({"report", run_, "--format", kAll}).status, 0);
   for (std::size_t i = 0; i < files.size(); ++i) EXPECT_EQ(read(run_ / files[i]), bytes[i]);
 }
 
 TEST_F(Formats, AChangedDigitIsFoundInEach) {
-  for (const char* file :
-       {"report.pdf", "report.qif", "report.dmo", "report.junit.xml", "results.csv"}) {
+  for (const char* file : {"report.qif", "report.dmo", "results.csv"}) {
     SCOPED_TRACE(file);
     const std::string bytes = read(run_ / file);
     std::string changed = bytes;
@@ -88,38 +87,99 @@ TEST_F(Formats, ThatWereNotAskedForAreNotMissed) {
               AllOf(HasSubstr("exports compared: report.json"), Not(HasSubstr("not there"))));
 }
 
-TEST_F(Formats, WithoutAFontThePdfIsRefusedAndVerifiedByItsDigest) {
-  write(folder_ / "no-fonts.conf", "<fontconfig><dir>/nowhere</dir></fontconfig>");
-  const OtherFonts none(folder_ / "no-fonts.conf");
-  const Outcome outcome = rondure({"report", run_, "--format", "pdf"});
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err,
-              AllOf(HasSubstr("no font is installed"), HasSubstr("fonts-dejavu-core")));
-  const Outcome verified = rondure({"verify", run_});
-  EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
-  write(run_ / "report.pdf", read(run_ / "report.pdf") + "%");
-  EXPECT_NE(rondure({"verify", run_}).status, 0);
+TEST_F(Formats, WithoutChromiumThePdfIsRefusedBeforeTheFirstTouchAndLeftOutOfAllReports) {
+  const OtherPath none("/nowhere");
+  const std::vector<std::string> asks = {"run",      example("13_pose_search_virtual.json"),
+                                         "--out",    folder_ / "pdf",
+                                         "--format", "json,pdf"};
+  const Outcome ran = rondure(asks);
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_THAT(ran.err, HasSubstr("install it (Debian: chromium)"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "pdf"));
+  EXPECT_EQ(rondure({"report", run_, "--format", "pdf"}).status, 2);
+  const Outcome all = rondure({"report", run_});
+  EXPECT_EQ(all.status, 0);
+  EXPECT_THAT(all.err, HasSubstr("report.pdf is not written: a PDF is printed by Chromium"));
 }
 
-TEST_F(Formats, APdfThatOtherFontsGiveIsEqualWhileItsDigestHolds) {
-  write(folder_ / "mono.conf",
-        "<fontconfig><dir>/usr/share/fonts/truetype/dejavu</dir>"
-        "<selectfont><rejectfont><glob>*DejaVuSans.ttf</glob></rejectfont></selectfont></"
-        "fontconfig>");
-  const OtherFonts other(folder_ / "mono.conf");
-  EXPECT_EQ(rondure({"verify", run_}).status, 0);
-  const std::string before = read(run_ / "report.pdf");
+/// The same where a Chromium prints; skipped where there is none.
+class FormatPdf : public Formats {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v chromium chromium-browser google-chrome >/dev/null") != 0) {
+      GTEST_SKIP() << "no Chromium is on PATH (Debian package chromium)";
+    }
+    Formats::SetUp();
+  }
+};
+
+TEST_F(FormatPdf, IsPrintedInAnEmptyEnvironmentOnThePaperThatWasAskedFor) {
+  Surroundings bare;
+  bare.empty_environment = true;
+  const Outcome outcome = rondure({"report", run_, "--format", "pdf", "--paper", "letter"}, bare);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const std::string pdf = read(run_ / "report.pdf");
+  EXPECT_THAT(pdf, AllOf(::testing::StartsWith("%PDF-"), HasSubstr("/MediaBox [0 0 612 792]"),
+                         HasSubstr(", paper-letter,"), HasSubstr("/MarkInfo")));
+  EXPECT_THAT(read(run_ / "SHA256SUMS"), HasSubstr("  report.pdf\n"));
+}
+
+TEST_F(FormatPdf, IsOnThePaperOfThePlanAndNotPrintedAgainWhenARunIsFinished) {
+  write_plan(folder_ / "plan.json",
+             {{"/reports", {{"formats", {"json", "pdf"}}, {"paper", "letter"}}}});
+  const std::filesystem::path run = folder_ / "letter";
+  ASSERT_LE(rondure({"run", folder_ / "plan.json", "--out", run, "--archive", "none"}).status, 1);
+  const std::string pdf = read(run / "report.pdf");
+  EXPECT_THAT(pdf, HasSubstr(", paper-letter,"));
+  EXPECT_THAT(rondure({"run", run, "--resume", "--archive", "none"}).err,
+              HasSubstr("there is nothing to resume"));
+  EXPECT_EQ(read(run / "report.pdf"), pdf);
+  EXPECT_EQ(rondure({"report", run, "--format", "pdf"}).status, 0);
+  EXPECT_THAT(read(run / "report.pdf"), HasSubstr(", paper-letter,"));
+}
+
+TEST_F(FormatPdf, IsVerifiedByItsDigestAndByThePageThatItNames) {
   ASSERT_EQ(rondure({"report", run_, "--format", "pdf"}).status, 0);
-  EXPECT_NE(read(run_ / "report.pdf"), before);
+  EXPECT_THAT(rondure({"verify", run_}).out, HasSubstr("report.pdf"));
+  const OtherPath without_chromium("/nowhere");
+  EXPECT_EQ(rondure({"verify", run_}).status, 0);
+  const std::string pdf = read(run_ / "report.pdf");
+  write(run_ / "report.pdf", pdf + "%");
+  EXPECT_THAT(rondure({"verify", run_}).out,
+              HasSubstr("not equal: report.pdf: its bytes were changed after it was written"));
+  write(run_ / "report.pdf", pdf);
+  replace_in(run_ / "report.pdf", "% page-sha256-", "% page-sha256-0");
+  EXPECT_THAT(rondure({"verify", run_}).out,
+              HasSubstr("report.pdf: it was printed from another page than the journal gives"));
 }
 
 TEST_F(Formats, ThePlanMayAskForThem) {
-  write_plan(folder_ / "plan.json", {{"/reports/formats", {"qif", "junit"}}});
+  write_plan(folder_ / "plan.json", {{"/reports/formats", {"qif", "dmis"}}});
   ASSERT_LE(
       rondure({"run", folder_ / "plan.json", "--out", folder_ / "two", "--archive", "none"}).status,
       1);
   EXPECT_THAT(names_in(folder_ / "two"),
-              ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.junit.xml", "report.qif"));
+              ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.dmo", "report.qif"));
+}
+
+TEST_F(Formats, JunitIsRefusedWithWhatToUseAndLeftOutOfAPlanInAJournal) {
+  const std::string instead = R"("junit" is no longer written; use "json")";
+  const Outcome asked = rondure({"report", run_, "--format", "json,junit"});
+  EXPECT_EQ(asked.status, 2);
+  EXPECT_THAT(asked.err, HasSubstr(instead));
+  write_plan(folder_ / "plan.json", {{"/reports/formats", {"json", "junit"}}});
+  const Outcome planned = rondure({"validate", folder_ / "plan.json"});
+  EXPECT_EQ(planned.status, 2);
+  EXPECT_THAT(planned.out + planned.err, HasSubstr("/reports/formats/1: " + instead));
+  record::RunRecord before = journal_of(run_);
+  const std::size_t at = before.header.plan_text.rfind('}');
+  before.header.plan_text.insert(at, R"(, "reports": {"formats": ["json", "junit"]})");
+  before.header.plan_sha256 = record::sha256_hex(before.header.plan_text);
+  write_resealed(before, folder_ / "before");
+  const Outcome resumed = rondure({"run", folder_ / "before", "--resume", "--archive", "none"});
+  EXPECT_EQ(resumed.status, 0) << resumed.err;
+  EXPECT_THAT(names_in(folder_ / "before"),
+              ::testing::ElementsAre("SHA256SUMS", "journal.db", "report.json"));
 }
 
 /// Lines of a terminal, without what ends them.

@@ -6,7 +6,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <pugixml.hpp>
 
 #include "core/numbers.h"
 #include "reports/columns.h"
@@ -19,7 +18,6 @@ namespace {
 
 using core::decimal;
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -28,7 +26,7 @@ TEST(Exports, AnUnknownFormatIsRefusedWithThoseThatAreKnown) {
   const auto written = write_exports("/nowhere", {"docx"}, made.record, made.evaluation);
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().what,
-            "format 'docx' is unknown; html, pdf, json, csv, qif, dmis and junit can be written");
+            "format 'docx' is unknown; html, json, csv, qif, dmis and pdf can be written");
 }
 
 TEST(Decimal, ReadsBackToTheSameDoubleWithoutAnExponent) {
@@ -40,38 +38,6 @@ TEST(Decimal, ReadsBackToTheSameDoubleWithoutAnExponent) {
     EXPECT_EQ(text.find_first_not_of("-0123456789."), std::string::npos) << text;
     EXPECT_EQ(std::stod(text), value) << text;
   }
-}
-
-/// The cases of a JUnit file: "name: outcome".
-std::vector<std::string> cases_of(const Case& made) {
-  const std::string bytes = write_junit(made.record, made.evaluation);
-  pugi::xml_document xml;
-  EXPECT_TRUE(xml.load_buffer(bytes.data(), bytes.size()));
-  std::vector<std::string> out;
-  int failed = 0;
-  for (const auto& node : xml.select_nodes("/testsuites/testsuite/testcase")) {
-    const pugi::xml_node first = node.node().first_child();
-    const std::string outcome = std::string(first.name()) == "system-out" ? "passed" : first.name();
-    failed += outcome == "failure" || outcome == "error" ? 1 : 0;
-    out.push_back(std::string(node.node().attribute("name").value()) + ": " + outcome);
-  }
-  const pugi::xml_node suites = xml.document_element();
-  EXPECT_EQ(suites.attribute("tests").as_int(), static_cast<int>(out.size()));
-  EXPECT_EQ(suites.attribute("failures").as_int() + suites.attribute("errors").as_int(), failed);
-  return out;
-}
-
-TEST(Junit, EachVerdictIsAnOutcomeThatAPipelineKnows) {
-  EXPECT_THAT(cases_of(cylinder_case(4, 7, 3)), ElementsAre("cyl-A: passed"));
-  Case made = failing_case();
-  EXPECT_THAT(cases_of(made), ElementsAre("cyl-A: failure", "round-A: passed", "cyl-LS: skipped"));
-  made.evaluation.features[0].characteristics[1].verdict = Verdict::kUndecided;
-  EXPECT_THAT(cases_of(made), ElementsAre("cyl-A: failure", "round-A: failure", "cyl-LS: skipped"));
-}
-
-TEST(Junit, ARunThatDidNotFinishIsAnError) {
-  EXPECT_THAT(cases_of(unfinished_case()), ElementsAre("finished: error", "cyl-A: passed",
-                                                       "has a result: error", "cyl-A: error"));
 }
 
 TEST(Dmis, SaysThatItIsOutputAndGivesFeatureAndTolerance) {

@@ -203,17 +203,6 @@ TEST_P(Hostile, StaysTextInQif) {
   EXPECT_FALSE(has_control(bytes, "\n\t"));
 }
 
-TEST_P(Hostile, StaysTextInJunit) {
-  const std::string bytes = write_junit(made_.record, made_.evaluation);
-  pugi::xml_document xml;
-  ASSERT_TRUE(xml.load_buffer(bytes.data(), bytes.size()));
-  const auto cases = xml.select_nodes("/testsuites/testsuite/testcase");
-  ASSERT_EQ(cases.size(), 5U);  // the run, the feature, its three characteristics
-  EXPECT_EQ(cases[2].node().attribute("classname").value(), clean(text_));
-  EXPECT_EQ(cases[2].node().child("failure").attribute("message").value(), clean(text_));
-  EXPECT_FALSE(has_control(bytes, "\n\t"));
-}
-
 TEST_P(Hostile, StaysACommentInDmis) {
   const auto statements = [](const Case& made) {
     std::istringstream lines(write_dmis(made.record, made.evaluation));

@@ -467,12 +467,12 @@ TEST(ChineseReport, TheSummaryFitsEightyColumnsAndSaysTheVerdict) {
 TEST(ChineseReport, FormatsForProgramsStayEnglish) {
   const Case made = failing_case();
   for (const Export& e : exports()) {
-    const auto english = render(e, made.record, made.evaluation);
-    const auto chinese = render(e, made.record, made.evaluation, Language::kChinese);
-    ASSERT_TRUE(english && chinese) << e.file;
+    const std::string english = render(e, made.record, made.evaluation);
+    const std::string chinese = render(e, made.record, made.evaluation, Language::kChinese);
     const bool for_people = e.format == "html" || e.format == "pdf";
-    EXPECT_EQ(english->bytes == chinese->bytes, !for_people) << e.file;
-    EXPECT_EQ(language_of(e, chinese->bytes), for_people ? Language::kChinese : Language::kEnglish);
+    EXPECT_EQ(english == chinese, !for_people) << e.file;
+    if (e.format == "pdf") continue;  // it states the language of its page: pdf_test.cpp
+    EXPECT_EQ(language_of(e, chinese), for_people ? Language::kChinese : Language::kEnglish);
   }
 }
 

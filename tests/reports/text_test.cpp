@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/numbers.h"
+#include "core/round_values.h"
 #include "core/utf8.h"
 #include "reports/columns.h"
 #include "reports/escaping.h"
@@ -51,17 +52,17 @@ TEST(Text, WideCharactersTakeTwoColumns) {
 }
 
 TEST(Ticks, AreRoundAndInside) {
-  EXPECT_EQ(round_ticks(0.0, 10.0, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  EXPECT_EQ(core::round_ticks(0.0, 10.0, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
   for (const double high : {0.001, 0.7, 3.3, 12.0, 99.0, 4321.0}) {
     for (const double low : {0.0, -0.4 * high, 0.9 * high}) {
-      const auto ticks = round_ticks(low, high, 5);
+      const auto ticks = core::round_ticks(low, high, 5);
       EXPECT_GE(ticks.size(), 3U);
       EXPECT_LE(ticks.size(), 10U);
       EXPECT_GE(ticks.front(), low - 1e-9 * high);
       EXPECT_LE(ticks.back(), high + 1e-9 * high);
     }
   }
-  EXPECT_EQ(decade_ticks(3.0, 120.0), (std::vector<double>{5, 10, 20, 50, 100}));
+  EXPECT_EQ(core::decade_ticks(3.0, 120.0), (std::vector<double>{5, 10, 20, 50, 100}));
 }
 
 TEST(Text, OfTheProgramShowsUnitsWithTheirSigns) {

@@ -2,15 +2,15 @@
 
 #include "core/error.h"
 #include "plans/analyses/contour_table.h"
-#include "plans/schema/internal/fixture_drivers_table.h"
-#include "plans/schema/key_spec.h"
-#include "plans/plan.h"
 #include "plans/analyses/rotary_table.h"
-#include "plans/schema/simulation_table.h"
 #include "plans/analyses/spindle_table.h"
-#include "plans/schema/internal/uncertainty_table.h"
 #include "plans/analyses/wheel_table.h"
+#include "plans/plan.h"
+#include "plans/schema/internal/fixture_drivers_table.h"
+#include "plans/schema/internal/uncertainty_table.h"
 #include "plans/schema/internal/zaber_table.h"
+#include "plans/schema/key_spec.h"
+#include "plans/schema/simulation_table.h"
 
 // The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
 // meaning, once. Defaults are the member initialisers of plan.h. A visitor walks it: TableReader
@@ -584,11 +584,15 @@ void describe(Visitor& v, FeaturePlan& p) {
 template <class Visitor>
 void describe(Visitor& v, ReportsPlan& p) {
   v.texts("formats", p.formats,
-          {.one_of = {"html", "pdf", "json", "csv", "qif", "dmis", "junit"},
+          {.one_of = {"html", "pdf", "json", "csv", "qif", "dmis"},
+           .former = "junit",
+           .instead = kInsteadOfJunit,
            .empty_allowed = false,
            .meaning =
                "Reports that a run writes: a page, the same on paper (PDF), all numbers, tables, "
-               "QIF 3.0 results, a DMIS output block, a JUnit summary for pipelines."});
+               "QIF 3.0 results, a DMIS output block."});
+  v.text("paper", p.paper,
+         {.one_of = {"a4", "letter"}, .meaning = "Paper that the PDF is printed on."});
   v.text("archive", p.archive,
          {.meaning = "Where the results of a finished run are kept besides: a file of SQLite, "
                      "relative to the plan; postgresql://user@host/database without a password; "

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+namespace rondure::core {
+
+/// The largest 1, 2 or 5 times a power of ten that is not above `limit`, which must be > 0: the
+/// length of a scale bar.
+[[nodiscard]] double round_below(double limit);
+
+/// Round values within [low, high], about `wanted` of them (1, 2 or 5 times a power of ten apart):
+/// the ticks of an axis. Only `low` where high is not above it.
+[[nodiscard]] std::vector<double> round_ticks(double low, double high, int wanted);
+
+/// 1, 2, 5, 10, ... within [low, high], both > 0; powers of ten alone when there are more than
+/// three decades.
+[[nodiscard]] std::vector<double> decade_ticks(double low, double high);
+
+}  // namespace rondure::core

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "record/run_record.h"
+#include "reports/words/language.h"
+
+namespace rondure::reports {
+
+/// What report.pdf is printed on.
+enum class Paper { kA4, kLetter };
+
+/// "a4" or "letter"; nothing for any other name.
+[[nodiscard]] std::optional<Paper> paper_named(std::string_view name);
+/// Every name that paper_named() knows.
+[[nodiscard]] std::vector<std::string> paper_names();
+
+/// The Chromium of this machine, which prints report.pdf; kFile, naming the package to install,
+/// when none is on PATH.
+[[nodiscard]] core::Result<std::filesystem::path> find_browser();
+
+/// How long Chromium may take; a report takes some seconds.
+inline constexpr std::chrono::milliseconds kPrintTime = std::chrono::minutes(2);
+
+/// report.pdf: the page printed by a headless Chromium in its own print style, on that paper; above
+/// each page part, revision and run. It states the digest of the page that it was printed from.
+/// @param html  As write_html() makes it.
+/// @return  The bytes, which differ from call to call; kFile when there is no Chromium, when it
+///          fails, is killed or takes longer than `time_limit`.
+[[nodiscard]] core::Result<std::string> print_pdf(
+    const record::Header& header, std::string_view html, Paper paper,
+    std::chrono::milliseconds time_limit = kPrintTime);
+
+/// Whether a report.pdf states that it was printed from this page, and, unless `paper` is empty, on
+/// that paper.
+[[nodiscard]] bool is_printed_from(std::string_view html, std::string_view pdf,
+                                   std::optional<Paper> paper = std::nullopt);
+
+/// The language of the page that a report.pdf was printed from; English for anything else.
+[[nodiscard]] Language language_of_pdf(std::string_view pdf);
+
+}  // namespace rondure::reports
