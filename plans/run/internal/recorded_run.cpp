@@ -1,5 +1,5 @@
-<#include "plans/run/internal/recorded_run.h"
->
+#include "plans/run/internal/recorded_run.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
