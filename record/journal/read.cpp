@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <optional>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -147,6 +149,15 @@ bool logs_change(const fs::path& file, std::int64_t version) {
   return !alone || looked_up(file, Logs::kWith, contents) != alone;
 }
 
+/// Whether a file begins as SQLite begins a log; what does not is no run's.
+bool begins_as_log(const fs::path& file) {
+  constexpr std::array<std::string_view, 3> kBeginnings = {"\x37\x7f\x06\x82", "\x37\x7f\x06\x83",
+                                                           "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7"};
+  const auto bytes = read_file(file);
+  return bytes && std::any_of(kBeginnings.begin(), kBeginnings.end(),
+                              [&](std::string_view start) { return bytes->starts_with(start); });
+}
+
 }  // namespace
 
 core::Result<ReadJournal> read_journal(const fs::path& directory) {
@@ -156,7 +167,10 @@ core::Result<ReadJournal> read_journal(const fs::path& directory) {
   const std::vector<std::string> logs = logs_beside(file);
   if (!listed && !logs.empty()) {
     if (auto closed = closed_journal(file)) {
-      if (logs_change(file, closed->version)) closed->beside = logs;
+      const bool all_are_logs = std::all_of(logs.begin(), logs.end(), [&](const std::string& log) {
+        return begins_as_log(directory / log);
+      });
+      if (!all_are_logs || logs_change(file, closed->version)) closed->beside = logs;
       return *std::move(closed);
     }
   }
@@ -183,7 +197,7 @@ std::vector<std::string> faults_of(const ReadJournal& journal) {
   }
   for (const std::string& log : journal.beside) {
     out.push_back(
-        fmt::format("{} stands beside the closed journal and would change what other "
+        fmt::format("{} stands beside the closed journal and may change what other "
                     "programs find in it; it was not read: move it away",
                     log));
   }

@@ -109,10 +109,10 @@ void tell_damage(const record::ReadJournal& read, const ListedFiles& listed, Ver
     out.differences.push_back(fmt::format("journal, table {}: {}", broken.table, broken.what));
   }
   for (const std::string& log : read.beside) {
-    out.differences.push_back(fmt::format(
-        "{}: it stands beside the closed journal and was not read; other programs would "
-        "read it in the journal's place: move it away",
-        log));
+    out.differences.push_back(
+        fmt::format("{}: it stands beside the closed journal and was not read; other programs may "
+                    "read it in the journal's place: move it away",
+                    log));
   }
   const std::string plan_sha256 = record::sha256_hex(record.header.plan_text);
   if (plan_sha256 != record.header.plan_sha256) {

@@ -74,7 +74,7 @@ std::uint16_t free_port() {
 }
 
 bool wait_for_port(std::uint16_t port) {
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 12'000; ++i) {
     const int handle = connected(port);
     if (handle >= 0) {
       ::close(handle);

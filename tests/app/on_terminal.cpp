@@ -64,7 +64,7 @@ int OnTerminal::finish() {
 
 bool OnTerminal::read_some() {
   pollfd ready = {master_, POLLIN, 0};
-  if (::poll(&ready, 1, 20'000) != 1) return false;
+  if (::poll(&ready, 1, 120'000) != 1) return false;
   char bytes[4096];
   const ssize_t got = ::read(master_, bytes, sizeof bytes);
   if (got <= 0) return false;  // EIO: the program closed its end

@@ -203,19 +203,21 @@ TEST(Resume, AnOrdinaryRunIntoTheDirectoryPointsToIt) {
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("is not empty"), HasSubstr("--resume")));
 }
 
+/// Until the log of the journal has grown by some touches.
+void wait_for_log(const Program& program, const fs::path& run) {
+  std::error_code absent;
+  while (!program.ended() && (fs::file_size(run / "journal.db-wal", absent) < 100'000 || absent)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
 /// A run that takes most of a minute, past its first touches.
 struct Busy {
   TemporaryFolder folder;
   std::vector<std::string> words;
   Program program;
 
-  Busy() : words(prepare(folder)), program(words) {
-    std::error_code absent;
-    while (!program.ended() &&
-           (fs::file_size(folder / "run" / "journal.db-wal", absent) < 100'000 || absent)) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-  }
+  Busy() : words(prepare(folder)), program(words) { wait_for_log(program, folder / "run"); }
   static std::vector<std::string> prepare(const TemporaryFolder& folder) {
     write_plan(folder / "plan.json", {{"/features/0/sampling/layers", 40},
                                       {"/features/0/sampling/points_per_layer", 100}});
@@ -248,7 +250,7 @@ TEST(Stop, AndResumeGiveEveryTouchOnce) {
                                                                    "touch: rondure run ")));
   const auto before = journal_of(busy.folder / "run");
   Program resumed({"run", busy.folder / "run", "--resume"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  wait_for_log(resumed, busy.folder / "run");
   resumed.send(SIGTERM);
   EXPECT_EQ(resumed.wait().status, 3);
   const auto after = journal_of(busy.folder / "run");

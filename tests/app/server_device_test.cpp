@@ -173,11 +173,9 @@ TEST(ServerDevice, SaysWhyThereIsNoAnswer) {
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.err, HasSubstr("does not speak I++ DME"));
   const Answering mute([](const std::string&, const std::string&) { return std::string(); });
-  const auto start = std::chrono::steady_clock::now();
   const Outcome silent = rondure({"devices", "ippdme", mute.place(), "--limit", "0.4"});
   EXPECT_EQ(silent.status, 2);
   EXPECT_THAT(silent.err, HasSubstr("did not acknowledge StartSession() within 0.4 s"));
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
   const Answering in_session([](const std::string& tag, const std::string&) {
     return fmt::format("{0} &\r\n{0} ! Error(3, 0508, \"x\", \"Bad context\")\r\n{0} %", tag);
   });
@@ -195,7 +193,7 @@ TEST(ServerDevice, SaysThatTheServerHasAnotherClientAndLeavesItAlone) {
   const auto heard = [&](int lines) {
     std::string out;
     for (int i = 0; i < lines; ++i) {
-      const auto line = (*first)->read_line(std::chrono::milliseconds(5'000));
+      const auto line = (*first)->read_line(std::chrono::seconds(60));
       if (line && *line) out += (*line)->text + "|";
     }
     return out;

@@ -37,7 +37,7 @@ class LongRun {
   void wait_for_touches() {
     constexpr std::uintmax_t kBytes = 200'000;
     std::error_code absent;
-    for (int i = 0; i < 10'000 && !program_.ended(); ++i) {
+    for (int i = 0; i < 60'000 && !program_.ended(); ++i) {
       const auto bytes = fs::file_size(directory() / "journal.db-wal", absent);
       if (!absent && bytes > kBytes) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(2));

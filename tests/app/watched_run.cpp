@@ -18,7 +18,7 @@ using nlohmann::json;
 WatchedRun::WatchedRun(const std::vector<std::string>& arguments, const Surroundings& surroundings)
     : program_(arguments, surroundings) {
   const std::string before = "http://127.0.0.1:";
-  for (int i = 0; i < 10'000; ++i) {
+  for (int i = 0; i < 60'000; ++i) {
     const std::string told = program_.told();
     const std::size_t at = told.find(before);
     if (at != std::string::npos && told.find('\n', at) != std::string::npos) {
@@ -46,8 +46,8 @@ std::vector<Head> WatchedRun::right_heads() const {
 Answer WatchedRun::ask(const std::string& method, const std::string& path,
                        const std::vector<Head>& heads, const std::string& body) const {
   httplib::Client client("127.0.0.1", port_);
-  client.set_connection_timeout(2);
-  client.set_read_timeout(5);
+  client.set_connection_timeout(60);
+  client.set_read_timeout(60);
   httplib::Request request;
   request.method = method;
   request.path = path;
@@ -69,7 +69,7 @@ json WatchedRun::look(std::uint64_t since, const std::string& client) const {
 json WatchedRun::look_until(const std::string& part, const std::string& text) const {
   json all = json::object();
   std::uint64_t since = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 15'000; ++i) {
     const json frame = look(since);
     if (frame.is_null()) return nullptr;
     since = frame["version"];

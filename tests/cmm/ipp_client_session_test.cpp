@@ -19,8 +19,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using Lines = std::vector<std::string>;
 
-constexpr milliseconds kShort(60);
-constexpr milliseconds kLong(5000);
+constexpr milliseconds kShort(250);
+constexpr milliseconds kLong(60'000);
 
 /// A session with a script, and what was sent.
 struct Scripted {
@@ -162,7 +162,7 @@ TEST(IppClientSession, EndsWhenNothingIsAcknowledged) {
   const auto silent = s.session->call("Home", {}, kLong);
   ASSERT_FALSE(silent);
   EXPECT_EQ(silent.error().kind, Failure::Kind::kLine);
-  EXPECT_THAT(silent.error().what, HasSubstr("did not acknowledge Home() within 0.06 s"));
+  EXPECT_THAT(silent.error().what, HasSubstr("did not acknowledge Home() within 0.25 s"));
   EXPECT_EQ(s.sent.back(), "E0001 AbortE()");  // it may move all the same
   EXPECT_FALSE(s.session->usable());
   EXPECT_EQ(s.session->call("IsHomed", {}, kLong).error().what, silent.error().what);
@@ -180,7 +180,7 @@ TEST(IppClientSession, StopsWhatDoesNotEnd) {
   Scripted s([](const std::string& tag, const std::string&) { return Lines{tag + " &"}; });
   const auto endless = s.session->call("GoTo", {}, kShort);
   ASSERT_FALSE(endless);
-  EXPECT_THAT(endless.error().what, HasSubstr("did not finish GoTo() within 0.06 s"));
+  EXPECT_THAT(endless.error().what, HasSubstr("did not finish GoTo() within 0.25 s"));
   EXPECT_THAT(endless.error().what, HasSubstr("the last line from there: \"00001 &\""));
   EXPECT_EQ(s.sent.back(), "E0001 AbortE()");
 }

@@ -21,6 +21,8 @@ namespace rondure::cmm::ipp {
 namespace {
 
 using std::chrono::milliseconds;
+using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -70,9 +72,9 @@ class Service {
   std::thread thread_;
 };
 
-/// The next line, within two seconds; "" when none came or the connection ended.
+/// The next line; "" when none came or the connection ended.
 std::string next(wire::LineTransport& line) {
-  const auto read = line.read_line(milliseconds(2000));
+  const auto read = line.read_line(milliseconds(60'000));
   return read && *read ? (*read)->text : std::string();
 }
 
@@ -99,7 +101,8 @@ TEST(IppService, SendsASecondClientAwayAndTakesTheNextOneLater) {
   auto first = service.connect();
   ask(*first, "00001 StartSession()");
   const auto second = service.connect();
-  EXPECT_THAT(next(*second), HasSubstr("this server has a client already, 127.0.0.1:"));
+  EXPECT_THAT(next(*second), AllOf(HasSubstr("this server has a client already, 127.0.0.1:"),
+                                   HasSubstr("another one after 60 s of silence")));
   EXPECT_EQ(next(*second), "");
   EXPECT_FALSE(second->is_open());
   EXPECT_EQ(ask(*first, "00002 IsHomed()").size(), 3U);  // the first one is not disturbed
@@ -110,14 +113,16 @@ TEST(IppService, SendsASecondClientAwayAndTakesTheNextOneLater) {
 }
 
 TEST(IppService, ASilentClientLosesItsPlaceToTheNextOneAndIsToldWhy) {
-  Service service({}, 1e6, milliseconds(300));
+  Service service({}, 1e6, milliseconds(50));
   const auto first = service.connect();
   ask(*first, "00001 StartSession()");
-  const auto too_early = service.connect();
-  EXPECT_THAT(next(*too_early), HasSubstr("another one after 0.3 s of silence"));
-  std::this_thread::sleep_for(milliseconds(400));
-  const auto second = service.connect();
-  EXPECT_THAT(ask(*second, "00001 StartSession()"), ::testing::ElementsAre("00001 &", "00001 %"));
+  std::unique_ptr<wire::LineTransport> second;
+  std::vector<std::string> answer;
+  do {
+    second = service.connect();
+    answer = ask(*second, "00001 StartSession()");
+  } while (answer.front().find("another one after 0.05 s of silence") != std::string::npos);
+  EXPECT_THAT(answer, ::testing::ElementsAre("00001 &", "00001 %"));
   EXPECT_THAT(next(*first), HasSubstr("another client takes its place"));
   EXPECT_EQ(next(*first), "");
   EXPECT_FALSE(first->is_open());
@@ -128,12 +133,12 @@ TEST(IppService, AClientWhoseMotionLastsKeepsItsPlace) {
   const auto first = service.connect();
   ask(*first, "00001 StartSession()");
   ask(*first, "00002 Home()");
-  ASSERT_TRUE(first->write_line("00003 GoTo(X(150))"));  // 1.5 s at 100 mm/s
+  ASSERT_TRUE(first->write_line("00003 GoTo(X(15000))"));  // 150 s at 100 mm/s
   EXPECT_EQ(next(*first), "00003 &");
   std::this_thread::sleep_for(milliseconds(700));
   const auto second = service.connect();
   EXPECT_THAT(next(*second), HasSubstr("this server has a client already"));
-  EXPECT_EQ(next(*first), "00003 %");
+  EXPECT_THAT(ask(*first, "E0001 AbortE()"), Contains(StartsWith("00003 ")));
 }
 
 TEST(IppService, SurvivesGarbageAndALineThatNeverEnds) {
@@ -153,15 +158,15 @@ TEST(IppService, SurvivesGarbageAndALineThatNeverEnds) {
 }
 
 TEST(IppService, AMotionTakesItsTimeOnTheClock) {
-  Service service({}, 20.0);
+  Service service({}, 2000.0);
   const auto client = service.connect();
   ask(*client, "00001 StartSession()");
   ask(*client, "00002 Home()");
   const auto before = std::chrono::steady_clock::now();
-  ask(*client, "00003 GoTo(X(400))");  // 4 s at 100 mm/s
+  ask(*client, "00003 GoTo(X(40000))");  // 400 s at 100 mm/s
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
   EXPECT_GE(took.count(), 0.2);
-  EXPECT_LE(took.count(), 2.0);
+  EXPECT_LE(took.count(), 200.0);
 }
 
 TEST(IppService, TellsTheClientThatItEndsAndWritesEveryLineDown) {

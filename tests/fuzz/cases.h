@@ -15,7 +15,7 @@ struct Counts {
 
 /// Tries the cases 0, 1, 2, ... of a door in this process, and fails the test at the first that
 /// goes wrong, with the command that repeats it: a case that says what is wrong ("" is well),
-/// throws, crashes, takes more than 10 s of the processor or a minute of the clock, or brings the
+/// throws, crashes, takes more than 10 s of the processor or ten minutes of the clock, or brings the
 /// process beyond 1 GB.
 void try_cases(const Counts& counts, const std::function<std::string(unsigned seed)>& try_case);
 

@@ -62,6 +62,12 @@ TEST_F(ClosedJournal, IsReadAloneWhenItsListWasTakenAway) {
   expect_read_alone("journal.db-wal");
 }
 
+TEST_F(ClosedJournal, IsReadAloneBesideAFileThatIsNoLog) {
+  fs::remove(scratch / "run/SHA256SUMS");
+  lay_beside("-wal", "this is no log");
+  expect_read_alone("journal.db-wal");
+}
+
 TEST_F(ClosedJournal, IsReadWithoutALogThatIsALink) {
   lay_beside("-elsewhere", log_that_replaces(file, scratch / "other/journal.db"));
   fs::create_symlink("journal.db-elsewhere", file.string() + "-wal");

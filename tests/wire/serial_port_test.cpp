@@ -21,7 +21,7 @@ namespace {
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
-constexpr milliseconds kSerialPatience(2000);
+constexpr milliseconds kSerialPatience(60'000);
 
 /// The other end of a serial device: a pseudo-terminal.
 class FarEnd {
