@@ -121,6 +121,7 @@ std::vector<std::string> print_environment(const PrintFolder& folder) {
 std::vector<std::string> print_arguments(const PrintFolder& folder) {
   std::vector<std::string> out = {"--headless",
                                   "--disable-gpu",
+                                  "--log-level=3",  // fatal ones only: others speak of the desktop
                                   "--no-pdf-header-footer",
                                   "--export-tagged-pdf",
                                   "--generate-pdf-document-outline",

@@ -8,6 +8,7 @@ cpack --config "$build/CPackConfig.cmake" -B "$folder" >"$folder/log" 2>&1 || { 
 ls -l "$folder"/*.deb
 lintian --allow-root --fail-on error --tag-display-limit 0 "$folder"/*.deb
 dpkg-deb --info "$folder"/rondure_*.deb
+dpkg-deb -f "$folder"/rondure_*.deb Recommends | grep -qw chromium || { echo "chromium, which prints PDFs, is not recommended"; exit 1; }
 for package in "$folder"/*.deb; do dpkg-deb -x "$package" "$folder/root"; done
 for file in bin/rondure lib/udev/rules.d/60-rondure.rules lib/cmake/rondure/rondureConfig.cmake lib/librondure_fit.a \
   include/rondure/fit/min_zone_cylinder.h share/man/man1/rondure.1.gz share/bash-completion/completions/rondure \

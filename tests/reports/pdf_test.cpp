@@ -216,9 +216,9 @@ TEST_F(Pdf, EveryPageHasPartRevisionRunAndItsNumberAndNoPathOfAFile) {
   ASSERT_GE(pages.size(), 3U);
   for (std::size_t i = 0; i < pages.size(); ++i) {
     EXPECT_THAT(pages[i], AllOf(HasSubstr("Part VS-1180 / 0042"), HasSubstr("Revision C7"),
-                                HasSubstr("Run 01_spool_simulated"),
-                                HasSubstr(fmt::format("{} / {}", i + 1, pages.size())),
-                                Not(HasSubstr("file:")), Not(HasSubstr("report.html"))));
+                                HasSubstr("Run 01_spool_simulated"), Not(HasSubstr("file:")),
+                                Not(HasSubstr("report.html"))));
+    EXPECT_THAT(inked(pages[i]), ::testing::EndsWith(fmt::format("{}/{}", i + 1, pages.size())));
   }
   EXPECT_LT(pages.front().find("Conforms"), pages.front().find("Characteristic"));
 }
@@ -235,7 +235,7 @@ TEST_F(Pdf, AChinesePageIsPrintedInChinese) {
 
 TEST_F(Pdf, HostileNamesStayTextInTheHeadOfEachPage) {
   for (const std::string& text :
-       {std::string("</style><b>q</b>\"'}\\{"), std::string("<!-- \n */ %PDF-1.4 endobj"),
+       {std::string("</style><b>q</b>\"'}\\{"), std::string("<!-- */ %PDF-1.4 endobj"),
         std::string("page-sha256-0000, page-language-zh-Hans"), std::string(10'000, 'W')}) {
     SCOPED_TRACE(text.substr(0, 40));
     Case made = cylinder_case(4, 7, 3);
