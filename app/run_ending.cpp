@@ -20,6 +20,7 @@
 #include "reports/evaluation.h"
 #include "reports/exports.h"
 #include "reports/language.h"
+#include "reports/stored_results.h"
 #include "reports/verdict.h"
 #include "reports/writers.h"
 

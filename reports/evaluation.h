@@ -147,7 +147,4 @@ struct Evaluation {
 ///         defect.h keeps its numbers).
 [[nodiscard]] core::Result<Evaluation> evaluate(const record::RunRecord& record);
 
-/// The numbers of an evaluation by their JSON pointer in report.json, for the journal's seal.
-[[nodiscard]] std::vector<record::StoredResult> stored_results(const Evaluation& evaluation);
-
 }  // namespace rondure::reports

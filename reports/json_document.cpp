@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "reports/analysis.h"
-#include "reports/facts.h"
+#include "reports/feature_values.h"
 #include "reports/json_parts.h"
 
 namespace rondure::reports {

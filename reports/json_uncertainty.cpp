@@ -1,3 +1,4 @@
+#include "reports/decision_words.h"
 #include "reports/json_parts.h"
 
 namespace rondure::reports {

@@ -8,7 +8,7 @@
 
 #include "core/utf8.h"
 #include "reports/escaping.h"
-#include "reports/facts.h"
+#include "reports/feature_values.h"
 #include "reports/html_plots.h"
 #include "reports/html_sections.h"
 #include "reports/language.h"

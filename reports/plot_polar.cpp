@@ -6,6 +6,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "reports/escaping.h"
+#include "reports/facts.h"
 #include "reports/html_plots.h"
 #include "reports/html_svg.h"
 #include "reports/language.h"
@@ -124,7 +125,7 @@ void draw_scale_bar(Svg& svg, const PolarView& view) {
 
 std::string roundness_of(const FeatureResult& feature, const Section& section) {
   for (const LayerResult& layer : feature.layers) {
-    if (section.title != trf("Layer {}", layer.layer + 1)) continue;
+    if (section.projected || section.layer != layer.layer) continue;
     return layer.mz ? fmt::format("RONt {} µm", um(layer.mz->width_mm())) : tr("no RONt");
   }
   return {};
@@ -133,7 +134,7 @@ std::string roundness_of(const FeatureResult& feature, const Section& section) {
 std::string plot(const FeatureResult& feature, const Section& section, const PolarView& view,
                  double half_zone_mm) {
   Svg svg(kSectionSize, kSectionSize, "polar",
-          trf("{}: deviations about the minimum-zone axis", section.title));
+          trf("{}: deviations about the minimum-zone axis", title_of(section)));
   draw_frame(svg, view);
   draw_zone(svg, view, half_zone_mm);
   const bool sparse = section.rows.size() <= 40;
@@ -141,7 +142,7 @@ std::string plot(const FeatureResult& feature, const Section& section, const Pol
   draw_points(svg, section, feature, view);
   draw_scale_bar(svg, view);
   const bool layered = !feature.layers.empty();
-  std::string caption = fmt::format("<b>{}</b>", escaped(section.title));
+  std::string caption = fmt::format("<b>{}</b>", escaped(title_of(section)));
   if (layered && feature.feature.shape == record::Shape::kCylinder) {
     caption += trf(" · at {} mm", fixed(section.height_mm, 3));
   }

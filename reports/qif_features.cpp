@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "reports/facts.h"
+#include "reports/feature_values.h"
 #include "reports/qif_parts.h"
 #include "reports/section.h"
 

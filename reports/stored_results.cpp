@@ -1,7 +1,7 @@
-#include <string>
-#include <vector>
+#include "reports/stored_results.h"
 
-#include "reports/evaluation.h"
+#include <string>
+
 #include "reports/json_document.h"
 #include "reports/json_parts.h"
 

@@ -17,6 +17,7 @@
 #include "reports/evaluation.h"
 #include "reports/exports.h"
 #include "reports/pdf_report.h"
+#include "reports/stored_results.h"
 #include "reports/verify_files.h"
 #include "reports/verify_results.h"
 

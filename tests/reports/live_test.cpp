@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "reports/facts.h"
+#include "reports/feature_values.h"
 #include "reports/live_cloud.h"
 #include "reports/live_frame.h"
 #include "reports/live_guard.h"

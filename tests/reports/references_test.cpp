@@ -13,7 +13,6 @@
 #include "fit/one_sided_cylinder.h"
 #include "reports/archive_entry.h"
 #include "reports/evaluation.h"
-#include "reports/facts.h"
 #include "reports/warnings.h"
 #include "reports/writers.h"
 #include "tests/reports/points_run.h"

@@ -16,6 +16,7 @@
 #include "reports/defect.h"
 #include "reports/escaping.h"
 #include "reports/language.h"
+#include "reports/stored_results.h"
 #include "reports/writers.h"
 #include "tests/reports/page_text.h"
 #include "tests/reports/points_run.h"

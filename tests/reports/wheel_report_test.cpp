@@ -13,6 +13,7 @@
 #include "reports/escaping.h"
 #include "reports/evaluation.h"
 #include "reports/language.h"
+#include "reports/stored_results.h"
 #include "reports/writers.h"
 #include "tests/fit/wheel_cases.h"
 #include "tests/reports/page_text.h"
