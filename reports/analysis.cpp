@@ -5,13 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "reports/analysis_result.h"
 #include "reports/conformance.h"
 #include "reports/data/json_parts.h"
-#include "reports/escaping.h"
 #include "reports/evaluation.h"
-#include "reports/facts.h"
-#include "reports/html/sections.h"
-#include "reports/words/language.h"
+#include "reports/feature_values.h"
 
 namespace rondure::reports {
 namespace {
@@ -35,7 +33,7 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     out.reason = result.failure ? result.failure->what : "there is no result";
     return;
   }
-  const auto value = result.analysis->value_of(asked);
+  const auto value = value_of(*result.analysis, asked);
   if (!value) {
     out.reason = value.error().what;
     return;
@@ -45,7 +43,7 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
     return;
   }
   out.value.emplace(symbol_of(asked), value->value_mm,
-                    result.analysis->operator_of(asked, temperature_words(result)),
+                    operator_of(*result.analysis, asked, temperature_words(result)),
                     UncertaintyStatus::none("intervals are computed of touches and points only"));
   if (value->limit_mm) asked.tolerance_mm = value->limit_mm;
   const bool proves =
@@ -62,21 +60,29 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
   }
 }
 
-/// Numbers of the hidden truth, as a box that says what they are.
-std::string truth_box(const record::RunRecord& record, std::size_t index) {
-  std::string text;
-  for (const record::TruthValue& truth : record.truth_values) {
-    if (static_cast<std::size_t>(truth.feature) != index) continue;
-    text +=
-        fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", plain_words(truth.name), truth.value);
-  }
-  if (text.empty()) return {};
-  return fmt::format(R"(<div class="truth"><b>{}</b> {}{}</div>)",
-                     tr("Hidden truth of the simulation:"), text,
-                     tr(". This is not part of the measurement: evaluation never reads it."));
+}  // namespace
+
+core::Result<AnalysisValue> value_of(const AnalysisResult& result,
+                                     const record::Characteristic& characteristic) {
+  return std::visit([&](const auto& found) { return value_of(found, characteristic); },
+                    result.found);
 }
 
-}  // namespace
+ValueOperator operator_of(const AnalysisResult& result,
+                          const record::Characteristic& characteristic,
+                          const std::string& temperature) {
+  return std::visit(
+      [&](const auto& found) { return operator_of(found, characteristic, temperature); },
+      result.found);
+}
+
+std::string filter_text(const AnalysisResult& result) {
+  return std::visit([](const auto& found) { return filter_text(found); }, result.found);
+}
+
+std::string sampling_text(const AnalysisResult& result) {
+  return std::visit([](const auto& found) { return sampling_text(found); }, result.found);
+}
 
 FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
                                 const std::optional<fit::ProbeTip>& probe) {
@@ -127,38 +133,6 @@ void decide_analysis(const record::RunRecord& record, const core::Result<Decisio
     judge(record, rule, result, out);
     result.characteristics.push_back(std::move(out));
   }
-}
-
-Json analysis_json(const FeatureResult& feature) {
-  const record::Feature& asked = feature.feature;
-  Json json;
-  json["id"] = asked.id;
-  json["shape"] = record::name_of(asked.shape);
-  json["side"] = record::name_of(asked.side);
-  json["data_file"] = asked.points_file;
-  json["data_sha256"] = asked.points_sha256;
-  json["characteristics"] = list_json(feature.characteristics, characteristic_json);
-  json[std::string(record::name_of(asked.shape))] =
-      feature.analysis ? feature.analysis->json() : Json(nullptr);
-  json["warnings"] = list_json(feature.warnings, error_json);
-  json["failure"] = feature.failure ? error_json(*feature.failure) : Json(nullptr);
-  return json;
-}
-
-std::string analysis_section(const record::RunRecord& record, std::size_t index,
-                             const FeatureResult& feature) {
-  const record::Feature& asked = feature.feature;
-  std::string html = fmt::format(
-      R"(<section><h2>{}</h2><p class="note">{}</p>)", trf("Feature {}", isolated(asked.id)),
-      trf("{}.", asked.shape == record::Shape::kRotaryAxes
-                     ? tr("Calibration of the fixture with balls that it carried")
-                     : trf("{}; data {}", capitalised(tr(record::name_of(asked.shape))),
-                           asked.points_file.empty()
-                               ? tr("simulated")
-                               : trf("from the file {}", isolated(asked.points_file)))));
-  html += messages(feature);
-  if (feature.analysis) html += feature.analysis->html(record, static_cast<int>(index));
-  return html + truth_box(record, index) + "</section>";
 }
 
 }  // namespace rondure::reports

@@ -1,11 +1,7 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "core/result.h"
 #include "fit/geometry/probe_tip.h"
@@ -28,40 +24,18 @@ struct AnalysisValue {
   bool lower_bound = false;
 };
 
-/// A line of the terminal's summary: at most 13 characters of name, then text.
-struct SummaryLine {
-  std::string name;
-  std::string text;
-};
+struct AnalysisResult;  // analysis_result.h
 
-/// What one analysis (spindle, wheel, contour, calibration of the fixture) found of a feature, and
-/// what each report says of it. Immutable; every function is pure. README.md says how to add one.
-class AnalysisResult {
- public:
-  AnalysisResult() = default;
-  AnalysisResult(const AnalysisResult&) = delete;
-  AnalysisResult& operator=(const AnalysisResult&) = delete;
-  virtual ~AnalysisResult() = default;
-
-  /// The value of a characteristic, or why there is none.
-  [[nodiscard]] virtual core::Result<AnalysisValue> value_of(
-      const record::Characteristic& characteristic) const = 0;
-  /// How that value came about: "LSCI; gaussian low pass 50 UPR; ...; 20.3 degC".
-  [[nodiscard]] virtual ValueOperator operator_of(const record::Characteristic& characteristic,
-                                                  const std::string& temperature) const = 0;
-  /// The filter, and what was recorded, as the archive keeps them.
-  [[nodiscard]] virtual std::string filter_text() const = 0;
-  [[nodiscard]] virtual std::string sampling_text() const = 0;
-  /// Everything under the name of the shape in report.json. Curves (one number a sample) stand
-  /// under the key "curves", which the stored results leave out.
-  [[nodiscard]] virtual nlohmann::ordered_json json() const = 0;
-  /// The body of the feature's section: key numbers, drawings, tables. `record` for the hidden
-  /// truth of a simulation.
-  [[nodiscard]] virtual std::string html(const record::RunRecord& record, int feature) const = 0;
-  [[nodiscard]] virtual std::vector<SummaryLine> summary() const = 0;
-  /// fixture-calibration.json, of a calibration of the fixture; empty for everything else.
-  [[nodiscard]] virtual std::string calibration_file() const { return {}; }
-};
+/// The value of a characteristic, or why there is none.
+[[nodiscard]] core::Result<AnalysisValue> value_of(const AnalysisResult& result,
+                                                   const record::Characteristic& characteristic);
+/// How that value came about: "LSCI; gaussian low pass 50 UPR; ...; 20.3 degC".
+[[nodiscard]] ValueOperator operator_of(const AnalysisResult& result,
+                                        const record::Characteristic& characteristic,
+                                        const std::string& temperature);
+/// The filter, and what was recorded, as the archive keeps them.
+[[nodiscard]] std::string filter_text(const AnalysisResult& result);
+[[nodiscard]] std::string sampling_text(const AnalysisResult& result);
 
 /// Evaluates a feature whose shape is an analysis, by the file of its shape. Same record, same
 /// bits.
@@ -80,11 +54,5 @@ void evaluate_spindle(const record::RunRecord& record, int index, FeatureResult&
 void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& result);
 void evaluate_contour(const record::RunRecord& record, int index, FeatureResult& result);
 void evaluate_rotary(const record::RunRecord& record, int index, FeatureResult& result);
-
-/// The parts of the reports that all analyses share: entries of report.json, the section of the
-/// page.
-[[nodiscard]] nlohmann::ordered_json analysis_json(const FeatureResult& feature);
-[[nodiscard]] std::string analysis_section(const record::RunRecord& record, std::size_t index,
-                                           const FeatureResult& feature);
 
 }  // namespace rondure::reports

@@ -10,7 +10,7 @@
 #include "core/units.h"
 #include "reports/declared.h"
 #include "reports/deviation.h"
-#include "reports/facts.h"
+#include "reports/feature_values.h"
 #include "reports/harmonic_mask.h"
 #include "reports/measured_cloud.h"
 

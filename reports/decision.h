@@ -55,9 +55,6 @@ struct DecisionRule {
 /// its name. kMeaning for a name this program does not know: then every verdict is void.
 [[nodiscard]] core::Result<DecisionRule> rule_of(const record::RunRecord& record);
 
-/// The rule in words, with its formula: "ISO 14253-1: conforms where y + 1 (hi - y) <= T, ...".
-[[nodiscard]] std::string in_words(const DecisionRule& rule);
-
 /// What is known of a value.
 struct KnownValue {
   double measured_mm = 0.0;  ///< Of the points as read, not corrected.

@@ -6,14 +6,10 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "core/numbers.h"
 #include "core/units.h"
-#include "reports/contour_result.h"
-#include "reports/data/contour.h"
+#include "reports/analysis_result.h"
 #include "reports/evaluation.h"
-#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
@@ -21,7 +17,6 @@ namespace {
 using core::Code;
 using core::kDegree;
 using core::kMicrometre;
-using core::um;
 using record::Form;
 
 double number(const record::Feature& feature, std::string_view name, double otherwise) {
@@ -98,7 +93,7 @@ std::vector<std::string> names_of(const record::Feature& feature, std::size_t pa
 }
 
 /// All parts together: greatest peak to valley of t.
-core::Result<AnalysisValue> deviation_value(const ContourFacts& facts) {
+core::Result<AnalysisValue> deviation_value(const ContourResult& facts) {
   AnalysisValue out;
   for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
     const double range = facts.study.parts[i].pin.contour.peak_to_valley_mm;
@@ -109,7 +104,7 @@ core::Result<AnalysisValue> deviation_value(const ContourFacts& facts) {
   return out;
 }
 
-core::Result<AnalysisValue> spread_value(const ContourFacts& facts) {
+core::Result<AnalysisValue> spread_value(const ContourResult& facts) {
   if (!facts.study.total) {
     return core::fail(Code::kTooFewPoints, "one part shows no spread; at least 2 are needed");
   }
@@ -120,7 +115,7 @@ core::Result<AnalysisValue> spread_value(const ContourFacts& facts) {
 }
 
 /// The harmonic of any part that comes nearest to its limit, or goes farthest beyond.
-core::Result<AnalysisValue> mask_value(const ContourFacts& facts,
+core::Result<AnalysisValue> mask_value(const ContourResult& facts,
                                        const record::Characteristic& asked) {
   AnalysisValue out;
   double worst = -1.0;
@@ -144,81 +139,50 @@ core::Result<AnalysisValue> mask_value(const ContourFacts& facts,
 
 }  // namespace
 
-core::Result<AnalysisValue> ContourResult::value_of(const record::Characteristic& asked) const {
+core::Result<AnalysisValue> value_of(const ContourResult& facts,
+                                     const record::Characteristic& asked) {
   switch (asked.form) {
     case Form::kContourDeviation:
-      return deviation_value(facts_);
+      return deviation_value(facts);
     case Form::kContourSpread:
-      return spread_value(facts_);
+      return spread_value(facts);
     case Form::kHarmonicLimits:
-      return mask_value(facts_, asked);
+      return mask_value(facts, asked);
     default:
       return core::fail(Code::kMeaning, fmt::format("a contour has no {}", name_of(asked.form)));
   }
 }
 
-std::string ContourResult::filter_text() const {
-  const fit::FilterOptions& filter = facts_.options.error.filter;
+std::string filter_text(const ContourResult& facts) {
+  const fit::FilterOptions& filter = facts.options.error.filter;
   if (filter.filter == fit::ProfileFilter::kNone) return "unfiltered";
-  return facts_.options.prefiltered
+  return facts.options.prefiltered
              ? fmt::format("gaussian low pass {:g} UPR by the gauge", filter.cutoff_upr)
              : fmt::format("gaussian low pass {:g} UPR", filter.cutoff_upr);
 }
 
-std::string ContourResult::sampling_text() const {
-  return fmt::format("{} of {} points", count(facts_.study.parts.size(), "part", "parts"),
-                     facts_.options.samples);
+std::string sampling_text(const ContourResult& facts) {
+  const std::size_t parts = facts.study.parts.size();
+  return fmt::format("{} {} of {} points", parts, parts == 1 ? "part" : "parts",
+                     facts.options.samples);
 }
 
-ValueOperator ContourResult::operator_of(const record::Characteristic& asked,
-                                         const std::string& temperature) const {
+ValueOperator operator_of(const ContourResult& facts, const record::Characteristic& asked,
+                          const std::string& temperature) {
   const std::string what = asked.form == Form::kContourSpread
                                ? "standard deviation of the parts about their mean contour"
                            : asked.form == Form::kHarmonicLimits
                                ? "amplitudes of the filtered contours"
                                : "peak to valley, greatest of all parts";
   const char* base =
-      facts_.options.error.base == fit::BaseCircle::kLimacon ? "limacon" : "geometric";
-  return {ReferenceTerm(fmt::format("{}; base circle {}", what, base)), FilterTerm(filter_text()),
-          SamplingTerm(sampling_text()), TipTerm("readings as given"),
-          TemperatureTerm(temperature)};
-}
-
-nlohmann::ordered_json ContourResult::json() const {
-  auto out = contour_document(facts_.study, facts_.options, facts_.names);
-  out.erase("warnings");  // they stand beside, as of every feature
-  auto curves = nlohmann::ordered_json::array();
-  const auto in_um = [](const std::vector<double>& values) {
-    auto list = nlohmann::ordered_json::array();
-    for (const double value : values) list.push_back(value / kMicrometre);
-    return list;
-  };
-  for (const fit::ContourPartResult& part : facts_.study.parts) {
-    curves.push_back({{"total_um", in_um(part.pin.contour.error_mm)},
-                      {"following_um", in_um(part.following.error_mm)},
-                      {"rest_um", in_um(part.direct.rest_mm)}});
-  }
-  out["curves"] = std::move(curves);
-  return out;
-}
-
-std::vector<SummaryLine> ContourResult::summary() const {
-  std::vector<SummaryLine> out;
-  for (std::size_t i = 0; i < facts_.study.parts.size(); ++i) {
-    const fit::ContourPartResult& part = facts_.study.parts[i];
-    out.push_back({"part", fmt::format("{}: contour {} um PV; following {} um, not following {} um",
-                                       facts_.names[i], um(part.pin.contour.peak_to_valley_mm),
-                                       um(part.following.peak_to_valley_mm),
-                                       um(fit::peak_to_valley(part.direct.rest_mm)))});
-  }
-  for (const std::string& verdict : contour_verdicts(facts_.study, facts_.options.limits)) {
-    out.push_back({out.size() == facts_.study.parts.size() ? "stability" : "", verdict});
-  }
-  return out;
+      facts.options.error.base == fit::BaseCircle::kLimacon ? "limacon" : "geometric";
+  return {ReferenceTerm(fmt::format("{}; base circle {}", what, base)),
+          FilterTerm(filter_text(facts)), SamplingTerm(sampling_text(facts)),
+          TipTerm("readings as given"), TemperatureTerm(temperature)};
 }
 
 void evaluate_contour(const record::RunRecord& record, int index, FeatureResult& result) {
-  ContourFacts facts;
+  ContourResult facts;
   facts.options = contour_options(result.feature);
   const auto parts = parts_of(record, index);
   auto study = fit::contour_study(parts, facts.options);
@@ -229,7 +193,7 @@ void evaluate_contour(const record::RunRecord& record, int index, FeatureResult&
   facts.study = *std::move(study);
   facts.names = names_of(result.feature, parts.size());
   result.warnings = facts.study.warnings;
-  result.analysis = std::make_shared<ContourResult>(std::move(facts));
+  result.analysis = std::make_shared<AnalysisResult>(std::move(facts));
 }
 
 }  // namespace rondure::reports

@@ -7,11 +7,11 @@
 
 #include "core/units.h"
 #include "core/utc.h"
+#include "fit/geometry/registration.h"
 #include "fit/rotary/ball_center.h"
 #include "fit/rotary/ball_setup.h"
-#include "fit/geometry/registration.h"
+#include "reports/analysis_result.h"
 #include "reports/evaluation.h"
-#include "reports/rotary_result.h"
 
 namespace rondure::reports {
 namespace {
@@ -206,7 +206,7 @@ double variance_mm2(const fixture::Calibration& c, const core::Pose& pose, const
 }
 
 /// That every ball touched in a combined pose has its place from the zero poses.
-core::Result<void> check_balls(const Measurement& measured, const RotaryFacts& facts) {
+core::Result<void> check_balls(const Measurement& measured, const RotaryResult& facts) {
   const auto& reference = facts.alpha.reference;
   for (const VisitBalls& visit : measured.visits) {
     for (const auto& [ball, center] : visit.centers) {
@@ -230,7 +230,7 @@ struct Sums {
 
 /// What is left at one combined pose, its points added to the sums and the largest distances.
 CombinedPose verify_pose(const Measurement& measured, const VisitBalls& visit,
-                         const std::map<std::string, Vector3d>& body_mm, RotaryFacts& facts,
+                         const std::map<std::string, Vector3d>& body_mm, RotaryResult& facts,
                          Sums& sums) {
   fixture::Verification& v = facts.calibration.verification;
   const fixture::Kinematics nominal{facts.calibration.axis_point_mm,
@@ -268,7 +268,7 @@ CombinedPose verify_pose(const Measurement& measured, const VisitBalls& visit,
   return out;
 }
 
-void verify_combined(const Measurement& measured, RotaryFacts& facts) {
+void verify_combined(const Measurement& measured, RotaryResult& facts) {
   fixture::Verification& v = facts.calibration.verification;
   std::map<std::string, Vector3d> body_mm;
   for (const fit::BallCentre& ball : facts.alpha.reference) {
@@ -312,7 +312,7 @@ core::Result<void> date_calibration(const record::RunRecord& record, int index,
 }
 
 /// Of all balls about the base-fixed axis, and how well a centre is known.
-void judge_balls(const Measurement& measured, RotaryFacts& facts) {
+void judge_balls(const Measurement& measured, RotaryResult& facts) {
   std::vector<Vector3d> balls;
   for (const fit::BallCentre& ball : facts.alpha.reference) {
     balls.emplace_back(ball.centre_mm - facts.calibration.axis_point_mm);
@@ -329,10 +329,10 @@ void judge_balls(const Measurement& measured, RotaryFacts& facts) {
   facts.center_u_mm = std::sqrt(variance / count);
 }
 
-core::Result<RotaryFacts> facts_of(const record::RunRecord& record, int index, double tip_mm) {
+core::Result<RotaryResult> facts_of(const record::RunRecord& record, int index, double tip_mm) {
   auto measured = measure(record, index, tip_mm);
   if (!measured) return core::fail(measured.error());
-  RotaryFacts facts;
+  RotaryResult facts;
   fixture::Calibration& c = facts.calibration;
   if (auto dated = date_calibration(record, index, c); !dated) return core::fail(dated.error());
   auto alpha = study_of(*measured, Role::kAlpha, Vector3d::UnitX(), c.axis_point_mm);
@@ -359,7 +359,7 @@ core::Result<RotaryFacts> facts_of(const record::RunRecord& record, int index, d
   return facts;
 }
 
-void warn_rotary(const RotaryFacts& facts, std::vector<core::Error>& warnings) {
+void warn_rotary(const RotaryResult& facts, std::vector<core::Error>& warnings) {
   for (const AxisFacts& axis : axes_of(facts)) {
     for (core::Error warning : axis.study->warnings) {
       warning.what = fmt::format("axis {}: {}", axis.key, warning.what);
@@ -404,7 +404,7 @@ void evaluate_rotary(const record::RunRecord& record, int index, FeatureResult& 
     facts->calibration.temperature_degC = result.temperatures->mean_degC;
   }
   warn_rotary(*facts, result.warnings);
-  result.analysis = std::make_shared<RotaryResult>(*std::move(facts));
+  result.analysis = std::make_shared<AnalysisResult>(*std::move(facts));
 }
 
 }  // namespace rondure::reports

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "reports/analysis_result.h"
 #include "reports/evaluation.h"
-#include "reports/spindle_result.h"
 
 namespace rondure::reports {
 namespace {
@@ -67,10 +67,10 @@ fit::ProbeReadings probe_readings(const record::Series& series) {
       {scaled("H1_um", kMicrometre), scaled("H2_um", kMicrometre), scaled("H3_um", kMicrometre)}};
 }
 
-core::Result<SpindleFacts> spindle_facts(const fit::ProbeReadings& readings,
-                                         const fit::SwingArm& arm, const fit::ProbeLayout& layout,
-                                         const fit::ThreeProbeOptions& options, double cutoff_upr,
-                                         bool inside) {
+core::Result<SpindleResult> spindle_facts(const fit::ProbeReadings& readings,
+                                          const fit::SwingArm& arm, const fit::ProbeLayout& layout,
+                                          const fit::ThreeProbeOptions& options, double cutoff_upr,
+                                          bool inside) {
   auto separation = fit::separate_three_probe(readings, arm, layout, options);
   if (!separation) return core::fail(separation.error());
   fit::RoundnessOptions roundness;
@@ -90,7 +90,7 @@ core::Result<SpindleFacts> spindle_facts(const fit::ProbeReadings& readings,
   const auto y = turns_of(*separation, &fit::CentreMotion::y_mm);
   const auto motion_x = fit::axis_motion(separation->alpha_rad, x);
   const auto motion_y = fit::axis_motion(separation->alpha_rad, y);
-  return SpindleFacts{arm, *std::move(separation), *std::move(part), motion_x, motion_y};
+  return SpindleResult{arm, *std::move(separation), *std::move(part), motion_x, motion_y};
 }
 
 void evaluate_spindle(const record::RunRecord& record, int index, FeatureResult& result) {
@@ -112,7 +112,7 @@ void evaluate_spindle(const record::RunRecord& record, int index, FeatureResult&
   result.warnings = facts->separation.warnings;
   result.warnings.insert(result.warnings.end(), facts->roundness.warnings.begin(),
                          facts->roundness.warnings.end());
-  result.analysis = std::make_shared<SpindleResult>(*std::move(facts));
+  result.analysis = std::make_shared<AnalysisResult>(*std::move(facts));
 }
 
 }  // namespace rondure::reports

@@ -5,10 +5,10 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
+#include "reports/analysis_result.h"
 #include "reports/data/wheel.h"
 #include "reports/evaluation.h"
-#include "reports/facts.h"
-#include "reports/wheel_result.h"
+#include "reports/feature_values.h"
 
 namespace rondure::reports {
 namespace {
@@ -131,7 +131,7 @@ AnalysisValue bounded(AnalysisValue value, const fit::WheelMeasurement& m, doubl
   return value;
 }
 
-core::Result<AnalysisValue> roundness(const WheelFacts& facts, record::Reference reference) {
+core::Result<AnalysisValue> roundness(const WheelResult& facts, record::Reference reference) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   const bool dropped = !m.dropped.empty();
   if (reference == record::Reference::kLeastSquares) {
@@ -156,14 +156,14 @@ core::Result<AnalysisValue> roundness(const WheelFacts& facts, record::Reference
 
 }  // namespace
 
-core::Result<AnalysisValue> WheelResult::value_of(
-    const record::Characteristic& characteristic) const {
-  const fit::WheelMeasurement& m = facts_.evaluation.wheel;
+core::Result<AnalysisValue> value_of(const WheelResult& facts,
+                                     const record::Characteristic& characteristic) {
+  const fit::WheelMeasurement& m = facts.evaluation.wheel;
   if (characteristic.form == record::Form::kRadius) {
-    return departure(m, facts_.task.wheel.nominal_radius_mm);
+    return departure(m, facts.task.wheel.nominal_radius_mm);
   }
   if (characteristic.form == record::Form::kRoundness) {
-    return roundness(facts_, characteristic.reference);
+    return roundness(facts, characteristic.reference);
   }
   if (!m.runout) return core::fail(core::Code::kNoAxis, std::string(m.runout_absent));
   AnalysisValue out{m.runout->fim_mm, {}, {}, {}, false};
@@ -181,9 +181,9 @@ core::Result<AnalysisValue> WheelResult::value_of(
   return out;
 }
 
-ValueOperator WheelResult::operator_of(const record::Characteristic& characteristic,
-                                       const std::string& temperature) const {
-  const fit::WheelMeasurement& m = facts_.evaluation.wheel;
+ValueOperator operator_of(const WheelResult& facts, const record::Characteristic& characteristic,
+                          const std::string& temperature) {
+  const fit::WheelMeasurement& m = facts.evaluation.wheel;
   const std::string points = fmt::format("{} of {} points, {} mode", m.points - m.dropped.size(),
                                          m.points, fit::name_of(m.mode));
   std::string reference = reference_of(characteristic);
@@ -195,45 +195,18 @@ ValueOperator WheelResult::operator_of(const record::Characteristic& characteris
                     : fmt::format("mean distance from the centre ({} mean of {} quadruples)",
                                   fit::name_of(m.mean), m.centers.accepted.size());
   }
-  return {ReferenceTerm(reference), FilterTerm(filter_text()), SamplingTerm(points),
+  return {ReferenceTerm(reference), FilterTerm(filter_text(facts)), SamplingTerm(points),
           TipTerm("points as given"), TemperatureTerm(temperature)};
 }
 
-std::string WheelResult::filter_text() const {
-  return facts_.task.wheel.robust ? "unfiltered, isolated outliers dropped" : "unfiltered";
+std::string filter_text(const WheelResult& facts) {
+  return facts.task.wheel.robust ? "unfiltered, isolated outliers dropped" : "unfiltered";
 }
 
-std::string WheelResult::sampling_text() const {
-  const fit::WheelMeasurement& m = facts_.evaluation.wheel;
+std::string sampling_text(const WheelResult& facts) {
+  const fit::WheelMeasurement& m = facts.evaluation.wheel;
   return fmt::format("{} points, {} mode, {:.0f} deg", m.points, fit::name_of(m.mode),
                      m.order.coverage_rad() / kDegree);
-}
-
-nlohmann::ordered_json WheelResult::json() const {
-  return wheel_json(facts_.evaluation, facts_.task);
-}
-
-std::vector<SummaryLine> WheelResult::summary() const {
-  const fit::WheelMeasurement& m = facts_.evaluation.wheel;
-  std::vector<SummaryLine> out = {
-      {"wheel", fmt::format("R {:.6f} mm, u(R) {} um, PV {} um, centre ({:.6f}, {:.6f}) mm",
-                            m.radius_mm, um(m.radius_uncertainty_mm), um(m.deviation_mm),
-                            m.center_mm.x(), m.center_mm.y())}};
-  if (m.runout) {
-    const std::string& bound = m.runout->bound_because;
-    out.push_back({"run-out",
-                   bound.empty() ? fmt::format("{} um; effective radius {:.6f} mm",
-                                               um(m.runout->fim_mm), m.runout->effective_radius_mm)
-                                 : fmt::format("at least {} um: {}", um(m.runout->fim_mm), bound)});
-  }
-  const auto& e = facts_.evaluation;
-  if (e.path) {
-    out.push_back(
-        {"path", fmt::format("{} places, R k_s at most {:.4f}, PV left {} um", e.path->rows.size(),
-                             e.path->load.load, um(e.forecast->measured.deviation_mm))});
-  }
-  if (e.refused) out.push_back({"no path", e.refused->what});
-  return out;
 }
 
 void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& result) {
@@ -242,7 +215,7 @@ void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& r
     result.failure = task.error();
     return;
   }
-  WheelFacts facts;
+  WheelResult facts;
   facts.points_mm = points_of(*record.data_of(index, "data"));
   facts.task = {wheel_options(result.feature, record.header.seed), *std::move(task)};
   auto evaluation = fit::evaluate_wheel(facts.points_mm, facts.task);
@@ -257,7 +230,7 @@ void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& r
     result.warnings.insert(result.warnings.end(), more.begin(), more.end());
   }
   if (facts.evaluation.refused) result.warnings.push_back(*facts.evaluation.refused);
-  result.analysis = std::make_shared<WheelResult>(std::move(facts));
+  result.analysis = std::make_shared<AnalysisResult>(std::move(facts));
 }
 
 }  // namespace rondure::reports

@@ -11,14 +11,14 @@
 #include "core/pose.h"
 #include "core/result.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/probe_tip.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
+#include "fit/profiles/roundness_evaluation.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
-#include "fit/geometry/probe_tip.h"
-#include "fit/profiles/roundness_evaluation.h"
 #include "record/run_record.h"
 #include "reports/analysis.h"
 #include "reports/decision.h"
@@ -146,8 +146,5 @@ struct Evaluation {
 ///         broken invariant (a defect of the program; no value, all void; evaluate_run() of
 ///         defect.h keeps its numbers).
 [[nodiscard]] core::Result<Evaluation> evaluate(const record::RunRecord& record);
-
-/// The numbers of an evaluation by their JSON pointer in report.json, for the journal's seal.
-[[nodiscard]] std::vector<record::StoredResult> stored_results(const Evaluation& evaluation);
 
 }  // namespace rondure::reports

@@ -8,6 +8,7 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
+#include "reports/analysis_result.h"
 #include "reports/data/qif/check.h"
 #include "reports/writers.h"
 
@@ -21,10 +22,9 @@ constexpr const char* kCalibrationFile = "fixture-calibration.json";
 /// The calibration of the fixture. Where it failed: a text that no run takes for one.
 std::string calibration_of(const Evaluation& evaluation) {
   for (const FeatureResult& feature : evaluation.features) {
-    if (feature.analysis) {
-      std::string text = feature.analysis->calibration_file();
-      if (!text.empty()) return text;
-    }
+    if (!feature.analysis) continue;
+    const auto* const found = std::get_if<RotaryResult>(&feature.analysis->found);
+    if (found != nullptr) return fixture::calibration_text(found->calibration);
   }
   return "{\"format\": \"none\", \"note\": \"the fixture was not calibrated, see report.json\"}\n";
 }

@@ -8,7 +8,7 @@
 
 #include "core/numbers.h"
 #include "reports/factor_outliers.h"
-#include "reports/facts.h"
+#include "reports/feature_values.h"
 
 namespace rondure::reports {
 namespace {

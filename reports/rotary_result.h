@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "fit/rotary/axes.h"
@@ -21,7 +20,7 @@ struct CombinedPose {
 };
 
 /// Everything found of the fixture.
-struct RotaryFacts {
+struct RotaryResult {
   fit::RotaryStudy alpha;
   fit::RotaryStudy beta;
   std::vector<std::string> balls;
@@ -34,35 +33,20 @@ struct RotaryFacts {
   fixture::Calibration calibration;
 };
 
-/// Calibration of the fixture. evaluate_rotary.cpp measures, rotary_result.cpp judges; rotary_json
-/// and html_rotary.cpp write. fixture-calibration.json is calibration_file().
-class RotaryResult final : public AnalysisResult {
- public:
-  explicit RotaryResult(RotaryFacts facts) : facts_(std::move(facts)) {}
+[[nodiscard]] core::Result<AnalysisValue> value_of(const RotaryResult& result,
+                                                   const record::Characteristic& characteristic);
+[[nodiscard]] ValueOperator operator_of(const RotaryResult& result,
+                                        const record::Characteristic& characteristic,
+                                        const std::string& temperature);
+[[nodiscard]] std::string filter_text(const RotaryResult& result);
+[[nodiscard]] std::string sampling_text(const RotaryResult& result);
 
-  [[nodiscard]] core::Result<AnalysisValue> value_of(
-      const record::Characteristic& characteristic) const override;
-  [[nodiscard]] ValueOperator operator_of(const record::Characteristic& characteristic,
-                                          const std::string& temperature) const override;
-  [[nodiscard]] std::string filter_text() const override;
-  [[nodiscard]] std::string sampling_text() const override;
-  [[nodiscard]] nlohmann::ordered_json json() const override;
-  [[nodiscard]] std::string html(const record::RunRecord& record, int feature) const override;
-  [[nodiscard]] std::vector<SummaryLine> summary() const override;
-  /// The calibration as other runs read it.
-  [[nodiscard]] std::string calibration_file() const override;
-
- private:
-  RotaryFacts facts_;
-};
-
-/// One axis as a report shows it: key, name and which study it is.
+/// One axis: "alpha" or "beta", and which study it is.
 struct AxisFacts {
   const char* key = "";
-  const char* name = "";
   const fit::RotaryStudy* study = nullptr;
   const fixture::StationMotion* motion = nullptr;
 };
-[[nodiscard]] std::vector<AxisFacts> axes_of(const RotaryFacts& facts);
+[[nodiscard]] std::vector<AxisFacts> axes_of(const RotaryResult& facts);
 
 }  // namespace rondure::reports

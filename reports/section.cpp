@@ -5,10 +5,7 @@
 #include <numeric>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "core/units.h"
-#include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
@@ -64,7 +61,7 @@ std::vector<Section> sections_of(const FeatureResult& feature) {
   std::vector<Section> sections;
   for (const LayerResult& layer : feature.layers) {
     Section section;
-    section.title = trf("Layer {}", layer.layer + 1);
+    section.layer = layer.layer;
     section.height_mm = layer.height_mm;
     for (const std::size_t row : layer.rows) {
       if (row < feature.cloud.size()) section.rows.push_back(row);
@@ -74,7 +71,6 @@ std::vector<Section> sections_of(const FeatureResult& feature) {
   if (sections.empty() && !feature.cloud.empty()) {
     Section all;
     all.projected = true;
-    all.title = tr("All points, seen along the axis");
     all.rows.resize(feature.cloud.size());
     std::iota(all.rows.begin(), all.rows.end(), std::size_t{0});
     sections.push_back(std::move(all));

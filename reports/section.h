@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,7 +16,7 @@ struct SectionPoint {
 
 /// The points of one section by angle.
 struct Section {
-  std::string title;  ///< "Layer 1", "All points".
+  int layer = 0;  ///< Of the feature; of projected points none.
   double height_mm = 0.0;
   std::vector<std::size_t> rows;      ///< Of the cloud.
   std::vector<SectionPoint> profile;  ///< By angle; thinned when there are very many points.

@@ -8,8 +8,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "reports/deviation.h"
-#include "reports/facts.h"
-#include "reports/words/language.h"
+#include "reports/feature_values.h"
 
 namespace rondure::reports {
 namespace {
@@ -41,19 +40,19 @@ const fit::Roundness* roundness_about(const fit::RoundnessEvaluation& evaluation
 }
 
 /// Readings that contradict what is stated, or are none, falsify everything.
-std::optional<std::string> contradiction_of(const SpindleFacts& facts) {
+std::optional<std::string> contradiction_of(const SpindleResult& facts) {
   if (facts.separation.contradictions.empty()) return std::nullopt;
   return facts.separation.contradictions.front().what;
 }
 
 /// Harmonics that were dropped falsify part and motion.
-std::optional<std::string> loss_of(const SpindleFacts& facts) {
+std::optional<std::string> loss_of(const SpindleResult& facts) {
   if (auto contradiction = contradiction_of(facts)) return contradiction;
   if (facts.separation.unrecovered.empty()) return std::nullopt;
   return fmt::format("{} harmonics were not recovered", facts.separation.unrecovered.size());
 }
 
-core::Result<AnalysisValue> roundness_value(const SpindleFacts& facts,
+core::Result<AnalysisValue> roundness_value(const SpindleResult& facts,
                                             const record::Characteristic& asked) {
   const bool rms = asked.form == Form::kRoundnessRms;
   const auto reference = rms ? fit::CircleReference::kLs : circle_of(asked.reference);
@@ -71,7 +70,7 @@ core::Result<AnalysisValue> roundness_value(const SpindleFacts& facts,
 }
 
 /// The harmonic that comes nearest to its limit, or goes farthest beyond.
-core::Result<AnalysisValue> mask_value(const SpindleFacts& facts,
+core::Result<AnalysisValue> mask_value(const SpindleResult& facts,
                                        const record::Characteristic& asked) {
   AnalysisValue out;
   out.void_because = contradiction_of(facts);
@@ -101,7 +100,7 @@ core::Result<AnalysisValue> mask_value(const SpindleFacts& facts,
   return out;
 }
 
-core::Result<AnalysisValue> motion_value(const SpindleFacts& facts, Form form) {
+core::Result<AnalysisValue> motion_value(const SpindleResult& facts, Form form) {
   AnalysisValue out;
   const auto greater = [&](double x_mm, double y_mm) {
     out.value_mm = std::max(x_mm, y_mm);
@@ -124,42 +123,44 @@ core::Result<AnalysisValue> motion_value(const SpindleFacts& facts, Form form) {
 
 }  // namespace
 
-core::Result<AnalysisValue> SpindleResult::value_of(const record::Characteristic& asked) const {
+core::Result<AnalysisValue> value_of(const SpindleResult& facts,
+                                     const record::Characteristic& asked) {
   switch (asked.form) {
     case Form::kRoundness:
     case Form::kRoundnessRms:
-      return roundness_value(facts_, asked);
+      return roundness_value(facts, asked);
     case Form::kHarmonicLimits:
-      return mask_value(facts_, asked);
+      return mask_value(facts, asked);
     case Form::kMotionTotal:
     case Form::kMotionSynchronous:
     case Form::kMotionAsynchronous:
-      return motion_value(facts_, asked.form);
+      return motion_value(facts, asked.form);
     default:
       return core::fail(Code::kMeaning, fmt::format("a spindle has no {}", name_of(asked.form)));
   }
 }
 
-std::string SpindleResult::filter_text() const {
-  const fit::FilterOptions& filter = facts_.roundness.filter;
+std::string filter_text(const SpindleResult& facts) {
+  const fit::FilterOptions& filter = facts.roundness.filter;
   if (filter.filter == fit::ProfileFilter::kNone) return "unfiltered";
   return fmt::format("gaussian low pass {:g} UPR", filter.cutoff_upr);
 }
 
-std::string SpindleResult::sampling_text() const {
-  const auto turns = static_cast<std::size_t>(facts_.separation.revolutions);
-  return fmt::format("{} of {} samples", count(turns, "revolution", "revolutions"),
-                     facts_.separation.profile.r_mm.size());
+std::string sampling_text(const SpindleResult& facts) {
+  const auto turns = static_cast<std::size_t>(facts.separation.revolutions);
+  return fmt::format("{} of {} samples",
+                     turns == 1 ? "1 revolution" : fmt::format("{} revolutions", turns),
+                     facts.separation.profile.r_mm.size());
 }
 
-ValueOperator SpindleResult::operator_of(const record::Characteristic& asked,
-                                         const std::string& temperature) const {
+ValueOperator operator_of(const SpindleResult& facts, const record::Characteristic& asked,
+                          const std::string& temperature) {
   const bool part = asked.form == Form::kRoundness || asked.form == Form::kRoundnessRms;
-  const fit::ThreeProbeResult& s = facts_.separation;
+  const fit::ThreeProbeResult& s = facts.separation;
   const auto angles = s.layout.angles_rad();
   const std::string how = fmt::format(
       "three probes at 0, {:.4f}, {:.4f} deg; {}; harmonics 2 to {}", angles[1] / core::kDegree,
-      angles[2] / core::kDegree, sampling_text(), s.harmonics.back().order);
+      angles[2] / core::kDegree, sampling_text(facts), s.harmonics.back().order);
   const bool unfiltered = asked.form == Form::kHarmonicLimits;
   const std::string reference =
       part         ? reference_of(asked)
@@ -167,39 +168,10 @@ ValueOperator SpindleResult::operator_of(const record::Characteristic& asked,
                    : "ISO 230-7, fixed direction, about the least-squares centre of the mean "
                      "revolution";
   return {ReferenceTerm(reference),
-          FilterTerm(part         ? filter_text()
+          FilterTerm(part         ? filter_text(facts)
                      : unfiltered ? "before the filter"
                                   : "unfiltered"),
           SamplingTerm(how), TipTerm("displacement probes"), TemperatureTerm(temperature)};
-}
-
-std::vector<SummaryLine> SpindleResult::summary() const {
-  const fit::ThreeProbeResult& s = facts_.separation;
-  std::vector<SummaryLine> out;
-  std::string part;
-  for (const fit::Roundness& value : facts_.roundness.values) {
-    std::string name(fit::name_of(value.reference));
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](char c) { return static_cast<char>(c - 'a' + 'A'); });
-    part += fmt::format("{}{}CI {} um", part.empty() ? "RONt " : ", ", name, um(value.total_mm));
-  }
-  out.push_back({"part", part + "; " + filter_text()});
-  const auto direction = [](const char* name, const fit::AxisMotion& m) {
-    if (!m.asynchronous_mm) {
-      return fmt::format("{}: total {} um, synchronous {} um", name, um(m.total_mm),
-                         um(m.synchronous_mm));
-    }
-    return fmt::format("{}: total {} um, synchronous {} um, asynchronous {} um", name,
-                       um(m.total_mm), um(m.synchronous_mm), um(*m.asynchronous_mm));
-  };
-  out.push_back({"motion", direction("X", facts_.x) + "; " + direction("Y", facts_.y)});
-  out.push_back({"eccentricity", um(s.eccentricity_mm) + " um"});
-  const fit::WorstGain worst = fit::worst_gain(s.layout, 2, s.harmonics.back().order);
-  out.push_back(
-      {"noise gain", fmt::format("at most {:.2f}, at harmonic {}; profile known to {} um (rms, one "
-                                 "standard uncertainty)",
-                                 worst.gain, worst.order, um(s.profile_sigma_mm))});
-  return out;
 }
 
 }  // namespace rondure::reports

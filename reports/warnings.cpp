@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "reports/facts.h"
+#include "reports/feature_values.h"
 
 namespace rondure::reports {
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,29 +11,18 @@
 namespace rondure::reports {
 
 /// Everything found of a wheel feature, with what was asked for.
-struct WheelFacts {
+struct WheelResult {
   std::vector<Eigen::Vector2d> points_mm;  ///< As recorded, x and z.
   fit::WheelTask task;
   fit::WheelEvaluation evaluation;
 };
 
-/// evaluate_wheel.cpp evaluates and judges; wheel_json.cpp, html_wheel.cpp, plot_wheel.cpp write.
-class WheelResult final : public AnalysisResult {
- public:
-  explicit WheelResult(WheelFacts facts) : facts_(std::move(facts)) {}
-
-  [[nodiscard]] core::Result<AnalysisValue> value_of(
-      const record::Characteristic& characteristic) const override;
-  [[nodiscard]] ValueOperator operator_of(const record::Characteristic& characteristic,
-                                          const std::string& temperature) const override;
-  [[nodiscard]] std::string filter_text() const override;
-  [[nodiscard]] std::string sampling_text() const override;
-  [[nodiscard]] nlohmann::ordered_json json() const override;
-  [[nodiscard]] std::string html(const record::RunRecord& record, int feature) const override;
-  [[nodiscard]] std::vector<SummaryLine> summary() const override;
-
- private:
-  WheelFacts facts_;
-};
+[[nodiscard]] core::Result<AnalysisValue> value_of(const WheelResult& result,
+                                                   const record::Characteristic& characteristic);
+[[nodiscard]] ValueOperator operator_of(const WheelResult& result,
+                                        const record::Characteristic& characteristic,
+                                        const std::string& temperature);
+[[nodiscard]] std::string filter_text(const WheelResult& result);
+[[nodiscard]] std::string sampling_text(const WheelResult& result);
 
 }  // namespace rondure::reports

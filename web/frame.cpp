@@ -8,7 +8,7 @@
 
 #include "core/utf8.h"
 #include "reports/escaping.h"
-#include "reports/facts.h"
+#include "reports/feature_values.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/measured_cloud.h"

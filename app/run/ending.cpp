@@ -19,6 +19,7 @@
 #include "reports/defect.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
+#include "reports/stored_results.h"
 #include "reports/verdict.h"
 #include "reports/words/language.h"
 #include "reports/writers.h"

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
+#include "reports/json_spindle.h"
 
 namespace rondure::app {
 namespace {
@@ -85,7 +86,7 @@ std::string layout_line(const std::string& name, const fit::ProbeLayout& layout,
 
 }  // namespace
 
-nlohmann::ordered_json spindle_json(const reports::SpindleFacts& facts) {
+nlohmann::ordered_json spindle_json(const reports::SpindleResult& facts) {
   Json out = reports::separation_json(facts);
   out["warnings"] = Json::array();
   const auto add = [&](const std::vector<core::Error>& warnings) {
@@ -97,7 +98,7 @@ nlohmann::ordered_json spindle_json(const reports::SpindleFacts& facts) {
   return out;
 }
 
-std::string spindle_table(const reports::SpindleFacts& facts) {
+std::string spindle_table(const reports::SpindleResult& facts) {
   const fit::ThreeProbeResult& s = facts.separation;
   const auto places = places_deg(s.layout);
   std::string out = fmt::format("Three-probe separation, {}: {} readings, {} revolution{}\n",

@@ -11,8 +11,8 @@
 namespace rondure::app {
 
 /// A three-probe separation as JSON (docs/spindle.md), and for a person.
-[[nodiscard]] nlohmann::ordered_json spindle_json(const reports::SpindleFacts& facts);
-[[nodiscard]] std::string spindle_table(const reports::SpindleFacts& facts);
+[[nodiscard]] nlohmann::ordered_json spindle_json(const reports::SpindleResult& facts);
+[[nodiscard]] std::string spindle_table(const reports::SpindleResult& facts);
 
 /// Designed layouts with the two of the source and the reference beside them.
 [[nodiscard]] nlohmann::ordered_json layouts_json(std::span<const fit::DesignedLayout> layouts,

@@ -61,7 +61,7 @@ fit::ThreeProbeOptions options_of(const SpindleArguments& a) {
   return out;
 }
 
-core::Result<reports::SpindleFacts> separate(const SpindleArguments& a) {
+core::Result<reports::SpindleResult> separate(const SpindleArguments& a) {
   const auto layout = layout_of(a);
   if (!layout) return core::fail(layout.error());
   const auto bytes = record::read_file(a.file);

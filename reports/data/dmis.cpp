@@ -6,6 +6,7 @@
 #include "core/numbers.h"
 #include "core/utf8.h"
 #include "reports/facts.h"
+#include "reports/feature_values.h"
 #include "reports/section.h"
 #include "reports/writers.h"
 

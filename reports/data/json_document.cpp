@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "reports/analysis.h"
-#include "reports/facts.h"
 #include "reports/data/json_parts.h"
+#include "reports/feature_values.h"
 
 namespace rondure::reports {
 namespace {

@@ -12,6 +12,8 @@
 
 namespace rondure::reports {
 
+struct RotaryResult;
+
 using Json = nlohmann::ordered_json;
 
 /// The one place where lengths become micrometres and angles degrees.
@@ -24,6 +26,9 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json optional_um(const std::optional<double>& length_mm);
 [[nodiscard]] Json error_json(const core::Error& error);
 [[nodiscard]] Json characteristic_json(const CharacteristicResult& result);
+/// A feature whose shape is an analysis.
+[[nodiscard]] Json analysis_json(const FeatureResult& feature);
+[[nodiscard]] Json rotary_json(const RotaryResult& facts);
 /// Intervals, bias, budget and declaration of a value; null without an interval.
 [[nodiscard]] Json uncertainty_json(const CharacteristicResult& result);
 /// What the rule compared, its limits and risks; null where it decided nothing.

@@ -69,27 +69,27 @@ Json combined_json(const CombinedPose& pose) {
 
 }  // namespace
 
-Json RotaryResult::json() const {
-  const fixture::Calibration& c = facts_.calibration;
+Json rotary_json(const RotaryResult& facts) {
+  const fixture::Calibration& c = facts.calibration;
   const fixture::Verification& v = c.verification;
   Json json = {{"fixture", c.fixture_id},
                {"measured_utc", c.measured_utc},
                {"expires_utc", c.expires_utc},
                {"temperature_degC", c.temperature_degC ? Json(*c.temperature_degC) : Json(nullptr)},
-               {"balls", facts_.balls.size()},
-               {"poses", facts_.poses},
-               {"touches", facts_.touches},
-               {"touch_sigma_um", in_um(facts_.touch_sigma_mm)},
-               {"center_u_um", in_um(facts_.center_u_mm)},
-               {"condition", facts_.condition}};
-  json["verification"] = {{"poses", list_json(facts_.combined, combined_json)},
+               {"balls", facts.balls.size()},
+               {"poses", facts.poses},
+               {"touches", facts.touches},
+               {"touch_sigma_um", in_um(facts.touch_sigma_mm)},
+               {"center_u_um", in_um(facts.center_u_mm)},
+               {"condition", facts.condition}};
+  json["verification"] = {{"poses", list_json(facts.combined, combined_json)},
                           {"rms_um", in_um(v.rms_mm)},
                           {"max_um", in_um(v.max_mm)},
                           {"tilt_urad", v.max_tilt_rad / kMicroradian},
                           {"expected_rms_um", in_um(v.expected_mm)},
                           {"before_rms_um", in_um(v.before_rms_mm)},
                           {"before_max_um", in_um(v.before_max_mm)}};
-  for (const AxisFacts& axis : axes_of(facts_)) json[axis.key] = axis_json(axis);
+  for (const AxisFacts& axis : axes_of(facts)) json[axis.key] = axis_json(axis);
   return json;
 }
 

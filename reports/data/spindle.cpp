@@ -1,5 +1,5 @@
 #include "reports/data/json_parts.h"
-#include "reports/spindle_result.h"
+#include "reports/json_spindle.h"
 
 namespace rondure::reports {
 namespace {
@@ -59,7 +59,7 @@ Json curves_json(const fit::ThreeProbeResult& s) {
 
 }  // namespace
 
-Json separation_json(const SpindleFacts& facts) {
+Json separation_json(const SpindleResult& facts) {
   const fit::ThreeProbeResult& s = facts.separation;
   Json json;
   json["mode"] = facts.arm.swings() ? "tracking" : "static";
@@ -85,7 +85,5 @@ Json separation_json(const SpindleFacts& facts) {
   json["curves"] = curves_json(s);
   return json;
 }
-
-Json SpindleResult::json() const { return separation_json(facts_); }
 
 }  // namespace rondure::reports

@@ -1,4 +1,5 @@
 #include "reports/data/json_parts.h"
+#include "reports/decision_words.h"
 
 namespace rondure::reports {
 namespace {

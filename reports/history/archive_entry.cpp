@@ -5,6 +5,7 @@
 
 #include "core/utf8.h"
 #include "reports/facts.h"
+#include "reports/feature_values.h"
 
 namespace rondure::reports {
 namespace {
@@ -73,8 +74,8 @@ record::ArchiveResult result_of(const FeatureResult& feature, const Characterist
   out.characteristic = well_formed(asked.id);
   out.symbol = symbol_of(asked);
   out.reference = reference_of(asked);
-  out.filter = feature.analysis ? feature.analysis->filter_text() : "unfiltered";
-  out.sampling = feature.analysis ? feature.analysis->sampling_text() : sampling_of(feature, asked);
+  out.filter = feature.analysis ? filter_text(*feature.analysis) : "unfiltered";
+  out.sampling = feature.analysis ? sampling_text(*feature.analysis) : sampling_of(feature, asked);
   if (found.value) out.value = found.value->quoted_mm();
   out.upper_limit = asked.tolerance_mm;
   out.verdict = name_of(found.verdict);

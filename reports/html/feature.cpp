@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "reports/escaping.h"
 #include "reports/facts.h"
+#include "reports/feature_values.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
@@ -31,7 +32,7 @@ std::string one_sided_entry(const FeatureResult& feature, record::Reference refe
       trf("as read; radius {} mm, {}, certificate {}", fixed(found->radius_mm, 4),
           count(found->contacts.size(), "contact", "contacts"), tr(fit::name_of(certificate.kind)));
   if (!certificate.reason.empty()) note += tr("; ") + in_sentence(certificate.reason);
-  return entry(fmt::format("{} ({})", capitalised(words_of(reference, shape)),
+  return entry(fmt::format("{} ({})", capitalised(tr(words_of(reference, shape))),
                            reference_of(reference, shape)),
                with_note(um(found->deviation_mm) + " µm", note));
 }

@@ -7,6 +7,7 @@
 #include "core/round_values.h"
 #include "core/units.h"
 #include "reports/escaping.h"
+#include "reports/facts.h"
 #include "reports/html/plot_scale.h"
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
@@ -108,7 +109,7 @@ void draw_scale_bar(Svg& svg, const PolarView& view) {
 
 std::string roundness_of(const FeatureResult& feature, const Section& section) {
   for (const LayerResult& layer : feature.layers) {
-    if (section.title != trf("Layer {}", layer.layer + 1)) continue;
+    if (section.projected || section.layer != layer.layer) continue;
     return layer.mz ? fmt::format("RONt {} µm", um(layer.mz->width_mm())) : tr("no RONt");
   }
   return {};
@@ -117,7 +118,7 @@ std::string roundness_of(const FeatureResult& feature, const Section& section) {
 std::string plot(const FeatureResult& feature, const Section& section, const PolarView& view,
                  double half_zone_mm) {
   Svg svg(kSectionSize, kSectionSize, "polar",
-          trf("{}: deviations about the minimum-zone axis", section.title));
+          trf("{}: deviations about the minimum-zone axis", title_of(section)));
   draw_polar_axes(svg,
                   {kSectionCentre, kSectionMean + kSectionHalfZone + 6.0, 4.0, 7.0, 127.0, 130.0});
   draw_zone(svg, view, half_zone_mm);
@@ -126,7 +127,7 @@ std::string plot(const FeatureResult& feature, const Section& section, const Pol
   draw_points(svg, section, feature, view);
   draw_scale_bar(svg, view);
   const bool layered = !feature.layers.empty();
-  std::string caption = fmt::format("<b>{}</b>", escaped(section.title));
+  std::string caption = fmt::format("<b>{}</b>", escaped(title_of(section)));
   if (layered && feature.feature.shape == record::Shape::kCylinder) {
     caption += trf(" · at {} mm", fixed(section.height_mm, 3));
   }

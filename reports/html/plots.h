@@ -4,7 +4,7 @@
 #include <string>
 
 #include "reports/evaluation.h"
-#include "reports/facts.h"
+#include "reports/feature_values.h"
 
 namespace rondure::reports {
 

@@ -98,7 +98,7 @@ std::string with_u(double value, double u, int decimals) {
 }
 
 /// Location and orientation of both axes: what does not depend on the angle.
-std::string location_table(const RotaryFacts& facts) {
+std::string location_table(const RotaryResult& facts) {
   std::string html = fmt::format(
       R"(<div class="scroll"><table>{}<thead><tr><th scope="col">{}</th><th scope="col">d x / µm</th><th scope="col">d y / µm</th>)"
       R"(<th scope="col">d z / µm</th><th scope="col">e x / µrad</th><th scope="col">e y / µrad</th><th scope="col">e z / µrad</th></tr></thead>)"
@@ -125,7 +125,7 @@ std::string location_table(const RotaryFacts& facts) {
   return html + "</tbody></table></div>";
 }
 
-std::string combined_table(const RotaryFacts& facts) {
+std::string combined_table(const RotaryResult& facts) {
   std::string html = fmt::format(
       R"(<div class="scroll"><table>{}<thead><tr><th scope="col">alpha</th><th scope="col">beta</th><th scope="col">{}</th>)"
       R"(<th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th>)"
@@ -142,7 +142,7 @@ std::string combined_table(const RotaryFacts& facts) {
   return html + "</tbody></table></div>";
 }
 
-std::string key_numbers(const RotaryFacts& facts) {
+std::string key_numbers(const RotaryResult& facts) {
   const fixture::Calibration& c = facts.calibration;
   const fixture::Verification& v = c.verification;
   std::string html = R"(<dl class="keys">)";
@@ -169,17 +169,20 @@ std::string key_numbers(const RotaryFacts& facts) {
 
 }  // namespace
 
-std::string RotaryResult::html(const record::RunRecord& record, int feature) const {
-  std::string html = key_numbers(facts_);
-  html += fmt::format("<h3>{}</h3>{}", tr("Combined poses"), combined_table(facts_));
+std::string rotary_part(const RotaryResult& facts, const record::RunRecord& record, int feature) {
+  std::string html = key_numbers(facts);
+  html += fmt::format("<h3>{}</h3>{}", tr("Combined poses"), combined_table(facts));
   html += fmt::format("<h3>{}</h3>{}", tr("Location and orientation of the axes"),
-                      location_table(facts_));
+                      location_table(facts));
   html += fmt::format(
       R"(<p class="note">{}</p>)",
       tr("Displacement d and tilt e of the real axis against the stated one, ± 2 u, as far as an "
          "axis beside its place explains the errors below. Compensation uses the whole errors."));
-  for (const AxisFacts& axis : axes_of(facts_)) {
-    html += fmt::format("<h3>{}</h3>", tr(axis.name));
+  const std::vector<AxisFacts> axes = axes_of(facts);
+  for (const AxisFacts& axis : axes) {
+    html +=
+        fmt::format("<h3>{}</h3>", &axis == &axes.front() ? tr("Axis alpha (base-fixed, about x)")
+                                                          : tr("Axis beta (carried, about y)"));
     html += axis_charts(axis, record.truth_series_of(feature, axis.key));
   }
   return html +

@@ -5,10 +5,15 @@
 #include <string_view>
 
 #include "record/run_record.h"
-#include "reports/history/earlier_results.h"
 #include "reports/evaluation.h"
+#include "reports/history/earlier_results.h"
 
 namespace rondure::reports {
+
+struct ContourResult;
+struct RotaryResult;
+struct SpindleResult;
+struct WheelResult;
 
 /// The parts of the page, in their order.
 [[nodiscard]] std::string head_section(const record::RunRecord& record);
@@ -16,6 +21,17 @@ namespace rondure::reports {
                                           const Evaluation& evaluation);
 [[nodiscard]] std::string feature_section(const record::RunRecord& record, std::size_t index,
                                           const FeatureResult& feature);
+/// The section of a feature whose shape is an analysis.
+[[nodiscard]] std::string analysis_section(const record::RunRecord& record, std::size_t index,
+                                           const FeatureResult& feature);
+/// Its body: key numbers, drawings, tables. `record` for the hidden truth of a simulation.
+[[nodiscard]] std::string spindle_part(const SpindleResult& facts, const record::RunRecord& record,
+                                       int feature);
+[[nodiscard]] std::string wheel_part(const WheelResult& facts);
+[[nodiscard]] std::string contour_part(const ContourResult& facts, const record::RunRecord& record,
+                                       int feature);
+[[nodiscard]] std::string rotary_part(const RotaryResult& facts, const record::RunRecord& record,
+                                      int feature);
 /// The rule behind the verdicts, in words, with its statements.
 [[nodiscard]] std::string rule_section(const Evaluation& evaluation);
 /// Intervals, bias, budget and declaration of the values of a feature; empty without any.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "reports/evaluation.h"
-#include "reports/facts.h"
+#include "reports/feature_values.h"
 #include "reports/section.h"
 
 namespace rondure::reports {

@@ -38,7 +38,7 @@ std::string motion_entry(const std::string& direction, const fit::AxisMotion& mo
                                            : tr("one revolution shows no asynchronous part"))));
 }
 
-std::string key_numbers(const SpindleFacts& facts) {
+std::string key_numbers(const SpindleResult& facts) {
   const fit::ThreeProbeResult& s = facts.separation;
   std::string html = R"(<dl class="keys">)";
   for (const fit::Roundness& value : facts.roundness.values) {
@@ -93,7 +93,7 @@ void add_truth(const record::Series* truth, const char* column, std::vector<Curv
   curves.push_back(std::move(curve));
 }
 
-std::string part_plot(const SpindleFacts& facts, const record::Series* truth) {
+std::string part_plot(const SpindleResult& facts, const record::Series* truth) {
   std::vector<Curve> curves;
   add_truth(truth, "profile_um", curves);
   const fit::UniformProfile& profile = facts.separation.profile;
@@ -126,7 +126,7 @@ std::string asynchronous_plot(const std::string& title, const std::vector<double
   return polar_chart(title, curves, false);
 }
 
-std::string harmonic_plots(const SpindleFacts& facts,
+std::string harmonic_plots(const SpindleResult& facts,
                            const std::vector<record::Characteristic>& asked) {
   std::vector<Bar> amplitudes;
   std::vector<Bar> gains;
@@ -179,23 +179,23 @@ std::string harmonic_table(const fit::ThreeProbeResult& s) {
 
 }  // namespace
 
-std::string SpindleResult::html(const record::RunRecord& record, int feature) const {
-  const fit::ThreeProbeResult& s = facts_.separation;
+std::string spindle_part(const SpindleResult& facts, const record::RunRecord& record, int feature) {
+  const fit::ThreeProbeResult& s = facts.separation;
   const record::Series* truth = record.truth_series_of(feature, "truth");
-  std::string html = key_numbers(facts_);
+  std::string html = key_numbers(facts);
   html += fmt::format(
       R"(<h3>{}</h3><p class="note">{}</p><div class="multiples">)", tr("Part and motion"),
       tr("Deviations against a mean circle; every plot has its own magnification, the bar says "
          "which. Motion is shown over the work angle, about the least-squares centre of its mean "
          "revolution (ISO 230-7, fixed direction)."));
-  html += part_plot(facts_, truth);
-  html += motion_plot(tr("Motion X"), s.alpha_rad, facts_.x);
-  html += motion_plot(tr("Motion Y"), s.alpha_rad, facts_.y);
-  html += asynchronous_plot(tr("Asynchronous X"), s.alpha_rad, facts_.x);
-  html += asynchronous_plot(tr("Asynchronous Y"), s.alpha_rad, facts_.y);
+  html += part_plot(facts, truth);
+  html += motion_plot(tr("Motion X"), s.alpha_rad, facts.x);
+  html += motion_plot(tr("Motion Y"), s.alpha_rad, facts.y);
+  html += asynchronous_plot(tr("Asynchronous X"), s.alpha_rad, facts.x);
+  html += asynchronous_plot(tr("Asynchronous Y"), s.alpha_rad, facts.y);
   html += "</div>";
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
-  return html + harmonic_plots(facts_, asked) + harmonic_table(s);
+  return html + harmonic_plots(facts, asked) + harmonic_table(s);
 }
 
 }  // namespace rondure::reports

@@ -17,7 +17,7 @@ using core::fixed;
 using core::signed_um;
 using core::um;
 
-std::string radius_entries(const WheelFacts& facts) {
+std::string radius_entries(const WheelResult& facts) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   std::string nominal;
   if (const auto& r = facts.task.wheel.nominal_radius_mm) {
@@ -147,7 +147,7 @@ std::string load_chart(const fit::WheelPath& path, double limit) {
          "</div>";
 }
 
-std::string path_part(const WheelFacts& facts) {
+std::string path_part(const WheelResult& facts) {
   const fit::WheelEvaluation& e = facts.evaluation;
   if (!facts.task.path) return {};
   std::string html = fmt::format("<h3>{}</h3>", tr("Way of the wheel's centre"));
@@ -169,11 +169,11 @@ std::string path_part(const WheelFacts& facts) {
 
 }  // namespace
 
-std::string WheelResult::html(const record::RunRecord& /*record*/, int /*feature*/) const {
-  const fit::WheelMeasurement& m = facts_.evaluation.wheel;
-  return R"(<dl class="keys">)" + radius_entries(facts_) + runout_entry(m) + center_entries(m) +
+std::string wheel_part(const WheelResult& facts) {
+  const fit::WheelMeasurement& m = facts.evaluation.wheel;
+  return R"(<dl class="keys">)" + radius_entries(facts) + runout_entry(m) + center_entries(m) +
          fmt::format(R"(</dl><h3>{}</h3><div class="multiples single">)", tr("Edge of the wheel")) +
-         wheel_edge_plot(m, facts_.points_mm) + "</div>" + path_part(facts_);
+         wheel_edge_plot(m, facts.points_mm) + "</div>" + path_part(facts);
 }
 
 }  // namespace rondure::reports

@@ -6,6 +6,7 @@
 
 #include "core/units.h"
 #include "reports/facts.h"
+#include "reports/feature_values.h"
 #include "reports/section.h"
 
 namespace rondure::reports {

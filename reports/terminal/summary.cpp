@@ -4,9 +4,11 @@
 
 #include "core/numbers.h"
 #include "core/utf8.h"
+#include "reports/analysis_summary.h"
 #include "reports/columns.h"
 #include "reports/escaping.h"
 #include "reports/facts.h"
+#include "reports/feature_values.h"
 #include "reports/words/language.h"
 #include "reports/writers.h"
 
@@ -197,7 +199,7 @@ std::string heading_of(const FeatureResult& feature) {
   if (record::is_analysis(feature.feature.shape)) {
     const std::string shape = tr(record::name_of(feature.feature.shape));
     return feature.analysis
-               ? trf("{}: {}, {}", name, shape, words(feature.analysis->sampling_text()))
+               ? trf("{}: {}, {}", name, shape, words(sampling_text(*feature.analysis)))
                : trf("{}: {}", name, shape);
   }
   return trf("{}: {} {}, {}", name, tr(record::name_of(feature.feature.side)),
@@ -207,7 +209,7 @@ std::string heading_of(const FeatureResult& feature) {
 void add_analysis(std::string& out, const record::RunRecord& record, std::size_t index,
                   const FeatureResult& feature) {
   if (feature.analysis) {
-    for (const SummaryLine& line : feature.analysis->summary())
+    for (const SummaryLine& line : summary_lines(*feature.analysis))
       add_wrapped(out, fmt::format("  {}", tr(line.name)), words(line.text));
   }
   for (const record::TruthValue& truth : record.truth_values) {

@@ -1,7 +1,7 @@
-#include <string>
-#include <vector>
+#include "reports/stored_results.h"
 
-#include "reports/evaluation.h"
+#include <string>
+
 #include "reports/data/json_document.h"
 #include "reports/data/json_parts.h"
 

@@ -14,6 +14,7 @@
 #include "reports/evaluation.h"
 #include "reports/exports.h"
 #include "reports/history/earlier_results.h"
+#include "reports/stored_results.h"
 #include "reports/verify/compare_text.h"
 #include "reports/verify/compare_values.h"
 #include "reports/verify/files.h"

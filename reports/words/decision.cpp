@@ -1,7 +1,8 @@
+#include "reports/decision_words.h"
+
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "reports/decision.h"
 
 namespace rondure::reports {
 namespace {
@@ -43,26 +44,6 @@ std::string formula(const DecisionRule& rule) {
 }
 
 }  // namespace
-
-std::string_view name_of(DecisionRule::Kind kind) {
-  switch (kind) {
-    case DecisionRule::Kind::kSimpleAcceptance:
-      return "simple-acceptance";
-    case DecisionRule::Kind::kIso14253:
-      return "iso-14253-1";
-    case DecisionRule::Kind::kJcgm106:
-      return "jcgm-106";
-    case DecisionRule::Kind::kNToOne:
-      return "n-to-1";
-    case DecisionRule::Kind::kGuardBand:
-      return "guard-band";
-  }
-  return {};
-}
-
-std::string_view name_of(Prior::Kind kind) {
-  return kind == Prior::Kind::kNormal ? "normal" : "gamma";
-}
 
 std::string in_words(const DecisionRule& rule) {
   std::string out = formula(rule);

@@ -10,6 +10,7 @@
 
 #include "core/noise.h"
 #include "reports/decision.h"
+#include "reports/decision_words.h"
 
 namespace rondure::reports {
 namespace {

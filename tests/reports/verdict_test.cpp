@@ -15,6 +15,7 @@
 #include "reports/declared.h"
 #include "reports/defect.h"
 #include "reports/escaping.h"
+#include "reports/stored_results.h"
 #include "reports/words/language.h"
 #include "reports/writers.h"
 #include "tests/reports/page_text.h"

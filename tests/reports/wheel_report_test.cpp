@@ -12,6 +12,7 @@
 #include "record/run_record.h"
 #include "reports/escaping.h"
 #include "reports/evaluation.h"
+#include "reports/stored_results.h"
 #include "reports/words/language.h"
 #include "reports/writers.h"
 #include "tests/fit/wheel_cases.h"

@@ -9,13 +9,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "reports/facts.h"
+#include "reports/feature_values.h"
+#include "tests/reports/synthetic.h"
 #include "web/cloud.h"
 #include "web/frame.h"
 #include "web/guard.h"
 #include "web/page.h"
 #include "web/time.h"
-#include "tests/reports/synthetic.h"
 
 namespace rondure::reports {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/numbers.h"
 #include "reports/data/qif/parts.h"
-#include "reports/facts.h"
+#include "reports/feature_values.h"
 #include "reports/section.h"
 
 namespace rondure::reports {
