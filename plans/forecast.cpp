@@ -182,7 +182,7 @@ class NominalSession final : public PoseSession {
     return fixture::levelling_pose(t_B);
   }
   [[nodiscard]] const fixture::FixtureLimits& limits() const override { return fixture_.limits(); }
-  core::Result<void> note(const std::string&) override { return {}; }
+  core::Result<void> note(const core::Message&) override { return {}; }
   void show(double) override {}
 
  private:

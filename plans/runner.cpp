@@ -170,9 +170,7 @@ Plan driven(const Plan& plan, const RunOptions& options) {
 core::Result<void> note_single_steps(RunContext& context) {
   if (!context.options.single_step || context.recorded.touch(0) != nullptr) return {};
   return context.journal.add(record::Decision{
-      -1, 0.0,
-      fmt::format("single-step mode: travel at {:g} mm/s at most, moves confirmed by the operator",
-                  context.plan.machine->step_speed_mm_s)});
+      -1, 0.0, {core::MessageCode::kSingleSteps, {context.plan.machine->step_speed_mm_s}}});
 }
 
 /// Whoever watches sees what is on record, and from then on each row.

@@ -312,7 +312,7 @@ TEST(Pdf, TenKilobytesOfANameGoOnOverPages) {
   Case made = cylinder_case(4, 7, 3);
   made.record.header.part_name = std::string(10'000, 'W');
   made.record.header.plan_revision = std::string(10'000, 'R');
-  made.record.decisions.at(0).text = std::string(10'000, 'D');
+  made.record.decisions.at(0).message = {core::MessageCode::kSentence, {std::string(10'000, 'D')}};
   const std::string html = page_of(made);
   const Pdf pdf = pdf_of(made.record, html);
   keep("ten-kilobytes", pdf);
