@@ -6,6 +6,7 @@
 #include "plans/plan.h"
 #include "plans/runner.h"
 #include "record/archive.h"
+#include "record/journal.h"
 #include "reports/live_view.h"
 
 namespace rondure::app {
@@ -19,15 +20,15 @@ struct RunToFinish {
   reports::LiveView* live = nullptr;  ///< Who watches is shown the result; or none.
 };
 
-/// Evaluates what is on disk, not what is in memory; seals a finished run; writes the reports;
-/// archives a finished run.
-/// @param run  None for a run that was sealed before.
+/// Reads and evaluates the journal on disk, not the rows in memory; seals a finished run; writes
+/// the reports; archives a finished run.
 /// @return  Exit status of the program.
-[[nodiscard]] int conclude(const RunToFinish& ending, plans::Run* run);
+[[nodiscard]] int conclude(const RunToFinish& ending, plans::Run& run);
 
 /// A sealed run has nothing to measure; it may have died before its reports were written or its
 /// results archived.
+/// @param held  Its journal.
 /// @return  Exit status of the program.
-[[nodiscard]] int finish_sealed(const RunToFinish& ending);
+[[nodiscard]] int finish_sealed(const RunToFinish& ending, record::HeldJournal held);
 
 }  // namespace rondure::app
