@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "core/error.h"
+#include "core/message.h"
 #include "core/pose.h"
 
 namespace rondure::record {
@@ -181,11 +182,12 @@ struct Touch {
 /// "qualification", "locate", "measure", "check".
 [[nodiscard]] std::string_view name_of(Touch::Purpose purpose);
 
-/// What the program decided during the run, in words, e.g. why the pose search stopped.
+/// A decision of the program during the run, e.g. why the pose search stopped.
 struct Decision {
   int feature = -1;  ///< -1: concerns the whole run.
   double time_s = 0.0;
-  std::string text;
+  core::Message message;
+  std::string sentence = {};  ///< As a journal before version 6 has it; empty in a later one.
 };
 
 /// One column of a series: its name in the file, which carries the unit ("H1_um"), and that unit.

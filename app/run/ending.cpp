@@ -15,7 +15,6 @@
 #include "plans/checks/record.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
-#include "record/run_lock.h"
 #include "reports/defect.h"
 #include "reports/evaluation.h"
 #include "reports/exports.h"
@@ -57,8 +56,8 @@ reports::Paper paper_of(const RunArguments& arguments, const plans::Plan& plan) 
   return reports::paper_named(name).value_or(reports::Paper::kA4);
 }
 
-/// A run as its directory tells it.
-struct Told {
+/// A run as its journal holds it.
+struct EvaluatedRun {
   record::RunRecord record;
   reports::Evaluation evaluation;
 };
@@ -73,27 +72,29 @@ core::Result<void> require_sound(const record::ReadJournal& read, const fs::path
   return {};
 }
 
-core::Result<Told> read_and_evaluate(const fs::path& directory) {
+core::Result<EvaluatedRun> evaluate(record::RunRecord record, const fs::path& directory) {
+  auto evaluation = reports::evaluate_run(record, directory, processor());
+  if (!evaluation) return core::fail(evaluation.error());
+  return EvaluatedRun{std::move(record), std::move(*evaluation)};
+}
+
+core::Result<EvaluatedRun> read_and_evaluate(const fs::path& directory) {
   auto read = record::read_journal(directory);
   if (!read) return core::fail(read.error());
   if (auto sound = require_sound(*read, directory); !sound) return core::fail(sound.error());
-  auto evaluation = reports::evaluate_run(read->record, directory, processor());
-  if (!evaluation) return core::fail(evaluation.error());
-  return Told{std::move(read->record), std::move(*evaluation)};
+  return evaluate(std::move(read->record), directory);
 }
 
-/// What a run that died right behind its seal left to do on its journal. A damaged one stays as it
-/// is: it must not look like a sound one.
-core::Result<void> close_sealed(const fs::path& directory) {
-  const auto read = record::read_journal(directory);
-  if (!read) return core::fail(read.error());
-  if (auto sound = require_sound(*read, directory); !sound) return sound;
+/// Finishes the journal of a run that died right after it was sealed. A damaged one stays as it is:
+/// it must not look like a sound one.
+core::Result<void> close_sealed(const record::ReadJournal& read, const fs::path& directory) {
+  if (auto sound = require_sound(read, directory); !sound) return sound;
   return record::Journal::finish_seal(directory);
 }
 
 /// A sealed run with its reports may have died before it was archived.
 int finish_archived(const record::ArchivePlace& archive, const fs::path& directory,
-                    const Told& told) {
+                    const EvaluatedRun& told) {
   if (archive_run(archive, directory, told.record, told.evaluation)) {
     tell(fmt::format(
         "rondure: the run in {} is finished and sealed; only its results had still to go to {}\n",
@@ -113,20 +114,10 @@ void tell_failure(const core::Error& error, reports::LiveView* live) {
   if (live != nullptr) live->show_failure(core::to_line(error));
 }
 
-}  // namespace
-
-const std::vector<std::string>& formats_of(const RunArguments& arguments, const plans::Plan& plan) {
-  return arguments.formats.empty() ? plan.reports.formats : arguments.formats;
-}
-
-int conclude(const RunToFinish& ending, plans::Run* run) {
+/// @param run  None for a run that was sealed before.
+int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& told, plans::Run* run) {
   const auto& [arguments, plan, archive, directory, live] = ending;
-  const auto told = read_and_evaluate(directory);
-  if (!told) {
-    tell_failure(told.error(), live);
-    return kRunFailed;
-  }
-  const reports::Evaluation& evaluation = told->evaluation;
+  const reports::Evaluation& evaluation = told.evaluation;
   const bool failed = run != nullptr && run->failure;
   // An unfinished run stays open: it has no results to seal.
   if (run != nullptr && !failed) {
@@ -137,11 +128,11 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
       return kRunFailed;
     }
   }
-  if (!failed) keep_earlier_results(archive, directory, told->record);
+  if (!failed) keep_earlier_results(archive, directory, told.record);
   const auto formats = with_those_there(formats_of(arguments, plan), directory);
   const reports::Language language = language_of(arguments);
-  const auto written = reports::write_exports(directory, formats, told->record, evaluation,
-                                              language, paper_of(arguments, plan));
+  const auto written = reports::write_exports(directory, formats, told.record, evaluation, language,
+                                              paper_of(arguments, plan));
   if (!written) {
     tell_failure(written.error(), live);
     if (!failed) {
@@ -152,29 +143,39 @@ int conclude(const RunToFinish& ending, plans::Run* run) {
     return kRunFailed;
   }
   if (live != nullptr) {
-    live->show_result(told->record, evaluation, fs::absolute(directory).string());
+    live->show_result(told.record, evaluation, fs::absolute(directory).string());
   }
   if (!arguments.quiet) {
-    say(reports::write_summary(told->record, evaluation, sketch_style(), language));
+    say(reports::write_summary(told.record, evaluation, sketch_style(), language));
     for (const fs::path& file : *written) say_line(file.string());
   }
-  if (!failed) (void)archive_run(archive, directory, told->record, evaluation);
+  if (!failed) (void)archive_run(archive, directory, told.record, evaluation);
   return exit_status(failed, evaluation.verdict);
 }
 
-int finish_sealed(const RunToFinish& ending) {
-  const auto& [arguments, plan, archive, directory, live] = ending;
-  const auto lock = record::RunLock::take(directory);
-  if (!lock) {
-    print_error(lock.error());
-    return kBadInput;
+}  // namespace
+
+const std::vector<std::string>& formats_of(const RunArguments& arguments, const plans::Plan& plan) {
+  return arguments.formats.empty() ? plan.reports.formats : arguments.formats;
+}
+
+int conclude(const RunToFinish& ending, plans::Run& run) {
+  const auto told = read_and_evaluate(ending.directory);
+  if (!told) {
+    tell_failure(told.error(), ending.live);
+    return kRunFailed;
   }
+  return conclude_evaluated(ending, *told, &run);
+}
+
+int finish_sealed(const RunToFinish& ending, record::HeldJournal held) {
+  const auto& [arguments, plan, archive, directory, live] = ending;
   record::remove_temporaries(directory);
-  if (auto closed = close_sealed(directory); !closed) {
+  if (auto closed = close_sealed(held.read, directory); !closed) {
     print_error(closed.error());
     return kRunFailed;
   }
-  const auto told = read_and_evaluate(directory);
+  const auto told = evaluate(std::move(held.read.record), directory);
   if (!told) {
     print_error(told.error());
     return kRunFailed;
@@ -186,7 +187,7 @@ int finish_sealed(const RunToFinish& ending) {
   }
   tell(fmt::format("rondure: the run in {} is finished and sealed; only its reports are written\n",
                    directory.string()));
-  return conclude(ending, nullptr);
+  return conclude_evaluated(ending, *told, nullptr);
 }
 
 }  // namespace rondure::app

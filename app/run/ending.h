@@ -6,6 +6,7 @@
 #include "plans/plan.h"
 #include "plans/run/runner.h"
 #include "record/archive/archive.h"
+#include "record/journal/journal.h"
 #include "web/view.h"
 
 namespace rondure::app {
@@ -23,15 +24,15 @@ struct RunToFinish {
 [[nodiscard]] const std::vector<std::string>& formats_of(const RunArguments& arguments,
                                                          const plans::Plan& plan);
 
-/// Evaluates what is on disk, not what is in memory; seals a finished run; writes the reports;
-/// archives a finished run.
-/// @param run  None for a run that was sealed before.
+/// Reads and evaluates the journal on disk, not the rows in memory; seals a finished run; writes
+/// the reports; archives a finished run.
 /// @return  Exit status of the program.
-[[nodiscard]] int conclude(const RunToFinish& ending, plans::Run* run);
+[[nodiscard]] int conclude(const RunToFinish& ending, plans::Run& run);
 
 /// A sealed run has nothing to measure; it may have died before its reports were written or its
 /// results archived.
+/// @param held  Its journal.
 /// @return  Exit status of the program.
-[[nodiscard]] int finish_sealed(const RunToFinish& ending);
+[[nodiscard]] int finish_sealed(const RunToFinish& ending, record::HeldJournal held);
 
 }  // namespace rondure::app

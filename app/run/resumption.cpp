@@ -10,7 +10,6 @@
 #include "app/text/shell_word.h"
 #include "plans/analyses/analysis.h"
 #include "record/archive/place.h"
-#include "record/journal/journal.h"
 #include "record/journal/unstarted_run.h"
 
 namespace rondure::app {
@@ -64,17 +63,16 @@ core::Result<Resumption> find_resumption(const RunArguments& arguments) {
     if (!unborn) return core::fail(unborn.error());
     if (*unborn) return out;
   }
-  const auto read = record::read_journal(out.directory);
-  if (!read) return core::fail(read.error());
-  out.state = read->record.sealed ? Resumption::State::kFinished : Resumption::State::kGoesOn;
-  out.plan_text = read->record.header.plan_text;
-  out.plan_file = read->record.header.plan_file;
+  auto held = record::hold_journal(out.directory);
+  if (!held) return core::fail(held.error());
+  out.held.emplace(std::move(*held));
   return out;
 }
 
 plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run) {
   if (!arguments.resume || !names_directory(arguments)) return plans::read_plan(arguments.plan);
-  auto plan = plans::parse_plan(run.plan_text, {}, run.plan_file, true);
+  const record::Header& header = run.held->read.record.header;
+  auto plan = plans::parse_plan(header.plan_text, {}, header.plan_file, true);
   std::vector<core::Error> problems;
   if (!plan) {  // it was good: what is missing are its points files, which stand beside it
     problems = plan.error();
@@ -91,7 +89,7 @@ plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& r
       {core::Code::kFile,
        fmt::format("name the plan, so that its files are found: rondure run {} --out "
                    "{} --resume",
-                   quoted(run.plan_file), quoted(run.directory.string())),
+                   quoted(header.plan_file), quoted(run.directory.string())),
        {}});
   return tl::unexpected(std::move(problems));
 }

@@ -1,25 +1,22 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "app/run/ending.h"
 #include "app/verbs/verbs.h"
 #include "plans/run/runner.h"
+#include "record/journal/journal.h"
 
 namespace rondure::app {
 
-/// What `rondure run ... --resume` has before it.
+/// The run that `rondure run ... --resume` goes on with.
 struct Resumption {
-  enum class State {
-    kNothingThere,  ///< No touch and no journal yet: begin.
-    kGoesOn,        ///< Interrupted, stopped or failed.
-    kFinished,      ///< Sealed: there is nothing to measure.
-  };
-  State state = State::kNothingThere;
   std::filesystem::path directory;
-  std::string plan_text;  ///< Of the journal; empty when there is none.
-  std::string plan_file;  ///< Its name then.
+  /// Its journal, read once and locked from then on; none: no touch and no journal yet, the run
+  /// begins.
+  std::optional<record::HeldJournal> held;
 };
 
 /// Looks at the run that `--resume` means: `--out`, or a run directory in place of the plan.

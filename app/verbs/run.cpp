@@ -69,7 +69,9 @@ plans::RunOptions options_of(const RunArguments& arguments) {
 }
 
 /// Measures, from the beginning or from the last touch on.
-plans::RunOrRefusals measure(const plans::Plan& plan, plans::RunOptions options, bool resume,
+/// @param held  The journal of the run to go on with; none: it begins.
+plans::RunOrRefusals measure(const plans::Plan& plan, plans::RunOptions options,
+                             std::optional<record::HeldJournal> held,
                              const RunArguments& arguments) {
   ProgressLine line(arguments.quiet || arguments.step);
   StepPrompt prompt;
@@ -83,7 +85,7 @@ plans::RunOrRefusals measure(const plans::Plan& plan, plans::RunOptions options,
     line.show(progress);
     if (pace) pace->keep(progress.time_s);
   };
-  if (resume) return plans::resume_plan(plan, options);
+  if (held) return plans::resume_plan(plan, options, *std::move(held));
   auto run = plans::run_plan(plan, options);
   if (!run) return tl::unexpected(std::vector<core::Error>{run.error()});
   return std::move(*run);
@@ -150,8 +152,10 @@ core::Result<void> check_names(const RunArguments& arguments) {
 }
 
 /// Measures, and what follows.
-int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& options, bool resume) {
-  auto run = measure(ending.plan, options, resume, ending.arguments);
+int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& options,
+                         std::optional<record::HeldJournal> held) {
+  const bool resume = held.has_value();
+  auto run = measure(ending.plan, options, std::move(held), ending.arguments);
   if (!run) {
     if (ending.live != nullptr) ending.live->show_failure(core::to_line(run.error().front()));
     refuse(run.error(), resume, options.directory);
@@ -159,16 +163,17 @@ int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& opt
     return status_of(run.error());
   }
   if (run->failure) print_error(*run->failure);
-  const int status = conclude(ending, &*run);
+  const int status = conclude(ending, *run);
   tell_how_to_go_on(*run, ending);
   return status;
 }
 
 /// A finished run ends with its verdict only when it is the run that was asked for: of another part
 /// or plan its verdict says nothing.
-int conclude_finished(const RunToFinish& ending, const plans::RunOptions& options) {
-  const auto differences = plans::differences_from_run(ending.plan, options);
-  if (differences.empty()) return finish_sealed(ending);
+int conclude_finished(const RunToFinish& ending, const plans::RunOptions& options,
+                      record::HeldJournal held) {
+  const auto differences = plans::differences_from_run(held.read.record, ending.plan, options);
+  if (differences.empty()) return finish_sealed(ending, std::move(held));
   if (differences.front().code == core::Code::kMeaning) {
     tell(
         fmt::format("rondure: the run in {} is finished, and began with something else; undo this, "
@@ -179,7 +184,7 @@ int conclude_finished(const RunToFinish& ending, const plans::RunOptions& option
   return kBadInput;
 }
 
-/// The state of the run that is resumed; a run that is not resumed begins.
+/// The run that is resumed; nothing to resume where a run begins.
 core::Result<Resumption> look(const RunArguments& arguments) {
   return arguments.resume ? find_resumption(arguments) : Resumption{};
 }
@@ -197,7 +202,7 @@ int run(const RunArguments& arguments) {
     print_error(sound.error());
     return kBadInput;
   }
-  const auto resumption = look(arguments);
+  auto resumption = look(arguments);
   if (!resumption) {
     print_error(resumption.error());
     return kBadInput;
@@ -224,13 +229,15 @@ int run(const RunArguments& arguments) {
   }
   RunToFinish ending{arguments, *plan, *archive, options.directory};
   listen_for_stop();
-  if (resumption->state == Resumption::State::kFinished) return conclude_finished(ending, options);
+  std::optional<record::HeldJournal>& held = resumption->held;
+  if (held && held->read.record.sealed) {
+    return conclude_finished(ending, options, *std::move(held));
+  }
   if (auto printing = check_printing(arguments, *plan); !printing) {
     print_error(printing.error());
     return kBadInput;
   }
-  const bool resume = resumption->state == Resumption::State::kGoesOn;
-  if (arguments.resume && !resume && !arguments.quiet) {
+  if (arguments.resume && !held && !arguments.quiet) {
     tell(fmt::format("rondure: {} holds no run yet; it begins\n", options.directory.string()));
   }
   const auto live = open_live(arguments, *plan, options);
@@ -239,7 +246,7 @@ int run(const RunArguments& arguments) {
     return kBadInput;
   }
   ending.live = live->get();
-  return measure_and_conclude(ending, options, resume);
+  return measure_and_conclude(ending, options, std::move(held));
 }
 
 }  // namespace rondure::app

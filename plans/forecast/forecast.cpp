@@ -7,15 +7,15 @@
 #include "core/units.h"
 #include "fixture/simulated.h"
 #include "plans/analyses/analysis.h"
+#include "plans/analyses/internal/rotary_poses.h"
+#include "plans/cell/internal/reached_pose.h"
+#include "plans/checks/internal/plan_reach.h"
 #include "plans/forecast/internal/feature_planner.h"
+#include "plans/path/internal/merged_reach.h"
 #include "plans/run/internal/fixture_calibration.h"
 #include "plans/run/internal/fixture_datum.h"
-#include "plans/path/internal/merged_reach.h"
-#include "plans/checks/internal/plan_reach.h"
 #include "plans/run/internal/pose_search.h"
 #include "plans/run/internal/qualification.h"
-#include "plans/cell/internal/reached_pose.h"
-#include "plans/analyses/internal/rotary_poses.h"
 #include "plans/run/run_head.h"
 
 namespace rondure::plans {
@@ -182,7 +182,7 @@ class NominalSession final : public PoseSession {
     return fixture::levelling_pose(t_B);
   }
   [[nodiscard]] const fixture::FixtureLimits& limits() const override { return fixture_.limits(); }
-  core::Result<void> note(const std::string&) override { return {}; }
+  core::Result<void> note(const core::Message&) override { return {}; }
   void show(double) override {}
 
  private:

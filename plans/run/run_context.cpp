@@ -98,7 +98,7 @@ core::Result<void> RunContext::keep_replayed(TouchStep step) {
   progress.touches = static_cast<std::size_t>(next_touch);
   if (last_steps.size() == kChecks) last_steps.erase(last_steps.begin());
   last_steps.push_back(std::move(step));
-  if (recorded.relocated_behind(next_touch)) {
+  if (recorded.relocated_after(next_touch)) {
     if (!replaying()) {
       if (const auto reads = cell->home_again(); !reads) return core::fail(reads.error());
     }
@@ -142,14 +142,13 @@ core::Result<void> RunContext::come_back() {
     if (auto moved = follow(back); !moved) return moved;
     largest_mm = std::max(largest_mm, *difference_mm);
   }
-  const std::string text = fmt::format(
-      "resumed on {} after {} touches; the last {} repeated, largest difference {:.3f} um, limit "
-      "{:g} um",
-      options.started_utc, next_touch, last_steps.size(), largest_mm / core::kMicrometre,
-      plan.machine->resume_limit_um);
+  const core::Message resumed = {
+      core::MessageCode::kRunResumed,
+      {options.started_utc, static_cast<double>(next_touch), static_cast<double>(last_steps.size()),
+       largest_mm / core::kMicrometre, plan.machine->resume_limit_um}};
   if (auto on = replay_state(last_steps.back()); !on) return on;
   lost_place = false;
-  return journal.add(record::Decision{-1, cell->machine().time_s(), text});
+  return journal.add(record::Decision{-1, cell->machine().time_s(), resumed});
 }
 
 tl::unexpected<core::Error> RunContext::part_has_moved(const core::Error& error) {
@@ -171,8 +170,10 @@ tl::unexpected<core::Error> RunContext::part_has_moved(const core::Error& error)
                                       "; it cannot be located again, since the run stood between "
                                       "two clouds");
   }
-  const record::Decision decision{-1, cell->machine().time_s(),
-                                  relocation_text(next_touch) + error.what};
+  const record::Decision decision{
+      -1,
+      cell->machine().time_s(),
+      {core::MessageCode::kPartLocatedAgain, {static_cast<double>(next_touch), error.what}}};
   if (auto kept = journal.add(decision); !kept) return core::fail(kept.error());
   relocation_due = true;
   lost_place = false;
@@ -279,8 +280,8 @@ core::Result<record::PoseVisit> RunContext::turn(int feature, const core::Pose& 
   return visit;
 }
 
-core::Result<void> RunContext::note(int feature, const std::string& text) {
-  const record::Decision decision{feature, cell->machine().time_s(), text};
+core::Result<void> RunContext::note(int feature, const core::Message& message) {
+  const record::Decision decision{feature, cell->machine().time_s(), message};
   if (const record::Decision* known = recorded.next_decision()) {
     return check_same_step(*known, decision);
   }

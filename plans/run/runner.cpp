@@ -170,9 +170,7 @@ Plan driven(const Plan& plan, const RunOptions& options) {
 core::Result<void> note_single_steps(RunContext& context) {
   if (!context.options.single_step || context.recorded.touch(0) != nullptr) return {};
   return context.journal.add(record::Decision{
-      -1, 0.0,
-      fmt::format("single-step mode: travel at {:g} mm/s at most, moves confirmed by the operator",
-                  context.plan.machine->step_speed_mm_s)});
+      -1, 0.0, {core::MessageCode::kSingleSteps, {context.plan.machine->step_speed_mm_s}}});
 }
 
 /// Whoever watches sees what is on record, and from then on each row.
@@ -217,9 +215,9 @@ core::Result<Preparation> prepare_plan(const Plan& plan, const RunOptions& optio
 
 /// Goes through the plan and writes how the run ended.
 void execute(const Plan& plan, const RunOptions& options, const Preparation& known, Cell* cell,
-             record::RunRecord past, Run& run) {
+             record::RunRecord recorded, Run& run) {
   RunContext context{plan, options, cell, run.journal};
-  context.recorded = RecordedRun(std::move(past));
+  context.recorded = RecordedRun(std::move(recorded));
   if (cell != nullptr && known.calibration) cell->use(known.calibration->calibration);
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     context.progress.touches_expected +=
@@ -319,27 +317,25 @@ core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   return run;
 }
 
-std::vector<core::Error> differences_from_run(const Plan& plan, const RunOptions& options) {
-  const auto found = record::read_journal(options.directory);
-  if (!found) return {found.error()};
+std::vector<core::Error> differences_from_run(const record::RunRecord& run, const Plan& plan,
+                                              const RunOptions& options) {
   RunOptions same = options;
-  if (!same.seed) same.seed = found->record.header.seed;
-  const auto known = prepare_plan(plan, same, found->record.header.started_utc);
+  if (!same.seed) same.seed = run.header.seed;
+  const auto known = prepare_plan(plan, same, run.header.started_utc);
   if (!known) return {known.error()};
-  return all_changes(found->record, plan, same, *known);
+  return all_changes(run, plan, same, *known);
 }
 
-RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
+RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options, record::HeldJournal held) {
   const auto refuse = [](const core::Error& error) {
     return tl::unexpected(std::vector<core::Error>{error});
   };
-  const auto found = record::read_journal(options.directory);
-  if (!found) return refuse(found.error());
+  record::RunRecord recorded = held.read.record;  // the rest of `held` goes into the journal
   RunOptions same = options;
-  if (!same.seed) same.seed = found->record.header.seed;
-  const auto known = prepare_plan(plan, same, found->record.header.started_utc);
+  if (!same.seed) same.seed = recorded.header.seed;
+  const auto known = prepare_plan(plan, same, recorded.header.started_utc);
   if (!known) return refuse(known.error());
-  auto changes = all_changes(found->record, plan, same, *known);
+  auto changes = all_changes(recorded, plan, same, *known);
   if (!changes.empty()) return tl::unexpected(std::move(changes));
   std::unique_ptr<Cell> cell;
   if (touches_anything(plan)) {
@@ -348,14 +344,14 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
     if (!opened) return refuse(opened.error());
     cell = std::move(*opened);
   }
-  auto journal = record::Journal::reopen(options.directory);
+  auto journal = record::Journal::reopen(options.directory, std::move(held));
   if (!journal) return refuse(journal.error());
-  auto past = record::read_journal(options.directory);  // again, now that no one else can write
-  if (!past) return refuse(past.error());
   Run run{std::move(*journal), std::nullopt};
-  follow(options, past->record, run.journal);
-  past->record.ending = found->record.ending;  // reopening took it out
-  execute(plan, options, *known, cell.get(), std::move(past->record), run);
+  record::RunRecord open = recorded;  // reopening took its ending out
+  open.ending.clear();
+  open.failure.reset();
+  follow(options, std::move(open), run.journal);
+  execute(plan, options, *known, cell.get(), std::move(recorded), run);
   return run;
 }
 

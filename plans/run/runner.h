@@ -81,10 +81,11 @@ struct Run {
 ///         fault the tip was retracted, unless the machine itself had stopped on a collision.
 [[nodiscard]] core::Result<Run> run_plan(const Plan& plan, const RunOptions& options);
 
-/// Why the run in `options.directory`, interrupted or finished, is not the run of this plan and
-/// these options: one kMeaning for each difference, as resume_plan() gives them; or what keeps the
-/// two from being compared (a journal or a file that cannot be read). Empty: it is that run.
-[[nodiscard]] std::vector<core::Error> differences_from_run(const Plan& plan,
+/// Why a run on record, interrupted or finished, is not the run of this plan and these options: one
+/// kMeaning for each difference, as resume_plan() gives them; or the file that cannot be read for
+/// the comparison. Empty: it is that run.
+[[nodiscard]] std::vector<core::Error> differences_from_run(const record::RunRecord& run,
+                                                            const Plan& plan,
                                                             const RunOptions& options);
 
 /// A run that goes on, or why it does not: one error for each thing that changed.
@@ -103,10 +104,12 @@ using RunOrRefusals = tl::expected<Run, std::vector<core::Error>>;
 /// stood between two clouds ends all the same: what it decided holds for the earlier placement.
 ///
 /// @param options  `seed`, `serial` and `operator_name` may be left out; the run's are kept.
+/// @param held  The journal of that directory, which is read this one time.
 /// @return  kMeaning for each difference of the plan (`where` its JSON pointer, `what` the old and
 ///          the new value), of the points files, version, seed, serial number or operator; kJournal
 ///          for a run that is sealed; the errors of Journal::reopen(). Nothing has moved then, and
 ///          the journal is as it was.
-[[nodiscard]] RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options);
+[[nodiscard]] RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options,
+                                        record::HeldJournal held);
 
 }  // namespace rondure::plans

@@ -55,11 +55,7 @@ core::Result<void> Journal::add(const PoseVisit& pose) {
 }
 
 core::Result<void> Journal::add(const Decision& decision) {
-  auto written = impl_->write("a decision", [&] {
-    impl_->statements->decision = decision;
-    impl_->statements->insert_decision.execute(true);
-    impl_->chain->append_inserted("decision", decision.feature, decision.time_s, decision.text);
-  });
+  auto written = impl_->write("a decision", [&] { impl_->insert(decision); });
   if (written && impl_->follower) impl_->follower->add(decision);
   return written;
 }

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "core/result.h"
+#include "record/run_lock.h"
 #include "record/run_record.h"
 
 namespace rondure::record {
 
 class GrowingRecord;
+struct HeldJournal;
 
 /// Name of the journal in a run directory.
 inline constexpr const char* kJournalName = "journal.db";
@@ -33,12 +35,16 @@ class Journal {
                                                     std::span<const Feature> features,
                                                     std::span<const Setting> settings = {});
 
-  /// Opens the journal of a run that was interrupted, stopped or failed, to go on behind its last
-  /// row; the chain goes on behind its last link. What ended the run before is taken out of the
-  /// header (end() writes the new ending); what a killed writer of reports left behind is removed.
-  /// kFile when there is no journal or another process is at work in the directory; kJournal when
-  /// it cannot be read, does not follow its chain, is sealed, listed, a link or of an older
-  /// version. Read the rows with read_journal().
+  /// Opens the journal of a run that was interrupted, stopped or failed, to go on after its last
+  /// row; the chain goes on after its last link. The ending of the run is taken out of the header
+  /// (end() writes the new one); what a killed writer of reports left there is removed. A journal
+  /// of version 5 stays one: its decisions are written as sentences.
+  /// @param held  As hold_journal() gave it for that directory.
+  /// @return  kJournal when it does not follow its chain, is sealed, listed, a link or of an older
+  ///          version.
+  [[nodiscard]] static core::Result<Journal> reopen(const std::filesystem::path& directory,
+                                                    HeldJournal held);
+  /// The same with hold_journal(), for who does not need the rows.
   [[nodiscard]] static core::Result<Journal> reopen(const std::filesystem::path& directory);
 
   Journal(Journal&&) noexcept;
@@ -103,6 +109,16 @@ struct ReadJournal {
 /// interrupted together with its log. Nothing that stands in the file is run. kFile when there is
 /// none, kJournal when it is not a journal of ours or damaged; `where` names the file.
 [[nodiscard]] core::Result<ReadJournal> read_journal(const std::filesystem::path& directory);
+
+/// A journal that nobody else can change: it was read after the lock of its directory was taken.
+struct HeldJournal {
+  RunLock lock;
+  ReadJournal read;
+};
+
+/// Takes the lock of a run directory, then reads its journal. kFile also when another process is at
+/// work there; otherwise as read_journal().
+[[nodiscard]] core::Result<HeldJournal> hold_journal(const std::filesystem::path& directory);
 
 /// Why nothing should be computed from a journal, one sentence each: tables that were changed,
 /// bytes that are not those of its list, logs beside it. Empty for a sound one.

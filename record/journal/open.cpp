@@ -20,11 +20,11 @@ std::string why_not_to_go_on(const ReadJournal& journal) {
         "was interrupted",
         kChecksumsName, kJournalName);
   }
-  if (journal.version != kSchemaVersion) {
+  if (journal.version < kOldestResumedVersion) {
     return fmt::format(
-        "its tables have version {}, a run goes on in version {} only; start a new "
+        "its tables have version {}, a run goes on in versions {} to {} only; start a new "
         "run",
-        journal.version, kSchemaVersion);
+        journal.version, kOldestResumedVersion, kSchemaVersion);
   }
   if (journal.broken.empty()) return {};
   return fmt::format("table {} of its journal was changed: {}; start a new run",
@@ -64,15 +64,29 @@ core::Result<Journal> Journal::create(const fs::path& directory, const Header& h
   return Journal(std::move(impl));
 }
 
-core::Result<Journal> Journal::reopen(const fs::path& directory) {
-  const fs::path file = fs::absolute(directory) / kJournalName;
+core::Result<HeldJournal> hold_journal(const fs::path& directory) {
   std::error_code ignored;
-  if (!fs::exists(file, ignored)) return core::fail(read_journal(directory).error());
+  if (!fs::exists(directory / kJournalName, ignored)) {
+    return core::fail(read_journal(directory).error());
+  }
   auto lock = RunLock::take(directory);
   if (!lock) return core::fail(lock.error());
-  const auto found = read_journal(directory);
-  if (!found) return core::fail(found.error());
-  if (const std::string reason = why_not_to_go_on(*found); !reason.empty()) {
+  auto read = read_journal(directory);
+  if (!read) return core::fail(read.error());
+  return HeldJournal{std::move(*lock), std::move(*read)};
+}
+
+core::Result<Journal> Journal::reopen(const fs::path& directory) {
+  auto held = hold_journal(directory);
+  if (!held) return core::fail(held.error());
+  return reopen(directory, std::move(*held));
+}
+
+core::Result<Journal> Journal::reopen(const fs::path& directory, HeldJournal held) {
+  const fs::path file = fs::absolute(directory) / kJournalName;
+  std::error_code ignored;
+  const ReadJournal& found = held.read;
+  if (const std::string reason = why_not_to_go_on(found); !reason.empty()) {
     return core::fail(core::Code::kJournal,
                       fmt::format("the run cannot go on in {}: {}", file.string(), reason),
                       file.string());
@@ -88,11 +102,12 @@ core::Result<Journal> Journal::reopen(const fs::path& directory) {
   remove_temporaries(directory);
   std::unique_ptr<Impl> impl;
   try {
-    impl = std::make_unique<Impl>(std::move(*lock), file, *connection);
+    impl = std::make_unique<Impl>(std::move(held.lock), file, *connection);
+    impl->version = found.version;
     int timeout_ms = 0;
     impl->sql << "pragma busy_timeout = 0", soci::into(timeout_ms);  // a run holds it for hours
     enable_wal(impl->sql);
-    require_schema(impl->sql, kSchemaVersion);  // of the file itself, now that it is ours alone
+    require_schema(impl->sql, found.version);  // of the file itself, now that it is ours alone
     impl->prepare();
   } catch (const std::exception& exception) {
     return core::fail(core::Code::kJournal,
@@ -100,10 +115,10 @@ core::Result<Journal> Journal::reopen(const fs::path& directory) {
                                   reason_of(exception, impl ? &impl->sql : nullptr)),
                       file.string());
   }
-  impl->header = found->record.header;
-  for (const PoseVisit& pose : found->record.poses) impl->poses.emplace(pose.id, pose);
-  for (const Touch& touch : found->record.touches) impl->keep(touch);
-  if (!found->record.ending.empty()) {
+  impl->header = found.record.header;
+  for (const PoseVisit& pose : found.record.poses) impl->poses.emplace(pose.id, pose);
+  for (const Touch& touch : found.record.touches) impl->keep(touch);
+  if (!found.record.ending.empty()) {
     if (auto cleared = impl->write("that the run goes on", [&] { impl->clear_ending(); });
         !cleared) {
       return core::fail(cleared.error());

@@ -7,6 +7,7 @@
 #include "reports/analysis.h"
 #include "reports/data/json_parts.h"
 #include "reports/feature_values.h"
+#include "reports/message_words.h"
 
 namespace rondure::reports {
 namespace {
@@ -326,9 +327,20 @@ Json feature_json(const FeatureResult& feature) {
 }
 
 Json event_json(const record::Decision& decision) {
-  return {{"feature", decision.feature < 0 ? Json(nullptr) : Json(decision.feature)},
-          {"time_s", decision.time_s},
-          {"text", decision.text}};
+  Json json = {{"feature", decision.feature < 0 ? Json(nullptr) : Json(decision.feature)},
+               {"time_s", decision.time_s},
+               {"text", english_sentence(decision)}};
+  if (!decision.sentence.empty()) return json;  // as the run was reported when it was measured
+  const core::Message& message = decision.message;
+  Json arguments = Json::object();
+  const auto kinds = core::arguments_of(message.code);
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    std::visit([&](const auto& value) { arguments[std::string(kinds[i].name)] = value; },
+               message.arguments.at(i));
+  }
+  json["code"] = core::message_name(message.code);
+  json["arguments"] = std::move(arguments);
+  return json;
 }
 
 Json truth_json(const record::SimulationTruth& truth) {

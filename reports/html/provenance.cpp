@@ -6,6 +6,7 @@
 #include "reports/escaping.h"
 #include "reports/facts.h"
 #include "reports/html/sections.h"
+#include "reports/message_words.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -30,12 +31,19 @@ std::string text_or_dash(const std::string& text) { return text.empty() ? "–" 
 /// Of a text that is the program's own.
 std::string words_or_dash(const std::string& text) { return text.empty() ? "–" : worded(text); }
 
+/// A sentence that a journal holds stays as it is in English.
+std::string decision_html(const record::Decision& decision) {
+  const std::string english = english_sentence(decision);
+  return in_sentence(language() == Language::kEnglish ? english : in_words(decision.message),
+                     english);
+}
+
 std::string decision_row(const record::RunRecord& record, const record::Decision& decision) {
   const auto index = static_cast<std::size_t>(decision.feature);
   const bool known = decision.feature >= 0 && index < record.features.size();
   return fmt::format(
       R"(<tr><td class="n">{}</td><td>{}</td><td>{}</td></tr>)", fixed(decision.time_s, 1),
-      known ? isolated(record.features[index].id) : tr("run"), in_sentence(decision.text));
+      known ? isolated(record.features[index].id) : tr("run"), decision_html(decision));
 }
 
 std::string qualification_rows(const record::RunRecord& record, const fit::ProbeTip& tip) {

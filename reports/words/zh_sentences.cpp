@@ -339,27 +339,12 @@ constexpr Translation kSentenceTexts[] = {
     {"the touches see the poses weakly (condition {:.0f}, good below {:.0f}): a wider arc or "
      "layers farther apart would help",
      "触测点对位姿的约束较弱（条件数 {}，小于 {} 为好）：加宽圆弧或加大层距会有帮助"},
-    // Endings of a pose, decisions of the program
+    // Endings of a pose, devices
     {"cross", "交叉"},
     {"spoke", "辐射"},
     {"co-circular", "共圆"},
     {"unbounded", "无界"},
     {"move-limit", "移动次数限"},
-    {"part located in pose {}: its axis is level at {}", "在位姿 {} 找正工件：其轴线在 {} 时水平"},
-    {"pose {}: zone of the cloud {:.3f} um; {}", "位姿 {}：点云区域 {} um；{}"},
-    {"as level as the fixture can be set: {:.6f} deg is left, its resolution is {:.6f} deg",
-     "已达到夹具可调平的程度：剩余 {} deg，分辨力 {} deg"},
-    {"as level as probe and fixture scatter: the step of {:.6f} deg is not below half the last one",
-     "已达到测头和夹具分散性允许的程度：步距 {} deg 未小于上一步的一半"},
-    {"turning to {}", "转到 {}"},
-    {"pose {}: {} of {} targets can be reached", "位姿 {0}：{2} 个测点中可达 {1} 个"},
-    {"pose search ended at {} after {} poses with f = {:.3f} um, a search value; that pose is "
-     "measured anew",
-     "位姿搜索在 {1} 个位姿后结束于 {0}，f = {2} um（搜索值）；该位姿将重新测量"},
-    {"resumed on {} after {} touches; the last {} repeated, largest difference {:.3f} um, limit "
-     "{:g} um",
-     "于 {:s} 恢复，此前 {} 次触测；重测最后 {} 次，最大差值 {} um，限值 {} um"},
-    {"part located again behind {} touches: {}", "在 {} 次触测后重新找正工件：{}"},
     {"simulated machine, tip diameter {:g} mm, touch speed {:g} mm/s",
      "仿真测量机，测头直径 {} mm，触测速度 {} mm/s"},
     {"simulated two-axis fixture, resolution {:g} deg", "仿真两轴夹具，分辨力 {} deg"},

@@ -50,7 +50,8 @@ TEST(Step, AsksBeforeEachMotionAndStopsInOrderOnQ) {
   EXPECT_EQ(record.ending, "stopped");
   EXPECT_EQ(record.touches.size(), 1U);
   ASSERT_FALSE(record.decisions.empty());
-  EXPECT_THAT(record.decisions.front().text, HasSubstr("single-step mode: travel at 10 mm/s"));
+  EXPECT_EQ(record.decisions.front().message,
+            (core::Message{core::MessageCode::kSingleSteps, {10.0}}));
 }
 
 TEST(Step, GoesOnWithoutAskingAfterCAndMeasuresTheSame) {

@@ -12,8 +12,8 @@
 #include "core/error.h"
 #include "plans/plan.h"
 #include "plans/run/runner.h"
-#include "record/journal/journal.h"
 #include "record/csv/points.h"
+#include "record/journal/journal.h"
 
 namespace rondure::plans::testing {
 
@@ -75,3 +75,14 @@ inline record::RunRecord journal_of(const std::filesystem::path& directory) {
 }
 
 }  // namespace rondure::plans::testing
+
+namespace rondure::plans {
+
+/// resume_plan() of the run in `options.directory`.
+inline RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options) {
+  auto held = record::hold_journal(options.directory);
+  if (!held) return tl::unexpected(std::vector<core::Error>{held.error()});
+  return resume_plan(plan, options, *std::move(held));
+}
+
+}  // namespace rondure::plans

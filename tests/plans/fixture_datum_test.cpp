@@ -7,8 +7,8 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "plans/forecast/forecast.h"
 #include "plans/checks/internal/plan_reach.h"
+#include "plans/forecast/forecast.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "tests/plans/files.h"
@@ -98,7 +98,7 @@ TEST(FixtureBase, BringsThePartUprightAndWithinTheFirstSearch) {
   plan.part.location_uncertainty_mm = 0.3;
   const Result with = run(plan);
   ASSERT_FALSE(with.failure) << with.failure->what;
-  EXPECT_THAT(with.record.decisions.front().text, HasSubstr("base of the fixture: shifted by"));
+  EXPECT_EQ(with.record.decisions.front().message.code, core::MessageCode::kFixtureBaseFound);
   plan.fixture->datum.reset();
   const Result without = run(plan);
   ASSERT_TRUE(without.failure);

@@ -7,8 +7,10 @@
 
 #include "core/noise.h"
 #include "core/version.h"
+#include "plans/run/internal/recorded_run.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
+#include "record/message_text.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"
 
@@ -69,6 +71,76 @@ std::vector<int> touches_to_stop_at(std::size_t all) {
       out.push_back(static_cast<int>(k));
   }
   return out;
+}
+
+/// A run directory with the journal of version 5 that was stopped after 81 touches.
+void copy_old_interrupted_run(const fs::path& directory) {
+  fs::create_directory(directory);
+  fs::copy_file(testing::source_dir() / "tests/data/journal_v5_interrupted/journal.db",
+                directory / "journal.db");
+}
+
+TEST(ResumeOldJournals, GoesOnInVersion5ToTheBitsOfARunWithoutInterruption) {
+  const record::Scratch scratch;
+  copy_old_interrupted_run(scratch / "run");
+  const auto before = journal_of(scratch / "run");
+  if (before.header.version != core::kVersion) GTEST_SKIP() << "a run of another program version";
+  const auto plan = parse_plan(before.header.plan_text, {}, "plan.json");
+  ASSERT_TRUE(plan) << testing::lines_of(plan);
+  {
+    auto run = resume_plan(*plan, options_for(scratch / "run"));
+    ASSERT_TRUE(run) << run.error().front().what;
+    ASSERT_FALSE(run->failure) << run->failure->what;
+    ASSERT_TRUE(run->journal.seal({}));
+  }
+  const auto read = record::read_journal(scratch / "run");
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(read->version, 5);
+  EXPECT_TRUE(read->broken.empty());
+  EXPECT_TRUE(read->record.sealed);
+  EXPECT_EQ(read->record.decisions.back().sentence.rfind("resumed on 2026-11-21T02:33:02Z after 81 "
+                                                         "touches; the last 3 repeated, ",
+                                                         0),
+            0U);
+  auto whole = journal_of(testing::source_dir() / "tests/data/journal_v5");
+  whole.results.clear();
+  EXPECT_EQ(record::measured_bits(read->record), record::measured_bits(whole));
+}
+
+TEST(ResumeOldJournals, ARunOfTheSamePlanDecidesTheSameInVersion6) {
+  const auto old = journal_of(testing::source_dir() / "tests/data/journal_v5");
+  const auto plan = parse_plan(old.header.plan_text, {}, "plan.json");
+  ASSERT_TRUE(plan) << testing::lines_of(plan);
+  const Whole now(*plan);
+  ASSERT_EQ(now.record.decisions.size(), old.decisions.size());
+  for (std::size_t i = 0; i < old.decisions.size(); ++i) {
+    const core::Message& message = now.record.decisions[i].message;
+    EXPECT_TRUE(core::say_the_same(message, old.decisions[i].message)) << i;
+    EXPECT_EQ(record::old_sentence(message), old.decisions[i].sentence);
+    EXPECT_TRUE(now.record.decisions[i].sentence.empty()) << "no words in its journal";
+  }
+}
+
+TEST(ResumeDecisions, AreTheSameInOtherWordsAndNotWithOtherNumbers) {
+  using core::MessageCode;
+  const auto decided = [](MessageCode code, std::vector<core::Argument> arguments) {
+    return record::Decision{0, 1.0, {code, std::move(arguments)}};
+  };
+  auto known = decided(MessageCode::kLevelPoseUnreachable, {"point 3: the stem meets the clamp"});
+  known.sentence = "not level: point 3: the stem meets the clamp";
+  EXPECT_TRUE(check_same_step(
+      known, decided(MessageCode::kLevelPoseUnreachable, {"the stem would touch the clamp"})));
+  const auto step = [&](double zone_um) {
+    return decided(MessageCode::kLevelToScatter, {1.41, -1.706, zone_um, 0.013641});
+  };
+  EXPECT_TRUE(check_same_step(step(4.768), step(4.76849)));
+  const auto other = check_same_step(step(4.768), step(4.770));
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().code, core::Code::kJournal);
+  EXPECT_THAT(other.error().what,
+              AllOf(HasSubstr("it decided level-to-scatter {"), HasSubstr("\"zone_um\":4.768"),
+                    HasSubstr("now it would be level-to-scatter {")));
+  EXPECT_FALSE(check_same_step(step(4.768), known));
 }
 
 class Resume : public ::testing::TestWithParam<const char*> {};
@@ -147,8 +219,8 @@ TEST(ResumeChecks, HaveNoiseOfTheirOwnAndStayWithinTheLimit) {
   ASSERT_FALSE(record.decisions.empty());
   EXPECT_TRUE(
       std::any_of(record.decisions.begin(), record.decisions.end(), [](const record::Decision& d) {
-        return d.feature == -1 &&
-               d.text.find("after 60 touches; the last 3 repeated") != std::string::npos;
+        return d.feature == -1 && d.message.code == core::MessageCode::kRunResumed &&
+               d.message.number(1) == 60.0 && d.message.number(2) == 3.0;
       }));
 }
 
@@ -220,8 +292,8 @@ TEST(ResumeRelocates, APartThatHasMovedAndMeasuresItsCloudAnew) {
     EXPECT_EQ(static_cast<std::ptrdiff_t>(record.truths.size()), marked) << "one of each placement";
     EXPECT_TRUE(std::any_of(
         record.decisions.begin(), record.decisions.end(), [&](const record::Decision& d) {
-          return d.feature == -1 &&
-                 d.text.find("part located again behind " + std::to_string(touches)) == 0;
+          return d.feature == -1 && d.message.code == core::MessageCode::kPartLocatedAgain &&
+                 d.message.number(0) == touches;
         }));
   }
 }

@@ -97,7 +97,7 @@ TEST_F(InterruptedRun, IsWhole) {
   const auto read = read_journal(scratch / "run");
   ASSERT_TRUE(read) << read.error().what;
   EXPECT_THAT(read->broken, IsEmpty());
-  EXPECT_EQ(read->version, 5);
+  EXPECT_EQ(read->version, 6);
   EXPECT_EQ(every_bit(read->record), every_bit(run));
 }
 
@@ -208,7 +208,7 @@ TEST_F(InterruptedRun, GoesOnAsIfItHadNotBeenInterrupted) {
     run.touches.push_back(touch_number(id));
     ASSERT_TRUE(journal->add(run.touches.back()));
   }
-  run.decisions.push_back({-1, 3.5, "the run went on"});
+  run.decisions.push_back({-1, 3.5, {core::MessageCode::kSentence, {"the run went on"}}});
   ASSERT_TRUE(journal->add(run.decisions.back()));
   ASSERT_TRUE(journal->end("finished", nullptr));
   ASSERT_TRUE(journal->seal({}));
@@ -257,7 +257,8 @@ TEST_F(InterruptedRun, DoesNotGoOnWhenItWasChangedOrSealedOrIsHeldOpen) {
     fs::copy_file(fs::path(RONDURE_SOURCE_DIR) / ("tests/data/journal_v" + version) / "journal.db",
                   old / "journal.db");
     meddle(old / "journal.db", "delete from seal");
-    EXPECT_THAT(refusal(old), HasSubstr("version " + version + ", a run goes on in version 5"));
+    EXPECT_THAT(refusal(old),
+                HasSubstr("version " + version + ", a run goes on in versions 5 to 6"));
   }
 
   const auto first = Journal::reopen(scratch / "run");

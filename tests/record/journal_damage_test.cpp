@@ -116,8 +116,8 @@ TEST_F(JournalDamage, ContradictionsAreNamed) {
       {"drop table touch", "no table touch"},
       {"alter table touch add column z text", "columns of its table touch"},
       {"alter table touch rename to t; create view touch as select * from t", "no table touch"},
-      {"pragma user_version = 6", "version 6, this program reads versions 1 to 5"},
-      {"pragma user_version = 0", "version 0, this program reads versions 1 to 5"},
+      {"pragma user_version = 7", "version 7, this program reads versions 1 to 6"},
+      {"pragma user_version = 0", "version 0, this program reads versions 1 to 6"},
       {"drop table chain", "no table chain"},
       {"pragma application_id = 5", "no journal of Rondure"},
   };

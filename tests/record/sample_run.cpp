@@ -9,6 +9,7 @@
 
 #include "core/noise.h"
 #include "core/numbers.h"
+#include "record/message_text.h"
 
 namespace rondure::record {
 namespace {
@@ -221,7 +222,8 @@ RunRecord sample_run(std::uint64_t seed, int touches) {
   for (int i = 0; i < features; ++i) r.features.push_back(sample_feature(n));
   for (int id = 0; id < 4; ++id) r.poses.push_back(sample_pose(n, id, features));
   for (int id = 0; id < touches; ++id) r.touches.push_back(sample_touch(n, id));
-  r.decisions = {{-1, n.real(), n.text()}, {0, n.real(), n.text()}};
+  const auto message = [&] { return core::Message{core::MessageCode::kSentence, {n.text()}}; };
+  r.decisions = {{-1, n.real(), message()}, {0, n.real(), message()}};
   r.truths = {{0, n.real()}};
   r.results = {{"/features/0/mz/deviation_um", n.real()}, {n.text(), n.real()}};
   r.ending = "failed: the probe met nothing";
@@ -287,7 +289,10 @@ std::string every_bit(const RunRecord& record) {
     bits << t.id << static_cast<int>(t.purpose) << t.pose << t.layer << t.point << t.repeat
          << t.tip_mm << t.approach << t.temperature_degC << t.time_s << t.scale_temperature_degC;
   }
-  for (const Decision& d : record.decisions) bits << d.feature << d.time_s << d.text;
+  for (const Decision& d : record.decisions) {
+    bits << d.feature << d.time_s << std::string(core::message_name(d.message.code))
+         << arguments_json(d.message) << d.sentence;
+  }
   for (const SimulationTruth& t : record.truths) bits << t.feature << t.cylt_mm;
   for (const Series& s : record.series) {
     bits << s.feature << s.name << static_cast<int>(s.role) << s.columns.size() << s.values.size();

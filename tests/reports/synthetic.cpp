@@ -168,6 +168,8 @@ StatedValue stated(const record::Characteristic& asked, double value_mm,
           UncertaintyStatus::none("the plan declares no uncertainty")};
 }
 
+core::Message sentence(const std::string& text) { return {core::MessageCode::kSentence, {text}}; }
+
 }  // namespace
 
 Case cylinder_case(int layers, int points_per_layer, int poses) {
@@ -178,11 +180,13 @@ Case cylinder_case(int layers, int points_per_layer, int poses) {
   made.record.features.push_back(land(layers, points_per_layer));
   made.record.truths.push_back({0, 0.008251});
   made.record.decisions = {
-      {-1, 41.2, "Probe qualified: tip radius 1.498600 mm, form 0.9 um."},
+      {-1, 41.2, sentence("Probe qualified: tip radius 1.498600 mm, form 0.9 um.")},
       {0, 118.4,
-       "Levelling pose predicted at alpha 1.2031 deg, beta -0.8480 deg; the fixture steps there."},
+       sentence("Levelling pose predicted at alpha 1.2031 deg, beta -0.8480 deg; the fixture steps "
+                "there.")},
       {0, 240.9,
-       "The next step would be below the resolution of the fixture (0.05 deg): final pose."}};
+       sentence(
+           "The next step would be below the resolution of the fixture (0.05 deg): final pose.")}};
   FeatureResult feature;
   feature.feature = made.record.features.front();
   feature.cloud = cloud(layers, points_per_layer, true);
@@ -345,7 +349,7 @@ Case hostile_case(const std::string& text) {
     *name = text;
   }
   made.record.failure = core::Error{core::Code::kMachine, text, text};
-  for (record::Decision& decision : made.record.decisions) decision.text = text;
+  for (record::Decision& decision : made.record.decisions) decision.message = sentence(text);
   made.record.features.front().id = text;
   FeatureResult& feature = made.evaluation.features.front();
   feature.feature.id = text;

@@ -14,16 +14,14 @@ using Eigen::Vector3d;
 
 constexpr const char* kDatumPointer = "/fixture/datum";
 
-/// Where the base is, in words for the journal.
-std::string in_words(const fit::Registration& base) {
+/// Where the base is, for the journal.
+core::Message base_message(const fit::Registration& base) {
   const Vector3d shift = base.motion.translation();
   const Eigen::AngleAxisd turn(base.motion.rotation());
   const Vector3d angles = turn.angle() * turn.axis() / core::kDegree;
-  return fmt::format(
-      "base of the fixture: shifted by ({:.4f}, {:.4f}, {:.4f}) mm, turned by ({:.5f}, {:.5f}, "
-      "{:.5f}) deg, largest residual {:.3f} um",
-      shift.x(), shift.y(), shift.z(), angles.x(), angles.y(), angles.z(),
-      base.largest_residual_mm / core::kMicrometre);
+  return {core::MessageCode::kFixtureBaseFound,
+          {shift.x(), shift.y(), shift.z(), angles.x(), angles.y(), angles.z(),
+           base.largest_residual_mm / core::kMicrometre}};
 }
 
 core::Result<Vector3d> center_near_nominal(const Plan& plan, std::size_t sphere,
@@ -98,9 +96,9 @@ core::Result<void> find_fixture_base(RunContext& context) {
   const auto base = fixture_base(context.plan, *tips);
   if (!base) return core::fail(base.error());
   context.cell->set_base(base->motion);
-  const std::string text = in_words(*base);
-  if (context.recorded.has_decision(text)) return {};
-  return context.journal.add(record::Decision{-1, context.cell->machine().time_s(), text});
+  const core::Message found = base_message(*base);
+  if (context.recorded.has_decision(found)) return {};
+  return context.journal.add(record::Decision{-1, context.cell->machine().time_s(), found});
 }
 
 }  // namespace rondure::plans

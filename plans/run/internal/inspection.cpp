@@ -209,8 +209,8 @@ core::Pose FeatureSession::levelling(const Eigen::Vector3d& direction_W) const {
   return fixture::levelling_pose(context_.cell->kinematics(), t_B);
 }
 
-core::Result<void> FeatureSession::note(const std::string& text) {
-  return context_.note(index_, text);
+core::Result<void> FeatureSession::note(const core::Message& decision) {
+  return context_.note(index_, decision);
 }
 
 void FeatureSession::show(double f_mm) {

@@ -82,7 +82,7 @@ struct RunContext {
   /// Turns the fixture and journals the pose it reached, or takes both from the journal. kMachine
   /// when it is turned to a recorded pose and does not read what it read then.
   [[nodiscard]] core::Result<record::PoseVisit> turn(int feature, const core::Pose& commanded);
-  [[nodiscard]] core::Result<void> note(int feature, const std::string& text);
+  [[nodiscard]] core::Result<void> note(int feature, const core::Message& message);
 
  private:
   [[nodiscard]] core::Result<void> ask(const NextMove& move);
@@ -121,7 +121,7 @@ class FeatureSession final : public PoseSession {
   [[nodiscard]] Eigen::Vector3d expected_axis() const override;
   [[nodiscard]] core::Pose levelling(const Eigen::Vector3d& direction_W) const override;
   [[nodiscard]] const fixture::FixtureLimits& limits() const override;
-  [[nodiscard]] core::Result<void> note(const std::string& text) override;
+  [[nodiscard]] core::Result<void> note(const core::Message& decision) override;
   void show(double f_mm) override;
 
  private:

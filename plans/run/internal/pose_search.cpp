@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
+#include <initializer_list>
+#include <limits>
 
 #include "core/units.h"
-#include "fit/zone/center_search.h"
-#include "fit/references/min_zone_cylinder.h"
 #include "fit/poses/walk.h"
+#include "fit/references/min_zone_cylinder.h"
+#include "fit/zone/center_search.h"
 #include "plans/checks/internal/plan_reach.h"
 
 namespace rondure::plans {
@@ -40,13 +40,40 @@ core::Result<void> finish(PoseSession& session, const FeaturePlan& feature) {
   return session.repeat(feature.pose_search.repeats - 1);
 }
 
-/// What the guided search does after a cloud.
+/// The step of the guided search after a cloud.
 struct NextStep {
-  bool stop = false;
-  core::Pose pose;        ///< Where to go otherwise.
+  core::MessageCode code = core::MessageCode::kLevellingStep;  ///< Any other ends the search.
+  core::Pose pose;                                             ///< The pose to step to.
   double size_rad = 0.0;  ///< Largest angle from the present pose to it.
-  std::string why;
 };
+
+double in_deg(double angle_rad) { return angle_rad / core::kDegree; }
+
+/// A decision about a pose.
+core::Message message_at(const core::Pose& pose, core::MessageCode code,
+                         std::initializer_list<core::Argument> others) {
+  core::Message out{code, {in_deg(pose.alpha_rad), in_deg(pose.beta_rad)}};
+  out.arguments.insert(out.arguments.end(), others);
+  return out;
+}
+
+/// The decision for the next step.
+/// @param zone_um  Of the cloud in the pose `reached`, the `visit`-th of the search.
+core::Message message_of(const NextStep& next, const core::Pose& reached, double zone_um, int visit,
+                         const fixture::FixtureLimits& limits) {
+  const double step_deg = in_deg(next.size_rad);
+  switch (next.code) {
+    case core::MessageCode::kLevelToResolution:
+      return message_at(reached, next.code, {zone_um, step_deg, in_deg(limits.resolution_rad)});
+    case core::MessageCode::kLevelToScatter:
+      return message_at(reached, next.code, {zone_um, step_deg});
+    case core::MessageCode::kNotLevelAfterPoses:
+      return message_at(reached, next.code, {zone_um, static_cast<double>(visit), step_deg});
+    default:  // a step to a pose, or one that the fixture does not reach
+      return message_at(reached, next.code,
+                        {zone_um, in_deg(next.pose.alpha_rad), in_deg(next.pose.beta_rad)});
+  }
+}
 
 NextStep next_step(const PoseSession& session, const Cloud& cloud,
                    const Eigen::Vector3d& direction_W, double last_rad) {
@@ -55,21 +82,13 @@ NextStep next_step(const PoseSession& session, const Cloud& cloud,
   out.size_rad = std::max(std::abs(out.pose.alpha_rad - cloud.reached.alpha_rad),
                           std::abs(out.pose.beta_rad - cloud.reached.beta_rad));
   const double finest = std::max(0.5 * session.limits().resolution_rad, kFinestStep);
-  const double step_deg = out.size_rad / core::kDegree;
   if (out.size_rad <= finest * (1.0 + 1e-9)) {
-    out.why = fmt::format(
-        "as level as the fixture can be set: {:.6f} deg is left, its resolution is {:.6f} deg",
-        step_deg, session.limits().resolution_rad / core::kDegree);
+    out.code = core::MessageCode::kLevelToResolution;
   } else if (!within(session.limits(), out.pose)) {
-    out.why = fmt::format("not level: the levelling pose {} is beyond the limits of the fixture",
-                          in_degrees(out.pose));
+    out.code = core::MessageCode::kLevelPoseBeyondLimits;
   } else if (out.size_rad >= 0.5 * last_rad) {
-    out.why = fmt::format(
-        "as level as probe and fixture scatter: the step of {:.6f} deg is not below half the last "
-        "one",
-        step_deg);
+    out.code = core::MessageCode::kLevelToScatter;
   }
-  out.stop = !out.why.empty();
   return out;
 }
 
@@ -86,7 +105,8 @@ core::Result<void> guided(PoseSession& session, const FeaturePlan& feature, core
       const bool wanted = visit > 1 || !(pose == start_pose(session, feature));
       if (!wanted || cloud.error().code != core::Code::kUnreachable)
         return core::fail(cloud.error());
-      if (auto noted = session.note("not level: " + cloud.error().what); !noted) return noted;
+      auto noted = session.note({core::MessageCode::kLevelPoseUnreachable, {cloud.error().what}});
+      if (!noted) return noted;
       if (visit > 1) break;
       pose = start_pose(session, feature);
       continue;
@@ -95,20 +115,13 @@ core::Result<void> guided(PoseSession& session, const FeaturePlan& feature, core
     const auto zone = fit::min_zone_cylinder(cloud->tips_W_mm, session.expected_axis());
     if (!zone) return core::fail(zone.error());
     NextStep next = next_step(session, *cloud, zone->axis.direction, last_rad);
-    if (!next.stop && visit == feature.pose_search.max_poses) {
-      next.stop = true;
-      next.why = fmt::format("not level after {} poses: a step of {:.4f} deg is left", visit,
-                             next.size_rad / core::kDegree);
-    }
-    const std::string zone_text =
-        fmt::format("pose {}: zone of the cloud {:.3f} um; ", in_degrees(cloud->reached),
-                    zone->width_mm() / core::kMicrometre);
-    if (next.stop) {
-      if (auto noted = session.note(zone_text + next.why); !noted) return noted;
-      break;
-    }
-    if (auto noted = session.note(zone_text + "turning to " + in_degrees(next.pose)); !noted)
-      return noted;
+    const bool steps = next.code == core::MessageCode::kLevellingStep;
+    const bool last = !steps || visit == feature.pose_search.max_poses;
+    if (steps && last) next.code = core::MessageCode::kNotLevelAfterPoses;
+    auto noted = session.note(message_of(next, cloud->reached, zone->width_mm() / core::kMicrometre,
+                                         visit, session.limits()));
+    if (!noted) return noted;
+    if (last) break;
     pose = next.pose;
     last_rad = next.size_rad;
   }
@@ -135,11 +148,10 @@ core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool a
   const auto walk = fit::walk_poses(f, start_pose(session, feature), steps);
   if (!walk) return core::fail(walk.error());
   const fit::PoseStep& best = walk->visited[walk->best];
-  const std::string text = fmt::format(
-      "pose search ended at {} after {} poses with f = {:.3f} um, a search value; that pose is "
-      "measured anew",
-      in_degrees(best.pose), walk->visited.size(), best.f_mm / core::kMicrometre);
-  if (auto noted = session.note(text); !noted) return noted;
+  auto noted = session.note(
+      message_at(best.pose, core::MessageCode::kPoseSearchEnded,
+                 {static_cast<double>(walk->visited.size()), best.f_mm / core::kMicrometre}));
+  if (!noted) return noted;
   if (const auto cloud = session.measure(best.pose); !cloud) return core::fail(cloud.error());
   return finish(session, feature);
 }
@@ -160,9 +172,10 @@ core::Result<void> merged(PoseSession& session, const FeaturePlan& feature) {
     const auto cloud = session.measure_reachable(pose);
     if (!cloud) return core::fail(cloud.error());
     session.show(f_of(*cloud, false));
-    const std::string text = fmt::format("pose {}: {} of {} targets can be reached",
-                                         in_degrees(pose), cloud->tips_W_mm.size(), targets);
-    if (auto noted = session.note(text); !noted) return noted;
+    auto noted = session.note(
+        message_at(pose, core::MessageCode::kTargetsReachable,
+                   {static_cast<double>(cloud->tips_W_mm.size()), static_cast<double>(targets)}));
+    if (!noted) return noted;
     if (auto done = finish(session, feature); !done) return done;
   }
   return session.end_merged();
@@ -178,9 +191,9 @@ core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature)
     const auto axis = session.locate(pose);
     if (!axis) return core::fail(axis.error());
     const core::Pose level = session.levelling(axis->direction);
-    const std::string text = fmt::format("part located in pose {}: its axis is level at {}",
-                                         in_degrees(pose), in_degrees(level));
-    if (auto noted = session.note(text); !noted) return noted;
+    auto noted = session.note(message_at(pose, core::MessageCode::kPartLocated,
+                                         {in_deg(level.alpha_rad), in_deg(level.beta_rad)}));
+    if (!noted) return noted;
     // The other strategies start where the plan says: that is what they are compared for.
     if (feature.type == "cylinder" && strategy == "guided" && within(session.limits(), level))
       pose = level;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/message.h"
 #include "core/pose.h"
 #include "core/result.h"
 #include "fit/geometry/axis.h"
@@ -50,15 +51,15 @@ class PoseSession {
   [[nodiscard]] virtual core::Pose levelling(const Eigen::Vector3d& direction_W) const = 0;
   [[nodiscard]] virtual const fixture::FixtureLimits& limits() const = 0;
   /// Writes a decision into the journal.
-  [[nodiscard]] virtual core::Result<void> note(const std::string& text) = 0;
+  [[nodiscard]] virtual core::Result<void> note(const core::Message& decision) = 0;
   /// Tells whoever watches.
   virtual void show(double f_mm) = 0;
 };
 
 /// Runs the pose search of a feature: `guided`, `refined`, `as-published` or `virtual` (DESIGN: the
 /// result is always the minimum zone of the final cloud, never the least f met on the way).
-/// A circle is located, then measured in its start pose. `merged` is measured in each of its poses and
-/// not located: its approach is longer instead.
+/// A circle is located, then measured in its start pose. `merged` is measured in each of its poses
+/// and not located: its approach is longer instead.
 [[nodiscard]] core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature);
 
 }  // namespace rondure::plans

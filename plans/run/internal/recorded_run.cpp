@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "plans/checks/internal/plan_reach.h"
+#include "record/message_text.h"
 
 namespace rondure::plans {
 namespace {
@@ -18,6 +19,11 @@ tl::unexpected<core::Error> other_way(const std::string& what) {
                     fmt::format("the run cannot go on: {}; this program or this computer does not "
                                 "repeat the run that was interrupted, start a new one",
                                 what));
+}
+
+/// For an error, which has no words for a message: levelling-step {"alpha_deg":1.41,...}.
+std::string as_code(const core::Message& message) {
+  return fmt::format("{} {}", core::message_name(message.code), record::arguments_json(message));
 }
 
 }  // namespace
@@ -59,11 +65,9 @@ std::ptrdiff_t RecordedRun::truths_of(int feature) const {
                        [&](const auto& truth) { return truth.feature == feature; });
 }
 
-bool RecordedRun::relocated_behind(std::int64_t touches) const {
-  const std::string text = relocation_text(touches);
-  return std::any_of(run_.decisions.begin(), run_.decisions.end(), [&](const auto& d) {
-    return d.feature < 0 && d.text.compare(0, text.size(), text) == 0;
-  });
+bool RecordedRun::relocated_after(std::int64_t touches) const {
+  return has_decision(
+      {core::MessageCode::kPartLocatedAgain, {static_cast<double>(touches), std::string()}});
 }
 
 bool RecordedRun::goes_on_untouched(int next_pose) const {
@@ -72,9 +76,10 @@ bool RecordedRun::goes_on_untouched(int next_pose) const {
          std::any_of(ahead, run_.decisions.end(), [](const auto& d) { return d.feature >= 0; });
 }
 
-bool RecordedRun::has_decision(const std::string& text) const {
-  return std::any_of(run_.decisions.begin(), run_.decisions.end(),
-                     [&](const auto& d) { return d.feature < 0 && d.text == text; });
+bool RecordedRun::has_decision(const core::Message& message) const {
+  return std::any_of(run_.decisions.begin(), run_.decisions.end(), [&](const auto& d) {
+    return d.feature < 0 && core::say_the_same(d.message, message);
+  });
 }
 
 bool RecordedRun::knows_series(int feature) const {
@@ -84,10 +89,6 @@ bool RecordedRun::knows_series(int feature) const {
 
 std::int64_t RecordedRun::next_check() const {
   return run_.checks.empty() ? -1 : run_.checks.back().id - 1;
-}
-
-std::string relocation_text(std::int64_t touches) {
-  return fmt::format("part located again behind {} touches: ", touches);
 }
 
 core::Result<void> check_same_step(const record::Touch& known, const record::Touch& planned) {
@@ -115,9 +116,10 @@ core::Result<void> check_same_step(const record::PoseVisit& known, int feature,
 }
 
 core::Result<void> check_same_step(const record::Decision& known, const record::Decision& planned) {
-  if (known.feature == planned.feature && known.text == planned.text) return {};
-  return other_way(
-      fmt::format("it decided \"{}\"; now it would be \"{}\"", known.text, planned.text));
+  if (known.feature == planned.feature && core::say_the_same(known.message, planned.message))
+    return {};
+  return other_way(fmt::format("it decided {}; now it would be {}", as_code(known.message),
+                               as_code(planned.message)));
 }
 
 }  // namespace rondure::plans

@@ -2,20 +2,20 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 
+#include "core/message.h"
 #include "core/pose.h"
 #include "core/result.h"
 #include "record/run_record.h"
 
 namespace rondure::plans {
 
-/// What an interrupted run left in its journal. The resumed run goes through the same steps as the
-/// first time and asks here before each of them: what is known is taken, not done again. A run that
-/// begins has an empty past.
+/// The journal of an interrupted run. The resumed run replays the same steps and asks here before
+/// each of them: a recorded step is taken from the journal and not repeated. A new run has an empty
+/// one.
 ///
-/// A step that is not the recorded one ends the run (kJournal): then this program, on this
-/// processor, does not follow the way of the one that measured, and its touches would not fit.
+/// A step that differs from the recorded one ends the run (kJournal): this program, on this
+/// processor, does not repeat the run that was measured, and its touches would not fit.
 class RecordedRun {
  public:
   RecordedRun() = default;
@@ -33,12 +33,12 @@ class RecordedRun {
   [[nodiscard]] const record::Decision* next_decision();
   /// Hidden truths of a feature in the journal: one for each of its final clouds.
   [[nodiscard]] std::ptrdiff_t truths_of(int feature) const;
-  /// Whether the part was located again behind that many touches.
-  [[nodiscard]] bool relocated_behind(std::int64_t touches) const;
+  /// Whether the part was located again after that many touches.
+  [[nodiscard]] bool relocated_after(std::int64_t touches) const;
   /// Whether a feature went on behind the present step without a touch: it decided or turned.
   [[nodiscard]] bool goes_on_untouched(int next_pose) const;
   /// Whether a decision about the whole run is in the journal.
-  [[nodiscard]] bool has_decision(const std::string& text) const;
+  [[nodiscard]] bool has_decision(const core::Message& message) const;
   /// Whether the series of a feature are in the journal: all of them, or none is.
   [[nodiscard]] bool knows_series(int feature) const;
   /// The number of the next check: -1, -2, ...
@@ -50,15 +50,14 @@ class RecordedRun {
   std::size_t next_decision_ = 0;
 };
 
-/// The decision that a part is located again, without the reason.
-[[nodiscard]] std::string relocation_text(std::int64_t touches);
-
 /// Whether two touches are the same step: number, purpose, place, direction within 1e-9.
 [[nodiscard]] core::Result<void> check_same_step(const record::Touch& known,
                                                  const record::Touch& planned);
 /// The same for poses as commanded, within 1e-9 rad.
 [[nodiscard]] core::Result<void> check_same_step(const record::PoseVisit& known, int feature,
                                                  const core::Pose& commanded);
+/// The same for decisions: one feature, messages that core::say_the_same(). How a sentence is
+/// worded does not matter.
 [[nodiscard]] core::Result<void> check_same_step(const record::Decision& known,
                                                  const record::Decision& planned);
 

@@ -18,7 +18,9 @@
 #include "record/journal/internal/log.h"
 #include "record/journal/internal/reader.h"
 #include "record/journal/internal/rows.h"
+#include "record/journal/internal/schema.h"
 #include "record/journal/journal.h"
+#include "record/message_text.h"
 #include "record/run_lock.h"
 
 // Private to the room: the open journal. journal_open.cpp makes it, journal.cpp writes rows,
@@ -37,6 +39,7 @@ struct Journal::Impl {
   std::optional<std::int64_t> last_touch;
   Header header;                   ///< As it was given, and the poses: rows that change later.
   std::map<int, PoseVisit> poses;  ///< By id.
+  std::int64_t version = kSchemaVersion;  ///< Of its tables.
   bool ended = false;
   State state = State::kOpen;
   std::shared_ptr<GrowingRecord> follower;  ///< Or none.
@@ -76,7 +79,7 @@ struct Journal::Impl {
 
   /// Prepares what runs during a measurement.
   void prepare() {
-    statements.emplace(sql);
+    statements.emplace(sql, version);
     chain.emplace(sql);
   }
 
@@ -91,6 +94,22 @@ struct Journal::Impl {
                   touch.repeat, touch.tip_mm.x(), touch.tip_mm.y(), touch.tip_mm.z(),
                   touch.approach.x(), touch.approach.y(), touch.approach.z(),
                   touch.temperature_degC, touch.time_s, touch.scale_temperature_degC);
+  }
+
+  void insert(const Decision& decision) {
+    Statements& s = *statements;
+    s.decision = decision;
+    if (version < kFirstMessageVersion) {
+      s.decision_code = old_sentence(decision.message);
+      s.insert_decision.execute(true);
+      chain->append_inserted("decision", decision.feature, decision.time_s, s.decision_code);
+    } else {
+      s.decision_code = core::message_name(decision.message.code);
+      s.decision_arguments = arguments_json(decision.message);
+      s.insert_decision.execute(true);
+      chain->append_inserted("decision", decision.feature, decision.time_s, s.decision_code,
+                             s.decision_arguments);
+    }
   }
 
   void link(const PoseVisit& pose) {

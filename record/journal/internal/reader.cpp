@@ -20,6 +20,7 @@
 #include "record/journal/internal/schema.h"
 #include "record/journal/internal/seal.h"
 #include "record/journal/internal/series.h"
+#include "record/message_text.h"
 
 namespace rondure::record {
 namespace {
@@ -264,14 +265,28 @@ void read_touches(soci::session& sql, RunRecord& record, std::int64_t version) {
   std::reverse(record.checks.begin(), record.checks.end());  // their numbers count downward
 }
 
-void read_decisions(soci::session& sql, RunRecord& record) {
+void read_decisions(soci::session& sql, RunRecord& record, std::int64_t version) {
   Decision row;
-  soci::statement rows = (sql.prepare << "select feature, time_s, text from decision order by id",
-                          into(row.feature), into(row.time_s), into(row.text));
+  std::string text;
+  std::string arguments;
+  const bool old = version < kFirstMessageVersion;
+  const std::string query = fmt::format("select feature, time_s, {} from decision order by id",
+                                        old ? "text, ''" : "code, arguments");
+  soci::statement rows =
+      (sql.prepare << query, into(row.feature), into(row.time_s), into(text), into(arguments));
   rows.execute();
   while (rows.fetch()) {
     require_feature(record, row.feature, -1, "decision");
     require_number("decision.time_s", row.time_s);
+    if (old) {
+      row.sentence = text;
+      row.message = read_old_sentence(text);
+    } else if (auto message = read_message(text, arguments)) {
+      row.message = *std::move(message);
+    } else {
+      throw Contradiction(fmt::format("decision holds {} {}, which no run of version {} decides",
+                                      quoted_text(text), quoted_text(arguments), version));
+    }
     record.decisions.push_back(row);
   }
 }
@@ -386,7 +401,7 @@ ReadJournal read_tables(soci::session& sql) {
   read_characteristics(sql, journal.record);
   read_poses(sql, journal.record);
   read_touches(sql, journal.record, journal.version);
-  read_decisions(sql, journal.record);
+  read_decisions(sql, journal.record, journal.version);
   read_truths(sql, journal.record);
   read_series_tables(sql, journal.record, journal.version);
   read_results(sql, journal.record);

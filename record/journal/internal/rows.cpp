@@ -93,7 +93,7 @@ std::optional<double> Measured::get() const {
   return given == soci::i_ok ? std::optional(value) : std::nullopt;
 }
 
-Statements::Statements(soci::session& sql)
+Statements::Statements(soci::session& sql, std::int64_t version)
     : insert_touch((
           sql.prepare << "insert into touch values (:id, :purpose, :pose, :layer, :point, :repeat, "
                          ":tx, :ty, :tz, :ax, :ay, :az, :temperature, :time, :scales)",
@@ -108,8 +108,13 @@ Statements::Statements(soci::session& sql)
                    use(pose.commanded.beta_rad), use(pose.reached.alpha_rad),
                    use(pose.reached.beta_rad), use(final_cloud), use(pose.time_s))),
       insert_decision(
-          (sql.prepare << "insert into decision (feature, time_s, text) values (:f, :t, :text)",
-           use(decision.feature), use(decision.time_s), use(decision.text))),
+          version < kFirstMessageVersion
+              ? (sql.prepare << "insert into decision (feature, time_s, text) values (:f, :t, :c)",
+                 use(decision.feature), use(decision.time_s), use(decision_code))
+              : (sql.prepare << "insert into decision (feature, time_s, code, arguments) values "
+                                "(:f, :t, :c, :a)",
+                 use(decision.feature), use(decision.time_s), use(decision_code),
+                 use(decision_arguments))),
       insert_truth((sql.prepare << "insert into truth (feature, cylt_mm) values (:f, :c)",
                     use(truth.feature), use(truth.cylt_mm))),
       update_final(

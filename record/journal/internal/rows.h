@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,6 +33,8 @@ struct Statements {
   PoseVisit pose;
   int final_cloud = 0;
   Decision decision;
+  std::string decision_code;  ///< The sentence, before version 6.
+  std::string decision_arguments;
   SimulationTruth truth;
   int marked_pose = 0;
   soci::statement insert_touch;
@@ -40,7 +43,8 @@ struct Statements {
   soci::statement insert_truth;
   soci::statement update_final;
 
-  explicit Statements(soci::session& sql);
+  /// @param version  Of the tables.
+  Statements(soci::session& sql, std::int64_t version);
   Statements(const Statements&) = delete;
   Statements& operator=(const Statements&) = delete;
 };

@@ -7,7 +7,7 @@ namespace {
 
 // Numbers that were measured have the type `any`: a column of type `real` would lose the sign of
 // -0.0, because SQLite packs whole numbers there as integers.
-constexpr std::array<Table, 20> kTables = {{
+constexpr std::array<Table, 21> kTables = {{
     {"header",
      R"(create table header (
   id integer primary key check (id = 0),
@@ -148,7 +148,17 @@ constexpr std::array<Table, 20> kTables = {{
   feature integer not null,
   time_s any not null,
   text text not null
-) strict)"},
+) strict)",
+     1, kFirstMessageVersion - 1},
+    {"decision",
+     R"(create table decision (
+  id integer primary key,
+  feature integer not null,
+  time_s any not null,
+  code text not null,
+  arguments text not null
+) strict)",
+     kFirstMessageVersion},
     {"truth",
      R"(create table truth (
   id integer primary key,

@@ -44,8 +44,8 @@ std::optional<BrokenTable> compare(soci::session& sql, const Table& table) {
 
 }  // namespace
 
-void insert_seal(soci::session& sql) {
-  for (const Table& table : sealed_tables(kSchemaVersion)) {
+void insert_seal(soci::session& sql, std::int64_t version) {
+  for (const Table& table : sealed_tables(version)) {
     const Digest digest = seal_digest_of(sql, table);
     const std::string name(table.name);
     sql << "insert into seal (table_name, row_count, sha256) values (:name, :rows, :sha256)",

@@ -12,7 +12,8 @@
 namespace rondure::record {
 
 /// Fills the seal with the digest of every other table and the head of the chain.
-void insert_seal(soci::session& sql);
+/// @param version  Of the tables.
+void insert_seal(soci::session& sql, std::int64_t version);
 
 [[nodiscard]] bool is_sealed(soci::session& sql);
 

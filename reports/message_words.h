@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/message.h"
+#include "record/run_record.h"
+
+namespace rondure::reports {
+
+/// The one place where messages become sentences.
+///
+/// @return  The sentence in the language of the report; nothing where words of another part of the
+///          program in it (a reason) are not known in that language. In English always a sentence.
+[[nodiscard]] std::optional<std::string> in_words(const core::Message& message);
+
+/// The English sentence of a decision; of a journal before version 6 as it stands there.
+[[nodiscard]] std::string english_sentence(const record::Decision& decision);
+
+}  // namespace rondure::reports
