@@ -82,9 +82,10 @@ std::string plain_words(std::string_view text) {
   return known ? escaped(*known) : foreign(text);
 }
 
-std::string in_sentence(std::string_view text) {
-  const auto known = told(text);
-  return known ? isolated(with_signs(*known)) : foreign(with_signs(text));
+std::string in_sentence(std::string_view text) { return in_sentence(told(text), text); }
+
+std::string in_sentence(const std::optional<std::string>& words, std::string_view english) {
+  return words ? isolated(with_signs(*words)) : foreign(with_signs(english));
 }
 
 std::string opening_sentence(std::string_view text) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -28,6 +29,9 @@ namespace rondure::reports {
 [[nodiscard]] std::string plain_words(std::string_view text);
 /// worded() of a sentence, which spells units in ASCII: " um" and " degC" with their signs.
 [[nodiscard]] std::string in_sentence(std::string_view text);
+/// The same of words that are known already, or of their English where they are not.
+[[nodiscard]] std::string in_sentence(const std::optional<std::string>& words,
+                                      std::string_view english);
 /// in_sentence() that begins with an upper-case letter.
 [[nodiscard]] std::string opening_sentence(std::string_view text);
 /// What stands before the sentence of an error: the title of its code; empty in English.

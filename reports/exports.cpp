@@ -8,7 +8,7 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
-#include "reports/analysis_result.h"
+#include "evaluation/analysis_result.h"
 #include "reports/data/qif/check.h"
 #include "reports/writers.h"
 

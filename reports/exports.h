@@ -7,9 +7,9 @@
 
 #include "core/result.h"
 #include "record/run_record.h"
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 #include "reports/history/earlier_results.h"
-#include "reports/pdf.h"
+#include "reports/html/pdf.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

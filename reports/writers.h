@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "record/run_record.h"
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 #include "reports/history/earlier_results.h"
 #include "reports/terminal/polar_sketch.h"
 #include "reports/words/language.h"

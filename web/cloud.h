@@ -4,7 +4,7 @@
 
 #include "core/result.h"
 #include "record/run_record.h"
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 
 // Private to the room: a cloud while it is being touched.
 

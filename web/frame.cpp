@@ -8,10 +8,10 @@
 
 #include "core/utf8.h"
 #include "reports/escaping.h"
-#include "reports/feature_values.h"
+#include "evaluation/feature_values.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
-#include "reports/measured_cloud.h"
+#include "evaluation/measured_cloud.h"
 #include "reports/words/language.h"
 #include "web/cloud.h"
 #include "web/sections.h"

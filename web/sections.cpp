@@ -7,7 +7,7 @@
 
 #include "core/numbers.h"
 #include "reports/escaping.h"
-#include "reports/feature_values.h"
+#include "evaluation/feature_values.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "record/run_record.h"
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 #include "web/cloud.h"
 
 // Private to the room: the parts of the live page. Every text of the record is escaped.

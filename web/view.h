@@ -10,7 +10,7 @@
 #include "core/result.h"
 #include "record/growing_record.h"
 #include "record/run_record.h"
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 #include "reports/words/language.h"
 #include "web/time.h"
 

@@ -5,7 +5,7 @@
 
 #include "plans/forecast/forecast.h"
 #include "plans/plan.h"
-#include "reports/predict.h"
+#include "evaluation/prediction/predict.h"
 
 namespace rondure::app {
 

@@ -7,7 +7,7 @@
 #include "app/prediction/sampling_layout.h"
 #include "core/result.h"
 #include "plans/plan.h"
-#include "reports/uncertainty.h"
+#include "evaluation/uncertainty/uncertainty.h"
 
 namespace rondure::app {
 

@@ -7,7 +7,7 @@
 #include "plans/plan.h"
 #include "record/archive/archive.h"
 #include "record/run_record.h"
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 
 namespace rondure::app {
 

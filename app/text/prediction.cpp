@@ -7,7 +7,7 @@
 
 #include "app/text/forecast.h"
 #include "core/units.h"
-#include "reports/stated_value.h"
+#include "evaluation/stated_value.h"
 
 namespace rondure::app {
 namespace {

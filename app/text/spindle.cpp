@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
-#include "reports/json_spindle.h"
+#include "reports/data/spindle.h"
 
 namespace rondure::app {
 namespace {

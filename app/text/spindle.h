@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "fit/spindle/probe_layout.h"
-#include "reports/spindle_result.h"
+#include "evaluation/spindle/result.h"
 
 namespace rondure::app {
 

@@ -7,8 +7,8 @@
 #include "app/verbs/verbs.h"
 #include "plans/checks/record.h"
 #include "record/journal/journal.h"
-#include "reports/evaluation.h"
-#include "reports/factor_study.h"
+#include "evaluation/evaluation.h"
+#include "evaluation/factors/study.h"
 
 namespace rondure::app {
 

@@ -21,7 +21,7 @@
 #include "plans/schema/json_text.h"
 #include "plans/schema/utf8.h"
 #include "record/journal/journal.h"
-#include "reports/pdf.h"
+#include "reports/html/pdf.h"
 
 namespace rondure::app {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/units.h"
 #include "record/csv/series.h"
 #include "record/files.h"
-#include "reports/spindle_result.h"
+#include "evaluation/spindle/result.h"
 
 namespace rondure::app {
 namespace {

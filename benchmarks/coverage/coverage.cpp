@@ -21,8 +21,8 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/coverage/inspection.h"
-#include "reports/decision.h"
-#include "reports/uncertainty.h"
+#include "evaluation/decision/decision.h"
+#include "evaluation/uncertainty/uncertainty.h"
 
 namespace rondure::coverage {
 namespace {

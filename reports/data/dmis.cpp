@@ -5,9 +5,9 @@
 
 #include "core/numbers.h"
 #include "core/utf8.h"
-#include "reports/facts.h"
-#include "reports/feature_values.h"
-#include "reports/section.h"
+#include "reports/words/facts.h"
+#include "evaluation/feature_values.h"
+#include "evaluation/section.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {

@@ -1,4 +1,4 @@
-#include "reports/factor_study.h"
+#include "evaluation/factors/study.h"
 #include "reports/data/json_parts.h"
 
 namespace rondure::reports {

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "reports/analysis.h"
+#include "evaluation/analysis.h"
 #include "reports/data/json_parts.h"
-#include "reports/feature_values.h"
-#include "reports/message_words.h"
+#include "evaluation/feature_values.h"
+#include "reports/words/messages.h"
 
 namespace rondure::reports {
 namespace {

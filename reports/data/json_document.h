@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "record/run_record.h"
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 
 namespace rondure::reports {
 

@@ -1,6 +1,6 @@
 #include "reports/data/json_parts.h"
 
-#include "reports/feature_values.h"
+#include "evaluation/feature_values.h"
 
 namespace rondure::reports {
 

@@ -6,7 +6,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "reports/data/csv_field.h"
-#include "reports/feature_values.h"
+#include "evaluation/feature_values.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {

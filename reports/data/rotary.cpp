@@ -2,7 +2,7 @@
 
 #include "core/units.h"
 #include "reports/data/json_parts.h"
-#include "reports/rotary_result.h"
+#include "evaluation/rotary/result.h"
 
 namespace rondure::reports {
 namespace {

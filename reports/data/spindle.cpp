@@ -1,5 +1,5 @@
 #include "reports/data/json_parts.h"
-#include "reports/json_spindle.h"
+#include "reports/data/spindle.h"
 
 namespace rondure::reports {
 namespace {

@@ -1,5 +1,5 @@
 #include "reports/data/json_parts.h"
-#include "reports/decision_words.h"
+#include "reports/words/decision.h"
 
 namespace rondure::reports {
 namespace {

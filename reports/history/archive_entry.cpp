@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/utf8.h"
-#include "reports/facts.h"
-#include "reports/feature_values.h"
+#include "reports/words/facts.h"
+#include "evaluation/feature_values.h"
 
 namespace rondure::reports {
 namespace {

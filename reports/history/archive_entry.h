@@ -3,7 +3,7 @@
 #include <string>
 
 #include "record/archive/archive.h"
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 
 namespace rondure::reports {
 

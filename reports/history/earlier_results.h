@@ -7,7 +7,7 @@
 #include "core/result.h"
 #include "record/archive/archive.h"
 #include "record/run_record.h"
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 #include "reports/history/run_chart.h"
 
 namespace rondure::reports {

@@ -8,7 +8,7 @@
 #include "core/round_values.h"
 #include "core/units.h"
 #include "core/utf8.h"
-#include "reports/columns.h"
+#include "reports/terminal/columns.h"
 #include "reports/history/history.h"
 #include "reports/html/svg.h"
 #include "reports/words/language.h"

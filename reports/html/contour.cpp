@@ -10,7 +10,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "reports/contour_result.h"
+#include "evaluation/contour/result.h"
 #include "reports/data/contour.h"
 #include "reports/escaping.h"
 #include "reports/html/plot_curve.h"

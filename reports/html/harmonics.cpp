@@ -5,7 +5,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "reports/escaping.h"
-#include "reports/harmonic_mask.h"
+#include "evaluation/harmonic_mask.h"
 #include "reports/html/plot_curve.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"

@@ -7,11 +7,11 @@
 #include "core/round_values.h"
 #include "core/units.h"
 #include "reports/escaping.h"
-#include "reports/facts.h"
+#include "reports/words/facts.h"
 #include "reports/html/plot_scale.h"
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
-#include "reports/section.h"
+#include "evaluation/section.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -7,7 +7,7 @@
 #include "reports/html/plot_scale.h"
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
-#include "reports/section.h"
+#include "evaluation/section.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

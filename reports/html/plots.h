@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "reports/evaluation.h"
-#include "reports/feature_values.h"
+#include "evaluation/evaluation.h"
+#include "evaluation/feature_values.h"
 
 namespace rondure::reports {
 

@@ -4,9 +4,9 @@
 
 #include "core/numbers.h"
 #include "reports/escaping.h"
-#include "reports/facts.h"
+#include "reports/words/facts.h"
 #include "reports/html/sections.h"
-#include "reports/message_words.h"
+#include "reports/words/messages.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -9,7 +9,7 @@
 #include "reports/escaping.h"
 #include "reports/html/plot_curve.h"
 #include "reports/html/sections.h"
-#include "reports/rotary_result.h"
+#include "evaluation/rotary/result.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

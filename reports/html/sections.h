@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "record/run_record.h"
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 #include "reports/history/earlier_results.h"
 
 namespace rondure::reports {

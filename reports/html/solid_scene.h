@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "reports/evaluation.h"
-#include "reports/feature_values.h"
-#include "reports/section.h"
+#include "evaluation/evaluation.h"
+#include "evaluation/feature_values.h"
+#include "evaluation/section.h"
 
 namespace rondure::reports {
 

@@ -6,7 +6,7 @@
 #include "core/units.h"
 #include "reports/html/plot_curve.h"
 #include "reports/html/sections.h"
-#include "reports/spindle_result.h"
+#include "evaluation/spindle/result.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -4,7 +4,7 @@
 
 #include "core/numbers.h"
 #include "reports/escaping.h"
-#include "reports/facts.h"
+#include "reports/words/facts.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"

@@ -6,7 +6,7 @@
 #include "reports/html/plot_curve.h"
 #include "reports/html/plot_wheel.h"
 #include "reports/html/sections.h"
-#include "reports/wheel_result.h"
+#include "evaluation/wheel/result.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -8,8 +8,8 @@
 
 #include "core/numbers.h"
 #include "core/utf8.h"
-#include "reports/columns.h"
-#include "reports/factor_study.h"
+#include "reports/terminal/columns.h"
+#include "evaluation/factors/study.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

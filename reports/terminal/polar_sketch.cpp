@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "reports/facts.h"
-#include "reports/feature_values.h"
-#include "reports/section.h"
+#include "reports/words/facts.h"
+#include "evaluation/feature_values.h"
+#include "evaluation/section.h"
 
 namespace rondure::reports {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 
 namespace rondure::reports {
 

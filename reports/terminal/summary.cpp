@@ -4,11 +4,11 @@
 
 #include "core/numbers.h"
 #include "core/utf8.h"
-#include "reports/analysis_summary.h"
-#include "reports/columns.h"
+#include "reports/terminal/analysis.h"
+#include "reports/terminal/columns.h"
 #include "reports/escaping.h"
-#include "reports/facts.h"
-#include "reports/feature_values.h"
+#include "reports/words/facts.h"
+#include "evaluation/feature_values.h"
 #include "reports/words/language.h"
 #include "reports/writers.h"
 

@@ -1,4 +1,4 @@
-#include "reports/stored_results.h"
+#include "reports/verify/stored_results.h"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "reports/decision_words.h"
+#include "reports/words/decision.h"
 
 #include <fmt/format.h>
 

@@ -8,10 +8,10 @@
 
 #include "plans/checks/record.h"
 #include "record/journal/journal.h"
-#include "reports/defect.h"
-#include "reports/evaluation.h"
+#include "evaluation/defect.h"
+#include "evaluation/evaluation.h"
 #include "reports/exports.h"
-#include "reports/factor_study.h"
+#include "evaluation/factors/study.h"
 #include "reports/writers.h"
 #include "tests/fuzz/cases.h"
 #include "tests/fuzz/overheard.h"

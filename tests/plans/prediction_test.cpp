@@ -1,7 +1,7 @@
 // The interval that is predicted before the first touch is the one that simulated runs find. Five
 // plans; 20 with RONDURE_FULL=1, with their table.
 
-#include "reports/predict.h"
+#include "evaluation/prediction/predict.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "core/noise.h"
 #include "plans/plan.h"
 #include "record/run_record.h"
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 
 namespace rondure::test {
 

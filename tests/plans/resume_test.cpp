@@ -10,7 +10,7 @@
 #include "plans/run/internal/recorded_run.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
-#include "record/message_text.h"
+#include "record/journal/message_text.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"
 

@@ -1,4 +1,4 @@
-#include "record/message_text.h"
+#include "record/journal/message_text.h"
 
 #include <cmath>
 #include <filesystem>

@@ -9,7 +9,7 @@
 
 #include "core/noise.h"
 #include "core/numbers.h"
-#include "record/message_text.h"
+#include "record/journal/message_text.h"
 
 namespace rondure::record {
 namespace {

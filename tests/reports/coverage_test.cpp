@@ -16,7 +16,7 @@
 #include "core/units.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/zone/fit.h"
-#include "reports/uncertainty.h"
+#include "evaluation/uncertainty/uncertainty.h"
 
 namespace rondure::reports {
 namespace {

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/noise.h"
-#include "reports/decision.h"
-#include "reports/decision_words.h"
+#include "evaluation/decision/decision.h"
+#include "reports/words/decision.h"
 
 namespace rondure::reports {
 namespace {

@@ -1,6 +1,6 @@
 // Results that break an invariant: found, never printed, kept for a bug report.
 
-#include "reports/defect.h"
+#include "evaluation/defect.h"
 
 #include <filesystem>
 #include <functional>

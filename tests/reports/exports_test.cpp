@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/numbers.h"
-#include "reports/columns.h"
+#include "reports/terminal/columns.h"
 #include "reports/words/language.h"
 #include "reports/writers.h"
 #include "synthetic.h"

@@ -11,10 +11,10 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "reports/form_columns.h"
-#include "reports/form_sampler.h"
-#include "reports/form_value.h"
-#include "reports/uncertainty.h"
+#include "evaluation/uncertainty/columns.h"
+#include "evaluation/uncertainty/sampler.h"
+#include "evaluation/uncertainty/form_value.h"
+#include "evaluation/uncertainty/uncertainty.h"
 
 namespace rondure::reports {
 namespace {

@@ -1,9 +1,9 @@
-#include "reports/harmonic_mask.h"
+#include "evaluation/harmonic_mask.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/conformance.h"
+#include "evaluation/conformance.h"
 #include "reports/writers.h"
 #include "synthetic.h"
 

@@ -15,7 +15,7 @@
 #include "core/utf8.h"
 #include "record/files.h"
 #include "record/sha256.h"
-#include "reports/columns.h"
+#include "reports/terminal/columns.h"
 #include "reports/history/archive_entry.h"
 #include "reports/words/language.h"
 #include "tests/reports/page_text.h"

@@ -11,7 +11,7 @@
 #include <pugixml.hpp>
 
 #include "core/utf8.h"
-#include "reports/columns.h"
+#include "reports/terminal/columns.h"
 #include "reports/data/qif/check.h"
 #include "reports/escaping.h"
 #include "reports/words/language.h"

@@ -17,7 +17,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/columns.h"
+#include "reports/terminal/columns.h"
 #include "reports/escaping.h"
 #include "reports/exports.h"
 #include "reports/words/sentence_format.h"

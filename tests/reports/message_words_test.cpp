@@ -1,4 +1,4 @@
-#include "reports/message_words.h"
+#include "reports/words/messages.h"
 
 #include <filesystem>
 
@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "record/journal/journal.h"
-#include "record/message_text.h"
+#include "record/journal/message_text.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

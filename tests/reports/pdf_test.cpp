@@ -18,7 +18,7 @@
 
 #include "record/files.h"
 #include "reports/exports.h"
-#include "reports/pdf.h"
+#include "reports/html/pdf.h"
 #include "reports/writers.h"
 #include "synthetic.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "record/run_record.h"
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 
 namespace rondure::reports {
 

@@ -11,9 +11,9 @@
 #include "core/units.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 #include "reports/history/archive_entry.h"
-#include "reports/warnings.h"
+#include "evaluation/warnings.h"
 #include "reports/writers.h"
 #include "tests/reports/points_run.h"
 

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "reports/feature_values.h"
+#include "evaluation/feature_values.h"
 #include "web/cloud.h"
 
 namespace rondure::reports {

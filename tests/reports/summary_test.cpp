@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/columns.h"
+#include "reports/terminal/columns.h"
 #include "reports/writers.h"
 #include "synthetic.h"
 

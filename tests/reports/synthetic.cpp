@@ -7,7 +7,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "reports/feature_values.h"
+#include "evaluation/feature_values.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {

@@ -6,7 +6,7 @@
 #include "core/numbers.h"
 #include "core/round_values.h"
 #include "core/utf8.h"
-#include "reports/columns.h"
+#include "reports/terminal/columns.h"
 #include "reports/escaping.h"
 #include "reports/html/svg.h"
 

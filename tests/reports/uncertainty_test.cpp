@@ -1,7 +1,7 @@
 // Properties and oracles of measurement_uncertainty(); how often its interval holds the truth:
 // coverage_test.cpp.
-#include "reports/uncertainty.h"
-#include "reports/form_sampler.h"
+#include "evaluation/uncertainty/uncertainty.h"
+#include "evaluation/uncertainty/sampler.h"
 
 #include <algorithm>
 #include <chrono>

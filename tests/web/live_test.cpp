@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "reports/feature_values.h"
+#include "evaluation/feature_values.h"
 #include "tests/reports/synthetic.h"
 #include "web/cloud.h"
 #include "web/frame.h"

@@ -13,7 +13,7 @@ namespace rondure::plans {
 /// Measures a feature of the type "rotary_axes": turns the fixture through rotary_visits() and
 /// touches the balls in each pose, everything journalled before the next step. A touch of ball i
 /// has the layer i. Behind the last touch the hidden truth of a simulated fixture is kept, as
-/// curves. Evaluation: reports/rotary_result.h.
+/// curves. Evaluation: evaluation/rotary/result.h.
 [[nodiscard]] core::Result<void> calibrate_fixture(RunContext& context, int feature_index);
 
 /// How one ball is touched in a pose, from park height and up again; see sphere_steps().

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "plans/checks/internal/plan_reach.h"
-#include "record/message_text.h"
+#include "record/journal/message_text.h"
 
 namespace rondure::plans {
 namespace {

@@ -20,7 +20,7 @@
 #include "record/journal/internal/rows.h"
 #include "record/journal/internal/schema.h"
 #include "record/journal/journal.h"
-#include "record/message_text.h"
+#include "record/journal/message_text.h"
 #include "record/run_lock.h"
 
 // Private to the room: the open journal. journal_open.cpp makes it, journal.cpp writes rows,

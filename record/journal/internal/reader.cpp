@@ -20,7 +20,7 @@
 #include "record/journal/internal/schema.h"
 #include "record/journal/internal/seal.h"
 #include "record/journal/internal/series.h"
-#include "record/message_text.h"
+#include "record/journal/message_text.h"
 
 namespace rondure::record {
 namespace {

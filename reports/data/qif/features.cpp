@@ -4,8 +4,8 @@
 
 #include "core/numbers.h"
 #include "reports/data/qif/parts.h"
-#include "reports/feature_values.h"
-#include "reports/section.h"
+#include "evaluation/feature_values.h"
+#include "evaluation/section.h"
 
 namespace rondure::reports {
 namespace {

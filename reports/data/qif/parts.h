@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "reports/evaluation.h"
+#include "evaluation/evaluation.h"
 #include "reports/data/xml_parts.h"
 
 // Private to the room: what the parts of a QIF document share.

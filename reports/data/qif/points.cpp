@@ -1,7 +1,7 @@
 #include "core/numbers.h"
 #include "reports/data/qif/parts.h"
-#include "reports/measured_cloud.h"
-#include "reports/section.h"
+#include "evaluation/measured_cloud.h"
+#include "evaluation/section.h"
 
 namespace rondure::reports {
 namespace {

@@ -5,7 +5,7 @@
 #include "core/utc.h"
 #include "record/sha256.h"
 #include "reports/data/qif/parts.h"
-#include "reports/facts.h"
+#include "reports/words/facts.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {

@@ -1,0 +1,138 @@
+#include "evaluation/analysis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "evaluation/analysis_result.h"
+#include "evaluation/conformance.h"
+#include "reports/data/json_parts.h"
+#include "evaluation/evaluation.h"
+#include "evaluation/feature_values.h"
+
+namespace rondure::reports {
+namespace {
+
+std::string joined(const std::string& detail) {
+  return detail.empty() ? std::string() : fmt::format(" ({})", detail);
+}
+
+/// The limit that stands when there is no value: of a mask its first line.
+std::optional<double> nominal_limit(const record::Characteristic& asked) {
+  if (!asked.harmonic_limits.empty()) return asked.harmonic_limits.front().amplitude_mm;
+  return asked.tolerance_mm;
+}
+
+void judge(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
+           const FeatureResult& result, CharacteristicResult& out) {
+  record::Characteristic& asked = out.characteristic;
+  asked.tolerance_mm = nominal_limit(asked);
+  out.verdict = Verdict::kVoid;
+  if (!result.analysis) {
+    out.reason = result.failure ? result.failure->what : "there is no result";
+    return;
+  }
+  const auto value = value_of(*result.analysis, asked);
+  if (!value) {
+    out.reason = value.error().what;
+    return;
+  }
+  if (!std::isfinite(value->value_mm)) {
+    out.reason = "the computation gave no finite number";
+    return;
+  }
+  out.value.emplace(symbol_of(asked), value->value_mm,
+                    operator_of(*result.analysis, asked, temperature_words(result)),
+                    UncertaintyStatus::none("intervals are computed of touches and points only"));
+  if (value->limit_mm) asked.tolerance_mm = value->limit_mm;
+  const bool proves =
+      value->lower_bound && asked.tolerance_mm && value->value_mm > *asked.tolerance_mm;
+  if (value->void_because && !proves) {
+    out.reason = *value->void_because;
+  } else if (record.ending != "finished") {
+    out.reason = "the run did not finish";
+  } else if (auto fault = temperature_fault(record, result)) {
+    out.reason = *std::move(fault);
+  } else {
+    apply(rule, out);
+    out.reason += joined(value->detail);
+  }
+}
+
+}  // namespace
+
+core::Result<AnalysisValue> value_of(const AnalysisResult& result,
+                                     const record::Characteristic& characteristic) {
+  return std::visit([&](const auto& found) { return value_of(found, characteristic); },
+                    result.found);
+}
+
+ValueOperator operator_of(const AnalysisResult& result,
+                          const record::Characteristic& characteristic,
+                          const std::string& temperature) {
+  return std::visit(
+      [&](const auto& found) { return operator_of(found, characteristic, temperature); },
+      result.found);
+}
+
+std::string filter_text(const AnalysisResult& result) {
+  return std::visit([](const auto& found) { return filter_text(found); }, result.found);
+}
+
+std::string sampling_text(const AnalysisResult& result) {
+  return std::visit([](const auto& found) { return sampling_text(found); }, result.found);
+}
+
+FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
+                                const std::optional<fit::ProbeTip>& probe) {
+  FeatureResult result;
+  result.feature = record.features[static_cast<std::size_t>(index)];
+  result.temperatures = temperatures_of(record, {});         // series carry none
+  if (result.feature.shape == record::Shape::kRotaryAxes) {  // of touches
+    if (probe) result.tip_radius_mm = probe->radius_mm;
+    evaluate_rotary(record, index, result);
+    return result;
+  }
+  const bool recorded =
+      std::any_of(record.series.begin(), record.series.end(), [&](const record::Series& series) {
+        return series.feature == index && series.role == record::Series::Role::kData;
+      });
+  // A contour names its series by part and looks for each itself.
+  const bool named =
+      result.feature.shape == record::Shape::kContour || record.data_of(index, "data") != nullptr;
+  if (!recorded || !named) {
+    result.failure =
+        core::Error{core::Code::kNoPoints, "the run ended before its data were kept", {}};
+    return result;
+  }
+  switch (result.feature.shape) {
+    case record::Shape::kSpindle:
+      evaluate_spindle(record, index, result);
+      break;
+    case record::Shape::kWheel:
+      evaluate_wheel(record, index, result);
+      break;
+    case record::Shape::kContour:
+      evaluate_contour(record, index, result);
+      break;
+    default:
+      result.failure = core::Error{
+          core::Code::kMeaning,
+          fmt::format("this version does not evaluate a {}", record::name_of(result.feature.shape)),
+          {}};
+  }
+  return result;
+}
+
+void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
+                     FeatureResult& result) {
+  for (const record::Characteristic& characteristic : result.feature.characteristics) {
+    CharacteristicResult out;
+    out.characteristic = characteristic;
+    judge(record, rule, result, out);
+    result.characteristics.push_back(std::move(out));
+  }
+}
+
+}  // namespace rondure::reports

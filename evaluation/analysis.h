@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/result.h"
+#include "fit/geometry/probe_tip.h"
+#include "record/run_record.h"
+#include "evaluation/decision/decision.h"
+#include "evaluation/stated_value.h"
+
+namespace rondure::reports {
+
+struct FeatureResult;
+
+/// What an analysis found for one characteristic.
+struct AnalysisValue {
+  double value_mm = 0.0;
+  std::optional<double> limit_mm;           ///< In place of the tolerance: the line of a mask.
+  std::string detail;                       ///< Joins the reason, e.g. "harmonic 5".
+  std::optional<std::string> void_because;  ///< Why the value proves nothing.
+  /// With `void_because`: the true value is not below `value_mm`, so that above the tolerance it
+  /// does prove something.
+  bool lower_bound = false;
+};
+
+struct AnalysisResult;  // analysis_result.h
+
+/// The value of a characteristic, or why there is none.
+[[nodiscard]] core::Result<AnalysisValue> value_of(const AnalysisResult& result,
+                                                   const record::Characteristic& characteristic);
+/// How that value came about: "LSCI; gaussian low pass 50 UPR; ...; 20.3 degC".
+[[nodiscard]] ValueOperator operator_of(const AnalysisResult& result,
+                                        const record::Characteristic& characteristic,
+                                        const std::string& temperature);
+/// The filter, and what was recorded, as the archive keeps them.
+[[nodiscard]] std::string filter_text(const AnalysisResult& result);
+[[nodiscard]] std::string sampling_text(const AnalysisResult& result);
+
+/// Evaluates a feature whose shape is an analysis, by the file of its shape. Same record, same
+/// bits.
+/// @param probe  The qualification of the run, for an analysis of touches.
+[[nodiscard]] FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
+                                              const std::optional<fit::ProbeTip>& probe);
+
+/// Fills the characteristics of such a feature under the rule. Void without a result, without the
+/// value, outside the temperature limits, where the value proves nothing, when the run did not
+/// finish, or when the rule needs an interval: of series none is computed yet.
+void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
+                     FeatureResult& result);
+
+/// The evaluations themselves, a file each. They set `analysis` and `warnings`, or `failure`.
+void evaluate_spindle(const record::RunRecord& record, int index, FeatureResult& result);
+void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& result);
+void evaluate_contour(const record::RunRecord& record, int index, FeatureResult& result);
+void evaluate_rotary(const record::RunRecord& record, int index, FeatureResult& result);
+
+}  // namespace rondure::reports

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "record/run_record.h"
+#include "evaluation/evaluation.h"
+
+namespace rondure::reports {
+
+/// Fills the characteristics of an evaluated feature: stated value, verdict under the rule and its
+/// reason. Void when a condition is missing: no result, a reference that does not exist for the
+/// points, no certificate behind it, a section that proves nothing, temperature or probe
+/// qualification outside the limits of the plan, a run that did not finish, a rule that is not
+/// known, or one that cannot be applied (apply_rule()).
+///
+/// @param probe  The qualification of the run; a touched feature without a sound one is void.
+void decide(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
+            const std::optional<fit::ProbeTip>& probe, FeatureResult& result);
+
+/// How warm the part was: "20.3 degC", "20.0 degC declared, not measured", "temperature not
+/// recorded"; with what bringing it to 20 degC did.
+[[nodiscard]] std::string temperature_words(const FeatureResult& result);
+
+/// Why temperature makes a result void: outside the limits, or neither measured nor declared. The
+/// limits hold for all that is touched, and for points of files and series where the plan has the
+/// object `environment`.
+[[nodiscard]] std::optional<std::string> temperature_fault(const record::RunRecord& record,
+                                                           const FeatureResult& result);
+
+/// Applies the rule to a characteristic whose value is stated and sound.
+void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out);
+
+/// Void when a feature failed; else the worst verdict of all toleranced characteristics, in the
+/// order void, does not conform, undecided, conforms; not toleranced when there is none.
+[[nodiscard]] Verdict overall(const std::vector<FeatureResult>& features);
+
+}  // namespace rondure::reports

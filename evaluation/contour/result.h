@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fit/contour/study.h"
+#include "evaluation/analysis.h"
+
+namespace rondure::reports {
+
+/// Everything found of a contour feature.
+struct ContourResult {
+  fit::ContourStudyOptions options;
+  fit::ContourStudy study;
+  std::vector<std::string> names;  ///< One a part.
+};
+
+[[nodiscard]] core::Result<AnalysisValue> value_of(const ContourResult& result,
+                                                   const record::Characteristic& characteristic);
+[[nodiscard]] ValueOperator operator_of(const ContourResult& result,
+                                        const record::Characteristic& characteristic,
+                                        const std::string& temperature);
+[[nodiscard]] std::string filter_text(const ContourResult& result);
+[[nodiscard]] std::string sampling_text(const ContourResult& result);
+
+}  // namespace rondure::reports

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "record/run_record.h"
+#include "evaluation/uncertainty/uncertainty.h"
+#include "evaluation/verdict.h"
+
+namespace rondure::reports {
+
+/// What was known of the parts before this one was measured: the spread of their form deviation.
+/// Zero below 0 mm, where no form deviation is.
+struct Prior {
+  enum class Kind { kGamma, kNormal };  ///< kNormal is cut at 0.
+  Kind kind = Kind::kGamma;
+  double mean_mm = 0.0;                ///< > 0. Of the normal one before the cut.
+  double standard_deviation_mm = 0.0;  ///< > 0; of the gamma one at most the mean.
+
+  /// Density at a value, up to a common factor.
+  [[nodiscard]] double density(double value_mm) const;
+};
+
+/// How a value and its tolerance make a verdict. Form deviations have one limit T, the upper one.
+struct DecisionRule {
+  enum class Kind { kSimpleAcceptance, kIso14253, kJcgm106, kNToOne, kGuardBand };
+  Kind kind = Kind::kSimpleAcceptance;
+  Measurand measurand = Measurand::kSampledPoints;  ///< What the verdict is about.
+  /// false: a value as read above the tolerance never conforms. true: by agreement of the parties
+  /// only the corrected value counts.
+  bool judge_corrected = false;
+  double guard_factor = 1.0;      ///< kIso14253: guard band in parts of the interval.
+  double consumer_risk_1 = 0.05;  ///< kJcgm106: of an accepted part, at most.
+  double producer_risk_1 = 0.05;  ///< kJcgm106: of a rejected part, at most.
+  std::optional<Prior> prior = {};
+  double ratio = 4.0;               ///< kNToOne: N.
+  double acceptance_guard_1 = 1.0;  ///< kGuardBand: in parts of U; < 0: relaxed.
+  double rejection_guard_1 = 1.0;   ///< kGuardBand: in parts of U; < 0: relaxed.
+  /// The statements that ASME B89.7.3.1 requires, as the plan words them.
+  std::string zones = {};
+  std::string outcomes = {};
+  std::string repeats = {};
+  std::string outliers = {};
+
+  [[nodiscard]] bool needs_interval() const { return kind != Kind::kSimpleAcceptance; }
+};
+
+/// "simple-acceptance", "iso-14253-1", "jcgm-106", "n-to-1", "guard-band"; "gamma", "normal".
+[[nodiscard]] std::string_view name_of(DecisionRule::Kind kind);
+[[nodiscard]] std::string_view name_of(Prior::Kind kind);
+
+/// The rule of a run, from its settings ("decision_rule/..."); a journal before version 4 says only
+/// its name. kMeaning for a name this program does not know: then every verdict is void.
+[[nodiscard]] core::Result<DecisionRule> rule_of(const record::RunRecord& record);
+
+/// What is known of a value.
+struct KnownValue {
+  double measured_mm = 0.0;  ///< Of the points as read, not corrected.
+  std::optional<UncertaintyStatement> statement = {};
+};
+
+/// Chances over all parts of the stated prior, with this measurement.
+struct GlobalRisks {
+  double false_acceptance_1 = 0.0;  ///< A part does not conform and is accepted.
+  double false_rejection_1 = 0.0;   ///< A part conforms and is rejected.
+};
+
+/// What a rule makes of a value.
+struct RuleOutcome {
+  Verdict verdict = Verdict::kUndecided;  ///< Never void: that is an error.
+  std::string sentence;                   ///< Why, with numbers.
+  double compared_mm = 0.0;    ///< The measured value (simple acceptance) or the corrected one.
+  double acceptance_mm = 0.0;  ///< A value up to this conforms; T minus the guard band.
+  double rejection_mm = 0.0;   ///< A value above this does not; T plus the guard band.
+  std::optional<double> conformance_1 = {};  ///< Probability that the part conforms.
+
+  /// The chance that this verdict is wrong: of an accepted part the specific consumer's risk, of a
+  /// rejected part the specific producer's risk. Nothing while undecided or without an interval.
+  [[nodiscard]] std::optional<double> specific_risk_1() const;
+};
+
+/// Applies a rule. Pure.
+///
+/// The errors of the value are taken to be distributed alike for every part of this kind: the
+/// distribution behind the statement, moved. `y` is the corrected value, [lo, hi] its interval,
+/// U = (hi - lo) / 2, P the probability that the part conforms:
+///   simple acceptance  conforms where the measured value <= T
+///   ISO 14253-1        y + f (hi - y) <= T conforms, y - f (y - lo) > T does not, else undecided
+///   JCGM 106           P >= 1 - R_c conforms, P <= R_p does not, else undecided
+///   N:1                only where T >= N (hi - lo): y <= T conforms, else does not
+///   guard band         y <= T - a U conforms, y > T + r U does not, else undecided
+/// Whatever the rule, a value as read above T does not conform unless corrected values are judged:
+/// the correction grows with the noise that the party declares whom it favours.
+/// @param tolerance_mm  T, > 0.
+/// @return  kMeaning, with the reason for a void verdict: no interval for the measurand of the
+///          rule, N:1 does not apply, the prior leaves the measurement no weight.
+/// Sources: ISO 14253-1:2017; JCGM 106:2012, 7 to 9; ASME B89.7.3.1-2001.
+[[nodiscard]] core::Result<RuleOutcome> apply_rule(const DecisionRule& rule,
+                                                   const KnownValue& value, double tolerance_mm);
+
+/// Global risks of JCGM 106, 9, of what apply_rule() gave: over the prior of the rule, with the
+/// errors of the compared value distributed as behind the statement for every part. Nothing without
+/// a prior or a distribution.
+[[nodiscard]] std::optional<GlobalRisks> global_risks(const DecisionRule& rule,
+                                                      const KnownValue& value,
+                                                      const RuleOutcome& outcome,
+                                                      double tolerance_mm);
+
+}  // namespace rondure::reports

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "core/result.h"
+#include "evaluation/factors/points.h"
+
+namespace rondure::reports {
+
+/// Rules that find outliers. Both look once, at the distances d from the least-squares reference
+/// (of each section for RONt) with p parameters.
+enum class OutlierRule {
+  kNone,
+  kThreeSigma,  ///< |d| > 3 s, s^2 = sum d^2 / (n - p).
+  /// |d - m| > 5 s, m = median d, s = 1.4826 median |d - m|, at least 0.1 um: one bad point cannot
+  /// widen its own limit. The scales of fit/wheel/outliers.h.
+  kFiveMedians,
+};
+inline constexpr std::array kOutlierRules = {OutlierRule::kNone, OutlierRule::kThreeSigma,
+                                             OutlierRule::kFiveMedians};
+
+/// "none", "3 sigma", "5 medians".
+[[nodiscard]] std::string_view name_of(OutlierRule rule);
+
+/// What a rule leaves.
+struct WithoutOutliers {
+  FactorPoints points;
+  std::size_t left_out = 0;
+};
+/// @return kOutliers when more than a quarter of the points (of a section) would go: that is form;
+///         the errors of the least-squares fit.
+[[nodiscard]] core::Result<WithoutOutliers> without_outliers(const FactorPoints& points,
+                                                             OutlierRule rule);
+
+}  // namespace rondure::reports

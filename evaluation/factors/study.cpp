@@ -1,0 +1,243 @@
+#include "evaluation/factors/study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/numbers.h"
+#include "evaluation/factors/outliers.h"
+#include "evaluation/feature_values.h"
+
+namespace rondure::reports {
+namespace {
+
+using core::signed_um;
+
+using record::Reference;
+
+constexpr std::array kStudiedReferences = {Reference::kLeastSquares, Reference::kMinimumZone,
+                                           Reference::kMinimumCircumscribed,
+                                           Reference::kMaximumInscribed};
+constexpr std::array kCutoffsUpr = {0.0, 15.0, 50.0, 150.0};  ///< 0: unfiltered.
+
+constexpr double kRoundOffMm = 1e-9;  ///< No change.
+
+/// Fills the cells of a study: one subset, one outlier rule, one filter after the other, so that
+/// each is made once.
+class Cells {
+ public:
+  Cells(const FactorPoints& points, FactorStudy& study)
+      : points_(points), subsets_(subsets_of(points)), study_(study) {}
+
+  void fill() {
+    study_.cells.resize(kStudiedReferences.size() * kCutoffsUpr.size() * kOutlierRules.size() *
+                        subsets_.size());
+    for (std::size_t s = 0; s < subsets_.size(); ++s) {
+      const FactorPoints subset = chosen(points_, subsets_[s]);
+      for (std::size_t o = 0; o < kOutlierRules.size(); ++o) fill_rule(subset, o, s);
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_reported(std::size_t r, std::size_t f, std::size_t o, std::size_t s) const {
+    return study_.reported == std::array{r, f, o, s};
+  }
+  FactorCell& cell(std::size_t reference, std::size_t filter, std::size_t rule,
+                   std::size_t subset) {
+    return study_.cells[((reference * kCutoffsUpr.size() + filter) * kOutlierRules.size() + rule) *
+                            subsets_.size() +
+                        subset];
+  }
+
+  void fill_rule(const FactorPoints& subset, std::size_t o, std::size_t s) {
+    const auto kept = without_outliers(subset, kOutlierRules[o]);
+    const bool same = kept && o > 0 && kept->left_out == 0;
+    for (std::size_t f = 0; f < kCutoffsUpr.size(); ++f) {
+      if (same) {  // nothing was left out: the values of no rule
+        for (std::size_t r = 0; r < kStudiedReferences.size(); ++r)
+          cell(r, f, o, s) = cell(r, f, 0, s);
+        continue;
+      }
+      const auto points = !kept ? core::Result<FactorPoints>(core::fail(kept.error()))
+                          : kCutoffsUpr[f] > 0.0 ? filtered(kept->points, kCutoffsUpr[f])
+                                                 : kept->points;
+      for (std::size_t r = 0; r < kStudiedReferences.size(); ++r) {
+        FactorCell& out = cell(r, f, o, s);
+        const auto value = points ? deviation_mm(*points, kStudiedReferences[r])
+                                  : core::Result<double>(core::fail(points.error()));
+        if (value) out.value_mm = *value;
+        if (!value) out.why = value.error().what;
+        if (is_reported(r, f, o, s)) out = {study_.reported_mm, {}, 0, 0};  // it is certified
+        out.points = kept ? kept->points.count() : subset.count();
+        out.left_out = kept ? kept->left_out : 0;
+      }
+    }
+  }
+
+  const FactorPoints& points_;
+  std::vector<PointSubset> subsets_;
+  FactorStudy& study_;
+};
+
+void name_levels(const FactorPoints& points, record::Shape shape, FactorStudy& study) {
+  for (const Reference reference : kStudiedReferences)
+    study.levels[at(Factor::kReference)].push_back(reference_of(reference, shape));
+  for (const double cutoff : kCutoffsUpr) {
+    study.levels[at(Factor::kFilter)].push_back(
+        cutoff > 0.0 ? fmt::format("Gaussian {:g} UPR", cutoff) : "unfiltered");
+  }
+  for (const OutlierRule rule : kOutlierRules)
+    study.levels[at(Factor::kOutliers)].emplace_back(name_of(rule));
+  for (const PointSubset subset : subsets_of(points))
+    study.levels[at(Factor::kSampling)].emplace_back(name_of(subset));
+}
+
+FactorEffect effect_of(const FactorStudy& study, Factor factor) {
+  FactorEffect out;
+  out.strongest = study.reported[at(factor)];
+  double farthest_mm = 0.0;
+  for (std::size_t level = 0; level < study.levels[at(factor)].size(); ++level) {
+    const FactorCell& cell = study.changed(factor, level);
+    if (!cell.value_mm) continue;
+    ++out.levels;
+    const double change_mm = *cell.value_mm - study.reported_mm;
+    out.least_change_mm = std::min(out.least_change_mm, change_mm);
+    out.greatest_change_mm = std::max(out.greatest_change_mm, change_mm);
+    if (std::abs(change_mm) <= std::max(farthest_mm, kRoundOffMm)) continue;
+    farthest_mm = std::abs(change_mm);
+    out.strongest = level;
+  }
+  return out;
+}
+
+FactorTable table_of(const FactorStudy& study) {
+  FactorTable out;
+  for (const auto& levels : study.levels) out.levels.push_back(levels.size());
+  for (const FactorCell& cell : study.cells) out.values.push_back(cell.value_mm);
+  return out;
+}
+
+record::Shape shape_of(record::Form form) {
+  return form == record::Form::kRoundness ? record::Shape::kCircle : record::Shape::kCylinder;
+}
+
+/// What a change is called where it is the farthest of its factor.
+std::string change_words(const FactorStudy& study, Factor factor) {
+  const FactorEffect& effect = study.effects[at(factor)];
+  const FactorCell& cell = study.changed(factor, effect.strongest);
+  const double change_mm = *cell.value_mm - study.reported_mm;
+  return fmt::format("{} um ({})", signed_um(change_mm),
+                     study.levels[at(factor)][effect.strongest]);
+}
+
+/// Why the first other level of a factor has no value, without what follows a colon.
+std::string why_not(const FactorStudy& study, Factor factor) {
+  const std::size_t level = study.reported[at(factor)] == 0 ? 1 : 0;
+  const std::string& why = study.changed(factor, level).why;
+  return why.substr(0, why.find(": "));
+}
+
+/// "the reference changes it by up to +1.200 um (LSCY)".
+std::string factor_words(const FactorStudy& study, Factor factor) {
+  constexpr std::array<std::string_view, 4> kNames = {"the reference", "the filter",
+                                                      "leaving out outliers", "the sampling"};
+  const std::string_view name = kNames[at(factor)];
+  const FactorEffect& effect = study.effects[at(factor)];
+  if (effect.levels < 2)
+    return fmt::format("{} cannot be tried ({})", name, why_not(study, factor));
+  if (effect.strongest == study.reported[at(factor)])
+    return fmt::format("{} changes nothing", name);
+  return fmt::format("{} changes it by up to {}", name, change_words(study, factor));
+}
+
+}  // namespace
+
+std::string_view name_of(Factor factor) {
+  constexpr std::array<std::string_view, 4> kNames = {"reference", "filter", "outliers",
+                                                      "sampling"};
+  return kNames[at(factor)];
+}
+
+const FactorCell& FactorStudy::cell(const std::array<std::size_t, 4>& levels_of) const {
+  std::size_t index = 0;
+  for (std::size_t f = 0; f < levels.size(); ++f) index = index * levels[f].size() + levels_of[f];
+  return cells[index];
+}
+
+const FactorCell& FactorStudy::changed(Factor factor, std::size_t level) const {
+  auto combination = reported;
+  combination[at(factor)] = level;
+  return cell(combination);
+}
+
+core::Result<FactorStudy> study_factors(const FeatureResult& feature,
+                                        const CharacteristicResult& characteristic) {
+  const record::Characteristic& asked = characteristic.characteristic;
+  if (asked.form != record::Form::kCylindricity && asked.form != record::Form::kRoundness) {
+    return core::fail(core::Code::kMeaning,
+                      fmt::format("{} has no reference to exchange", record::name_of(asked.form)));
+  }
+  const auto points = factor_points(feature, asked.form);
+  if (!points) return core::fail(points.error());
+  if (!characteristic.value) return core::fail(core::Code::kReferenceAbsent, characteristic.reason);
+  FactorStudy out;
+  out.feature = feature.feature.id;
+  out.characteristic = asked;
+  out.symbol = symbol_of(asked);
+  out.value = characteristic.value->value_text();
+  out.operator_words = characteristic.value->operator_text();
+  out.reported_mm = characteristic.value->value_mm();
+  name_levels(*points, shape_of(asked.form), out);
+  for (std::size_t r = 0; r < kStudiedReferences.size(); ++r) {
+    if (kStudiedReferences[r] == asked.reference) out.reported[at(Factor::kReference)] = r;
+  }
+  Cells(*points, out).fill();
+  for (const Factor factor : kFactors) out.effects[at(factor)] = effect_of(out, factor);
+  out.shares = factor_shares(table_of(out), out.reported);
+  return out;
+}
+
+core::Result<RunComparison> compare_run(const Evaluation& evaluation) {
+  RunComparison out;
+  for (const FeatureResult& feature : evaluation.features) {
+    const std::string& id = feature.feature.id;
+    if (record::is_analysis(feature.feature.shape)) {
+      out.without.push_back({core::Code::kNoPoints,
+                             fmt::format("a {} has no reference surface to exchange",
+                                         record::name_of(feature.feature.shape)),
+                             id});
+      continue;
+    }
+    for (const CharacteristicResult& characteristic : feature.characteristics) {
+      const std::string place = fmt::format("{} / {}", id, characteristic.characteristic.id);
+      auto study = study_factors(feature, characteristic);
+      if (study) out.studies.push_back(*std::move(study));
+      if (!study) out.without.push_back(study.error().at(place));
+    }
+  }
+  if (!out.studies.empty()) return out;
+  std::string what = "no cylinder or circle of this run has a value to compare";
+  for (const core::Error& error : out.without)
+    what += fmt::format("; {}: {}", error.where, error.what);
+  return core::fail(core::Code::kNoPoints, what);
+}
+
+std::string answer_of(const FactorStudy& study) {
+  std::string out = fmt::format("{} is {} as reported", study.symbol, study.value);
+  for (const Factor factor : kFactors) {
+    const bool first = factor == kFactors.front();
+    const bool last = factor == kFactors.back();
+    out += fmt::format("{}{}", first ? "; " : last ? ", and " : ", ", factor_words(study, factor));
+  }
+  if (!study.shares) return out + ".";
+  const auto& shares = study.shares->share_1;
+  const auto most = std::max_element(shares.begin(), shares.end());
+  return out + fmt::format(
+                   "; the greatest share of the spread of all combinations is that of the {}, "
+                   "{:.0f} %.",
+                   name_of(static_cast<Factor>(most - shares.begin())), 100.0 * *most);
+}
+
+}  // namespace rondure::reports

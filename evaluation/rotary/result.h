@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fit/rotary/axes.h"
+#include "fixture/error_model.h"
+#include "evaluation/analysis.h"
+
+namespace rondure::reports {
+
+/// What is left at one combined pose.
+struct CombinedPose {
+  core::Pose pose;  ///< As the fixture read it.
+  std::size_t points = 0;
+  double rms_mm = 0.0;
+  double max_mm = 0.0;
+  double tilt_rad = 0.0;       ///< Turn that is left.
+  double before_rms_mm = 0.0;  ///< Against the nominal kinematics.
+};
+
+/// Everything found of the fixture.
+struct RotaryResult {
+  fit::RotaryStudy alpha;
+  fit::RotaryStudy beta;
+  std::vector<std::string> balls;
+  std::size_t poses = 0;
+  std::size_t touches = 0;
+  double touch_sigma_mm = 0.0;  ///< Pooled scatter of a touch about its ball.
+  double center_u_mm = 0.0;     ///< Root mean square standard uncertainty of a centre coordinate.
+  double condition = 0.0;       ///< Of all balls; see fit::BallSetup.
+  std::vector<CombinedPose> combined;
+  fixture::Calibration calibration;
+};
+
+[[nodiscard]] core::Result<AnalysisValue> value_of(const RotaryResult& result,
+                                                   const record::Characteristic& characteristic);
+[[nodiscard]] ValueOperator operator_of(const RotaryResult& result,
+                                        const record::Characteristic& characteristic,
+                                        const std::string& temperature);
+[[nodiscard]] std::string filter_text(const RotaryResult& result);
+[[nodiscard]] std::string sampling_text(const RotaryResult& result);
+
+/// One axis: "alpha" or "beta", and which study it is.
+struct AxisFacts {
+  const char* key = "";
+  const fit::RotaryStudy* study = nullptr;
+  const fixture::StationMotion* motion = nullptr;
+};
+[[nodiscard]] std::vector<AxisFacts> axes_of(const RotaryResult& facts);
+
+}  // namespace rondure::reports

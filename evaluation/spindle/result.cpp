@@ -1,0 +1,177 @@
+#include "evaluation/spindle/result.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/numbers.h"
+#include "core/units.h"
+#include "evaluation/deviation.h"
+#include "evaluation/feature_values.h"
+
+namespace rondure::reports {
+namespace {
+
+using core::Code;
+using core::um;
+using record::Form;
+
+fit::CircleReference circle_of(record::Reference reference) {
+  switch (reference) {
+    case record::Reference::kLeastSquares:
+      return fit::CircleReference::kLs;
+    case record::Reference::kMinimumZone:
+      return fit::CircleReference::kMz;
+    case record::Reference::kMinimumCircumscribed:
+      return fit::CircleReference::kMc;
+    case record::Reference::kMaximumInscribed:
+      return fit::CircleReference::kMi;
+  }
+  return fit::CircleReference::kMz;
+}
+
+const fit::Roundness* roundness_about(const fit::RoundnessEvaluation& evaluation,
+                                      fit::CircleReference reference) {
+  for (const fit::Roundness& value : evaluation.values) {
+    if (value.reference == reference) return &value;
+  }
+  return nullptr;
+}
+
+/// Readings that contradict what is stated, or are none, falsify everything.
+std::optional<std::string> contradiction_of(const SpindleResult& facts) {
+  if (facts.separation.contradictions.empty()) return std::nullopt;
+  return facts.separation.contradictions.front().what;
+}
+
+/// Harmonics that were dropped falsify part and motion.
+std::optional<std::string> loss_of(const SpindleResult& facts) {
+  if (auto contradiction = contradiction_of(facts)) return contradiction;
+  if (facts.separation.unrecovered.empty()) return std::nullopt;
+  return fmt::format("{} harmonics were not recovered", facts.separation.unrecovered.size());
+}
+
+core::Result<AnalysisValue> roundness_value(const SpindleResult& facts,
+                                            const record::Characteristic& asked) {
+  const bool rms = asked.form == Form::kRoundnessRms;
+  const auto reference = rms ? fit::CircleReference::kLs : circle_of(asked.reference);
+  const fit::Roundness* found = roundness_about(facts.roundness, reference);
+  if (found == nullptr) {
+    return core::fail(Code::kReferenceAbsent, "the profile has no such reference circle");
+  }
+  AnalysisValue out;
+  out.value_mm = rms ? found->parameters->rms_mm : found->total_mm;
+  out.void_because = loss_of(facts);
+  if (rms || !found->range) return out;
+  out.value_mm = deciding_mm(*found->range, asked.tolerance_mm);
+  if (!out.void_because) out.void_because = undecided_range(*found->range, asked.tolerance_mm);
+  return out;
+}
+
+/// The harmonic that comes nearest to its limit, or goes farthest beyond.
+core::Result<AnalysisValue> mask_value(const SpindleResult& facts,
+                                       const record::Characteristic& asked) {
+  AnalysisValue out;
+  out.void_because = contradiction_of(facts);
+  double worst = -1.0;
+  for (const record::HarmonicLimit& line : asked.harmonic_limits) {
+    for (const fit::RecoveredHarmonic& h : facts.separation.harmonics) {
+      if (h.order < line.first || h.order > line.last) continue;
+      if (!h.recovered) {
+        out.void_because = fmt::format("harmonic {} was not recovered", h.order);
+        continue;
+      }
+      if (h.amplitude_mm / line.amplitude_mm <= worst) continue;
+      worst = h.amplitude_mm / line.amplitude_mm;
+      out.value_mm = h.amplitude_mm;
+      out.limit_mm = line.amplitude_mm;
+      out.detail = fmt::format("harmonic {} is nearest to its limit", h.order);
+    }
+    const int highest = facts.separation.harmonics.back().order;
+    if (line.last > highest) {
+      out.void_because = fmt::format("the mask reaches to harmonic {}, {} is the highest recovered",
+                                     line.last, highest);
+    }
+  }
+  if (worst < 0.0) {
+    return core::fail(Code::kMeaning, "the mask names no harmonic that was recovered");
+  }
+  return out;
+}
+
+core::Result<AnalysisValue> motion_value(const SpindleResult& facts, Form form) {
+  AnalysisValue out;
+  const auto greater = [&](double x_mm, double y_mm) {
+    out.value_mm = std::max(x_mm, y_mm);
+    out.detail = x_mm >= y_mm ? "direction X" : "direction Y";
+  };
+  if (form == Form::kMotionTotal) greater(facts.x.total_mm, facts.y.total_mm);
+  if (form == Form::kMotionSynchronous) greater(facts.x.synchronous_mm, facts.y.synchronous_mm);
+  if (form == Form::kMotionAsynchronous) {
+    if (!facts.x.asynchronous_mm) {
+      return core::fail(Code::kSampling,
+                        "one revolution shows no asynchronous motion; record more");
+    }
+    greater(*facts.x.asynchronous_mm, *facts.y.asynchronous_mm);
+    out.void_because = contradiction_of(facts);  // does not depend on the part
+    return out;
+  }
+  out.void_because = loss_of(facts);
+  return out;
+}
+
+}  // namespace
+
+core::Result<AnalysisValue> value_of(const SpindleResult& facts,
+                                     const record::Characteristic& asked) {
+  switch (asked.form) {
+    case Form::kRoundness:
+    case Form::kRoundnessRms:
+      return roundness_value(facts, asked);
+    case Form::kHarmonicLimits:
+      return mask_value(facts, asked);
+    case Form::kMotionTotal:
+    case Form::kMotionSynchronous:
+    case Form::kMotionAsynchronous:
+      return motion_value(facts, asked.form);
+    default:
+      return core::fail(Code::kMeaning, fmt::format("a spindle has no {}", name_of(asked.form)));
+  }
+}
+
+std::string filter_text(const SpindleResult& facts) {
+  const fit::FilterOptions& filter = facts.roundness.filter;
+  if (filter.filter == fit::ProfileFilter::kNone) return "unfiltered";
+  return fmt::format("gaussian low pass {:g} UPR", filter.cutoff_upr);
+}
+
+std::string sampling_text(const SpindleResult& facts) {
+  const auto turns = static_cast<std::size_t>(facts.separation.revolutions);
+  return fmt::format("{} of {} samples",
+                     turns == 1 ? "1 revolution" : fmt::format("{} revolutions", turns),
+                     facts.separation.profile.r_mm.size());
+}
+
+ValueOperator operator_of(const SpindleResult& facts, const record::Characteristic& asked,
+                          const std::string& temperature) {
+  const bool part = asked.form == Form::kRoundness || asked.form == Form::kRoundnessRms;
+  const fit::ThreeProbeResult& s = facts.separation;
+  const auto angles = s.layout.angles_rad();
+  const std::string how = fmt::format(
+      "three probes at 0, {:.4f}, {:.4f} deg; {}; harmonics 2 to {}", angles[1] / core::kDegree,
+      angles[2] / core::kDegree, sampling_text(facts), s.harmonics.back().order);
+  const bool unfiltered = asked.form == Form::kHarmonicLimits;
+  const std::string reference =
+      part         ? reference_of(asked)
+      : unfiltered ? "amplitudes"
+                   : "ISO 230-7, fixed direction, about the least-squares centre of the mean "
+                     "revolution";
+  return {ReferenceTerm(reference),
+          FilterTerm(part         ? filter_text(facts)
+                     : unfiltered ? "before the filter"
+                                  : "unfiltered"),
+          SamplingTerm(how), TipTerm("displacement probes"), TemperatureTerm(temperature)};
+}
+
+}  // namespace rondure::reports

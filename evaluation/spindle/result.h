@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+#include "fit/profiles/roundness_evaluation.h"
+#include "fit/spindle/axis_motion.h"
+#include "fit/spindle/three_probe.h"
+#include "evaluation/analysis.h"
+
+namespace rondure::reports {
+
+/// Everything found of a spindle feature.
+struct SpindleResult {
+  fit::SwingArm arm;
+  fit::ThreeProbeResult separation;
+  fit::RoundnessEvaluation roundness;  ///< Of the recovered profile.
+  fit::AxisMotion x;                   ///< ISO 230-7, fixed directions.
+  fit::AxisMotion y;
+};
+
+[[nodiscard]] core::Result<AnalysisValue> value_of(const SpindleResult& result,
+                                                   const record::Characteristic& characteristic);
+[[nodiscard]] ValueOperator operator_of(const SpindleResult& result,
+                                        const record::Characteristic& characteristic,
+                                        const std::string& temperature);
+[[nodiscard]] std::string filter_text(const SpindleResult& result);
+[[nodiscard]] std::string sampling_text(const SpindleResult& result);
+
+/// Roundness of a recovered profile, all references.
+/// @param cutoff_upr  Gaussian low pass; 0: unfiltered.
+[[nodiscard]] core::Result<SpindleResult> spindle_facts(const fit::ProbeReadings& readings,
+                                                        const fit::SwingArm& arm,
+                                                        const fit::ProbeLayout& layout,
+                                                        const fit::ThreeProbeOptions& options,
+                                                        double cutoff_upr, bool inside);
+
+/// The readings of a series with the columns alpha_deg, H1_um, H2_um, H3_um[, beta_deg].
+[[nodiscard]] fit::ProbeReadings probe_readings(const record::Series& series);
+
+}  // namespace rondure::reports

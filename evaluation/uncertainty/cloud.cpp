@@ -1,0 +1,96 @@
+#include "evaluation/uncertainty/cloud.h"
+
+#include <cmath>
+
+#include "core/decompositions.h"
+#include "fit/least_squares/circle.h"
+#include "fit/least_squares/cylinder.h"
+
+namespace rondure::reports {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+/// Axis and radius, by least squares.
+core::Result<FormCloud> located(FormKind kind, std::span<const Vector3d> points_mm,
+                                const std::optional<Vector3d>& near_direction) {
+  FormCloud cloud;
+  cloud.kind = kind;
+  if (kind == FormKind::kCylindricity) {
+    const auto cylinder = fit::ls_cylinder(points_mm, near_direction);
+    if (!cylinder) return core::fail(cylinder.error());
+    cloud.axis = cylinder->axis;
+    cloud.radius_mm = cylinder->radius_mm;
+    return cloud;
+  }
+  cloud.axis.direction = near_direction.value_or(Vector3d::UnitZ()).normalized();
+  const auto across = fit::across(cloud.axis.direction);
+  const Vector3d origin = points_mm.empty() ? Vector3d::Zero() : points_mm.front();
+  std::vector<Eigen::Vector2d> plane;
+  plane.reserve(points_mm.size());
+  for (const Vector3d& p : points_mm) plane.emplace_back(across.transpose() * (p - origin));
+  const auto circle = fit::ls_circle(plane);
+  if (!circle) return core::fail(circle.error());
+  cloud.axis.point_mm = origin + across * circle->center_mm;
+  cloud.radius_mm = circle->radius_mm;
+  return cloud;
+}
+
+}  // namespace
+
+core::Result<FormCloud> form_cloud(FormKind kind, std::span<const Vector3d> points_mm,
+                                   const std::optional<Vector3d>& near_direction) {
+  auto cloud = located(kind, points_mm, near_direction);
+  if (!cloud) return cloud;
+  const auto across = fit::across(cloud->axis.direction);
+  const double last = std::max(1.0, static_cast<double>(points_mm.size()) - 1.0);
+  for (const Vector3d& p : points_mm) {
+    const Vector3d from_axis = p - cloud->axis.point_mm;
+    const Eigen::Vector2d in_plane = across.transpose() * from_axis;
+    FormPoint point;
+    point.angle_rad = std::atan2(in_plane.y(), in_plane.x());
+    if (kind == FormKind::kCylindricity) {
+      point.height_mm = from_axis.dot(cloud->axis.direction);
+    }
+    point.deviation_mm = in_plane.norm() - cloud->radius_mm;
+    point.time_1 = static_cast<double>(cloud->points.size()) / last;
+    cloud->points.push_back(point);
+  }
+  return cloud;
+}
+
+Vector3d outward_normal(const FormCloud& cloud, const FormPoint& point) {
+  const auto across = fit::across(cloud.axis.direction);
+  return across * Eigen::Vector2d(std::cos(point.angle_rad), std::sin(point.angle_rad));
+}
+
+Vector3d position_mm(const FormCloud& cloud, const FormPoint& point) {
+  return cloud.axis.point_mm + point.height_mm * cloud.axis.direction +
+         (cloud.radius_mm + point.deviation_mm) * outward_normal(cloud, point);
+}
+
+Eigen::MatrixXd rigid_basis(const FormCloud& cloud) {
+  const Index n = static_cast<Index>(cloud.points.size());
+  const Index unknowns = cloud.kind == FormKind::kCylindricity ? 5 : 3;
+  double middle = 0.0;
+  for (const FormPoint& p : cloud.points) middle += p.height_mm / static_cast<double>(n);
+  double reach = 0.0;
+  for (const FormPoint& p : cloud.points) {
+    reach = std::max(reach, std::abs(p.height_mm - middle));
+  }
+  Eigen::MatrixXd basis(n, unknowns);
+  for (Index i = 0; i < n; ++i) {
+    const FormPoint& p = cloud.points[static_cast<std::size_t>(i)];
+    const double c = std::cos(p.angle_rad);
+    const double s = std::sin(p.angle_rad);
+    const double q = reach > 0.0 ? (p.height_mm - middle) / reach : 0.0;
+    basis.row(i).head(3) << 1.0, c, s;
+    if (unknowns == 5) basis.row(i).tail(2) << q * c, q * s;
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(basis);
+  qr.setThreshold(1e-9);
+  return Eigen::MatrixXd(qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank()));
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "evaluation/uncertainty/cloud.h"
+#include "evaluation/uncertainty/spectrum.h"
+
+namespace rondure::reports {
+
+/// Columns that come and go together: cos and sin of one undulation times one degree.
+struct FormGroup {
+  double undulations = 0.0;           ///< On an arc half waves, counted as undulations of a turn.
+  int harmonic = 0;                   ///< Undulations, on an arc half waves along it.
+  int degree = 0;                     ///< Along the axis.
+  std::vector<Eigen::Index> columns;  ///< Into all columns; one or two.
+  /// Octave of the undulations and class of the degree (0; 1 and 2; 3 and more): groups alike have
+  /// a size in common.
+  int octave = 0;
+  int degree_class = 0;
+};
+
+/// How the points of a cloud lie, as far as it says which form they show.
+struct PointLayout {
+  int layers = 1;
+  int points_per_layer = 0;  ///< Of the layer with the fewest, in one pass; of a helix, a turn.
+  bool layered = true;       ///< false: a helix, or scattered.
+  bool regular = false;      ///< Even steps, all layers alike: the columns are orthogonal.
+  std::optional<double> arc_rad;  ///< Of points that do not go round.
+};
+
+/// Places of a whole surface, in even steps round it, with what the columns need there.
+struct FormGrid {
+  int undulations = 0;  ///< The most that it is fine enough for.
+  Eigen::VectorXd angles_rad;
+  Eigen::VectorXd heights_mm;
+  Eigen::VectorXd heights_1;  ///< As the columns count them.
+  Eigen::MatrixXd cosines;    ///< One row an angle, one column an undulation.
+  Eigen::MatrixXd sines;
+  Eigen::MatrixXd along;  ///< One row a height, one column a degree.
+};
+
+/// The columns of a form model at the points of a cloud: undulations times polynomials along the
+/// axis, without place, size and tilt. Values are made anew where they are needed: 5000 points have
+/// 1200 columns.
+class FormColumns {
+ public:
+  /// All that the points can tell apart, orthonormal over them.
+  FormColumns(const FormCloud& cloud, const Eigen::VectorXd& root_weights);
+  /// The terms of a declared spectrum, with the motions of the part still in them: what looks like
+  /// size at few points is form between them.
+  FormColumns(const FormCloud& cloud, const Eigen::VectorXd& root_weights,
+              const FormSpectrum& spectrum);
+
+  [[nodiscard]] const PointLayout& layout() const { return layout_; }
+  [[nodiscard]] const std::vector<FormGroup>& groups() const { return groups_; }
+  [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(columns_.size()); }
+  [[nodiscard]] int most_undulations() const { return most_undulations_; }
+  [[nodiscard]] int most_degree() const { return most_degree_; }
+
+  /// Place, size and tilt: n x 5 (3 for a section), orthogonal, mean square 1.
+  [[nodiscard]] const Eigen::MatrixXd& rigid() const { return rigid_; }
+
+  /// X^T values, of all columns.
+  [[nodiscard]] Eigen::VectorXd products(const Eigen::VectorXd& values) const;
+  /// Columns of some groups, in their order.
+  [[nodiscard]] Eigen::MatrixXd matrix(std::span<const std::size_t> groups) const;
+
+  /// A grid of a full turn, for forms of at most so many undulations.
+  [[nodiscard]] FormGrid grid(int undulations, int angles, const Eigen::VectorXd& heights_mm) const;
+  /// Values of a form on it: one row an angle, one column a height.
+  /// @param coefficients  Of all columns; those of more undulations than the grid has are 0.
+  [[nodiscard]] Eigen::MatrixXd on_grid(const Eigen::VectorXd& coefficients,
+                                        const FormGrid& grid) const;
+
+ private:
+  struct Column {
+    int harmonic = 0;
+    int degree = 0;
+    bool sine = false;
+    double scale = 1.0;
+    Eigen::VectorXd rigid;  ///< Its part in rigid_; empty where motions stay.
+  };
+
+  void lay_out(const FormCloud& cloud);
+  void make_rigid(const FormCloud& cloud, const Eigen::VectorXd& root_weights);
+  [[nodiscard]] Eigen::VectorXd heights_1(const Eigen::VectorXd& heights_mm) const;
+  void make_polynomials(const Eigen::VectorXd& q, int degrees);
+  [[nodiscard]] Eigen::MatrixXd polynomials(const Eigen::VectorXd& q) const;
+  void project(std::vector<Column> wanted);
+  void visit(const std::function<void(std::size_t, const Eigen::VectorXd&)>& work) const;
+
+  PointLayout layout_;
+  Eigen::VectorXd angle_;  ///< On an arc its share, times pi.
+  Eigen::VectorXd height_mm_;
+  Eigen::VectorXd root_weight_;
+  double middle_mm_ = 0.0;
+  double reach_mm_ = 0.0;  ///< Height of q = 1 above the middle.
+  bool legendre_ = false;
+  Eigen::MatrixXd recurrence_;  ///< Shift and scale of each polynomial.
+  Eigen::MatrixXd along_;       ///< Polynomials at the points, weighted.
+  Eigen::MatrixXd rigid_;
+  Eigen::MatrixXd rigid_map_;  ///< From 1, cos, sin, q cos, q sin to rigid_.
+  std::vector<Column> columns_;
+  std::vector<FormGroup> groups_;
+  int most_undulations_ = 0;
+  int most_degree_ = 0;
+};
+
+}  // namespace rondure::reports

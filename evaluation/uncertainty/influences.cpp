@@ -1,0 +1,244 @@
+#include "evaluation/uncertainty/influences.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace rondure::reports {
+namespace {
+
+using core::Code;
+
+constexpr double kUm = 1e3;  // um in a mm
+
+using Numbers = std::vector<std::pair<std::string, double>>;
+
+core::Result<void> check_numbers(const Numbers& numbers, bool signs) {
+  for (const auto& [name, value] : numbers) {
+    if (std::isfinite(value) && (signs || value >= 0.0)) continue;
+    return core::fail(Code::kBadOption,
+                      fmt::format("{} {} is not a number{}", name, value, signs ? "" : " >= 0"));
+  }
+  return {};
+}
+
+core::Result<void> check_probe(const ProbeInfluences& probe) {
+  Numbers numbers = {{"probe repeatability_mm", probe.repeatability_mm},
+                     {"probe degrees_of_freedom", probe.degrees_of_freedom},
+                     {"probe correlation_length_mm", probe.correlation_length_mm},
+                     {"probing form_limit_mm", probe.form_limit_mm},
+                     {"tip_radius_mm", probe.tip_radius_mm}};
+  for (const cmm::PretravelLobe& lobe : probe.lobes) {
+    numbers.emplace_back("lobe amplitude_mm", lobe.amplitude_mm);
+    numbers.emplace_back("lobe order", lobe.order);
+  }
+  return check_numbers(numbers, false);
+}
+
+core::Result<void> check_machine(const MachineInfluences& machine) {
+  const auto limits = check_numbers({{"length_limit_mm", machine.length_limit_mm},
+                                     {"length_limit_slope", machine.length_limit_slope}},
+                                    false);
+  if (!limits) return limits;
+  const cmm::GeometricErrors& terms = machine.terms;
+  Numbers numbers = {{"squareness_xy_rad", terms.squareness_xy_rad},
+                     {"squareness_xz_rad", terms.squareness_xz_rad},
+                     {"squareness_yz_rad", terms.squareness_yz_rad},
+                     {"tip_offset_mm", terms.tip_offset_mm.sum()}};
+  for (const cmm::AxisErrors& axis : terms.axes) {
+    for (const auto* curves : {&axis.translation, &axis.rotation}) {
+      for (const cmm::ErrorCurve& curve : *curves) {
+        numbers.emplace_back("linear coefficient", curve.linear_1_mm);
+        numbers.emplace_back("quadratic coefficient", curve.quadratic_1_mm2);
+        numbers.emplace_back("wave", curve.wave);
+        if (curve.period_mm > 0.0) continue;
+        return core::fail(Code::kBadOption,
+                          fmt::format("wave period {} mm is not > 0", curve.period_mm));
+      }
+    }
+  }
+  return check_numbers(numbers, true);  // typical_errors() has signs; a spread has none
+}
+
+core::Result<void> check_thermal(const ThermalInfluences& thermal) {
+  const auto signs = check_numbers({{"from_reference_K", thermal.from_reference_K}}, true);
+  if (!signs) return signs;
+  return check_numbers({{"temperature_K", thermal.temperature_K},
+                        {"expansion_1_K", thermal.expansion_1_K},
+                        {"expansion_uncertainty_1_K", thermal.expansion_uncertainty_1_K},
+                        {"drift_K", thermal.drift_K},
+                        {"machine_drift_mm x", thermal.machine_drift_mm.x()},
+                        {"machine_drift_mm y", thermal.machine_drift_mm.y()},
+                        {"machine_drift_mm z", thermal.machine_drift_mm.z()}},
+                       false);
+}
+
+core::Result<void> check_fixture(const FixtureInfluences& fixture) {
+  if (fixture.pivot_mm && !fixture.pivot_mm->allFinite()) {
+    return core::fail(Code::kBadOption, "pivot_mm of the fixture is not finite");
+  }
+  return check_numbers({{"fixture angle_rad", fixture.angle_rad},
+                        {"fixture position_mm", fixture.position_mm},
+                        {"fixture creep_rad", fixture.creep_rad}},
+                       false);
+}
+
+/// Writes the declaration, one line an influence.
+class Declaration {
+ public:
+  void group(bool declared) { declared_ = declared; }
+
+  void line(std::string name, const std::string& text) {
+    lines.push_back({std::move(name), declared_, declared_ ? text : "not declared"});
+  }
+
+  /// One of two ways to say the same: without a number it is not declared.
+  void limit(std::string name, bool given, const std::string& text) {
+    const bool covered = declared_ && given;
+    lines.push_back({std::move(name), covered, covered ? text : "not declared"});
+  }
+
+  void never(std::string name, std::string text) {
+    lines.push_back({std::move(name), false, std::move(text)});
+  }
+
+  std::vector<InfluenceStatement> lines;
+
+ private:
+  bool declared_ = false;
+};
+
+void say_probe(const std::optional<ProbeInfluences>& declared, Declaration& out) {
+  const ProbeInfluences probe = declared.value_or(ProbeInfluences{});
+  out.group(declared.has_value());
+  const double sigma_um = kUm * probe.repeatability_mm;
+  std::string repeatability =
+      fmt::format("standard deviation {:.4g} um of a touch, normal", sigma_um);
+  if (probe.degrees_of_freedom > 0.0) {
+    repeatability =
+        fmt::format("{}; {:.4g} degrees of freedom", repeatability, probe.degrees_of_freedom);
+  }
+  repeatability = probe.correlation_length_mm > 0.0
+                      ? fmt::format("{}; neighbours alike over {:.4g} mm", repeatability,
+                                    probe.correlation_length_mm)
+                      : fmt::format("{}; each touch anew", repeatability);
+  out.limit("probe-repeatability", probe.repeatability_known, repeatability);
+  std::string lobes;
+  for (const cmm::PretravelLobe& lobe : probe.lobes) {
+    lobes += fmt::format("{}{} lobes of amplitude {:.4g} um", lobes.empty() ? "" : ", ", lobe.order,
+                         kUm * lobe.amplitude_mm);
+  }
+  out.line("probe-lobing",
+           (lobes.empty() ? std::string("none") : lobes) + ", phase unknown, uniform");
+  out.limit("probing-form-limit", probe.form_limit_mm > 0.0,
+            fmt::format("P_FTU {:.4g} um (ISO 10360-5): normal, standard deviation P / 3.93",
+                        kUm * probe.form_limit_mm));
+  out.line("tip-qualification", fmt::format("radius {:.4g} um, normal; moves radii, no form",
+                                            kUm * probe.tip_radius_mm));
+}
+
+/// Whether a curve has anything but zeros.
+bool says(const cmm::ErrorCurve& curve) {
+  return curve.linear_1_mm != 0.0 || curve.quadratic_1_mm2 != 0.0 || curve.wave != 0.0;
+}
+
+void say_machine(const std::optional<MachineInfluences>& declared, Declaration& out) {
+  const MachineInfluences machine = declared.value_or(MachineInfluences{});
+  const std::string terms =
+      "standard uncertainty of each coefficient, normal; waves with unknown phase, uniform";
+  out.group(declared.has_value());
+  bool position = false;
+  bool straightness = false;
+  bool rotation = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      bool& translation = i == axis ? position : straightness;
+      translation = translation || says(machine.terms.axes[axis].translation[i]);
+      rotation = rotation || says(machine.terms.axes[axis].rotation[i]);
+    }
+  }
+  const auto said = [&](bool any, const char* names) {
+    return any ? terms + names : std::string("declared as nothing");
+  };
+  out.line("machine-position", said(position, " (EXX, EYY, EZZ)"));
+  out.line("machine-straightness", said(straightness, " (EYX ... EYZ)"));
+  out.line("machine-rotation", said(rotation, " (EAX ... ECZ)"));
+  out.line("machine-squareness",
+           fmt::format("standard uncertainty {:.4g}, {:.4g}, {:.4g} urad (xy, xz, yz), normal",
+                       1e6 * std::abs(machine.terms.squareness_xy_rad),
+                       1e6 * std::abs(machine.terms.squareness_xz_rad),
+                       1e6 * std::abs(machine.terms.squareness_yz_rad)));
+  out.limit("machine-length-limit", machine.length_limit_mm + machine.length_limit_slope > 0.0,
+            fmt::format("ISO 10360-2 {:.4g} um + {:.4g} um/m, rectangular",
+                        kUm * machine.length_limit_mm, 1e6 * machine.length_limit_slope));
+}
+
+void say_thermal(const std::optional<ThermalInfluences>& declared, Declaration& out) {
+  const ThermalInfluences thermal = declared.value_or(ThermalInfluences{});
+  out.group(declared.has_value());
+  out.line("temperature",
+           fmt::format("mean part temperature {:.4g} K, expansion {:.4g} /K, normal; moves radii, "
+                       "no form",
+                       thermal.temperature_K, thermal.expansion_uncertainty_1_K));
+  if (thermal.drift_K > 0.0 && thermal.expansion_1_K == 0.0) {
+    out.never("temperature-drift",
+              fmt::format("{:.4g} K declared, but no expansion of the part (part.expansion_per_K)",
+                          thermal.drift_K));
+  } else {
+    out.line("temperature-drift",
+             fmt::format("at most {:.4g} K from the first to the last touch, rectangular",
+                         thermal.drift_K));
+  }
+  out.line("machine-drift",
+           fmt::format("at most {:.4g}, {:.4g}, {:.4g} um from the first to the last touch, "
+                       "rectangular",
+                       kUm * thermal.machine_drift_mm.x(), kUm * thermal.machine_drift_mm.y(),
+                       kUm * thermal.machine_drift_mm.z()));
+}
+
+void say_fixture(const std::optional<FixtureInfluences>& declared, Declaration& out) {
+  const FixtureInfluences fixture = declared.value_or(FixtureInfluences{});
+  out.group(declared.has_value());
+  out.line(
+      "fixture-calibration",
+      fmt::format("pose {:.4g} urad, {:.4g} um, normal, each pose anew; one pose moves no form",
+                  1e6 * fixture.angle_rad, kUm * fixture.position_mm));
+  out.line("fixture-creep",
+           fmt::format("at most {:.4g} urad from the first to the last touch, rectangular",
+                       1e6 * fixture.creep_rad));
+}
+
+}  // namespace
+
+core::Result<void> check_influences(const Influences& influences) {
+  if (influences.probe) {
+    if (const auto good = check_probe(*influences.probe); !good) return good;
+  }
+  if (influences.machine) {
+    if (const auto good = check_machine(*influences.machine); !good) return good;
+  }
+  if (influences.thermal) {
+    if (const auto good = check_thermal(*influences.thermal); !good) return good;
+  }
+  if (influences.fixture) {
+    if (const auto good = check_fixture(*influences.fixture); !good) return good;
+  }
+  return {};
+}
+
+std::vector<InfluenceStatement> influence_statements(const Influences& influences) {
+  Declaration out;
+  say_probe(influences.probe, out);
+  say_machine(influences.machine, out);
+  say_thermal(influences.thermal, out);
+  say_fixture(influences.fixture, out);
+  out.never("clamping",
+            "the part as clamped is what is measured; how clamping bends it is unknown");
+  out.never("contact", "dirt, oil and roughness between tip and part; wear of the tip");
+  out.never("probing-strategy", "speed, force and approach other than those of the qualification");
+  out.never("software", "round-off; held by the certificates of the fits, not by this interval");
+  return std::move(out.lines);
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,475 @@
+#include "evaluation/uncertainty/uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/statistics.h"
+#include "evaluation/uncertainty/chains.h"
+
+namespace rondure::reports {
+namespace {
+
+using core::Code;
+
+/// Estimate, standard uncertainty and interval of trials: JCGM 101 sections 7.6 and 7.7.
+UncertaintyStatement statement_of(std::vector<double> trials, double coverage) {
+  UncertaintyStatement out;
+  out.estimate_mm = core::mean(trials);
+  out.standard_uncertainty_mm = core::standard_deviation(trials, out.estimate_mm);
+  std::sort(trials.begin(), trials.end());
+  const auto count = static_cast<double>(trials.size());
+  const double rank = std::round(0.5 * (1.0 - coverage) * (count + 1.0));
+  const auto beyond = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
+  out.low_mm = trials[beyond];
+  out.high_mm = trials[trials.size() - 1 - beyond];
+  if (out.estimate_mm < out.low_mm || out.estimate_mm > out.high_mm) {  // a few far trials
+    out.estimate_mm = trials[trials.size() / 2];
+  }
+  out.values_mm = std::move(trials);
+  return out;
+}
+
+using ValuesOf = std::vector<double> ChainValues::*;
+
+std::vector<double> all_of(const FormChains& chains, ValuesOf values) {
+  std::vector<double> out;
+  for (const ChainValues& chain : chains.values()) {
+    out.insert(out.end(), (chain.*values).begin(), (chain.*values).end());
+  }
+  return out;
+}
+
+/// JCGM 101 section 7.9.4: twice the standard deviation of the mean of the chains, of the worst of
+/// the four numbers.
+double left_open(const FormChains& chains, ValuesOf values, double coverage) {
+  if (chains.values().size() < 2 || (chains.values().front().*values).empty()) return 0.0;
+  std::vector<std::vector<double>> numbers(4);
+  for (const ChainValues& chain : chains.values()) {
+    const auto one = statement_of(chain.*values, coverage);
+    numbers[0].push_back(one.estimate_mm);
+    numbers[1].push_back(one.standard_uncertainty_mm);
+    numbers[2].push_back(one.low_mm);
+    numbers[3].push_back(one.high_mm);
+  }
+  double worst = 0.0;
+  for (const auto& of_chains : numbers) {
+    const double spread = core::standard_deviation(of_chains, core::mean(of_chains));
+    worst = std::max(worst, 2.0 * spread / std::sqrt(static_cast<double>(of_chains.size())));
+  }
+  return worst;
+}
+
+core::Result<void> check_cloud(const FormCloud& cloud) {
+  if (!(cloud.radius_mm > 0.0 && std::isfinite(cloud.radius_mm))) {
+    return core::fail(Code::kBadOption, fmt::format("radius {} mm is not > 0", cloud.radius_mm));
+  }
+  const std::size_t least = cloud.kind == FormKind::kCylindricity ? 6 : 4;
+  if (cloud.points.size() < least) {
+    return core::fail(Code::kTooFewPoints, fmt::format("{} points; {} at least have an uncertainty",
+                                                       cloud.points.size(), least));
+  }
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const FormPoint& p = cloud.points[i];
+    if (!std::isfinite(p.angle_rad + p.height_mm + p.deviation_mm)) {
+      return core::fail(Code::kNotFinite, fmt::format("point {} is not finite", i));
+    }
+    if (p.repeats < 1) {
+      return core::fail(
+          Code::kBadOption,
+          fmt::format("point {} is the mean of {} touches; 1 at least", i, p.repeats));
+    }
+    if (!(p.time_1 >= 0.0 && p.time_1 <= 1.0)) {
+      return core::fail(Code::kBadOption,
+                        fmt::format("time {} of point {} is outside 0..1", p.time_1, i));
+    }
+  }
+  const Eigen::Index unknowns = cloud.kind == FormKind::kCylindricity ? 5 : 3;
+  if (rigid_basis(cloud).cols() < unknowns) {
+    return core::fail(Code::kRank, "the points do not determine the axis");
+  }
+  return {};
+}
+
+core::Result<void> check_options(const UncertaintyOptions& options) {
+  const auto bad = [](const char* name, auto value, const char* limit) {
+    return core::fail(Code::kBadOption, fmt::format("{} {} is not {}", name, value, limit));
+  };
+  if (!(options.tolerance_mm >= 0.0 && std::isfinite(options.tolerance_mm))) {
+    return bad("tolerance_mm", options.tolerance_mm, ">= 0");
+  }
+  if (options.chains < 1 || options.chains > 64) return bad("chains", options.chains, "in 1..64");
+  if (options.least_trials < 100) return bad("least_trials", options.least_trials, ">= 100");
+  if (!(options.expected_spots >= 0.01 && options.expected_spots <= 10.0)) {
+    return bad("expected_spots", options.expected_spots, "in 0.01..10");
+  }
+  if (options.most_trials < options.least_trials || options.most_trials > 10'000'000) {
+    return bad("most_trials", options.most_trials, "in least_trials..10000000");
+  }
+  if (options.budget_trials < 0 || options.budget_trials == 1) {
+    return bad("budget_trials", options.budget_trials, "0 or >= 2");
+  }
+  if (!(options.coverage >= 0.5 && options.coverage <= 0.999)) {
+    return bad("coverage", options.coverage, "in 0.5..0.999");
+  }
+  if (options.threads < 0 || options.threads > 256) {
+    return bad("threads", options.threads, "in 0..256");
+  }
+  return {};
+}
+
+core::Result<void> check_all(const FormCloud& cloud, const Influences& influences,
+                             const std::optional<FormSpectrum>& spectrum,
+                             const UncertaintyOptions& options) {
+  if (const auto good = check_cloud(cloud); !good) return good;
+  if (const auto good = check_influences(influences); !good) return good;
+  if (spectrum && !spectrum->terms.empty()) {
+    if (const auto good = check_spectrum(*spectrum, cloud.kind); !good) return good;
+  }
+  return check_options(options);
+}
+
+int threads_of(const UncertaintyOptions& options) {
+  if (options.threads > 0) return options.threads;
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 256);
+}
+
+/// A reference that exists for the points as measured may not exist for all that they may be.
+core::Result<void> check_values(const std::vector<double>& values) {
+  const auto lost =
+      std::count_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
+  if (lost == 0) return {};
+  return core::fail(
+      Code::kReferenceAbsent,
+      fmt::format("in {} of {} trials the points have no such reference", lost, values.size()));
+}
+
+core::Result<void> check_values(const FormChains& chains) {
+  if (auto good = check_values(all_of(chains, &ChainValues::sampled_mm)); !good) return good;
+  return check_values(all_of(chains, &ChainValues::whole_mm));
+}
+
+constexpr std::size_t kManyPoints = 20'000;
+constexpr int kTrialsOfMany = 1000;
+
+/// Draws until the numbers stand still. Source: JCGM 101 section 7.9.
+core::Result<UncertaintyResult> run_chains(FormChains& chains, const UncertaintyOptions& options,
+                                           std::size_t points) {
+  UncertaintyResult out;
+  const int most_asked =
+      points > kManyPoints ? std::min(options.most_trials, kTrialsOfMany) : options.most_trials;
+  const auto each = [&](int trials) {
+    return static_cast<std::size_t>((trials + options.chains - 1) / options.chains);
+  };
+  const std::size_t most = each(most_asked);
+  const std::size_t least = std::min(each(options.least_trials), most);
+  const std::size_t budget = options.budget_trials > 0 ? each(options.budget_trials) : 0;
+  chains.run(options.tolerance_mm > 0.0 ? least : most, budget);
+  if (const auto good = check_values(chains); !good) return core::fail(good.error());
+  while (options.tolerance_mm > 0.0) {
+    const double worst = std::max(left_open(chains, &ChainValues::sampled_mm, options.coverage),
+                                  left_open(chains, &ChainValues::whole_mm, options.coverage));
+    out.tolerance_reached = options.chains > 1 && worst <= options.tolerance_mm;
+    const std::size_t done = chains.values().front().sampled_mm.size();
+    if (out.tolerance_reached || done >= most) break;
+    chains.run(std::min(std::max<std::size_t>(least / 2, 1), most - done), budget);
+    if (const auto good = check_values(chains); !good) return core::fail(good.error());
+  }
+  out.uncorrected_mm = chains.uncorrected_mm();
+  out.sampled = statement_of(all_of(chains, &ChainValues::sampled_mm), options.coverage);
+  out.sampled.numerical_tolerance_mm =
+      left_open(chains, &ChainValues::sampled_mm, options.coverage);
+  out.noise_inflation_mm = out.uncorrected_mm - out.sampled.estimate_mm;
+  if (!chains.values().front().whole_mm.empty()) {
+    out.whole = statement_of(all_of(chains, &ChainValues::whole_mm), options.coverage);
+    out.whole->measurand = Measurand::kWholeSurface;
+    out.whole->numerical_tolerance_mm = left_open(chains, &ChainValues::whole_mm, options.coverage);
+    out.sampling_loss_mm = out.sampled.estimate_mm - out.whole->estimate_mm;
+  }
+  out.trials = static_cast<int>(out.sampled.values_mm.size());
+  return out;
+}
+
+/// What the draws found the cloud to be made of.
+FormFinding finding_of(const FormChains& chains, std::size_t points) {
+  FormFinding out;
+  std::vector<int> counts(points, 0);
+  double draws = 0.0;
+  for (const ChainValues& chain : chains.values()) {
+    draws += static_cast<double>(chain.sampled_mm.size());
+    out.noise_mm += chain.noise_mm;
+    out.unresolved_mm += chain.unresolved_mm;
+    out.groups += chain.groups;
+    out.spots += chain.spots;
+    for (std::size_t i = 0; i < points; ++i) counts[i] += chain.spot_counts[i];
+  }
+  for (double* sum : {&out.noise_mm, &out.unresolved_mm, &out.groups, &out.spots}) *sum /= draws;
+  for (std::size_t i = 0; i < points; ++i) {
+    if (counts[i] > 0.5 * draws) out.spot_rows.push_back(i);
+  }
+  return out;
+}
+
+constexpr double kMostFlagged = 0.2;    // of the points of a cloud
+constexpr double kErrorLimit = 0.975;   // quantile of what declared errors can make
+constexpr double kReadLimit = 4.0;      // standard deviations of what the model would read
+constexpr double kScatterLimit = 4.0;   // the same, of the residual scatter
+constexpr double kFewResiduals = 40.0;  // below them nothing shows a noise declared too large
+
+tl::unexpected<core::Error> void_interval(Code code, std::string why) {
+  return core::fail(code, std::move(why));
+}
+
+/// The correction is not larger than the declared errors can make it.
+core::Result<void> guard_correction(const FormChains& chains, const UncertaintyResult& found) {
+  std::vector<double> errors = all_of(chains, &ChainValues::of_errors_mm);
+  std::erase_if(errors, [](double value) { return !std::isfinite(value); });
+  if (errors.empty()) return {};
+  std::sort(errors.begin(), errors.end());
+  const auto rank = static_cast<std::size_t>(kErrorLimit * static_cast<double>(errors.size()));
+  const double most = errors[std::min(rank, errors.size() - 1)];
+  // Round-off of the fits is not a correction.
+  if (found.noise_inflation_mm <= most + 1e-6) return {};
+  return void_interval(Code::kInconsistent,
+                       fmt::format("the correction of {:.3g} um is more than the declared errors "
+                                   "can make ({:.3g} um): no interval is stated",
+                                   1e3 * found.noise_inflation_mm, 1e3 * most));
+}
+
+/// The model would read what was read.
+core::Result<void> guard_reading(const FormChains& chains, const UncertaintyResult& found) {
+  std::vector<double> read = all_of(chains, &ChainValues::read_mm);
+  std::erase_if(read, [](double value) { return !std::isfinite(value); });
+  if (read.size() < 8) return {};
+  const double mean = core::mean(read);
+  const double spread = core::standard_deviation(read, mean);
+  if (std::abs(found.uncorrected_mm - mean) <= kReadLimit * spread + 1e-6) return {};
+  return void_interval(
+      Code::kInconsistent,
+      fmt::format("the form model does not explain the value as read: it would read {:.3f} +- "
+                  "{:.3f} um, {:.3f} um were read; no interval is stated",
+                  1e3 * mean, 1e3 * spread, 1e3 * found.uncorrected_mm));
+}
+
+/// The points do not scatter less than declared. Notes it where nothing could show that.
+core::Result<void> guard_scatter(const FormChains& chains, std::size_t points,
+                                 UncertaintyResult& found) {
+  double scatter = 0.0;
+  double draws = 0.0;
+  for (const ChainValues& chain : chains.values()) {
+    scatter += chain.scatter_1;
+    draws += chain.resolved;
+  }
+  const double count = static_cast<double>(points) - found.finding.spots;
+  if (count - 2.0 * found.finding.groups < kFewResiduals) {
+    found.notes.push_back(
+        "too few points to show whether the declared noise is larger than the real one");
+  }
+  if (draws == 0.0) return {};
+  scatter /= draws;
+  if (scatter >= 1.0 - kScatterLimit * std::sqrt(2.0 / count)) return {};
+  return void_interval(
+      Code::kInconsistent,
+      fmt::format("the residual scatter is {:.3g} um, declared were {:.3g} um: declare what the "
+                  "touches show; no interval is stated",
+                  1e3 * std::sqrt(scatter) * found.finding.noise_mm, 1e3 * found.finding.noise_mm));
+}
+
+/// Each line's share of the lines of (a); sampling's of all.
+void share_out(std::vector<BudgetLine>& budget) {
+  double sampled = 0.0;
+  double all = 0.0;
+  for (const BudgetLine& line : budget) {
+    const double square = line.standard_uncertainty_mm * line.standard_uncertainty_mm;
+    all += square;
+    if (line.measurand == Measurand::kSampledPoints) sampled += square;
+  }
+  for (BudgetLine& line : budget) {
+    const double square = line.standard_uncertainty_mm * line.standard_uncertainty_mm;
+    const double sum = line.measurand == Measurand::kSampledPoints ? sampled : all;
+    line.share_1 = sum > 0.0 ? square / sum : 0.0;
+  }
+  std::stable_sort(budget.begin(), budget.end(), [](const BudgetLine& a, const BudgetLine& b) {
+    return a.standard_uncertainty_mm > b.standard_uncertainty_mm;
+  });
+}
+
+core::Result<std::vector<BudgetLine>> budget_of(const FormChains& chains, const ErrorModel& errors,
+                                                const UncertaintyOptions& options) {
+  std::vector<BudgetLine> budget;
+  if (options.budget_trials == 0) return budget;
+  for (std::size_t k = 0; k < errors.names().size(); ++k) {
+    std::vector<double> changes;
+    for (const ChainValues& chain : chains.values()) {
+      changes.insert(changes.end(), chain.changes_mm[k].begin(), chain.changes_mm[k].end());
+    }
+    if (auto good = check_values(changes); !good) return core::fail(good.error());
+    BudgetLine line;
+    line.name = errors.names()[k];
+    if (!changes.empty()) {
+      line.shift_mm = core::mean(changes);
+      line.standard_uncertainty_mm = core::standard_deviation(changes, line.shift_mm);
+    }
+    budget.push_back(line);
+  }
+  const std::vector<double> whole = all_of(chains, &ChainValues::whole_mm);
+  if (!whole.empty()) {  // what the form between the points leaves open
+    std::vector<double> loss = all_of(chains, &ChainValues::sampled_mm);
+    for (std::size_t t = 0; t < loss.size(); ++t) loss[t] -= whole[t];
+    BudgetLine line;
+    line.name = "sampling";
+    line.measurand = Measurand::kWholeSurface;
+    line.shift_mm = core::mean(loss);
+    line.standard_uncertainty_mm = core::standard_deviation(loss, line.shift_mm);
+    budget.push_back(line);
+  }
+  share_out(budget);
+  return budget;
+}
+
+constexpr int kDenseLayers = 3;
+constexpr int kDensePoints = 14;  // of a layer
+
+/// The ends of the surface; kSampling where a cloud cannot show its own spectrum.
+core::Result<std::optional<WholeExtent>> extent_of(const FormCloud& cloud, const FormModel& model,
+                                                   const std::optional<FormSpectrum>& spectrum) {
+  if (!spectrum) return std::optional<WholeExtent>();
+  WholeExtent out;
+  out.low_mm = spectrum->low_mm;
+  out.high_mm = spectrum->high_mm;
+  out.declared = !spectrum->terms.empty();
+  if (out.declared) return std::optional<WholeExtent>(out);
+  const PointLayout& layout = model.columns().layout();
+  const bool section = cloud.kind == FormKind::kRoundness;
+  if (!layout.layered || layout.arc_rad || (!section && layout.layers < kDenseLayers) ||
+      layout.points_per_layer < kDensePoints) {
+    return void_interval(
+        Code::kSampling,
+        fmt::format("{} layers of {} points{} do not tell the form between them: {} layers of {} "
+                    "points, all the way round, at least; or declare a form spectrum",
+                    layout.layers, layout.points_per_layer,
+                    layout.arc_rad ? " on a part of the turn" : "", section ? 1 : kDenseLayers,
+                    kDensePoints));
+  }
+  if (section) return std::optional<WholeExtent>(out);
+  const auto [low, high] = std::minmax_element(
+      cloud.points.begin(), cloud.points.end(),
+      [](const FormPoint& a, const FormPoint& b) { return a.height_mm < b.height_mm; });
+  out.low_mm = low->height_mm;
+  out.high_mm = high->height_mm;
+  return std::optional<WholeExtent>(out);
+}
+
+/// "own undulations 0..13 and degrees 0..3 of 4 layers, 112 points; rougher form up to 39".
+std::string source_of(const FormModel& model, const FormSpectrum& spectrum) {
+  if (!spectrum.terms.empty()) return spectrum.source;
+  const FormColumns& columns = model.columns();
+  return fmt::format(
+      "what {} points in {} layers show: up to {} undulations and degree {}; what they do not "
+      "resolve, up to {} undulations",
+      model.points(), columns.layout().layers, columns.most_undulations(), columns.most_degree(),
+      3 * columns.most_undulations());
+}
+
+/// Whether nothing at all is known of the errors of single touches.
+bool noise_is_unknown(const ErrorModel& errors, const Influences& influences) {
+  if (!errors.point_variance_mm2().isZero(0.0)) return false;
+  return !influences.probe || !influences.probe->repeatability_known;
+}
+
+/// Without a known noise there is no interval: only bounds. The lower one takes all that the model
+/// does not follow for noise.
+tl::unexpected<core::Error> only_bounds(const FormCloud& cloud, const Influences& influences,
+                                        const FormModel& model, const UncertaintyOptions& options) {
+  std::string why =
+      "no noise of a touch is known: declare probe.repeatability_um or a form limit, or touch each "
+      "point twice";
+  Influences all_noise = influences;
+  all_noise.probe = influences.probe.value_or(ProbeInfluences{});
+  all_noise.probe->repeatability_mm = model.residual_mm();
+  if (all_noise.probe->repeatability_mm > 0.0) {
+    const ErrorModel errors(cloud, all_noise);
+    const FormModel lowest(cloud, errors, nullptr, options.expected_spots);
+    FormChains chains(cloud, errors, lowest, std::nullopt, options.seed, 1, 1);
+    chains.run(200, 0);
+    const double low = core::mean(chains.values().front().sampled_mm);
+    why = fmt::format("{}; the value lies between {:.2f} and {:.2f} um, without a probability", why,
+                      1e3 * std::min(low, chains.uncorrected_mm()), 1e3 * chains.uncorrected_mm());
+  }
+  return void_interval(Code::kMeaning, std::move(why));
+}
+
+}  // namespace
+
+std::string_view name_of(Measurand measurand) {
+  return measurand == Measurand::kSampledPoints ? "at the sampled points" : "of the whole surface";
+}
+
+core::Result<UncertaintyResult> measurement_uncertainty(const FormCloud& cloud,
+                                                        const Influences& influences,
+                                                        const std::optional<FormSpectrum>& spectrum,
+                                                        const UncertaintyOptions& options) {
+  if (const auto good = check_all(cloud, influences, spectrum, options); !good) {
+    return core::fail(good.error());
+  }
+  const ErrorModel errors(cloud, influences);
+  const bool declared = spectrum && !spectrum->terms.empty();
+  const FormModel model(cloud, errors, declared ? &*spectrum : nullptr, options.expected_spots);
+  if (noise_is_unknown(errors, influences)) return only_bounds(cloud, influences, model, options);
+  if (model.flagged_share() > kMostFlagged) {
+    return void_interval(Code::kOutliers,
+                         fmt::format("{:.0f} % of the points stand out: no smooth form stands "
+                                     "behind these points; no interval is stated",
+                                     100.0 * model.flagged_share()));
+  }
+  const auto extent = extent_of(cloud, model, spectrum);
+  if (!extent) return core::fail(extent.error());
+  FormChains chains(cloud, errors, model, *extent, options.seed, options.chains,
+                    threads_of(options));
+  auto found = run_chains(chains, options, cloud.points.size());
+  if (!found) return found;
+  UncertaintyResult& out = *found;
+  out.finding = finding_of(chains, cloud.points.size());
+  if (const auto good = guard_scatter(chains, cloud.points.size(), out); !good) {
+    return core::fail(good.error());
+  }
+  // The bound holds where the value is a seminorm of the deviations.
+  const bool two_sided = cloud.reference == record::Reference::kMinimumZone ||
+                         cloud.reference == record::Reference::kLeastSquares;
+  if (two_sided) {
+    if (const auto good = guard_correction(chains, out); !good) return core::fail(good.error());
+  }
+  if (const auto good = guard_reading(chains, out); !good) return core::fail(good.error());
+  auto budget = budget_of(chains, errors, options);
+  if (!budget) return core::fail(budget.error());
+  out.budget = *std::move(budget);
+  out.declaration = influence_statements(influences);
+  if (spectrum) out.spectrum_source = source_of(model, *spectrum);
+  return found;
+}
+
+core::Result<FormCloud> simulated_cloud(const FormCloud& nominal, const Influences& influences,
+                                        const FormSpectrum& spectrum, std::uint64_t seed) {
+  FormCloud cloud = nominal;
+  for (FormPoint& point : cloud.points) point.deviation_mm = 0.0;
+  if (const auto good = check_all(cloud, influences, spectrum, {}); !good) {
+    return core::fail(good.error());
+  }
+  const Eigen::MatrixXd columns = spectrum_columns(spectrum, cloud.points);
+  core::KeyedNoise noise(seed, {0});
+  Eigen::VectorXd deviations;
+  ErrorModel(cloud, influences).draw(noise, std::nullopt, deviations);
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) deviations += noise.normal() * columns.col(k);
+  const Eigen::MatrixXd rigid = rigid_basis(cloud);
+  deviations -= rigid * (rigid.transpose() * deviations);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    cloud.points[i].deviation_mm = deviations[static_cast<Eigen::Index>(i)];
+  }
+  return cloud;
+}
+
+}  // namespace rondure::reports

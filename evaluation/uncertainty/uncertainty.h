@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "evaluation/uncertainty/cloud.h"
+#include "evaluation/uncertainty/spectrum.h"
+#include "evaluation/uncertainty/influences.h"
+
+namespace rondure::reports {
+
+/// Settings of measurement_uncertainty(). A value outside its range gives kBadOption.
+struct UncertaintyOptions {
+  /// Trials stop when twice the standard deviation of each printed number is below this [mm], JCGM
+  /// 101 section 7.9; 0: when the most trials are done.
+  double tolerance_mm = 0.0;
+  int chains = 8;            ///< Of draws; compared with one another, 1..64. One has no comparison.
+  int least_trials = 2000;   ///< >= 100; shared among the chains.
+  int most_trials = 10000;   ///< >= least_trials, <= 10 000 000; 1000 above 20 000 points.
+  int budget_trials = 1000;  ///< Of each influence alone, >= 2; 0: no budget.
+  double expected_spots = 0.5;  ///< Points of a part that stand out by themselves, 0.01..10.
+  double coverage = 0.95;       ///< Probability of the interval, 0.5..0.999.
+  std::uint64_t seed = 1;       ///< Same seed, same numbers, at any number of threads.
+  int threads = 0;              ///< 0: as many as the processor has.
+};
+
+/// What a statement is about. Never mixed.
+enum class Measurand {
+  kSampledPoints,  ///< (a) the value of the surface at the sampled points, free of noise.
+  kWholeSurface,   ///< (b) the value of the whole surface, under the stated form spectrum.
+};
+/// "at the sampled points", "of the whole surface".
+[[nodiscard]] std::string_view name_of(Measurand measurand);
+
+/// A value with its interval.
+struct UncertaintyStatement {
+  Measurand measurand = Measurand::kSampledPoints;
+  double estimate_mm = 0.0;  ///< Corrected for the bias: mean of the trials. In the interval.
+  double low_mm = 0.0;       ///< Coverage interval, as much outside on either side.
+  double high_mm = 0.0;
+  double standard_uncertainty_mm = 0.0;  ///< Standard deviation of the trials.
+  /// Twice the standard deviation of the mean of the chains, the largest of estimate, standard
+  /// uncertainty, low and high [mm]: what the number of trials leaves open.
+  double numerical_tolerance_mm = 0.0;
+  std::vector<double> values_mm;  ///< Of the trials, ascending: the whole distribution.
+
+  /// U: half the width of the interval, which need not lie evenly about the estimate.
+  [[nodiscard]] double expanded_mm() const { return 0.5 * (high_mm - low_mm); }
+};
+
+/// What one influence alone does to the measured value.
+struct BudgetLine {
+  std::string name;  ///< As in InfluenceStatement; "sampling" for (b).
+  Measurand measurand = Measurand::kSampledPoints;
+  double standard_uncertainty_mm = 0.0;  ///< Spread it gives the value.
+  double shift_mm = 0.0;                 ///< Mean change of the value, with sign.
+  double share_1 = 0.0;                  ///< Of the sum of the squares of the spreads, 0..1.
+};
+
+/// What the cloud was found to be made of: means over the draws.
+struct FormFinding {
+  double noise_mm = 0.0;       ///< Standard deviation of the error of a point.
+  double unresolved_mm = 0.0;  ///< Of form rougher than the columns.
+  double groups = 0.0;         ///< Undulations (of a degree along the axis) that are there.
+  double spots = 0.0;          ///< Points that stand out by themselves: burrs, dirt, scratches.
+  std::vector<std::size_t> spot_rows;  ///< Of the cloud: spots in more than half of the draws.
+};
+
+/// The uncertainty of one form value.
+struct UncertaintyResult {
+  double uncorrected_mm = 0.0;                ///< The value of the points as read.
+  UncertaintyStatement sampled;               ///< (a)
+  std::optional<UncertaintyStatement> whole;  ///< (b), where a spectrum was stated.
+  /// Expected inflation by noise: uncorrected minus estimate (a) [mm]; commonly > 0.
+  double noise_inflation_mm = 0.0;
+  /// Expected loss by sparse sampling: estimate (a) minus estimate (b) [mm]; <= 0. Hence
+  /// uncorrected = estimate (b) + inflation + loss.
+  std::optional<double> sampling_loss_mm;
+  std::string spectrum_source;  ///< Of (b); empty without.
+  FormFinding finding;
+  std::vector<std::string> notes;               ///< To be read beside the interval.
+  std::vector<BudgetLine> budget;               ///< Ranked by spread, the largest first.
+  std::vector<InfluenceStatement> declaration;  ///< Covered and not covered.
+  int trials = 0;
+  bool tolerance_reached = false;  ///< false too when none was asked for.
+};
+
+/// Uncertainty of a form value by propagating distributions (Monte Carlo).
+///
+/// The deviations are form + declared errors; what is declared is noise, all else is form. A model
+/// of the form (undulations times degrees in bands of a common size, what is rougher, single spots)
+/// is learnt from the one cloud, and forms that may stand behind the deviations are drawn from it
+/// by Gibbs sampling. Their values are the distribution: (a) at the points, (b) of the same form on
+/// the whole surface.
+///
+/// @param cloud       >= 4 (section) or 6 (cylinder) points that determine place and size;
+/// measured,
+///                    or nominal with deviations made by somebody else.
+/// @param spectrum    For (b); without terms what the cloud shows by itself, for which it must be
+///                    dense; none: no statement about the whole surface.
+/// @return  kTooFewPoints, kNotFinite (row), kRank, kBadOption; kSampling (too sparse for its own
+///          spectrum); kMeaning (no noise known); kOutliers, kInconsistent (the data contradict the
+///          model or the declaration: a void, with its reason). Same input, same bits, at any
+///          number of threads on one kind of processor.
+/// Sources: JCGM 101:2008 (propagation of distributions, 7.9 adaptive trials); ISO/TS 15530-4:2008
+/// (declaration); E. I. George, R. E. McCulloch, JASA 88 (1993) 881 (variables that are there or
+/// not). The method in words: docs/uncertainty.md.
+[[nodiscard]] core::Result<UncertaintyResult> measurement_uncertainty(
+    const FormCloud& cloud, const Influences& influences,
+    const std::optional<FormSpectrum>& spectrum = std::nullopt,
+    const UncertaintyOptions& options = {});
+
+/// What one inspection of a part of a form spectrum would read: for a prediction before the first
+/// touch, whose measurement_uncertainty() is then that of such an inspection.
+///
+/// @param nominal   Places; their deviations are not looked at.
+/// @param spectrum  Its amplitudes are taken as they are.
+/// @param seed      Another seed, another part and another inspection.
+/// @return  The cloud with deviations, about its axis; as measurement_uncertainty() otherwise.
+[[nodiscard]] core::Result<FormCloud> simulated_cloud(const FormCloud& nominal,
+                                                      const Influences& influences,
+                                                      const FormSpectrum& spectrum,
+                                                      std::uint64_t seed);
+
+}  // namespace rondure::reports

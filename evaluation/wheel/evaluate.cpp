@@ -1,0 +1,236 @@
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "core/numbers.h"
+#include "core/units.h"
+#include "evaluation/analysis_result.h"
+#include "reports/data/wheel.h"
+#include "evaluation/evaluation.h"
+#include "evaluation/feature_values.h"
+
+namespace rondure::reports {
+namespace {
+
+using core::kDegree;
+using core::kMicrometre;
+using core::um;
+
+fit::WheelOptions wheel_options(const record::Feature& feature, std::uint64_t seed) {
+  fit::WheelOptions out;
+  if (feature.word("mode") == "envelope") out.mode = fit::WheelMode::kEnvelope;
+  for (const auto mean : {fit::WheelMean::kAsPublished, fit::WheelMean::kWeighted}) {
+    if (feature.word("center") == fit::name_of(mean)) out.mean = mean;
+  }
+  if (feature.word("quadruples") == "best") out.quadruples.choice = fit::QuadrupleChoice::kBest;
+  if (feature.word("quadruples") == "random") {
+    out.quadruples.choice = fit::QuadrupleChoice::kRandom;
+  }
+  out.quadruples.count = static_cast<std::size_t>(feature.number("count").value_or(6.0));
+  out.quadruples.seed = seed;
+  out.quadruples.kappa_limit = feature.number("kappa_limit");
+  out.robust = feature.word("robust") == "on";
+  out.allow_short_arc = feature.word("short_arc") == "allowed";
+  out.nominal_radius_mm = feature.number("nominal_radius_mm");
+  const auto x = feature.number("axis_x_mm");
+  const auto z = feature.number("axis_z_mm");
+  if (x && z) out.axis_mm = Eigen::Vector2d(*x, *z);
+  return out;
+}
+
+core::Result<fit::WheelSurface> formula_or_table(const record::Feature& feature) {
+  const auto form = feature.word("surface/form");
+  if (form == "table") {
+    return fit::WheelSurface::table(feature.numbers("surface/table_x_mm"),
+                                    feature.numbers("surface/table_z_mm"));
+  }
+  if (form == "polynomial") {
+    return fit::WheelSurface::polynomial({feature.numbers("surface/coefficients")});
+  }
+  const auto radius = feature.number("surface/vertex_radius_mm");
+  return fit::WheelSurface::asphere({radius ? 1.0 / *radius : 0.0,
+                                     feature.number("surface/conic").value_or(0.0),
+                                     feature.numbers("surface/even_terms")});
+}
+
+core::Result<fit::WheelSurface> surface_of(const record::Feature& feature) {
+  auto out = formula_or_table(feature);
+  std::vector<double> depth = feature.numbers("surface/removal_depth_um");
+  if (!out || depth.empty()) return out;
+  for (double& d : depth) d *= kMicrometre;
+  return out->less(feature.numbers("surface/removal_x_mm"), std::move(depth));
+}
+
+fit::WheelPathOptions path_options(const record::Feature& feature,
+                                   const fit::WheelSurface& surface) {
+  const auto number = [&](std::string_view key, double otherwise) {
+    return feature.number(fmt::format("surface/{}", key)).value_or(otherwise);
+  };
+  fit::WheelPathOptions out;
+  out.from_mm = number("from_mm", 0.0);
+  out.to_mm = number("to_mm", 0.0);
+  out.step_mm = number("step_mm", out.step_mm);
+  if (const auto cusp = feature.number("surface/cusp_um")) out.cusp_mm = *cusp * kMicrometre;
+  out.least_contact_rad = number("wheel_arc_from_deg", -90.0) * kDegree;
+  out.greatest_contact_rad = number("wheel_arc_to_deg", 90.0) * kDegree;
+  if (const auto whole = surface.range_mm()) {
+    out.surface_from_mm = whole->first;
+    out.surface_to_mm = whole->second;
+  }
+  return out;
+}
+
+core::Result<std::optional<fit::WheelPathTask>> path_task(const record::Feature& feature) {
+  if (!feature.word("surface/form")) return std::nullopt;
+  auto surface = surface_of(feature);
+  if (!surface) return core::fail(surface.error());
+  const auto options = path_options(feature, *surface);
+  fit::WheelPathTask out{*std::move(surface), options, fit::RadiusChoice::kMean,
+                         feature.number("surface/repeatability_um").value_or(0.0) * kMicrometre,
+                         feature.number("surface/touch_off_mm")};
+  if (feature.word("surface/radius") == "effective") out.radius = fit::RadiusChoice::kEffective;
+  return out;
+}
+
+std::vector<Eigen::Vector2d> points_of(const record::Series& series) {
+  const auto x = series.column("x").value_or(std::vector<double>());
+  const auto z = series.column("z").value_or(std::vector<double>());
+  std::vector<Eigen::Vector2d> out;
+  for (std::size_t i = 0; i < std::min(x.size(), z.size()); ++i) out.emplace_back(x[i], z[i]);
+  return out;
+}
+
+core::Result<AnalysisValue> departure(const fit::WheelMeasurement& m,
+                                      const std::optional<double>& nominal_mm) {
+  if (!nominal_mm) return core::fail(core::Code::kMissingKey, "there is no nominal radius");
+  AnalysisValue out;
+  out.value_mm = std::abs(m.radius_mm - *nominal_mm);
+  out.detail = fmt::format("R {:.6f} mm, nominal {:g} mm", m.radius_mm, *nominal_mm);
+  return out;
+}
+
+/// What the points about the whole turn and the dropped ones leave of a roundness.
+/// @param with_dropped_mm  Roundness of all points.
+/// @param zone  A minimum zone: that of some points is never wider than that of all.
+AnalysisValue bounded(AnalysisValue value, const fit::WheelMeasurement& m, double with_dropped_mm,
+                      bool zone) {
+  if (!m.sees_whole_turn()) {
+    value.void_because = fmt::format(
+        "the points leave {:.0f} deg of the turn unseen: what is there can only add to the "
+        "deviation; measure the whole turn",
+        m.order.largest_gap_rad / kDegree);
+    value.lower_bound = zone;
+  } else if (with_dropped_mm > value.value_mm) {
+    value.void_because = fmt::format(
+        "the roundness is {} um without the points that were dropped and {} um with "
+        "them: clean the wheel there and measure it again",
+        um(value.value_mm), um(with_dropped_mm));
+    value.lower_bound = true;
+  }
+  return value;
+}
+
+core::Result<AnalysisValue> roundness(const WheelResult& facts, record::Reference reference) {
+  const fit::WheelMeasurement& m = facts.evaluation.wheel;
+  const bool dropped = !m.dropped.empty();
+  if (reference == record::Reference::kLeastSquares) {
+    const auto all = dropped ? fit::ls_circle(facts.points_mm) : m.check;
+    if (!all) return core::fail(all.error());
+    return bounded({m.check.deviation_mm, {}, {}, {}, false}, m, all->deviation_mm, false);
+  }
+  if (reference != record::Reference::kMinimumZone) {
+    return core::fail(core::Code::kReferenceAbsent,
+                      "roundness of a wheel has the references mz, ls");
+  }
+  if (!m.zone) return core::fail(core::Code::kNotConverged, "there is no minimum zone");
+  const auto all = dropped ? fit::min_zone_circle(facts.points_mm) : *m.zone;
+  if (!all) return core::fail(all.error());
+  AnalysisValue out = bounded({m.zone->width_mm(), {}, {}, {}, false}, m, all->width_mm(), true);
+  if (m.zone->certificate.kind != fit::Certificate::Kind::kGlobal) {
+    out.void_because = "the minimum zone is not proven: " + m.zone->certificate.reason;
+    out.lower_bound = false;
+  }
+  return out;
+}
+
+}  // namespace
+
+core::Result<AnalysisValue> value_of(const WheelResult& facts,
+                                     const record::Characteristic& characteristic) {
+  const fit::WheelMeasurement& m = facts.evaluation.wheel;
+  if (characteristic.form == record::Form::kRadius) {
+    return departure(m, facts.task.wheel.nominal_radius_mm);
+  }
+  if (characteristic.form == record::Form::kRoundness) {
+    return roundness(facts, characteristic.reference);
+  }
+  if (!m.runout) return core::fail(core::Code::kNoAxis, std::string(m.runout_absent));
+  AnalysisValue out{m.runout->fim_mm, {}, {}, {}, false};
+  if (!m.runout->bound_because.empty()) {
+    // All points within the tolerance settle it, where the whole turn is seen.
+    if (m.sees_whole_turn() && characteristic.tolerance_mm &&
+        m.runout->fim_with_dropped_mm <= *characteristic.tolerance_mm) {
+      out.value_mm = m.runout->fim_with_dropped_mm;
+      out.detail = "with the points that were dropped";
+    } else {
+      out.void_because = m.runout->bound_because;
+      out.lower_bound = true;
+    }
+  }
+  return out;
+}
+
+ValueOperator operator_of(const WheelResult& facts, const record::Characteristic& characteristic,
+                          const std::string& temperature) {
+  const fit::WheelMeasurement& m = facts.evaluation.wheel;
+  const std::string points = fmt::format("{} of {} points, {} mode", m.points - m.dropped.size(),
+                                         m.points, fit::name_of(m.mode));
+  std::string reference = reference_of(characteristic);
+  if (characteristic.form == record::Form::kRunOut) {
+    reference = "full indicator movement about the given axis";
+  } else if (characteristic.form != record::Form::kRoundness) {
+    reference = m.mean == fit::WheelMean::kLeastSquares
+                    ? "mean distance from the least-squares centre"
+                    : fmt::format("mean distance from the centre ({} mean of {} quadruples)",
+                                  fit::name_of(m.mean), m.centers.accepted.size());
+  }
+  return {ReferenceTerm(reference), FilterTerm(filter_text(facts)), SamplingTerm(points),
+          TipTerm("points as given"), TemperatureTerm(temperature)};
+}
+
+std::string filter_text(const WheelResult& facts) {
+  return facts.task.wheel.robust ? "unfiltered, isolated outliers dropped" : "unfiltered";
+}
+
+std::string sampling_text(const WheelResult& facts) {
+  const fit::WheelMeasurement& m = facts.evaluation.wheel;
+  return fmt::format("{} points, {} mode, {:.0f} deg", m.points, fit::name_of(m.mode),
+                     m.order.coverage_rad() / kDegree);
+}
+
+void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& result) {
+  auto task = path_task(result.feature);
+  if (!task) {
+    result.failure = task.error();
+    return;
+  }
+  WheelResult facts;
+  facts.points_mm = points_of(*record.data_of(index, "data"));
+  facts.task = {wheel_options(result.feature, record.header.seed), *std::move(task)};
+  auto evaluation = fit::evaluate_wheel(facts.points_mm, facts.task);
+  if (!evaluation) {
+    result.failure = evaluation.error();
+    return;
+  }
+  facts.evaluation = *std::move(evaluation);
+  result.warnings = facts.evaluation.wheel.warnings;
+  if (facts.evaluation.path) {
+    const auto& more = facts.evaluation.path->warnings;
+    result.warnings.insert(result.warnings.end(), more.begin(), more.end());
+  }
+  if (facts.evaluation.refused) result.warnings.push_back(*facts.evaluation.refused);
+  result.analysis = std::make_shared<AnalysisResult>(std::move(facts));
+}
+
+}  // namespace rondure::reports

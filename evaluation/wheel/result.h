@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fit/wheel/evaluation.h"
+#include "evaluation/analysis.h"
+
+namespace rondure::reports {
+
+/// Everything found of a wheel feature, with what was asked for.
+struct WheelResult {
+  std::vector<Eigen::Vector2d> points_mm;  ///< As recorded, x and z.
+  fit::WheelTask task;
+  fit::WheelEvaluation evaluation;
+};
+
+[[nodiscard]] core::Result<AnalysisValue> value_of(const WheelResult& result,
+                                                   const record::Characteristic& characteristic);
+[[nodiscard]] ValueOperator operator_of(const WheelResult& result,
+                                        const record::Characteristic& characteristic,
+                                        const std::string& temperature);
+[[nodiscard]] std::string filter_text(const WheelResult& result);
+[[nodiscard]] std::string sampling_text(const WheelResult& result);
+
+}  // namespace rondure::reports

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/message.h"
+
+// Messages as the journal keeps them (docs/journal.md, table decision).
+
+namespace rondure::record {
+
+/// The arguments as JSON on one line, in the order of core::arguments_of(), each number as the
+/// shortest text that reads back to the same double: {"touches":60,"reason":"..."}. A number that
+/// is not finite is null.
+[[nodiscard]] std::string arguments_json(const core::Message& message);
+
+/// Reads a code and its arguments back; nothing for a code that this program does not know, and for
+/// any text that arguments_json() would not write. null becomes infinity.
+[[nodiscard]] std::optional<core::Message> read_message(std::string_view code,
+                                                        std::string_view arguments);
+
+/// The sentence that journals before version 6 hold in place of code and arguments. It never
+/// changes; what a person reads is made in reports/words/messages.h.
+[[nodiscard]] std::string old_sentence(const core::Message& message);
+
+/// The message that such a sentence stands for, its numbers as rounded there; kSentence with the
+/// sentence itself where no form fits.
+[[nodiscard]] core::Message read_old_sentence(const std::string& sentence);
+
+}  // namespace rondure::record

@@ -1,0 +1,57 @@
+#include "core/units.h"
+#include "evaluation/analysis_result.h"
+#include "reports/data/contour.h"
+#include "reports/data/json_parts.h"
+#include "reports/data/wheel.h"
+#include "reports/data/spindle.h"
+
+namespace rondure::reports {
+namespace {
+
+Json contour_feature_json(const ContourResult& facts) {
+  auto out = contour_document(facts.study, facts.options, facts.names);
+  out.erase("warnings");  // they stand beside, as of every feature
+  auto curves = Json::array();
+  const auto um_of = [](double value) { return value / core::kMicrometre; };
+  for (const fit::ContourPartResult& part : facts.study.parts) {
+    curves.push_back({{"total_um", list_json(part.pin.contour.error_mm, um_of)},
+                      {"following_um", list_json(part.following.error_mm, um_of)},
+                      {"rest_um", list_json(part.direct.rest_mm, um_of)}});
+  }
+  out["curves"] = std::move(curves);
+  return out;
+}
+
+/// Everything under the name of the shape. Curves (one number a sample) stand under the key
+/// "curves", which the stored results leave out.
+Json result_json(const AnalysisResult& result) {
+  struct Writer {
+    Json operator()(const SpindleResult& found) const { return separation_json(found); }
+    Json operator()(const WheelResult& found) const {
+      return wheel_json(found.evaluation, found.task);
+    }
+    Json operator()(const ContourResult& found) const { return contour_feature_json(found); }
+    Json operator()(const RotaryResult& found) const { return rotary_json(found); }
+  };
+  return std::visit(Writer{}, result.found);
+}
+
+}  // namespace
+
+Json analysis_json(const FeatureResult& feature) {
+  const record::Feature& asked = feature.feature;
+  Json json;
+  json["id"] = asked.id;
+  json["shape"] = record::name_of(asked.shape);
+  json["side"] = record::name_of(asked.side);
+  json["data_file"] = asked.points_file;
+  json["data_sha256"] = asked.points_sha256;
+  json["characteristics"] = list_json(feature.characteristics, characteristic_json);
+  json[std::string(record::name_of(asked.shape))] =
+      feature.analysis ? result_json(*feature.analysis) : Json(nullptr);
+  json["warnings"] = list_json(feature.warnings, error_json);
+  json["failure"] = feature.failure ? error_json(*feature.failure) : Json(nullptr);
+  return json;
+}
+
+}  // namespace rondure::reports

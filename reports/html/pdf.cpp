@@ -1,0 +1,210 @@
+#include "reports/html/pdf.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "record/external_program.h"
+#include "record/files.h"
+#include "record/sha256.h"
+
+#include "reports/writers.h"
+
+namespace rondure::reports {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kDigestMark = "page-sha256-";
+constexpr std::string_view kPaperMark = ", paper-";
+constexpr std::string_view kPageLanguageMark = ", page-language-";
+
+std::string_view name_of_paper(Paper paper) { return paper == Paper::kLetter ? "letter" : "a4"; }
+
+std::string page_mark(std::string_view html) {
+  return fmt::format("{}{}", kDigestMark, record::sha256_hex(std::string(html)));
+}
+
+/// What a document states of its page. The last such text: what a name says stands before it. Up to
+/// version 0.2 it stood in the document information and ended with a parenthesis.
+std::string_view print_statement(std::string_view pdf) {
+  const std::size_t at = pdf.rfind(kDigestMark);
+  if (at == std::string_view::npos) return {};
+  const std::string_view rest = pdf.substr(at, 200);
+  return rest.substr(0, rest.find_first_of(")\n"));
+}
+
+/// A folder of our own, removed at the end with the profile that Chromium makes in it.
+class PrintFolder {
+ public:
+  PrintFolder() {
+    std::error_code problem;
+    const fs::path place = fs::temp_directory_path(problem);
+    std::string name = ((problem ? fs::path("/tmp") : place) / "rondure-pdf-XXXXXX").string();
+    if (::mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  ~PrintFolder() {
+    std::error_code problem;
+    // A process that was just killed may still put a file into a folder that is being emptied.
+    for (int i = 0; i < 5; ++i) {
+      fs::remove_all(path_, problem);
+      if (!problem) return;
+      ::usleep(20'000);
+    }
+  }
+  PrintFolder(const PrintFolder&) = delete;
+  PrintFolder& operator=(const PrintFolder&) = delete;
+
+  /// Empty when none can be made (errno).
+  [[nodiscard]] const fs::path& path() const { return path_; }
+  [[nodiscard]] fs::path operator/(const char* name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+/// A text as a string of CSS within <style>: nothing in it can end either.
+std::string css_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const bool plain = static_cast<unsigned char>(c) >= 0x80 || std::isalnum(c) != 0 || c == ' ';
+    out += plain ? std::string(1, c) : fmt::format("\\{:x} ", c);
+  }
+  return out + "\"";
+}
+
+/// What the page cannot say itself: the paper, and what its sheets are told apart by.
+std::string sheet_style(const record::Header& header, Paper paper) {
+  const auto field = [](std::string_view place, std::string_view name, std::string_view value) {
+    constexpr std::size_t kMost = 44;  // columns: a third of a line, and a little more
+    const std::string text = value.empty() ? "\u2013" : shortened(printable(value), kMost);
+    return fmt::format(
+        "@top-{}{{content:{};font:8pt system-ui,sans-serif;color:#55616d;white-space:nowrap}}",
+        place, css_string(fmt::format("{} {}", name, text)));
+  };
+  const std::string part =
+      header.serial.empty() ? header.part_id : header.part_id + " / " + header.serial;
+  return fmt::format("<style>@page{{size:{};{}{}{}}}</style>", name_of_paper(paper),
+                     field("left", tr("Part"), part),
+                     field("center", tr("Revision"), header.plan_revision),
+                     field("right", tr("Run"), header.run_id));
+}
+
+std::string file_url(const fs::path& file) {
+  std::string out = "file://";
+  for (const char c : file.string()) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                       std::string_view("/-_.~").find(c) != std::string_view::npos;
+    out += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return out;
+}
+
+/// Nothing of a desktop is needed. What Chromium would keep at home goes with the folder; fonts
+/// that a user installed are found nevertheless.
+std::vector<std::string> print_environment(const PrintFolder& folder) {
+  const std::string place = folder.path().string();
+  std::vector<std::string> out = {"HOME=" + place, "TMPDIR=" + place, "LANG=C.UTF-8", "TZ=UTC",
+                                  "DBUS_SESSION_BUS_ADDRESS=disabled:"};
+  for (const char* name : {"PATH", "FONTCONFIG_FILE", "FONTCONFIG_PATH", "XDG_DATA_HOME"}) {
+    if (const char* value = std::getenv(name)) out.push_back(fmt::format("{}={}", name, value));
+  }
+  const char* home = std::getenv("HOME");
+  if (home != nullptr && std::getenv("XDG_DATA_HOME") == nullptr) {
+    out.push_back(fmt::format("XDG_DATA_HOME={}/.local/share", home));
+  }
+  return out;
+}
+
+std::vector<std::string> print_arguments(const PrintFolder& folder) {
+  std::vector<std::string> out = {"--headless",
+                                  "--disable-gpu",
+                                  "--log-level=3",  // fatal ones only: others speak of the desktop
+                                  "--no-pdf-header-footer",
+                                  "--export-tagged-pdf",
+                                  "--generate-pdf-document-outline",
+                                  "--no-first-run",
+                                  "--disable-extensions",
+                                  "--disable-sync",
+                                  "--disable-breakpad",
+                                  "--disable-background-networking",
+                                  "--disable-component-update",
+                                  "--disable-dev-shm-usage",
+                                  "--host-resolver-rules=MAP * ~NOTFOUND",
+                                  "--user-data-dir=" + (folder / "profile").string(),
+                                  "--print-to-pdf=" + (folder / "report.pdf").string()};
+  // Chromium refuses its sandbox to root. The page loads nothing and runs no script but ours.
+  if (::geteuid() == 0) out.emplace_back("--no-sandbox");
+  out.push_back(file_url(folder / "report.html"));
+  return out;
+}
+
+tl::unexpected<core::Error> not_printed(const std::string& why) {
+  return core::fail(core::Code::kFile, fmt::format("the page cannot be printed: {}", why),
+                    "report.pdf");
+}
+
+}  // namespace
+
+std::optional<Paper> paper_named(std::string_view name) {
+  if (name == "a4") return Paper::kA4;
+  if (name == "letter") return Paper::kLetter;
+  return std::nullopt;
+}
+
+std::vector<std::string> paper_names() { return {"a4", "letter"}; }
+
+core::Result<fs::path> find_browser() {
+  fs::path browser =
+      record::find_program({"chromium", "chromium-browser", "google-chrome", "google-chrome-stable",
+                            "chrome", "chromium-headless-shell"});
+  if (!browser.empty()) return browser;
+  return core::fail(core::Code::kFile,
+                    "a PDF is printed by Chromium, and none is on PATH; install it (Debian: "
+                    "chromium), or leave pdf out of the formats and print report.html",
+                    "report.pdf");
+}
+
+core::Result<std::string> print_pdf(const record::Header& header, std::string_view html,
+                                    Paper paper, std::chrono::milliseconds time_limit) {
+  const LanguageScope scope(language_of_page(html));
+  const auto browser = find_browser();
+  if (!browser) return core::fail(browser.error());
+  const PrintFolder folder;
+  if (folder.path().empty()) return not_printed(record::system_reason(errno));
+  std::string page(html);
+  page.insert(std::min(page.find("</head>"), page.size()), sheet_style(header, paper));
+  if (auto done = record::write_file(folder / "report.html", page); !done) {
+    return not_printed(done.error().what);
+  }
+  const auto ran = record::run_program(
+      {*browser, print_arguments(folder), print_environment(folder), folder / "said", time_limit});
+  if (!ran) return not_printed(printable(ran.error().what));
+  auto bytes = record::read_file(folder / "report.pdf");
+  const std::size_t end = bytes ? bytes->rfind("startxref") : std::string::npos;
+  if (end == std::string::npos || !bytes->starts_with("%PDF-") ||
+      bytes->find("%%EOF", end) == std::string::npos) {
+    return not_printed(fmt::format("{} ended without a whole document", browser->string()));
+  }
+  // A comment where no offset of the document is counted across it.
+  bytes->insert(end,
+                fmt::format("% {}{}{}{}{}\n", page_mark(html), kPaperMark, name_of_paper(paper),
+                            kPageLanguageMark, tag_of(language_of_page(html))));
+  return std::move(*bytes);
+}
+
+bool is_printed_from(std::string_view html, std::string_view pdf, std::optional<Paper> paper) {
+  const std::string_view statement = print_statement(pdf);
+  if (!statement.starts_with(page_mark(html))) return false;
+  return !paper || statement.find(fmt::format("{}{},", kPaperMark, name_of_paper(*paper))) !=
+                       std::string_view::npos;
+}
+
+Language language_of_pdf(std::string_view pdf) {
+  const std::string mark = fmt::format("{}{}", kPageLanguageMark, tag_of(Language::kChinese));
+  return print_statement(pdf).ends_with(mark) ? Language::kChinese : Language::kEnglish;
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <vector>
+
+#include "evaluation/evaluation.h"
+
+namespace rondure::reports {
+
+/// The numbers of an evaluation by their JSON pointer in report.json, for the journal's seal.
+[[nodiscard]] std::vector<record::StoredResult> stored_results(const Evaluation& evaluation);
+
+}  // namespace rondure::reports

@@ -1,0 +1,91 @@
+#include "reports/words/facts.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/utf8.h"
+#include "reports/words/decision.h"
+#include "evaluation/measured_cloud.h"
+#include "reports/words/language.h"
+
+namespace rondure::reports {
+
+using core::printable;
+
+std::string pattern_of(const FeatureResult& feature) {
+  const std::size_t points = feature.cloud.size();
+  const auto layers = static_cast<std::size_t>(std::max(feature.feature.layers, 0));
+  const auto each = static_cast<std::size_t>(std::max(feature.feature.points_per_layer, 0));
+  if (layers > 0 && layers * each == points) return trf("{} x {} points", layers, each);
+  return count(points, "point", "points");
+}
+
+std::string repeats_of(const FeatureResult& feature) {
+  if (feature.cloud.empty() || feature.feature.strategy == record::Strategy::kPointsFile) return {};
+  if (const int passes = passes_of(feature.cloud); passes > 1) {
+    return trf("{} passes at places of their own, not averaged", passes);
+  }
+  const auto [least, most] = std::minmax_element(
+      feature.cloud.begin(), feature.cloud.end(),
+      [](const CloudPoint& a, const CloudPoint& b) { return a.repeats < b.repeats; });
+  const auto high = static_cast<std::size_t>(most->repeats);
+  const std::string text = count(high, "touch a point", "touches a point");
+  return least->repeats == most->repeats ? text : trf("{} to {}", least->repeats, text);
+}
+
+std::string title_of(const Section& section) {
+  return section.projected ? tr("All points, seen along the axis")
+                           : trf("Layer {}", section.layer + 1);
+}
+
+std::string sentence_of(const fit::Certificate& certificate) {
+  using Kind = fit::Certificate::Kind;
+  switch (certificate.kind) {
+    case Kind::kGlobal:
+      return fmt::format("Global: no narrower zone exists; searched: {}.", certificate.scope);
+    case Kind::kLocal:
+      return fmt::format("Local: no narrower zone exists nearby (scope: {}).", certificate.scope);
+    case Kind::kNone:
+      return "None: the minimum is not proven.";
+  }
+  return {};
+}
+
+std::vector<std::string> missing_parts(const record::RunRecord& record,
+                                       const Evaluation& evaluation) {
+  std::vector<std::string> parts;
+  for (const FeatureResult& feature : evaluation.features) {
+    const record::Feature& asked = feature.feature;
+    const long planned = static_cast<long>(asked.layers) * asked.points_per_layer;
+    if (feature.failure) {
+      parts.push_back(trf("Feature {} has no result.", printable(asked.id)));
+    } else if (planned > static_cast<long>(feature.cloud.size())) {
+      parts.push_back(trf("Feature {} has {} of {} points.", printable(asked.id),
+                          feature.cloud.size(), planned));
+    }
+  }
+  for (std::size_t i = evaluation.features.size(); i < record.features.size(); ++i) {
+    parts.push_back(trf("Feature {} was not evaluated.", printable(record.features[i].id)));
+  }
+  if (parts.empty()) parts.emplace_back(tr("Steps after the last touch on record were not done."));
+  return parts;
+}
+
+std::string rule_sentence(const Evaluation& evaluation) {
+  if (!evaluation.rule) return evaluation.rule.error().what;
+  const DecisionRule& rule = *evaluation.rule;
+  if (!rule.needs_interval()) {
+    return "simple acceptance; no measurement uncertainty taken into account";
+  }
+  return fmt::format("{}; the value {} decides", in_words(rule), name_of(rule.measurand));
+}
+
+std::string rule_in_words(const record::Header& header) {
+  std::string words = tr(header.decision_rule.empty() ? "simple-acceptance" : header.decision_rule);
+  if (language() != Language::kEnglish) return words;
+  std::replace(words.begin(), words.end(), '-', ' ');
+  return words;
+}
+
+}  // namespace rondure::reports
