@@ -7,11 +7,11 @@
 
 #include "evaluation/analysis_result.h"
 #include "evaluation/conformance.h"
-#include "reports/data/json_parts.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/feature_values.h"
+#include "reports/data/json_parts.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 std::string joined(const std::string& detail) {
@@ -135,4 +135,4 @@ void decide_analysis(const record::RunRecord& record, const core::Result<Decisio
   }
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -4,12 +4,12 @@
 #include <string>
 
 #include "core/result.h"
-#include "fit/geometry/probe_tip.h"
-#include "record/run_record.h"
 #include "evaluation/decision/decision.h"
 #include "evaluation/stated_value.h"
+#include "fit/geometry/probe_tip.h"
+#include "record/run_record.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 struct FeatureResult;
 
@@ -55,4 +55,4 @@ void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& r
 void evaluate_contour(const record::RunRecord& record, int index, FeatureResult& result);
 void evaluate_rotary(const record::RunRecord& record, int index, FeatureResult& result);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -7,7 +7,7 @@
 #include "evaluation/spindle/result.h"
 #include "evaluation/wheel/result.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// What one analysis found of a feature: plain data, a struct each. Whoever judges or writes one
 /// visits it. README.md says how to add one.
@@ -15,4 +15,4 @@ struct AnalysisResult {
   std::variant<SpindleResult, WheelResult, ContourResult, RotaryResult> found;
 };
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

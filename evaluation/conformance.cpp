@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "evaluation/uncertainty/declared.h"
 #include "evaluation/deviation.h"
 #include "evaluation/feature_values.h"
 #include "evaluation/harmonic_mask.h"
 #include "evaluation/measured_cloud.h"
+#include "evaluation/uncertainty/declared.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using core::micrometres;
@@ -276,4 +276,4 @@ Verdict overall(const std::vector<FeatureResult>& features) {
   return Verdict::kNotToleranced;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "record/run_record.h"
 #include "evaluation/evaluation.h"
+#include "record/run_record.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Fills the characteristics of an evaluated feature: stated value, verdict under the rule and its
 /// reason. Void when a condition is missing: no result, a reference that does not exist for the
@@ -36,4 +36,4 @@ void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out);
 /// order void, does not conform, undecided, conforms; not toleranced when there is none.
 [[nodiscard]] Verdict overall(const std::vector<FeatureResult>& features);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -10,7 +10,7 @@
 #include "core/version.h"
 #include "record/files.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using core::printable;
@@ -177,4 +177,4 @@ core::Result<Evaluation> evaluate_run(const record::RunRecord& record,
   return std::move(checked.evaluation);
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -11,7 +11,7 @@
 #include "evaluation/evaluation.h"
 #include "evaluation/invariants.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// A result that breaks an invariant: a defect of the program. It is never printed as a value.
 struct Defect {
@@ -59,4 +59,4 @@ inline constexpr const char* kDefectFile = "defect.txt";
                                                     const std::filesystem::path& directory,
                                                     const std::string& processor);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -8,7 +8,7 @@
 
 #include "core/units.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using record::Reference;
@@ -152,4 +152,4 @@ std::optional<std::string> undecided_range(const fit::DeviationRange& range,
       *limit_mm / core::kMicrometre);
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -4,11 +4,11 @@
 #include <string>
 
 #include "core/result.h"
+#include "evaluation/evaluation.h"
 #include "fit/geometry/deviation_range.h"
 #include "record/run_record.h"
-#include "evaluation/evaluation.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// A form deviation of an evaluated feature, and what stands behind it.
 struct Deviation {
@@ -41,4 +41,4 @@ struct Deviation {
 [[nodiscard]] std::optional<std::string> undecided_range(const fit::DeviationRange& range,
                                                          const std::optional<double>& limit_mm);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -10,16 +10,16 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "fit/poses/walk.h"
 #include "evaluation/conformance.h"
 #include "evaluation/defect.h"
-#include "evaluation/merged.h"
 #include "evaluation/fixture_use.h"
 #include "evaluation/invariants.h"
 #include "evaluation/measured_cloud.h"
+#include "evaluation/merged.h"
 #include "evaluation/warnings.h"
+#include "fit/poses/walk.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using record::RunRecord;
@@ -405,4 +405,4 @@ core::Result<Evaluation> evaluate(const RunRecord& record) {
   return evaluate_checked(record).evaluation;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

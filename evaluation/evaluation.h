@@ -10,6 +10,12 @@
 #include "core/error.h"
 #include "core/pose.h"
 #include "core/result.h"
+#include "evaluation/analysis.h"
+#include "evaluation/decision/decision.h"
+#include "evaluation/merged_poses.h"
+#include "evaluation/stated_value.h"
+#include "evaluation/thermal.h"
+#include "evaluation/verdict.h"
 #include "fit/geometry/axis.h"
 #include "fit/geometry/probe_tip.h"
 #include "fit/least_squares/circle.h"
@@ -20,14 +26,8 @@
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
 #include "record/run_record.h"
-#include "evaluation/analysis.h"
-#include "evaluation/decision/decision.h"
-#include "evaluation/merged_poses.h"
-#include "evaluation/stated_value.h"
-#include "evaluation/thermal.h"
-#include "evaluation/verdict.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// One point of the cloud that is evaluated: the mean of its repeated touches, or, where those do
 /// not meet at one place (scans), one of them.
@@ -147,4 +147,4 @@ struct Evaluation {
 ///         defect.h keeps its numbers).
 [[nodiscard]] core::Result<Evaluation> evaluate(const record::RunRecord& record);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 std::vector<fit::Contact> in_rows(const std::vector<fit::Contact>& contacts,
@@ -169,4 +169,4 @@ const record::SimulationTruth* truth_of(const record::RunRecord& record, std::si
   return last;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -8,7 +8,7 @@
 
 #include "evaluation/evaluation.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// The minimum zone of a feature as every report states it: of the cylinder, or of the one section
 /// of a circle.
@@ -69,4 +69,4 @@ struct OneSided {
 [[nodiscard]] const record::SimulationTruth* truth_of(const record::RunRecord& record,
                                                       std::size_t index);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

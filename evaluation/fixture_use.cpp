@@ -4,7 +4,7 @@
 
 #include "core/units.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 Eigen::Vector3d vector_in(const record::RunRecord& record, const char* name) {
@@ -77,4 +77,4 @@ void apply_calibration(const std::optional<FixtureUse>& use, FeatureResult& resu
   }
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -3,10 +3,10 @@
 #include <optional>
 #include <string>
 
-#include "fixture/error_model.h"
 #include "evaluation/evaluation.h"
+#include "fixture/error_model.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// What a record says of the fixture that carried the part.
 struct FixtureFacts {
@@ -21,4 +21,4 @@ struct FixtureFacts {
 /// Makes the characteristics of a touched feature void when the calibration does not hold.
 void apply_calibration(const std::optional<FixtureUse>& use, FeatureResult& result);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

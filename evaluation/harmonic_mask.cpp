@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 /// The highest harmonic that every section carries; 0 when one carries none.
@@ -75,4 +75,4 @@ core::Result<MaskedHarmonic> nearest_to_mask(const FeatureResult& feature,
   return *nearest;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

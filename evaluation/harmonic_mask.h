@@ -7,7 +7,7 @@
 #include "core/result.h"
 #include "evaluation/evaluation.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// The amplitude of one undulation in the section where it is largest.
 struct SectionHarmonic {
@@ -39,4 +39,4 @@ struct MaskedHarmonic {
 [[nodiscard]] core::Result<MaskedHarmonic> nearest_to_mask(const FeatureResult& feature,
                                                            const record::Characteristic& asked);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

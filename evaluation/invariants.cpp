@@ -9,11 +9,11 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "fit/proof/certificate_check.h"
 #include "fit/geometry/cylinder_frame.h"
 #include "fit/geometry/points.h"
+#include "fit/proof/certificate_check.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 /// Collects relations of one feature; keeps the first that does not hold.
@@ -151,4 +151,4 @@ std::optional<BrokenInvariant> broken_invariant(const FeatureResult& result) {
   return std::nullopt;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -5,7 +5,7 @@
 
 #include "evaluation/evaluation.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Round-off allowed where one reported value must not exceed another [mm].
 inline constexpr double kInvariantSlack = 1e-9;
@@ -24,4 +24,4 @@ struct BrokenInvariant {
 /// @return The first that does not hold: a defect of the program, whatever the data.
 [[nodiscard]] std::optional<BrokenInvariant> broken_invariant(const FeatureResult& result);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -13,7 +13,7 @@
 #include "core/units.h"
 #include "fit/zone/center_search.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 std::vector<const record::Touch*> touches_of(const record::RunRecord& record, int pose) {
   std::vector<const record::Touch*> out;
@@ -214,4 +214,4 @@ std::optional<PoseValue> value_of_pose(const record::RunRecord& record,
   return value;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

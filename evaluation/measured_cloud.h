@@ -6,12 +6,12 @@
 #include <Eigen/Core>
 
 #include "core/pose.h"
-#include "record/run_record.h"
 #include "evaluation/evaluation.h"
+#include "record/run_record.h"
 
 // Private to the room: the touches of a pose as a cloud, and f of it.
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// The measuring touches of a pose, in the order of touching.
 [[nodiscard]] std::vector<const record::Touch*> touches_of(const record::RunRecord& record,
@@ -61,4 +61,4 @@ struct RepeatNoise {
                                                      const record::PoseVisit& visit,
                                                      record::Strategy strategy);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -9,10 +9,10 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "evaluation/uncertainty/declared.h"
 #include "evaluation/fixture_use.h"
+#include "evaluation/uncertainty/declared.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using record::RunRecord;
@@ -189,4 +189,4 @@ std::string share_in_words(const MergedPoses& merged) {
       core::micrometres(solved.share_mm()));
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "core/result.h"
-#include "fit/geometry/probe_tip.h"
-#include "record/run_record.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/merged_poses.h"
+#include "fit/geometry/probe_tip.h"
+#include "record/run_record.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// The touches of all poses of a feature of the strategy "merged", in one body frame.
 struct MergedCloud {
@@ -27,4 +27,4 @@ struct MergedCloud {
 [[nodiscard]] core::Result<MergedCloud> merged_cloud(const record::RunRecord& record, int feature,
                                                      const std::optional<fit::ProbeTip>& probe);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -12,7 +12,7 @@
 
 // A cloud that several poses of the fixture make, and what the fixture adds to it.
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// How the clouds of several poses became one.
 struct MergedPoses {
@@ -33,4 +33,4 @@ inline constexpr std::array<const char*, 6> kPoseErrorNames = {
 /// One sentence: what the fixture adds to CYLt.
 [[nodiscard]] std::string share_in_words(const MergedPoses& merged);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

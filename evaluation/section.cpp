@@ -7,7 +7,7 @@
 
 #include "core/units.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 /// Keeps the least and the greatest deviation of each sector, so that no peak is lost.
@@ -97,4 +97,4 @@ std::pair<double, double> heights_of(const FeatureResult& feature) {
   return {low->height_mm, high->height_mm};
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -3,10 +3,10 @@
 #include <utility>
 #include <vector>
 
-#include "fit/geometry/axis.h"
 #include "evaluation/evaluation.h"
+#include "fit/geometry/axis.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// A point of a section on its way to a drawing.
 struct SectionPoint {
@@ -45,4 +45,4 @@ inline constexpr std::size_t kSectors = 720;
 /// Least and greatest height of the cloud along its axis, from its mean point [mm].
 [[nodiscard]] std::pair<double, double> heights_of(const FeatureResult& feature);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

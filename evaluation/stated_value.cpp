@@ -9,7 +9,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 using core::fixed;
 using core::um;
@@ -82,4 +82,4 @@ int decimals_for(double expanded_mm) {
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(u))), 1, 4);
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -5,7 +5,7 @@
 
 #include "evaluation/uncertainty/uncertainty.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// One term of what must be said with a value, in words. The tag keeps terms from being exchanged.
 template <class Tag>
@@ -100,4 +100,4 @@ class StatedValue {
 /// Decimals of a length in um whose uncertainty is U: two digits of U, 1 to 4 decimals.
 [[nodiscard]] int decimals_for(double expanded_mm);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using record::RunRecord;
@@ -123,4 +123,4 @@ std::optional<RunRecord> compensated(const RunRecord& record) {
   return out;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -5,7 +5,7 @@
 
 #include "record/run_record.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Part temperature while a cloud was touched.
 struct Temperatures {
@@ -51,4 +51,4 @@ struct ThermalCorrection {
 [[nodiscard]] std::optional<ThermalCorrection> thermal_correction(const record::RunRecord& record,
                                                                   int feature, int pose);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

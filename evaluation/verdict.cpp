@@ -1,6 +1,6 @@
 #include "evaluation/verdict.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 std::string_view name_of(Verdict verdict) {
   switch (verdict) {
@@ -18,4 +18,4 @@ std::string_view name_of(Verdict verdict) {
   return "void";
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// What is said of a value and its tolerance. kVoid: nothing can be said, a condition is missing.
 enum class Verdict { kConforms, kDoesNotConform, kUndecided, kVoid, kNotToleranced };
@@ -10,4 +10,4 @@ enum class Verdict { kConforms, kDoesNotConform, kUndecided, kVoid, kNotToleranc
 /// "conforms", "does not conform", "undecided", "void", "not toleranced".
 [[nodiscard]] std::string_view name_of(Verdict verdict);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

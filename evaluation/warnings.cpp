@@ -9,7 +9,7 @@
 #include "core/units.h"
 #include "evaluation/feature_values.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 constexpr double kGapLimit =
@@ -183,4 +183,4 @@ void warn(FeatureResult& result) {
   warn_level(result);
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

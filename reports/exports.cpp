@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "evaluation/analysis_result.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
-#include "evaluation/analysis_result.h"
 #include "reports/data/qif/check.h"
 #include "reports/writers.h"
 
@@ -20,10 +20,10 @@ constexpr const char* kSeriesFile = "series.csv";
 constexpr const char* kCalibrationFile = "fixture-calibration.json";
 
 /// The calibration of the fixture. Where it failed: a text that no run takes for one.
-std::string calibration_of(const Evaluation& evaluation) {
-  for (const FeatureResult& feature : evaluation.features) {
+std::string calibration_of(const evaluation::Evaluation& evaluation) {
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
     if (!feature.analysis) continue;
-    const auto* const found = std::get_if<RotaryResult>(&feature.analysis->found);
+    const auto* const found = std::get_if<evaluation::RotaryResult>(&feature.analysis->found);
     if (found != nullptr) return fixture::calibration_text(found->calibration);
   }
   return "{\"format\": \"none\", \"note\": \"the fixture was not calibrated, see report.json\"}\n";
@@ -96,7 +96,8 @@ bool applies(const Export& what, const record::RunRecord& record) {
 }
 
 std::string render(const Export& what, const record::RunRecord& record,
-                   const Evaluation& evaluation, Language language, const EarlierResults& earlier) {
+                   const evaluation::Evaluation& evaluation, Language language,
+                   const EarlierResults& earlier) {
   if (what.file == kCalibrationFile) return calibration_of(evaluation);
   if (what.format == "html" || what.format == "pdf") {
     return write_html(record, evaluation, language, earlier);
@@ -116,7 +117,7 @@ Language language_of(const Export& what, std::string_view bytes) {
 
 bool exports_are_current(const std::filesystem::path& directory,
                          const std::vector<std::string>& formats, const record::RunRecord& record,
-                         const Evaluation& evaluation, Language language, Paper paper) {
+                         const evaluation::Evaluation& evaluation, Language language, Paper paper) {
   const auto earlier = read_earlier(directory);
   if (!earlier) return false;
   return std::all_of(exports().begin(), exports().end(), [&](const Export& e) {
@@ -130,7 +131,8 @@ bool exports_are_current(const std::filesystem::path& directory,
 
 core::Result<std::vector<std::filesystem::path>> write_exports(
     const std::filesystem::path& directory, const std::vector<std::string>& formats,
-    const record::RunRecord& record, const Evaluation& evaluation, Language language, Paper paper) {
+    const record::RunRecord& record, const evaluation::Evaluation& evaluation, Language language,
+    Paper paper) {
   for (const std::string& format : formats) {
     const auto known = all_formats();
     if (std::find(known.begin(), known.end(), format) == known.end()) {

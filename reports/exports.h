@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/result.h"
-#include "record/run_record.h"
 #include "evaluation/evaluation.h"
+#include "record/run_record.h"
 #include "reports/history/earlier_results.h"
 #include "reports/html/pdf.h"
 #include "reports/words/language.h"
@@ -32,7 +32,7 @@ struct Export {
 /// from. What people read is in `language`; what programs read is English.
 /// @param earlier  As earlier.json of the run directory holds them.
 [[nodiscard]] std::string render(const Export& what, const record::RunRecord& record,
-                                 const Evaluation& evaluation,
+                                 const evaluation::Evaluation& evaluation,
                                  Language language = Language::kEnglish,
                                  const EarlierResults& earlier = {});
 
@@ -44,7 +44,7 @@ struct Export {
 [[nodiscard]] bool exports_are_current(const std::filesystem::path& directory,
                                        const std::vector<std::string>& formats,
                                        const record::RunRecord& record,
-                                       const Evaluation& evaluation,
+                                       const evaluation::Evaluation& evaluation,
                                        Language language = Language::kEnglish,
                                        Paper paper = Paper::kA4);
 
@@ -55,7 +55,7 @@ struct Export {
 /// tried last, kSyntax for a SHA256SUMS that is none.
 [[nodiscard]] core::Result<std::vector<std::filesystem::path>> write_exports(
     const std::filesystem::path& directory, const std::vector<std::string>& formats,
-    const record::RunRecord& record, const Evaluation& evaluation,
+    const record::RunRecord& record, const evaluation::Evaluation& evaluation,
     Language language = Language::kEnglish, Paper paper = Paper::kA4);
 
 }  // namespace rondure::reports

@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-namespace rondure::reports {
+namespace rondure::web {
 namespace {
 
 using record::RunRecord;
@@ -64,9 +64,9 @@ core::Result<LiveCloud> evaluate_so_far(const RunRecord& record, const record::P
   const std::size_t every = (touches + kMostLiveTouches - 1) / kMostLiveTouches;
   auto evaluation = evaluate(of_one_pose(record, visit, every));
   if (!evaluation) return core::fail(evaluation.error());
-  FeatureResult& result = evaluation->features.front();
+  evaluation::FeatureResult& result = evaluation->features.front();
   if (result.failure) return core::fail(*result.failure);
   return LiveCloud{std::move(result), every};
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

@@ -3,12 +3,12 @@
 #include <cstddef>
 
 #include "core/result.h"
-#include "record/run_record.h"
 #include "evaluation/evaluation.h"
+#include "record/run_record.h"
 
 // Private to the room: a cloud while it is being touched.
 
-namespace rondure::reports {
+namespace rondure::web {
 
 /// A cloud of more touches than this is looked at through every k-th point of its layers.
 inline constexpr std::size_t kMostLiveTouches = 2000;
@@ -16,7 +16,7 @@ inline constexpr std::size_t kMostLiveTouches = 2000;
 /// The cloud of one pose as far as it is on record, evaluated as a final cloud is, without verdicts
 /// and without uncertainty: what the drawings of the report need.
 struct LiveCloud {
-  FeatureResult result;
+  evaluation::FeatureResult result;
   std::size_t every = 1;  ///< Only every so many-th point was looked at.
 };
 
@@ -25,4 +25,4 @@ struct LiveCloud {
 [[nodiscard]] core::Result<LiveCloud> evaluate_so_far(const record::RunRecord& record,
                                                       const record::PoseVisit& visit);
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

@@ -7,16 +7,16 @@
 #include <nlohmann/json.hpp>
 
 #include "core/utf8.h"
-#include "reports/escaping.h"
 #include "evaluation/feature_values.h"
+#include "evaluation/measured_cloud.h"
+#include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
-#include "evaluation/measured_cloud.h"
 #include "reports/words/language.h"
 #include "web/cloud.h"
 #include "web/sections.h"
 
-namespace rondure::reports {
+namespace rondure::web {
 namespace {
 
 using core::well_formed;
@@ -34,9 +34,10 @@ bool is_whole(const record::RunRecord& record, const record::PoseVisit& visit) {
 }
 
 /// A feature with nothing but its poses, for the drawings of the search.
-FeatureResult with_poses(const record::RunRecord& record, const record::PoseVisit& present,
-                         const std::map<int, PoseValue>& values) {
-  FeatureResult out;
+evaluation::FeatureResult with_poses(const record::RunRecord& record,
+                                     const record::PoseVisit& present,
+                                     const std::map<int, evaluation::PoseValue>& values) {
+  evaluation::FeatureResult out;
   out.feature = record.features[static_cast<std::size_t>(present.feature)];
   for (const record::PoseVisit& visit : record.poses) {
     const auto found = values.find(visit.id);
@@ -64,7 +65,7 @@ std::string answer_of(const LiveFrame& frame, std::string_view session, std::uin
 }
 
 LivePainter::LivePainter(std::shared_ptr<const record::GrowingRecord> source,
-                         std::vector<PredictedStage> stages, Language language)
+                         std::vector<PredictedStage> stages, reports::Language language)
     : source_(std::move(source)), stages_(std::move(stages)), language_(language) {}
 
 void LivePainter::put(std::string_view id, std::string html) {
@@ -111,14 +112,14 @@ void LivePainter::paint_cloud(const record::PoseVisit& visit) {
   put("drawing", live_drawings(cloud));
   if (!touched) return;
   look_at_poses(visit);
-  const FeatureResult feature = with_poses(record_, visit, poses_);
-  const std::string plots = pose_plots(feature, std::nullopt);
+  const evaluation::FeatureResult feature = with_poses(record_, visit, poses_);
+  const std::string plots = reports::pose_plots(feature, std::nullopt);
   put("poses",
       plots.empty() ? plots : fmt::format("<h2>{}</h2>", tr("Search for the pose")) + plots);
 }
 
 std::shared_ptr<const LiveFrame> LivePainter::paint(double elapsed_s) {
-  const LanguageScope scope(language_);
+  const reports::LanguageScope scope(language_);
   const bool fresh = source_->catch_up(record_);
   if (record_.header.version.empty()) {
     put("now", live_numbers(record_, {}));
@@ -132,7 +133,7 @@ std::shared_ptr<const LiveFrame> LivePainter::paint(double elapsed_s) {
     put("head", live_head(record_));
     if (cloud) paint_cloud(*present);
     put("touches", live_touches(record_));
-    put("decisions", decisions_section(record_));
+    put("decisions", reports::decisions_section(record_));
   }
   const int touches = static_cast<int>(record_.touches.size());
   if (!first_) {
@@ -156,25 +157,27 @@ std::shared_ptr<const LiveFrame> LivePainter::paint(double elapsed_s) {
 }
 
 std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunRecord& record,
-                                                           const Evaluation& evaluation,
+                                                           const evaluation::Evaluation& evaluation,
                                                            std::string_view report) {
-  const LanguageScope scope(language_);
+  const reports::LanguageScope scope(language_);
   put("head", live_head(record));
   put("now", live_over(record, report));
-  put("result", verdict_section(record, evaluation));
+  put("result", reports::verdict_section(record, evaluation));
   put("announce",
       fmt::format("{} {}.", tr("The run is over. Verdict:"), tr(name_of(evaluation.verdict))));
   put("touches", live_touches(record));
-  put("decisions", decisions_section(record));
+  put("decisions", reports::decisions_section(record));
   std::string drawings;  // under a heading that says of which feature
   std::string searches;
-  for (const FeatureResult& feature : evaluation.features) {
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
     const auto zone = zone_of(feature);
     if (record::is_analysis(feature.feature.shape)) continue;
     const std::string heading =
         fmt::format("<h2>{}</h2>", trf("Feature {}", isolated(feature.feature.id)));
-    if (zone) drawings += heading + polar_plots(feature, *zone) + deviation_map(feature, *zone);
-    searches += pose_plots(feature, zone);
+    if (zone)
+      drawings +=
+          heading + reports::polar_plots(feature, *zone) + reports::deviation_map(feature, *zone);
+    searches += reports::pose_plots(feature, zone);
   }
   put("drawing", std::move(drawings));
   put("poses", std::move(searches));
@@ -185,7 +188,7 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
 }
 
 std::shared_ptr<const LiveFrame> LivePainter::paint_failure(std::string_view why) {
-  const LanguageScope scope(language_);
+  const reports::LanguageScope scope(language_);
   put("now", fmt::format(R"(<h2 class="doing">{}</h2><div class="banner alarm">{}</div>)",
                          tr("No result"), isolated(why)));
   put("announce", fmt::format("{}: {}", tr("No result"), isolated(why)));
@@ -195,4 +198,4 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_failure(std::string_view why
   return frame();
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

@@ -8,15 +8,15 @@
 #include <string_view>
 #include <vector>
 
+#include "evaluation/evaluation.h"
 #include "record/growing_record.h"
 #include "record/run_record.h"
-#include "evaluation/evaluation.h"
 #include "reports/words/language.h"
 #include "web/time.h"
 
 // Private to the room: what a live page shows, as HTML by part.
 
-namespace rondure::reports {
+namespace rondure::web {
 
 /// One part of the page: the element with this id holds this HTML.
 struct LivePart {
@@ -43,15 +43,15 @@ struct LiveFrame {
 class LivePainter {
  public:
   LivePainter(std::shared_ptr<const record::GrowingRecord> source,
-              std::vector<PredictedStage> stages, Language language);
+              std::vector<PredictedStage> stages, reports::Language language);
 
   /// @param elapsed_s  Since this start of the program.
   [[nodiscard]] std::shared_ptr<const LiveFrame> paint(double elapsed_s);
   /// The last frame: the result as the report states it.
   /// @param report  Where the report stands; may be empty.
-  [[nodiscard]] std::shared_ptr<const LiveFrame> paint_result(const record::RunRecord& record,
-                                                              const Evaluation& evaluation,
-                                                              std::string_view report);
+  [[nodiscard]] std::shared_ptr<const LiveFrame> paint_result(
+      const record::RunRecord& record, const evaluation::Evaluation& evaluation,
+      std::string_view report);
   /// The last frame of a run that has no result.
   [[nodiscard]] std::shared_ptr<const LiveFrame> paint_failure(std::string_view why);
 
@@ -64,15 +64,15 @@ class LivePainter {
 
   std::shared_ptr<const record::GrowingRecord> source_;
   std::vector<PredictedStage> stages_;
-  Language language_;
+  reports::Language language_;
   record::RunRecord record_;
-  std::map<int, PoseValue> poses_;  ///< By PoseVisit::id.
-  int grew_ = -1;                   ///< The pose that was present when they were looked at last.
-  std::optional<double> zone_mm_;   ///< Of the present cloud.
-  std::optional<int> first_;        ///< Touches on record when this start made its first.
-  double first_s_ = 0.0;            ///< And when that was.
+  std::map<int, evaluation::PoseValue> poses_;  ///< By PoseVisit::id.
+  int grew_ = -1;                  ///< The pose that was present when they were looked at last.
+  std::optional<double> zone_mm_;  ///< Of the present cloud.
+  std::optional<int> first_;       ///< Touches on record when this start made its first.
+  double first_s_ = 0.0;           ///< And when that was.
   LiveFrame frame_;
   bool changed_ = false;
 };
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

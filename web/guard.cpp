@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace rondure::reports {
+namespace rondure::web {
 namespace {
 
 bool is_json(std::string_view content_type) {
@@ -56,4 +56,4 @@ std::optional<Refusal> refuse_stop(const LiveGate& gate, const LiveRequest& requ
   return std::nullopt;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

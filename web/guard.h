@@ -7,7 +7,7 @@
 
 // Private to the room: who may look at a live page, and who may stop the run.
 
-namespace rondure::reports {
+namespace rondure::web {
 
 /// What guards the page of one run.
 struct LiveGate {
@@ -46,4 +46,4 @@ struct Refusal {
 /// own would need a permission that is never given, and it does not know the token.
 [[nodiscard]] std::optional<Refusal> refuse_stop(const LiveGate& gate, const LiveRequest& request);
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

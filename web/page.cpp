@@ -5,7 +5,7 @@
 #include "reports/html/style.h"
 #include "reports/words/language.h"
 
-namespace rondure::reports {
+namespace rondure::web {
 namespace {
 
 constexpr std::string_view kLiveStyle = R"css(
@@ -49,8 +49,8 @@ std::string control_part() {
 }  // namespace
 
 std::string live_style() {
-  return fmt::format("{}@media screen and (prefers-color-scheme:dark){{:root{{{}}}}}\n{}", kStyle,
-                     kDarkColours, kLiveStyle);
+  return fmt::format("{}@media screen and (prefers-color-scheme:dark){{:root{{{}}}}}\n{}",
+                     reports::kStyle, reports::kDarkColours, kLiveStyle);
 }
 
 std::string live_page(bool control) {
@@ -60,7 +60,7 @@ std::string live_page(bool control) {
       "<title>{}</title>\n<link rel=\"icon\" href=\"data:,\">\n"
       "<link rel=\"stylesheet\" href=\"live.css\">\n"
       "<script src=\"live.js\" defer></script>\n</head>\n<body>\n<main>\n",
-      tag_of(language()), tr("Rondure: live view"));
+      tag_of(reports::language()), tr("Rondure: live view"));
   html += fmt::format(
       "<noscript><div class=\"banner alarm\">{}</div></noscript>\n"
       "<div id=\"announce\" class=\"heard\" role=\"status\" aria-live=\"polite\"></div>\n"
@@ -79,4 +79,4 @@ std::string live_page(bool control) {
                                "the report, of the touches so far."));
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

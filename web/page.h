@@ -5,7 +5,7 @@
 
 // Private to the room: the page itself, which fetches its parts (live_frame.h).
 
-namespace rondure::reports {
+namespace rondure::web {
 
 /// The page. Without control it has no button at all.
 [[nodiscard]] std::string live_page(bool control);
@@ -82,4 +82,4 @@ inline constexpr std::string_view kLiveScript = R"js('use strict';
 })();
 )js";
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

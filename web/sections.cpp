@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "reports/escaping.h"
 #include "evaluation/feature_values.h"
+#include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
 
-namespace rondure::reports {
+namespace rondure::web {
 namespace {
 
 using core::deg;
@@ -158,7 +158,7 @@ std::string live_drawings(const core::Result<LiveCloud>& cloud) {
   const auto zone = zone_of(cloud->result);
   if (!zone) return {};
   std::string html = fmt::format("<h2>{}</h2>", tr("The present cloud"));
-  html += polar_plots(cloud->result, *zone) + deviation_map(cloud->result, *zone);
+  html += reports::polar_plots(cloud->result, *zone) + reports::deviation_map(cloud->result, *zone);
   if (cloud->every > 1) {
     html += fmt::format(R"(<p class="note">{}</p>)",
                         trf("Every {}th point is drawn while the run is at work; the report "
@@ -201,4 +201,4 @@ std::string live_over(const record::RunRecord& record, std::string_view report) 
                             tr("The program has ended; this page stays as it is."));
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

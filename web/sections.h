@@ -5,18 +5,18 @@
 #include <string>
 #include <string_view>
 
-#include "record/run_record.h"
 #include "evaluation/evaluation.h"
+#include "record/run_record.h"
 #include "web/cloud.h"
 
 // Private to the room: the parts of the live page. Every text of the record is escaped.
 
-namespace rondure::reports {
+namespace rondure::web {
 
 /// Where a run stands.
 struct LiveNow {
   const record::PoseVisit* pose = nullptr;  ///< The present one; none before the first.
-  std::optional<PoseValue> f;               ///< Of the present pose, of its touches so far.
+  std::optional<evaluation::PoseValue> f;   ///< Of the present pose, of its touches so far.
   std::optional<double> zone_mm;            ///< Minimum zone of these touches.
   std::size_t expected = 0;                 ///< Touches of the run as predicted; 0: unknown.
   double elapsed_s = 0.0;
@@ -38,4 +38,4 @@ struct LiveNow {
 /// What the page says when the run is over, above the verdict.
 [[nodiscard]] std::string live_over(const record::RunRecord& record, std::string_view report);
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

@@ -17,7 +17,7 @@
 #include "web/page.h"
 #include "web/stream.h"
 
-namespace rondure::reports {
+namespace rondure::web {
 namespace {
 
 constexpr std::size_t kThreads = 8;
@@ -238,4 +238,4 @@ core::Result<std::unique_ptr<LiveServer>> LiveServer::start(std::uint16_t port, 
   return std::unique_ptr<LiveServer>(new LiveServer(std::move(http)));
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

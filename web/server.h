@@ -12,7 +12,7 @@
 
 // Private to the room: HTTP on this computer only.
 
-namespace rondure::reports {
+namespace rondure::web {
 
 /// What the server hands out and takes. Called from its threads.
 struct LiveHandlers {
@@ -51,4 +51,4 @@ class LiveServer {
   std::thread thread_;
 };
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

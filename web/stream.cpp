@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-namespace rondure::reports {
+namespace rondure::web {
 namespace {
 
 /// A browser's request has one or two kB. The library bounds a line, but neither their number nor
@@ -84,4 +84,4 @@ void LiveStream::finish() {
   }
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

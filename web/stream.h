@@ -10,7 +10,7 @@
 
 // Private to the room: one connection of a browser, which can neither last nor hold up the end.
 
-namespace rondure::reports {
+namespace rondure::web {
 
 /// A connected socket for one request and its answer, within a time for both together: a client
 /// that sends or reads by drops is left, and so is one that sends more than 32 kB. When `ending`
@@ -47,4 +47,4 @@ class LiveStream final : public httplib::Stream {
   std::size_t taken_ = 0;  ///< Of the request, in all.
 };
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

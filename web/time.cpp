@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rondure::reports {
+namespace rondure::web {
 
 int predicted_touches(const std::vector<PredictedStage>& stages) {
   int sum = 0;
@@ -33,4 +33,4 @@ std::optional<double> time_left_s(const std::vector<PredictedStage>& stages, int
   return left_s * elapsed_s / done_s;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

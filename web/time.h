@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-namespace rondure::reports {
+namespace rondure::web {
 
 /// A stage of the run as the plan's time model predicts it, in the order of the run.
 struct PredictedStage {
@@ -28,4 +28,4 @@ struct PredictedStage {
 [[nodiscard]] std::optional<double> time_left_s(const std::vector<PredictedStage>& stages,
                                                 int first, int touches, double elapsed_s);
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

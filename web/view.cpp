@@ -16,7 +16,7 @@
 #include "web/page.h"
 #include "web/server.h"
 
-namespace rondure::reports {
+namespace rondure::web {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -45,7 +45,7 @@ class LiveView::Impl {
     if (control) gate.token = random_token();
     if (session_.empty() || (control && gate.token.empty()))
       return core::fail(core::Code::kFile, "the system gives no random numbers for the live page");
-    const LanguageScope scope(language_);
+    const reports::LanguageScope scope(language_);
     auto server = LiveServer::start(
         port, std::move(gate), live_page(control),
         {[this](std::uint64_t since, const std::string& client) { return state(since, client); },
@@ -141,7 +141,7 @@ class LiveView::Impl {
   };
 
   LivePainter painter_;  ///< Of its thread; of the run's behind the end of that.
-  Language language_;
+  reports::Language language_;
   std::function<void()> stop_;
   std::string session_;
   const Clock::time_point start_ = Clock::now();
@@ -169,8 +169,8 @@ core::Result<std::unique_ptr<LiveView>> LiveView::start(
 
 std::string LiveView::url() const { return impl_->url(); }
 
-void LiveView::show_result(const record::RunRecord& record, const Evaluation& evaluation,
-                           std::string_view report) {
+void LiveView::show_result(const record::RunRecord& record,
+                           const evaluation::Evaluation& evaluation, std::string_view report) {
   impl_->show_last(
       [&](LivePainter& painter) { return painter.paint_result(record, evaluation, report); });
 }
@@ -179,4 +179,4 @@ void LiveView::show_failure(std::string_view why) {
   impl_->show_last([&](LivePainter& painter) { return painter.paint_failure(why); });
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "core/result.h"
+#include "evaluation/evaluation.h"
 #include "record/growing_record.h"
 #include "record/run_record.h"
-#include "evaluation/evaluation.h"
 #include "reports/words/language.h"
 #include "web/time.h"
 
-namespace rondure::reports {
+namespace rondure::web {
 
 /// Settings of a live page.
 struct LiveOptions {
@@ -25,7 +25,7 @@ struct LiveOptions {
   /// What the button does, as Ctrl-C: sets a flag that the run asks for. Called from another thread
   /// and more than once. Only with `control`.
   std::function<void()> stop;
-  Language language = Language::kEnglish;  ///< Of the page.
+  reports::Language language = reports::Language::kEnglish;  ///< Of the page.
 };
 
 /// A page at http://127.0.0.1 that shows a run while it is measured: touches, poses, f, time left,
@@ -49,7 +49,7 @@ class LiveView {
 
   /// The run is over: the pages show its result from now on.
   /// @param report  Where the report stands; may be empty.
-  void show_result(const record::RunRecord& record, const Evaluation& evaluation,
+  void show_result(const record::RunRecord& record, const evaluation::Evaluation& evaluation,
                    std::string_view report);
   /// The run is over and has no result.
   void show_failure(std::string_view why);
@@ -60,4 +60,4 @@ class LiveView {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace rondure::reports
+}  // namespace rondure::web

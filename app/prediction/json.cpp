@@ -8,8 +8,8 @@
 namespace rondure::app {
 namespace {
 
+using evaluation::PredictedStatement;
 using nlohmann::ordered_json;
-using reports::PredictedStatement;
 
 ordered_json statement_json(const std::optional<PredictedStatement>& said) {
   if (!said) return nullptr;
@@ -21,9 +21,9 @@ ordered_json statement_json(const std::optional<PredictedStatement>& said) {
           {"nine_of_ten_expanded_um", core::micrometres(said->nine_of_ten_expanded_mm())}};
 }
 
-ordered_json budget_json(const reports::BudgetLine& line) {
+ordered_json budget_json(const evaluation::BudgetLine& line) {
   return {{"name", line.name},
-          {"measurand", reports::name_of(line.measurand)},
+          {"measurand", evaluation::name_of(line.measurand)},
           {"standard_uncertainty_um", core::micrometres(line.standard_uncertainty_mm)},
           {"shift_um", core::micrometres(line.shift_mm)},
           {"share", line.share_1}};
@@ -59,7 +59,7 @@ ordered_json prediction_json(const plans::Plan& plan,
                              const std::vector<PredictedCharacteristic>& predicted) {
   ordered_json out = ordered_json::array();
   for (const PredictedCharacteristic& of : predicted) {
-    const reports::Prediction& p = of.prediction;
+    const evaluation::Prediction& p = of.prediction;
     ordered_json one = {{"feature", plan.features[of.feature].id},
                         {"characteristic", of.characteristic.id}};
     if (!p.why.empty()) {
@@ -83,7 +83,7 @@ ordered_json search_json(const plans::Plan& plan, const std::vector<SamplingSear
   ordered_json features = ordered_json::array();
   for (const SamplingSearch& of : searches) {
     ordered_json one = {{"feature", plan.features[of.feature].id},
-                        {"measurand", reports::name_of(of.measurand)},
+                        {"measurand", evaluation::name_of(of.measurand)},
                         {"met", of.best.has_value()}};
     if (!of.why.empty()) one["none"] = of.why;
     if (!of.limit.empty()) one["limit"] = of.limit;

@@ -9,12 +9,12 @@ namespace rondure::app {
 core::Result<std::vector<PredictedCharacteristic>> predict_plan(const plans::Plan& plan,
                                                                 const plans::Forecast& forecast) {
   const record::RunRecord expected = plans::expected_record(plan, forecast);
-  reports::PredictionOptions options;
+  evaluation::PredictionOptions options;
   options.budget_trials = 20;
   std::vector<PredictedCharacteristic> out;
   for (std::size_t i = 0; i < expected.features.size(); ++i) {
     for (const record::Characteristic& asked : expected.features[i].characteristics) {
-      auto found = reports::predict(expected, static_cast<int>(i), asked, options);
+      auto found = evaluation::predict(expected, static_cast<int>(i), asked, options);
       if (!found) return core::fail(found.error());
       out.push_back({i, asked, *std::move(found)});
     }
@@ -22,18 +22,18 @@ core::Result<std::vector<PredictedCharacteristic>> predict_plan(const plans::Pla
   return out;
 }
 
-std::string largest_influences(const reports::Prediction& prediction,
-                               reports::Measurand measurand) {
+std::string largest_influences(const evaluation::Prediction& prediction,
+                               evaluation::Measurand measurand) {
   constexpr double kWorthNaming = 0.05;
-  const auto counts = [&](const reports::BudgetLine& line) {
-    return measurand == reports::Measurand::kWholeSurface || line.measurand == measurand;
+  const auto counts = [&](const evaluation::BudgetLine& line) {
+    return measurand == evaluation::Measurand::kWholeSurface || line.measurand == measurand;
   };
   double sum = 0.0;
-  for (const reports::BudgetLine& line : prediction.budget) {
+  for (const evaluation::BudgetLine& line : prediction.budget) {
     if (counts(line)) sum += line.standard_uncertainty_mm * line.standard_uncertainty_mm;
   }
   std::string out;
-  for (const reports::BudgetLine& line : prediction.budget) {
+  for (const evaluation::BudgetLine& line : prediction.budget) {
     const double square = line.standard_uncertainty_mm * line.standard_uncertainty_mm;
     if (!counts(line) || !(square > kWorthNaming * sum)) continue;
     out += fmt::format("{}{} {:.0f} %", out.empty() ? "" : ", ", line.name, 100.0 * square / sum);

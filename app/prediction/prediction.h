@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/prediction/predict.h"
 #include "plans/forecast/forecast.h"
 #include "plans/plan.h"
-#include "evaluation/prediction/predict.h"
 
 namespace rondure::app {
 
@@ -13,7 +13,7 @@ namespace rondure::app {
 struct PredictedCharacteristic {
   std::size_t feature = 0;  ///< Index into the plan.
   record::Characteristic characteristic;
-  reports::Prediction prediction;
+  evaluation::Prediction prediction;
 };
 
 /// Of every characteristic of a plan, in its order.
@@ -22,7 +22,7 @@ struct PredictedCharacteristic {
 
 /// What is said about the largest influences: "probe-repeatability 61 %, machine-squareness 20 %".
 /// @param measurand  The sampling is an influence of the whole surface only.
-[[nodiscard]] std::string largest_influences(const reports::Prediction& prediction,
-                                             reports::Measurand measurand);
+[[nodiscard]] std::string largest_influences(const evaluation::Prediction& prediction,
+                                             evaluation::Measurand measurand);
 
 }  // namespace rondure::app

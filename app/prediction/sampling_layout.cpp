@@ -7,7 +7,7 @@
 
 namespace rondure::app {
 
-using reports::Measurand;
+using evaluation::Measurand;
 
 /// A run finds the repeatability by its repeats, where the plan does not declare it.
 int least_repeats(const plans::Plan& plan) {
@@ -44,18 +44,18 @@ SamplingCandidate SamplingLayout::candidate(int repeats) const {
   return out;
 }
 
-core::Result<reports::Prediction> SamplingLayout::predict(Measurand measurand,
-                                                          const reports::PredictionOptions& options,
-                                                          SamplingCandidate& candidate) const {
+core::Result<evaluation::Prediction> SamplingLayout::predict(
+    Measurand measurand, const evaluation::PredictionOptions& options,
+    SamplingCandidate& candidate) const {
   plans::Plan plan = plan_;
   plan.features[feature_].pose_search.repeats = candidate.sampling.repeats;
   const auto expected = plans::expected_record(plan, repeated(candidate.sampling.repeats));
-  reports::Prediction worst;
+  evaluation::Prediction worst;
   candidate.expanded_mm = candidate.nine_of_ten_expanded_mm = 0.0;
   candidate.stated = 0;
   candidate.missing.clear();
   for (const record::Characteristic& asked : expected.features[feature_].characteristics) {
-    auto found = reports::predict(expected, static_cast<int>(feature_), asked, options);
+    auto found = evaluation::predict(expected, static_cast<int>(feature_), asked, options);
     if (!found) return found;
     const auto& said = found->about(measurand);
     if (!said) {

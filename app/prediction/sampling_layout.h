@@ -3,9 +3,9 @@
 #include <string>
 
 #include "core/result.h"
+#include "evaluation/prediction/predict.h"
 #include "plans/forecast/forecast.h"
 #include "plans/plan.h"
-#include "evaluation/prediction/predict.h"
 
 namespace rondure::app {
 
@@ -50,9 +50,9 @@ class SamplingLayout {
 
   /// Predicts the U of a candidate of this layout.
   /// @return  The prediction with the largest U of its characteristics; `why` when none has one.
-  core::Result<reports::Prediction> predict(reports::Measurand measurand,
-                                            const reports::PredictionOptions& options,
-                                            SamplingCandidate& candidate) const;
+  core::Result<evaluation::Prediction> predict(evaluation::Measurand measurand,
+                                               const evaluation::PredictionOptions& options,
+                                               SamplingCandidate& candidate) const;
 
  private:
   [[nodiscard]] plans::Forecast repeated(int repeats) const;

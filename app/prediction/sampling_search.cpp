@@ -14,7 +14,7 @@
 namespace rondure::app {
 namespace {
 
-using reports::Measurand;
+using evaluation::Measurand;
 
 constexpr std::array kRepeats = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 25, 32, 40, 50};
 
@@ -49,15 +49,15 @@ std::vector<Sampling> layouts_of(const plans::FeaturePlan& feature, Measurand me
   return out;
 }
 
-reports::PredictionOptions few_parts(Measurand measurand) {
-  reports::PredictionOptions options;
+evaluation::PredictionOptions few_parts(Measurand measurand) {
+  evaluation::PredictionOptions options;
   options.whole_surface = measurand == Measurand::kWholeSurface;
   options.least_inspections = options.most_inspections = 24;
   return options;
 }
 
-reports::PredictionOptions all_parts() {
-  reports::PredictionOptions options;
+evaluation::PredictionOptions all_parts() {
+  evaluation::PredictionOptions options;
   options.budget_trials = 20;
   return options;
 }
@@ -96,7 +96,7 @@ class Search {
     if (!found->about(out_.measurand)) {
       out_.why = !found->why.empty()
                      ? found->why
-                     : fmt::format("nothing is stated {}", reports::name_of(out_.measurand));
+                     : fmt::format("nothing is stated {}", evaluation::name_of(out_.measurand));
       return {};
     }
     stated_ = as_planned.stated;
@@ -106,7 +106,7 @@ class Search {
   }
 
   /// @return Whether it meets the target, with an interval wherever the plan has one.
-  bool keep(SamplingCandidate candidate, const reports::Prediction& found, bool confirmed) {
+  bool keep(SamplingCandidate candidate, const evaluation::Prediction& found, bool confirmed) {
     candidate.confirmed = confirmed;
     if (candidate.stated < stated_) candidate.out_of_reach = candidate.missing;
     const bool sound = candidate.out_of_reach.empty();

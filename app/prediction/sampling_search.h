@@ -6,15 +6,16 @@
 
 #include "app/prediction/sampling_layout.h"
 #include "core/result.h"
-#include "plans/plan.h"
 #include "evaluation/uncertainty/uncertainty.h"
+#include "plans/plan.h"
 
 namespace rondure::app {
 
 /// What was found for one feature.
 struct SamplingSearch {
-  std::size_t feature = 0;                                            ///< Index into the plan.
-  reports::Measurand measurand = reports::Measurand::kSampledPoints;  ///< Of the decision rule.
+  std::size_t feature = 0;  ///< Index into the plan.
+  evaluation::Measurand measurand =
+      evaluation::Measurand::kSampledPoints;  ///< Of the decision rule.
   Sampling planned;
   std::vector<SamplingCandidate> candidates;  ///< By time.
   std::optional<std::size_t> best;            ///< The cheapest that meets the target.

@@ -48,7 +48,7 @@ core::Result<record::ArchivePlace> archive_of(const std::string& argument, const
 
 core::Result<record::ArchiveRun> entry_of(const fs::path& directory,
                                           const record::RunRecord& record,
-                                          const reports::Evaluation& evaluation) {
+                                          const evaluation::Evaluation& evaluation) {
   const auto journal = record::read_file(directory / record::kJournalName);
   if (!journal) return core::fail(journal.error());
   return reports::archive_entry(record, evaluation, record::sha256_hex(*journal));
@@ -74,7 +74,7 @@ void keep_earlier_results(const record::ArchivePlace& place, const fs::path& dir
 }
 
 bool archive_run(const record::ArchivePlace& place, const fs::path& directory,
-                 const record::RunRecord& record, const reports::Evaluation& evaluation) {
+                 const record::RunRecord& record, const evaluation::Evaluation& evaluation) {
   if (place.kind == record::ArchivePlace::Kind::kNone) return false;
   std::fflush(stdout);  // the result is read while a server is waited for
   const auto entry = entry_of(directory, record, evaluation);

@@ -4,10 +4,10 @@
 #include <string>
 
 #include "core/result.h"
+#include "evaluation/evaluation.h"
 #include "plans/plan.h"
 #include "record/archive/archive.h"
 #include "record/run_record.h"
-#include "evaluation/evaluation.h"
 
 namespace rondure::app {
 
@@ -20,7 +20,7 @@ namespace rondure::app {
 /// A sealed run as the archive keeps it; kFile when its journal cannot be read.
 [[nodiscard]] core::Result<record::ArchiveRun> entry_of(const std::filesystem::path& directory,
                                                         const record::RunRecord& record,
-                                                        const reports::Evaluation& evaluation);
+                                                        const evaluation::Evaluation& evaluation);
 
 /// Keeps the earlier results of a run's part in its directory (earlier.json), for the run charts of
 /// its page: once, before its reports are first written. Without an archive, or where it cannot be
@@ -32,6 +32,6 @@ void keep_earlier_results(const record::ArchivePlace& place, const std::filesyst
 /// the run directory; a message says so. Never changes how the run ends.
 /// @return  Whether there was anything to do: false when the archive held it, or none is wanted.
 bool archive_run(const record::ArchivePlace& place, const std::filesystem::path& directory,
-                 const record::RunRecord& record, const reports::Evaluation& evaluation);
+                 const record::RunRecord& record, const evaluation::Evaluation& evaluation);
 
 }  // namespace rondure::app

@@ -12,14 +12,14 @@
 #include "app/text/shell_word.h"
 #include "app/text/sketch_style.h"
 #include "app/text/terminal.h"
+#include "evaluation/defect.h"
+#include "evaluation/evaluation.h"
+#include "evaluation/verdict.h"
 #include "plans/checks/record.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
-#include "evaluation/defect.h"
-#include "evaluation/evaluation.h"
 #include "reports/exports.h"
 #include "reports/verify/stored_results.h"
-#include "evaluation/verdict.h"
 #include "reports/words/language.h"
 #include "reports/writers.h"
 
@@ -28,10 +28,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int exit_status(bool failed, reports::Verdict verdict) {
+int exit_status(bool failed, evaluation::Verdict verdict) {
   if (failed) return kRunFailed;
   const bool well =
-      verdict == reports::Verdict::kConforms || verdict == reports::Verdict::kNotToleranced;
+      verdict == evaluation::Verdict::kConforms || verdict == evaluation::Verdict::kNotToleranced;
   return well ? kAllWell : kNotConforming;
 }
 
@@ -59,7 +59,7 @@ reports::Paper paper_of(const RunArguments& arguments, const plans::Plan& plan) 
 /// A run as its journal holds it.
 struct EvaluatedRun {
   record::RunRecord record;
-  reports::Evaluation evaluation;
+  evaluation::Evaluation evaluation;
 };
 
 core::Result<void> require_sound(const record::ReadJournal& read, const fs::path& directory) {
@@ -73,7 +73,7 @@ core::Result<void> require_sound(const record::ReadJournal& read, const fs::path
 }
 
 core::Result<EvaluatedRun> evaluate(record::RunRecord record, const fs::path& directory) {
-  auto evaluation = reports::evaluate_run(record, directory, processor());
+  auto evaluation = evaluation::evaluate_run(record, directory, processor());
   if (!evaluation) return core::fail(evaluation.error());
   return EvaluatedRun{std::move(record), std::move(*evaluation)};
 }
@@ -103,13 +103,14 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
     tell(fmt::format(
         "rondure: the run in {} is finished and sealed, there is nothing to resume: {}; its "
         "reports are there (again: rondure report {})\n",
-        directory.string(), reports::name_of(told.evaluation.verdict), quoted(directory.string())));
+        directory.string(), evaluation::name_of(told.evaluation.verdict),
+        quoted(directory.string())));
   }
   return exit_status(false, told.evaluation.verdict);
 }
 
 /// To the terminal, and to the page, which would wait for a verdict that never comes.
-void tell_failure(const core::Error& error, reports::LiveView* live) {
+void tell_failure(const core::Error& error, web::LiveView* live) {
   print_error(error);
   if (live != nullptr) live->show_failure(core::to_line(error));
 }
@@ -117,7 +118,7 @@ void tell_failure(const core::Error& error, reports::LiveView* live) {
 /// @param run  None for a run that was sealed before.
 int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& told, plans::Run* run) {
   const auto& [arguments, plan, archive, directory, live] = ending;
-  const reports::Evaluation& evaluation = told.evaluation;
+  const evaluation::Evaluation& evaluation = told.evaluation;
   const bool failed = run != nullptr && run->failure;
   // An unfinished run stays open: it has no results to seal.
   if (run != nullptr && !failed) {

@@ -17,7 +17,7 @@ struct RunToFinish {
   const plans::Plan& plan;
   const record::ArchivePlace& archive;
   std::filesystem::path directory;
-  reports::LiveView* live = nullptr;  ///< Who watches is shown the result; or none.
+  web::LiveView* live = nullptr;  ///< Who watches is shown the result; or none.
 };
 
 /// The formats that a run is to write: of the command line, else of the plan.

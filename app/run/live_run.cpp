@@ -12,8 +12,8 @@
 
 namespace rondure::app {
 
-std::vector<reports::PredictedStage> predicted_stages(const plans::Plan& plan) {
-  std::vector<reports::PredictedStage> out;
+std::vector<web::PredictedStage> predicted_stages(const plans::Plan& plan) {
+  std::vector<web::PredictedStage> out;
   const auto forecast = plans::forecast(plan);
   if (!forecast) return out;  // the run says why
   for (const plans::ForecastStage& stage : forecast->stages) {
@@ -22,11 +22,11 @@ std::vector<reports::PredictedStage> predicted_stages(const plans::Plan& plan) {
   return out;
 }
 
-core::Result<std::unique_ptr<reports::LiveView>> open_live(const RunArguments& arguments,
-                                                           const plans::Plan& plan,
-                                                           plans::RunOptions& options) {
-  if (arguments.watch.empty()) return std::unique_ptr<reports::LiveView>();
-  reports::LiveOptions live;
+core::Result<std::unique_ptr<web::LiveView>> open_live(const RunArguments& arguments,
+                                                       const plans::Plan& plan,
+                                                       plans::RunOptions& options) {
+  if (arguments.watch.empty()) return std::unique_ptr<web::LiveView>();
+  web::LiveOptions live;
   if (arguments.watch != "auto")
     live.port = static_cast<std::uint16_t>(core::parse_number(arguments.watch).value_or(0.0));
   live.control = arguments.control;
@@ -34,7 +34,7 @@ core::Result<std::unique_ptr<reports::LiveView>> open_live(const RunArguments& a
   live.stop = request_stop;
   live.language = reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
   auto record = std::make_shared<record::GrowingRecord>();
-  auto view = reports::LiveView::start(std::move(live), record);
+  auto view = web::LiveView::start(std::move(live), record);
   if (!view) return core::fail(view.error());
   options.followed_by = std::move(record);
   tell(fmt::format("rondure: live page at {} ({})\n", (*view)->url(),

@@ -12,8 +12,8 @@
 namespace rondure::app {
 namespace {
 
-using reports::Measurand;
-using reports::PredictedStatement;
+using evaluation::Measurand;
+using evaluation::PredictedStatement;
 
 /// Breaks a sentence into lines of 78 columns at most, all but the first indented.
 std::string wrapped(const std::string& text, const std::string& first, const std::string& indent) {
@@ -38,9 +38,9 @@ std::string wrapped(const std::string& text, const std::string& first, const std
 
 std::string statement_row(const std::optional<PredictedStatement>& said) {
   if (!said) return {};
-  const int digits = reports::decimals_for(said->expanded_mm());
+  const int digits = evaluation::decimals_for(said->expanded_mm());
   return fmt::format("    {:<24} {:>8.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f} {:>7.{}f}\n",
-                     reports::name_of(said->measurand), core::micrometres(said->expected_mm),
+                     evaluation::name_of(said->measurand), core::micrometres(said->expected_mm),
                      digits, core::micrometres(said->below_mm), digits,
                      core::micrometres(said->above_mm), digits, core::micrometres(said->width_mm()),
                      digits, core::micrometres(said->expanded_mm()), digits,
@@ -48,7 +48,7 @@ std::string statement_row(const std::optional<PredictedStatement>& said) {
 }
 
 std::string characteristic_rows(const plans::Plan& plan, const PredictedCharacteristic& of) {
-  const reports::Prediction& p = of.prediction;
+  const evaluation::Prediction& p = of.prediction;
   std::string out = fmt::format("  {}, {}\n", plan.features[of.feature].id, of.characteristic.id);
   out += statement_row(p.sampled) + statement_row(p.whole);
   const Measurand widest = p.whole ? Measurand::kWholeSurface : Measurand::kSampledPoints;
@@ -82,7 +82,7 @@ std::string assumptions(const std::vector<PredictedCharacteristic>& predicted) {
   std::vector<std::pair<std::string, std::string>> forms;  // words, characteristics
   std::string repeatability;
   for (const PredictedCharacteristic& of : predicted) {
-    const reports::Prediction& p = of.prediction;
+    const evaluation::Prediction& p = of.prediction;
     if (!p.why.empty()) continue;
     if (!p.repeatability.empty()) repeatability = p.repeatability;
     const auto same = std::find_if(forms.begin(), forms.end(),
@@ -183,7 +183,7 @@ std::string search_table(const plans::Plan& plan, const std::vector<SamplingSear
   for (const SamplingSearch& of : searches) {
     out += fmt::format("\nSamplings of {} for U of at most {:.6g} um {}\n",
                        plan.features[of.feature].id, core::micrometres(target_mm),
-                       reports::name_of(of.measurand));
+                       evaluation::name_of(of.measurand));
     if (!of.why.empty()) {
       out += wrapped("none: " + of.why, "  ", "  ");
       continue;

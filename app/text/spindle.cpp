@@ -86,7 +86,7 @@ std::string layout_line(const std::string& name, const fit::ProbeLayout& layout,
 
 }  // namespace
 
-nlohmann::ordered_json spindle_json(const reports::SpindleResult& facts) {
+nlohmann::ordered_json spindle_json(const evaluation::SpindleResult& facts) {
   Json out = reports::separation_json(facts);
   out["warnings"] = Json::array();
   const auto add = [&](const std::vector<core::Error>& warnings) {
@@ -98,7 +98,7 @@ nlohmann::ordered_json spindle_json(const reports::SpindleResult& facts) {
   return out;
 }
 
-std::string spindle_table(const reports::SpindleResult& facts) {
+std::string spindle_table(const evaluation::SpindleResult& facts) {
   const fit::ThreeProbeResult& s = facts.separation;
   const auto places = places_deg(s.layout);
   std::string out = fmt::format("Three-probe separation, {}: {} readings, {} revolution{}\n",

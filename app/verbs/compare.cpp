@@ -5,10 +5,10 @@
 
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
-#include "plans/checks/record.h"
-#include "record/journal/journal.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/factors/study.h"
+#include "plans/checks/record.h"
+#include "record/journal/journal.h"
 
 namespace rondure::app {
 
@@ -33,19 +33,19 @@ int compare(const CompareArguments& arguments) {
                     "them holds for the touches so far\n",
                     arguments.directory));
   }
-  const auto evaluation = reports::evaluate(read->record);
+  const auto evaluation = evaluation::evaluate(read->record);
   if (!evaluation) {
     print_error(evaluation.error());
     return kBadInput;
   }
-  const auto comparison = reports::compare_run(*evaluation);
+  const auto comparison = evaluation::compare_run(*evaluation);
   if (!comparison) {
     print_error(comparison.error().at(arguments.directory));
     return kBadInput;
   }
   const std::string& id = read->record.header.run_id;
-  say(arguments.json ? reports::comparison_json(id, *comparison)
-                     : reports::comparison_text(id, *comparison, arguments.all));
+  say(arguments.json ? evaluation::comparison_json(id, *comparison)
+                     : evaluation::comparison_text(id, *comparison, arguments.all));
   return kAllWell;
 }
 

@@ -56,10 +56,10 @@ core::Result<record::ArchiveFilter> filter_of(const HistoryArguments& arguments)
   if (arguments.verdict.empty()) return filter;
   std::string verdict = arguments.verdict;
   std::replace(verdict.begin(), verdict.end(), '-', ' ');
-  using reports::Verdict;
+  using evaluation::Verdict;
   for (const Verdict known : {Verdict::kConforms, Verdict::kDoesNotConform, Verdict::kUndecided,
                               Verdict::kVoid, Verdict::kNotToleranced}) {
-    if (verdict != reports::name_of(known)) continue;
+    if (verdict != evaluation::name_of(known)) continue;
     filter.verdict = verdict;
     return filter;
   }
@@ -210,7 +210,7 @@ core::Result<record::ArchiveRun> finished_run(const fs::path& directory) {
   if (auto checked = plans::check_record(read->record); !checked) {
     return core::fail(checked.error().at(directory.string()));
   }
-  const auto evaluation = reports::evaluate(read->record);
+  const auto evaluation = evaluation::evaluate(read->record);
   if (!evaluation) return core::fail(evaluation.error());
   return entry_of(directory, read->record, *evaluation);
 }

@@ -8,14 +8,14 @@
 #include "app/text/sketch_style.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
+#include "evaluation/defect.h"
+#include "evaluation/evaluation.h"
 #include "plans/checks/record.h"
 #include "plans/plan.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
 #include "record/signature.h"
-#include "evaluation/defect.h"
-#include "evaluation/evaluation.h"
 #include "reports/exports.h"
 #include "reports/words/language.h"
 #include "reports/writers.h"
@@ -57,7 +57,7 @@ int report(const ReportArguments& arguments) {
     print_error(checked.error().at(arguments.directory));
     return kBadInput;
   }
-  const auto evaluation = reports::evaluate_run(read->record, arguments.directory, processor());
+  const auto evaluation = evaluation::evaluate_run(read->record, arguments.directory, processor());
   if (!evaluation) {
     print_error(evaluation.error());
     return kBadInput;
@@ -80,8 +80,8 @@ int report(const ReportArguments& arguments) {
   }
   say(reports::write_summary(read->record, *evaluation, sketch_style(), language));
   for (const auto& file : *written) say_line(file.string());
-  const bool well = evaluation->verdict == reports::Verdict::kConforms ||
-                    evaluation->verdict == reports::Verdict::kNotToleranced;
+  const bool well = evaluation->verdict == evaluation::Verdict::kConforms ||
+                    evaluation->verdict == evaluation::Verdict::kNotToleranced;
   return well ? kAllWell : kNotConforming;
 }
 

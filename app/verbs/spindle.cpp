@@ -10,9 +10,9 @@
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "core/units.h"
+#include "evaluation/spindle/result.h"
 #include "record/csv/series.h"
 #include "record/files.h"
-#include "evaluation/spindle/result.h"
 
 namespace rondure::app {
 namespace {
@@ -61,7 +61,7 @@ fit::ThreeProbeOptions options_of(const SpindleArguments& a) {
   return out;
 }
 
-core::Result<reports::SpindleResult> separate(const SpindleArguments& a) {
+core::Result<evaluation::SpindleResult> separate(const SpindleArguments& a) {
   const auto layout = layout_of(a);
   if (!layout) return core::fail(layout.error());
   const auto bytes = record::read_file(a.file);
@@ -69,9 +69,9 @@ core::Result<reports::SpindleResult> separate(const SpindleArguments& a) {
   const std::string name = std::filesystem::path(a.file).filename().string();
   const auto series = record::parse_series_csv(*bytes, name, kColumns);
   if (!series) return core::fail(series.error());
-  auto facts = reports::spindle_facts(reports::probe_readings(*series),
-                                      {a.crank_radius_mm, a.wheel_radius_mm, a.pin_radius_mm},
-                                      *layout, options_of(a), a.cutoff_upr, a.inside);
+  auto facts = evaluation::spindle_facts(evaluation::probe_readings(*series),
+                                         {a.crank_radius_mm, a.wheel_radius_mm, a.pin_radius_mm},
+                                         *layout, options_of(a), a.cutoff_upr, a.inside);
   if (!facts && facts.error().where.empty()) return core::fail(facts.error().at(name));
   return facts;
 }

@@ -84,19 +84,19 @@ std::string without_numbers(const std::string& text) {
 }
 
 /// ISO 14253-1 with limits near the truth.
-void judge_decisions(const reports::UncertaintyResult& found, double truth_um, Tally& tally) {
-  reports::DecisionRule rule;
-  rule.kind = reports::DecisionRule::Kind::kIso14253;
-  const reports::KnownValue value{found.uncorrected_mm, found.sampled};
+void judge_decisions(const evaluation::UncertaintyResult& found, double truth_um, Tally& tally) {
+  evaluation::DecisionRule rule;
+  rule.kind = evaluation::DecisionRule::Kind::kIso14253;
+  const evaluation::KnownValue value{found.uncorrected_mm, found.sampled};
   for (std::size_t k = 0; k < kMargins_um.size(); ++k) {
     const double limit_mm = (truth_um + kMargins_um[k]) / 1000.0;
-    const auto outcome = reports::apply_rule(rule, value, limit_mm);
+    const auto outcome = evaluation::apply_rule(rule, value, limit_mm);
     if (!outcome) {
       ++tally.voids["decision: " + without_numbers(outcome.error().what)];
       continue;
     }
-    tally.accepted[k] += outcome->verdict == reports::Verdict::kConforms;
-    tally.rejected[k] += outcome->verdict == reports::Verdict::kDoesNotConform;
+    tally.accepted[k] += outcome->verdict == evaluation::Verdict::kConforms;
+    tally.rejected[k] += outcome->verdict == evaluation::Verdict::kDoesNotConform;
     tally.accepted_as_corrected[k] += found.sampled.high_mm <= limit_mm;
   }
 }
@@ -119,27 +119,28 @@ void run_trial(const Cell& cell, int trial, int draws, Tally& tally) {
     return;
   }
 
-  reports::FormCloud cloud;
-  cloud.kind = layout.circle() ? reports::FormKind::kRoundness : reports::FormKind::kCylindricity;
+  evaluation::FormCloud cloud;
+  cloud.kind =
+      layout.circle() ? evaluation::FormKind::kRoundness : evaluation::FormKind::kCylindricity;
   cloud.radius_mm = kRadius_mm;
   for (Index i = 0; i < read.size(); ++i) {
-    reports::FormPoint point;
+    evaluation::FormPoint point;
     point.angle_rad = std::remainder(at.angle_rad[i], 2.0 * std::numbers::pi);
     point.height_mm = kHalfLength_mm * at.q[i];
     point.deviation_mm = read[i] / 1000.0;
     point.time_1 = static_cast<double>(i) / static_cast<double>(read.size() - 1);
     cloud.points.push_back(point);
   }
-  reports::Influences influences;
+  evaluation::Influences influences;
   influences.probe.emplace().repeatability_mm = cell.noise->sigma_um / 1000.0;
-  reports::UncertaintyOptions options;  // otherwise as in a plan that sets none
+  evaluation::UncertaintyOptions options;  // otherwise as in a plan that sets none
   options.most_trials = draws;
   options.budget_trials = 0;
   options.threads = 1;
   options.seed = static_cast<std::uint64_t>(trial) + 1;
 
   const std::clock_t start = std::clock();
-  const auto found = reports::measurement_uncertainty(cloud, influences, std::nullopt, options);
+  const auto found = evaluation::measurement_uncertainty(cloud, influences, std::nullopt, options);
   tally.seconds += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   if (!found) {
     ++tally.voids[without_numbers(found.error().what)];
@@ -169,7 +170,7 @@ struct Request {
   std::string only;
   std::string part = "1/1";
   int trials = 1000;
-  int draws = reports::UncertaintyOptions{}.most_trials;
+  int draws = evaluation::UncertaintyOptions{}.most_trials;
   bool full = false, table = false, selftest = false;
 };
 

@@ -11,7 +11,7 @@
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluation.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using core::Code;
@@ -196,4 +196,4 @@ void evaluate_contour(const record::RunRecord& record, int index, FeatureResult&
   result.analysis = std::make_shared<AnalysisResult>(std::move(facts));
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "fit/contour/study.h"
 #include "evaluation/analysis.h"
+#include "fit/contour/study.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Everything found of a contour feature.
 struct ContourResult {
@@ -23,4 +23,4 @@ struct ContourResult {
 [[nodiscard]] std::string filter_text(const ContourResult& result);
 [[nodiscard]] std::string sampling_text(const ContourResult& result);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -10,7 +10,7 @@
 #include "evaluation/decision/risks.h"
 #include "evaluation/stated_value.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using core::fixed;
@@ -231,4 +231,4 @@ core::Result<RuleOutcome> apply_rule(const DecisionRule& rule, const KnownValue&
   return out;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

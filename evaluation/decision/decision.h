@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "core/result.h"
-#include "record/run_record.h"
 #include "evaluation/uncertainty/uncertainty.h"
 #include "evaluation/verdict.h"
+#include "record/run_record.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// What was known of the parts before this one was measured: the spread of their form deviation.
 /// Zero below 0 mm, where no form deviation is.
@@ -108,4 +108,4 @@ struct RuleOutcome {
                                                       const RuleOutcome& outcome,
                                                       double tolerance_mm);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

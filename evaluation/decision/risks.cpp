@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 double Prior::density(double value_mm) const {
   if (!(value_mm >= 0.0)) return 0.0;
@@ -73,4 +73,4 @@ std::optional<GlobalRisks> global_risks(const DecisionRule& rule, const KnownVal
   return out;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

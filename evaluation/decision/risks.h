@@ -6,7 +6,7 @@
 
 // Private to the room: probabilities behind the rules of decision.h.
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// The probability that a part conforms, whose distribution is the one behind `known` moved by
 /// `shift_mm`, and weighted by the prior where there is one: JCGM 106, 7.2. Nothing when there is
@@ -15,4 +15,4 @@ namespace rondure::reports {
                                                 const std::optional<Prior>& prior, double shift_mm,
                                                 double tolerance_mm);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

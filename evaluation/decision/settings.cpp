@@ -3,7 +3,7 @@
 #include "core/units.h"
 #include "evaluation/decision/decision.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 std::string path(std::string_view key) { return fmt::format("decision_rule/{}", key); }
@@ -61,4 +61,4 @@ core::Result<DecisionRule> rule_of(const record::RunRecord& record) {
   return out;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

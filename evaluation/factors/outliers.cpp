@@ -11,7 +11,7 @@
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using record::Form;
@@ -119,4 +119,4 @@ core::Result<WithoutOutliers> without_outliers(const FactorPoints& points, Outli
   return out;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -7,7 +7,7 @@
 #include "core/result.h"
 #include "evaluation/factors/points.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Rules that find outliers. Both look once, at the distances d from the least-squares reference
 /// (of each section for RONt) with p parameters.
@@ -34,4 +34,4 @@ struct WithoutOutliers {
 [[nodiscard]] core::Result<WithoutOutliers> without_outliers(const FactorPoints& points,
                                                              OutlierRule rule);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

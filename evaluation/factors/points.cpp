@@ -12,13 +12,13 @@
 #include "core/units.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
+#include "fit/profiles/roundness_evaluation.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
-#include "fit/profiles/roundness_evaluation.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using record::Form;
@@ -250,4 +250,4 @@ core::Result<double> deviation_mm(const FactorPoints& points, Reference referenc
   return worst;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

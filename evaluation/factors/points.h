@@ -7,10 +7,10 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
-#include "record/run_record.h"
 #include "evaluation/evaluation.h"
+#include "record/run_record.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 using Points3 = std::vector<Eigen::Vector3d>;
 
@@ -67,4 +67,4 @@ enum class PointSubset {
 [[nodiscard]] core::Result<double> deviation_mm(const FactorPoints& points,
                                                 record::Reference reference);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using Levels = std::vector<std::vector<std::size_t>>;
@@ -132,4 +132,4 @@ std::optional<FactorShares> factor_shares(const FactorTable& table,
   return out;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// A value for every combination of the levels of some factors; the last factor counts fastest.
 struct FactorTable {
@@ -44,4 +44,4 @@ struct FactorShares {
 [[nodiscard]] std::optional<FactorShares> factor_shares(const FactorTable& table,
                                                         std::span<const std::size_t> reported);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

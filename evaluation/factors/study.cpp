@@ -10,7 +10,7 @@
 #include "evaluation/factors/outliers.h"
 #include "evaluation/feature_values.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using core::signed_um;
@@ -240,4 +240,4 @@ std::string answer_of(const FactorStudy& study) {
                    name_of(static_cast<Factor>(most - shares.begin())), 100.0 * *most);
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

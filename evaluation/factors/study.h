@@ -9,12 +9,12 @@
 
 #include "core/error.h"
 #include "core/result.h"
-#include "record/run_record.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/factors/points.h"
 #include "evaluation/factors/shares.h"
+#include "record/run_record.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// What two programs may do differently with the same points, in the order of a FactorTable.
 enum class Factor : std::size_t { kReference, kFilter, kOutliers, kSampling };
@@ -97,4 +97,4 @@ struct RunComparison {
 [[nodiscard]] std::string comparison_json(const std::string& run_id,
                                           const RunComparison& comparison);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

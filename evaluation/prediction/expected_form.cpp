@@ -13,7 +13,7 @@
 #include "evaluation/uncertainty/error_modes.h"
 #include "evaluation/uncertainty/form_value.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 constexpr double kShareOfTolerance = 0.5;
@@ -216,4 +216,4 @@ core::Result<FormSpectrum> expected_form(const TrialInspection& rehearsal, const
   return out;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

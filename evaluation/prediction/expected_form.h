@@ -3,10 +3,10 @@
 #include <optional>
 #include <string>
 
-#include "record/run_record.h"
 #include "evaluation/uncertainty/declared.h"
+#include "record/run_record.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Inspections of parts that nobody has touched yet: a feature of a record without errors, with the
 /// deviations of parts and errors that are made up.
@@ -41,4 +41,4 @@ class TrialInspection {
                                                        const Declared& declared,
                                                        const record::Characteristic& asked);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -11,7 +11,7 @@
 #include "core/units.h"
 #include "evaluation/prediction/expected_form.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 /// Mean range of 25 normal values, touches of the qualification sphere (influences.h).
@@ -241,4 +241,4 @@ core::Result<Prediction> predict(const record::RunRecord& expected, int feature,
   return out;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

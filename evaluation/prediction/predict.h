@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "core/result.h"
-#include "record/run_record.h"
 #include "evaluation/uncertainty/uncertainty.h"
+#include "record/run_record.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Settings of predict(). A value outside its range gives kBadOption.
 struct PredictionOptions {
@@ -81,4 +81,4 @@ struct Prediction {
                                                const record::Characteristic& asked,
                                                const PredictionOptions& options = {});
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

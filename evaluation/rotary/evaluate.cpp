@@ -7,13 +7,13 @@
 
 #include "core/units.h"
 #include "core/utc.h"
+#include "evaluation/analysis_result.h"
+#include "evaluation/evaluation.h"
 #include "fit/geometry/registration.h"
 #include "fit/rotary/ball_center.h"
 #include "fit/rotary/ball_setup.h"
-#include "evaluation/analysis_result.h"
-#include "evaluation/evaluation.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using core::kDegree;
@@ -407,4 +407,4 @@ void evaluate_rotary(const record::RunRecord& record, int index, FeatureResult& 
   result.analysis = std::make_shared<AnalysisResult>(*std::move(facts));
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -5,7 +5,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 using core::um;
 
@@ -44,4 +44,4 @@ std::string sampling_text(const RotaryResult& facts) {
                      facts.touches);
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/analysis.h"
 #include "fit/rotary/axes.h"
 #include "fixture/error_model.h"
-#include "evaluation/analysis.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// What is left at one combined pose.
 struct CombinedPose {
@@ -49,4 +49,4 @@ struct AxisFacts {
 };
 [[nodiscard]] std::vector<AxisFacts> axes_of(const RotaryResult& facts);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

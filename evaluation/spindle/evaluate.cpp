@@ -6,7 +6,7 @@
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluation.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using core::kDegree;
@@ -115,4 +115,4 @@ void evaluate_spindle(const record::RunRecord& record, int index, FeatureResult&
   result.analysis = std::make_shared<AnalysisResult>(*std::move(facts));
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

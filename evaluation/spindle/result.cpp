@@ -10,7 +10,7 @@
 #include "evaluation/deviation.h"
 #include "evaluation/feature_values.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using core::Code;
@@ -174,4 +174,4 @@ ValueOperator operator_of(const SpindleResult& facts, const record::Characterist
           SamplingTerm(how), TipTerm("displacement probes"), TemperatureTerm(temperature)};
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -2,12 +2,12 @@
 
 #include <string>
 
+#include "evaluation/analysis.h"
 #include "fit/profiles/roundness_evaluation.h"
 #include "fit/spindle/axis_motion.h"
 #include "fit/spindle/three_probe.h"
-#include "evaluation/analysis.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Everything found of a spindle feature.
 struct SpindleResult {
@@ -37,4 +37,4 @@ struct SpindleResult {
 /// The readings of a series with the columns alpha_deg, H1_um, H2_um, H3_um[, beta_deg].
 [[nodiscard]] fit::ProbeReadings probe_readings(const record::Series& series);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -5,7 +5,7 @@
 #include <system_error>
 #include <thread>
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 enum Stream : std::uint64_t { kValueStream = 12, kErrorStream = 13 };
@@ -131,4 +131,4 @@ void FormChains::draw_one(Chain& chain, ChainValues& out, std::size_t budget) co
   if (done < budget) change(chain, draw, value, out);
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

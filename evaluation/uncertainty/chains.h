@@ -10,11 +10,11 @@
 #include <Eigen/Core>
 
 #include "evaluation/uncertainty/error_modes.h"
-#include "evaluation/uncertainty/sampler.h"
 #include "evaluation/uncertainty/form_value.h"
+#include "evaluation/uncertainty/sampler.h"
 #include "evaluation/uncertainty/whole_surface.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Splits 0..count among threads: work(first, last). Threads that cannot be had are done by the
 /// calling one.
@@ -77,4 +77,4 @@ class FormChains {
   double uncorrected_ = 0.0;
 };
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -6,7 +6,7 @@
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using Eigen::Index;
@@ -93,4 +93,4 @@ Eigen::MatrixXd rigid_basis(const FormCloud& cloud) {
   return Eigen::MatrixXd(qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank()));
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -10,7 +10,7 @@
 #include "fit/geometry/axis.h"
 #include "record/run_record.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Which value a cloud is measured for.
 enum class FormKind {
@@ -61,4 +61,4 @@ struct FormCloud {
 /// order: n x 5 or n x 3, orthonormal columns (fewer where the points do not determine them).
 [[nodiscard]] Eigen::MatrixXd rigid_basis(const FormCloud& cloud);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

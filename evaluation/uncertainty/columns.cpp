@@ -7,7 +7,7 @@
 #include "core/decompositions.h"
 #include "core/units.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using Eigen::Index;
@@ -433,4 +433,4 @@ MatrixXd FormColumns::on_grid(const VectorXd& coefficients, const FormGrid& grid
   return out;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -11,7 +11,7 @@
 #include "evaluation/uncertainty/cloud.h"
 #include "evaluation/uncertainty/spectrum.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Columns that come and go together: cos and sin of one undulation times one degree.
 struct FormGroup {
@@ -112,4 +112,4 @@ class FormColumns {
   int most_degree_ = 0;
 };
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

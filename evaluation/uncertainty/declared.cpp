@@ -8,7 +8,7 @@
 
 #include "core/units.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using core::kMicroradian;
@@ -206,4 +206,4 @@ std::optional<Declared> declared_for(const record::RunRecord& record, const Feat
   return out;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -3,12 +3,12 @@
 #include <optional>
 #include <string>
 
-#include "fit/geometry/probe_tip.h"
-#include "record/run_record.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/uncertainty/uncertainty.h"
+#include "fit/geometry/probe_tip.h"
+#include "record/run_record.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// What the plan declared about a measurement, as its settings "uncertainty/..." keep it, completed
 /// by what the run itself says: repeatability of a touch, tip qualification, temperatures.
@@ -62,4 +62,4 @@ struct UncertaintyQuestion {
                                                const std::optional<fit::ProbeTip>& probe,
                                                const record::Characteristic& asked);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -9,7 +9,7 @@
 #include "core/units.h"
 #include "evaluation/uncertainty/error_modes.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using Eigen::Index;
@@ -264,4 +264,4 @@ DeclaredModes declared_modes(const FormCloud& cloud, const Influences& influence
   return std::move(collect.found);
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

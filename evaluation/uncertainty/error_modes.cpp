@@ -5,7 +5,7 @@
 
 #include "core/units.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using Eigen::Index;
@@ -91,4 +91,4 @@ void ErrorModel::draw(core::KeyedNoise& noise, const std::optional<std::size_t>&
   }
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -11,7 +11,7 @@
 #include "evaluation/uncertainty/cloud.h"
 #include "evaluation/uncertainty/influences.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// How the random number of a mode is distributed; its variance is always 1.
 enum class Distribution {
@@ -84,4 +84,4 @@ class ErrorModel {
   double correlation_mm_ = 0.0;
 };
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "evaluation/uncertainty/declared.h"
 #include "evaluation/deviation.h"
 #include "evaluation/measured_cloud.h"
+#include "evaluation/uncertainty/declared.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 /// Rows of the cloud behind a characteristic.
@@ -128,4 +128,4 @@ UncertaintyStatus uncertainty_of(const record::RunRecord& record, const FeatureR
   return UncertaintyStatus::stated(*std::move(found), question->options.coverage);
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

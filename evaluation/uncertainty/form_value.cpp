@@ -6,7 +6,7 @@
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using record::Reference;
@@ -92,4 +92,4 @@ double FormValue::of_cylinder() {
   return cylinder.ending == fit::ZoneEnding::kConverged ? cylinder.width_mm() : kNone;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -5,11 +5,11 @@
 
 #include <Eigen/Core>
 
+#include "evaluation/uncertainty/cloud.h"
 #include "fit/zone/fit.h"
 #include "record/run_record.h"
-#include "evaluation/uncertainty/cloud.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// The form value of given places with varying deviations, about the reference of a cloud, without
 /// proof: for loops. Minimum zones take no memory after the first call. Searches start where the
@@ -41,4 +41,4 @@ class FormValue {
   fit::CylinderZoneFitter cylinders_;
 };
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

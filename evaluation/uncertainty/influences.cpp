@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using core::Code;
@@ -241,4 +241,4 @@ std::vector<InfluenceStatement> influence_statements(const Influences& influence
   return std::move(out.lines);
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

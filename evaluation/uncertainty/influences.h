@@ -9,7 +9,7 @@
 #include "cmm/error_model.h"
 #include "core/result.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// What the probe adds to a touch.
 struct ProbeInfluences {
@@ -90,4 +90,4 @@ struct InfluenceStatement {
 /// Every influence of a form measurement, covered or not, in a fixed order.
 [[nodiscard]] std::vector<InfluenceStatement> influence_statements(const Influences& influences);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -12,7 +12,7 @@
 #include "core/statistics.h"
 #include "core/units.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using Eigen::Index;
@@ -731,4 +731,4 @@ const FormDraw& FormChain::next() {
   return draw_;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -8,10 +8,10 @@
 #include <Eigen/Core>
 
 #include "core/noise.h"
-#include "evaluation/uncertainty/error_modes.h"
 #include "evaluation/uncertainty/columns.h"
+#include "evaluation/uncertainty/error_modes.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Logarithm of the odds that a point stands out by itself, of what the model leaves of it.
 /// @param per_point  Spots expected of a point.
@@ -183,4 +183,4 @@ class FormChain {
   FormDraw draw_;
 };
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using core::Code;
@@ -131,4 +131,4 @@ std::size_t grid_places(const FormSpectrum& spectrum, FormKind kind) {
   return static_cast<std::size_t>(8 * undulations * along);
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

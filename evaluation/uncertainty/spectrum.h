@@ -9,7 +9,7 @@
 #include "core/result.h"
 #include "evaluation/uncertainty/cloud.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// One kind of form: cos and sin of `undulations` times the angle, times the Legendre polynomial of
 /// `degree` in the height. (0, 1) is taper, (0, 2) barrel, (1, 2) a bent axis, (2, 0) oval.
@@ -43,4 +43,4 @@ struct FormSpectrum {
 /// Places of a grid that is fine enough for a spectrum.
 [[nodiscard]] std::size_t grid_places(const FormSpectrum& spectrum, FormKind kind);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -11,7 +11,7 @@
 #include "core/statistics.h"
 #include "evaluation/uncertainty/chains.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using core::Code;
@@ -472,4 +472,4 @@ core::Result<FormCloud> simulated_cloud(const FormCloud& nominal, const Influenc
   return cloud;
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

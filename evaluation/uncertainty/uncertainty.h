@@ -8,10 +8,10 @@
 
 #include "core/result.h"
 #include "evaluation/uncertainty/cloud.h"
-#include "evaluation/uncertainty/spectrum.h"
 #include "evaluation/uncertainty/influences.h"
+#include "evaluation/uncertainty/spectrum.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Settings of measurement_uncertainty(). A value outside its range gives kBadOption.
 struct UncertaintyOptions {
@@ -126,4 +126,4 @@ struct UncertaintyResult {
                                                       const FormSpectrum& spectrum,
                                                       std::uint64_t seed);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -5,7 +5,7 @@
 
 #include "core/units.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using Eigen::Index;
@@ -112,4 +112,4 @@ double WholeSurface::of(const FormDraw& draw, core::KeyedNoise& noise) {
   return level.value->of(all_mm_);
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

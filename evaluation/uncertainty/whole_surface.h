@@ -6,10 +6,10 @@
 #include <Eigen/Core>
 
 #include "core/noise.h"
-#include "evaluation/uncertainty/sampler.h"
 #include "evaluation/uncertainty/form_value.h"
+#include "evaluation/uncertainty/sampler.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// The value of a whole surface: of a grid on it, crests between its places found by parabolas,
 /// together with the sampled points. Never below the value of those.
@@ -42,4 +42,4 @@ class WholeSurface {
   Eigen::VectorXd all_mm_;
 };
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -6,11 +6,11 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/analysis_result.h"
-#include "reports/data/wheel.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/feature_values.h"
+#include "reports/data/wheel.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 namespace {
 
 using core::kDegree;
@@ -233,4 +233,4 @@ void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& r
   result.analysis = std::make_shared<AnalysisResult>(std::move(facts));
 }
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -5,10 +5,10 @@
 
 #include <Eigen/Core>
 
-#include "fit/wheel/evaluation.h"
 #include "evaluation/analysis.h"
+#include "fit/wheel/evaluation.h"
 
-namespace rondure::reports {
+namespace rondure::evaluation {
 
 /// Everything found of a wheel feature, with what was asked for.
 struct WheelResult {
@@ -25,4 +25,4 @@ struct WheelResult {
 [[nodiscard]] std::string filter_text(const WheelResult& result);
 [[nodiscard]] std::string sampling_text(const WheelResult& result);
 
-}  // namespace rondure::reports
+}  // namespace rondure::evaluation

@@ -2,13 +2,13 @@
 #include "evaluation/analysis_result.h"
 #include "reports/data/contour.h"
 #include "reports/data/json_parts.h"
-#include "reports/data/wheel.h"
 #include "reports/data/spindle.h"
+#include "reports/data/wheel.h"
 
 namespace rondure::reports {
 namespace {
 
-Json contour_feature_json(const ContourResult& facts) {
+Json contour_feature_json(const evaluation::ContourResult& facts) {
   auto out = contour_document(facts.study, facts.options, facts.names);
   out.erase("warnings");  // they stand beside, as of every feature
   auto curves = Json::array();
@@ -24,21 +24,23 @@ Json contour_feature_json(const ContourResult& facts) {
 
 /// Everything under the name of the shape. Curves (one number a sample) stand under the key
 /// "curves", which the stored results leave out.
-Json result_json(const AnalysisResult& result) {
+Json result_json(const evaluation::AnalysisResult& result) {
   struct Writer {
-    Json operator()(const SpindleResult& found) const { return separation_json(found); }
-    Json operator()(const WheelResult& found) const {
+    Json operator()(const evaluation::SpindleResult& found) const { return separation_json(found); }
+    Json operator()(const evaluation::WheelResult& found) const {
       return wheel_json(found.evaluation, found.task);
     }
-    Json operator()(const ContourResult& found) const { return contour_feature_json(found); }
-    Json operator()(const RotaryResult& found) const { return rotary_json(found); }
+    Json operator()(const evaluation::ContourResult& found) const {
+      return contour_feature_json(found);
+    }
+    Json operator()(const evaluation::RotaryResult& found) const { return rotary_json(found); }
   };
   return std::visit(Writer{}, result.found);
 }
 
 }  // namespace
 
-Json analysis_json(const FeatureResult& feature) {
+Json analysis_json(const evaluation::FeatureResult& feature) {
   const record::Feature& asked = feature.feature;
   Json json;
   json["id"] = asked.id;

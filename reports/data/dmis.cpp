@@ -5,9 +5,9 @@
 
 #include "core/numbers.h"
 #include "core/utf8.h"
-#include "reports/words/facts.h"
 #include "evaluation/feature_values.h"
 #include "evaluation/section.h"
+#include "reports/words/facts.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {
@@ -40,7 +40,7 @@ std::string vector_text(const Eigen::Vector3d& v) {
 }
 
 /// "CYLNDR,OUTER,CART,x,y,z,i,j,k,diameter[,length]" or the same of a circle: least squares.
-std::optional<std::string> actual_feature(const FeatureResult& feature) {
+std::optional<std::string> actual_feature(const evaluation::FeatureResult& feature) {
   const auto ls = least_squares_of(feature);
   if (!ls) return {};
   const char* side = feature.feature.side == record::Side::kOutside ? "OUTER" : "INNER";
@@ -51,7 +51,7 @@ std::optional<std::string> actual_feature(const FeatureResult& feature) {
                        vector_text(axis.direction), decimal(2.0 * ls->radius_mm),
                        decimal(high_mm - low_mm));
   }
-  const LayerResult& section = feature.layers.front();
+  const evaluation::LayerResult& section = feature.layers.front();
   const fit::Axis axis = section_axis(feature, section, section.ls->center_mm);
   return fmt::format("CIRCLE,{},CART,{},{},{}", side, vector_text(axis.point_mm),
                      vector_text(axis.direction), decimal(2.0 * ls->radius_mm));
@@ -64,14 +64,14 @@ const char* tolerance_word(const record::Characteristic& asked) {
 }
 
 /// The block of one characteristic: a tolerance and what was found, or why there is none.
-std::string characteristic_block(const CharacteristicResult& result, const std::string& feature,
-                                 const std::string& label) {
+std::string characteristic_block(const evaluation::CharacteristicResult& result,
+                                 const std::string& feature, const std::string& label) {
   const record::Characteristic& asked = result.characteristic;
   std::string text = comment(label, fmt::format("{}; {} {}; {}", asked.id, symbol_of(asked),
                                                 reference_of(asked), name_of(result.verdict)));
   const char* word = tolerance_word(asked);
-  const bool decided =
-      result.verdict == Verdict::kConforms || result.verdict == Verdict::kDoesNotConform;
+  const bool decided = result.verdict == evaluation::Verdict::kConforms ||
+                       result.verdict == evaluation::Verdict::kDoesNotConform;
   if (word == nullptr || !decided || !result.value || !asked.tolerance_mm) {
     if (result.value) text += comment(label, result.value->sentence());
     return text + comment(label, "no block in DMIS; " + result.reason);
@@ -80,11 +80,11 @@ std::string characteristic_block(const CharacteristicResult& result, const std::
   text += fmt::format("T({})=TOL/{},{}\n", label, word, decimal(*asked.tolerance_mm));
   text += fmt::format("OUTPUT/FA({}),TA({})\n", feature, label);
   text += fmt::format("TA({})=TOL/{},{},{}\n", label, word, decimal(result.value->quoted_mm()),
-                      result.verdict == Verdict::kConforms ? "INTOL" : "OUTOL");
+                      result.verdict == evaluation::Verdict::kConforms ? "INTOL" : "OUTOL");
   return text;
 }
 
-std::string feature_block(const FeatureResult& feature, std::size_t number) {
+std::string feature_block(const evaluation::FeatureResult& feature, std::size_t number) {
   const std::string label = fmt::format("F{}", number);
   std::string text = comment(
       label, fmt::format("{}, {}", feature.feature.id, record::name_of(feature.feature.shape)));
@@ -97,7 +97,7 @@ std::string feature_block(const FeatureResult& feature, std::size_t number) {
     text += fmt::format("FA({})=FEAT/{}\n", label, *actual);
   }
   for (std::size_t i = 0; i < feature.characteristics.size(); ++i) {
-    const CharacteristicResult& result = feature.characteristics[i];
+    const evaluation::CharacteristicResult& result = feature.characteristics[i];
     const std::string tolerance = fmt::format("{}T{}", label, i + 1);
     if (actual) {
       text += characteristic_block(result, label, tolerance);
@@ -112,7 +112,7 @@ std::string feature_block(const FeatureResult& feature, std::size_t number) {
 
 }  // namespace
 
-std::string write_dmis(const record::RunRecord& record, const Evaluation& evaluation) {
+std::string write_dmis(const record::RunRecord& record, const evaluation::Evaluation& evaluation) {
   const record::Header& header = record.header;
   std::string text = "FILNAM/'OUTPUT',05.2\n";
   text +=

@@ -4,12 +4,13 @@
 namespace rondure::reports {
 namespace {
 
-Json names_of(const FactorStudy& study, Factor factor, const std::vector<std::size_t>& levels) {
+Json names_of(const evaluation::FactorStudy& study, evaluation::Factor factor,
+              const std::vector<std::size_t>& levels) {
   return list_json(levels, [&](std::size_t level) { return study.levels[at(factor)][level]; });
 }
 
-Json effect_json(const FactorStudy& study, Factor factor) {
-  const FactorEffect& effect = study.effects[at(factor)];
+Json effect_json(const evaluation::FactorStudy& study, evaluation::Factor factor) {
+  const evaluation::FactorEffect& effect = study.effects[at(factor)];
   const auto& names = study.levels[at(factor)];
   Json out = {{"factor", name_of(factor)},
               {"levels", names},
@@ -23,11 +24,11 @@ Json effect_json(const FactorStudy& study, Factor factor) {
   return out;
 }
 
-Json shares_json(const FactorStudy& study) {
+Json shares_json(const evaluation::FactorStudy& study) {
   if (!study.shares) return nullptr;
-  const FactorShares& shares = *study.shares;
+  const evaluation::FactorShares& shares = *study.shares;
   Json levels = Json::object();
-  for (const Factor factor : kFactors)
+  for (const evaluation::Factor factor : evaluation::kFactors)
     levels[std::string(name_of(factor))] = names_of(study, factor, shares.used[at(factor)]);
   return {{"values", shares.values},
           {"levels", std::move(levels)},
@@ -36,15 +37,15 @@ Json shares_json(const FactorStudy& study) {
           {"together_share", shares.together_1}};
 }
 
-Json cells_json(const FactorStudy& study) {
+Json cells_json(const evaluation::FactorStudy& study) {
   Json out = Json::array();
-  FactorTable table;
+  evaluation::FactorTable table;
   for (const auto& levels : study.levels) table.levels.push_back(levels.size());
   for (std::size_t i = 0; i < study.cells.size(); ++i) {
     const auto combination = table.combination(i);
-    const FactorCell& cell = study.cells[i];
+    const evaluation::FactorCell& cell = study.cells[i];
     Json one = Json::object();
-    for (const Factor factor : kFactors)
+    for (const evaluation::Factor factor : evaluation::kFactors)
       one[std::string(name_of(factor))] = study.levels[at(factor)][combination[at(factor)]];
     one["value_um"] = optional_um(cell.value_mm);
     one["points"] = cell.points;
@@ -55,7 +56,7 @@ Json cells_json(const FactorStudy& study) {
   return out;
 }
 
-Json study_json(const FactorStudy& study) {
+Json study_json(const evaluation::FactorStudy& study) {
   return {{"feature", study.feature},
           {"characteristic", study.characteristic.id},
           {"symbol", study.symbol},
@@ -63,14 +64,16 @@ Json study_json(const FactorStudy& study) {
           {"reported_um", in_um(study.reported_mm)},
           {"reported", study.value},
           {"operator", study.operator_words},
-          {"factors", list_json(kFactors, [&](Factor f) { return effect_json(study, f); })},
+          {"factors", list_json(evaluation::kFactors,
+                                [&](evaluation::Factor f) { return effect_json(study, f); })},
           {"factorial", shares_json(study)},
           {"cells", cells_json(study)}};
 }
 
 }  // namespace
 
-std::string comparison_json(const std::string& run_id, const RunComparison& comparison) {
+std::string comparison_json(const std::string& run_id,
+                            const evaluation::RunComparison& comparison) {
   const Json out = {{"run", run_id},
                     {"characteristics", list_json(comparison.studies, study_json)},
                     {"not_compared", list_json(comparison.without, error_json)}};

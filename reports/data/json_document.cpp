@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "evaluation/analysis.h"
-#include "reports/data/json_parts.h"
 #include "evaluation/feature_values.h"
+#include "reports/data/json_parts.h"
 #include "reports/words/messages.h"
 
 namespace rondure::reports {
@@ -46,7 +46,7 @@ Json header_json(const record::RunRecord& record) {
           {"failure", record.failure ? error_json(*record.failure) : Json(nullptr)}};
 }
 
-Json fixture_json(const std::optional<FixtureUse>& use) {
+Json fixture_json(const std::optional<evaluation::FixtureUse>& use) {
   if (!use) return nullptr;
   return {{"id", use->id},
           {"fixture", use->fixture_id},
@@ -67,11 +67,12 @@ Json probe_json(const std::optional<fit::ProbeTip>& probe) {
           {"form_um", in_um(probe->form_mm)}};
 }
 
-Json contacts_json(const std::vector<fit::Contact>& contacts, const FeatureResult& feature) {
+Json contacts_json(const std::vector<fit::Contact>& contacts,
+                   const evaluation::FeatureResult& feature) {
   Json list = Json::array();
   for (const fit::Contact& contact : contacts) {
     if (contact.index >= feature.cloud.size()) continue;
-    const CloudPoint& point = feature.cloud[contact.index];
+    const evaluation::CloudPoint& point = feature.cloud[contact.index];
     list.push_back({{"layer", point.layer},
                     {"point", point.point},
                     {"row", contact.index},
@@ -93,7 +94,7 @@ Json range_json(const std::optional<fit::DeviationRange>& range) {
   return {in_um(range->low_mm), in_um(range->high_mm)};
 }
 
-Json zone_json(const FeatureResult& feature) {
+Json zone_json(const evaluation::FeatureResult& feature) {
   const auto zone = zone_of(feature);
   if (!zone) return nullptr;
   Json json;
@@ -112,7 +113,7 @@ Json zone_json(const FeatureResult& feature) {
   return json;
 }
 
-Json least_squares_json(const FeatureResult& feature) {
+Json least_squares_json(const evaluation::FeatureResult& feature) {
   const auto ls = least_squares_of(feature);
   if (!ls) return nullptr;
   Json json;
@@ -128,7 +129,7 @@ Json least_squares_json(const FeatureResult& feature) {
 }
 
 /// "mc" or "mi" of a feature.
-Json one_sided_json(const FeatureResult& feature, record::Reference reference) {
+Json one_sided_json(const evaluation::FeatureResult& feature, record::Reference reference) {
   const auto found = one_sided_of(feature, reference);
   if (!found) return nullptr;
   const bool outside = reference == record::Reference::kMinimumCircumscribed;
@@ -136,7 +137,7 @@ Json one_sided_json(const FeatureResult& feature, record::Reference reference) {
   if (feature.mz_cylinder) {
     json["axis"] = axis_json((outside ? feature.mc_cylinder : feature.mi_cylinder)->axis);
   } else {
-    const LayerResult& section = feature.layers.front();
+    const evaluation::LayerResult& section = feature.layers.front();
     json["center_mm"] = vector_json((outside ? section.mc : section.mi)->center_mm);
   }
   json["radius_mm"] = found->radius_mm;
@@ -170,7 +171,7 @@ Json filtered_json(const std::optional<fit::RoundnessEvaluation>& section) {
   return json;
 }
 
-Json layer_json(const LayerResult& layer, const FeatureResult& feature) {
+Json layer_json(const evaluation::LayerResult& layer, const evaluation::FeatureResult& feature) {
   const double offset_mm = surface_offset_mm(feature);
   Json json = {{"layer", layer.layer},
                {"height_mm", layer.height_mm},
@@ -199,7 +200,7 @@ Json layer_json(const LayerResult& layer, const FeatureResult& feature) {
   return json;
 }
 
-Json pose_json(const PoseValue& pose) {
+Json pose_json(const evaluation::PoseValue& pose) {
   return {{"alpha_deg", in_deg(pose.pose.alpha_rad)},
           {"beta_deg", in_deg(pose.pose.beta_rad)},
           {"f_um", pose.valid ? Json(in_um(pose.f_mm)) : Json(nullptr)},
@@ -208,7 +209,7 @@ Json pose_json(const PoseValue& pose) {
           {"final", pose.final_pose}};
 }
 
-Json point_json(const CloudPoint& point) {
+Json point_json(const evaluation::CloudPoint& point) {
   Json json = {{"layer", point.layer},
                {"point", point.point},
                {"repeats", point.repeats},
@@ -228,7 +229,7 @@ Json three_json(const Eigen::Matrix<double, 6, 1>& values, int first, double fac
   return {factor * values(first), factor * values(first + 1), factor * values(first + 2)};
 }
 
-Json merged_pose_json(const MergedPoses& merged, std::size_t k) {
+Json merged_pose_json(const evaluation::MergedPoses& merged, std::size_t k) {
   Json json = {{"alpha_deg", in_deg(merged.poses[k].alpha_rad)},
                {"beta_deg", in_deg(merged.poses[k].beta_rad)},
                {"points", merged.points[k]}};
@@ -244,7 +245,7 @@ Json merged_pose_json(const MergedPoses& merged, std::size_t k) {
   return json;
 }
 
-Json merged_json(const MergedPoses& merged) {
+Json merged_json(const evaluation::MergedPoses& merged) {
   Json json = {{"merge", merged.joint ? "joint" : "kinematics"},
                {"touch_um", in_um(merged.touch_mm)},
                {"in_words", share_in_words(merged)}};
@@ -274,7 +275,7 @@ Json levelling_json(const std::optional<core::Pose>& pose) {
   return {{"alpha_deg", in_deg(pose->alpha_rad)}, {"beta_deg", in_deg(pose->beta_rad)}};
 }
 
-Json thermal_json(const std::optional<ThermalCorrection>& c) {
+Json thermal_json(const std::optional<evaluation::ThermalCorrection>& c) {
   if (!c) return nullptr;
   return {{"part_expansion_per_K", c->part_expansion_1_K},
           {"scale_expansion_per_K", c->scale_expansion_1_K},
@@ -284,7 +285,7 @@ Json thermal_json(const std::optional<ThermalCorrection>& c) {
           {"factor_standard_uncertainty", c->factor_uncertainty}};
 }
 
-Json feature_json(const FeatureResult& feature) {
+Json feature_json(const evaluation::FeatureResult& feature) {
   if (record::is_analysis(feature.feature.shape)) return analysis_json(feature);
   const record::Feature& asked = feature.feature;
   Json json;
@@ -314,8 +315,9 @@ Json feature_json(const FeatureResult& feature) {
                                : feature.temperatures->declared ? Json("declared")
                                                                 : Json("measured");
   json["temperature_correction"] = thermal_json(feature.thermal);
-  json["layers"] = list_json(feature.layers,
-                             [&](const LayerResult& layer) { return layer_json(layer, feature); });
+  json["layers"] = list_json(feature.layers, [&](const evaluation::LayerResult& layer) {
+    return layer_json(layer, feature);
+  });
   json["poses"] = list_json(feature.poses, pose_json);
   if (feature.merged) json["merged"] = merged_json(*feature.merged);
   json["cloud"] = list_json(feature.cloud, point_json);
@@ -347,9 +349,9 @@ Json truth_json(const record::SimulationTruth& truth) {
   return {{"feature", truth.feature}, {"cylt_um", in_um(truth.cylt_mm)}};
 }
 
-bool any_interval(const Evaluation& evaluation) {
-  for (const FeatureResult& feature : evaluation.features) {
-    for (const CharacteristicResult& c : feature.characteristics) {
+bool any_interval(const evaluation::Evaluation& evaluation) {
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    for (const evaluation::CharacteristicResult& c : feature.characteristics) {
       if (c.value && c.value->uncertainty().result()) return true;
     }
   }
@@ -359,7 +361,7 @@ bool any_interval(const Evaluation& evaluation) {
 }  // namespace
 
 nlohmann::ordered_json report_document(const record::RunRecord& record,
-                                       const Evaluation& evaluation) {
+                                       const evaluation::Evaluation& evaluation) {
   Json json;
   json["schema_version"] = 1;
   json["header"] = header_json(record);

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "record/run_record.h"
 #include "evaluation/evaluation.h"
+#include "record/run_record.h"
 
 namespace rondure::reports {
 
@@ -11,6 +11,6 @@ namespace rondure::reports {
 /// of this room only. "/probe" and "/features" depend on the evaluation alone; a number that is not
 /// finite stands as null.
 [[nodiscard]] nlohmann::ordered_json report_document(const record::RunRecord& record,
-                                                     const Evaluation& evaluation);
+                                                     const evaluation::Evaluation& evaluation);
 
 }  // namespace rondure::reports

@@ -12,7 +12,7 @@ Json error_json(const core::Error& error) {
   return {{"code", core::code_name(error.code)}, {"what", error.what}, {"where", error.where}};
 }
 
-Json characteristic_json(const CharacteristicResult& result) {
+Json characteristic_json(const evaluation::CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
   return {{"id", asked.id},
           {"form", record::name_of(asked.form)},

@@ -10,9 +10,11 @@
 
 // Private to the room: what report.json spells alike everywhere.
 
-namespace rondure::reports {
-
+namespace rondure::evaluation {
 struct RotaryResult;
+}  // namespace rondure::evaluation
+
+namespace rondure::reports {
 
 using Json = nlohmann::ordered_json;
 
@@ -25,16 +27,16 @@ using Json = nlohmann::ordered_json;
 }
 [[nodiscard]] Json optional_um(const std::optional<double>& length_mm);
 [[nodiscard]] Json error_json(const core::Error& error);
-[[nodiscard]] Json characteristic_json(const CharacteristicResult& result);
+[[nodiscard]] Json characteristic_json(const evaluation::CharacteristicResult& result);
 /// A feature whose shape is an analysis.
-[[nodiscard]] Json analysis_json(const FeatureResult& feature);
-[[nodiscard]] Json rotary_json(const RotaryResult& facts);
+[[nodiscard]] Json analysis_json(const evaluation::FeatureResult& feature);
+[[nodiscard]] Json rotary_json(const evaluation::RotaryResult& facts);
 /// Intervals, bias, budget and declaration of a value; null without an interval.
-[[nodiscard]] Json uncertainty_json(const CharacteristicResult& result);
+[[nodiscard]] Json uncertainty_json(const evaluation::CharacteristicResult& result);
 /// What the rule compared, its limits and risks; null where it decided nothing.
-[[nodiscard]] Json decision_json(const CharacteristicResult& result);
+[[nodiscard]] Json decision_json(const evaluation::CharacteristicResult& result);
 /// The decision rule of a run with its parameters and statements; null when it is not known.
-[[nodiscard]] Json rule_json(const Evaluation& evaluation);
+[[nodiscard]] Json rule_json(const evaluation::Evaluation& evaluation);
 
 template <class Range, class Convert>
 [[nodiscard]] Json list_json(const Range& range, const Convert& convert) {

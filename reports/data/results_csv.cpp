@@ -5,8 +5,8 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "reports/data/csv_field.h"
 #include "evaluation/feature_values.h"
+#include "reports/data/csv_field.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {
@@ -19,7 +19,8 @@ std::string um_field(const std::optional<double>& length_mm) {
 
 }  // namespace
 
-std::string write_results_csv(const record::RunRecord& record, const Evaluation& evaluation) {
+std::string write_results_csv(const record::RunRecord& record,
+                              const evaluation::Evaluation& evaluation) {
   const record::Header& header = record.header;
   const std::string head =
       fmt::format("{},{},{},{}", csv_field(header.run_id), csv_field(header.started_utc),
@@ -27,10 +28,11 @@ std::string write_results_csv(const record::RunRecord& record, const Evaluation&
   std::string text =
       "run,started_utc,part,serial,feature,characteristic,symbol,reference,value_um,tolerance_um,"
       "verdict,reason,verification_operator,quoted_um,low_um,high_um\n";
-  for (const FeatureResult& feature : evaluation.features) {
-    for (const CharacteristicResult& result : feature.characteristics) {
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    for (const evaluation::CharacteristicResult& result : feature.characteristics) {
       const record::Characteristic& asked = result.characteristic;
-      const UncertaintyStatement* known = result.value ? result.value->statement() : nullptr;
+      const evaluation::UncertaintyStatement* known =
+          result.value ? result.value->statement() : nullptr;
       const std::string interval = known == nullptr ? ",,"
                                                     : um_field(known->estimate_mm) + "," +
                                                           um_field(known->low_mm) + "," +

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "reports/data/json_parts.h"
 #include "evaluation/rotary/result.h"
+#include "reports/data/json_parts.h"
 
 namespace rondure::reports {
 namespace {
@@ -49,7 +49,7 @@ Json measured_json(const fit::RotaryStation& station) {
           {"condition", station.condition}};
 }
 
-Json axis_json(const AxisFacts& axis) {
+Json axis_json(const evaluation::AxisFacts& axis) {
   return {{"s0", axis.study->s0},
           {"drift_um", in_um(axis.study->drift_mm)},
           {"location", location_json(axis.study->offset)},
@@ -57,7 +57,7 @@ Json axis_json(const AxisFacts& axis) {
           {"stations", list_json(axis.motion->stations(), station_json)}};
 }
 
-Json combined_json(const CombinedPose& pose) {
+Json combined_json(const evaluation::CombinedPose& pose) {
   return {{"alpha_deg", in_deg(pose.pose.alpha_rad)},
           {"beta_deg", in_deg(pose.pose.beta_rad)},
           {"balls", pose.points},
@@ -69,7 +69,7 @@ Json combined_json(const CombinedPose& pose) {
 
 }  // namespace
 
-Json rotary_json(const RotaryResult& facts) {
+Json rotary_json(const evaluation::RotaryResult& facts) {
   const fixture::Calibration& c = facts.calibration;
   const fixture::Verification& v = c.verification;
   Json json = {{"fixture", c.fixture_id},
@@ -89,7 +89,7 @@ Json rotary_json(const RotaryResult& facts) {
                           {"expected_rms_um", in_um(v.expected_mm)},
                           {"before_rms_um", in_um(v.before_rms_mm)},
                           {"before_max_um", in_um(v.before_max_mm)}};
-  for (const AxisFacts& axis : axes_of(facts)) json[axis.key] = axis_json(axis);
+  for (const evaluation::AxisFacts& axis : axes_of(facts)) json[axis.key] = axis_json(axis);
   return json;
 }
 

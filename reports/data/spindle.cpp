@@ -1,5 +1,5 @@
-#include "reports/data/json_parts.h"
 #include "reports/data/spindle.h"
+#include "reports/data/json_parts.h"
 
 namespace rondure::reports {
 namespace {
@@ -59,7 +59,7 @@ Json curves_json(const fit::ThreeProbeResult& s) {
 
 }  // namespace
 
-Json separation_json(const SpindleResult& facts) {
+Json separation_json(const evaluation::SpindleResult& facts) {
   const fit::ThreeProbeResult& s = facts.separation;
   Json json;
   json["mode"] = facts.arm.swings() ? "tracking" : "static";

@@ -7,6 +7,6 @@
 namespace rondure::reports {
 
 /// A separation as JSON, as report.json and `rondure fit spindle --json` have it.
-[[nodiscard]] nlohmann::ordered_json separation_json(const SpindleResult& facts);
+[[nodiscard]] nlohmann::ordered_json separation_json(const evaluation::SpindleResult& facts);
 
 }  // namespace rondure::reports

@@ -4,7 +4,7 @@
 namespace rondure::reports {
 namespace {
 
-Json statement_json(const UncertaintyStatement& s) {
+Json statement_json(const evaluation::UncertaintyStatement& s) {
   return {{"estimate_um", in_um(s.estimate_mm)},
           {"low_um", in_um(s.low_mm)},
           {"high_um", in_um(s.high_mm)},
@@ -13,7 +13,7 @@ Json statement_json(const UncertaintyStatement& s) {
           {"numerical_tolerance_um", in_um(s.numerical_tolerance_mm)}};
 }
 
-Json finding_json(const FormFinding& finding) {
+Json finding_json(const evaluation::FormFinding& finding) {
   return {{"noise_um", in_um(finding.noise_mm)},
           {"unresolved_um", in_um(finding.unresolved_mm)},
           {"groups", finding.groups},
@@ -21,7 +21,7 @@ Json finding_json(const FormFinding& finding) {
           {"spot_rows", finding.spot_rows}};
 }
 
-Json budget_json(const BudgetLine& line) {
+Json budget_json(const evaluation::BudgetLine& line) {
   return {{"name", line.name},
           {"measurand", name_of(line.measurand)},
           {"standard_uncertainty_um", in_um(line.standard_uncertainty_mm)},
@@ -29,11 +29,11 @@ Json budget_json(const BudgetLine& line) {
           {"share", line.share_1}};
 }
 
-Json influence_json(const InfluenceStatement& influence) {
+Json influence_json(const evaluation::InfluenceStatement& influence) {
   return {{"name", influence.name}, {"covered", influence.covered}, {"text", influence.text}};
 }
 
-Json prior_json(const std::optional<Prior>& prior) {
+Json prior_json(const std::optional<evaluation::Prior>& prior) {
   if (!prior) return nullptr;
   return {{"distribution", name_of(prior->kind)},
           {"mean_um", in_um(prior->mean_mm)},
@@ -42,9 +42,9 @@ Json prior_json(const std::optional<Prior>& prior) {
 
 }  // namespace
 
-Json uncertainty_json(const CharacteristicResult& result) {
+Json uncertainty_json(const evaluation::CharacteristicResult& result) {
   if (!result.value || !result.value->uncertainty().result()) return nullptr;
-  const UncertaintyResult& u = *result.value->uncertainty().result();
+  const evaluation::UncertaintyResult& u = *result.value->uncertainty().result();
   return {{"coverage", result.value->uncertainty().coverage_1()},
           {"sampled_points", statement_json(u.sampled)},
           {"whole_surface", u.whole ? statement_json(*u.whole) : Json(nullptr)},
@@ -59,9 +59,9 @@ Json uncertainty_json(const CharacteristicResult& result) {
           {"influences", list_json(u.declaration, influence_json)}};
 }
 
-Json decision_json(const CharacteristicResult& result) {
+Json decision_json(const evaluation::CharacteristicResult& result) {
   if (!result.outcome) return nullptr;
-  const RuleOutcome& o = *result.outcome;
+  const evaluation::RuleOutcome& o = *result.outcome;
   const auto& risks = result.risks;
   return {{"compared_um", in_um(o.compared_mm)},
           {"acceptance_limit_um", in_um(o.acceptance_mm)},
@@ -72,9 +72,9 @@ Json decision_json(const CharacteristicResult& result) {
           {"global_producer_risk", risks ? Json(risks->false_rejection_1) : Json(nullptr)}};
 }
 
-Json rule_json(const Evaluation& evaluation) {
+Json rule_json(const evaluation::Evaluation& evaluation) {
   if (!evaluation.rule) return nullptr;
-  const DecisionRule& rule = *evaluation.rule;
+  const evaluation::DecisionRule& rule = *evaluation.rule;
   return {{"rule", name_of(rule.kind)},
           {"words", in_words(rule)},
           {"measurand", name_of(rule.measurand)},

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/utf8.h"
-#include "reports/words/facts.h"
 #include "evaluation/feature_values.h"
+#include "reports/words/facts.h"
 
 namespace rondure::reports {
 namespace {
@@ -13,7 +13,8 @@ namespace {
 using core::well_formed;
 
 /// "4 x 7 points; worst section; 5 touches a point".
-std::string sampling_of(const FeatureResult& feature, const record::Characteristic& asked) {
+std::string sampling_of(const evaluation::FeatureResult& feature,
+                        const record::Characteristic& asked) {
   std::string text = pattern_of(feature);
   if (asked.form == record::Form::kRoundness && feature.layers.size() > 1)
     text += "; worst section";
@@ -30,7 +31,8 @@ CertificateKind kind_of(const core::Result<Fit>& fit) {
 }
 
 /// Of the reference behind a result; "none" for least squares, which proves nothing.
-CertificateKind certificate_of(const FeatureResult& feature, record::Reference reference) {
+CertificateKind certificate_of(const evaluation::FeatureResult& feature,
+                               record::Reference reference) {
   switch (reference) {
     case record::Reference::kLeastSquares:
       return CertificateKind::kNone;
@@ -43,7 +45,7 @@ CertificateKind certificate_of(const FeatureResult& feature, record::Reference r
   }
   return CertificateKind::kNone;
 }
-CertificateKind certificate_of(const LayerResult& layer, record::Reference reference) {
+CertificateKind certificate_of(const evaluation::LayerResult& layer, record::Reference reference) {
   switch (reference) {
     case record::Reference::kLeastSquares:
       return CertificateKind::kNone;
@@ -58,16 +60,18 @@ CertificateKind certificate_of(const LayerResult& layer, record::Reference refer
 }
 
 /// The same; of sections the weakest.
-CertificateKind certificate_of(const FeatureResult& feature, const record::Characteristic& asked) {
+CertificateKind certificate_of(const evaluation::FeatureResult& feature,
+                               const record::Characteristic& asked) {
   if (asked.form == record::Form::kCylindricity) return certificate_of(feature, asked.reference);
   CertificateKind weakest =
       feature.layers.empty() ? CertificateKind::kNone : CertificateKind::kGlobal;
-  for (const LayerResult& layer : feature.layers)
+  for (const evaluation::LayerResult& layer : feature.layers)
     weakest = std::min(weakest, certificate_of(layer, asked.reference));
   return weakest;
 }
 
-record::ArchiveResult result_of(const FeatureResult& feature, const CharacteristicResult& found) {
+record::ArchiveResult result_of(const evaluation::FeatureResult& feature,
+                                const evaluation::CharacteristicResult& found) {
   const record::Characteristic& asked = found.characteristic;
   record::ArchiveResult out;
   out.feature = well_formed(feature.feature.id);
@@ -85,7 +89,8 @@ record::ArchiveResult result_of(const FeatureResult& feature, const Characterist
 
 }  // namespace
 
-record::ArchiveRun archive_entry(const record::RunRecord& record, const Evaluation& evaluation,
+record::ArchiveRun archive_entry(const record::RunRecord& record,
+                                 const evaluation::Evaluation& evaluation,
                                  std::string journal_sha256) {
   const record::Header& h = record.header;
   record::ArchiveRun run;
@@ -103,8 +108,8 @@ record::ArchiveRun archive_entry(const record::RunRecord& record, const Evaluati
               .plan_revision = well_formed(h.plan_revision),
               .plan_sha256 = h.plan_sha256,
               .version = h.version};
-  for (const FeatureResult& feature : evaluation.features) {
-    for (const CharacteristicResult& found : feature.characteristics) {
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    for (const evaluation::CharacteristicResult& found : feature.characteristics) {
       run.results.push_back(result_of(feature, found));
     }
   }

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "record/archive/archive.h"
 #include "evaluation/evaluation.h"
+#include "record/archive/archive.h"
 
 namespace rondure::reports {
 
@@ -12,7 +12,7 @@ namespace rondure::reports {
 ///
 /// @param journal_sha256  Of the bytes of its sealed journal.
 [[nodiscard]] record::ArchiveRun archive_entry(const record::RunRecord& record,
-                                               const Evaluation& evaluation,
+                                               const evaluation::Evaluation& evaluation,
                                                std::string journal_sha256);
 
 }  // namespace rondure::reports

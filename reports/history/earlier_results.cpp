@@ -9,8 +9,8 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
-#include "reports/history/archive_entry.h"
 #include "reports/data/json_parts.h"
+#include "reports/history/archive_entry.h"
 
 namespace rondure::reports {
 namespace {
@@ -125,7 +125,8 @@ core::Result<void> keep_earlier(const std::filesystem::path& directory,
   return record::update_checksums(directory, {{kEarlierName, record::sha256_hex(text)}});
 }
 
-std::vector<RunChart> run_charts(const record::RunRecord& record, const Evaluation& evaluation,
+std::vector<RunChart> run_charts(const record::RunRecord& record,
+                                 const evaluation::Evaluation& evaluation,
                                  const EarlierResults& earlier) {
   std::vector<RunChart> charts;
   if (earlier.empty()) return charts;

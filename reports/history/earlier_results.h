@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/result.h"
+#include "evaluation/evaluation.h"
 #include "record/archive/archive.h"
 #include "record/run_record.h"
-#include "evaluation/evaluation.h"
 #include "reports/history/run_chart.h"
 
 namespace rondure::reports {
@@ -36,7 +36,7 @@ inline constexpr std::size_t kMostEarlier = 1000;
 /// Run charts of the characteristics of a run: those with at least two results, this run's and
 /// earlier ones that mean the same.
 [[nodiscard]] std::vector<RunChart> run_charts(const record::RunRecord& record,
-                                               const Evaluation& evaluation,
+                                               const evaluation::Evaluation& evaluation,
                                                const EarlierResults& earlier);
 
 }  // namespace rondure::reports

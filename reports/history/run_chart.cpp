@@ -8,8 +8,8 @@
 
 #include "core/numbers.h"
 #include "core/utf8.h"
-#include "reports/terminal/columns.h"
 #include "evaluation/evaluation.h"
+#include "reports/terminal/columns.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -22,7 +22,7 @@ using core::um;
 using record::ArchivedResult;
 
 bool has_value(const ArchivedResult& r) {
-  return r.result.value && r.result.verdict != name_of(Verdict::kVoid);
+  return r.result.value && r.result.verdict != name_of(evaluation::Verdict::kVoid);
 }
 
 /// Values of both may stand in one chart.

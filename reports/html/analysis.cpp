@@ -22,18 +22,19 @@ std::string truth_box(const record::RunRecord& record, std::size_t index) {
                      tr(". This is not part of the measurement: evaluation never reads it."));
 }
 
-std::string body_of(const AnalysisResult& result, const record::RunRecord& record, int feature) {
+std::string body_of(const evaluation::AnalysisResult& result, const record::RunRecord& record,
+                    int feature) {
   struct Writer {
     const record::RunRecord& record;
     int feature;
-    std::string operator()(const SpindleResult& found) const {
+    std::string operator()(const evaluation::SpindleResult& found) const {
       return spindle_part(found, record, feature);
     }
-    std::string operator()(const WheelResult& found) const { return wheel_part(found); }
-    std::string operator()(const ContourResult& found) const {
+    std::string operator()(const evaluation::WheelResult& found) const { return wheel_part(found); }
+    std::string operator()(const evaluation::ContourResult& found) const {
       return contour_part(found, record, feature);
     }
-    std::string operator()(const RotaryResult& found) const {
+    std::string operator()(const evaluation::RotaryResult& found) const {
       return rotary_part(found, record, feature);
     }
   };
@@ -43,7 +44,7 @@ std::string body_of(const AnalysisResult& result, const record::RunRecord& recor
 }  // namespace
 
 std::string analysis_section(const record::RunRecord& record, std::size_t index,
-                             const FeatureResult& feature) {
+                             const evaluation::FeatureResult& feature) {
   const record::Feature& asked = feature.feature;
   std::string html = fmt::format(
       R"(<section><h2>{}</h2><p class="note">{}</p>)", trf("Feature {}", isolated(asked.id)),

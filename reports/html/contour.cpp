@@ -46,7 +46,7 @@ Curve curve_of(std::string name, std::string_view css_class, const std::vector<d
 using CurveOf = std::function<const std::vector<double>*(const fit::ContourPartResult&)>;
 
 /// One line a part; nothing where no part has the curve.
-std::string side_by_side(const ContourResult& facts, std::string_view title,
+std::string side_by_side(const evaluation::ContourResult& facts, std::string_view title,
                          std::string_view x_title, std::string_view y_title, double unit,
                          const CurveOf& curve) {
   std::vector<Curve> curves;
@@ -73,8 +73,8 @@ void add_truth(const record::RunRecord& record, int feature, std::size_t part,
   curves.push_back({tr("hidden truth of n"), "mean", *std::move(beta), *std::move(rest)});
 }
 
-std::string separation_plots(const ContourResult& facts, const record::RunRecord& record,
-                             int feature) {
+std::string separation_plots(const evaluation::ContourResult& facts,
+                             const record::RunRecord& record, int feature) {
   std::string html =
       fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)", tr("Separation, part by part"),
                   tr("t = f + n: the contour as measured, the share that follows "
@@ -97,7 +97,7 @@ std::string separation_plots(const ContourResult& facts, const record::RunRecord
   return html;
 }
 
-std::string comparison_plots(const ContourResult& facts) {
+std::string comparison_plots(const evaluation::ContourResult& facts) {
   using Part = fit::ContourPartResult;
   const double um_unit = core::kMicrometre;
   const std::string beta = tr(kBetaTitle);
@@ -121,7 +121,7 @@ std::string comparison_plots(const ContourResult& facts) {
 }
 
 /// Amplitudes of the mean contour, or of the only one, with the lines of the masks.
-std::string harmonic_plot(const ContourResult& facts,
+std::string harmonic_plot(const evaluation::ContourResult& facts,
                           const std::vector<record::Characteristic>& asked) {
   const bool several = facts.study.total.has_value();
   const auto& curve =
@@ -142,7 +142,7 @@ std::string harmonic_plot(const ContourResult& facts,
                 tr("undulations per revolution"), tr("amplitude / µm"), bars, limits));
 }
 
-std::string key_numbers(const ContourResult& facts) {
+std::string key_numbers(const evaluation::ContourResult& facts) {
   const fit::ContourStudy& study = facts.study;
   std::string html = R"(<dl class="keys">)";
   const auto add = [&](const std::string& name, const std::optional<fit::Repeatability>& found) {
@@ -184,7 +184,7 @@ std::string part_row(const fit::ContourPartResult& part, const std::string& name
          cell(part.indirect ? fixed(part.indirect->correlation, 4) : "–") + "</tr>";
 }
 
-std::string part_table(const ContourResult& facts) {
+std::string part_table(const evaluation::ContourResult& facts) {
   std::string rows;
   for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
     rows += part_row(facts.study.parts[i], facts.names[i]);
@@ -201,7 +201,7 @@ std::string part_table(const ContourResult& facts) {
          "valley do not. Last column: correlation of f with what the main journal leaves of t."));
 }
 
-std::string verdict_list(const ContourResult& facts) {
+std::string verdict_list(const evaluation::ContourResult& facts) {
   std::string html = "<ul>";
   for (const std::string& verdict : contour_verdicts(facts.study, facts.options.limits)) {
     html += fmt::format("<li>{}</li>", in_sentence(verdict));
@@ -211,7 +211,8 @@ std::string verdict_list(const ContourResult& facts) {
 
 }  // namespace
 
-std::string contour_part(const ContourResult& facts, const record::RunRecord& record, int feature) {
+std::string contour_part(const evaluation::ContourResult& facts, const record::RunRecord& record,
+                         int feature) {
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
   return key_numbers(facts) + verdict_list(facts) + part_table(facts) + comparison_plots(facts) +
          separation_plots(facts, record, feature) + harmonic_plot(facts, asked);

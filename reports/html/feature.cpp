@@ -5,11 +5,11 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "reports/escaping.h"
-#include "reports/words/facts.h"
 #include "evaluation/feature_values.h"
+#include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
+#include "reports/words/facts.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -23,7 +23,7 @@ using core::tiny_um;
 using core::um;
 
 /// Nothing for a reference that does not exist: a warning says why.
-std::string one_sided_entry(const FeatureResult& feature, record::Reference reference) {
+std::string one_sided_entry(const evaluation::FeatureResult& feature, record::Reference reference) {
   const auto found = one_sided_of(feature, reference);
   if (!found) return {};
   const record::Shape shape = feature.feature.shape;
@@ -37,7 +37,7 @@ std::string one_sided_entry(const FeatureResult& feature, record::Reference refe
                with_note(um(found->deviation_mm) + " µm", note));
 }
 
-std::string zone_entries(const FeatureResult& feature, const Zone& zone) {
+std::string zone_entries(const evaluation::FeatureResult& feature, const evaluation::Zone& zone) {
   const bool cylinder = feature.feature.shape == record::Shape::kCylinder;
   const std::string kind =
       zone.of_surface
@@ -63,7 +63,7 @@ std::string zone_entries(const FeatureResult& feature, const Zone& zone) {
   return html;
 }
 
-std::string certificate_entry(const Zone& zone) {
+std::string certificate_entry(const evaluation::Zone& zone) {
   const fit::Certificate& certificate = zone.certificate;
   std::string note;
   if (certificate.kind != fit::Certificate::Kind::kNone) {
@@ -75,7 +75,7 @@ std::string certificate_entry(const Zone& zone) {
                with_note(in_sentence(sentence_of(certificate)), note), "wide-key");
 }
 
-std::string axis_entry(const FeatureResult& feature) {
+std::string axis_entry(const evaluation::FeatureResult& feature) {
   if (feature.mz_cylinder) {
     const fit::Axis& axis = feature.mz_cylinder->axis;
     const Eigen::Vector3d& d = axis.direction;
@@ -94,9 +94,9 @@ std::string axis_entry(const FeatureResult& feature) {
                fmt::format("({}, {}) mm", fixed(center.x(), 6), fixed(center.y(), 6)), "wide-key");
 }
 
-std::string pose_entries(const FeatureResult& feature) {
+std::string pose_entries(const evaluation::FeatureResult& feature) {
   std::string html;
-  if (const PoseValue* pose = final_pose_of(feature)) {
+  if (const evaluation::PoseValue* pose = final_pose_of(feature)) {
     const std::string angles =
         fmt::format("alpha {}°, beta {}°", deg(pose->pose.alpha_rad), deg(pose->pose.beta_rad));
     html +=
@@ -113,10 +113,10 @@ std::string pose_entries(const FeatureResult& feature) {
 }
 
 /// The worst filtered section of dense layers, and the largest undulation of all.
-std::string dense_entry(const FeatureResult& feature) {
+std::string dense_entry(const evaluation::FeatureResult& feature) {
   double total_mm = -1.0;
   fit::Harmonic largest;
-  for (const LayerResult& layer : feature.layers) {
+  for (const evaluation::LayerResult& layer : feature.layers) {
     if (!layer.filtered || layer.filtered->values.empty()) continue;
     total_mm = std::max(total_mm, layer.filtered->values.back().total_mm);
     for (const fit::Harmonic& harmonic : layer.filtered->harmonics.harmonics) {
@@ -130,7 +130,7 @@ std::string dense_entry(const FeatureResult& feature) {
                              um(largest.amplitude_mm))));
 }
 
-std::string data_entries(const FeatureResult& feature) {
+std::string data_entries(const evaluation::FeatureResult& feature) {
   const bool from_file = feature.feature.strategy == record::Strategy::kPointsFile;
   std::string html = entry(
       tr("Points"), with_note(pattern_of(feature),
@@ -167,8 +167,8 @@ std::string data_entries(const FeatureResult& feature) {
   return html;
 }
 
-std::string truth_box(const record::SimulationTruth* truth, const std::optional<Zone>& zone,
-                      record::Shape shape) {
+std::string truth_box(const record::SimulationTruth* truth,
+                      const std::optional<evaluation::Zone>& zone, record::Shape shape) {
   if (truth == nullptr) return {};
   std::string text = fmt::format("<b>{}</b> {} {} µm", tr("Hidden truth of the simulation:"),
                                  symbol_of(shape), um(truth->cylt_mm));
@@ -177,7 +177,8 @@ std::string truth_box(const record::SimulationTruth* truth, const std::optional<
          tr(". This is not part of the measurement: evaluation never reads it.") + "</div>";
 }
 
-std::string key_numbers(const FeatureResult& feature, const std::optional<Zone>& zone) {
+std::string key_numbers(const evaluation::FeatureResult& feature,
+                        const std::optional<evaluation::Zone>& zone) {
   std::string html = R"(<dl class="keys">)";
   if (zone) html += zone_entries(feature, *zone);
   html += pose_entries(feature) + data_entries(feature);
@@ -195,7 +196,7 @@ std::string spoken_caption(std::string_view html) {
   return fmt::format(R"(<caption class="spoken screen-only">{}</caption>)", html);
 }
 
-std::string messages(const FeatureResult& feature) {
+std::string messages(const evaluation::FeatureResult& feature) {
   std::string html;
   if (feature.failure) {
     html += fmt::format(
@@ -215,7 +216,7 @@ std::string messages(const FeatureResult& feature) {
 }
 
 std::string feature_section(const record::RunRecord& record, std::size_t index,
-                            const FeatureResult& feature) {
+                            const evaluation::FeatureResult& feature) {
   if (record::is_analysis(feature.feature.shape)) return analysis_section(record, index, feature);
   const auto zone = zone_of(feature);
   const record::Feature& asked = feature.feature;

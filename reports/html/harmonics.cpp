@@ -4,8 +4,8 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "reports/escaping.h"
 #include "evaluation/harmonic_mask.h"
+#include "reports/escaping.h"
 #include "reports/html/plot_curve.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
@@ -16,7 +16,7 @@ namespace {
 
 using core::um;
 
-std::string exceeding_row(const MaskedHarmonic& masked) {
+std::string exceeding_row(const evaluation::MaskedHarmonic& masked) {
   return fmt::format(R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td>)"
                      R"(<td class="n">{}</td><td class="n">{}</td></tr>)",
                      masked.harmonic.number, masked.harmonic.layer + 1,
@@ -25,10 +25,11 @@ std::string exceeding_row(const MaskedHarmonic& masked) {
 }
 
 /// What goes beyond a mask, or that nothing does.
-std::string against_limits(const FeatureResult& feature, const record::Characteristic& asked) {
-  const std::vector<MaskedHarmonic> all = against_mask(feature, asked);
+std::string against_limits(const evaluation::FeatureResult& feature,
+                           const record::Characteristic& asked) {
+  const std::vector<evaluation::MaskedHarmonic> all = against_mask(feature, asked);
   std::string rows;
-  for (const MaskedHarmonic& masked : all) {
+  for (const evaluation::MaskedHarmonic& masked : all) {
     if (masked.exceeds()) rows += exceeding_row(masked);
   }
   if (rows.empty()) {
@@ -46,9 +47,9 @@ std::string against_limits(const FeatureResult& feature, const record::Character
 
 }  // namespace
 
-std::string harmonics_section(const FeatureResult& feature) {
+std::string harmonics_section(const evaluation::FeatureResult& feature) {
   std::vector<Bar> bars;
-  for (const SectionHarmonic& harmonic : worst_harmonics(feature)) {
+  for (const evaluation::SectionHarmonic& harmonic : worst_harmonics(feature)) {
     if (harmonic.number < 2) continue;  // eccentricity is no form
     bars.push_back({harmonic.number, harmonic.amplitude_mm / core::kMicrometre});
   }

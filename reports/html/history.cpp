@@ -8,7 +8,8 @@
 
 namespace rondure::reports {
 
-std::string history_section(const record::RunRecord& record, const Evaluation& evaluation,
+std::string history_section(const record::RunRecord& record,
+                            const evaluation::Evaluation& evaluation,
                             const EarlierResults& earlier) {
   std::string html;
   for (const RunChart& chart : run_charts(record, evaluation, earlier)) {

@@ -13,26 +13,26 @@ using core::fixed;
 using core::signed_um;
 using core::um;
 
-std::string verdict_mark(Verdict verdict, int size_px) {
+std::string verdict_mark(evaluation::Verdict verdict, int size_px) {
   std::string_view body;
   switch (verdict) {
-    case Verdict::kConforms:
+    case evaluation::Verdict::kConforms:
       body = R"(<circle class="good" cx="32" cy="32" r="30"/>)"
              R"(<path class="stroke" d="M18 33l10 10 19-21"/>)";
       break;
-    case Verdict::kDoesNotConform:
+    case evaluation::Verdict::kDoesNotConform:
       body = R"(<path class="bad" d="M20.5 3h23L61 20.5v23L43.5 61h-23L3 43.5v-23z"/>)"
              R"(<path class="stroke" d="M21 21l22 22M43 21l-22 22"/>)";
       break;
-    case Verdict::kUndecided:
+    case evaluation::Verdict::kUndecided:
       body = R"(<path class="open" d="M32 3l29 29-29 29L3 32z"/>)"
              R"(<path class="pen" d="M25 26c0-9 14-9 14 0 0 6-7 6-7 12M32 44v2"/>)";
       break;
-    case Verdict::kVoid:
+    case evaluation::Verdict::kVoid:
       body = R"(<circle class="hollow" cx="32" cy="32" r="27"/>)"
              R"(<path class="pen" d="M13 51L51 13"/>)";
       break;
-    case Verdict::kNotToleranced:
+    case evaluation::Verdict::kNotToleranced:
       body = R"(<circle class="hollow" cx="32" cy="32" r="27"/>)"
              R"(<path class="pen" d="M20 32h24"/>)";
       break;
@@ -71,10 +71,10 @@ std::string form_symbol(record::Form form) {
                      tr(record::name_of(form)), lines);
 }
 
-std::string tolerance_bar(const CharacteristicResult& result, double tolerance_mm) {
+std::string tolerance_bar(const evaluation::CharacteristicResult& result, double tolerance_mm) {
   constexpr double kWidth = 150.0;
   const double value_mm = result.value->quoted_mm();
-  const UncertaintyStatement* known = result.value->statement();
+  const evaluation::UncertaintyStatement* known = result.value->statement();
   const auto& outcome = result.outcome;
   double end_mm = std::max(1.25 * tolerance_mm, 1.05 * value_mm);
   if (known != nullptr) end_mm = std::max(end_mm, 1.05 * known->high_mm);
@@ -91,9 +91,9 @@ std::string tolerance_bar(const CharacteristicResult& result, double tolerance_m
     svg.rect(from, 5.0, x.at(outcome->rejection_mm) - from, 16.0, "guard");
   }
   svg.rect(x.from, 8.0, x.at(value_mm) - x.from, 10.0,
-           result.verdict == Verdict::kConforms         ? "good"
-           : result.verdict == Verdict::kDoesNotConform ? "bad"
-                                                        : "neutral");
+           result.verdict == evaluation::Verdict::kConforms         ? "good"
+           : result.verdict == evaluation::Verdict::kDoesNotConform ? "bad"
+                                                                    : "neutral");
   if (known != nullptr) {
     svg.line(x.at(known->low_mm), 13.0, x.at(known->high_mm), 13.0, "interval");
     svg.line(x.at(known->low_mm), 9.5, x.at(known->low_mm), 16.5, "interval");
@@ -103,12 +103,12 @@ std::string tolerance_bar(const CharacteristicResult& result, double tolerance_m
   return svg.str();
 }
 
-std::string budget_bars(const std::vector<BudgetLine>& budget) {
+std::string budget_bars(const std::vector<evaluation::BudgetLine>& budget) {
   constexpr double kRow = 24.0;
   constexpr double kFrom = 170.0;
   double most_mm = 0.0;
-  std::vector<const BudgetLine*> lines;
-  for (const BudgetLine& line : budget) {
+  std::vector<const evaluation::BudgetLine*> lines;
+  for (const evaluation::BudgetLine& line : budget) {
     if (!(line.standard_uncertainty_mm > 0.0)) continue;
     lines.push_back(&line);
     most_mm = std::max(most_mm, line.standard_uncertainty_mm);
@@ -118,11 +118,11 @@ std::string budget_bars(const std::vector<BudgetLine>& budget) {
   Svg svg(760.0, kRow * static_cast<double>(lines.size()) + 8.0, "wide budget",
           tr("standard uncertainty by each influence alone"));
   double y = 4.0;
-  for (const BudgetLine* line : lines) {
+  for (const evaluation::BudgetLine* line : lines) {
     const double end = x.at(line->standard_uncertainty_mm);
     svg.text(kFrom - 10.0, y + 16.0, "end", "label", tr(line->name));
     svg.rect(kFrom, y + 4.0, end - kFrom, kRow - 8.0,
-             line->measurand == Measurand::kWholeSurface ? "share surface" : "share");
+             line->measurand == evaluation::Measurand::kWholeSurface ? "share surface" : "share");
     svg.text(end + 8.0, y + 16.0, "start", "label",
              trf("{} \u00b5m, {} %; mean shift {} \u00b5m", um(line->standard_uncertainty_mm),
                  fixed(100.0 * line->share_1, 0), signed_um(line->shift_mm)));

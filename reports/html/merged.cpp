@@ -20,7 +20,7 @@ std::string cell(double value, double u, bool from_kinematics) {
                      fixed(u, 2));
 }
 
-std::string pose_row(const MergedPoses& merged, std::size_t k) {
+std::string pose_row(const evaluation::MergedPoses& merged, std::size_t k) {
   std::string html = fmt::format(
       R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td>)",
       k + 1, deg(merged.poses[k].alpha_rad), deg(merged.poses[k].beta_rad), merged.points[k]);
@@ -40,7 +40,7 @@ std::string pose_row(const MergedPoses& merged, std::size_t k) {
 
 }  // namespace
 
-std::string merged_section(const MergedPoses& merged) {
+std::string merged_section(const evaluation::MergedPoses& merged) {
   std::string html = fmt::format("<h3>{}</h3><p>{}</p>", tr("Several poses, one part"),
                                  trf("{}.", opening_sentence(share_in_words(merged))));
   html += fmt::format(

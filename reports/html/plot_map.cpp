@@ -9,10 +9,10 @@
 #include "core/numbers.h"
 #include "core/round_values.h"
 #include "core/units.h"
+#include "evaluation/section.h"
 #include "reports/html/plot_scale.h"
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
-#include "evaluation/section.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -46,9 +46,9 @@ struct MapView {
 };
 
 /// Least distance between the heights of two neighbouring layers.
-double closest_layers_mm(const FeatureResult& feature) {
+double closest_layers_mm(const evaluation::FeatureResult& feature) {
   std::vector<double> heights;
-  for (const LayerResult& layer : feature.layers) heights.push_back(layer.height_mm);
+  for (const evaluation::LayerResult& layer : feature.layers) heights.push_back(layer.height_mm);
   std::sort(heights.begin(), heights.end());
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < heights.size(); ++i) {
@@ -57,15 +57,16 @@ double closest_layers_mm(const FeatureResult& feature) {
   return least;
 }
 
-std::size_t most_points_of_a_layer(const FeatureResult& feature) {
+std::size_t most_points_of_a_layer(const evaluation::FeatureResult& feature) {
   std::size_t most = 1;
-  for (const LayerResult& layer : feature.layers) most = std::max(most, layer.rows.size());
+  for (const evaluation::LayerResult& layer : feature.layers)
+    most = std::max(most, layer.rows.size());
   return most;
 }
 
 /// Distance of neighbouring discs on a map of the given height: exact for points in layers, a share
 /// of the mean distance where layers are unknown.
-double disc_pitch(const FeatureResult& feature, double plot, double layer_pitch) {
+double disc_pitch(const evaluation::FeatureResult& feature, double plot, double layer_pitch) {
   constexpr double kPlotWidth = kMapRight - kMapLeft - 2.0 * kSideMargin;
   if (feature.layers.empty()) {
     return 0.6 * std::sqrt(kPlotWidth * plot / static_cast<double>(feature.cloud.size()));
@@ -73,15 +74,17 @@ double disc_pitch(const FeatureResult& feature, double plot, double layer_pitch)
   return std::min(kPlotWidth / static_cast<double>(most_points_of_a_layer(feature)), layer_pitch);
 }
 
-double plot_height(const FeatureResult& feature) {
+double plot_height(const evaluation::FeatureResult& feature) {
   if (feature.layers.empty()) return 240.0;
   return std::clamp(48.0 * (static_cast<double>(feature.layers.size()) - 1.0), 130.0, 300.0);
 }
 
-MapView view_of(const FeatureResult& feature, const Zone& zone) {
-  const auto [lowest, highest] = std::minmax_element(
-      feature.cloud.begin(), feature.cloud.end(),
-      [](const CloudPoint& a, const CloudPoint& b) { return a.height_mm < b.height_mm; });
+MapView view_of(const evaluation::FeatureResult& feature, const evaluation::Zone& zone) {
+  const auto [lowest, highest] =
+      std::minmax_element(feature.cloud.begin(), feature.cloud.end(),
+                          [](const evaluation::CloudPoint& a, const evaluation::CloudPoint& b) {
+                            return a.height_mm < b.height_mm;
+                          });
   const double low = lowest->height_mm;
   const double span = std::max(highest->height_mm - low, 1e-9);
   const double plot = plot_height(feature);
@@ -124,15 +127,16 @@ std::string disc_label(double deviation_mm) {
 }
 
 /// Where a point is drawn: one that several poses touched stands beside itself.
-double disc_x(const CloudPoint& point, const FeatureResult& feature, const MapView& view) {
+double disc_x(const evaluation::CloudPoint& point, const evaluation::FeatureResult& feature,
+              const MapView& view) {
   const double x = view.x.at(point.angle_rad / core::kDegree);
   if (!feature.merged) return x;
   const double middle = 0.5 * (static_cast<double>(feature.merged->poses.size()) - 1.0);
   return x + 2.0 * view.disc * (point.pose - middle);
 }
 
-void draw_discs(Svg& svg, const FeatureResult& feature, const MapView& view) {
-  for (const CloudPoint& point : feature.cloud) {
+void draw_discs(Svg& svg, const evaluation::FeatureResult& feature, const MapView& view) {
+  for (const evaluation::CloudPoint& point : feature.cloud) {
     const double x = disc_x(point, feature, view);
     const double y = view.y.at(point.height_mm);
     if (feature.merged)
@@ -146,7 +150,7 @@ void draw_discs(Svg& svg, const FeatureResult& feature, const MapView& view) {
 }
 
 /// Height at which the cell of a point is centred: that of its layer, or of its row of cells.
-double cell_height(const CloudPoint& point, const std::map<int, double>& layer_heights,
+double cell_height(const evaluation::CloudPoint& point, const std::map<int, double>& layer_heights,
                    const MapView& view) {
   const auto layer = layer_heights.find(point.layer);
   if (layer != layer_heights.end()) return layer->second;
@@ -155,13 +159,14 @@ double cell_height(const CloudPoint& point, const std::map<int, double>& layer_h
   return view.y.low + (std::clamp(row, 0.0, kMapCellRows - 1.0) + 0.5) * pitch;
 }
 
-void draw_cells(Svg& svg, const FeatureResult& feature, const MapView& view) {
+void draw_cells(Svg& svg, const evaluation::FeatureResult& feature, const MapView& view) {
   std::map<int, double> layer_heights;
   if (view.rows_are_layers) {
-    for (const LayerResult& layer : feature.layers) layer_heights[layer.layer] = layer.height_mm;
+    for (const evaluation::LayerResult& layer : feature.layers)
+      layer_heights[layer.layer] = layer.height_mm;
   }
   std::map<std::pair<double, int>, std::pair<double, int>> cells;
-  for (const CloudPoint& point : feature.cloud) {
+  for (const evaluation::CloudPoint& point : feature.cloud) {
     const int column = std::clamp(
         static_cast<int>(point.angle_rad / core::kTwoPi * kMapCellColumns), 0, kMapCellColumns - 1);
     auto& [sum, number] = cells[{cell_height(point, layer_heights, view), column}];
@@ -175,10 +180,10 @@ void draw_cells(Svg& svg, const FeatureResult& feature, const MapView& view) {
   }
 }
 
-void draw_contacts(Svg& svg, const FeatureResult& feature, const MapView& view) {
+void draw_contacts(Svg& svg, const evaluation::FeatureResult& feature, const MapView& view) {
   const double shift = view.labels && !view.cells ? view.disc - 1.0 : 0.0;
   const double size = view.labels && !view.cells ? 4.0 : 5.0;
-  for (const CloudPoint& point : feature.cloud) {
+  for (const evaluation::CloudPoint& point : feature.cloud) {
     const double x = disc_x(point, feature, view) + 0.8 * shift;
     const double y = view.y.at(point.height_mm) - 0.8 * shift;
     if (point.outer_contact) svg.triangle(x, y, size, "outer");
@@ -188,7 +193,7 @@ void draw_contacts(Svg& svg, const FeatureResult& feature, const MapView& view) 
 
 }  // namespace
 
-std::string deviation_map(const FeatureResult& feature, const Zone& zone) {
+std::string deviation_map(const evaluation::FeatureResult& feature, const evaluation::Zone& zone) {
   if (feature.cloud.empty()) return {};
   const bool one_section =
       feature.feature.shape == record::Shape::kCircle || feature.layers.size() == 1;

@@ -6,12 +6,12 @@
 #include "core/numbers.h"
 #include "core/round_values.h"
 #include "core/units.h"
+#include "evaluation/section.h"
 #include "reports/escaping.h"
-#include "reports/words/facts.h"
 #include "reports/html/plot_scale.h"
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
-#include "evaluation/section.h"
+#include "reports/words/facts.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -56,14 +56,14 @@ void draw_zone(Svg& svg, const PolarView& view, double half_zone_mm) {
 }
 
 /// The profile as a line that is straight in angle and deviation, not across the plot.
-std::string profile_path(const Section& section, const PolarView& view) {
+std::string profile_path(const evaluation::Section& section, const PolarView& view) {
   constexpr double kStep = 4.0 * core::kDegree;
-  const std::vector<SectionPoint>& points = section.profile;
+  const std::vector<evaluation::SectionPoint>& points = section.profile;
   std::string d;
   bool pen_down = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const SectionPoint& a = points[i];
-    const SectionPoint& b = points[(i + 1) % points.size()];
+    const evaluation::SectionPoint& a = points[i];
+    const evaluation::SectionPoint& b = points[(i + 1) % points.size()];
     const double gap = b.angle_rad - a.angle_rad + (i + 1 == points.size() ? core::kTwoPi : 0.0);
     if (!pen_down) {
       const double r = view.radius(a.deviation_mm);
@@ -82,12 +82,12 @@ std::string profile_path(const Section& section, const PolarView& view) {
   return d;
 }
 
-void draw_points(Svg& svg, const Section& section, const FeatureResult& feature,
-                 const PolarView& view) {
+void draw_points(Svg& svg, const evaluation::Section& section,
+                 const evaluation::FeatureResult& feature, const PolarView& view) {
   const bool marks = has_marks(section);
   const double size = section.rows.size() <= 60 ? 3.0 : 1.6;
   for (const std::size_t row : section.rows) {
-    const CloudPoint& point = feature.cloud[row];
+    const evaluation::CloudPoint& point = feature.cloud[row];
     const double r = view.radius(point.deviation_mm);
     const double x = view.x(point.angle_rad, r);
     const double y = view.y(point.angle_rad, r);
@@ -107,16 +107,17 @@ void draw_scale_bar(Svg& svg, const PolarView& view) {
   scale_bar(svg, 303, length, length_um);
 }
 
-std::string roundness_of(const FeatureResult& feature, const Section& section) {
-  for (const LayerResult& layer : feature.layers) {
+std::string roundness_of(const evaluation::FeatureResult& feature,
+                         const evaluation::Section& section) {
+  for (const evaluation::LayerResult& layer : feature.layers) {
     if (section.projected || section.layer != layer.layer) continue;
     return layer.mz ? fmt::format("RONt {} µm", um(layer.mz->width_mm())) : tr("no RONt");
   }
   return {};
 }
 
-std::string plot(const FeatureResult& feature, const Section& section, const PolarView& view,
-                 double half_zone_mm) {
+std::string plot(const evaluation::FeatureResult& feature, const evaluation::Section& section,
+                 const PolarView& view, double half_zone_mm) {
   Svg svg(kSectionSize, kSectionSize, "polar",
           trf("{}: deviations about the minimum-zone axis", title_of(section)));
   draw_polar_axes(svg,
@@ -157,8 +158,8 @@ std::string legend(std::size_t shown, std::size_t all, double magnification, boo
 
 }  // namespace
 
-std::string polar_plots(const FeatureResult& feature, const Zone& zone) {
-  const std::vector<Section> sections = sections_of(feature);
+std::string polar_plots(const evaluation::FeatureResult& feature, const evaluation::Zone& zone) {
+  const std::vector<evaluation::Section> sections = sections_of(feature);
   if (sections.empty()) return {};
   const double half_zone_mm = 0.5 * zone.deviation_mm;
   const PolarView view{kSectionHalfZone / std::max(half_zone_mm, 1e-5)};

@@ -27,9 +27,9 @@ struct Range {
   [[nodiscard]] bool usable() const { return low > 0.0 && low <= high; }
 };
 
-Range f_range(const FeatureResult& feature) {
+Range f_range(const evaluation::FeatureResult& feature) {
   Range range;
-  for (const PoseValue& pose : feature.poses) {
+  for (const evaluation::PoseValue& pose : feature.poses) {
     if (!pose.valid) continue;
     range.low = std::min(range.low, pose.f_mm / core::kMicrometre);
     range.high = std::max(range.high, pose.f_mm / core::kMicrometre);
@@ -37,7 +37,7 @@ Range f_range(const FeatureResult& feature) {
   return range;
 }
 
-void draw_pose(Svg& svg, double x, double y, const PoseValue& pose, double size,
+void draw_pose(Svg& svg, double x, double y, const evaluation::PoseValue& pose, double size,
                std::string_view fill) {
   if (pose.final_pose) {
     svg.diamond(x, y, size + 4.0, "final");
@@ -68,8 +68,8 @@ void draw_f_axes(Svg& svg, const Scale& x, const Scale& y, std::size_t visits) {
                   y.decades ? tr("f / µm (logarithmic)") : "f / µm");
 }
 
-std::string search_plot(const FeatureResult& feature, const std::optional<Zone>& zone,
-                        const Range& range) {
+std::string search_plot(const evaluation::FeatureResult& feature,
+                        const std::optional<evaluation::Zone>& zone, const Range& range) {
   const double zone_um = zone ? zone->deviation_mm / core::kMicrometre : range.low;
   const double least = zone_um > 0.0 ? std::min(range.low, zone_um) : range.low;
   const bool decades = range.high > 100.0 * least;
@@ -83,7 +83,7 @@ std::string search_plot(const FeatureResult& feature, const std::optional<Zone>&
   if (zone) svg.line(kPoseLeft, y.at(zone_um), kPoseRight, y.at(zone_um), "reference");
   std::string d;
   for (std::size_t i = 0; i < visits; ++i) {
-    const PoseValue& pose = feature.poses[i];
+    const evaluation::PoseValue& pose = feature.poses[i];
     if (!pose.valid) continue;
     d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? 'M' : 'L', x.at(static_cast<double>(i + 1)),
                      y.at(pose.f_mm / core::kMicrometre));
@@ -91,7 +91,7 @@ std::string search_plot(const FeatureResult& feature, const std::optional<Zone>&
   svg.path(d, "trail");
   const double size = visits <= 40 ? 3.6 : 2.2;
   for (std::size_t i = 0; i < visits; ++i) {
-    const PoseValue& pose = feature.poses[i];
+    const evaluation::PoseValue& pose = feature.poses[i];
     const double py = pose.valid ? y.at(pose.f_mm / core::kMicrometre) : kPoseTop + 8.0;
     draw_pose(svg, x.at(static_cast<double>(i + 1)), py, pose, size, {});
   }
@@ -108,9 +108,9 @@ struct PoseBox {
   double alpha_low = 1e9, alpha_high = -1e9, beta_low = 1e9, beta_high = -1e9;
 };
 
-PoseBox box_of(const FeatureResult& feature) {
+PoseBox box_of(const evaluation::FeatureResult& feature) {
   PoseBox box;
-  for (const PoseValue& pose : feature.poses) {
+  for (const evaluation::PoseValue& pose : feature.poses) {
     const double alpha = pose.pose.alpha_rad / core::kDegree;
     const double beta = pose.pose.beta_rad / core::kDegree;
     box.alpha_low = std::min(box.alpha_low, alpha);
@@ -136,7 +136,7 @@ void draw_f_colour_bar(Svg& svg, const Range& range, double top, double bottom) 
   svg.text(580.0, bottom, "start", "label", tick_label(std::round(range.low * 100.0) / 100.0));
 }
 
-std::string pose_map(const FeatureResult& feature, const Range& range) {
+std::string pose_map(const evaluation::FeatureResult& feature, const Range& range) {
   constexpr double kPoseMapBottom = 290.0;
   constexpr double kPoseMapRight = 530.0;
   const PoseBox box = box_of(feature);
@@ -156,24 +156,25 @@ std::string pose_map(const FeatureResult& feature, const Range& range) {
            "alpha / °");
   svg.upward_text(14.0, 0.5 * (kPoseTop + kPoseMapBottom), "title", "beta / °");
   const double decades = std::max(std::log(range.high / range.low), 1e-9);
-  const auto draw = [&](const PoseValue& pose) {
+  const auto draw = [&](const evaluation::PoseValue& pose) {
     const double f_um = std::max(pose.f_mm / core::kMicrometre, range.low);
     draw_pose(svg, x.at(pose.pose.alpha_rad / core::kDegree),
               y.at(pose.pose.beta_rad / core::kDegree), pose,
               feature.poses.size() <= 60 ? 5.5 : 4.0,
               sequential_colour(std::log(f_um / range.low) / decades));
   };
-  for (const PoseValue& pose : feature.poses) {
+  for (const evaluation::PoseValue& pose : feature.poses) {
     if (!pose.final_pose) draw(pose);
   }
-  if (const PoseValue* final_pose = final_pose_of(feature)) draw(*final_pose);
+  if (const evaluation::PoseValue* final_pose = final_pose_of(feature)) draw(*final_pose);
   draw_f_colour_bar(svg, range, kPoseTop + 24.0, 200.0);
   return svg.str();
 }
 
 }  // namespace
 
-std::string pose_plots(const FeatureResult& feature, const std::optional<Zone>& zone) {
+std::string pose_plots(const evaluation::FeatureResult& feature,
+                       const std::optional<evaluation::Zone>& zone) {
   const Range range = f_range(feature);
   if (!range.usable() || feature.poses.size() < 2) return {};
   std::string html = fmt::format(

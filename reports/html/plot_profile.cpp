@@ -4,10 +4,10 @@
 
 #include "core/round_values.h"
 #include "core/units.h"
+#include "evaluation/section.h"
 #include "reports/html/plot_scale.h"
 #include "reports/html/plots.h"
 #include "reports/html/svg.h"
-#include "evaluation/section.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -39,10 +39,10 @@ void draw_axes(Svg& svg, const Scale& x, const Scale& y, double half_zone_um) {
   svg.upward_text(14.0, 0.5 * (kProfileTop + kProfileBottom), "title", tr("deviation / µm"));
 }
 
-std::string profile_path(const Section& section, const Scale& x, const Scale& y) {
+std::string profile_path(const evaluation::Section& section, const Scale& x, const Scale& y) {
   std::string d;
   for (std::size_t i = 0; i < section.profile.size(); ++i) {
-    const SectionPoint& point = section.profile[i];
+    const evaluation::SectionPoint& point = section.profile[i];
     const bool connected =
         i > 0 && point.angle_rad - section.profile[i - 1].angle_rad <= section.widest_gap_rad;
     d +=
@@ -54,10 +54,11 @@ std::string profile_path(const Section& section, const Scale& x, const Scale& y)
 
 }  // namespace
 
-std::string section_profile(const FeatureResult& feature, const Zone& zone) {
-  const std::vector<Section> sections = sections_of(feature);
+std::string section_profile(const evaluation::FeatureResult& feature,
+                            const evaluation::Zone& zone) {
+  const std::vector<evaluation::Section> sections = sections_of(feature);
   if (sections.empty()) return {};
-  const Section& section = sections.front();
+  const evaluation::Section& section = sections.front();
   const double half_zone_um = std::max(0.5 * zone.deviation_mm / core::kMicrometre, 1e-2);
   const Scale x{0.0, 360.0, kProfileLeft, kProfileRight};
   const Scale y{-1.25 * half_zone_um, 1.25 * half_zone_um, kProfileBottom, kProfileTop};
@@ -65,7 +66,7 @@ std::string section_profile(const FeatureResult& feature, const Zone& zone) {
   draw_axes(svg, x, y, half_zone_um);
   svg.path(profile_path(section, x, y), section.rows.size() <= 40 ? "guide" : "profile");
   for (const std::size_t row : section.rows) {
-    const CloudPoint& point = feature.cloud[row];
+    const evaluation::CloudPoint& point = feature.cloud[row];
     const double px = x.at(point.angle_rad / core::kDegree);
     const double py = y.at(point.deviation_mm / core::kMicrometre);
     if (point.outer_contact) {

@@ -81,8 +81,8 @@ std::string outline(double radius, const SolidScene& scene, const SolidCamera& c
 }
 
 /// The marks of one point: a disc, and a triangle or a square on a contact.
-std::string point_marks(const SolidPoint& point, const CloudPoint& measured, double disc,
-                        double half_zone_mm, const SolidSeen& at) {
+std::string point_marks(const SolidPoint& point, const evaluation::CloudPoint& measured,
+                        double disc, double half_zone_mm, const SolidSeen& at) {
   const std::string place =
       fmt::format(R"(data-p="{:.1f} {:.1f} {:.1f}")", point.angle_deg, point.radius, point.height);
   const double x = kX + at.x;
@@ -116,8 +116,8 @@ void add_ring(Layers& layers, const SolidRing& ring, std::string_view css_class,
                              data_of(ring), halves.near);
 }
 
-Layers layers_of(const SolidScene& scene, const FeatureResult& feature, double half_zone_mm,
-                 const SolidCamera& camera) {
+Layers layers_of(const SolidScene& scene, const evaluation::FeatureResult& feature,
+                 double half_zone_mm, const SolidCamera& camera) {
   Layers layers;
   add_ring(layers, {scene.half_height, {scene.outer}}, "outside", camera, camera.pitch_deg > 0.0);
   add_ring(layers, {-scene.half_height, {scene.outer}}, "outside", camera, camera.pitch_deg < 0.0);
@@ -155,7 +155,8 @@ std::string labels_of(const SolidScene& scene, const SolidCamera& camera) {
 }
 
 /// The whole drawing, as seen from `camera`.
-std::string drawing(const SolidScene& scene, const FeatureResult& feature, double half_zone_mm) {
+std::string drawing(const SolidScene& scene, const evaluation::FeatureResult& feature,
+                    double half_zone_mm) {
   const SolidCamera camera;
   const double sine = std::abs(std::sin(camera.pitch_deg * core::kDegree));
   const double cosine = std::cos(camera.pitch_deg * core::kDegree);
@@ -165,8 +166,9 @@ std::string drawing(const SolidScene& scene, const FeatureResult& feature, doubl
       "Two coaxial cylinders {} µm apart in radius about the minimum-zone axis, {} points between "
       "them coloured by deviation, {} of them contact points.",
       um(2.0 * half_zone_mm), scene.points.size(),
-      std::count_if(feature.cloud.begin(), feature.cloud.end(),
-                    [](const CloudPoint& p) { return p.outer_contact || p.inner_contact; })));
+      std::count_if(
+          feature.cloud.begin(), feature.cloud.end(),
+          [](const evaluation::CloudPoint& p) { return p.outer_contact || p.inner_contact; })));
   svg.add(fmt::format(R"(<g class="far">{}</g>)", layers.far));
   svg.add(fmt::format(R"(<path class="solid-glass" data-body="{:.1f}" d="{}"/>)", scene.outer,
                       outline(scene.outer, scene, camera)));
@@ -225,7 +227,7 @@ std::string caption(const SolidScene& scene, std::size_t all) {
 
 }  // namespace
 
-std::string solid_view(const FeatureResult& feature, const Zone& zone) {
+std::string solid_view(const evaluation::FeatureResult& feature, const evaluation::Zone& zone) {
   if (feature.cloud.empty() || feature.feature.shape != record::Shape::kCylinder) return {};
   const auto [low_mm, high_mm] = heights_of(feature);
   if (feature.layers.size() == 1 || !(high_mm > low_mm)) return {};

@@ -13,24 +13,30 @@ namespace rondure::reports {
 
 /// Symbol of a verdict: a filled disc with a tick, a filled octagon with a cross, ... Shape and
 /// colour both differ.
-[[nodiscard]] std::string verdict_mark(Verdict verdict, int size_px);
+[[nodiscard]] std::string verdict_mark(evaluation::Verdict verdict, int size_px);
 /// ISO 1101 symbol of cylindricity or roundness.
 [[nodiscard]] std::string form_symbol(record::Form form);
 /// Value with its interval against limit and guard bands. The characteristic has a value.
-[[nodiscard]] std::string tolerance_bar(const CharacteristicResult& result, double tolerance_mm);
+[[nodiscard]] std::string tolerance_bar(const evaluation::CharacteristicResult& result,
+                                        double tolerance_mm);
 /// Ranked bars of a budget.
-[[nodiscard]] std::string budget_bars(const std::vector<BudgetLine>& budget);
+[[nodiscard]] std::string budget_bars(const std::vector<evaluation::BudgetLine>& budget);
 
 /// Polar plots of the layers, all at one magnification.
-[[nodiscard]] std::string polar_plots(const FeatureResult& feature, const Zone& zone);
+[[nodiscard]] std::string polar_plots(const evaluation::FeatureResult& feature,
+                                      const evaluation::Zone& zone);
 /// The lateral surface unrolled; for a single section its profile.
-[[nodiscard]] std::string deviation_map(const FeatureResult& feature, const Zone& zone);
+[[nodiscard]] std::string deviation_map(const evaluation::FeatureResult& feature,
+                                        const evaluation::Zone& zone);
 /// The cylinder with its zone and its points in three dimensions: complete as it stands, turned by
 /// the script of the page (html_script.h). Empty for a single section.
-[[nodiscard]] std::string solid_view(const FeatureResult& feature, const Zone& zone);
+[[nodiscard]] std::string solid_view(const evaluation::FeatureResult& feature,
+                                     const evaluation::Zone& zone);
 /// Deviation of one section against the angle.
-[[nodiscard]] std::string section_profile(const FeatureResult& feature, const Zone& zone);
+[[nodiscard]] std::string section_profile(const evaluation::FeatureResult& feature,
+                                          const evaluation::Zone& zone);
 /// f against the visit, and where the poses lie.
-[[nodiscard]] std::string pose_plots(const FeatureResult& feature, const std::optional<Zone>& zone);
+[[nodiscard]] std::string pose_plots(const evaluation::FeatureResult& feature,
+                                     const std::optional<evaluation::Zone>& zone);
 
 }  // namespace rondure::reports

@@ -18,7 +18,7 @@ constexpr std::size_t kMostRows = 40;
 constexpr std::size_t kEndRows = 10;
 
 /// Visits that the table shows: all, or the first and last ten, the best and the final one.
-std::set<std::size_t> rows_shown(const std::vector<PoseValue>& poses) {
+std::set<std::size_t> rows_shown(const std::vector<evaluation::PoseValue>& poses) {
   std::set<std::size_t> rows;
   const bool all = poses.size() <= kMostRows;
   std::size_t best = poses.size();
@@ -32,8 +32,8 @@ std::set<std::size_t> rows_shown(const std::vector<PoseValue>& poses) {
 
 }  // namespace
 
-std::string pose_table(const FeatureResult& feature) {
-  const std::vector<PoseValue>& poses = feature.poses;
+std::string pose_table(const evaluation::FeatureResult& feature) {
+  const std::vector<evaluation::PoseValue>& poses = feature.poses;
   if (poses.empty()) return {};
   const std::set<std::size_t> shown = rows_shown(poses);
   std::string html = fmt::format(
@@ -49,7 +49,7 @@ std::string pose_table(const FeatureResult& feature) {
                           trf("{} left out", count(i - expected, "pose", "poses")));
     }
     expected = i + 1;
-    const PoseValue& pose = poses[i];
+    const evaluation::PoseValue& pose = poses[i];
     html += fmt::format(R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td )"
                         R"(class="n">{}</td><td>{}</td><td>{}{}</td></tr>)",
                         i + 1, deg(pose.pose.alpha_rad), deg(pose.pose.beta_rad),

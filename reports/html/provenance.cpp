@@ -4,10 +4,10 @@
 
 #include "core/numbers.h"
 #include "reports/escaping.h"
-#include "reports/words/facts.h"
 #include "reports/html/sections.h"
-#include "reports/words/messages.h"
+#include "reports/words/facts.h"
 #include "reports/words/language.h"
+#include "reports/words/messages.h"
 
 namespace rondure::reports {
 namespace {
@@ -60,7 +60,7 @@ std::string qualification_rows(const record::RunRecord& record, const fit::Probe
                       fixed(tip.sphere_center_mm.z(), 6)));
 }
 
-std::string calibration_row(const std::optional<FixtureUse>& use) {
+std::string calibration_row(const std::optional<evaluation::FixtureUse>& use) {
   if (!use) return {};
   std::string text = trf(
       "{}, measured {}, valid until {}{}; left at combined poses {} µm rms, {} µm at most, {} µrad",
@@ -77,7 +77,8 @@ std::string calibration_row(const std::optional<FixtureUse>& use) {
 
 }  // namespace
 
-std::string probe_section(const record::RunRecord& record, const Evaluation& evaluation) {
+std::string probe_section(const record::RunRecord& record,
+                          const evaluation::Evaluation& evaluation) {
   const record::Header& header = record.header;
   std::string rows = property(tr("Machine"), words_or_dash(header.machine)) +
                      property(tr("Fixture"), words_or_dash(header.fixture)) +

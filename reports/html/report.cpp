@@ -76,7 +76,8 @@ std::string top_of(const std::vector<PagePart>& parts) {
 }
 
 /// The parts of the page in their order; those that a run has nothing for are left out.
-std::vector<PagePart> parts_of(const record::RunRecord& record, const Evaluation& evaluation,
+std::vector<PagePart> parts_of(const record::RunRecord& record,
+                               const evaluation::Evaluation& evaluation,
                                const EarlierResults& earlier) {
   std::vector<PagePart> parts;
   const auto add = [&](std::string id, std::string name, std::string html) {
@@ -97,7 +98,7 @@ std::vector<PagePart> parts_of(const record::RunRecord& record, const Evaluation
 
 }  // namespace
 
-std::string write_html(const record::RunRecord& record, const Evaluation& evaluation,
+std::string write_html(const record::RunRecord& record, const evaluation::Evaluation& evaluation,
                        Language language, const EarlierResults& earlier) {
   const LanguageScope scope(language);
   const std::vector<PagePart> parts = parts_of(record, evaluation, earlier);

@@ -6,10 +6,10 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
+#include "evaluation/rotary/result.h"
 #include "reports/escaping.h"
 #include "reports/html/plot_curve.h"
 #include "reports/html/sections.h"
-#include "evaluation/rotary/result.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -76,7 +76,7 @@ Curve station_marks(const fixture::StationMotion& motion, Eigen::Index index) {
   return out;
 }
 
-std::string axis_charts(const AxisFacts& axis, const record::Series* truth) {
+std::string axis_charts(const evaluation::AxisFacts& axis, const record::Series* truth) {
   std::string html = R"(<div class="scroll">)";
   for (const ErrorName& error : kErrorNames) {
     std::vector<Curve> curves = {model_curve(*axis.motion, error.index),
@@ -98,13 +98,13 @@ std::string with_u(double value, double u, int decimals) {
 }
 
 /// Location and orientation of both axes: what does not depend on the angle.
-std::string location_table(const RotaryResult& facts) {
+std::string location_table(const evaluation::RotaryResult& facts) {
   std::string html = fmt::format(
       R"(<div class="scroll"><table>{}<thead><tr><th scope="col">{}</th><th scope="col">d x / µm</th><th scope="col">d y / µm</th>)"
       R"(<th scope="col">d z / µm</th><th scope="col">e x / µrad</th><th scope="col">e y / µrad</th><th scope="col">e z / µrad</th></tr></thead>)"
       "<tbody>",
       spoken_caption(tr("Location and orientation of the axes")), tr("Axis"));
-  for (const AxisFacts& axis : axes_of(facts)) {
+  for (const evaluation::AxisFacts& axis : axes_of(facts)) {
     html += fmt::format("<tr><td>{}</td>", axis.key);
     if (!axis.study->offset) {
       html += fmt::format(R"(<td colspan="6">{}</td></tr>)",
@@ -125,14 +125,14 @@ std::string location_table(const RotaryResult& facts) {
   return html + "</tbody></table></div>";
 }
 
-std::string combined_table(const RotaryResult& facts) {
+std::string combined_table(const evaluation::RotaryResult& facts) {
   std::string html = fmt::format(
       R"(<div class="scroll"><table>{}<thead><tr><th scope="col">alpha</th><th scope="col">beta</th><th scope="col">{}</th>)"
       R"(<th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th>)"
       R"(<th scope="col">{}</th></tr></thead><tbody>)",
       spoken_caption(tr("Combined poses")), tr("balls"), tr("before, rms / µm"),
       tr("left, rms / µm"), tr("largest / µm"), tr("tilt / µrad"));
-  for (const CombinedPose& pose : facts.combined) {
+  for (const evaluation::CombinedPose& pose : facts.combined) {
     html += fmt::format(
         "<tr><td>{}°</td><td>{}°</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
         deg(pose.pose.alpha_rad, 2), deg(pose.pose.beta_rad, 2), pose.points,
@@ -142,7 +142,7 @@ std::string combined_table(const RotaryResult& facts) {
   return html + "</tbody></table></div>";
 }
 
-std::string key_numbers(const RotaryResult& facts) {
+std::string key_numbers(const evaluation::RotaryResult& facts) {
   const fixture::Calibration& c = facts.calibration;
   const fixture::Verification& v = c.verification;
   std::string html = R"(<dl class="keys">)";
@@ -169,7 +169,8 @@ std::string key_numbers(const RotaryResult& facts) {
 
 }  // namespace
 
-std::string rotary_part(const RotaryResult& facts, const record::RunRecord& record, int feature) {
+std::string rotary_part(const evaluation::RotaryResult& facts, const record::RunRecord& record,
+                        int feature) {
   std::string html = key_numbers(facts);
   html += fmt::format("<h3>{}</h3>{}", tr("Combined poses"), combined_table(facts));
   html += fmt::format("<h3>{}</h3>{}", tr("Location and orientation of the axes"),
@@ -178,8 +179,8 @@ std::string rotary_part(const RotaryResult& facts, const record::RunRecord& reco
       R"(<p class="note">{}</p>)",
       tr("Displacement d and tilt e of the real axis against the stated one, ± 2 u, as far as an "
          "axis beside its place explains the errors below. Compensation uses the whole errors."));
-  const std::vector<AxisFacts> axes = axes_of(facts);
-  for (const AxisFacts& axis : axes) {
+  const std::vector<evaluation::AxisFacts> axes = axes_of(facts);
+  for (const evaluation::AxisFacts& axis : axes) {
     html +=
         fmt::format("<h3>{}</h3>", &axis == &axes.front() ? tr("Axis alpha (base-fixed, about x)")
                                                           : tr("Axis beta (carried, about y)"));

@@ -4,56 +4,58 @@
 #include <string>
 #include <string_view>
 
-#include "record/run_record.h"
 #include "evaluation/evaluation.h"
+#include "record/run_record.h"
 #include "reports/history/earlier_results.h"
 
-namespace rondure::reports {
-
+namespace rondure::evaluation {
 struct ContourResult;
 struct RotaryResult;
 struct SpindleResult;
 struct WheelResult;
+}  // namespace rondure::evaluation
+
+namespace rondure::reports {
 
 /// The parts of the page, in their order.
 [[nodiscard]] std::string head_section(const record::RunRecord& record);
 [[nodiscard]] std::string verdict_section(const record::RunRecord& record,
-                                          const Evaluation& evaluation);
+                                          const evaluation::Evaluation& evaluation);
 [[nodiscard]] std::string feature_section(const record::RunRecord& record, std::size_t index,
-                                          const FeatureResult& feature);
+                                          const evaluation::FeatureResult& feature);
 /// The section of a feature whose shape is an analysis.
 [[nodiscard]] std::string analysis_section(const record::RunRecord& record, std::size_t index,
-                                           const FeatureResult& feature);
+                                           const evaluation::FeatureResult& feature);
 /// Its body: key numbers, drawings, tables. `record` for the hidden truth of a simulation.
-[[nodiscard]] std::string spindle_part(const SpindleResult& facts, const record::RunRecord& record,
-                                       int feature);
-[[nodiscard]] std::string wheel_part(const WheelResult& facts);
-[[nodiscard]] std::string contour_part(const ContourResult& facts, const record::RunRecord& record,
-                                       int feature);
-[[nodiscard]] std::string rotary_part(const RotaryResult& facts, const record::RunRecord& record,
-                                      int feature);
+[[nodiscard]] std::string spindle_part(const evaluation::SpindleResult& facts,
+                                       const record::RunRecord& record, int feature);
+[[nodiscard]] std::string wheel_part(const evaluation::WheelResult& facts);
+[[nodiscard]] std::string contour_part(const evaluation::ContourResult& facts,
+                                       const record::RunRecord& record, int feature);
+[[nodiscard]] std::string rotary_part(const evaluation::RotaryResult& facts,
+                                      const record::RunRecord& record, int feature);
 /// The rule behind the verdicts, in words, with its statements.
-[[nodiscard]] std::string rule_section(const Evaluation& evaluation);
+[[nodiscard]] std::string rule_section(const evaluation::Evaluation& evaluation);
 /// Intervals, bias, budget and declaration of the values of a feature; empty without any.
-[[nodiscard]] std::string uncertainty_section(const FeatureResult& feature);
+[[nodiscard]] std::string uncertainty_section(const evaluation::FeatureResult& feature);
 /// Harmonics of dense sections with the limits of a mask, and what goes beyond them; empty for
 /// sparse ones.
-[[nodiscard]] std::string harmonics_section(const FeatureResult& feature);
+[[nodiscard]] std::string harmonics_section(const evaluation::FeatureResult& feature);
 /// Table of the poses of a feature; empty when it has none.
-[[nodiscard]] std::string pose_table(const FeatureResult& feature);
+[[nodiscard]] std::string pose_table(const evaluation::FeatureResult& feature);
 [[nodiscard]] std::string probe_section(const record::RunRecord& record,
-                                        const Evaluation& evaluation);
+                                        const evaluation::Evaluation& evaluation);
 [[nodiscard]] std::string decisions_section(const record::RunRecord& record);
 /// Run charts with earlier results; empty without any.
 [[nodiscard]] std::string history_section(const record::RunRecord& record,
-                                          const Evaluation& evaluation,
+                                          const evaluation::Evaluation& evaluation,
                                           const EarlierResults& earlier);
 [[nodiscard]] std::string provenance_section(const record::RunRecord& record);
 
 /// How the clouds of several poses became one, and what the fixture adds.
-[[nodiscard]] std::string merged_section(const MergedPoses& merged);
+[[nodiscard]] std::string merged_section(const evaluation::MergedPoses& merged);
 /// Why a feature has no result, and its warnings.
-[[nodiscard]] std::string messages(const FeatureResult& feature);
+[[nodiscard]] std::string messages(const evaluation::FeatureResult& feature);
 /// A value with small print below it.
 [[nodiscard]] std::string with_note(const std::string& value, const std::string& note);
 

@@ -35,7 +35,8 @@ struct Scales {
 };
 
 /// Rows of the cloud that are drawn, in the order of the cloud.
-std::vector<std::size_t> rows_drawn(const FeatureResult& feature, const SolidScene& scene) {
+std::vector<std::size_t> rows_drawn(const evaluation::FeatureResult& feature,
+                                    const SolidScene& scene) {
   const auto& cloud = feature.cloud;
   std::vector<std::size_t> rows;
   const bool all = cloud.size() <= kMostSolidPoints;
@@ -61,12 +62,12 @@ std::vector<std::size_t> rows_drawn(const FeatureResult& feature, const SolidSce
 }
 
 /// The profile of a section every 3 deg, straight in angle and deviation between its points.
-std::vector<double> radii_of(const Section& section, const Scales& scales) {
-  const std::vector<SectionPoint>& points = section.profile;
+std::vector<double> radii_of(const evaluation::Section& section, const Scales& scales) {
+  const std::vector<evaluation::SectionPoint>& points = section.profile;
   std::vector<double> radii(kRingSteps, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const SectionPoint& a = points[i];
-    const SectionPoint& b = points[(i + 1) % points.size()];
+    const evaluation::SectionPoint& a = points[i];
+    const evaluation::SectionPoint& b = points[(i + 1) % points.size()];
     const double gap = b.angle_rad - a.angle_rad + (i + 1 == points.size() ? core::kTwoPi : 0.0);
     if (gap > section.widest_gap_rad || !(gap > 0.0)) continue;
     constexpr double kStep = core::kTwoPi / static_cast<double>(kRingSteps);
@@ -79,13 +80,14 @@ std::vector<double> radii_of(const Section& section, const Scales& scales) {
   return radii;
 }
 
-void add_sections(SolidScene& scene, const FeatureResult& feature, const Scales& scales) {
+void add_sections(SolidScene& scene, const evaluation::FeatureResult& feature,
+                  const Scales& scales) {
   if (feature.layers.empty()) return;
-  const std::vector<Section> sections = sections_of(feature);
+  const std::vector<evaluation::Section> sections = sections_of(feature);
   const std::size_t shown = std::min(sections.size(), kMostSections);
   for (std::size_t i = 0; i < shown; ++i) {
     const std::size_t pick = shown == 1 ? 0 : i * (sections.size() - 1) / (shown - 1);
-    const Section& section = sections[pick];
+    const evaluation::Section& section = sections[pick];
     scene.dense |= section.rows.size() >= kRingSteps;
     scene.sections.push_back({scales.height(section.height_mm), radii_of(section, scales)});
   }
@@ -93,7 +95,7 @@ void add_sections(SolidScene& scene, const FeatureResult& feature, const Scales&
 
 }  // namespace
 
-SolidScene solid_scene_of(const FeatureResult& feature, const Zone& zone) {
+SolidScene solid_scene_of(const evaluation::FeatureResult& feature, const evaluation::Zone& zone) {
   SolidScene scene;
   scene.outer = kSolidMean + kSolidHalfZone;
   scene.inner = kSolidMean - kSolidHalfZone;
@@ -107,7 +109,7 @@ SolidScene solid_scene_of(const FeatureResult& feature, const Zone& zone) {
                       kSolidHalfZone / half_zone_mm};
   scene.magnification = scales.px_per_deviation_mm / px_per_mm;
   for (const std::size_t row : rows_drawn(feature, scene)) {
-    const CloudPoint& point = feature.cloud[row];
+    const evaluation::CloudPoint& point = feature.cloud[row];
     scene.points.push_back({row, point.angle_rad / core::kDegree, scales.radius(point.deviation_mm),
                             scales.height(point.height_mm)});
   }

@@ -46,7 +46,8 @@ struct SolidScene {
 inline constexpr std::size_t kMostSolidPoints = 1200;
 
 /// @param feature  With a cloud of more than one height.
-[[nodiscard]] SolidScene solid_scene_of(const FeatureResult& feature, const Zone& zone);
+[[nodiscard]] SolidScene solid_scene_of(const evaluation::FeatureResult& feature,
+                                        const evaluation::Zone& zone);
 
 /// From where it is seen: turned about the axis, then tilted towards the reader; parallel
 /// projection. html_script.h says the same in the page.

@@ -4,9 +4,9 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
+#include "evaluation/spindle/result.h"
 #include "reports/html/plot_curve.h"
 #include "reports/html/sections.h"
-#include "evaluation/spindle/result.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -38,7 +38,7 @@ std::string motion_entry(const std::string& direction, const fit::AxisMotion& mo
                                            : tr("one revolution shows no asynchronous part"))));
 }
 
-std::string key_numbers(const SpindleResult& facts) {
+std::string key_numbers(const evaluation::SpindleResult& facts) {
   const fit::ThreeProbeResult& s = facts.separation;
   std::string html = R"(<dl class="keys">)";
   for (const fit::Roundness& value : facts.roundness.values) {
@@ -93,7 +93,7 @@ void add_truth(const record::Series* truth, const char* column, std::vector<Curv
   curves.push_back(std::move(curve));
 }
 
-std::string part_plot(const SpindleResult& facts, const record::Series* truth) {
+std::string part_plot(const evaluation::SpindleResult& facts, const record::Series* truth) {
   std::vector<Curve> curves;
   add_truth(truth, "profile_um", curves);
   const fit::UniformProfile& profile = facts.separation.profile;
@@ -126,7 +126,7 @@ std::string asynchronous_plot(const std::string& title, const std::vector<double
   return polar_chart(title, curves, false);
 }
 
-std::string harmonic_plots(const SpindleResult& facts,
+std::string harmonic_plots(const evaluation::SpindleResult& facts,
                            const std::vector<record::Characteristic>& asked) {
   std::vector<Bar> amplitudes;
   std::vector<Bar> gains;
@@ -179,7 +179,8 @@ std::string harmonic_table(const fit::ThreeProbeResult& s) {
 
 }  // namespace
 
-std::string spindle_part(const SpindleResult& facts, const record::RunRecord& record, int feature) {
+std::string spindle_part(const evaluation::SpindleResult& facts, const record::RunRecord& record,
+                         int feature) {
   const fit::ThreeProbeResult& s = facts.separation;
   const record::Series* truth = record.truth_series_of(feature, "truth");
   std::string html = key_numbers(facts);

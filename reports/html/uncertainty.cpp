@@ -4,9 +4,9 @@
 
 #include "core/numbers.h"
 #include "reports/escaping.h"
-#include "reports/words/facts.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
+#include "reports/words/facts.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -24,7 +24,7 @@ constexpr const char* kFormulaLetters = translatable(
     "T, "
     "the shaded band about it the guard bands, the whisker the interval.");
 
-std::string statements(const DecisionRule& rule) {
+std::string statements(const evaluation::DecisionRule& rule) {
   std::string html;
   const auto add = [&](const std::string& name, const std::string& text) {
     if (!text.empty()) html += entry(name, isolated(text));
@@ -36,7 +36,7 @@ std::string statements(const DecisionRule& rule) {
   return html.empty() ? html : "<dl>" + html + "</dl>";
 }
 
-std::string statement_entry(const std::string& name, const UncertaintyStatement& s,
+std::string statement_entry(const std::string& name, const evaluation::UncertaintyStatement& s,
                             double coverage_1) {
   const int decimals = decimals_for(s.expanded_mm());
   const auto number = [&](double mm) { return fixed(mm * 1e3, decimals); };
@@ -51,7 +51,7 @@ std::string statement_entry(const std::string& name, const UncertaintyStatement&
                "lead");
 }
 
-std::string bias_entries(const UncertaintyResult& u) {
+std::string bias_entries(const evaluation::UncertaintyResult& u) {
   std::string html =
       entry(tr("Bias by noise"), with_note(signed_um(u.noise_inflation_mm) + " µm",
                                            tr("expected inflation: measured minus free of noise, "
@@ -69,8 +69,8 @@ std::string bias_entries(const UncertaintyResult& u) {
 }
 
 /// What the form model found in the cloud.
-std::string finding_entry(const UncertaintyResult& u) {
-  const FormFinding& found = u.finding;
+std::string finding_entry(const evaluation::UncertaintyResult& u) {
+  const evaluation::FormFinding& found = u.finding;
   std::string note = tr("means over the draws; spots are form and are never smoothed away");
   if (!found.spot_rows.empty()) {
     std::string rows;
@@ -88,10 +88,10 @@ std::string finding_entry(const UncertaintyResult& u) {
                "wide-key");
 }
 
-std::string declaration(const std::vector<InfluenceStatement>& influences) {
+std::string declaration(const std::vector<evaluation::InfluenceStatement>& influences) {
   std::string rows;
   for (const bool covered : {true, false}) {
-    for (const InfluenceStatement& influence : influences) {
+    for (const evaluation::InfluenceStatement& influence : influences) {
       if (influence.covered != covered) continue;
       rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>", worded(influence.name),
                           covered ? tr("covered") : fmt::format("<b>{}</b>", tr("not covered")),
@@ -105,9 +105,9 @@ std::string declaration(const std::vector<InfluenceStatement>& influences) {
       rows);
 }
 
-std::string value_part(const CharacteristicResult& result) {
-  const UncertaintyStatus& status = result.value->uncertainty();
-  const UncertaintyResult& u = *status.result();
+std::string value_part(const evaluation::CharacteristicResult& result) {
+  const evaluation::UncertaintyStatus& status = result.value->uncertainty();
+  const evaluation::UncertaintyResult& u = *status.result();
   std::string html = fmt::format(R"(<h3>{}</h3><p class="note">{}</p>)",
                                  trf("Uncertainty of {}", isolated(result.characteristic.id)),
                                  trf("{}. Monte Carlo of {} trials (JCGM 101).",
@@ -133,7 +133,7 @@ std::string value_part(const CharacteristicResult& result) {
 
 }  // namespace
 
-std::string rule_section(const Evaluation& evaluation) {
+std::string rule_section(const evaluation::Evaluation& evaluation) {
   if (!evaluation.rule || !evaluation.rule->needs_interval()) {
     return fmt::format(R"(<p class="note">{}</p>)",
                        trf("Decision rule: {}.", in_sentence(rule_sentence(evaluation))));
@@ -143,9 +143,9 @@ std::string rule_section(const Evaluation& evaluation) {
                      tr(kFormulaLetters), statements(*evaluation.rule));
 }
 
-std::string uncertainty_section(const FeatureResult& feature) {
+std::string uncertainty_section(const evaluation::FeatureResult& feature) {
   std::string html;
-  for (const CharacteristicResult& result : feature.characteristics) {
+  for (const evaluation::CharacteristicResult& result : feature.characteristics) {
     if (result.value && result.value->uncertainty().result()) html += value_part(result);
   }
   return html;

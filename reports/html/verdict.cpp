@@ -5,11 +5,11 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "reports/escaping.h"
-#include "reports/words/facts.h"
 #include "evaluation/feature_values.h"
+#include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
+#include "reports/words/facts.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -18,23 +18,23 @@ namespace {
 using core::fixed;
 using core::um;
 
-std::string css_name(Verdict verdict) {
+std::string css_name(evaluation::Verdict verdict) {
   std::string name = fmt::format("is-{}", name_of(verdict));
   std::replace(name.begin(), name.end(), ' ', '-');
   return name;
 }
 
 /// Why the verdict is what it is, in one line.
-std::string sentence(const Evaluation& evaluation) {
+std::string sentence(const evaluation::Evaluation& evaluation) {
   std::size_t toleranced = 0;
   std::size_t conforming = 0;
-  const CharacteristicResult* only = nullptr;
-  for (const FeatureResult& feature : evaluation.features) {
-    for (const CharacteristicResult& result : feature.characteristics) {
+  const evaluation::CharacteristicResult* only = nullptr;
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    for (const evaluation::CharacteristicResult& result : feature.characteristics) {
       if (!result.characteristic.tolerance_mm) continue;
       ++toleranced;
       only = &result;
-      if (result.verdict == Verdict::kConforms) ++conforming;
+      if (result.verdict == evaluation::Verdict::kConforms) ++conforming;
     }
   }
   if (toleranced == 0) return tr("No characteristic has a tolerance.");
@@ -49,7 +49,8 @@ std::string sentence(const Evaluation& evaluation) {
              in_sentence(only->value->value_text()), limit);
 }
 
-std::string unfinished_banner(const record::RunRecord& record, const Evaluation& evaluation) {
+std::string unfinished_banner(const record::RunRecord& record,
+                              const evaluation::Evaluation& evaluation) {
   if (record.ending == "finished") return {};
   std::string html =
       fmt::format(R"(<div class="banner alarm"><b>{}</b> )", tr("This run did not finish."));
@@ -76,7 +77,7 @@ std::string tolerance_frame(const record::Characteristic& asked) {
                      limit);
 }
 
-std::string bar_cell(const CharacteristicResult& result) {
+std::string bar_cell(const evaluation::CharacteristicResult& result) {
   const auto& limit = result.characteristic.tolerance_mm;
   if (!result.value || !limit || !(*limit > 0.0)) return "<td></td>";
   return fmt::format(
@@ -85,10 +86,10 @@ std::string bar_cell(const CharacteristicResult& result) {
 }
 
 /// The value that decides; with an interval its estimate, that interval and the value as read.
-std::string value_cell(const StatedValue& value) {
+std::string value_cell(const evaluation::StatedValue& value) {
   std::string html =
       fmt::format(R"(<span class="value">{}</span> µm)", value.in_digits(value.quoted_mm()));
-  if (const UncertaintyStatement* known = value.statement()) {
+  if (const evaluation::UncertaintyStatement* known = value.statement()) {
     html += fmt::format(R"(<div class="note">[{}, {}]</div><div class="note">{}</div>)",
                         value.in_digits(known->low_mm), value.in_digits(known->high_mm),
                         trf("as read {}", value.in_digits(value.value_mm())));
@@ -106,14 +107,14 @@ std::string percent(double share_1, double trials) {
 }
 
 /// Probability of conformance and risks; empty without an interval.
-std::string risks_in_words(const CharacteristicResult& result) {
+std::string risks_in_words(const evaluation::CharacteristicResult& result) {
   std::string html;
   if (!result.outcome->conformance_1) return html;
   const double trials = result.value->uncertainty().result()->trials;
   html += "<br/>" +
           trf("Probability of conformance: {}.", percent(*result.outcome->conformance_1, trials));
   if (const auto risk = result.outcome->specific_risk_1()) {
-    html += result.verdict == Verdict::kConforms
+    html += result.verdict == evaluation::Verdict::kConforms
                 ? trf(" Specific consumer's risk of this verdict: {}.", percent(*risk, trials))
                 : trf(" Specific producer's risk of this verdict: {}.", percent(*risk, trials));
   }
@@ -127,7 +128,8 @@ std::string risks_in_words(const CharacteristicResult& result) {
   return html;
 }
 
-std::string row(const FeatureResult& feature, const CharacteristicResult& result) {
+std::string row(const evaluation::FeatureResult& feature,
+                const evaluation::CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
   std::string html =
       fmt::format(R"(<tr><td>{}<span class="id">{}</span><div class="note">{}</div></td>)",
@@ -151,10 +153,11 @@ std::string row(const FeatureResult& feature, const CharacteristicResult& result
   return html + R"(<tr class="words"><td colspan="6">)" + words + "</td></tr>";
 }
 
-std::string results_table(const Evaluation& evaluation) {
+std::string results_table(const evaluation::Evaluation& evaluation) {
   std::string rows;
-  for (const FeatureResult& feature : evaluation.features) {
-    for (const CharacteristicResult& result : feature.characteristics) rows += row(feature, result);
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    for (const evaluation::CharacteristicResult& result : feature.characteristics)
+      rows += row(feature, result);
   }
   if (rows.empty()) return fmt::format("<p>{}</p>", tr("No characteristic was asked for."));
   return fmt::format(
@@ -190,8 +193,9 @@ std::string head_section(const record::RunRecord& record) {
   return html + "</dl></header>";
 }
 
-std::string verdict_section(const record::RunRecord& record, const Evaluation& evaluation) {
-  const Verdict verdict = evaluation.verdict;
+std::string verdict_section(const record::RunRecord& record,
+                            const evaluation::Evaluation& evaluation) {
+  const evaluation::Verdict verdict = evaluation.verdict;
   std::string html = "<section>";
   html += unfinished_banner(record, evaluation);
   html += fmt::format(

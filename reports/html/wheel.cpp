@@ -2,11 +2,11 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
+#include "evaluation/wheel/result.h"
 #include "reports/escaping.h"
 #include "reports/html/plot_curve.h"
 #include "reports/html/plot_wheel.h"
 #include "reports/html/sections.h"
-#include "evaluation/wheel/result.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -17,7 +17,7 @@ using core::fixed;
 using core::signed_um;
 using core::um;
 
-std::string radius_entries(const WheelResult& facts) {
+std::string radius_entries(const evaluation::WheelResult& facts) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   std::string nominal;
   if (const auto& r = facts.task.wheel.nominal_radius_mm) {
@@ -147,7 +147,7 @@ std::string load_chart(const fit::WheelPath& path, double limit) {
          "</div>";
 }
 
-std::string path_part(const WheelResult& facts) {
+std::string path_part(const evaluation::WheelResult& facts) {
   const fit::WheelEvaluation& e = facts.evaluation;
   if (!facts.task.path) return {};
   std::string html = fmt::format("<h3>{}</h3>", tr("Way of the wheel's centre"));
@@ -169,7 +169,7 @@ std::string path_part(const WheelResult& facts) {
 
 }  // namespace
 
-std::string wheel_part(const WheelResult& facts) {
+std::string wheel_part(const evaluation::WheelResult& facts) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   return R"(<dl class="keys">)" + radius_entries(facts) + runout_entry(m) + center_entries(m) +
          fmt::format(R"(</dl><h3>{}</h3><div class="multiples single">)", tr("Edge of the wheel")) +

@@ -13,7 +13,7 @@ namespace {
 
 using core::um;
 
-std::vector<SummaryLine> lines_of(const SpindleResult& facts) {
+std::vector<SummaryLine> lines_of(const evaluation::SpindleResult& facts) {
   const fit::ThreeProbeResult& s = facts.separation;
   std::vector<SummaryLine> out;
   std::string part;
@@ -42,7 +42,7 @@ std::vector<SummaryLine> lines_of(const SpindleResult& facts) {
   return out;
 }
 
-std::vector<SummaryLine> lines_of(const WheelResult& facts) {
+std::vector<SummaryLine> lines_of(const evaluation::WheelResult& facts) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   std::vector<SummaryLine> out = {
       {"wheel", fmt::format("R {:.6f} mm, u(R) {} um, PV {} um, centre ({:.6f}, {:.6f}) mm",
@@ -65,7 +65,7 @@ std::vector<SummaryLine> lines_of(const WheelResult& facts) {
   return out;
 }
 
-std::vector<SummaryLine> lines_of(const ContourResult& facts) {
+std::vector<SummaryLine> lines_of(const evaluation::ContourResult& facts) {
   std::vector<SummaryLine> out;
   for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
     const fit::ContourPartResult& part = facts.study.parts[i];
@@ -80,7 +80,7 @@ std::vector<SummaryLine> lines_of(const ContourResult& facts) {
   return out;
 }
 
-std::vector<SummaryLine> lines_of(const RotaryResult& facts) {
+std::vector<SummaryLine> lines_of(const evaluation::RotaryResult& facts) {
   const fixture::Verification& v = facts.calibration.verification;
   std::vector<SummaryLine> out = {
       {"fixture", fmt::format("{}, valid until {}", facts.calibration.fixture_id,
@@ -93,7 +93,7 @@ std::vector<SummaryLine> lines_of(const RotaryResult& facts) {
 
 }  // namespace
 
-std::vector<SummaryLine> summary_lines(const AnalysisResult& result) {
+std::vector<SummaryLine> summary_lines(const evaluation::AnalysisResult& result) {
   return std::visit([](const auto& found) { return lines_of(found); }, result.found);
 }
 

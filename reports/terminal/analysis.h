@@ -14,6 +14,6 @@ struct SummaryLine {
 };
 
 /// What the summary says of an analysis, in English.
-[[nodiscard]] std::vector<SummaryLine> summary_lines(const AnalysisResult& result);
+[[nodiscard]] std::vector<SummaryLine> summary_lines(const evaluation::AnalysisResult& result);
 
 }  // namespace rondure::reports

@@ -8,8 +8,8 @@
 
 #include "core/numbers.h"
 #include "core/utf8.h"
-#include "reports/terminal/columns.h"
 #include "evaluation/factors/study.h"
+#include "reports/terminal/columns.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
@@ -49,19 +49,19 @@ using Combination = std::array<std::size_t, 4>;
 
 /// A row: one combination of the last three factors, a column a reference.
 struct CombinationRow {
-  const FactorStudy& study;
+  const evaluation::FactorStudy& study;
   Combination combination;  ///< Its reference is not looked at.
 
-  [[nodiscard]] const FactorCell& cell(std::size_t reference) const {
+  [[nodiscard]] const evaluation::FactorCell& cell(std::size_t reference) const {
     Combination c = combination;
-    c[at(Factor::kReference)] = reference;
+    c[at(evaluation::Factor::kReference)] = reference;
     return study.cell(c);
   }
-  [[nodiscard]] const FactorCell& reported() const {
-    return cell(study.reported[at(Factor::kReference)]);
+  [[nodiscard]] const evaluation::FactorCell& reported() const {
+    return cell(study.reported[at(evaluation::Factor::kReference)]);
   }
   [[nodiscard]] std::size_t references() const {
-    return study.levels[at(Factor::kReference)].size();
+    return study.levels[at(evaluation::Factor::kReference)].size();
   }
   [[nodiscard]] bool has_value() const {
     for (std::size_t r = 0; r < references(); ++r) {
@@ -77,12 +77,13 @@ std::string row_text(const CombinationRow& row, const std::string& label) {
   if (!row.has_value()) return wrapped(out, fmt::format("no value: {}", row.reported().why));
   std::string notes;
   for (std::size_t r = 0; r < row.references(); ++r) {
-    const FactorCell& cell = row.cell(r);
+    const evaluation::FactorCell& cell = row.cell(r);
     fmt::format_to(std::back_inserter(out), "{:>{}}", cell.value_mm ? um(*cell.value_mm) : "-",
                    kNumber);
     if (cell.value_mm) continue;
     notes += wrapped(
-        "    ", fmt::format("- {}: {}", row.study.levels[at(Factor::kReference)][r], cell.why));
+        "    ",
+        fmt::format("- {}: {}", row.study.levels[at(evaluation::Factor::kReference)][r], cell.why));
   }
   if (const auto& value = row.reported().value_mm)
     fmt::format_to(std::back_inserter(out), "{:>{}}", signed_um(*value - row.study.reported_mm),
@@ -90,27 +91,31 @@ std::string row_text(const CombinationRow& row, const std::string& label) {
   return out + "\n" + notes;
 }
 
-std::string head_text(const FactorStudy& study) {
+std::string head_text(const evaluation::FactorStudy& study) {
   std::string out = fmt::format("{:<{}}", "um", kLabel);
-  for (const std::string& reference : study.levels[at(Factor::kReference)])
+  for (const std::string& reference : study.levels[at(evaluation::Factor::kReference)])
     fmt::format_to(std::back_inserter(out), "{:>{}}", reference, kNumber);
   return out + fmt::format("{:>{}}\n", "change", kChange);
 }
 
 /// "  3 sigma, 2 left out", "  points 1, 3, 5, ... (16)".
-std::string label_of(const FactorStudy& study, Factor factor, std::size_t level) {
-  const FactorCell& cell = study.changed(factor, level);
+std::string label_of(const evaluation::FactorStudy& study, evaluation::Factor factor,
+                     std::size_t level) {
+  const evaluation::FactorCell& cell = study.changed(factor, level);
   const std::string& name = study.levels[at(factor)][level];
-  if (factor == Factor::kOutliers) return fmt::format("  {}, {} left out", name, cell.left_out);
-  if (factor == Factor::kSampling) return fmt::format("  {} ({})", name, cell.points);
+  if (factor == evaluation::Factor::kOutliers)
+    return fmt::format("  {}, {} left out", name, cell.left_out);
+  if (factor == evaluation::Factor::kSampling) return fmt::format("  {} ({})", name, cell.points);
   return fmt::format("  {}", name);
 }
 
 /// One factor at a time, for each reference.
-std::string changes_text(const FactorStudy& study) {
+std::string changes_text(const evaluation::FactorStudy& study) {
   std::string out = head_text(study);
   out += row_text({study, study.reported}, "as reported");
-  for (const Factor factor : {Factor::kFilter, Factor::kOutliers, Factor::kSampling}) {
+  for (const evaluation::Factor factor :
+       {evaluation::Factor::kFilter, evaluation::Factor::kOutliers,
+        evaluation::Factor::kSampling}) {
     out += fmt::format("{}\n", name_of(factor));
     for (std::size_t level = 0; level < study.levels[at(factor)].size(); ++level) {
       if (level == study.reported[at(factor)]) continue;
@@ -123,18 +128,18 @@ std::string changes_text(const FactorStudy& study) {
 }
 
 /// "4 references x 1 filter x 3 outlier rules x 7 samplings".
-std::string block_text(const FactorShares& shares) {
+std::string block_text(const evaluation::FactorShares& shares) {
   return fmt::format("{} x {} x {} x {}", count(shares.used[0].size(), "reference", "references"),
                      count(shares.used[1].size(), "filter", "filters"),
                      count(shares.used[2].size(), "outlier rule", "outlier rules"),
                      count(shares.used[3].size(), "sampling", "samplings"));
 }
 
-std::string effects_text(const FactorStudy& study) {
+std::string effects_text(const evaluation::FactorStudy& study) {
   std::string out = fmt::format("{:<{}}{:>9}{:>9}{:>9}{:>19}\n", "alone, others as reported",
                                 kLabel, "least", "greatest", "range", "share of variance");
-  for (const Factor factor : kFactors) {
-    const FactorEffect& effect = study.effects[at(factor)];
+  for (const evaluation::Factor factor : evaluation::kFactors) {
+    const evaluation::FactorEffect& effect = study.effects[at(factor)];
     const std::string share =
         study.shares && effect.levels > 1
             ? fmt::format("{:.1f} %", 100.0 * study.shares->share_1[at(factor)])
@@ -154,8 +159,9 @@ std::string effects_text(const FactorStudy& study) {
 }
 
 /// Whether an earlier study of the run holds the same values.
-bool shown_before(const RunComparison& comparison, const FactorStudy& study) {
-  for (const FactorStudy& other : comparison.studies) {
+bool shown_before(const evaluation::RunComparison& comparison,
+                  const evaluation::FactorStudy& study) {
+  for (const evaluation::FactorStudy& other : comparison.studies) {
     if (&other == &study) return false;
     if (other.feature == study.feature && other.characteristic.form == study.characteristic.form)
       return true;
@@ -164,21 +170,22 @@ bool shown_before(const RunComparison& comparison, const FactorStudy& study) {
 }
 
 /// Every combination that has a value, by filter and outlier rule.
-std::string all_text(const FactorStudy& study) {
+std::string all_text(const evaluation::FactorStudy& study) {
   std::string out;
-  for (std::size_t f = 0; f < study.levels[at(Factor::kFilter)].size(); ++f) {
-    for (std::size_t o = 0; o < study.levels[at(Factor::kOutliers)].size(); ++o) {
+  for (std::size_t f = 0; f < study.levels[at(evaluation::Factor::kFilter)].size(); ++f) {
+    for (std::size_t o = 0; o < study.levels[at(evaluation::Factor::kOutliers)].size(); ++o) {
       std::string rows;
-      for (std::size_t s = 0; s < study.levels[at(Factor::kSampling)].size(); ++s) {
+      for (std::size_t s = 0; s < study.levels[at(evaluation::Factor::kSampling)].size(); ++s) {
         const CombinationRow row{study, {0, f, o, s}};
         if (!row.has_value()) continue;
-        const std::string label =
-            fmt::format("  {} ({})", study.levels[at(Factor::kSampling)][s], row.reported().points);
+        const std::string label = fmt::format(
+            "  {} ({})", study.levels[at(evaluation::Factor::kSampling)][s], row.reported().points);
         rows += row_text(row, label);
       }
       if (rows.empty()) continue;
-      out += fmt::format("\n{}, outliers: {}\n{}{}", study.levels[at(Factor::kFilter)][f],
-                         study.levels[at(Factor::kOutliers)][o], head_text(study), rows);
+      out +=
+          fmt::format("\n{}, outliers: {}\n{}{}", study.levels[at(evaluation::Factor::kFilter)][f],
+                      study.levels[at(evaluation::Factor::kOutliers)][o], head_text(study), rows);
     }
   }
   return out;
@@ -186,9 +193,10 @@ std::string all_text(const FactorStudy& study) {
 
 }  // namespace
 
-std::string comparison_text(const std::string& run_id, const RunComparison& comparison, bool all) {
+std::string comparison_text(const std::string& run_id, const evaluation::RunComparison& comparison,
+                            bool all) {
   std::string out = wrapped("", fmt::format("Why do they differ? Run {}", run_id));
-  for (const FactorStudy& study : comparison.studies) {
+  for (const evaluation::FactorStudy& study : comparison.studies) {
     out += "\n";
     out += wrapped("", fmt::format("{} / {}", study.feature, study.characteristic.id));
     out += wrapped("", answer_of(study));

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "reports/words/facts.h"
 #include "evaluation/feature_values.h"
 #include "evaluation/section.h"
+#include "reports/words/facts.h"
 
 namespace rondure::reports {
 namespace {
@@ -100,11 +100,11 @@ void draw_circle(DotCanvas& canvas, double radius, int dots) {
 }
 
 /// Straight between neighbours in angle and radius; a gap of the data stays open.
-void draw_profile(DotCanvas& canvas, const Section& section, double zone_mm) {
+void draw_profile(DotCanvas& canvas, const evaluation::Section& section, double zone_mm) {
   const std::size_t n = section.profile.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const SectionPoint& a = section.profile[i];
-    SectionPoint b = section.profile[(i + 1) % n];
+    const evaluation::SectionPoint& a = section.profile[i];
+    evaluation::SectionPoint b = section.profile[(i + 1) % n];
     if (i + 1 == n) b.angle_rad += core::kTwoPi;
     const double gap = b.angle_rad - a.angle_rad;
     const bool joined = has_line(section) && gap <= section.widest_gap_rad;
@@ -119,8 +119,8 @@ void draw_profile(DotCanvas& canvas, const Section& section, double zone_mm) {
   }
 }
 
-void draw_contacts(DotCanvas& canvas, const FeatureResult& feature) {
-  for (const CloudPoint& point : feature.cloud) {
+void draw_contacts(DotCanvas& canvas, const evaluation::FeatureResult& feature) {
+  for (const evaluation::CloudPoint& point : feature.cloud) {
     if (!point.outer_contact && !point.inner_contact) continue;
     const double r = point.outer_contact ? kOuter : kInner;
     canvas.mark(r * std::cos(point.angle_rad), r * std::sin(point.angle_rad),
@@ -128,22 +128,27 @@ void draw_contacts(DotCanvas& canvas, const FeatureResult& feature) {
   }
 }
 
-double extent_mm(const Section& section) {
-  const auto [low, high] = std::minmax_element(
-      section.profile.begin(), section.profile.end(),
-      [](const SectionPoint& a, const SectionPoint& b) { return a.deviation_mm < b.deviation_mm; });
+double extent_mm(const evaluation::Section& section) {
+  const auto [low, high] =
+      std::minmax_element(section.profile.begin(), section.profile.end(),
+                          [](const evaluation::SectionPoint& a, const evaluation::SectionPoint& b) {
+                            return a.deviation_mm < b.deviation_mm;
+                          });
   return section.profile.empty() ? 0.0 : high->deviation_mm - low->deviation_mm;
 }
 
 }  // namespace
 
-std::optional<PolarSketch> polar_sketch(const FeatureResult& feature, SketchStyle style) {
+std::optional<PolarSketch> polar_sketch(const evaluation::FeatureResult& feature,
+                                        SketchStyle style) {
   const auto zone = zone_of(feature);
   if (style == SketchStyle::kNone || !zone || !(zone->deviation_mm > 0.0)) return {};
-  const std::vector<Section> sections = sections_of(feature);
-  const auto widest = std::max_element(
-      sections.begin(), sections.end(),
-      [](const Section& a, const Section& b) { return extent_mm(a) < extent_mm(b); });
+  const std::vector<evaluation::Section> sections = sections_of(feature);
+  const auto widest =
+      std::max_element(sections.begin(), sections.end(),
+                       [](const evaluation::Section& a, const evaluation::Section& b) {
+                         return extent_mm(a) < extent_mm(b);
+                       });
   if (widest == sections.end() || widest->profile.empty()) return {};
   const bool braille = style == SketchStyle::kBraille;
   DotCanvas canvas(braille);

@@ -30,7 +30,7 @@ inline constexpr int kSketchColumns = 22;
 /// Draws the section that deviates most. The zone is always equally wide as drawn. Nothing for
 /// kNone, for analyses, without a zone and for a zone of no width.
 /// Same evaluation, same text; O(points).
-[[nodiscard]] std::optional<PolarSketch> polar_sketch(const FeatureResult& feature,
+[[nodiscard]] std::optional<PolarSketch> polar_sketch(const evaluation::FeatureResult& feature,
                                                       SketchStyle style);
 
 }  // namespace rondure::reports

@@ -4,11 +4,11 @@
 
 #include "core/numbers.h"
 #include "core/utf8.h"
+#include "evaluation/feature_values.h"
+#include "reports/escaping.h"
 #include "reports/terminal/analysis.h"
 #include "reports/terminal/columns.h"
-#include "reports/escaping.h"
 #include "reports/words/facts.h"
-#include "evaluation/feature_values.h"
 #include "reports/words/language.h"
 #include "reports/writers.h"
 
@@ -59,7 +59,8 @@ std::string upper(std::string_view text) {
   return result;
 }
 
-void add_head(std::string& out, const record::RunRecord& record, const Evaluation& evaluation) {
+void add_head(std::string& out, const record::RunRecord& record,
+              const evaluation::Evaluation& evaluation) {
   const record::Header& header = record.header;
   out += upper(tr(name_of(evaluation.verdict))) + "\n";
   add_wrapped(out, tr("rule"), words(rule_sentence(evaluation)));
@@ -81,9 +82,9 @@ void add_head(std::string& out, const record::RunRecord& record, const Evaluatio
 }
 
 /// Bias of a value and the influence that matters most.
-void add_uncertainty(std::string& out, const StatedValue& value) {
-  const UncertaintyResult& u = *value.uncertainty().result();
-  const auto line = [&](const std::string& name, const UncertaintyStatement& s) {
+void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
+  const evaluation::UncertaintyResult& u = *value.uncertainty().result();
+  const auto line = [&](const std::string& name, const evaluation::UncertaintyStatement& s) {
     const auto number = [&](double mm) { return fixed(1e3 * mm, decimals_for(s.expanded_mm())); };
     add_wrapped(out, name,
                 trf("{} um, {:g} % within [{}, {}] um {}", number(s.estimate_mm),
@@ -94,9 +95,9 @@ void add_uncertainty(std::string& out, const StatedValue& value) {
   if (u.whole) line("", *u.whole);
   std::string bias = trf("noise {} um", signed_um(u.noise_inflation_mm));
   if (u.sampling_loss_mm) bias += trf(", sparse sampling {} um", signed_um(*u.sampling_loss_mm));
-  const auto most = std::find_if(u.budget.begin(), u.budget.end(), [&](const BudgetLine& one) {
-    return one.measurand == value.measurand();
-  });
+  const auto most = std::find_if(
+      u.budget.begin(), u.budget.end(),
+      [&](const evaluation::BudgetLine& one) { return one.measurand == value.measurand(); });
   if (most != u.budget.end() && most->share_1 > 0.0) {
     bias += trf("; most of the spread {}: {} ({:.0f} %)", tr(name_of(most->measurand)),
                 tr(most->name), 100.0 * most->share_1);
@@ -106,7 +107,7 @@ void add_uncertainty(std::string& out, const StatedValue& value) {
 }
 
 /// "  CYLt MZCY     8.300 um   limit 10.000 um   conforms   id".
-void add_characteristic(std::string& out, const CharacteristicResult& result) {
+void add_characteristic(std::string& out, const evaluation::CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
   const std::string value =
       result.value ? result.value->in_digits(result.value->quoted_mm()) + " um" : tr("no value");
@@ -118,8 +119,8 @@ void add_characteristic(std::string& out, const CharacteristicResult& result) {
   line += shortened(printable(asked.id), kTerminalColumns - columns(line));
   out += line + "\n";
   const bool simple = result.value && !result.value->uncertainty().result();
-  if (result.verdict == Verdict::kVoid || result.verdict == Verdict::kUndecided ||
-      (!simple && result.outcome)) {
+  if (result.verdict == evaluation::Verdict::kVoid ||
+      result.verdict == evaluation::Verdict::kUndecided || (!simple && result.outcome)) {
     add_wrapped(out, "    " + tr("because"), words(result.reason));
   }
   if (result.value) add_wrapped(out, "    " + tr("stated"), words(result.value->sentence()));
@@ -127,7 +128,7 @@ void add_characteristic(std::string& out, const CharacteristicResult& result) {
 }
 
 /// The sketch with its legend beside it.
-void add_sketch(std::string& out, const FeatureResult& feature, SketchStyle style) {
+void add_sketch(std::string& out, const evaluation::FeatureResult& feature, SketchStyle style) {
   const auto sketch = polar_sketch(feature, style);
   const auto zone = zone_of(feature);
   if (!sketch || !zone) return;
@@ -146,7 +147,7 @@ void add_sketch(std::string& out, const FeatureResult& feature, SketchStyle styl
   }
 }
 
-void add_zone(std::string& out, const FeatureResult& feature) {
+void add_zone(std::string& out, const evaluation::FeatureResult& feature) {
   const auto zone = zone_of(feature);
   if (!zone) return;
   add_wrapped(
@@ -164,7 +165,7 @@ void add_zone(std::string& out, const FeatureResult& feature) {
 }
 
 /// "MCCY radius 25.0052 mm, CYLt 8.812 um; MICY ..."; what does not exist is a warning.
-void add_one_sided(std::string& out, const FeatureResult& feature) {
+void add_one_sided(std::string& out, const evaluation::FeatureResult& feature) {
   using record::Reference;
   const record::Shape shape = feature.feature.shape;
   std::string text;
@@ -183,7 +184,7 @@ void add_one_sided(std::string& out, const FeatureResult& feature) {
 }
 
 void add_truth(std::string& out, const record::SimulationTruth* truth,
-               const FeatureResult& feature) {
+               const evaluation::FeatureResult& feature) {
   if (truth == nullptr) return;
   std::string text = fmt::format("{} {} um", symbol_of(feature.feature.shape), um(truth->cylt_mm));
   if (const auto zone = zone_of(feature)) {
@@ -194,7 +195,7 @@ void add_truth(std::string& out, const record::SimulationTruth* truth,
 }
 
 /// "spool: outside cylinder, 4 x 7 points", "journal: spindle, 3 revolutions".
-std::string heading_of(const FeatureResult& feature) {
+std::string heading_of(const evaluation::FeatureResult& feature) {
   const std::string name = shortened(printable(feature.feature.id), 30);
   if (record::is_analysis(feature.feature.shape)) {
     const std::string shape = tr(record::name_of(feature.feature.shape));
@@ -207,7 +208,7 @@ std::string heading_of(const FeatureResult& feature) {
 }
 
 void add_analysis(std::string& out, const record::RunRecord& record, std::size_t index,
-                  const FeatureResult& feature) {
+                  const evaluation::FeatureResult& feature) {
   if (feature.analysis) {
     for (const SummaryLine& line : summary_lines(*feature.analysis))
       add_wrapped(out, fmt::format("  {}", tr(line.name)), words(line.text));
@@ -222,16 +223,16 @@ void add_analysis(std::string& out, const record::RunRecord& record, std::size_t
 
 }  // namespace
 
-std::string write_summary(const record::RunRecord& record, const Evaluation& evaluation,
+std::string write_summary(const record::RunRecord& record, const evaluation::Evaluation& evaluation,
                           SketchStyle sketch, Language language) {
   const LanguageScope scope(language);
   std::string out;
   add_head(out, record, evaluation);
   for (std::size_t i = 0; i < evaluation.features.size(); ++i) {
-    const FeatureResult& feature = evaluation.features[i];
+    const evaluation::FeatureResult& feature = evaluation.features[i];
     out += "\n";
     add_wrapped(out, tr("feature"), heading_of(feature));
-    for (const CharacteristicResult& result : feature.characteristics) {
+    for (const evaluation::CharacteristicResult& result : feature.characteristics) {
       add_characteristic(out, result);
     }
     if (feature.failure) add_wrapped(out, "  " + tr("no result"), line_of(*feature.failure));

@@ -29,7 +29,7 @@ void collect(const Json& node, const std::string& pointer, std::vector<record::S
 
 }  // namespace
 
-std::vector<record::StoredResult> stored_results(const Evaluation& evaluation) {
+std::vector<record::StoredResult> stored_results(const evaluation::Evaluation& evaluation) {
   const Json document = report_document(record::RunRecord{}, evaluation);
   std::vector<record::StoredResult> out;
   for (const char* part : {"probe", "features"})

@@ -7,6 +7,7 @@
 namespace rondure::reports {
 
 /// The numbers of an evaluation by their JSON pointer in report.json, for the journal's seal.
-[[nodiscard]] std::vector<record::StoredResult> stored_results(const Evaluation& evaluation);
+[[nodiscard]] std::vector<record::StoredResult> stored_results(
+    const evaluation::Evaluation& evaluation);
 
 }  // namespace rondure::reports

@@ -6,19 +6,19 @@
 
 #include "core/utf8.h"
 #include "core/version.h"
+#include "evaluation/evaluation.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
 #include "record/sha256.h"
 #include "record/signature.h"
-#include "evaluation/evaluation.h"
 #include "reports/exports.h"
 #include "reports/history/earlier_results.h"
-#include "reports/verify/stored_results.h"
 #include "reports/verify/compare_text.h"
 #include "reports/verify/compare_values.h"
 #include "reports/verify/files.h"
 #include "reports/verify/results.h"
+#include "reports/verify/stored_results.h"
 
 namespace rondure::reports {
 namespace {
@@ -75,8 +75,9 @@ bool was_written(const Export& what, const record::RunRecord& record, const List
 /// Compares each export that exists; gives their names.
 core::Result<std::string> compare_exports(const fs::path& directory,
                                           const record::RunRecord& record,
-                                          const Evaluation& evaluation, const Exactness& exactness,
-                                          const ListedFiles& listed, Verification& out) {
+                                          const evaluation::Evaluation& evaluation,
+                                          const Exactness& exactness, const ListedFiles& listed,
+                                          Verification& out) {
   const auto earlier = read_earlier(directory);
   if (!earlier) {
     out.differences.push_back(earlier.error().what);
@@ -185,7 +186,7 @@ std::vector<std::string> notes_on(const record::ReadJournal& read, const ListedF
 }
 
 /// "part SP-25, serial 0042, conforms".
-std::string about_part(const record::Header& header, Verdict verdict) {
+std::string about_part(const record::Header& header, evaluation::Verdict verdict) {
   const std::string serial =
       header.serial.empty() ? std::string("no serial") : "serial " + printable(header.serial);
   return fmt::format("part {}, {}, {}", printable(header.part_id), serial, name_of(verdict));

@@ -5,15 +5,15 @@
 #include <fmt/format.h>
 
 #include "core/utf8.h"
-#include "reports/words/decision.h"
 #include "evaluation/measured_cloud.h"
+#include "reports/words/decision.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
 
 using core::printable;
 
-std::string pattern_of(const FeatureResult& feature) {
+std::string pattern_of(const evaluation::FeatureResult& feature) {
   const std::size_t points = feature.cloud.size();
   const auto layers = static_cast<std::size_t>(std::max(feature.feature.layers, 0));
   const auto each = static_cast<std::size_t>(std::max(feature.feature.points_per_layer, 0));
@@ -21,20 +21,22 @@ std::string pattern_of(const FeatureResult& feature) {
   return count(points, "point", "points");
 }
 
-std::string repeats_of(const FeatureResult& feature) {
+std::string repeats_of(const evaluation::FeatureResult& feature) {
   if (feature.cloud.empty() || feature.feature.strategy == record::Strategy::kPointsFile) return {};
   if (const int passes = passes_of(feature.cloud); passes > 1) {
     return trf("{} passes at places of their own, not averaged", passes);
   }
-  const auto [least, most] = std::minmax_element(
-      feature.cloud.begin(), feature.cloud.end(),
-      [](const CloudPoint& a, const CloudPoint& b) { return a.repeats < b.repeats; });
+  const auto [least, most] =
+      std::minmax_element(feature.cloud.begin(), feature.cloud.end(),
+                          [](const evaluation::CloudPoint& a, const evaluation::CloudPoint& b) {
+                            return a.repeats < b.repeats;
+                          });
   const auto high = static_cast<std::size_t>(most->repeats);
   const std::string text = count(high, "touch a point", "touches a point");
   return least->repeats == most->repeats ? text : trf("{} to {}", least->repeats, text);
 }
 
-std::string title_of(const Section& section) {
+std::string title_of(const evaluation::Section& section) {
   return section.projected ? tr("All points, seen along the axis")
                            : trf("Layer {}", section.layer + 1);
 }
@@ -53,9 +55,9 @@ std::string sentence_of(const fit::Certificate& certificate) {
 }
 
 std::vector<std::string> missing_parts(const record::RunRecord& record,
-                                       const Evaluation& evaluation) {
+                                       const evaluation::Evaluation& evaluation) {
   std::vector<std::string> parts;
-  for (const FeatureResult& feature : evaluation.features) {
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
     const record::Feature& asked = feature.feature;
     const long planned = static_cast<long>(asked.layers) * asked.points_per_layer;
     if (feature.failure) {
@@ -72,9 +74,9 @@ std::vector<std::string> missing_parts(const record::RunRecord& record,
   return parts;
 }
 
-std::string rule_sentence(const Evaluation& evaluation) {
+std::string rule_sentence(const evaluation::Evaluation& evaluation) {
   if (!evaluation.rule) return evaluation.rule.error().what;
-  const DecisionRule& rule = *evaluation.rule;
+  const evaluation::DecisionRule& rule = *evaluation.rule;
   if (!rule.needs_interval()) {
     return "simple acceptance; no measurement uncertainty taken into account";
   }

@@ -9,21 +9,21 @@
 namespace rondure::reports {
 
 /// "4 x 7 points" for a regular cloud, "500 points" otherwise.
-[[nodiscard]] std::string pattern_of(const FeatureResult& feature);
+[[nodiscard]] std::string pattern_of(const evaluation::FeatureResult& feature);
 /// "3 touches a point", "1 to 3 touches a point"; empty for a points file.
-[[nodiscard]] std::string repeats_of(const FeatureResult& feature);
+[[nodiscard]] std::string repeats_of(const evaluation::FeatureResult& feature);
 /// "Layer 1"; "All points, seen along the axis".
-[[nodiscard]] std::string title_of(const Section& section);
+[[nodiscard]] std::string title_of(const evaluation::Section& section);
 /// What the certificate says, in one sentence.
 [[nodiscard]] std::string sentence_of(const fit::Certificate& certificate);
 
 /// What a run that did not finish lacks, one sentence each.
 [[nodiscard]] std::vector<std::string> missing_parts(const record::RunRecord& record,
-                                                     const Evaluation& evaluation);
+                                                     const evaluation::Evaluation& evaluation);
 
 /// The name of the decision rule in words: "simple acceptance".
 [[nodiscard]] std::string rule_in_words(const record::Header& header);
 /// What the verdict follows: the rule with its formula, and what it is about; or why it is unknown.
-[[nodiscard]] std::string rule_sentence(const Evaluation& evaluation);
+[[nodiscard]] std::string rule_sentence(const evaluation::Evaluation& evaluation);
 
 }  // namespace rondure::reports

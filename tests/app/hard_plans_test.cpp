@@ -90,21 +90,21 @@ TEST(HardPlan, APartOfAnotherSizeIsNotMeasured) {
 TEST(HardPlan, WithoutAQualificationTheVerdictIsVoid) {
   const HardRun run({});
   record::RunRecord record = journal_of(run.folder / "run");
-  ASSERT_EQ(reports::evaluate(record)->verdict, reports::Verdict::kConforms);
+  ASSERT_EQ(evaluation::evaluate(record)->verdict, evaluation::Verdict::kConforms);
   record::RunRecord unqualified = record;
   std::erase_if(unqualified.touches, [](const record::Touch& touch) {
     return touch.purpose == record::Touch::Purpose::kQualification;
   });
-  EXPECT_EQ(reports::evaluate(unqualified)->verdict, reports::Verdict::kVoid);
+  EXPECT_EQ(evaluation::evaluate(unqualified)->verdict, evaluation::Verdict::kVoid);
   record.artefact.form_limit_mm = 1e-6;
-  EXPECT_EQ(reports::evaluate(record)->verdict, reports::Verdict::kVoid);
+  EXPECT_EQ(evaluation::evaluate(record)->verdict, evaluation::Verdict::kVoid);
 }
 
 TEST(HardPlan, OneTouchBeyondTheTemperatureLimitsIsEnough) {
   const HardRun run({});
   record::RunRecord record = journal_of(run.folder / "run");
   record.touches.back().temperature_degC = 22.5;
-  EXPECT_EQ(reports::evaluate(record)->verdict, reports::Verdict::kVoid);
+  EXPECT_EQ(evaluation::evaluate(record)->verdict, evaluation::Verdict::kVoid);
 }
 
 TEST(HardPlan, AFeatureThatFailsIsNeverPassedOver) {

@@ -12,10 +12,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "web/page.h"
-#include "web/server.h"
 #include "tests/fuzz/cases.h"
 #include "tests/fuzz/mutation.h"
+#include "web/page.h"
+#include "web/server.h"
 
 namespace rondure::fuzz {
 namespace {
@@ -48,15 +48,15 @@ std::string answer_to(std::uint16_t port, const std::string& bytes) {
 
 TEST(HttpFuzz, NoDamagedRequestUpsetsTheLivePage) {
   std::atomic<int> stops = 0;
-  reports::LiveGate gate;
+  web::LiveGate gate;
   gate.control = true;
   gate.token = "0123456789abcdef0123456789abcdef";
-  auto server = reports::LiveServer::start(
-      0, gate, reports::live_page(true),
-      {[](std::uint64_t since, const std::string& client) {
-         return fmt::format("{{\"version\": {}, \"client\": {}}}", since, client.size());
-       },
-       [&stops] { ++stops; }});
+  auto server = web::LiveServer::start(0, gate, web::live_page(true),
+                                       {[](std::uint64_t since, const std::string& client) {
+                                          return fmt::format("{{\"version\": {}, \"client\": {}}}",
+                                                             since, client.size());
+                                        },
+                                        [&stops] { ++stops; }});
   ASSERT_TRUE(server) << server.error().what;
   const std::uint16_t port = (*server)->gate().port;
   const std::string host = fmt::format("Host: 127.0.0.1:{}\r\n", port);

@@ -6,12 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include "plans/checks/record.h"
-#include "record/journal/journal.h"
 #include "evaluation/defect.h"
 #include "evaluation/evaluation.h"
-#include "reports/exports.h"
 #include "evaluation/factors/study.h"
+#include "plans/checks/record.h"
+#include "record/journal/journal.h"
+#include "reports/exports.h"
 #include "reports/writers.h"
 #include "tests/fuzz/cases.h"
 #include "tests/fuzz/overheard.h"
@@ -22,7 +22,7 @@ namespace {
 
 /// Every report but the PDF, which a browser prints from the page.
 std::string wrong_with_reports(const record::RunRecord& record,
-                               const reports::Evaluation& evaluation) {
+                               const evaluation::Evaluation& evaluation) {
   for (const reports::Export& what : reports::exports()) {
     if (!reports::applies(what, record)) continue;
     if (what.format == "pdf") continue;
@@ -39,18 +39,18 @@ std::string try_run(const std::filesystem::path& directory, unsigned seed) {
   if (const auto known = plans::check_record(read->record); !known) {
     return known.error().what.empty() ? "refused without a word" : "";
   }
-  const auto checked = reports::evaluate_checked(read->record);
+  const auto checked = evaluation::evaluate_checked(read->record);
   // Void, with a sentence: an answer, though one that points of a part never get.
   for (const auto& defect : checked.defects) {
-    std::printf("case %u is void: %s\n", seed, reports::error_of(defect).what.c_str());
+    std::printf("case %u is void: %s\n", seed, evaluation::error_of(defect).what.c_str());
   }
   if (auto wrong = wrong_with_reports(read->record, checked.evaluation); !wrong.empty()) {
     return wrong;
   }
-  const auto compared = reports::compare_run(checked.evaluation);
+  const auto compared = evaluation::compare_run(checked.evaluation);
   if (!compared) return {};
-  return wrong_with_text(reports::comparison_text("run", *compared, true) +
-                         reports::comparison_json("run", *compared));
+  return wrong_with_text(evaluation::comparison_text("run", *compared, true) +
+                         evaluation::comparison_json("run", *compared));
 }
 
 TEST(JournalFuzz, NoResealedJournalUpsetsTheEvaluation) {

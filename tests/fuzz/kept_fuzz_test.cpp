@@ -132,7 +132,7 @@ TEST(KeptFuzz, NoDamagedEarlierResultsUpsetThePage) {
   const Mutation mutation({reports::earlier_json(earlier)}, json_words());
   const auto read = record::read_journal(sample_runs().front());
   ASSERT_TRUE(read);
-  const auto evaluation = reports::evaluate(read->record);
+  const auto evaluation = evaluation::evaluate(read->record);
   ASSERT_TRUE(evaluation);
   try_cases({600, 100'000}, [&](unsigned seed) -> std::string {
     const auto parsed = reports::parse_earlier(mutation.input(seed));

@@ -47,7 +47,7 @@ struct Row {
 void measure(std::uint64_t seed, const std::string& strategy, double resolution_deg, Row& row) {
   const auto run = test::inspect(test::random_plan(seed, strategy, resolution_deg));
   ASSERT_EQ(run.evaluation.features.size(), 1U);
-  const reports::FeatureResult& feature = run.evaluation.features.front();
+  const evaluation::FeatureResult& feature = run.evaluation.features.front();
   ASSERT_TRUE(feature.mz_cylinder.has_value());
   const double zone = feature.mz_cylinder->width_mm();
   const double truth = test::searched_zone_mm(test::final_cloud(run.record),

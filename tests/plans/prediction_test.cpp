@@ -14,18 +14,18 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "plans/run/expected_record.h"
 #include "plans/forecast/forecast.h"
+#include "plans/run/expected_record.h"
 #include "random_inspection.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {
 namespace {
 
-using reports::Measurand;
-using reports::PredictedStatement;
-using reports::Prediction;
-using reports::PredictionOptions;
+using evaluation::Measurand;
+using evaluation::PredictedStatement;
+using evaluation::Prediction;
+using evaluation::PredictionOptions;
 using ::testing::HasSubstr;
 
 /// A plan, and what the form of the parts is that are inspected by it.
@@ -155,7 +155,7 @@ record::RunRecord expected(const Plan& plan) {
 }
 
 Prediction predicted(const record::RunRecord& record, const PredictionOptions& options = {}) {
-  const auto out = reports::predict(record, 0, record.features[0].characteristics[0], options);
+  const auto out = evaluation::predict(record, 0, record.features[0].characteristics[0], options);
   EXPECT_TRUE(out) << (out ? "" : out.error().what);
   return out.value_or(Prediction{});
 }
@@ -234,10 +234,10 @@ TEST(Prediction, WidthIsWithinFifteenPercentOfThatOfSimulatedRuns) {
     ASSERT_TRUE(found.contains(Measurand::kSampledPoints));
     for (const auto& [about, widths] : found) {
       const auto& said = foretold.about(about);
-      ASSERT_TRUE(said) << reports::name_of(about);
+      ASSERT_TRUE(said) << evaluation::name_of(about);
       const double ratio = said->width_mm() / widths.mean_mm();
       // The mean itself is known to open_1() only.
-      EXPECT_NEAR(ratio, 1.0, 0.15 + 2.0 * widths.open_1()) << reports::name_of(about);
+      EXPECT_NEAR(ratio, 1.0, 0.15 + 2.0 * widths.open_1()) << evaluation::name_of(about);
       const std::size_t alike = widths.within(said->width_mm() / 1.15, said->width_mm() / 0.85);
       const std::size_t inside =
           widths.within(said->one_of_ten_width_mm, said->nine_of_ten_width_mm);
@@ -410,7 +410,7 @@ TEST(Prediction, RefusesSettingsOutsideTheirRange) {
   const record::RunRecord record = expected(small(0.5, 2));
   const auto refused = [&](const PredictionOptions& options, int feature = 0) {
     const auto out =
-        reports::predict(record, feature, record.features[0].characteristics[0], options);
+        evaluation::predict(record, feature, record.features[0].characteristics[0], options);
     return !out && out.error().code == core::Code::kBadOption;
   };
   EXPECT_TRUE(refused({}, 1));

@@ -10,8 +10,8 @@
 #include "cmm/simulated/part_surface.h"
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/zone/center_search.h"
 #include "fit/references/min_zone_cylinder.h"
+#include "fit/zone/center_search.h"
 #include "plans/cell/internal/hidden_errors.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
@@ -112,7 +112,7 @@ Inspection inspect(const plans::Plan& plan) {
     if (run) out.record = record::read_journal(directory)->record;
   }
   std::filesystem::remove_all(directory);
-  const auto evaluation = reports::evaluate(out.record);
+  const auto evaluation = evaluation::evaluate(out.record);
   if (!evaluation) ADD_FAILURE() << core::to_line(evaluation.error());
   if (evaluation) out.evaluation = *evaluation;
   return out;

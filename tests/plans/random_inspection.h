@@ -7,9 +7,9 @@
 #include <Eigen/Geometry>
 
 #include "core/noise.h"
+#include "evaluation/evaluation.h"
 #include "plans/plan.h"
 #include "record/run_record.h"
-#include "evaluation/evaluation.h"
 
 namespace rondure::test {
 
@@ -26,7 +26,7 @@ inline double between(core::KeyedNoise& random, double low, double high) {
 /// A run of a plan, from its journal.
 struct Inspection {
   record::RunRecord record;
-  reports::Evaluation evaluation;
+  evaluation::Evaluation evaluation;
 };
 
 /// Runs the plan in a temporary directory, which is removed. Fails the test when the run fails.

@@ -18,13 +18,13 @@
 
 #include "cmm/ipp_server/server.h"
 #include "core/units.h"
+#include "evaluation/evaluation.h"
+#include "evaluation/uncertainty/declared.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "plans/cell/cell.h"
-#include "plans/run/runner.h"
 #include "plans/cell/served_cell.h"
+#include "plans/run/runner.h"
 #include "record/journal/journal.h"
-#include "evaluation/uncertainty/declared.h"
-#include "evaluation/evaluation.h"
 #include "tests/plans/files.h"
 #include "tests/record/sample_run.h"
 #include "wire/tcp_line.h"
@@ -230,9 +230,9 @@ TEST(ScanOverWire, IrregularPassesAreNotAveragedByIndex) {
       const WireServer server(inside, true);
       const auto run =
           run_of(over_wire(inside, server.port()), scratch / fmt::format("{}-{}", points, repeats));
-      const auto evaluation = reports::evaluate(run);
+      const auto evaluation = evaluation::evaluate(run);
       ASSERT_TRUE(evaluation);
-      const reports::FeatureResult& seat = evaluation->features.front();
+      const evaluation::FeatureResult& seat = evaluation->features.front();
       ASSERT_TRUE(seat.mz_cylinder) << (seat.failure ? seat.failure->what : "");
       // 48 points miss the crests by at most 3.75 deg: 2.5 (1 - cos 11.25 deg) um each.
       const double zone_um = seat.mz_cylinder->width_mm() / core::kMicrometre;
@@ -258,17 +258,17 @@ TEST(ScanOverWire, TheIntervalOfIrregularPassesHoldsTheTruth) {
   inside.uncertainty->probe.emplace();  // its repeatability comes from the passes
   const WireServer server(inside, true);
   const auto run = run_of(over_wire(inside, server.port()), scratch / "run");
-  const auto evaluation = reports::evaluate(run);
+  const auto evaluation = evaluation::evaluate(run);
   ASSERT_TRUE(evaluation);
-  const reports::FeatureResult& seat = evaluation->features.front();
+  const evaluation::FeatureResult& seat = evaluation->features.front();
   ASSERT_TRUE(seat.repeat_sigma_mm);
   EXPECT_NEAR(*seat.repeat_sigma_mm / core::kMicrometre, 0.3, 0.02);
   EXPECT_GT(seat.repeat_freedom, 200);
   EXPECT_GT(seat.repeat_zone_mean_mm.value_or(0.0), 5.0 * core::kMicrometre);
-  const auto status =
-      reports::uncertainty_of(run, seat, evaluation->probe, seat.feature.characteristics.front());
+  const auto status = evaluation::uncertainty_of(run, seat, evaluation->probe,
+                                                 seat.feature.characteristics.front());
   ASSERT_TRUE(status.result()) << status.why();
-  const reports::UncertaintyStatement& interval = status.result()->sampled;
+  const evaluation::UncertaintyStatement& interval = status.result()->sampled;
   std::printf("noise 0.3 um, 5 passes: CYLt %.2f um, interval %.3f .. %.3f um\n",
               seat.mz_cylinder->width_mm() / core::kMicrometre, interval.low_mm / core::kMicrometre,
               interval.high_mm / core::kMicrometre);

@@ -35,7 +35,7 @@ double zone_mm(const test::Inspection& run) {
 }
 
 double radius_mm(const test::Inspection& run) {
-  const reports::FeatureResult& feature = run.evaluation.features.front();
+  const evaluation::FeatureResult& feature = run.evaluation.features.front();
   return feature.ls_cylinder->radius_mm - feature.tip_radius_mm.value();
 }
 
@@ -82,7 +82,7 @@ TEST(Scanning, ALobeThatFewTouchesMissIsSeen) {
   EXPECT_LT(touched_mm, 0.1e-3);
   const auto scanned = test::inspect(plan);
   EXPECT_NEAR(zone_mm(scanned), 4e-3, 0.1e-3);
-  for (const reports::LayerResult& layer : scanned.evaluation.features.front().layers) {
+  for (const evaluation::LayerResult& layer : scanned.evaluation.features.front().layers) {
     ASSERT_TRUE(layer.filtered) << "360 points carry a filter of 50 UPR";
     EXPECT_NEAR(layer.filtered->harmonics.harmonics.at(13).amplitude_mm, 2e-3, 0.05e-3);
     // The Gaussian filter passes 2^-(14/50)^2 of it.

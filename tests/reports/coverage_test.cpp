@@ -14,9 +14,9 @@
 
 #include "core/noise.h"
 #include "core/units.h"
+#include "evaluation/uncertainty/uncertainty.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/zone/fit.h"
-#include "evaluation/uncertainty/uncertainty.h"
 
 namespace rondure::reports {
 namespace {
@@ -91,13 +91,14 @@ class SpecifiedForm final : public PartForm {
 /// A surface drawn from a spectrum.
 class SpectralForm final : public PartForm {
  public:
-  SpectralForm(const FormSpectrum& spectrum, core::KeyedNoise noise) : spectrum_(spectrum) {
+  SpectralForm(const evaluation::FormSpectrum& spectrum, core::KeyedNoise noise)
+      : spectrum_(spectrum) {
     for (std::size_t k = 0; k < 2 * spectrum.terms.size(); ++k) draws_.push_back(noise.normal());
   }
   [[nodiscard]] double at(double angle, double z) const override {
     double sum = 0.0;
     for (std::size_t k = 0; k < spectrum_.terms.size(); ++k) {
-      const FormTerm& term = spectrum_.terms[k];
+      const evaluation::FormTerm& term = spectrum_.terms[k];
       sum += term.amplitude_mm * legendre(term.degree, z / kHalf) *
              (draws_[2 * k] * std::cos(term.undulations * angle) +
               draws_[2 * k + 1] * std::sin(term.undulations * angle));
@@ -106,7 +107,7 @@ class SpectralForm final : public PartForm {
   }
 
  private:
-  FormSpectrum spectrum_;
+  evaluation::FormSpectrum spectrum_;
   std::vector<double> draws_;
 };
 
@@ -143,9 +144,9 @@ std::vector<Vector3d> sampled_points(const PartForm& form) {
 }
 
 /// The errors of one inspection, made by moving the points in space.
-std::vector<Vector3d> inspected(std::vector<Vector3d> points, const Influences& influences,
-                                core::KeyedNoise noise) {
-  const ProbeInfluences& probe = *influences.probe;
+std::vector<Vector3d> inspected(std::vector<Vector3d> points,
+                                const evaluation::Influences& influences, core::KeyedNoise noise) {
+  const evaluation::ProbeInfluences& probe = *influences.probe;
   cmm::GeometricErrors machine;
   const cmm::GeometricErrors& spread = influences.machine->terms;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -185,16 +186,16 @@ std::vector<Vector3d> inspected(std::vector<Vector3d> points, const Influences& 
 
 struct Scenario {
   std::string name;
-  Influences influences;
+  evaluation::Influences influences;
 };
 
 Scenario scenario(std::string name, double noise_mm, double lobe_mm, double wave_mm,
                   double creep_rad, double drift_mm) {
   Scenario out{std::move(name), {}};
-  ProbeInfluences probe;
+  evaluation::ProbeInfluences probe;
   probe.repeatability_mm = noise_mm;
   probe.lobes = {{3, lobe_mm, 0.0}};
-  MachineInfluences machine;
+  evaluation::MachineInfluences machine;
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t c = 0; c < 3; ++c) {
       cmm::ErrorCurve& curve = machine.terms.axes[k].translation[c];
@@ -204,9 +205,9 @@ Scenario scenario(std::string name, double noise_mm, double lobe_mm, double wave
     }
   }
   machine.terms.squareness_xz_rad = 4e-6;
-  ThermalInfluences thermal;
+  evaluation::ThermalInfluences thermal;
   thermal.machine_drift_mm = Vector3d::Constant(drift_mm);
-  FixtureInfluences fixture;
+  evaluation::FixtureInfluences fixture;
   fixture.creep_rad = creep_rad;
   fixture.pivot_mm = Vector3d(0.0, 0.0, -60.0);
   out.influences = {probe, machine, thermal, fixture};
@@ -229,7 +230,7 @@ struct Tally {
   double estimate_um = 0.0;
   double expanded_um = 0.0;
 
-  void add(double truth_mm, double uncorrected_mm, const UncertaintyStatement& stated) {
+  void add(double truth_mm, double uncorrected_mm, const evaluation::UncertaintyStatement& stated) {
     const double share = 1e3 / count;
     below += truth_mm < stated.low_mm ? 1 : 0;
     above += truth_mm > stated.high_mm ? 1 : 0;
@@ -251,8 +252,8 @@ constexpr const char* kHead =
     "| scenario | truth um | uncorrected um | estimate um | U um | inside | truth below / above "
     "|\n";
 
-UncertaintyOptions few_trials() {
-  UncertaintyOptions options;
+evaluation::UncertaintyOptions few_trials() {
+  evaluation::UncertaintyOptions options;
   options.least_trials = 200;
   options.most_trials = full() ? 1000 : 200;
   options.budget_trials = 0;
@@ -288,11 +289,11 @@ Tally tally_sampled(const Scenario& now, record::Reference reference, int count)
     form.scale = 1e-3;
     form.scale *= 10e-3 / whole_zone(form);
     const auto truth = sampled_points(form);
-    auto cloud = form_cloud(FormKind::kCylindricity,
+    auto cloud = form_cloud(evaluation::FormKind::kCylindricity,
                             inspected(truth, now.influences, core::KeyedNoise(kSeed, {2, key})),
                             Vector3d::UnitZ());
     cloud->reference = reference;
-    UncertaintyOptions options = few_trials();
+    evaluation::UncertaintyOptions options = few_trials();
     options.seed = key;
     const auto result = measurement_uncertainty(*cloud, now.influences, std::nullopt, options);
     tally.add(value_of(truth, reference), result->uncorrected_mm, result->sampled);
@@ -321,8 +322,8 @@ TEST(Coverage, HoldsTheValueAboutEveryReference) {
 }
 
 /// A ground shaft: lobes that fall with the undulations, taper, barrel, bend.
-FormSpectrum true_spectrum() {
-  FormSpectrum spectrum;
+evaluation::FormSpectrum true_spectrum() {
+  evaluation::FormSpectrum spectrum;
   spectrum.low_mm = -kHalf;
   spectrum.high_mm = kHalf;
   spectrum.source = "declared";
@@ -336,23 +337,24 @@ FormSpectrum true_spectrum() {
 }
 
 /// What somebody declares who believes in ovals and three lobes only.
-FormSpectrum short_spectrum() {
-  FormSpectrum spectrum = true_spectrum();
-  std::erase_if(spectrum.terms, [](const FormTerm& term) { return term.undulations > 3; });
+evaluation::FormSpectrum short_spectrum() {
+  evaluation::FormSpectrum spectrum = true_spectrum();
+  std::erase_if(spectrum.terms,
+                [](const evaluation::FormTerm& term) { return term.undulations > 3; });
   return spectrum;
 }
 
-Tally tally_whole(const Scenario& now, const FormSpectrum& declared) {
+Tally tally_whole(const Scenario& now, const evaluation::FormSpectrum& declared) {
   Tally tally;
   tally.count = inspections(24);
   for (int k = 0; k < tally.count; ++k) {
     const auto key = static_cast<std::uint64_t>(k);
     const SpectralForm form(true_spectrum(), core::KeyedNoise(kSeed, {3, key}));
     const auto cloud = form_cloud(
-        FormKind::kCylindricity,
+        evaluation::FormKind::kCylindricity,
         inspected(sampled_points(form), now.influences, core::KeyedNoise(kSeed, {4, key})),
         Vector3d::UnitZ());
-    UncertaintyOptions options = few_trials();
+    evaluation::UncertaintyOptions options = few_trials();
     options.seed = key;
     const auto result = measurement_uncertainty(*cloud, now.influences, declared, options);
     tally.add(whole_zone(form), result->uncorrected_mm, *result->whole);

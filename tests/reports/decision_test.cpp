@@ -16,7 +16,7 @@ namespace rondure::reports {
 namespace {
 
 using ::testing::HasSubstr;
-using Kind = DecisionRule::Kind;
+using Kind = evaluation::DecisionRule::Kind;
 
 constexpr double kT = 10e-3;  // tolerance [mm]
 
@@ -33,8 +33,8 @@ std::vector<double> error_sample(int count = 4000) {
 
 /// What a measurement says that estimates `estimate_mm` with these errors: the value of the part is
 /// the estimate minus an error. The measured value is inflated by 0.3 um.
-KnownValue known(double estimate_mm, const std::vector<double>& errors) {
-  UncertaintyStatement s;
+evaluation::KnownValue known(double estimate_mm, const std::vector<double>& errors) {
+  evaluation::UncertaintyStatement s;
   s.estimate_mm = estimate_mm;
   for (const double e : errors) s.values_mm.push_back(estimate_mm - e);
   std::sort(s.values_mm.begin(), s.values_mm.end());
@@ -46,38 +46,41 @@ KnownValue known(double estimate_mm, const std::vector<double>& errors) {
   return {estimate_mm + 0.3e-3, s};
 }
 
-DecisionRule rule_named(Kind kind) {
-  DecisionRule rule;
+evaluation::DecisionRule rule_named(Kind kind) {
+  evaluation::DecisionRule rule;
   rule.kind = kind;
   return rule;
 }
 
-Verdict verdict(const DecisionRule& rule, const KnownValue& value) {
+evaluation::Verdict verdict(const evaluation::DecisionRule& rule,
+                            const evaluation::KnownValue& value) {
   const auto outcome = apply_rule(rule, value, kT);
-  return outcome ? outcome->verdict : Verdict::kVoid;
+  return outcome ? outcome->verdict : evaluation::Verdict::kVoid;
 }
 
 const std::vector<Kind> kAllRules = {Kind::kSimpleAcceptance, Kind::kIso14253, Kind::kJcgm106,
                                      Kind::kNToOne, Kind::kGuardBand};
 
-TEST(DecisionRule, FarFromTheToleranceAllRulesAgree) {
+TEST(evaluation::DecisionRule, FarFromTheToleranceAllRulesAgree) {
   const auto errors = error_sample();
   for (const Kind kind : kAllRules) {
     SCOPED_TRACE(std::string(name_of(kind)));
-    EXPECT_EQ(verdict(rule_named(kind), known(5e-3, errors)), Verdict::kConforms);
-    EXPECT_EQ(verdict(rule_named(kind), known(15e-3, errors)), Verdict::kDoesNotConform);
+    EXPECT_EQ(verdict(rule_named(kind), known(5e-3, errors)), evaluation::Verdict::kConforms);
+    EXPECT_EQ(verdict(rule_named(kind), known(15e-3, errors)),
+              evaluation::Verdict::kDoesNotConform);
   }
 }
 
-TEST(DecisionRule, AGreaterValueIsNeverJudgedBetter) {
+TEST(evaluation::DecisionRule, AGreaterValueIsNeverJudgedBetter) {
   const auto errors = error_sample(400);
-  const auto rank = [](Verdict v) {
-    return v == Verdict::kConforms ? 0 : v == Verdict::kUndecided ? 1 : 2;
+  const auto rank = [](evaluation::Verdict v) {
+    return v == evaluation::Verdict::kConforms ? 0 : v == evaluation::Verdict::kUndecided ? 1 : 2;
   };
   for (const Kind kind : kAllRules) {
     SCOPED_TRACE(std::string(name_of(kind)));
-    DecisionRule rule = rule_named(kind);
-    if (kind == Kind::kJcgm106) rule.prior = Prior{Prior::Kind::kGamma, 6e-3, 2e-3};
+    evaluation::DecisionRule rule = rule_named(kind);
+    if (kind == Kind::kJcgm106)
+      rule.prior = evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 2e-3};
     int last = 0;
     for (double y = 6e-3; y < 13e-3; y += 0.05e-3) {
       const int now = rank(verdict(rule, known(y, errors)));
@@ -88,81 +91,86 @@ TEST(DecisionRule, AGreaterValueIsNeverJudgedBetter) {
   }
 }
 
-TEST(DecisionRule, TheVerdictChangesAtTheLimitsThatAreStated) {
+TEST(evaluation::DecisionRule, TheVerdictChangesAtTheLimitsThatAreStated) {
   const auto errors = error_sample(400);
   for (const Kind kind : kAllRules) {
     SCOPED_TRACE(std::string(name_of(kind)));
-    DecisionRule rule = rule_named(kind);
+    evaluation::DecisionRule rule = rule_named(kind);
     rule.judge_corrected = true;  // else what was read decides as well
     rule.acceptance_guard_1 = 0.5;
-    if (kind == Kind::kJcgm106) rule.prior = Prior{Prior::Kind::kGamma, 6e-3, 2e-3};
+    if (kind == Kind::kJcgm106)
+      rule.prior = evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 2e-3};
     const auto at = apply_rule(rule, known(9e-3, errors), kT);
     ASSERT_TRUE(at);
     const double bias = kind == Kind::kSimpleAcceptance ? 0.3e-3 : 0.0;
     constexpr double kStep = 1e-6;
-    EXPECT_EQ(verdict(rule, known(at->acceptance_mm - bias - kStep, errors)), Verdict::kConforms);
-    EXPECT_NE(verdict(rule, known(at->acceptance_mm - bias + kStep, errors)), Verdict::kConforms);
+    EXPECT_EQ(verdict(rule, known(at->acceptance_mm - bias - kStep, errors)),
+              evaluation::Verdict::kConforms);
+    EXPECT_NE(verdict(rule, known(at->acceptance_mm - bias + kStep, errors)),
+              evaluation::Verdict::kConforms);
     EXPECT_NE(verdict(rule, known(at->rejection_mm - bias - kStep, errors)),
-              Verdict::kDoesNotConform);
+              evaluation::Verdict::kDoesNotConform);
     EXPECT_EQ(verdict(rule, known(at->rejection_mm - bias + kStep, errors)),
-              Verdict::kDoesNotConform);
+              evaluation::Verdict::kDoesNotConform);
   }
 }
 
 // 10.2 um were read, 8 um are left of them after a correction for noise that the supplier declared.
-TEST(DecisionRule, AValueReadAboveTheToleranceConformsOnlyWhereCorrectedValuesAreAgreedUpon) {
+TEST(evaluation::DecisionRule,
+     AValueReadAboveTheToleranceConformsOnlyWhereCorrectedValuesAreAgreedUpon) {
   const auto errors = error_sample(400);
   for (const Kind kind : kAllRules) {
     if (kind == Kind::kSimpleAcceptance) continue;
     SCOPED_TRACE(std::string(name_of(kind)));
-    KnownValue value = known(5e-3, errors);
+    evaluation::KnownValue value = known(5e-3, errors);
     value.measured_mm = 10.2e-3;
-    DecisionRule rule = rule_named(kind);
+    evaluation::DecisionRule rule = rule_named(kind);
     const auto by_default = apply_rule(rule, value, kT);
     ASSERT_TRUE(by_default);
-    EXPECT_EQ(by_default->verdict, Verdict::kUndecided);
+    EXPECT_EQ(by_default->verdict, evaluation::Verdict::kUndecided);
     EXPECT_THAT(by_default->sentence, HasSubstr("read above the limit"));
     EXPECT_THAT(in_words(rule), HasSubstr("a value as read above T never conforms"));
     rule.judge_corrected = true;
     const auto agreed = apply_rule(rule, value, kT);
     ASSERT_TRUE(agreed);
-    EXPECT_EQ(agreed->verdict, Verdict::kConforms);
+    EXPECT_EQ(agreed->verdict, evaluation::Verdict::kConforms);
     EXPECT_THAT(agreed->sentence, HasSubstr("corrected values are judged"));
     EXPECT_THAT(in_words(rule), HasSubstr("corrected values are judged"));
   }
 }
 
-TEST(DecisionRule, Iso14253TakesTheGuardBandFromTheSideOfTheIntervalThatMatters) {
-  KnownValue value{9.4e-3, UncertaintyStatement{}};
+TEST(evaluation::DecisionRule, Iso14253TakesTheGuardBandFromTheSideOfTheIntervalThatMatters) {
+  evaluation::KnownValue value{9.4e-3, evaluation::UncertaintyStatement{}};
   value.statement->estimate_mm = 9.0e-3;
   value.statement->low_mm = 8.0e-3;
   value.statement->high_mm = 9.5e-3;
   value.statement->values_mm = {8.0e-3, 9.0e-3, 9.5e-3};
-  DecisionRule rule = rule_named(Kind::kIso14253);
+  evaluation::DecisionRule rule = rule_named(Kind::kIso14253);
   auto outcome = apply_rule(rule, value, kT);
   ASSERT_TRUE(outcome);
   EXPECT_NEAR(outcome->acceptance_mm, 9.5e-3, 1e-15);
   EXPECT_NEAR(outcome->rejection_mm, 11.0e-3, 1e-15);
-  EXPECT_EQ(outcome->verdict, Verdict::kConforms);
+  EXPECT_EQ(outcome->verdict, evaluation::Verdict::kConforms);
   EXPECT_THAT(outcome->sentence, HasSubstr("9.000 um is within the acceptance limit of 9.500 um"));
   rule.guard_factor = 3.0;
   outcome = apply_rule(rule, value, kT);
   EXPECT_NEAR(outcome->acceptance_mm, 8.5e-3, 1e-15);
-  EXPECT_EQ(outcome->verdict, Verdict::kUndecided);
+  EXPECT_EQ(outcome->verdict, evaluation::Verdict::kUndecided);
   EXPECT_THAT(outcome->sentence, HasSubstr("neither is proven"));
   EXPECT_FALSE(outcome->specific_risk_1());
 }
 
-TEST(DecisionRule, SimpleAcceptanceComparesTheMeasuredValueAndNeedsNoInterval) {
-  const DecisionRule rule;
-  EXPECT_EQ(verdict(rule, {kT, {}}), Verdict::kConforms);
-  EXPECT_EQ(verdict(rule, {std::nextafter(kT, 1.0), {}}), Verdict::kDoesNotConform);
+TEST(evaluation::DecisionRule, SimpleAcceptanceComparesTheMeasuredValueAndNeedsNoInterval) {
+  const evaluation::DecisionRule rule;
+  EXPECT_EQ(verdict(rule, {kT, {}}), evaluation::Verdict::kConforms);
+  EXPECT_EQ(verdict(rule, {std::nextafter(kT, 1.0), {}}), evaluation::Verdict::kDoesNotConform);
   const auto errors = error_sample();
-  EXPECT_EQ(verdict(rule, known(9.9e-3, errors)), Verdict::kDoesNotConform) << "10.2 um measured";
+  EXPECT_EQ(verdict(rule, known(9.9e-3, errors)), evaluation::Verdict::kDoesNotConform)
+      << "10.2 um measured";
   EXPECT_FALSE(apply_rule(rule, {kT, {}}, kT)->conformance_1);
 }
 
-TEST(DecisionRule, WithoutAnIntervalEveryOtherRuleIsVoid) {
+TEST(evaluation::DecisionRule, WithoutAnIntervalEveryOtherRuleIsVoid) {
   for (const Kind kind : kAllRules) {
     if (kind == Kind::kSimpleAcceptance) continue;
     const auto outcome = apply_rule(rule_named(kind), {5e-3, {}}, kT);
@@ -171,29 +179,30 @@ TEST(DecisionRule, WithoutAnIntervalEveryOtherRuleIsVoid) {
   }
 }
 
-TEST(DecisionRule, NToOneIsVoidWhereTheIntervalIsTooWide) {
+TEST(evaluation::DecisionRule, NToOneIsVoidWhereTheIntervalIsTooWide) {
   const auto errors = error_sample();  // the interval is some 1.95 um wide: 5.1 : 1
-  DecisionRule rule = rule_named(Kind::kNToOne);
-  EXPECT_EQ(verdict(rule, known(9.6e-3, errors)), Verdict::kConforms);
+  evaluation::DecisionRule rule = rule_named(Kind::kNToOne);
+  EXPECT_EQ(verdict(rule, known(9.6e-3, errors)), evaluation::Verdict::kConforms);
   rule.ratio = 10.0;
   const auto outcome = apply_rule(rule, known(9.9e-3, errors), kT);
   ASSERT_FALSE(outcome);
   EXPECT_THAT(outcome.error().what, HasSubstr("the rule 10:1 does not apply"));
 }
 
-TEST(DecisionRule, APriorThatContradictsTheMeasurementIsVoid) {
+TEST(evaluation::DecisionRule, APriorThatContradictsTheMeasurementIsVoid) {
   const auto errors = error_sample();
-  DecisionRule rule = rule_named(Kind::kJcgm106);
-  rule.prior = Prior{Prior::Kind::kNormal, 1e-3, 0.02e-3};
+  evaluation::DecisionRule rule = rule_named(Kind::kJcgm106);
+  rule.prior = evaluation::Prior{evaluation::Prior::Kind::kNormal, 1e-3, 0.02e-3};
   const auto outcome = apply_rule(rule, known(9e-3, errors), kT);
   ASSERT_FALSE(outcome);
   EXPECT_THAT(outcome.error().what, HasSubstr("prior leaves the measured value no weight"));
 }
 
-TEST(Prior, HasTheMeanAndSpreadItStates) {
-  for (const Prior& prior :
-       {Prior{Prior::Kind::kGamma, 6e-3, 2e-3}, Prior{Prior::Kind::kGamma, 6e-3, 6e-3},
-        Prior{Prior::Kind::kNormal, 6e-3, 1e-3}}) {
+TEST(evaluation::Prior, HasTheMeanAndSpreadItStates) {
+  for (const evaluation::Prior& prior :
+       {evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 2e-3},
+        evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 6e-3},
+        evaluation::Prior{evaluation::Prior::Kind::kNormal, 6e-3, 1e-3}}) {
     double sum = 0.0;
     double first = 0.0;
     double second = 0.0;
@@ -211,10 +220,10 @@ TEST(Prior, HasTheMeanAndSpreadItStates) {
 }
 
 /// A form deviation drawn from a prior, by rejection under its density.
-double drawn_from(const Prior& prior, core::KeyedNoise& noise) {
+double drawn_from(const evaluation::Prior& prior, core::KeyedNoise& noise) {
   const double end = prior.mean_mm + 12.0 * prior.standard_deviation_mm;
   const double mode =
-      prior.kind == Prior::Kind::kNormal
+      prior.kind == evaluation::Prior::Kind::kNormal
           ? prior.mean_mm
           : prior.mean_mm - std::pow(prior.standard_deviation_mm, 2) / prior.mean_mm;
   const double top = prior.density(mode);
@@ -235,8 +244,8 @@ struct Lot {
   double stated_false_rejected = 0.0;
 };
 
-Lot simulate(const DecisionRule& rule, const Prior& prior, const std::vector<double>& errors,
-             int parts) {
+Lot simulate(const evaluation::DecisionRule& rule, const evaluation::Prior& prior,
+             const std::vector<double>& errors, int parts) {
   Lot lot;
   lot.parts = parts;
   for (int i = 0; i < parts; ++i) {
@@ -247,11 +256,11 @@ Lot simulate(const DecisionRule& rule, const Prior& prior, const std::vector<dou
     const auto outcome = apply_rule(rule, known(y + error, errors), kT);
     if (!outcome) continue;  // n:1 that does not apply, prior without weight: counted by the caller
     const bool good = y <= kT;
-    if (outcome->verdict == Verdict::kConforms) {
+    if (outcome->verdict == evaluation::Verdict::kConforms) {
       ++lot.accepted;
       if (!good) ++lot.false_accepted;
       lot.stated_false_accepted += *outcome->specific_risk_1();
-    } else if (outcome->verdict == Verdict::kDoesNotConform) {
+    } else if (outcome->verdict == evaluation::Verdict::kDoesNotConform) {
       ++lot.rejected;
       if (good) ++lot.false_rejected;
       lot.stated_false_rejected += *outcome->specific_risk_1();
@@ -278,9 +287,9 @@ int lot_size() { return std::getenv("RONDURE_FULL") != nullptr ? 50'000 : 1'000;
 // them; every part has its own true value and its own error.
 TEST(DecisionRisks, RatesOnSimulatedLotsMatchTheStatedGlobalRisks) {
   const auto errors = error_sample(200);
-  const Prior prior{Prior::Kind::kGamma, 8e-3, 2.5e-3};
+  const evaluation::Prior prior{evaluation::Prior::Kind::kGamma, 8e-3, 2.5e-3};
   for (const Kind kind : kAllRules) {
-    DecisionRule rule = rule_named(kind);
+    evaluation::DecisionRule rule = rule_named(kind);
     rule.prior = prior;
     rule.rejection_guard_1 = -1.0;  // of guard-band: stringent acceptance, relaxed rejection
     const auto stated = apply_rule(rule, known(8e-3, errors), kT);
@@ -299,9 +308,10 @@ TEST(DecisionRisks, RatesOnSimulatedLotsMatchTheStatedGlobalRisks) {
 // With the true prior the specific risk of a part is right for the parts of which it is said.
 TEST(DecisionRisks, StatedSpecificRisksAreMetOnAverage) {
   const auto errors = error_sample(200);
-  for (const Prior& prior :
-       {Prior{Prior::Kind::kGamma, 8e-3, 2.5e-3}, Prior{Prior::Kind::kNormal, 9.5e-3, 0.8e-3}}) {
-    DecisionRule rule = rule_named(Kind::kJcgm106);
+  for (const evaluation::Prior& prior :
+       {evaluation::Prior{evaluation::Prior::Kind::kGamma, 8e-3, 2.5e-3},
+        evaluation::Prior{evaluation::Prior::Kind::kNormal, 9.5e-3, 0.8e-3}}) {
+    evaluation::DecisionRule rule = rule_named(Kind::kJcgm106);
     rule.prior = prior;
     const Lot lot = simulate(rule, prior, errors, lot_size());
     EXPECT_GT(lot.accepted, lot.parts / 10);
@@ -318,19 +328,19 @@ TEST(DecisionRisks, StatedSpecificRisksAreMetOnAverage) {
 // Without a prior: parts whose true value is the tolerance or worse by nothing, the worst case.
 TEST(DecisionRisks, APartAtTheToleranceIsAcceptedNoMoreOftenThanTheRuleSays) {
   const auto errors = error_sample();
-  DecisionRule iso = rule_named(Kind::kIso14253);
-  DecisionRule jcgm = rule_named(Kind::kJcgm106);
+  evaluation::DecisionRule iso = rule_named(Kind::kIso14253);
+  evaluation::DecisionRule jcgm = rule_named(Kind::kJcgm106);
   for (const auto& [rule, stated] : {std::pair(iso, 0.025), std::pair(jcgm, 0.05)}) {
     int accepted = 0;
     for (const double error : errors) {
-      if (verdict(rule, known(kT + error, errors)) == Verdict::kConforms) ++accepted;
+      if (verdict(rule, known(kT + error, errors)) == evaluation::Verdict::kConforms) ++accepted;
     }
     expect_rate("at T accepted", name_of(rule.kind), accepted, stated,
                 static_cast<int>(errors.size()));
   }
 }
 
-TEST(DecisionRule, IsReadFromTheSettingsOfTheRun) {
+TEST(evaluation::DecisionRule, IsReadFromTheSettingsOfTheRun) {
   record::RunRecord record;
   EXPECT_EQ(rule_of(record)->kind, Kind::kSimpleAcceptance);
   record.header.decision_rule = "jcgm-106";
@@ -342,7 +352,7 @@ TEST(DecisionRule, IsReadFromTheSettingsOfTheRun) {
   const auto rule = rule_of(record);
   ASSERT_TRUE(rule);
   EXPECT_EQ(rule->consumer_risk_1, 0.02);
-  EXPECT_EQ(rule->measurand, Measurand::kWholeSurface);
+  EXPECT_EQ(rule->measurand, evaluation::Measurand::kWholeSurface);
   EXPECT_EQ(rule->prior->mean_mm, 6e-3);
   EXPECT_THAT(in_words(*rule), HasSubstr("P >= 98 %"));
   EXPECT_THAT(in_words(*rule), HasSubstr("prior: gamma with mean 6 um"));

@@ -26,10 +26,10 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-FeatureResult sound_result() {
+evaluation::FeatureResult sound_result() {
   const auto out = evaluate(points_run(rough_part(5, 4, 15, core::kTwoPi), 4));
   EXPECT_TRUE(out) << (out ? "" : out.error().what);
-  return out ? out->features.at(0) : FeatureResult{};
+  return out ? out->features.at(0) : evaluation::FeatureResult{};
 }
 
 TEST(Invariants, HoldForResultsThatAreSound) {
@@ -39,7 +39,7 @@ TEST(Invariants, HoldForResultsThatAreSound) {
 TEST(Invariants, EveryBrokenRuleIsFoundByItsName) {
   struct Break {
     std::string rule;
-    std::function<void(FeatureResult&)> how;
+    std::function<void(evaluation::FeatureResult&)> how;
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Break> breaks = {
@@ -84,7 +84,7 @@ TEST(Invariants, EveryBrokenRuleIsFoundByItsName) {
   };
   for (const Break& b : breaks) {
     SCOPED_TRACE(b.rule);
-    FeatureResult result = sound_result();
+    evaluation::FeatureResult result = sound_result();
     b.how(result);
     const auto broken = broken_invariant(result);
     ASSERT_TRUE(broken.has_value());
@@ -104,10 +104,10 @@ class DefectFile : public ::testing::Test {
 };
 
 TEST_F(DefectFile, HoldsTheRuleAllNumbersAndThePoints) {
-  FeatureResult result = sound_result();
+  evaluation::FeatureResult result = sound_result();
   result.mi_cylinder->radius_mm += 1e-6;
   result.layers[2].mi = core::fail(core::Code::kReferenceAbsent, "a reason");
-  const Defect defect{*broken_invariant(result), result};
+  const evaluation::Defect defect{*broken_invariant(result), result};
   const auto header = points_run({}, 1).header;
   ASSERT_TRUE(keep_defects({defect, defect}, header, folder, "this processor"));
   const core::Error error = error_of(defect);
@@ -136,9 +136,9 @@ TEST_F(DefectFile, HoldsTheRuleAllNumbersAndThePoints) {
 }
 
 TEST_F(DefectFile, ThatCannotBeWrittenLeavesTheJournalAsEvidence) {
-  FeatureResult result = sound_result();
+  evaluation::FeatureResult result = sound_result();
   result.ls_cylinder->deviation_mm = 0.0;
-  const Defect defect{*broken_invariant(result), result};
+  const evaluation::Defect defect{*broken_invariant(result), result};
   const auto kept = keep_defects({defect}, {}, folder / "nowhere" / "at all", "this processor");
   ASSERT_FALSE(kept);
   EXPECT_EQ(kept.error().code, core::Code::kInternal);

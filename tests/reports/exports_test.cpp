@@ -57,7 +57,7 @@ TEST(Dmis, SaysThatItIsOutputAndGivesFeatureAndTolerance) {
 
 TEST(Dmis, WhatIsVoidOrUndecidedIsNeitherInNorOutOfTolerance) {
   Case made = unfinished_case();
-  made.evaluation.features[0].characteristics[0].verdict = Verdict::kUndecided;
+  made.evaluation.features[0].characteristics[0].verdict = evaluation::Verdict::kUndecided;
   const std::string text = write_dmis(made.record, made.evaluation);
   EXPECT_THAT(text, Not(HasSubstr("TOL/")));
   EXPECT_THAT(text, HasSubstr("$$ F1T1: no block in DMIS; "));
@@ -108,10 +108,10 @@ TEST(PolarSketch, FillsItsFieldAndMarksEveryContact) {
 
 TEST(PolarSketch, IsAbsentWhereThereIsNothingToDraw) {
   const Case made = cylinder_case(4, 7, 3);
-  const FeatureResult& feature = made.evaluation.features[0];
+  const evaluation::FeatureResult& feature = made.evaluation.features[0];
   EXPECT_FALSE(polar_sketch(feature, SketchStyle::kNone));
   EXPECT_FALSE(polar_sketch(unfinished_case().evaluation.features[1], SketchStyle::kAscii));
-  FeatureResult flat = feature;
+  evaluation::FeatureResult flat = feature;
   flat.mz_cylinder->outer_radius_mm = flat.mz_cylinder->inner_radius_mm;
   EXPECT_FALSE(polar_sketch(flat, SketchStyle::kBraille));
 }
@@ -119,8 +119,8 @@ TEST(PolarSketch, IsAbsentWhereThereIsNothingToDraw) {
 TEST(PolarSketch, ARoundSectionIsDrawnRound) {
   // A profile in the middle of the zone is a circle: each row is the mirror of the one opposite.
   Case made = cylinder_case(1, 720, 1);
-  FeatureResult& feature = made.evaluation.features[0];
-  for (CloudPoint& point : feature.cloud) {
+  evaluation::FeatureResult& feature = made.evaluation.features[0];
+  for (evaluation::CloudPoint& point : feature.cloud) {
     point.deviation_mm = 0.0;
     point.outer_contact = point.inner_contact = false;
   }

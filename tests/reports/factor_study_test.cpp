@@ -19,11 +19,11 @@
 #include "core/units.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
+#include "fit/profiles/roundness_evaluation.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
-#include "fit/profiles/roundness_evaluation.h"
 #include "tests/reports/points_run.h"
 
 namespace rondure::reports {
@@ -51,16 +51,18 @@ Points part(int layers, int points_per_layer, const Form3& form) {
 }
 
 /// The study of one characteristic of points of known layers.
-FactorStudy study_of(const Points& points, int layers, const std::string& id = "cylindricity mz") {
+evaluation::FactorStudy study_of(const Points& points, int layers,
+                                 const std::string& id = "cylindricity mz") {
   auto run = points_run(points, layers);
   std::erase_if(run.features[0].characteristics,
                 [&](const record::Characteristic& c) { return c.id != id; });
   const auto comparison = compare_run(evaluated(run));
   EXPECT_TRUE(comparison) << comparison.error().what;
-  return comparison ? comparison->studies.at(0) : FactorStudy{};
+  return comparison ? comparison->studies.at(0) : evaluation::FactorStudy{};
 }
 
-std::size_t level_of(const FactorStudy& study, Factor factor, const std::string& name) {
+std::size_t level_of(const evaluation::FactorStudy& study, evaluation::Factor factor,
+                     const std::string& name) {
   const auto& names = study.levels[static_cast<std::size_t>(factor)];
   const auto found = std::find(names.begin(), names.end(), name);
   EXPECT_NE(found, names.end()) << name;
@@ -105,18 +107,18 @@ std::vector<double> circle_fits(const std::vector<Eigen::Vector2d>& points) {
           fit::max_inscribed_circle(points)->deviation_mm};
 }
 
-TEST(FactorStudy, CellsOfACylinderAreFitsOfTheSubsetsMadeByHand) {
+TEST(evaluation::FactorStudy, CellsOfACylinderAreFitsOfTheSubsetsMadeByHand) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     SCOPED_TRACE(seed);
     const Points points = rough_part(seed, 4, 15, core::kTwoPi);
-    const FactorStudy study = study_of(points, 4);
+    const evaluation::FactorStudy study = study_of(points, 4);
     for (const auto& [name, keep] : subsets()) {
       SCOPED_TRACE(name);
       const Points subset = where(points, 15, keep);
       const auto expected = cylinder_fits(subset);
-      const std::size_t s = level_of(study, Factor::kSampling, name);
+      const std::size_t s = level_of(study, evaluation::Factor::kSampling, name);
       for (std::size_t r = 0; r < 4; ++r) {
-        const FactorCell& cell = study.cell({r, 0, 0, s});
+        const evaluation::FactorCell& cell = study.cell({r, 0, 0, s});
         ASSERT_TRUE(cell.value_mm) << cell.why;
         EXPECT_NEAR(*cell.value_mm, expected[r], kRoundOffMm) << r;
         EXPECT_EQ(cell.points, subset.size());
@@ -125,9 +127,9 @@ TEST(FactorStudy, CellsOfACylinderAreFitsOfTheSubsetsMadeByHand) {
   }
 }
 
-TEST(FactorStudy, CellsOfSectionsAreTheWorstOfTheLayersMadeByHand) {
+TEST(evaluation::FactorStudy, CellsOfSectionsAreTheWorstOfTheLayersMadeByHand) {
   const Points points = rough_part(7, 4, 15, core::kTwoPi);
-  const FactorStudy study = study_of(points, 4, "roundness mz");
+  const evaluation::FactorStudy study = study_of(points, 4, "roundness mz");
   const fit::Axis axis = evaluated(points_run(points, 4)).features.at(0).mz_cylinder.value().axis;
   const auto frame = fit::across(axis.direction);
   for (const auto& [name, keep] : subsets()) {
@@ -142,16 +144,16 @@ TEST(FactorStudy, CellsOfSectionsAreTheWorstOfTheLayersMadeByHand) {
       const auto fits = circle_fits(section);
       for (std::size_t r = 0; r < 4; ++r) worst[r] = std::max(worst[r], fits[r]);
     }
-    const std::size_t s = level_of(study, Factor::kSampling, name);
+    const std::size_t s = level_of(study, evaluation::Factor::kSampling, name);
     for (std::size_t r = 0; r < 4; ++r) {
-      const FactorCell& cell = study.cell({r, 0, 0, s});
+      const evaluation::FactorCell& cell = study.cell({r, 0, 0, s});
       ASSERT_TRUE(cell.value_mm) << cell.why;
       EXPECT_NEAR(*cell.value_mm, worst[r], kRoundOffMm) << r;
     }
   }
 }
 
-TEST(FactorStudy, OutlierRulesLeaveOutThePlantedPointsAndNoOthers) {
+TEST(evaluation::FactorStudy, OutlierRulesLeaveOutThePlantedPointsAndNoOthers) {
   Points points = rough_part(11, 4, 24, core::kTwoPi);
   const Eigen::Vector3d axis_at = Eigen::Vector3d(10.0, -4.0, 0.0);
   for (const std::size_t row : {5U, 60U}) {
@@ -159,16 +161,16 @@ TEST(FactorStudy, OutlierRulesLeaveOutThePlantedPointsAndNoOthers) {
     out.z() = 0.0;
     points[row] += 40e-3 * out.normalized();
   }
-  const FactorStudy study = study_of(points, 4);
+  const evaluation::FactorStudy study = study_of(points, 4);
   const Points clean = where(points, 24, [](int layer, int point) {
     return 24 * layer + point != 5 && 24 * layer + point != 60;
   });
   const auto expected = cylinder_fits(clean);
   for (const char* rule : {"3 sigma", "5 medians"}) {
     SCOPED_TRACE(rule);
-    const std::size_t o = level_of(study, Factor::kOutliers, rule);
+    const std::size_t o = level_of(study, evaluation::Factor::kOutliers, rule);
     for (std::size_t r = 0; r < 4; ++r) {
-      const FactorCell& cell = study.cell({r, 0, o, 0});
+      const evaluation::FactorCell& cell = study.cell({r, 0, o, 0});
       EXPECT_EQ(cell.left_out, 2U);
       ASSERT_TRUE(cell.value_mm);
       EXPECT_NEAR(*cell.value_mm, expected[r], kRoundOffMm);
@@ -176,13 +178,13 @@ TEST(FactorStudy, OutlierRulesLeaveOutThePlantedPointsAndNoOthers) {
   }
 }
 
-TEST(FactorStudy, TheThreeSigmaRuleCountsWithTheFreedomsOfTheFit) {
+TEST(evaluation::FactorStudy, TheThreeSigmaRuleCountsWithTheFreedomsOfTheFit) {
   // One bad point of a circle of n others at +-1 um: on either side of its own limit.
   for (const double spike_mm : {6e-3, 30e-3}) {
     SCOPED_TRACE(spike_mm);
     const Points points = part(
         1, 40, [&](double, int, int i) { return i == 7 ? spike_mm : (i % 2 == 0 ? 1e-3 : -1e-3); });
-    const FactorStudy study = study_of(points, 1, "roundness ls");
+    const evaluation::FactorStudy study = study_of(points, 1, "roundness ls");
     std::vector<Eigen::Vector2d> plane;
     for (const auto& p : points) plane.emplace_back(p.head<2>());
     const auto circle = fit::ls_circle(plane);
@@ -195,16 +197,16 @@ TEST(FactorStudy, TheThreeSigmaRuleCountsWithTheFreedomsOfTheFit) {
       if (std::abs((p - circle->center_mm).norm() - circle->radius_mm) > limit) ++beyond;
     }
     EXPECT_EQ(beyond, 1U);
-    EXPECT_EQ(study.changed(Factor::kOutliers, 1).left_out, beyond);
+    EXPECT_EQ(study.changed(evaluation::Factor::kOutliers, 1).left_out, beyond);
   }
 }
 
-TEST(FactorStudy, FilteredSectionsAreThoseOfTheRoundnessEvaluation) {
+TEST(evaluation::FactorStudy, FilteredSectionsAreThoseOfTheRoundnessEvaluation) {
   core::KeyedNoise noise(5, {1});
   const Points points = part(1, 400, [&](double t, int, int) {
     return 4e-3 * std::cos(2.0 * t) + 2e-3 * std::cos(30.0 * t) + 1e-3 * noise.normal();
   });
-  const FactorStudy study = study_of(points, 1, "roundness mz");
+  const evaluation::FactorStudy study = study_of(points, 1, "roundness mz");
   std::vector<Eigen::Vector2d> plane;
   for (const auto& p : points) plane.emplace_back(p.head<2>());
   fit::RoundnessOptions options;
@@ -215,24 +217,24 @@ TEST(FactorStudy, FilteredSectionsAreThoseOfTheRoundnessEvaluation) {
     const auto expected = fit::evaluate_section(plane, options);
     ASSERT_TRUE(expected);
     const std::size_t f =
-        level_of(study, Factor::kFilter, fmt::format("Gaussian {:g} UPR", cutoff));
+        level_of(study, evaluation::Factor::kFilter, fmt::format("Gaussian {:g} UPR", cutoff));
     for (std::size_t r = 0; r < 4; ++r) {
       ASSERT_TRUE(study.cell({r, f, 0, 0}).value_mm);
       EXPECT_NEAR(*study.cell({r, f, 0, 0}).value_mm, expected->values[r].total_mm, kRoundOffMm);
     }
   }
   // 7 points for each of 150 undulations are 1050.
-  const FactorCell& refused = study.changed(Factor::kFilter, 3);
+  const evaluation::FactorCell& refused = study.changed(evaluation::Factor::kFilter, 3);
   EXPECT_FALSE(refused.value_mm);
   EXPECT_EQ(refused.why, "needs 1050 points a layer, has 400");
 }
 
-TEST(FactorStudy, AFilteredCylinderKeepsWhatTheFilterPasses) {
+TEST(evaluation::FactorStudy, AFilteredCylinderKeepsWhatTheFilterPasses) {
   const double lobes_mm = 4e-3;
   const Points points = part(3, 400, [&](double t, int, int) {
     return lobes_mm * std::cos(5.0 * t) + 3e-3 * std::cos(40.0 * t);
   });
-  const FactorStudy study = study_of(points, 3, "cylindricity ls");
+  const evaluation::FactorStudy study = study_of(points, 3, "cylindricity ls");
   const auto passed = [](double n, double fc) { return std::exp2(-(n / fc) * (n / fc)); };
   // Both crest together at angle 0; 5 lobes make an odd form: its crests and troughs differ.
   for (const auto& [level, cutoff] :
@@ -247,19 +249,19 @@ TEST(FactorStudy, AFilteredCylinderKeepsWhatTheFilterPasses) {
       high = std::max(high, r);
       low = std::min(low, r);
     }
-    ASSERT_TRUE(study.changed(Factor::kFilter, level).value_mm);
-    EXPECT_NEAR(*study.changed(Factor::kFilter, level).value_mm, high - low, 2e-6);
+    ASSERT_TRUE(study.changed(evaluation::Factor::kFilter, level).value_mm);
+    EXPECT_NEAR(*study.changed(evaluation::Factor::kFilter, level).value_mm, high - low, 2e-6);
   }
 }
 
-TEST(FactorStudy, TheReportedCombinationCarriesTheReportedValueOfEveryCharacteristic) {
+TEST(evaluation::FactorStudy, TheReportedCombinationCarriesTheReportedValueOfEveryCharacteristic) {
   const auto run = points_run(rough_part(3, 4, 15, core::kTwoPi), 4);
-  const Evaluation evaluation = evaluated(run);
+  const evaluation::Evaluation evaluation = evaluated(run);
   const auto comparison = compare_run(evaluation);
   ASSERT_TRUE(comparison);
   ASSERT_EQ(comparison->studies.size(), 8U);
   for (std::size_t i = 0; i < 8; ++i) {
-    const FactorStudy& study = comparison->studies[i];
+    const evaluation::FactorStudy& study = comparison->studies[i];
     SCOPED_TRACE(study.characteristic.id);
     EXPECT_EQ(study.cell(study.reported).value_mm,
               evaluation.features[0].characteristics[i].value_mm());
@@ -283,56 +285,57 @@ TEST(FactorStudy, TheReportedCombinationCarriesTheReportedValueOfEveryCharacteri
 }
 
 /// The factor with the greatest share, and that share.
-std::pair<Factor, double> greatest(const FactorStudy& study) {
+std::pair<evaluation::Factor, double> greatest(const evaluation::FactorStudy& study) {
   EXPECT_TRUE(study.shares);
   const auto& shares = study.shares->share_1;
   const auto at = std::max_element(shares.begin(), shares.end());
-  return {static_cast<Factor>(at - shares.begin()), *at};
+  return {static_cast<evaluation::Factor>(at - shares.begin()), *at};
 }
 
-TEST(FactorStudy, ASpikeMakesTheOutliersTheGreatestShare) {
-  const FactorStudy study =
+TEST(evaluation::FactorStudy, ASpikeMakesTheOutliersTheGreatestShare) {
+  const evaluation::FactorStudy study =
       study_of(part(4, 16,
                     [](double t, int layer, int i) {
                       return 0.5e-3 * std::cos(2.0 * t) + (layer == 1 && i == 5 ? 40e-3 : 0.0);
                     }),
                4);
   const auto [factor, share] = greatest(study);
-  EXPECT_EQ(factor, Factor::kOutliers);
+  EXPECT_EQ(factor, evaluation::Factor::kOutliers);
   EXPECT_GT(share, 0.5);
   EXPECT_EQ(study.effects[2].strongest, 1U);
   EXPECT_LT(study.effects[2].least_change_mm, -30e-3);
   EXPECT_EQ(study.effects[2].greatest_change_mm, 0.0);
 }
 
-TEST(FactorStudy, FineWavinessMakesTheFilterTheGreatestShare) {
-  const FactorStudy study = study_of(
+TEST(evaluation::FactorStudy, FineWavinessMakesTheFilterTheGreatestShare) {
+  const evaluation::FactorStudy study = study_of(
       part(3, 420,
            [](double t, int, int) { return 1e-3 * std::cos(2.0 * t) + 6e-3 * std::cos(97.0 * t); }),
       3);
   const auto [factor, share] = greatest(study);
-  EXPECT_EQ(factor, Factor::kFilter);
+  EXPECT_EQ(factor, evaluation::Factor::kFilter);
   EXPECT_GT(share, 0.8);
   EXPECT_LT(study.effects[1].least_change_mm, -9e-3);
 }
 
-TEST(FactorStudy, TooFewPointsMakeTheSamplingTheGreatestShare) {
+TEST(evaluation::FactorStudy, TooFewPointsMakeTheSamplingTheGreatestShare) {
   // Four lobes seen by eight points: every second of them sees crests or troughs only.
-  const FactorStudy study =
+  const evaluation::FactorStudy study =
       study_of(part(4, 8, [](double t, int, int) { return 5e-3 * std::cos(4.0 * t); }), 4);
   const auto [factor, share] = greatest(study);
-  EXPECT_EQ(factor, Factor::kSampling);
+  EXPECT_EQ(factor, evaluation::Factor::kSampling);
   EXPECT_GT(share, 0.8);
   EXPECT_NEAR(study.effects[3].least_change_mm, -10e-3, 1e-6);
 }
 
-TEST(FactorStudy, APerfectPartHasNoDifferencesToShare) {
-  const FactorStudy study = study_of(part(4, 8, [](double, int, int) { return 0.0; }), 4);
+TEST(evaluation::FactorStudy, APerfectPartHasNoDifferencesToShare) {
+  const evaluation::FactorStudy study =
+      study_of(part(4, 8, [](double, int, int) { return 0.0; }), 4);
   EXPECT_FALSE(study.shares);
   EXPECT_THAT(comparison_text("r", {{study}, {}}, false), HasSubstr("No combination"));
 }
 
-TEST(FactorStudy, PointsOfUnknownLayersAreNeitherFilteredNorCutByLayer) {
+TEST(evaluation::FactorStudy, PointsOfUnknownLayersAreNeitherFilteredNorCutByLayer) {
   auto run = points_run(rough_part(2, 4, 30, core::kTwoPi), 4);
   run.features[0].layers = 0;
   std::erase_if(run.features[0].characteristics, [](const record::Characteristic& c) {
@@ -340,25 +343,26 @@ TEST(FactorStudy, PointsOfUnknownLayersAreNeitherFilteredNorCutByLayer) {
   });
   const auto comparison = compare_run(evaluated(run));
   ASSERT_TRUE(comparison);
-  const FactorStudy& study = comparison->studies.at(0);
+  const evaluation::FactorStudy& study = comparison->studies.at(0);
   EXPECT_EQ(study.levels[3].size(), 3U);
-  EXPECT_EQ(study.changed(Factor::kFilter, 1).why, "the layers of the points are not known");
+  EXPECT_EQ(study.changed(evaluation::Factor::kFilter, 1).why,
+            "the layers of the points are not known");
   ASSERT_EQ(comparison->without.size(), 1U);
   EXPECT_EQ(comparison->without[0].where, "land / roundness mz");
 }
 
-TEST(FactorStudy, CombinationsThatCannotBeEvaluatedSayWhy) {
-  const FactorStudy few =
+TEST(evaluation::FactorStudy, CombinationsThatCannotBeEvaluatedSayWhy) {
+  const evaluation::FactorStudy few =
       study_of(part(2, 6, [](double t, int, int) { return 1e-3 * std::cos(2.0 * t); }), 2);
-  EXPECT_FALSE(few.changed(Factor::kSampling, 3).value_mm) << "one layer shows no tilt";
-  EXPECT_NE(few.changed(Factor::kSampling, 3).why, "");
-  const FactorStudy section = study_of(
+  EXPECT_FALSE(few.changed(evaluation::Factor::kSampling, 3).value_mm) << "one layer shows no tilt";
+  EXPECT_NE(few.changed(evaluation::Factor::kSampling, 3).why, "");
+  const evaluation::FactorStudy section = study_of(
       part(1, 7, [](double t, int, int) { return 1e-3 * std::cos(2.0 * t); }), 1, "roundness mz");
-  EXPECT_EQ(section.changed(Factor::kSampling, 2).why,
+  EXPECT_EQ(section.changed(evaluation::Factor::kSampling, 2).why,
             "3 points a layer prove nothing: any 3 lie on a circle");
 }
 
-TEST(FactorStudy, AmplitudesOfHarmonicsAreNotCompared) {
+TEST(evaluation::FactorStudy, AmplitudesOfHarmonicsAreNotCompared) {
   auto run =
       points_run(part(3, 50, [](double t, int, int) { return 1e-3 * std::cos(3.0 * t); }), 3);
   run.features[0].characteristics.resize(2);
@@ -371,7 +375,7 @@ TEST(FactorStudy, AmplitudesOfHarmonicsAreNotCompared) {
   EXPECT_THAT(comparison->without[0].what, HasSubstr("has no reference to exchange"));
 }
 
-TEST(FactorStudy, ARunWithoutAValueIsRefusedWithTheReason) {
+TEST(evaluation::FactorStudy, ARunWithoutAValueIsRefusedWithTheReason) {
   auto run = points_run(rough_part(2, 4, 7, core::kTwoPi), 4);
   run.poses[0].final_cloud = false;
   run.ending = "stopped";
@@ -383,7 +387,7 @@ TEST(FactorStudy, ARunWithoutAValueIsRefusedWithTheReason) {
   EXPECT_TRUE(compare_run(evaluated(run)));
 }
 
-TEST(FactorStudy, TextKeepsToEightyColumnsAndOpensWithTheAnswer) {
+TEST(evaluation::FactorStudy, TextKeepsToEightyColumnsAndOpensWithTheAnswer) {
   const auto comparison = compare_run(evaluated(points_run(rough_part(4, 4, 15, core::kTwoPi), 4)));
   ASSERT_TRUE(comparison);
   const std::string text = comparison_text("run 7", *comparison, true);
@@ -397,7 +401,7 @@ TEST(FactorStudy, TextKeepsToEightyColumnsAndOpensWithTheAnswer) {
   if (const char* folder = std::getenv("RONDURE_KEEP")) fmt::print("{} {}\n", folder, text);
 }
 
-TEST(FactorStudy, AHundredThousandPointsTakeBoundedTime) {
+TEST(evaluation::FactorStudy, AHundredThousandPointsTakeBoundedTime) {
   const bool full = std::getenv("RONDURE_FULL") != nullptr;
   const int of_layer = full ? 10'000 : 1'100;
   core::KeyedNoise noise(9, {2});
@@ -405,17 +409,17 @@ TEST(FactorStudy, AHundredThousandPointsTakeBoundedTime) {
     return 3e-3 * std::cos(2.0 * t + layer) + 0.5e-3 * noise.normal();
   });
   const auto begin = std::chrono::steady_clock::now();
-  const FactorStudy study = study_of(points, 10);
+  const evaluation::FactorStudy study = study_of(points, 10);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   fmt::print("{} points: evaluated and compared in {:.2f} s\n", points.size(), seconds);
-  EXPECT_TRUE(study.changed(Factor::kFilter, 3).value_mm);
+  EXPECT_TRUE(study.changed(evaluation::Factor::kFilter, 3).value_mm);
   EXPECT_LT(seconds, 120.0);
 }
 
 /// Var(E[y | level]) / Var(y) over the block, by its definition.
-double share_by_definition(const FactorTable& table, const FactorShares& shares,
-                           std::size_t factor) {
+double share_by_definition(const evaluation::FactorTable& table,
+                           const evaluation::FactorShares& shares, std::size_t factor) {
   std::vector<double> all;
   std::vector<std::vector<double>> by_level(table.levels[factor]);
   for (std::size_t i = 0; i < table.values.size(); ++i) {
@@ -447,7 +451,7 @@ double share_by_definition(const FactorTable& table, const FactorShares& shares,
   return variance(means) / variance(all);
 }
 
-TEST(FactorShares, OfAdditiveAndOfJointEffectsAreKnown) {
+TEST(evaluation::FactorShares, OfAdditiveAndOfJointEffectsAreKnown) {
   const std::vector<std::size_t> reported = {0, 0};
   const auto additive = factor_shares({{2, 2}, {0.0, 1.0, 2.0, 3.0}}, reported);
   ASSERT_TRUE(additive);
@@ -460,11 +464,11 @@ TEST(FactorShares, OfAdditiveAndOfJointEffectsAreKnown) {
   EXPECT_FALSE(factor_shares({{2, 2}, {7.0, 7.0, 7.0, 7.0}}, reported));
 }
 
-TEST(FactorShares, SumToOneOverAFullBlockThatHoldsTheReportedOne) {
+TEST(evaluation::FactorShares, SumToOneOverAFullBlockThatHoldsTheReportedOne) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     core::KeyedNoise noise(seed, {3});
-    FactorTable table{{4, 1 + seed % 4, 3, 7}, {}};
+    evaluation::FactorTable table{{4, 1 + seed % 4, 3, 7}, {}};
     std::size_t cells = 1;
     for (const std::size_t levels : table.levels) cells *= levels;
     const double missing = noise.uniform();

@@ -12,8 +12,8 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "evaluation/uncertainty/columns.h"
-#include "evaluation/uncertainty/sampler.h"
 #include "evaluation/uncertainty/form_value.h"
+#include "evaluation/uncertainty/sampler.h"
 #include "evaluation/uncertainty/uncertainty.h"
 
 namespace rondure::reports {
@@ -27,7 +27,7 @@ struct WorkedCloud {
     cloud.radius_mm = 1e4;
     for (int l = 0; l < 4; ++l) {
       for (int i = 0; i < 7; ++i) {
-        FormPoint p;
+        evaluation::FormPoint p;
         p.angle_rad = core::kTwoPi * i / 7 + l * core::kTwoPi / 28;
         const double q = -1.0 + 2.0 * l / 3.0;
         p.height_mm = 1e4 * q;
@@ -42,38 +42,39 @@ struct WorkedCloud {
   }
 
   [[nodiscard]] double width_um(const std::vector<double>& deviations) const {
-    FormValue value(cloud, cloud.points);
+    evaluation::FormValue value(cloud, cloud.points);
     return value.of(Eigen::Map<const Eigen::VectorXd>(deviations.data(), 28)) / kUm;
   }
 
-  FormCloud cloud;
+  evaluation::FormCloud cloud;
   std::vector<double> form;
   std::vector<double> errors;
 };
 
-Influences noise_of(double sigma_mm) {
-  Influences out;
-  out.probe = ProbeInfluences{};
+evaluation::Influences noise_of(double sigma_mm) {
+  evaluation::Influences out;
+  out.probe = evaluation::ProbeInfluences{};
   out.probe->repeatability_mm = sigma_mm;
   return out;
 }
 
-TEST(FormModel, HasTheWidthsAndEnergiesOfTheWorkedCloud) {
+TEST(evaluation::FormModel, HasTheWidthsAndEnergiesOfTheWorkedCloud) {
   const WorkedCloud worked;
   EXPECT_NEAR(worked.width_um(worked.form), 3.335968898, 1e-6);
   EXPECT_NEAR(worked.width_um(worked.errors), 0.811193771, 1e-6);
-  const FormColumns columns(worked.cloud, Eigen::VectorXd::Ones(28));
+  const evaluation::FormColumns columns(worked.cloud, Eigen::VectorXd::Ones(28));
   EXPECT_EQ(columns.count() + columns.rigid().cols(), 28);
   std::map<std::pair<int, int>, int> groups;
-  for (const FormGroup& group : columns.groups()) ++groups[{group.octave, group.degree_class}];
+  for (const evaluation::FormGroup& group : columns.groups())
+    ++groups[{group.octave, group.degree_class}];
   const std::map<std::pair<int, int>, int> expected = {
       {{0, 1}, 3}, {{0, 2}, 2}, {{1, 0}, 2}, {{1, 1}, 4}, {{1, 2}, 2}};
   EXPECT_EQ(groups, expected);
-  const ErrorModel errors(worked.cloud, noise_of(0.3 * kUm));
-  const FormModel model(worked.cloud, errors, nullptr, 0.5);
+  const evaluation::ErrorModel errors(worked.cloud, noise_of(0.3 * kUm));
+  const evaluation::FormModel model(worked.cloud, errors, nullptr, 0.5);
   const auto energy = [&](int harmonic, int degree) {
     for (std::size_t g = 0; g < columns.groups().size(); ++g) {
-      const FormGroup& group = columns.groups()[g];
+      const evaluation::FormGroup& group = columns.groups()[g];
       if (group.harmonic == harmonic && group.degree == degree) {
         return model.energy_mm2()[static_cast<Eigen::Index>(g)] / std::pow(0.3 * kUm, 2);
       }
@@ -86,12 +87,12 @@ TEST(FormModel, HasTheWidthsAndEnergiesOfTheWorkedCloud) {
   EXPECT_NEAR(energy(3, 0), 183.530529, 1e-4);
 }
 
-FormCloud even_layers(int layers, int points) {
-  FormCloud cloud;
+evaluation::FormCloud even_layers(int layers, int points) {
+  evaluation::FormCloud cloud;
   cloud.radius_mm = 15.0;
   for (int l = 0; l < layers; ++l) {
     for (int i = 0; i < points; ++i) {
-      FormPoint p;
+      evaluation::FormPoint p;
       p.angle_rad = core::kTwoPi * i / points + l * core::kTwoPi / (layers * points);
       p.height_mm = 36.0 * l / (layers - 1) - 18.0;
       cloud.points.push_back(p);
@@ -100,17 +101,17 @@ FormCloud even_layers(int layers, int points) {
   return cloud;
 }
 
-TEST(FormModel, HasAsManyColumnsAsThePointsTellApartAndTheyAreOrthogonal) {
+TEST(evaluation::FormModel, HasAsManyColumnsAsThePointsTellApartAndTheyAreOrthogonal) {
   for (const auto& [layers, points, count] :
        {std::tuple(5, 96, 383), std::tuple(4, 360, 1204), std::tuple(10, 500, 1222)}) {
-    const FormCloud cloud = even_layers(layers, points);
+    const evaluation::FormCloud cloud = even_layers(layers, points);
     const auto n = static_cast<Eigen::Index>(cloud.points.size());
-    const FormColumns columns(cloud, Eigen::VectorXd::Ones(n));
+    const evaluation::FormColumns columns(cloud, Eigen::VectorXd::Ones(n));
     EXPECT_EQ(columns.count() + columns.rigid().cols(), count);
     EXPECT_TRUE(columns.layout().regular);
   }
-  const FormCloud cloud = even_layers(4, 28);
-  const FormColumns columns(cloud, Eigen::VectorXd::Ones(112));
+  const evaluation::FormCloud cloud = even_layers(4, 28);
+  const evaluation::FormColumns columns(cloud, Eigen::VectorXd::Ones(112));
   std::vector<std::size_t> all(columns.groups().size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const Eigen::MatrixXd x = columns.matrix(all);
@@ -120,15 +121,15 @@ TEST(FormModel, HasAsManyColumnsAsThePointsTellApartAndTheyAreOrthogonal) {
   EXPECT_LT((columns.rigid().transpose() * x).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(FormModel, HasTheValuesOfItsColumnsOnAGrid) {
-  const FormCloud cloud = even_layers(4, 28);
-  const FormColumns columns(cloud, Eigen::VectorXd::Ones(112));
+TEST(evaluation::FormModel, HasTheValuesOfItsColumnsOnAGrid) {
+  const evaluation::FormCloud cloud = even_layers(4, 28);
+  const evaluation::FormColumns columns(cloud, Eigen::VectorXd::Ones(112));
   std::vector<std::size_t> all(columns.groups().size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const Eigen::VectorXd c = Eigen::VectorXd::LinSpaced(columns.count(), -1.0, 2.0);
   const Eigen::VectorXd at_points = columns.matrix(all) * c;
   const Eigen::VectorXd heights = Eigen::VectorXd::LinSpaced(4, -18.0, 18.0);
-  const FormGrid grid = columns.grid(13, 112, heights);
+  const evaluation::FormGrid grid = columns.grid(13, 112, heights);
   const Eigen::MatrixXd surface = columns.on_grid(c, grid);
   for (int l = 0; l < 4; ++l) {
     for (int i = 0; i < 28; ++i) {
@@ -137,24 +138,24 @@ TEST(FormModel, HasTheValuesOfItsColumnsOnAGrid) {
   }
 }
 
-TEST(FormModel, APassOfAScanThatLostPointsIsStillAFullSection) {
+TEST(evaluation::FormModel, APassOfAScanThatLostPointsIsStillAFullSection) {
   core::KeyedNoise random(7, {});
   for (const int passes : {1, 5}) {
-    FormCloud cloud;
-    cloud.kind = FormKind::kRoundness;
+    evaluation::FormCloud cloud;
+    cloud.kind = evaluation::FormKind::kRoundness;
     cloud.radius_mm = 25.0;
     cloud.passes = passes;
     for (int pass = 0; pass < passes; ++pass) {
       for (int i = 0; i < 48; ++i) {
         // All lose the same one: where none is lost, gaps are about a step.
         if (i == 20) continue;
-        FormPoint p;
+        evaluation::FormPoint p;
         p.angle_rad = (7.5 * (i + 0.1 * random.uniform())) * core::kDegree;
         cloud.points.push_back(p);
       }
     }
     const auto n = static_cast<Eigen::Index>(cloud.points.size());
-    const FormColumns columns(cloud, Eigen::VectorXd::Ones(n));
+    const evaluation::FormColumns columns(cloud, Eigen::VectorXd::Ones(n));
     EXPECT_FALSE(columns.layout().arc_rad) << passes;
     EXPECT_EQ(columns.layout().points_per_layer, 47) << passes;
     EXPECT_FALSE(columns.layout().regular);
@@ -162,7 +163,7 @@ TEST(FormModel, APassOfAScanThatLostPointsIsStillAFullSection) {
   }
 }
 
-TEST(FormModel, WeighsGroupsSpotsAndVariancesAsWorked) {
+TEST(evaluation::FormModel, WeighsGroupsSpotsAndVariancesAsWorked) {
   // A group of two columns, G = n = 1440, w = 0.09, v = 0.01, pi = 0.2, least squares 0.03, -0.02.
   double odds = std::log(0.2 / 0.8);
   for (const double c : {0.03, -0.02}) odds += column_evidence(1440.0 * c, 1440.0, 0.09, 0.01);
@@ -180,18 +181,18 @@ TEST(FormModel, WeighsGroupsSpotsAndVariancesAsWorked) {
         Worked{23, 2.0, 0.078680, 0.0990284}}) {
     double mean = 0.0;
     const auto all = variance_odds({0.09, 0.0, 1.0, 0.0}, now.count * now.ratio * 0.09, now.count);
-    for (const VarianceOdd& one : all) mean += one.probability_1 * one.unresolved_mm2;
+    for (const evaluation::VarianceOdd& one : all) mean += one.probability_1 * one.unresolved_mm2;
     EXPECT_NEAR(all.front().probability_1, now.none, 1e-6);
     EXPECT_NEAR(mean, now.mean, 1e-7);
   }
 }
 
 /// A dense cloud: smooth form of 4 um, noise, and what a test adds.
-FormCloud dense(double sigma_mm, std::uint64_t seed, int points = 96) {
-  FormCloud cloud = even_layers(5, points);
+evaluation::FormCloud dense(double sigma_mm, std::uint64_t seed, int points = 96) {
+  evaluation::FormCloud cloud = even_layers(5, points);
   core::KeyedNoise noise(seed, {1});
   const double phase = core::kTwoPi * noise.uniform();
-  for (FormPoint& p : cloud.points) {
+  for (evaluation::FormPoint& p : cloud.points) {
     p.deviation_mm = kUm * (1.4 * std::cos(3 * p.angle_rad + phase) +
                             0.6 * std::sin(2 * p.angle_rad) * p.height_mm / 18.0) +
                      sigma_mm * noise.normal();
@@ -199,8 +200,8 @@ FormCloud dense(double sigma_mm, std::uint64_t seed, int points = 96) {
   return cloud;
 }
 
-UncertaintyOptions some(int trials) {
-  UncertaintyOptions options;
+evaluation::UncertaintyOptions some(int trials) {
+  evaluation::UncertaintyOptions options;
   options.least_trials = options.most_trials = trials;
   options.budget_trials = 0;
   options.threads = 2;
@@ -208,10 +209,10 @@ UncertaintyOptions some(int trials) {
 }
 
 // A real spot of 10 um on 1440 points of 0.2 um noise was taken for noise: [5.74, 6.40] was stated.
-TEST(FormModel, NeverShrinksASpot) {
+TEST(evaluation::FormModel, NeverShrinksASpot) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    FormCloud cloud = dense(0.2 * kUm, seed, 288);
-    FormCloud without = cloud;
+    evaluation::FormCloud cloud = dense(0.2 * kUm, seed, 288);
+    evaluation::FormCloud without = cloud;
     cloud.points[333].deviation_mm += 10.0 * kUm;
     const auto result =
         measurement_uncertainty(cloud, noise_of(0.2 * kUm), std::nullopt, some(400));
@@ -223,7 +224,7 @@ TEST(FormModel, NeverShrinksASpot) {
   }
 }
 
-TEST(FormModel, LearnsASmoothFormAndLeavesTheNoiseOut) {
+TEST(evaluation::FormModel, LearnsASmoothFormAndLeavesTheNoiseOut) {
   const auto result = measurement_uncertainty(dense(0.3 * kUm, 4, 288), noise_of(0.3 * kUm),
                                               std::nullopt, some(400));
   ASSERT_TRUE(result) << result.error().what;
@@ -232,7 +233,7 @@ TEST(FormModel, LearnsASmoothFormAndLeavesTheNoiseOut) {
   EXPECT_LT(result->finding.unresolved_mm, 0.05 * kUm);
 }
 
-TEST(FormModel, QuotesAnEstimateInsideItsInterval) {
+TEST(evaluation::FormModel, QuotesAnEstimateInsideItsInterval) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
     const auto result = measurement_uncertainty(dense(1.0 * kUm, seed, 12), noise_of(1.0 * kUm),
                                                 std::nullopt, some(200));
@@ -242,7 +243,7 @@ TEST(FormModel, QuotesAnEstimateInsideItsInterval) {
   }
 }
 
-TEST(FormModel, VoidsANoiseDeclaredTooLarge) {
+TEST(evaluation::FormModel, VoidsANoiseDeclaredTooLarge) {
   const auto result = measurement_uncertainty(dense(0.15 * kUm, 1, 288), noise_of(0.3 * kUm),
                                               std::nullopt, some(200));
   ASSERT_FALSE(result);
@@ -251,10 +252,10 @@ TEST(FormModel, VoidsANoiseDeclaredTooLarge) {
       << result.error().what;
 }
 
-TEST(FormModel, VoidsPointsWithoutASmoothForm) {
-  FormCloud cloud = dense(0.1 * kUm, 1);
+TEST(evaluation::FormModel, VoidsPointsWithoutASmoothForm) {
+  evaluation::FormCloud cloud = dense(0.1 * kUm, 1);
   core::KeyedNoise noise(7, {2});
-  for (FormPoint& p : cloud.points) {
+  for (evaluation::FormPoint& p : cloud.points) {
     if (noise.uniform() < 0.28) p.deviation_mm += kUm * 100.0 * (noise.uniform() - 0.5);
   }
   const auto result = measurement_uncertainty(cloud, noise_of(0.1 * kUm), std::nullopt, some(200));
@@ -263,29 +264,29 @@ TEST(FormModel, VoidsPointsWithoutASmoothForm) {
 }
 
 // Half of the real noise, from five touches: taken as known, the other half counts as form.
-TEST(FormModel, TakesNoiseOfFewRepeatsForLessWellKnown) {
-  const FormCloud cloud = dense(0.3 * kUm, 1);
-  Influences few = noise_of(0.15 * kUm);
+TEST(evaluation::FormModel, TakesNoiseOfFewRepeatsForLessWellKnown) {
+  const evaluation::FormCloud cloud = dense(0.3 * kUm, 1);
+  evaluation::Influences few = noise_of(0.15 * kUm);
   few.probe->degrees_of_freedom = 4.0;
   const auto known = measurement_uncertainty(cloud, noise_of(0.15 * kUm), std::nullopt, some(800));
   const auto guessed = measurement_uncertainty(cloud, few, std::nullopt, some(800));
   ASSERT_TRUE(known && guessed);
-  const FormCloud clean = dense(0.0, 1);
+  const evaluation::FormCloud clean = dense(0.0, 1);
   Eigen::VectorXd form(480);
   for (Eigen::Index i = 0; i < 480; ++i) {
     form[i] = clean.points[static_cast<std::size_t>(i)].deviation_mm;
   }
-  const double truth_mm = FormValue(clean, clean.points).of(form);
+  const double truth_mm = evaluation::FormValue(clean, clean.points).of(form);
   EXPECT_GT(known->sampled.low_mm, truth_mm);
   EXPECT_LT(guessed->sampled.low_mm, truth_mm);
   EXPECT_GT(guessed->sampled.high_mm, truth_mm);
 }
 
-TEST(FormModel, TheWholeSurfaceIsNeverBetterThanItsPoints) {
+TEST(evaluation::FormModel, TheWholeSurfaceIsNeverBetterThanItsPoints) {
   for (const int points : {14, 24, 96}) {
     for (const double sigma_mm : {0.1 * kUm, 0.5 * kUm}) {
       const auto result = measurement_uncertainty(dense(sigma_mm, 1, points), noise_of(sigma_mm),
-                                                  FormSpectrum{}, some(400));
+                                                  evaluation::FormSpectrum{}, some(400));
       ASSERT_TRUE(result) << result.error().what;
       EXPECT_LE(result->sampled.low_mm, result->whole->low_mm);
       EXPECT_LE(result->sampled.estimate_mm, result->whole->estimate_mm);
@@ -294,10 +295,10 @@ TEST(FormModel, TheWholeSurfaceIsNeverBetterThanItsPoints) {
   }
 }
 
-TEST(FormModel, StaysTheSameWhenThePartIsShiftedAndTurned) {
-  const FormCloud cloud = dense(0.3 * kUm, 2, 24);
-  FormCloud moved = cloud;
-  for (FormPoint& p : moved.points) {
+TEST(evaluation::FormModel, StaysTheSameWhenThePartIsShiftedAndTurned) {
+  const evaluation::FormCloud cloud = dense(0.3 * kUm, 2, 24);
+  evaluation::FormCloud moved = cloud;
+  for (evaluation::FormPoint& p : moved.points) {
     p.angle_rad += core::kTwoPi / 5.0;
     p.deviation_mm +=
         kUm * (3.0 + 2.0 * std::cos(p.angle_rad) + 0.1 * p.height_mm * std::sin(p.angle_rad));

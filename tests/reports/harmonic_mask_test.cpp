@@ -16,8 +16,8 @@ using ::testing::Not;
 /// Harmonics 1..50 of amplitude 0.1 um, number 3 of 0.4 um in layer 0 and 0.9 um in layer 1.
 Case with_harmonics() {
   Case made = cylinder_case(2, 360, 1);
-  FeatureResult& feature = made.evaluation.features[0];
-  for (LayerResult& layer : feature.layers) {
+  evaluation::FeatureResult& feature = made.evaluation.features[0];
+  for (evaluation::LayerResult& layer : feature.layers) {
     layer.filtered.emplace();
     for (int number = 1; number <= 50; ++number) {
       const double third = layer.layer == 0 ? 0.4e-3 : 0.9e-3;
@@ -64,7 +64,7 @@ TEST(HarmonicMask, TheNearestToItsLimitDecidesNotTheLargest) {
 
 TEST(HarmonicMask, AMaskAboveWhatThePointsCarryHasNoValue) {
   Case made = with_harmonics();
-  FeatureResult& feature = made.evaluation.features[0];
+  evaluation::FeatureResult& feature = made.evaluation.features[0];
   EXPECT_FALSE(nearest_to_mask(feature, mask({{2, 51, 1e-3}})));
   feature.layers[0].filtered.reset();
   const auto sparse = nearest_to_mask(feature, mask({{2, 5, 1e-3}}));
@@ -73,31 +73,31 @@ TEST(HarmonicMask, AMaskAboveWhatThePointsCarryHasNoValue) {
 }
 
 /// The verdict on one mask, of a finished run with everything that it needs.
-CharacteristicResult judged(const record::Characteristic& asked) {
+evaluation::CharacteristicResult judged(const record::Characteristic& asked) {
   Case made = with_harmonics();
-  FeatureResult& feature = made.evaluation.features[0];
+  evaluation::FeatureResult& feature = made.evaluation.features[0];
   feature.feature.strategy = record::Strategy::kPointsFile;
   feature.feature.characteristics = {asked};
   feature.characteristics.clear();
   made.record.ending = "finished";
-  decide(made.record, DecisionRule(), std::nullopt, feature);
+  decide(made.record, evaluation::DecisionRule(), std::nullopt, feature);
   return feature.characteristics.at(0);
 }
 
 TEST(HarmonicMask, IsJudgedLikeAnyCharacteristic) {
-  const CharacteristicResult good = judged(mask({{2, 50, 1e-3}}));
-  EXPECT_EQ(good.verdict, Verdict::kConforms) << good.reason;
+  const evaluation::CharacteristicResult good = judged(mask({{2, 50, 1e-3}}));
+  EXPECT_EQ(good.verdict, evaluation::Verdict::kConforms) << good.reason;
   EXPECT_THAT(good.reason, HasSubstr("harmonic 3 of layer 2 is nearest to its limit"));
   EXPECT_DOUBLE_EQ(*good.characteristic.tolerance_mm, 1e-3);
-  EXPECT_EQ(judged(mask({{2, 50, 0.5e-3}})).verdict, Verdict::kDoesNotConform);
-  const CharacteristicResult beyond = judged(mask({{2, 60, 1e-3}}));
-  EXPECT_EQ(beyond.verdict, Verdict::kVoid);
+  EXPECT_EQ(judged(mask({{2, 50, 0.5e-3}})).verdict, evaluation::Verdict::kDoesNotConform);
+  const evaluation::CharacteristicResult beyond = judged(mask({{2, 60, 1e-3}}));
+  EXPECT_EQ(beyond.verdict, evaluation::Verdict::kVoid);
   EXPECT_TRUE(beyond.characteristic.tolerance_mm) << "a void mask must make the run void";
 }
 
 TEST(HarmonicMask, ThePageDrawsTheLimitsAndListsWhatGoesBeyond) {
   Case made = with_harmonics();
-  FeatureResult& feature = made.evaluation.features[0];
+  evaluation::FeatureResult& feature = made.evaluation.features[0];
   EXPECT_THAT(write_html(made.record, made.evaluation), HasSubstr("The plan gives no limits."));
   feature.feature.characteristics.push_back(mask({{2, 10, 0.8e-3}, {11, 50, 1e-3}}));
   const std::string page = write_html(made.record, made.evaluation);

@@ -15,8 +15,8 @@
 #include "core/utf8.h"
 #include "record/files.h"
 #include "record/sha256.h"
-#include "reports/terminal/columns.h"
 #include "reports/history/archive_entry.h"
+#include "reports/terminal/columns.h"
 #include "reports/words/language.h"
 #include "tests/reports/page_text.h"
 #include "tests/reports/synthetic.h"
@@ -220,7 +220,7 @@ TEST(ArchiveEntry, HoldsEveryCharacteristic) {
   const record::ArchiveRun run =
       archive_entry(sample.record, sample.evaluation, record::sha256_hex("journal"));
   std::size_t expected = 0;
-  for (const FeatureResult& feature : sample.evaluation.features) {
+  for (const evaluation::FeatureResult& feature : sample.evaluation.features) {
     expected += feature.characteristics.size();
   }
   ASSERT_EQ(run.results.size(), expected);

@@ -246,10 +246,10 @@ TEST(Html, AFeatureWithoutZoneHasNoDrawings) {
 
 TEST(Html, AZoneOfNoWidthAndPosesWithoutValueAreDrawn) {
   Case made = cylinder_case(2, 3, 4);
-  FeatureResult& feature = made.evaluation.features[0];
+  evaluation::FeatureResult& feature = made.evaluation.features[0];
   feature.mz_cylinder->inner_radius_mm = feature.mz_cylinder->outer_radius_mm;
-  for (CloudPoint& point : feature.cloud) point.deviation_mm = 0.0;
-  for (PoseValue& pose : feature.poses) pose.valid = false;
+  for (evaluation::CloudPoint& point : feature.cloud) point.deviation_mm = 0.0;
+  for (evaluation::PoseValue& pose : feature.poses) pose.valid = false;
   const std::string page = page_of(made);
   EXPECT_EQ(first_unbalanced_tag(page), "");
   EXPECT_FALSE(shows_nan(page));

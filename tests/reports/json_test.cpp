@@ -76,7 +76,7 @@ TEST(Json, KeysKeepTheirPublishedOrder) {
 TEST(Json, NumbersReadBackToTheSameDouble) {
   const Case made = cylinder_case(4, 7, 3);
   const ordered_json document = document_of(made);
-  const CloudPoint& point = made.evaluation.features[0].cloud[5];
+  const evaluation::CloudPoint& point = made.evaluation.features[0].cloud[5];
   const ordered_json& written = document["features"][0]["cloud"][5];
   EXPECT_EQ(written["tip_mm"][0].get<double>(), point.tip_mm.x());
   EXPECT_EQ(written["deviation_um"].get<double>(), point.deviation_mm * 1000.0);

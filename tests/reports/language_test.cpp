@@ -17,9 +17,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/terminal/columns.h"
 #include "reports/escaping.h"
 #include "reports/exports.h"
+#include "reports/terminal/columns.h"
 #include "reports/words/sentence_format.h"
 #include "reports/words/zh.h"
 #include "reports/writers.h"
@@ -388,7 +388,7 @@ std::vector<std::string> user_texts_of(const Case& made) {
   std::vector<std::string> out = {h.part_id,       h.part_name, h.drawing, h.serial,
                                   h.operator_name, h.plan_name, h.run_id,  h.plan_file,
                                   h.plan_revision, h.plan_file};
-  for (const FeatureResult& result : made.evaluation.features) {
+  for (const evaluation::FeatureResult& result : made.evaluation.features) {
     out.insert(out.end(), {result.feature.id, result.feature.points_file});
     for (const auto& c : result.characteristics) out.push_back(c.characteristic.id);
   }

@@ -66,10 +66,10 @@ record::RunRecord points_run(const std::vector<Eigen::Vector3d>& points, int lay
   return out;
 }
 
-Evaluation evaluated(const record::RunRecord& run) {
+evaluation::Evaluation evaluated(const record::RunRecord& run) {
   auto out = evaluate(run);
   EXPECT_TRUE(out) << (out ? "" : out.error().what);
-  return out.value_or(Evaluation{});
+  return out.value_or(evaluation::Evaluation{});
 }
 
 }  // namespace rondure::reports

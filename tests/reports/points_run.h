@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "record/run_record.h"
 #include "evaluation/evaluation.h"
+#include "record/run_record.h"
 
 namespace rondure::reports {
 
@@ -18,6 +18,6 @@ namespace rondure::reports {
 [[nodiscard]] record::RunRecord points_run(const std::vector<Eigen::Vector3d>& points, int layers);
 
 /// The evaluation of a run, or a failed test.
-[[nodiscard]] Evaluation evaluated(const record::RunRecord& run);
+[[nodiscard]] evaluation::Evaluation evaluated(const record::RunRecord& run);
 
 }  // namespace rondure::reports

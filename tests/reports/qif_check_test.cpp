@@ -37,8 +37,8 @@ Case points_case(int layers, int points_per_layer) {
 
 Case undecided_case() {
   Case made = failing_case();
-  made.evaluation.features[0].characteristics[0].verdict = Verdict::kUndecided;
-  made.evaluation.verdict = Verdict::kUndecided;
+  made.evaluation.features[0].characteristics[0].verdict = evaluation::Verdict::kUndecided;
+  made.evaluation.verdict = evaluation::Verdict::kUndecided;
   return made;
 }
 
@@ -46,7 +46,7 @@ Case undecided_case() {
 Case analysis_case() {
   Case made = unfinished_case();
   made.evaluation.features.erase(made.evaluation.features.begin());
-  FeatureResult& feature = made.evaluation.features[0];
+  evaluation::FeatureResult& feature = made.evaluation.features[0];
   feature.feature.shape = record::Shape::kSpindle;
   feature.characteristics[0].characteristic.form = record::Form::kMotionTotal;
   return made;
@@ -98,8 +98,10 @@ TEST(Qif, EveryDocumentIsSoundAndValid) {
 
 TEST(Qif, TheFourVerdictsHaveAWordEach) {
   std::vector<std::string> words;
-  for (const Verdict verdict : {Verdict::kConforms, Verdict::kDoesNotConform, Verdict::kUndecided,
-                                Verdict::kVoid, Verdict::kNotToleranced}) {
+  for (const evaluation::Verdict verdict :
+       {evaluation::Verdict::kConforms, evaluation::Verdict::kDoesNotConform,
+        evaluation::Verdict::kUndecided, evaluation::Verdict::kVoid,
+        evaluation::Verdict::kNotToleranced}) {
     Case made = cylinder_case(4, 7, 3);
     made.evaluation.features[0].characteristics[0].verdict = verdict;
     const auto xml = read(qif_of(made));
@@ -110,7 +112,7 @@ TEST(Qif, TheFourVerdictsHaveAWordEach) {
 
 TEST(Qif, ZoneValueAndAxisAreThoseOfTheReport) {
   const Case made = points_case(4, 9);
-  const FeatureResult& feature = made.evaluation.features[0];
+  const evaluation::FeatureResult& feature = made.evaluation.features[0];
   const auto xml = read(qif_of(made));
   const pugi::xml_node cylindricity = characteristic(xml, 2);  // ls, mz, mc, mi
   ASSERT_STREQ(cylindricity.name(), "CylindricityCharacteristicMeasurement");
@@ -122,7 +124,7 @@ TEST(Qif, ZoneValueAndAxisAreThoseOfTheReport) {
   EXPECT_EQ(direction, feature.mz_cylinder->axis.direction);
   double low_mm = 1e9;
   double high_mm = -1e9;
-  for (const CloudPoint& point : feature.cloud) {
+  for (const evaluation::CloudPoint& point : feature.cloud) {
     low_mm = std::min(low_mm, point.tip_mm.dot(direction));
     high_mm = std::max(high_mm, point.tip_mm.dot(direction));
   }

@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
+#include "evaluation/evaluation.h"
+#include "evaluation/warnings.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
-#include "evaluation/evaluation.h"
 #include "reports/history/archive_entry.h"
-#include "evaluation/warnings.h"
 #include "reports/writers.h"
 #include "tests/reports/points_run.h"
 
@@ -26,8 +26,9 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 /// The characteristics of a feature by their ids.
-std::map<std::string, CharacteristicResult> by_id(const FeatureResult& feature) {
-  std::map<std::string, CharacteristicResult> out;
+std::map<std::string, evaluation::CharacteristicResult> by_id(
+    const evaluation::FeatureResult& feature) {
+  std::map<std::string, evaluation::CharacteristicResult> out;
   for (const auto& c : feature.characteristics) out[c.characteristic.id] = c;
   return out;
 }
@@ -35,7 +36,7 @@ std::map<std::string, CharacteristicResult> by_id(const FeatureResult& feature) 
 TEST(References, ACylinderIsJudgedAboutAllFour) {
   const auto points = rough_part(1, 4, 15, core::kTwoPi);
   const auto evaluation = evaluated(points_run(points, 4));
-  const FeatureResult& feature = evaluation.features.at(0);
+  const evaluation::FeatureResult& feature = evaluation.features.at(0);
   auto found = by_id(feature);
   ASSERT_EQ(found.size(), 8U);
   const auto axis = feature.ls_cylinder->axis.direction;
@@ -51,12 +52,12 @@ TEST(References, ACylinderIsJudgedAboutAllFour) {
   EXPECT_THAT(found["roundness mc"].value->operator_text(), StartsWith("MCCI; "));
   EXPECT_THAT(found["roundness mi"].value->operator_text(), StartsWith("MICI; "));
   for (const auto& [id, c] : found) {
-    EXPECT_EQ(c.verdict, Verdict::kConforms) << id << ": " << c.reason;
+    EXPECT_EQ(c.verdict, evaluation::Verdict::kConforms) << id << ": " << c.reason;
     EXPECT_LE(*found["cylindricity mz"].value_mm(), id[0] == 'c' ? *c.value_mm() + 1e-12 : 1.0)
         << id;
   }
   double worst_mi = 0.0;
-  for (const LayerResult& layer : feature.layers) {
+  for (const evaluation::LayerResult& layer : feature.layers) {
     const auto circle = fit::max_inscribed_circle(layer.points_mm);
     ASSERT_TRUE(circle.has_value());
     worst_mi = std::max(worst_mi, circle->deviation_mm);
@@ -71,7 +72,7 @@ TEST(References, ReportedRadiiAreThoseOfTheSurface) {
     run.features[0].side = side;
     const double offset = side == record::Side::kOutside ? -1.5 : 1.5;
     const auto evaluation = evaluated(run);
-    const FeatureResult& feature = evaluation.features.at(0);
+    const evaluation::FeatureResult& feature = evaluation.features.at(0);
     const json report = json::parse(write_json(run, evaluation));
     const json& stated = report["features"][0];
     EXPECT_NEAR(stated["mc"]["radius_mm"], feature.mc_cylinder->radius_mm + offset, 1e-12);
@@ -91,7 +92,7 @@ TEST(References, ACircleHasItsOwn) {
   const auto run = points_run(rough_part(3, 1, 30, core::kTwoPi), 1);
   const auto evaluation = evaluated(run);
   const json feature = json::parse(write_json(run, evaluation))["features"][0];
-  const LayerResult& section = evaluation.features.at(0).layers.at(0);
+  const evaluation::LayerResult& section = evaluation.features.at(0).layers.at(0);
   EXPECT_NEAR(feature["mc"]["deviation_um"], 1e3 * section.mc->deviation_mm, 1e-12);
   EXPECT_EQ(feature["mc"]["certificate"]["kind"], "global");
   EXPECT_EQ(feature["mi"]["center_mm"].size(), 2U);
@@ -116,7 +117,7 @@ TEST(References, OneThatDoesNotExistIsNullWithAWarningAndVoid) {
     SCOPED_TRACE(layers);
     const auto run = points_run(rough_part(4, layers, 20, 0.4 * core::kTwoPi), layers);
     const auto evaluation = evaluated(run);
-    const FeatureResult& feature = evaluation.features.at(0);
+    const evaluation::FeatureResult& feature = evaluation.features.at(0);
     const json stated = json::parse(write_json(run, evaluation))["features"][0];
     EXPECT_TRUE(stated["mi"].is_null());
     EXPECT_TRUE(stated["layers"][0]["mi"].is_null());
@@ -129,20 +130,20 @@ TEST(References, OneThatDoesNotExistIsNullWithAWarningAndVoid) {
     }
     EXPECT_EQ(warned, 1);
     auto found = by_id(feature);
-    const CharacteristicResult& round = found["roundness mi"];
-    EXPECT_EQ(round.verdict, Verdict::kVoid);
+    const evaluation::CharacteristicResult& round = found["roundness mi"];
+    EXPECT_EQ(round.verdict, evaluation::Verdict::kVoid);
     EXPECT_FALSE(round.value_mm().has_value());
     EXPECT_THAT(round.reason, HasSubstr("layer 1: "));
-    EXPECT_EQ(found["roundness mz"].verdict, Verdict::kVoid);
+    EXPECT_EQ(found["roundness mz"].verdict, evaluation::Verdict::kVoid);
     EXPECT_TRUE(found["roundness mz"].value_mm().has_value()) << "of the part that is seen";
-    EXPECT_EQ(evaluation.verdict, Verdict::kVoid);
+    EXPECT_EQ(evaluation.verdict, evaluation::Verdict::kVoid);
     EXPECT_THAT(write_html(run, evaluation), HasSubstr("reference-absent"));
   }
 }
 
 TEST(References, AWorseOptimumNextToTheLeastSquaresOneIsToldNotHidden) {
   auto evaluation = evaluated(points_run(rough_part(7, 4, 15, core::kTwoPi), 4));
-  FeatureResult& feature = evaluation.features.at(0);
+  evaluation::FeatureResult& feature = evaluation.features.at(0);
   const auto told = [&] {
     feature.warnings.clear();
     warn(feature);
@@ -186,13 +187,13 @@ TEST(References, AnInscribedCircleThatIsNotUniqueGivesNoVerdictInItsRange) {
     return by_id(evaluation.features.at(0))["roundness mi"];
   };
   const auto above = judged_at(0.030);
-  EXPECT_EQ(above.verdict, Verdict::kConforms) << above.reason;
+  EXPECT_EQ(above.verdict, evaluation::Verdict::kConforms) << above.reason;
   EXPECT_NEAR(*above.value_mm(), 0.028, 1e-4);
   const auto between = judged_at(0.022);
-  EXPECT_EQ(between.verdict, Verdict::kVoid);
+  EXPECT_EQ(between.verdict, evaluation::Verdict::kVoid);
   EXPECT_THAT(between.reason, HasSubstr("the limit of 22 um lies between"));
   const auto below = judged_at(0.015);
-  EXPECT_EQ(below.verdict, Verdict::kDoesNotConform) << below.reason;
+  EXPECT_EQ(below.verdict, evaluation::Verdict::kDoesNotConform) << below.reason;
   EXPECT_NEAR(*below.value_mm(), 0.01707, 3e-4);
 }
 
@@ -204,7 +205,7 @@ TEST(References, ThreePointsHaveNoRoundnessAboutAny) {
   }
   const auto evaluation = evaluated(points_run(points, 1));
   for (const auto& c : evaluation.features.at(0).characteristics) {
-    EXPECT_EQ(c.verdict, Verdict::kVoid) << c.characteristic.id;
+    EXPECT_EQ(c.verdict, evaluation::Verdict::kVoid) << c.characteristic.id;
     EXPECT_THAT(c.reason, HasSubstr("three different points")) << c.characteristic.id;
   }
 }

@@ -64,7 +64,7 @@ TEST(Relocation, ACircleLiesAcrossTheAxisOfItsOwnPlacement) {
   const record::RunRecord run = relocated_run(record::Shape::kCircle);
   const auto evaluation = evaluate(run);
   ASSERT_TRUE(evaluation);
-  const FeatureResult& circle = evaluation->features[0];
+  const evaluation::FeatureResult& circle = evaluation->features[0];
   ASSERT_FALSE(circle.failure) << circle.failure->what;
   // Seen along the first placement it is an ellipse, 25 mm * (1 - cos 1 deg) = 3.8 um out of round.
   EXPECT_LT(circle.layers[0].mz->width_mm(), 1e-9);
@@ -80,7 +80,7 @@ TEST(Relocation, OneFinalPoseIsToldTheOneThatIsEvaluated) {
   const record::RunRecord run = relocated_run(record::Shape::kCylinder);
   const auto evaluation = evaluate(run);
   ASSERT_TRUE(evaluation);
-  const FeatureResult& cylinder = evaluation->features[0];
+  const evaluation::FeatureResult& cylinder = evaluation->features[0];
   ASSERT_FALSE(cylinder.failure) << cylinder.failure->what;
   ASSERT_EQ(cylinder.poses.size(), 2U);
   EXPECT_FALSE(cylinder.poses[0].final_pose);

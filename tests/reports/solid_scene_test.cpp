@@ -13,7 +13,7 @@ namespace rondure::reports {
 namespace {
 
 SolidScene scene_of(const Case& made) {
-  const FeatureResult& feature = made.evaluation.features[0];
+  const evaluation::FeatureResult& feature = made.evaluation.features[0];
   return solid_scene_of(feature, *zone_of(feature));
 }
 
@@ -63,7 +63,7 @@ TEST(SolidScene, ASectionRunsThroughItsPoints) {
 
 TEST(SolidScene, WhereNothingWasMeasuredThereIsNoLine) {
   Case made = cylinder_case(2, 60, 1);
-  for (CloudPoint& point : made.evaluation.features[0].cloud) point.angle_rad *= 0.5;
+  for (evaluation::CloudPoint& point : made.evaluation.features[0].cloud) point.angle_rad *= 0.5;
   for (const SolidRing& ring : scene_of(made).sections) {
     EXPECT_TRUE(std::isfinite(ring.radii[20]));
     EXPECT_FALSE(std::isfinite(ring.radii[90]));

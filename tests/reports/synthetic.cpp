@@ -44,12 +44,12 @@ record::Header header() {
 
 /// Deviations of a three-lobed, slightly barrelled part with noise, within +-kHalfZone; six points
 /// touch the zone.
-std::vector<CloudPoint> cloud(int layers, int points, bool several_repeats) {
+std::vector<evaluation::CloudPoint> cloud(int layers, int points, bool several_repeats) {
   core::KeyedNoise noise(7, {1});
-  std::vector<CloudPoint> result;
+  std::vector<evaluation::CloudPoint> result;
   for (int layer = 0; layer < layers; ++layer) {
     for (int point = 0; point < points; ++point) {
-      CloudPoint p;
+      evaluation::CloudPoint p;
       p.layer = layer;
       p.point = point;
       p.repeats = several_repeats ? 3 : 1;
@@ -65,15 +65,15 @@ std::vector<CloudPoint> cloud(int layers, int points, bool several_repeats) {
   }
   const std::size_t n = result.size();
   for (std::size_t k = 0; k < 6; ++k) {
-    CloudPoint& p = result[(2 * k + 1) * n / 12];
+    evaluation::CloudPoint& p = result[(2 * k + 1) * n / 12];
     (k % 2 == 0 ? p.outer_contact : p.inner_contact) = true;
     p.deviation_mm = k % 2 == 0 ? kHalfZone : -kHalfZone;
   }
   return result;
 }
 
-void add_contacts(const std::vector<CloudPoint>& points, std::vector<fit::Contact>& outer,
-                  std::vector<fit::Contact>& inner) {
+void add_contacts(const std::vector<evaluation::CloudPoint>& points,
+                  std::vector<fit::Contact>& outer, std::vector<fit::Contact>& inner) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].outer_contact) outer.push_back({i, 1.0 / 3.0});
     if (points[i].inner_contact) inner.push_back({i, 1.0 / 3.0});
@@ -89,9 +89,9 @@ fit::MinZoneCircle zone_circle(double mean_mm, double half_mm) {
   return circle;
 }
 
-void add_layers(FeatureResult& feature, int layers, int points, double mean_mm) {
+void add_layers(evaluation::FeatureResult& feature, int layers, int points, double mean_mm) {
   for (int layer = 0; layer < layers; ++layer) {
-    LayerResult result;
+    evaluation::LayerResult result;
     result.layer = layer;
     for (int point = 0; point < points; ++point) {
       result.rows.push_back(static_cast<std::size_t>(layer * points + point));
@@ -104,9 +104,9 @@ void add_layers(FeatureResult& feature, int layers, int points, double mean_mm) 
 }
 
 /// f falls from 2 mm by halving steps towards the final pose.
-void add_poses(record::RunRecord& record, FeatureResult& feature, int poses) {
+void add_poses(record::RunRecord& record, evaluation::FeatureResult& feature, int poses) {
   for (int i = 0; i < poses; ++i) {
-    PoseValue value;
+    evaluation::PoseValue value;
     const double left = poses == 1 ? 0.0 : 1.0 - static_cast<double>(i) / (poses - 1);
     const double turn = 2.4 * i;
     value.pose = {(1.20 + 4.0 * left * left * std::cos(turn)) * core::kDegree,
@@ -121,7 +121,7 @@ void add_poses(record::RunRecord& record, FeatureResult& feature, int poses) {
   }
 }
 
-void add_touches(record::RunRecord& record, const FeatureResult& feature) {
+void add_touches(record::RunRecord& record, const evaluation::FeatureResult& feature) {
   std::int64_t id = 0;
   for (int i = 0; i < 5; ++i) {
     record::Touch touch;
@@ -131,7 +131,7 @@ void add_touches(record::RunRecord& record, const FeatureResult& feature) {
     touch.approach = {0.0, 0.0, -1.0};
     record.touches.push_back(touch);
   }
-  for (const CloudPoint& point : feature.cloud) {
+  for (const evaluation::CloudPoint& point : feature.cloud) {
     record::Touch touch;
     touch.id = id++;
     touch.pose = record.poses.empty() ? 0 : record.poses.back().id;
@@ -159,13 +159,14 @@ record::Feature land(int layers, int points) {
 }
 
 /// A value with its operator and without an interval.
-StatedValue stated(const record::Characteristic& asked, double value_mm,
-                   const std::string& sampling) {
+evaluation::StatedValue stated(const record::Characteristic& asked, double value_mm,
+                               const std::string& sampling) {
   return {symbol_of(asked), value_mm,
-          ValueOperator(ReferenceTerm(reference_of(asked)), FilterTerm("unfiltered"),
-                        SamplingTerm(sampling), TipTerm("r_tip 1.4986 mm"),
-                        TemperatureTerm("20.12 degC")),
-          UncertaintyStatus::none("the plan declares no uncertainty")};
+          evaluation::ValueOperator(
+              evaluation::ReferenceTerm(reference_of(asked)), evaluation::FilterTerm("unfiltered"),
+              evaluation::SamplingTerm(sampling), evaluation::TipTerm("r_tip 1.4986 mm"),
+              evaluation::TemperatureTerm("20.12 degC")),
+          evaluation::UncertaintyStatus::none("the plan declares no uncertainty")};
 }
 
 core::Message sentence(const std::string& text) { return {core::MessageCode::kSentence, {text}}; }
@@ -187,7 +188,7 @@ Case cylinder_case(int layers, int points_per_layer, int poses) {
       {0, 240.9,
        sentence(
            "The next step would be below the resolution of the fixture (0.05 deg): final pose.")}};
-  FeatureResult feature;
+  evaluation::FeatureResult feature;
   feature.feature = made.record.features.front();
   feature.cloud = cloud(layers, points_per_layer, true);
   const double mean_mm = kRadius + kTip;
@@ -207,34 +208,34 @@ Case cylinder_case(int layers, int points_per_layer, int poses) {
   feature.repeat_sigma_mm = 0.00031;
   feature.repeat_zone_mean_mm = 0.00882;
   feature.repeat_zone_sd_mm = 0.00014;
-  feature.temperatures = Temperatures{20.1, 20.14, 20.12};
+  feature.temperatures = evaluation::Temperatures{20.1, 20.14, 20.12};
   feature.characteristics.push_back(
       {feature.feature.characteristics.front(),
        stated(feature.feature.characteristics.front(), 2.0 * kHalfZone,
               fmt::format("{} x {} points, 3 touches each", layers, points_per_layer)),
-       Verdict::kConforms,
+       evaluation::Verdict::kConforms,
        "8.300 um is not above the limit of 10.000 um.",
        {},
        {}});
   add_touches(made.record, feature);
   made.evaluation.features.push_back(std::move(feature));
   made.evaluation.probe = fit::ProbeTip{{100.0, 0.0, 0.0}, kTip, 0.00011, 0.0009};
-  made.evaluation.verdict = Verdict::kConforms;
+  made.evaluation.verdict = evaluation::Verdict::kConforms;
   return made;
 }
 
 Case failing_case() {
   Case made = cylinder_case(4, 7, 3);
-  FeatureResult& feature = made.evaluation.features.front();
-  CharacteristicResult& result = feature.characteristics.front();
+  evaluation::FeatureResult& feature = made.evaluation.features.front();
+  evaluation::CharacteristicResult& result = feature.characteristics.front();
   result.characteristic.tolerance_mm = 0.006;
-  result.verdict = Verdict::kDoesNotConform;
+  result.verdict = evaluation::Verdict::kDoesNotConform;
   result.reason = "8.300 um is 2.300 um above the limit of 6.000 um.";
   record::Characteristic round{"round-A", record::Form::kRoundness,
                                record::Reference::kLeastSquares, 0.012, ""};
   feature.characteristics.push_back({round,
                                      stated(round, 0.0071, "worst of 4 layers"),
-                                     Verdict::kConforms,
+                                     evaluation::Verdict::kConforms,
                                      "7.100 um in layer 3 is not above the limit of 12.000 um.",
                                      {},
                                      {}});
@@ -242,7 +243,7 @@ Case failing_case() {
       "cyl-LS", record::Form::kCylindricity, record::Reference::kLeastSquares, {}, ""};
   feature.characteristics.push_back({reported,
                                      stated(reported, 0.00912, "4 x 7 points"),
-                                     Verdict::kNotToleranced,
+                                     evaluation::Verdict::kNotToleranced,
                                      "Reported only.",
                                      {},
                                      {}});
@@ -251,7 +252,7 @@ Case failing_case() {
                               "/features/0/sampling"});
   feature.warnings.push_back(
       {core::Code::kNotLevel, "f is 20.1 um, above twice the minimum zone of 8.300 um.", ""});
-  made.evaluation.verdict = Verdict::kDoesNotConform;
+  made.evaluation.verdict = evaluation::Verdict::kDoesNotConform;
   return made;
 }
 
@@ -271,10 +272,10 @@ Case circle_case(int points) {
   asked.characteristics = {
       {"round-3", record::Form::kRoundness, record::Reference::kMinimumZone, 0.012, ""}};
   made.record.features.push_back(asked);
-  FeatureResult feature;
+  evaluation::FeatureResult feature;
   feature.feature = asked;
   feature.cloud = cloud(1, points, false);
-  LayerResult section;
+  evaluation::LayerResult section;
   for (std::size_t i = 0; i < feature.cloud.size(); ++i) section.rows.push_back(i);
   section.mz = zone_circle(kRadius, kHalfZone);
   add_contacts(feature.cloud, section.mz->outer, section.mz->inner);
@@ -283,13 +284,13 @@ Case circle_case(int points) {
   feature.characteristics.push_back(
       {asked.characteristics.front(),
        stated(asked.characteristics.front(), 2.0 * kHalfZone, "points as given"),
-       Verdict::kConforms,
+       evaluation::Verdict::kConforms,
        "8.300 um is not above the limit of 12.000 um.",
        {},
        {}});
   add_touches(made.record, feature);
   made.evaluation.features.push_back(std::move(feature));
-  made.evaluation.verdict = Verdict::kConforms;
+  made.evaluation.verdict = evaluation::Verdict::kConforms;
   return made;
 }
 
@@ -302,7 +303,7 @@ Case spiral_case(int points) {
   asked.points_file = "spiral.csv";
   made.record.poses.clear();
   made.evaluation.probe.reset();
-  FeatureResult& feature = made.evaluation.features.front();
+  evaluation::FeatureResult& feature = made.evaluation.features.front();
   feature.feature = asked;
   feature.layers.clear();
   feature.poses.clear();
@@ -312,7 +313,7 @@ Case spiral_case(int points) {
   feature.repeat_zone_mean_mm.reset();
   feature.repeat_zone_sd_mm.reset();
   for (std::size_t i = 0; i < feature.cloud.size(); ++i) {
-    CloudPoint& point = feature.cloud[i];
+    evaluation::CloudPoint& point = feature.cloud[i];
     point.angle_rad = std::fmod(0.61 * static_cast<double>(i), core::kTwoPi);
     point.height_mm = 50.0 * static_cast<double>(i) / points - 25.0;
   }
@@ -328,14 +329,18 @@ Case unfinished_case() {
   second.id = "bore-B";
   second.side = record::Side::kInside;
   made.record.features.push_back(second);
-  FeatureResult feature;
+  evaluation::FeatureResult feature;
   feature.feature = second;
   feature.failure =
       core::Error{core::Code::kNoPoints, "No cloud of a final pose is on record.", ""};
-  feature.characteristics.push_back(
-      {second.characteristics.front(), {}, Verdict::kVoid, "There is no value.", {}, {}});
+  feature.characteristics.push_back({second.characteristics.front(),
+                                     {},
+                                     evaluation::Verdict::kVoid,
+                                     "There is no value.",
+                                     {},
+                                     {}});
   made.evaluation.features.push_back(feature);
-  made.evaluation.verdict = Verdict::kVoid;
+  made.evaluation.verdict = evaluation::Verdict::kVoid;
   return made;
 }
 
@@ -351,22 +356,24 @@ Case hostile_case(const std::string& text) {
   made.record.failure = core::Error{core::Code::kMachine, text, text};
   for (record::Decision& decision : made.record.decisions) decision.message = sentence(text);
   made.record.features.front().id = text;
-  FeatureResult& feature = made.evaluation.features.front();
+  evaluation::FeatureResult& feature = made.evaluation.features.front();
   feature.feature.id = text;
   feature.feature.points_file = text;
   feature.failure = core::Error{core::Code::kRank, text, text};
   feature.mz_cylinder->certificate.scope = text;
   feature.mz_cylinder->certificate.reason = text;
-  for (PoseValue& pose : feature.poses) pose.ending = text;
+  for (evaluation::PoseValue& pose : feature.poses) pose.ending = text;
   for (core::Error& warning : feature.warnings) warning = {warning.code, text, text};
-  for (CharacteristicResult& result : feature.characteristics) {
+  for (evaluation::CharacteristicResult& result : feature.characteristics) {
     result.characteristic.id = text;
     result.characteristic.drawing_zone = text;
     result.reason = text;
-    result.value.emplace(text, 0.0083,
-                         ValueOperator(ReferenceTerm(text), FilterTerm(text), SamplingTerm(text),
-                                       TipTerm(text), TemperatureTerm(text)),
-                         UncertaintyStatus::none(text));
+    result.value.emplace(
+        text, 0.0083,
+        evaluation::ValueOperator(evaluation::ReferenceTerm(text), evaluation::FilterTerm(text),
+                                  evaluation::SamplingTerm(text), evaluation::TipTerm(text),
+                                  evaluation::TemperatureTerm(text)),
+        evaluation::UncertaintyStatus::none(text));
   }
   return made;
 }

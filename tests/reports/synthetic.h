@@ -3,15 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "record/run_record.h"
 #include "evaluation/evaluation.h"
+#include "record/run_record.h"
 
 namespace rondure::reports {
 
 /// A record with an evaluation made by hand: plausible numbers for the writers, fitted by nobody.
 struct Case {
   record::RunRecord record;
-  Evaluation evaluation;
+  evaluation::Evaluation evaluation;
 };
 
 /// A simulated outside cylinder, axis along z, zone 8.3 um wide, three outer and three inner

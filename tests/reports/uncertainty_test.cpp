@@ -28,14 +28,14 @@ using Eigen::Vector3d;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A shaft of 50 mm, its axis along z, with 10 um of lobes, taper and barrel and a trace of noise.
-FormCloud shaft(int layers, int points, double form_mm = 10e-3) {
-  FormCloud cloud;
+evaluation::FormCloud shaft(int layers, int points, double form_mm = 10e-3) {
+  evaluation::FormCloud cloud;
   cloud.radius_mm = 25.0;
   core::KeyedNoise noise(7, {1});
   const int count = layers * points;
   for (int j = 0; j < layers; ++j) {
     for (int i = 0; i < points; ++i) {
-      FormPoint p;
+      evaluation::FormPoint p;
       p.angle_rad = core::kTwoPi * (static_cast<double>(i) / points + 0.3 * j / points);
       p.height_mm = 70.0 * j / std::max(1, layers - 1) - 35.0;
       const double q = p.height_mm / 35.0;
@@ -50,7 +50,7 @@ FormCloud shaft(int layers, int points, double form_mm = 10e-3) {
 }
 
 /// A cloud about its least-squares axis, as measured clouds are.
-FormCloud centred(FormCloud cloud) {
+evaluation::FormCloud centred(evaluation::FormCloud cloud) {
   const Eigen::MatrixXd rigid = rigid_basis(cloud);
   Eigen::VectorXd deviations(rigid.rows());
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
@@ -63,20 +63,20 @@ FormCloud centred(FormCloud cloud) {
   return cloud;
 }
 
-Influences repeatability(double sigma_mm) {
-  Influences out;
-  out.probe = ProbeInfluences{};
+evaluation::Influences repeatability(double sigma_mm) {
+  evaluation::Influences out;
+  out.probe = evaluation::ProbeInfluences{};
   out.probe->repeatability_mm = sigma_mm;
   return out;
 }
 
 /// All that can be declared, at the size of a good machine.
-Influences everything() {
-  Influences out = repeatability(0.8e-3);
+evaluation::Influences everything() {
+  evaluation::Influences out = repeatability(0.8e-3);
   out.probe->lobes = {{3, 0.4e-3, 0.0}, {2, 0.1e-3, 0.0}};
   out.probe->form_limit_mm = 1e-3;
   out.probe->tip_radius_mm = 0.3e-3;
-  out.machine = MachineInfluences{};
+  out.machine = evaluation::MachineInfluences{};
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t c = 0; c < 3; ++c) {
       out.machine->terms.axes[k].translation[c] = {3e-6, 1e-9, 0.3e-3, 120.0, 0.0};
@@ -88,13 +88,14 @@ Influences everything() {
   out.machine->terms.tip_offset_mm = Vector3d(0.0, 0.0, -150.0);
   out.machine->length_limit_mm = 1e-3;
   out.machine->length_limit_slope = 3e-6;
-  out.thermal = ThermalInfluences{0.3, 11.5e-6, 1e-6, 1.0, 0.2, Vector3d::Constant(0.4e-3)};
-  out.fixture = FixtureInfluences{1e-4, 2e-3, 3e-6, Vector3d(0.0, 0.0, -80.0)};
+  out.thermal =
+      evaluation::ThermalInfluences{0.3, 11.5e-6, 1e-6, 1.0, 0.2, Vector3d::Constant(0.4e-3)};
+  out.fixture = evaluation::FixtureInfluences{1e-4, 2e-3, 3e-6, Vector3d(0.0, 0.0, -80.0)};
   return out;
 }
 
-FormSpectrum spectrum() {
-  FormSpectrum out;
+evaluation::FormSpectrum spectrum() {
+  evaluation::FormSpectrum out;
   out.low_mm = -40.0;
   out.high_mm = 40.0;
   out.source = "declared";
@@ -107,8 +108,8 @@ FormSpectrum spectrum() {
   return out;
 }
 
-UncertaintyOptions trials(int most, int budget = 0) {
-  UncertaintyOptions options;
+evaluation::UncertaintyOptions trials(int most, int budget = 0) {
+  evaluation::UncertaintyOptions options;
   options.least_trials = std::max(100, most / 4);
   options.most_trials = most;
   options.budget_trials = budget;
@@ -116,22 +117,25 @@ UncertaintyOptions trials(int most, int budget = 0) {
   return options;
 }
 
-UncertaintyResult found(const FormCloud& cloud, const Influences& influences,
-                        const UncertaintyOptions& options,
-                        const std::optional<FormSpectrum>& stated = std::nullopt) {
+evaluation::UncertaintyResult found(
+    const evaluation::FormCloud& cloud, const evaluation::Influences& influences,
+    const evaluation::UncertaintyOptions& options,
+    const std::optional<evaluation::FormSpectrum>& stated = std::nullopt) {
   const auto result = measurement_uncertainty(cloud, influences, stated, options);
   EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().what);
-  return result.value_or(UncertaintyResult{});
+  return result.value_or(evaluation::UncertaintyResult{});
 }
 
-const BudgetLine& line(const UncertaintyResult& result, const std::string& name) {
+const evaluation::BudgetLine& line(const evaluation::UncertaintyResult& result,
+                                   const std::string& name) {
   const auto at = std::find_if(result.budget.begin(), result.budget.end(),
-                               [&](const BudgetLine& one) { return one.name == name; });
+                               [&](const evaluation::BudgetLine& one) { return one.name == name; });
   EXPECT_NE(at, result.budget.end()) << name;
   return *at;
 }
 
-void expect_equal(const UncertaintyStatement& a, const UncertaintyStatement& b) {
+void expect_equal(const evaluation::UncertaintyStatement& a,
+                  const evaluation::UncertaintyStatement& b) {
   EXPECT_EQ(a.estimate_mm, b.estimate_mm);
   EXPECT_EQ(a.low_mm, b.low_mm);
   EXPECT_EQ(a.high_mm, b.high_mm);
@@ -139,22 +143,23 @@ void expect_equal(const UncertaintyStatement& a, const UncertaintyStatement& b) 
 }
 
 TEST(Uncertainty, WithoutInfluencesTheSampledPointsHaveTheirValueAndNoWidth) {
-  Influences zeros = repeatability(0.0);
-  zeros.machine = MachineInfluences{};
-  zeros.thermal = ThermalInfluences{};
-  zeros.fixture = FixtureInfluences{};
+  evaluation::Influences zeros = repeatability(0.0);
+  zeros.machine = evaluation::MachineInfluences{};
+  zeros.thermal = evaluation::ThermalInfluences{};
+  zeros.fixture = evaluation::FixtureInfluences{};
   constexpr double kNear_mm = 5e-8;  // 0.01 nm of noise keep the variances positive
   const auto result = found(centred(shaft(4, 7)), zeros, trials(400, 100));
   EXPECT_NEAR(result.sampled.low_mm, result.uncorrected_mm, kNear_mm);
   EXPECT_NEAR(result.sampled.high_mm, result.uncorrected_mm, kNear_mm);
   EXPECT_NEAR(result.noise_inflation_mm, 0.0, kNear_mm);
-  for (const BudgetLine& each : result.budget) EXPECT_EQ(each.standard_uncertainty_mm, 0.0);
+  for (const evaluation::BudgetLine& each : result.budget)
+    EXPECT_EQ(each.standard_uncertainty_mm, 0.0);
 }
 
 TEST(Uncertainty, WithoutAKnownNoiseThereAreOnlyBounds) {
-  Influences unknown = repeatability(0.0);
+  evaluation::Influences unknown = repeatability(0.0);
   unknown.probe->repeatability_known = false;
-  for (const Influences& none : {Influences{}, unknown}) {
+  for (const evaluation::Influences& none : {evaluation::Influences{}, unknown}) {
     const auto result = measurement_uncertainty(shaft(4, 7), none, std::nullopt, trials(400));
     ASSERT_FALSE(result.has_value());
     EXPECT_EQ(result.error().code, core::Code::kMeaning);
@@ -169,14 +174,14 @@ TEST(Uncertainty, APerfectPartMeasuredPerfectlyIsZero) {
 }
 
 TEST(Uncertainty, GrowsWithFormAndErrorsAlike) {
-  Influences larger = repeatability(2e-3);
+  evaluation::Influences larger = repeatability(2e-3);
   larger.probe->lobes = {{3, 1e-3, 0.0}};
-  Influences smaller = repeatability(1e-3);
+  evaluation::Influences smaller = repeatability(1e-3);
   smaller.probe->lobes = {{3, 0.5e-3, 0.0}};
-  FormSpectrum known = spectrum();
+  evaluation::FormSpectrum known = spectrum();
   known.absolute = true;
-  FormSpectrum doubled = known;
-  for (FormTerm& term : doubled.terms) term.amplitude_mm *= 2.0;
+  evaluation::FormSpectrum doubled = known;
+  for (evaluation::FormTerm& term : doubled.terms) term.amplitude_mm *= 2.0;
   const auto one = found(shaft(4, 7, 10e-3), smaller, trials(600), known);
   const auto two = found(shaft(4, 7, 20e-3), larger, trials(600), doubled);
   const double near = 2e-3 * two.sampled.estimate_mm;  // form / radius, of second order
@@ -188,7 +193,7 @@ TEST(Uncertainty, GrowsWithFormAndErrorsAlike) {
 }
 
 TEST(Uncertainty, HasTheSameNumbersAtAnyThreadCount) {
-  UncertaintyOptions options = trials(1001, 101);
+  evaluation::UncertaintyOptions options = trials(1001, 101);
   options.threads = 1;
   const auto one = found(shaft(4, 7), everything(), options, spectrum());
   for (const int threads : {2, 3, 8}) {
@@ -207,7 +212,7 @@ TEST(Uncertainty, HasTheSameNumbersAtAnyThreadCount) {
 }
 
 TEST(Uncertainty, ChangesWithTheSeedByNoMoreThanItsNumericalTolerance) {
-  UncertaintyOptions options = trials(8000);
+  evaluation::UncertaintyOptions options = trials(8000);
   const auto one = found(shaft(4, 7), everything(), options);
   options.seed = 2;
   const auto two = found(shaft(4, 7), everything(), options);
@@ -220,7 +225,7 @@ TEST(Uncertainty, ChangesWithTheSeedByNoMoreThanItsNumericalTolerance) {
 }
 
 TEST(Uncertainty, DoesNotDependOnTheOrderOfThePoints) {
-  FormCloud turned = shaft(4, 7);
+  evaluation::FormCloud turned = shaft(4, 7);
   std::reverse(turned.points.begin(), turned.points.end());
   const auto one = found(shaft(4, 7), everything(), trials(8000), spectrum());
   const auto two = found(turned, everything(), trials(8000), spectrum());
@@ -235,46 +240,46 @@ TEST(Uncertainty, DoesNotDependOnTheOrderOfThePoints) {
 }
 
 TEST(Uncertainty, RepeatsAverageThatOfTheProbeAndNothingElse) {
-  FormCloud repeated = shaft(4, 7);
-  for (FormPoint& point : repeated.points) point.repeats = 4;
+  evaluation::FormCloud repeated = shaft(4, 7);
+  for (evaluation::FormPoint& point : repeated.points) point.repeats = 4;
   const auto one = found(shaft(4, 7), repeatability(1e-3), trials(600));
   const auto four = found(repeated, repeatability(2e-3), trials(600));
   expect_equal(one.sampled, four.sampled);
-  Influences lobes = repeatability(0.0);
+  evaluation::Influences lobes = repeatability(0.0);
   lobes.probe->lobes = {{3, 1e-3, 0.0}};
   expect_equal(found(shaft(4, 7), lobes, trials(600)).sampled,
                found(repeated, lobes, trials(600)).sampled);
 }
 
 TEST(Uncertainty, WhatMovesThePartAsAWholeMovesNoForm) {
-  Influences still = repeatability(0.5e-3);
+  evaluation::Influences still = repeatability(0.5e-3);
   still.probe->tip_radius_mm = 2e-3;
-  still.thermal = ThermalInfluences{};
+  still.thermal = evaluation::ThermalInfluences{};
   still.thermal->temperature_K = 1.0;
   still.thermal->expansion_1_K = 11.5e-6;
-  still.fixture = FixtureInfluences{};
+  still.fixture = evaluation::FixtureInfluences{};
   still.fixture->angle_rad = 1e-3;
   still.fixture->position_mm = 0.1;
   const auto one_pose = found(shaft(4, 7), still, trials(400, 200));
   EXPECT_NEAR(line(one_pose, "tip-qualification").standard_uncertainty_mm, 0.0, 1e-9);
   EXPECT_NEAR(line(one_pose, "fixture-calibration").standard_uncertainty_mm, 0.0, 1e-9);
   EXPECT_LT(line(one_pose, "temperature").standard_uncertainty_mm, 1e-6);
-  FormCloud two_poses = shaft(4, 7);
+  evaluation::FormCloud two_poses = shaft(4, 7);
   for (std::size_t i = 0; i < 14; ++i) two_poses.points[i].pose = 1;
   const auto put_together = found(two_poses, still, trials(400, 200));
   EXPECT_GT(line(put_together, "fixture-calibration").standard_uncertainty_mm, 1e-3);
 }
 
 TEST(Uncertainty, RanksTheInfluencesAndNamesWhatIsNotCovered) {
-  Influences noisy = repeatability(2e-3);
+  evaluation::Influences noisy = repeatability(2e-3);
   noisy.probe->lobes = {{3, 0.3e-3, 0.0}};
   const auto result = found(shaft(4, 7), noisy, trials(2000, 1000), spectrum());
   const auto& first = result.budget.front();
   EXPECT_TRUE(first.name == "probe-repeatability" || first.name == "sampling") << first.name;
   double shares = 0.0;
   for (std::size_t k = 0; k < result.budget.size(); ++k) {
-    const BudgetLine& each = result.budget[k];
-    if (each.measurand == Measurand::kSampledPoints) shares += each.share_1;
+    const evaluation::BudgetLine& each = result.budget[k];
+    if (each.measurand == evaluation::Measurand::kSampledPoints) shares += each.share_1;
     if (k > 0) {
       EXPECT_LE(each.standard_uncertainty_mm, result.budget[k - 1].standard_uncertainty_mm);
     }
@@ -286,7 +291,7 @@ TEST(Uncertainty, RanksTheInfluencesAndNamesWhatIsNotCovered) {
   EXPECT_LT(*result.sampling_loss_mm, 0.0);
   EXPECT_DOUBLE_EQ(result.uncorrected_mm, result.whole->estimate_mm + result.noise_inflation_mm +
                                               *result.sampling_loss_mm);
-  for (const InfluenceStatement& each : result.declaration) {
+  for (const evaluation::InfluenceStatement& each : result.declaration) {
     EXPECT_EQ(each.covered, each.name.starts_with("probe-") || each.name == "tip-qualification")
         << each.name;
     EXPECT_FALSE(each.text.empty());
@@ -297,9 +302,9 @@ TEST(Uncertainty, RanksTheInfluencesAndNamesWhatIsNotCovered) {
 // deviation, so u = sigma sqrt(sum of multipliers squared).
 TEST(Uncertainty, AgreesWithTheMultipliersOfTheContactsWhereErrorsAreSmall) {
   const double sigma = 1e-6;
-  const FormCloud cloud = shaft(4, 7);
+  const evaluation::FormCloud cloud = shaft(4, 7);
   std::vector<Vector3d> points;
-  for (const FormPoint& p : cloud.points) points.push_back(position_mm(cloud, p));
+  for (const evaluation::FormPoint& p : cloud.points) points.push_back(position_mm(cloud, p));
   fit::CylinderZoneFitter fitter;
   const auto zone = fitter.fit_from(points, fit::Axis{});
   double square = 0.0;
@@ -312,9 +317,9 @@ TEST(Uncertainty, AgreesWithTheMultipliersOfTheContactsWhereErrorsAreSmall) {
 }
 
 /// Radial peak to valley about a reference, by the fits that report it.
-double reported_mm(const FormCloud& cloud) {
+double reported_mm(const evaluation::FormCloud& cloud) {
   std::vector<Vector3d> points;
-  for (const FormPoint& p : cloud.points) points.push_back(position_mm(cloud, p));
+  for (const evaluation::FormPoint& p : cloud.points) points.push_back(position_mm(cloud, p));
   if (cloud.reference == record::Reference::kLeastSquares) {
     return fit::ls_cylinder(points, Vector3d::UnitZ())->deviation_mm;
   }
@@ -330,10 +335,10 @@ TEST(Uncertainty, AgreesWithTheSlopesOfEveryReferenceWhereErrorsAreSmall) {
        {record::Reference::kLeastSquares, record::Reference::kMinimumCircumscribed,
         record::Reference::kMaximumInscribed}) {
     SCOPED_TRACE(static_cast<int>(reference));
-    FormCloud cloud = shaft(4, 7);
+    evaluation::FormCloud cloud = shaft(4, 7);
     cloud.reference = reference;
     double square = 0.0;
-    for (FormPoint& point : cloud.points) {
+    for (evaluation::FormPoint& point : cloud.points) {
       const double middle = point.deviation_mm;
       point.deviation_mm = middle + sigma;
       const double above = reported_mm(cloud);
@@ -360,8 +365,9 @@ TEST(Uncertainty, AgreesWithTheSlopesOfEveryReferenceWhereErrorsAreSmall) {
 double four_points_below(double v, double z, double sigma) {
   const auto normal_below = [](double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); };
   double below = 0.0;
-  const VarianceTerms terms{sigma * sigma, 0.0, std::max(0.25 * z * z, 1e-3 * sigma * sigma), 0.0};
-  for (const VarianceOdd& one : variance_odds(terms, z * z, 1.0)) {
+  const evaluation::VarianceTerms terms{sigma * sigma, 0.0,
+                                        std::max(0.25 * z * z, 1e-3 * sigma * sigma), 0.0};
+  for (const evaluation::VarianceOdd& one : variance_odds(terms, z * z, 1.0)) {
     const double share = one.unresolved_mm2 / (one.unresolved_mm2 + sigma * sigma);
     const double spread = std::sqrt(share) * sigma;
     const double inside = share == 0.0 ? 1.0
@@ -376,11 +382,11 @@ TEST(Uncertainty, AgreesWithTheClosedFormOfFourPoints) {
   const double sigma = 1e-3;
   for (const double z : {0.2e-3, 1e-3, 2e-3}) {
     SCOPED_TRACE(z);
-    FormCloud cloud;
-    cloud.kind = FormKind::kRoundness;
+    evaluation::FormCloud cloud;
+    cloud.kind = evaluation::FormKind::kRoundness;
     cloud.radius_mm = 25.0;
     for (int i = 0; i < 4; ++i) {
-      FormPoint p;
+      evaluation::FormPoint p;
       p.angle_rad = 0.25 * core::kTwoPi * i + 0.1;
       p.deviation_mm = 0.5 * z * (i % 2 == 0 ? 1.0 : -1.0);
       cloud.points.push_back(p);
@@ -406,10 +412,10 @@ TEST(Uncertainty, OfDensePointsTheWholeSurfaceIsNearlyWhatWasMeasured) {
 }
 
 TEST(Uncertainty, TakesTheSpectrumFromThePartItselfWhereLayersAreDense) {
-  const FormSpectrum own;
+  const evaluation::FormSpectrum own;
   const auto result = found(shaft(6, 60), repeatability(0.3e-3), trials(400), own);
   EXPECT_LT(std::abs(*result.sampling_loss_mm), 1e-3);
-  for (const FormCloud& sparse : {shaft(4, 7), shaft(2, 60), shaft(3, 13)}) {
+  for (const evaluation::FormCloud& sparse : {shaft(4, 7), shaft(2, 60), shaft(3, 13)}) {
     const auto none = measurement_uncertainty(sparse, repeatability(0.3e-3), own, trials(200));
     ASSERT_FALSE(none.has_value());
     EXPECT_EQ(none.error().code, core::Code::kSampling) << none.error().what;
@@ -417,7 +423,7 @@ TEST(Uncertainty, TakesTheSpectrumFromThePartItselfWhereLayersAreDense) {
 }
 
 TEST(Uncertainty, StopsWhenTheNumericalToleranceIsReached) {
-  UncertaintyOptions options = trials(20000);
+  evaluation::UncertaintyOptions options = trials(20000);
   options.least_trials = 400;
   options.tolerance_mm = 0.1e-3;
   const auto coarse = found(shaft(4, 7), repeatability(1e-3), options);
@@ -435,7 +441,7 @@ TEST(Uncertainty, StopsWhenTheNumericalToleranceIsReached) {
 }
 
 TEST(Uncertainty, ASimulatedInspectionHasTheFormAndTheErrorsThatWereStated) {
-  FormSpectrum oval = spectrum();
+  evaluation::FormSpectrum oval = spectrum();
   oval.terms = {{2, 0, 3e-3}};
   double square = 0.0;
   const int parts = 400;
@@ -443,19 +449,21 @@ TEST(Uncertainty, ASimulatedInspectionHasTheFormAndTheErrorsThatWereStated) {
     const auto cloud =
         simulated_cloud(shaft(4, 7), repeatability(1e-3), oval, static_cast<std::uint64_t>(seed));
     ASSERT_TRUE(cloud.has_value());
-    for (const FormPoint& point : cloud->points) square += std::pow(point.deviation_mm, 2);
+    for (const evaluation::FormPoint& point : cloud->points)
+      square += std::pow(point.deviation_mm, 2);
   }
   // The oval in 28 points, the noise in 23 dimensions beside place and size.
   const double expected = 28.0 * 9e-6 + 23.0 * 1e-6;
   EXPECT_NEAR(square / parts, expected, 0.15 * expected);
-  EXPECT_EQ(simulated_cloud(FormCloud{}, {}, oval, 1).error().code, core::Code::kBadOption);
+  EXPECT_EQ(simulated_cloud(evaluation::FormCloud{}, {}, oval, 1).error().code,
+            core::Code::kBadOption);
 }
 
 TEST(Uncertainty, FindsTheCloudOfPointsInSpace) {
-  const FormCloud made = shaft(4, 7);
+  const evaluation::FormCloud made = shaft(4, 7);
   std::vector<Vector3d> points;
-  for (const FormPoint& p : made.points) points.push_back(position_mm(made, p));
-  const auto cloud = form_cloud(FormKind::kCylindricity, points, Vector3d::UnitZ());
+  for (const evaluation::FormPoint& p : made.points) points.push_back(position_mm(made, p));
+  const auto cloud = form_cloud(evaluation::FormKind::kCylindricity, points, Vector3d::UnitZ());
   ASSERT_TRUE(cloud.has_value());
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_LT((position_mm(*cloud, cloud->points[i]) - points[i]).norm(), 1e-12);
@@ -466,12 +474,12 @@ TEST(Uncertainty, FindsTheCloudOfPointsInSpace) {
 
 /// What a test spoils before it asks.
 struct Question {
-  FormCloud cloud = shaft(4, 7);
-  Influences influences = everything();
-  FormSpectrum form = spectrum();
-  UncertaintyOptions options = trials(200);
+  evaluation::FormCloud cloud = shaft(4, 7);
+  evaluation::Influences influences = everything();
+  evaluation::FormSpectrum form = spectrum();
+  evaluation::UncertaintyOptions options = trials(200);
 
-  ProbeInfluences& probe() { return *influences.probe; }
+  evaluation::ProbeInfluences& probe() { return *influences.probe; }
   cmm::GeometricErrors& terms() { return influences.machine->terms; }
 };
 
@@ -551,8 +559,8 @@ TEST(Uncertainty, RefusesWhatItCannotUse) {
 // against processor time, which other programs do not change: 2 s of it.
 TEST(Uncertainty, DoesTenThousandTrialsOfTwentyEightPointsInASecondOfTwoCores) {
   const bool full = std::getenv("RONDURE_FULL") != nullptr;
-  const auto timed = [&](int threads, const std::optional<FormSpectrum>& stated) {
-    UncertaintyOptions options = trials(full ? 10000 : 1000, full ? 1000 : 100);
+  const auto timed = [&](int threads, const std::optional<evaluation::FormSpectrum>& stated) {
+    evaluation::UncertaintyOptions options = trials(full ? 10000 : 1000, full ? 1000 : 100);
     options.threads = threads;
     const std::clock_t used = std::clock();
     const auto start = std::chrono::steady_clock::now();

@@ -10,10 +10,10 @@
 
 #include "core/units.h"
 #include "core/utf8.h"
-#include "fixture/calibration.h"
 #include "evaluation/conformance.h"
-#include "evaluation/uncertainty/declared.h"
 #include "evaluation/defect.h"
+#include "evaluation/uncertainty/declared.h"
+#include "fixture/calibration.h"
 #include "reports/escaping.h"
 #include "reports/verify/stored_results.h"
 #include "reports/words/language.h"
@@ -30,17 +30,20 @@ using record::RunRecord;
 using ::testing::HasSubstr;
 
 // A value cannot be made without its terms, nor with one in the place of another.
-static_assert(!std::is_default_constructible_v<StatedValue>);
-static_assert(!std::is_default_constructible_v<ValueOperator>);
-static_assert(!std::is_default_constructible_v<UncertaintyStatus>);
-static_assert(!std::is_constructible_v<StatedValue, std::string, double>);
-static_assert(!std::is_constructible_v<StatedValue, std::string, double, ValueOperator>);
-static_assert(
-    !std::is_constructible_v<ValueOperator, ReferenceTerm, FilterTerm, SamplingTerm, TipTerm>);
-static_assert(!std::is_constructible_v<ValueOperator, FilterTerm, ReferenceTerm, SamplingTerm,
-                                       TipTerm, TemperatureTerm>);
-static_assert(!std::is_constructible_v<ValueOperator, std::string, std::string, std::string,
-                                       std::string, std::string>);
+static_assert(!std::is_default_constructible_v<evaluation::StatedValue>);
+static_assert(!std::is_default_constructible_v<evaluation::ValueOperator>);
+static_assert(!std::is_default_constructible_v<evaluation::UncertaintyStatus>);
+static_assert(!std::is_constructible_v<evaluation::StatedValue, std::string, double>);
+static_assert(!std::is_constructible_v<evaluation::StatedValue, std::string, double,
+                                       evaluation::ValueOperator>);
+static_assert(!std::is_constructible_v<evaluation::ValueOperator, evaluation::ReferenceTerm,
+                                       evaluation::FilterTerm, evaluation::SamplingTerm,
+                                       evaluation::TipTerm>);
+static_assert(!std::is_constructible_v<evaluation::ValueOperator, evaluation::FilterTerm,
+                                       evaluation::ReferenceTerm, evaluation::SamplingTerm,
+                                       evaluation::TipTerm, evaluation::TemperatureTerm>);
+static_assert(!std::is_constructible_v<evaluation::ValueOperator, std::string, std::string,
+                                       std::string, std::string, std::string>);
 
 /// 13 touches of a reference sphere of radius 12.5 mm with a tip of 2 mm.
 void add_qualification(RunRecord& run) {
@@ -84,21 +87,21 @@ void forget_temperatures(RunRecord& run) {
   for (record::Touch& touch : run.touches) touch.temperature_degC.reset();
 }
 
-CharacteristicResult result_of(const RunRecord& run) {
+evaluation::CharacteristicResult result_of(const RunRecord& run) {
   const auto evaluation = evaluate(run);
   EXPECT_TRUE(evaluation) << evaluation.error().what;
   EXPECT_EQ(evaluation->verdict, evaluation->features[0].characteristics[0].verdict);
   return evaluation->features[0].characteristics[0];
 }
 
-TEST(Verdict, OfASoundRunFollowsTheRuleAndTheValueCarriesItsInterval) {
+TEST(evaluation::Verdict, OfASoundRunFollowsTheRuleAndTheValueCarriesItsInterval) {
   for (const char* rule :
        {"simple-acceptance", "iso-14253-1", "jcgm-106", "n-to-1", "guard-band"}) {
     SCOPED_TRACE(rule);
-    const CharacteristicResult result = result_of(touched_run(rule));
-    EXPECT_EQ(result.verdict, Verdict::kConforms) << result.reason;
+    const evaluation::CharacteristicResult result = result_of(touched_run(rule));
+    EXPECT_EQ(result.verdict, evaluation::Verdict::kConforms) << result.reason;
     ASSERT_TRUE(result.value);
-    const UncertaintyStatement* known = result.value->statement();
+    const evaluation::UncertaintyStatement* known = result.value->statement();
     ASSERT_NE(known, nullptr);
     EXPECT_LT(known->low_mm, known->estimate_mm);
     EXPECT_LT(known->estimate_mm, known->high_mm);
@@ -113,7 +116,7 @@ TEST(Verdict, OfASoundRunFollowsTheRuleAndTheValueCarriesItsInterval) {
 }
 
 // What the points do not see can only add: a partial arc conforms to nothing.
-TEST(Verdict, OfAPartialArcIsVoidUnlessItFailsAlready) {
+TEST(evaluation::Verdict, OfAPartialArcIsVoidUnlessItFailsAlready) {
   for (const auto form : {record::Form::kCylindricity, record::Form::kRoundness}) {
     for (const double arc_deg : {60.0, 180.0, 260.0, 360.0}) {
       SCOPED_TRACE(arc_deg);
@@ -121,33 +124,35 @@ TEST(Verdict, OfAPartialArcIsVoidUnlessItFailsAlready) {
       run.header.decision_rule = "simple-acceptance";
       auto& asked = run.features[0].characteristics;
       asked = {{"form", form, record::Reference::kMinimumZone, 20e-3, ""}};
-      const CharacteristicResult result = result_of(run);
-      EXPECT_EQ(result.verdict, arc_deg == 360.0 ? Verdict::kConforms : Verdict::kVoid);
+      const evaluation::CharacteristicResult result = result_of(run);
+      EXPECT_EQ(result.verdict,
+                arc_deg == 360.0 ? evaluation::Verdict::kConforms : evaluation::Verdict::kVoid);
       if (arc_deg == 360.0) continue;
       EXPECT_THAT(result.reason, HasSubstr("deg of the turn unseen"));
       asked[0].tolerance_mm = 1e-4;
-      EXPECT_EQ(result_of(run).verdict, Verdict::kDoesNotConform);
+      EXPECT_EQ(result_of(run).verdict, evaluation::Verdict::kDoesNotConform);
       asked[0].reference = record::Reference::kLeastSquares;
-      EXPECT_EQ(result_of(run).verdict, Verdict::kVoid) << "least squares proves no bound";
+      EXPECT_EQ(result_of(run).verdict, evaluation::Verdict::kVoid)
+          << "least squares proves no bound";
     }
   }
 }
 
-TEST(Verdict, PrintsADeclaredTemperatureAsDeclared) {
+TEST(evaluation::Verdict, PrintsADeclaredTemperatureAsDeclared) {
   RunRecord run = touched_run("iso-14253-1");
   forget_temperatures(run);
   run.settings.push_back({"environment/assumed_degC", 20.5, ""});
-  const CharacteristicResult touched = result_of(run);
-  EXPECT_EQ(touched.verdict, Verdict::kConforms) << touched.reason;
+  const evaluation::CharacteristicResult touched = result_of(run);
+  EXPECT_EQ(touched.verdict, evaluation::Verdict::kConforms) << touched.reason;
   EXPECT_THAT(touched.value->sentence(), HasSubstr("20.5 degC declared, not measured"));
   run.settings.push_back({"environment/declared", std::nullopt, "limits"});
   run.features[0].strategy = record::Strategy::kPointsFile;
-  const CharacteristicResult read = result_of(run);
-  EXPECT_EQ(read.verdict, Verdict::kConforms) << read.reason;
+  const evaluation::CharacteristicResult read = result_of(run);
+  EXPECT_EQ(read.verdict, evaluation::Verdict::kConforms) << read.reason;
   EXPECT_THAT(read.value->sentence(), HasSubstr("20.5 degC declared, not measured"));
 }
 
-TEST(Verdict, EveryReferenceHasItsInterval) {
+TEST(evaluation::Verdict, EveryReferenceHasItsInterval) {
   for (const auto form : {record::Form::kCylindricity, record::Form::kRoundness}) {
     for (const auto reference :
          {record::Reference::kLeastSquares, record::Reference::kMinimumCircumscribed,
@@ -156,8 +161,8 @@ TEST(Verdict, EveryReferenceHasItsInterval) {
       RunRecord run = touched_run("iso-14253-1");
       run.features[0].characteristics[0].form = form;
       run.features[0].characteristics[0].reference = reference;
-      const CharacteristicResult result = result_of(run);
-      EXPECT_EQ(result.verdict, Verdict::kConforms) << result.reason;
+      const evaluation::CharacteristicResult result = result_of(run);
+      EXPECT_EQ(result.verdict, evaluation::Verdict::kConforms) << result.reason;
       ASSERT_TRUE(result.value && result.value->statement());
       EXPECT_NEAR(result.value->uncertainty().result()->uncorrected_mm, result.value->value_mm(),
                   1e-6);
@@ -193,9 +198,9 @@ void add_calibration(RunRecord& run, const std::function<void(fixture::Calibrati
 }
 
 /// Every report names the verdict and gives the whole reason.
-void expect_told(const RunRecord& run, const Evaluation& evaluation) {
-  const CharacteristicResult& result = evaluation.features.at(0).characteristics.at(0);
-  EXPECT_EQ(result.verdict, Verdict::kVoid);
+void expect_told(const RunRecord& run, const evaluation::Evaluation& evaluation) {
+  const evaluation::CharacteristicResult& result = evaluation.features.at(0).characteristics.at(0);
+  EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
   EXPECT_FALSE(result.outcome);
   EXPECT_NE(result.reason, "");
   const std::string summary = write_summary(run, evaluation);
@@ -375,31 +380,32 @@ std::vector<VoidPath> void_paths() {
   };
 }
 
-TEST(Verdict, IsVoidWithItsReasonOnEveryPath) {
+TEST(evaluation::Verdict, IsVoidWithItsReasonOnEveryPath) {
   for (const VoidPath& path : void_paths()) {
     SCOPED_TRACE(path.name);
     RunRecord run = touched_run("iso-14253-1");
     path.spoil(run);
     const auto evaluation = evaluate(run);
     ASSERT_TRUE(evaluation);
-    EXPECT_EQ(evaluation->verdict, Verdict::kVoid);
+    EXPECT_EQ(evaluation->verdict, evaluation::Verdict::kVoid);
     EXPECT_THAT(evaluation->features[0].characteristics[0].reason, HasSubstr(path.reason));
     expect_told(run, *evaluation);
   }
 }
 
-TEST(Verdict, ACalibrationThatHoldsVoidsNothingAndOneThatDoesNotLeavesPointsOfFilesAlone) {
+TEST(evaluation::Verdict,
+     ACalibrationThatHoldsVoidsNothingAndOneThatDoesNotLeavesPointsOfFilesAlone) {
   RunRecord run = touched_run("iso-14253-1");
   add_calibration(run, [](auto&) {});
-  EXPECT_EQ(result_of(run).verdict, Verdict::kConforms) << result_of(run).reason;
+  EXPECT_EQ(result_of(run).verdict, evaluation::Verdict::kConforms) << result_of(run).reason;
   run = touched_run("simple-acceptance");
   add_calibration(run, [](auto& c) { c.fixture_id = "F-07"; });
   run.features[0].strategy = record::Strategy::kPointsFile;
-  EXPECT_EQ(result_of(run).verdict, Verdict::kConforms) << result_of(run).reason;
+  EXPECT_EQ(result_of(run).verdict, evaluation::Verdict::kConforms) << result_of(run).reason;
 }
 
 // No data bring this about: the check is told to find it.
-TEST(Verdict, OfAFeatureThatBreaksAnInvariantIsVoidWithoutAValueAndTheOthersStay) {
+TEST(evaluation::Verdict, OfAFeatureThatBreaksAnInvariantIsVoidWithoutAValueAndTheOthersStay) {
   RunRecord run = touched_run("iso-14253-1");
   run.features.push_back(run.features[0]);
   run.features[1].id = "sound";
@@ -411,15 +417,16 @@ TEST(Verdict, OfAFeatureThatBreaksAnInvariantIsVoidWithoutAValueAndTheOthersStay
     touch.id += 5000;
     run.touches.push_back(touch);
   }
-  const auto check = [](const FeatureResult& f) -> std::optional<BrokenInvariant> {
+  const auto check =
+      [](const evaluation::FeatureResult& f) -> std::optional<evaluation::BrokenInvariant> {
     if (f.feature.id == "sound") return std::nullopt;
-    return BrokenInvariant{"MZCY <= LSCY", "0.0061 mm > 0.0052 mm"};
+    return evaluation::BrokenInvariant{"MZCY <= LSCY", "0.0061 mm > 0.0052 mm"};
   };
-  const CheckedEvaluation checked = evaluate_checked(run, check);
-  const FeatureResult& broken = checked.evaluation.features.at(0);
+  const evaluation::CheckedEvaluation checked = evaluate_checked(run, check);
+  const evaluation::FeatureResult& broken = checked.evaluation.features.at(0);
   ASSERT_EQ(checked.defects.size(), 1U);
   EXPECT_TRUE(checked.defects[0].result.mz_cylinder) << "the dump needs everything";
-  EXPECT_EQ(checked.evaluation.verdict, Verdict::kVoid);
+  EXPECT_EQ(checked.evaluation.verdict, evaluation::Verdict::kVoid);
   EXPECT_FALSE(broken.mz_cylinder || broken.ls_cylinder || broken.mc_cylinder);
   EXPECT_TRUE(broken.cloud.empty() && broken.layers.empty());
   ASSERT_EQ(broken.characteristics.size(), 1U);
@@ -430,89 +437,98 @@ TEST(Verdict, OfAFeatureThatBreaksAnInvariantIsVoidWithoutAValueAndTheOthersStay
                 "mm; this is a defect of the program"));
   expect_told(run, checked.evaluation);
   EXPECT_THAT(write_summary(run, checked.evaluation), HasSubstr("[internal]"));
-  const CharacteristicResult& sound = checked.evaluation.features.at(1).characteristics.at(0);
-  EXPECT_EQ(sound.verdict, Verdict::kConforms);
+  const evaluation::CharacteristicResult& sound =
+      checked.evaluation.features.at(1).characteristics.at(0);
+  EXPECT_EQ(sound.verdict, evaluation::Verdict::kConforms);
   EXPECT_EQ(sound.value_mm(), evaluate(run)->features[1].characteristics[0].value_mm());
   for (const auto& stored : stored_results(checked.evaluation))
     EXPECT_THAT(stored.name, ::testing::Not(HasSubstr("/features/0/mz"))) << "no value is kept";
 }
 
-TEST(Verdict, OfARunIsVoidWhenAFeatureFailedThatHasNoTolerance) {
-  FeatureResult failed;
+TEST(evaluation::Verdict, OfARunIsVoidWhenAFeatureFailedThatHasNoTolerance) {
+  evaluation::FeatureResult failed;
   failed.failure = core::Error{core::Code::kNoPoints, "nothing was touched", {}};
-  EXPECT_EQ(overall({failed}), Verdict::kVoid);
-  EXPECT_EQ(overall({FeatureResult{}}), Verdict::kNotToleranced);
+  EXPECT_EQ(overall({failed}), evaluation::Verdict::kVoid);
+  EXPECT_EQ(overall({evaluation::FeatureResult{}}), evaluation::Verdict::kNotToleranced);
 }
 
 // What data alone do not bring about: the parts of an evaluation are taken away.
-TEST(Verdict, IsVoidWithoutCertificateOrTemperatureOrWithoutTheIntervalOfWhatWasEvaluated) {
+TEST(evaluation::Verdict,
+     IsVoidWithoutCertificateOrTemperatureOrWithoutTheIntervalOfWhatWasEvaluated) {
   const RunRecord run = touched_run("iso-14253-1");
   const auto sound = evaluate(run);
   ASSERT_TRUE(sound);
   struct Path {
     const char* reason;
-    std::function<void(FeatureResult&)> spoil;
+    std::function<void(evaluation::FeatureResult&)> spoil;
   };
   const std::vector<Path> paths = {
       {"no certificate stands behind the minimum zone",
-       [](FeatureResult& f) { f.mz_cylinder->certificate.kind = fit::Certificate::Kind::kNone; }},
-      {"the temperature was not measured", [](FeatureResult& f) { f.temperatures.reset(); }},
+       [](evaluation::FeatureResult& f) {
+         f.mz_cylinder->certificate.kind = fit::Certificate::Kind::kNone;
+       }},
+      {"the temperature was not measured",
+       [](evaluation::FeatureResult& f) { f.temperatures.reset(); }},
       {"nothing was touched",
-       [](FeatureResult& f) {
+       [](evaluation::FeatureResult& f) {
          f.failure = core::Error{core::Code::kNoPoints, "nothing was touched", {}};
        }},
-      {"it was not fitted", [](FeatureResult& f) { f.ls_cylinder.reset(); }},
+      {"it was not fitted", [](evaluation::FeatureResult& f) { f.ls_cylinder.reset(); }},
       {"intervals of clouds merged from several poses are not computed",
-       [](FeatureResult& f) {
+       [](evaluation::FeatureResult& f) {
          f.feature.strategy = record::Strategy::kMerged;
-         f.merged = std::make_shared<const MergedPoses>();
+         f.merged = std::make_shared<const evaluation::MergedPoses>();
        }},
       {"20001 points are more than 20000, the limit of the trials",
-       [](FeatureResult& f) { f.cloud.resize(20'001, f.cloud.front()); }},
+       [](evaluation::FeatureResult& f) { f.cloud.resize(20'001, f.cloud.front()); }},
   };
   for (const Path& path : paths) {
     SCOPED_TRACE(path.reason);
-    FeatureResult feature = sound->features[0];
+    evaluation::FeatureResult feature = sound->features[0];
     feature.characteristics.clear();
     path.spoil(feature);
     decide(run, sound->rule, sound->probe, feature);
-    const CharacteristicResult& result = feature.characteristics.at(0);
-    EXPECT_EQ(result.verdict, Verdict::kVoid);
+    const evaluation::CharacteristicResult& result = feature.characteristics.at(0);
+    EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
     EXPECT_THAT(result.reason, HasSubstr(path.reason));
     // The reports of the sound feature with this verdict: they print what the evaluation says.
-    Evaluation told = *sound;
+    evaluation::Evaluation told = *sound;
     told.features[0].characteristics = feature.characteristics;
     told.verdict = overall(told.features);
     expect_told(run, told);
   }
 }
 
-TEST(StatedValue, SaysWhatItIsAboutWithTheDigitsThatItsIntervalAllows) {
-  const ValueOperator how(ReferenceTerm("MZCY"), FilterTerm("unfiltered"),
-                          SamplingTerm("4 x 7 layers"), TipTerm("r_tip 1.998"),
-                          TemperatureTerm("20.3 degC"));
-  UncertaintyResult result;
+TEST(evaluation::StatedValue, SaysWhatItIsAboutWithTheDigitsThatItsIntervalAllows) {
+  const evaluation::ValueOperator how(
+      evaluation::ReferenceTerm("MZCY"), evaluation::FilterTerm("unfiltered"),
+      evaluation::SamplingTerm("4 x 7 layers"), evaluation::TipTerm("r_tip 1.998"),
+      evaluation::TemperatureTerm("20.3 degC"));
+  evaluation::UncertaintyResult result;
   result.sampled.estimate_mm = 8.1e-3;
   result.sampled.low_mm = 7.6e-3;
   result.sampled.high_mm = 9.4e-3;
-  const StatedValue value("CYLt", 8.31e-3, how, UncertaintyStatus::stated(result, 0.95));
+  const evaluation::StatedValue value("CYLt", 8.31e-3, how,
+                                      evaluation::UncertaintyStatus::stated(result, 0.95));
   EXPECT_EQ(value.sentence(),
             "CYLt = 8.10 um, 95 % [7.60, 9.40]; as read 8.31 um (MZCY; unfiltered; 4 x 7 layers; "
             "r_tip 1.998; 20.3 degC; at the sampled points)");
   EXPECT_EQ(value.value_text(), "8.10 um [7.60, 9.40]");
   result.whole = result.sampled;
   result.whole->high_mm = 12.0e-3;
-  const StatedValue whole("CYLt", 8.31e-3, how, UncertaintyStatus::stated(result, 0.95),
-                          Measurand::kWholeSurface);
+  const evaluation::StatedValue whole("CYLt", 8.31e-3, how,
+                                      evaluation::UncertaintyStatus::stated(result, 0.95),
+                                      evaluation::Measurand::kWholeSurface);
   EXPECT_THAT(whole.sentence(), HasSubstr("8.1 um, 95 % [7.6, 12.0]; as read 8.3 um"));
   EXPECT_THAT(whole.sentence(), HasSubstr("; of the whole surface)"));
-  const StatedValue bare("CYLt", 8.31e-3, how, UncertaintyStatus::none("none declared"));
+  const evaluation::StatedValue bare("CYLt", 8.31e-3, how,
+                                     evaluation::UncertaintyStatus::none("none declared"));
   EXPECT_THAT(bare.sentence(), HasSubstr("CYLt = 8.310 um (MZCY"));
   EXPECT_THAT(bare.sentence(), HasSubstr("at the sampled points; no uncertainty stated)"));
-  EXPECT_EQ(TipTerm("").words(), "not known");
+  EXPECT_EQ(evaluation::TipTerm("").words(), "not known");
 }
 
-TEST(Declared, InfluencesComeFromThePlanAndFromTheRunItself) {
+TEST(evaluation::Declared, InfluencesComeFromThePlanAndFromTheRunItself) {
   RunRecord run = touched_run("simple-acceptance");
   std::erase_if(run.settings, [](const record::Setting& s) {
     return s.name == "uncertainty/probe/repeatability_um";
@@ -540,11 +556,11 @@ TEST(Declared, InfluencesComeFromThePlanAndFromTheRunItself) {
     run.settings.push_back({"uncertainty/declared", std::nullopt, group});
   const auto evaluation = evaluate(run);
   ASSERT_TRUE(evaluation);
-  FeatureResult feature = evaluation->features[0];
+  evaluation::FeatureResult feature = evaluation->features[0];
   feature.repeat_sigma_mm = 0.7e-3;
   const auto said = declared_for(run, feature, evaluation->probe);
   ASSERT_TRUE(said);
-  const Influences& in = said->influences;
+  const evaluation::Influences& in = said->influences;
   EXPECT_EQ(in.probe->repeatability_mm, 0.7e-3);
   EXPECT_EQ(in.probe->tip_radius_mm, evaluation->probe->radius_sigma_mm);
   ASSERT_EQ(in.probe->lobes.size(), 1U);

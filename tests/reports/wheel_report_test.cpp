@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/utf8.h"
+#include "evaluation/evaluation.h"
 #include "record/run_record.h"
 #include "reports/escaping.h"
-#include "evaluation/evaluation.h"
 #include "reports/verify/stored_results.h"
 #include "reports/words/language.h"
 #include "reports/writers.h"
@@ -77,11 +77,11 @@ TEST(WheelReport, JudgesRadiusRunOutAndRoundnessOfWorkedExample1) {
   const auto& results = evaluation->features.at(0).characteristics;
   ASSERT_EQ(results.size(), 3U);
   EXPECT_NEAR(results[0].value_mm().value() * 1e3, 10.0, 1.1e-3);
-  EXPECT_EQ(results[0].verdict, Verdict::kConforms);
+  EXPECT_EQ(results[0].verdict, evaluation::Verdict::kConforms);
   EXPECT_NEAR(results[1].value_mm().value() * 1e3, 35.393, 1.6e-3);
-  EXPECT_EQ(results[1].verdict, Verdict::kDoesNotConform);
+  EXPECT_EQ(results[1].verdict, evaluation::Verdict::kDoesNotConform);
   EXPECT_LT(results[2].value_mm().value() * 1e3, 4.535);
-  EXPECT_EQ(results[2].verdict, Verdict::kConforms);
+  EXPECT_EQ(results[2].verdict, evaluation::Verdict::kConforms);
 }
 
 // Every path to void of an analysis of series (analysis.cpp), in the evaluation and in the reports.
@@ -103,9 +103,10 @@ TEST(WheelReport, IsVoidWithItsReasonOnEveryPath) {
     path.spoil(run);
     const auto evaluation = evaluate(run);
     ASSERT_TRUE(evaluation);
-    EXPECT_EQ(evaluation->verdict, Verdict::kVoid);
-    for (const CharacteristicResult& result : evaluation->features.at(0).characteristics) {
-      EXPECT_EQ(result.verdict, Verdict::kVoid);
+    EXPECT_EQ(evaluation->verdict, evaluation::Verdict::kVoid);
+    for (const evaluation::CharacteristicResult& result :
+         evaluation->features.at(0).characteristics) {
+      EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
       EXPECT_FALSE(result.outcome);
       EXPECT_THAT(result.reason, HasSubstr(path.reason));
       EXPECT_THAT(testing::one_line(write_summary(run, *evaluation)),
@@ -136,13 +137,14 @@ TEST(WheelReport, APartialArcConformsToNothing) {
   const auto& results = evaluation->features.at(0).characteristics;
   for (const std::size_t i : {1, 2}) {
     SCOPED_TRACE(i);
-    EXPECT_EQ(results[i].verdict, Verdict::kVoid);
+    EXPECT_EQ(results[i].verdict, evaluation::Verdict::kVoid);
     EXPECT_THAT(results[i].reason, HasSubstr("300 deg of the turn unseen"));
   }
   EXPECT_LT(results[1].value_mm().value(), 0.0117);
   EXPECT_THAT(write_html(run, *evaluation), HasSubstr("≥ "));
   asked[1].tolerance_mm = 0.002;
-  EXPECT_EQ(evaluate(run)->features.at(0).characteristics[1].verdict, Verdict::kDoesNotConform);
+  EXPECT_EQ(evaluate(run)->features.at(0).characteristics[1].verdict,
+            evaluation::Verdict::kDoesNotConform);
 }
 
 TEST(WheelReport, WhatARobustRuleLeavesDoesNotPassForTheWheel) {
@@ -155,14 +157,14 @@ TEST(WheelReport, WhatARobustRuleLeavesDoesNotPassForTheWheel) {
   for (const std::size_t i : {1, 2}) {
     SCOPED_TRACE(i);
     const auto& result = evaluation->features.at(0).characteristics[i];
-    EXPECT_EQ(result.verdict, Verdict::kVoid);
+    EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
     EXPECT_THAT(result.reason, HasSubstr("without the points that were dropped"));
   }
   // Within the tolerance with the point, too: that is a value.
   run.features.front().characteristics[1].tolerance_mm = 0.060;
   evaluation = evaluate(run);
   const auto& wide = evaluation->features.at(0).characteristics[1];
-  EXPECT_EQ(wide.verdict, Verdict::kConforms);
+  EXPECT_EQ(wide.verdict, evaluation::Verdict::kConforms);
   EXPECT_NEAR(wide.value_mm().value(), 0.046, 1e-3);
 }
 
@@ -195,7 +197,7 @@ TEST(WheelReport, SaysWhyThereIsNoPathAndStillJudgesTheWheel) {
   run.features[0].settings[8].number = 0.5 / 40.0;
   const auto evaluation = evaluate(run);
   ASSERT_TRUE(evaluation);
-  EXPECT_EQ(evaluation->features[0].characteristics[0].verdict, Verdict::kConforms);
+  EXPECT_EQ(evaluation->features[0].characteristics[0].verdict, evaluation::Verdict::kConforms);
   const std::string html = write_html(run, *evaluation);
   EXPECT_THAT(html, HasSubstr("No path:"));
   EXPECT_THAT(html, HasSubstr("exceeds the concave radius of curvature 40 mm"));
@@ -210,7 +212,7 @@ TEST(WheelReport, LeavesRunOutVoidWithoutTheAxis) {
                                  run.features[0].settings.begin() + 4);
   const auto evaluation = evaluate(run);
   ASSERT_TRUE(evaluation);
-  EXPECT_EQ(evaluation->features[0].characteristics[1].verdict, Verdict::kVoid);
+  EXPECT_EQ(evaluation->features[0].characteristics[1].verdict, evaluation::Verdict::kVoid);
   EXPECT_THAT(evaluation->features[0].characteristics[1].reason, HasSubstr("axis is not given"));
 }
 
@@ -222,7 +224,7 @@ TEST(WheelReport, LeavesEverythingVoidForPointsThatAreNoWheel) {
   ASSERT_TRUE(evaluation->features[0].failure);
   EXPECT_EQ(evaluation->features[0].failure->code, core::Code::kUnits);
   for (const auto& result : evaluation->features[0].characteristics) {
-    EXPECT_EQ(result.verdict, Verdict::kVoid);
+    EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
   }
 }
 

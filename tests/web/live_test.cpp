@@ -17,7 +17,7 @@
 #include "web/page.h"
 #include "web/time.h"
 
-namespace rondure::reports {
+namespace rondure::web {
 namespace {
 
 using nlohmann::json;
@@ -143,7 +143,7 @@ TEST(LiveCloud, SaysWhenTheTouchesDefineNothing) {
 
 TEST(LivePainter, SendsOnlyWhatChanged) {
   const auto source = std::make_shared<record::GrowingRecord>();
-  LivePainter painter(source, {{60, 100.0}}, Language::kEnglish);
+  LivePainter painter(source, {{60, 100.0}}, reports::Language::kEnglish);
   EXPECT_THAT(painter.paint(0.0)->parts.front().html, HasSubstr("Starting"));
   source->begin(touched(48));
   const auto first = painter.paint(1.0);
@@ -162,7 +162,7 @@ TEST(LivePainter, SendsOnlyWhatChanged) {
 
 TEST(LivePainter, ChartsEveryPoseWithAllOfItsTouches) {
   const auto source = std::make_shared<record::GrowingRecord>();
-  LivePainter painter(source, {}, Language::kEnglish);
+  LivePainter painter(source, {}, reports::Language::kEnglish);
   source->begin(touched(3));  // three points have no zone: f is 0 as yet
   (void)painter.paint(0.0);
   record::RunRecord whole = touched(48);
@@ -184,7 +184,7 @@ TEST(LivePainter, ChartsEveryPoseWithAllOfItsTouches) {
 TEST(LivePainter, ShowsTheResultOfTheReportAndEscapesIt) {
   const std::string evil = "<script>\"'&\xff\x01";
   const Case made = hostile_case(evil);
-  LivePainter painter(std::make_shared<record::GrowingRecord>(), {}, Language::kEnglish);
+  LivePainter painter(std::make_shared<record::GrowingRecord>(), {}, reports::Language::kEnglish);
   const auto frame = painter.paint_result(made.record, made.evaluation, evil);
   EXPECT_TRUE(frame->ended);
   const json answer = json::parse(answer_of(*frame, "s", 0));
@@ -200,10 +200,10 @@ TEST(LivePainter, ShowsTheResultOfTheReportAndEscapesIt) {
 TEST(LivePage, HasNoButtonWithoutControlAndItsWordsInBothLanguages) {
   EXPECT_THAT(live_page(false), AllOf(Not(HasSubstr("<button")), HasSubstr("lang=\"en\"")));
   EXPECT_THAT(live_page(true), HasSubstr("id=\"stop\""));
-  const LanguageScope scope(Language::kChinese);
+  const reports::LanguageScope scope(reports::Language::kChinese);
   EXPECT_THAT(live_page(true),
               AllOf(HasSubstr("lang=\"zh-Hans\""), HasSubstr("停止测量"), Not(HasSubstr("Stop"))));
 }
 
 }  // namespace
-}  // namespace rondure::reports
+}  // namespace rondure::web

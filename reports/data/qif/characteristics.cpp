@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "reports/data/qif/parts.h"
 #include "evaluation/feature_values.h"
 #include "evaluation/section.h"
+#include "reports/data/qif/parts.h"
 
 namespace rondure::reports {
 namespace {
@@ -32,17 +32,17 @@ std::string element(Family family, const char* kind) {
   return fmt::format("{}Characteristic{}", kNames[static_cast<std::size_t>(family)], kind);
 }
 
-const char* status_of(Verdict verdict) {
+const char* status_of(evaluation::Verdict verdict) {
   switch (verdict) {
-    case Verdict::kConforms:
+    case evaluation::Verdict::kConforms:
       return "PASS";
-    case Verdict::kDoesNotConform:
+    case evaluation::Verdict::kDoesNotConform:
       return "FAIL";
-    case Verdict::kUndecided:
+    case evaluation::Verdict::kUndecided:
       return "INDETERMINATE";
-    case Verdict::kNotToleranced:
+    case evaluation::Verdict::kNotToleranced:
       return "NOT_ANALYZED";
-    case Verdict::kVoid:
+    case evaluation::Verdict::kVoid:
       break;
   }
   return "UNDEFINED";
@@ -58,8 +58,8 @@ bool has_reference(const record::Characteristic& asked) { return !reference_of(a
 
 /// One characteristic on its way through the document.
 struct PlacedResult {
-  const CharacteristicResult& result;
-  const FeatureResult& feature;
+  const evaluation::CharacteristicResult& result;
+  const evaluation::FeatureResult& feature;
   const QifFeature& places;
   Family family = Family::kUserDefined;
   int nominal = 0;
@@ -133,14 +133,14 @@ void add_radii(pugi::xml_node parent, double inner_mm, double outer_mm) {
 }
 
 /// Whether the value is the width of this zone, and not a corrected one.
-bool is_width(const CharacteristicResult& result, double width_mm) {
+bool is_width(const evaluation::CharacteristicResult& result, double width_mm) {
   constexpr double kSame_mm = 1e-12;
   return result.value && std::abs(result.value->quoted_mm() - width_mm) <= kSame_mm;
 }
 
 /// ZoneRadii and ZoneAxis: the minimum zone itself.
 void add_cylinder_zone(pugi::xml_node node, const PlacedResult& placed) {
-  const FeatureResult& feature = placed.feature;
+  const evaluation::FeatureResult& feature = placed.feature;
   const auto zone = zone_of(feature);
   if (!zone || !feature.mz_cylinder || !is_width(placed.result, zone->deviation_mm)) return;
   add_radii(node, zone->inner_radius_mm, zone->outer_radius_mm);
@@ -155,7 +155,7 @@ void add_cylinder_zone(pugi::xml_node node, const PlacedResult& placed) {
 /// ZoneRadii and ZonePlane of the section that gave the value.
 void add_circle_zone(pugi::xml_node node, const PlacedResult& placed) {
   const double offset_mm = surface_offset_mm(placed.feature);
-  for (const LayerResult& layer : placed.feature.layers) {
+  for (const evaluation::LayerResult& layer : placed.feature.layers) {
     if (!layer.mz || !is_width(placed.result, layer.mz->width_mm())) continue;
     add_radii(node, layer.mz->inner_radius_mm + offset_mm, layer.mz->outer_radius_mm + offset_mm);
     const fit::Axis axis = section_axis(placed.feature, layer, layer.mz->center_mm);
@@ -167,8 +167,9 @@ void add_circle_zone(pugi::xml_node node, const PlacedResult& placed) {
 }
 
 /// What the attribute of that name is, which QIF leaves open; empty without one.
-std::string uncertainty_words(const CharacteristicResult& result) {
-  const UncertaintyStatement* known = result.value ? result.value->statement() : nullptr;
+std::string uncertainty_words(const evaluation::CharacteristicResult& result) {
+  const evaluation::UncertaintyStatement* known =
+      result.value ? result.value->statement() : nullptr;
   if (known == nullptr) return {};
   return fmt::format("standard uncertainty in mm (k = 1), {}; {:g} % lie within {} and {} mm",
                      name_of(known->measurand), 100.0 * result.value->uncertainty().coverage_1(),
@@ -176,7 +177,7 @@ std::string uncertainty_words(const CharacteristicResult& result) {
 }
 
 void add_measured(QifDraft& draft, const PlacedResult& placed) {
-  const CharacteristicResult& result = placed.result;
+  const evaluation::CharacteristicResult& result = placed.result;
   const record::Characteristic& asked = result.characteristic;
   pugi::xml_node node =
       add(draft.lists.measured_characteristics, element(placed.family, "Measurement").c_str());
@@ -194,7 +195,7 @@ void add_measured(QifDraft& draft, const PlacedResult& placed) {
   if (draft.device) add_references(node, "MeasurementDeviceIds", {*draft.device});
   if (!result.value || !std::isfinite(result.value->value_mm())) return;
   pugi::xml_node value = add(node, "Value", decimal(result.value->quoted_mm()));
-  if (const UncertaintyStatement* known = result.value->statement()) {
+  if (const evaluation::UncertaintyStatement* known = result.value->statement()) {
     set(value, "combinedUncertainty", decimal(known->standard_uncertainty_mm));
   }
   if (asked.reference != Reference::kMinimumZone) return;
@@ -205,8 +206,8 @@ void add_measured(QifDraft& draft, const PlacedResult& placed) {
 }  // namespace
 
 void add_qif_characteristics(QifDraft& draft, const QifFeature& places,
-                             const FeatureResult& feature) {
-  for (const CharacteristicResult& result : feature.characteristics) {
+                             const evaluation::FeatureResult& feature) {
+  for (const evaluation::CharacteristicResult& result : feature.characteristics) {
     PlacedResult placed{result, feature, places, family_of(result.characteristic)};
     add_definition(draft, placed);
     add_item(draft, placed);

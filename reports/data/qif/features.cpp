@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "reports/data/qif/parts.h"
 #include "evaluation/feature_values.h"
 #include "evaluation/section.h"
+#include "reports/data/qif/parts.h"
 
 namespace rondure::reports {
 namespace {
@@ -23,7 +23,7 @@ struct Associated {
   double deviation_mm = 0.0;
 };
 
-std::vector<Associated> cylinders_of(const FeatureResult& feature) {
+std::vector<Associated> cylinders_of(const evaluation::FeatureResult& feature) {
   std::vector<Associated> out;
   const double offset_mm = surface_offset_mm(feature);
   if (const auto& ls = feature.ls_cylinder) {
@@ -43,7 +43,8 @@ std::vector<Associated> cylinders_of(const FeatureResult& feature) {
   return out;
 }
 
-std::vector<Associated> circles_of(const FeatureResult& feature, const LayerResult& layer) {
+std::vector<Associated> circles_of(const evaluation::FeatureResult& feature,
+                                   const evaluation::LayerResult& layer) {
   std::vector<Associated> out;
   const double offset_mm = surface_offset_mm(feature);
   const auto add_circle = [&](Reference reference, const Eigen::Vector2d& center_mm,
@@ -157,7 +158,7 @@ PointRange point_range(std::optional<int> set, const std::vector<std::size_t>& r
 
 }  // namespace
 
-QifFeature add_qif_feature(QifDraft& draft, const FeatureResult& feature) {
+QifFeature add_qif_feature(QifDraft& draft, const evaluation::FeatureResult& feature) {
   const record::Feature& asked = feature.feature;
   QifFeature out;
   if (record::is_analysis(asked.shape)) return out;
@@ -175,7 +176,7 @@ QifFeature add_qif_feature(QifDraft& draft, const FeatureResult& feature) {
   for (const Associated& found : cylinders_of(feature)) {
     add_measurement(draft, *out.whole, found, {set, {}});
   }
-  for (const LayerResult& layer : feature.layers) {
+  for (const evaluation::LayerResult& layer : feature.layers) {
     QifShape section = add_shape(draft, asked, true, layer.height_mm,
                                  fmt::format("{}, section {}", asked.id, layer.layer + 1));
     for (const Associated& found : circles_of(feature, layer)) {

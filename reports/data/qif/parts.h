@@ -67,14 +67,15 @@ struct QifFeature {
 /// Writes the points that were evaluated: means of repeated touches, as tip centres where the tip
 /// is known, with normals out of the material and deviations where there is a zone.
 /// @return The id of the set; nothing without points.
-[[nodiscard]] std::optional<int> add_qif_points(QifDraft& draft, const FeatureResult& feature);
+[[nodiscard]] std::optional<int> add_qif_points(QifDraft& draft,
+                                                const evaluation::FeatureResult& feature);
 
 /// Writes definition, nominal, item, point set and measurements of one feature.
-[[nodiscard]] QifFeature add_qif_feature(QifDraft& draft, const FeatureResult& feature);
+[[nodiscard]] QifFeature add_qif_feature(QifDraft& draft, const evaluation::FeatureResult& feature);
 
 /// Writes definition, nominal, item and measurement of each characteristic of a feature.
 void add_qif_characteristics(QifDraft& draft, const QifFeature& places,
-                             const FeatureResult& feature);
+                             const evaluation::FeatureResult& feature);
 
 /// A list with `n`, which finish_lists() sets.
 pugi::xml_node add_list(pugi::xml_node parent, const char* name);

@@ -1,7 +1,7 @@
 #include "core/numbers.h"
-#include "reports/data/qif/parts.h"
 #include "evaluation/measured_cloud.h"
 #include "evaluation/section.h"
+#include "reports/data/qif/parts.h"
 
 namespace rondure::reports {
 namespace {
@@ -9,10 +9,10 @@ namespace {
 using core::decimal;
 
 /// The axis that angles and deviations of the cloud are about, where there is a zone.
-std::optional<fit::Axis> zone_axis(const FeatureResult& feature) {
+std::optional<fit::Axis> zone_axis(const evaluation::FeatureResult& feature) {
   if (feature.mz_cylinder) return feature.mz_cylinder->axis;
   if (feature.feature.shape != record::Shape::kCircle || feature.layers.empty()) return {};
-  const LayerResult& section = feature.layers.front();
+  const evaluation::LayerResult& section = feature.layers.front();
   if (!section.mz) return {};
   return section_axis(feature, section, section.mz->center_mm);
 }
@@ -24,11 +24,11 @@ void append(std::string& list, const std::string& item) {
 }
 
 /// Unit vectors out of the material, one a point.
-std::string normals_of(const FeatureResult& feature, const fit::Axis& axis) {
+std::string normals_of(const evaluation::FeatureResult& feature, const fit::Axis& axis) {
   const double sign = feature.feature.side == record::Side::kOutside ? 1.0 : -1.0;
   const Eigen::Vector3d unit = axis.direction.normalized();
   std::string text;
-  for (const CloudPoint& point : feature.cloud) {
+  for (const evaluation::CloudPoint& point : feature.cloud) {
     const Eigen::Vector3d arm = point.tip_mm - axis.point_mm;
     Eigen::Vector3d radial = arm - arm.dot(unit) * unit;
     const double length_mm = radial.norm();
@@ -41,7 +41,7 @@ std::string normals_of(const FeatureResult& feature, const fit::Axis& axis) {
 
 }  // namespace
 
-std::optional<int> add_qif_points(QifDraft& draft, const FeatureResult& feature) {
+std::optional<int> add_qif_points(QifDraft& draft, const evaluation::FeatureResult& feature) {
   if (feature.cloud.empty()) return {};
   const auto axis = zone_axis(feature);
   pugi::xml_node node = add(draft.lists.point_sets, "MeasuredPointSet");
@@ -57,7 +57,7 @@ std::optional<int> add_qif_points(QifDraft& draft, const FeatureResult& feature)
                   {"temperature", feature.thermal ? "brought to 20 degC" : "as measured"}});
   std::string points;
   std::string deviations;
-  for (const CloudPoint& point : feature.cloud) {
+  for (const evaluation::CloudPoint& point : feature.cloud) {
     append(points, text_of(point.tip_mm));
     append(deviations, core::shortest(point.deviation_mm));
   }

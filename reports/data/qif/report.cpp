@@ -19,17 +19,17 @@ std::string document_id(const record::Header& header) {
                      hex.substr(17, 3), hex.substr(20, 12));
 }
 
-const char* inspection_status(Verdict verdict) {
+const char* inspection_status(evaluation::Verdict verdict) {
   switch (verdict) {
-    case Verdict::kConforms:
+    case evaluation::Verdict::kConforms:
       return "PASS";
-    case Verdict::kDoesNotConform:
+    case evaluation::Verdict::kDoesNotConform:
       return "FAIL";
-    case Verdict::kUndecided:
+    case evaluation::Verdict::kUndecided:
       return "UNKNOWN";
-    case Verdict::kNotToleranced:
+    case evaluation::Verdict::kNotToleranced:
       return "NOT_CALCULATED";
-    case Verdict::kVoid:
+    case evaluation::Verdict::kVoid:
       break;
   }
   return "UNDEFINED";
@@ -162,7 +162,7 @@ void add_traceability(const QifDraft& draft, pugi::xml_node results,
 }
 
 void add_actual_component(QifDraft& draft, pugi::xml_node root_results,
-                          const record::Header& header, Verdict verdict) {
+                          const record::Header& header, evaluation::Verdict verdict) {
   if (header.serial.empty()) return;
   pugi::xml_node component =
       add(add_list(add_list(root_results, "ActualComponentSets"), "ActualComponentSet"),
@@ -174,7 +174,7 @@ void add_actual_component(QifDraft& draft, pugi::xml_node root_results,
 
 }  // namespace
 
-std::string write_qif(const record::RunRecord& record, const Evaluation& evaluation) {
+std::string write_qif(const record::RunRecord& record, const evaluation::Evaluation& evaluation) {
   QifDraft draft;
   pugi::xml_node root = add_root(draft, record.header);
   const int formal_standard = add_definitions(draft, root, record.header);
@@ -192,7 +192,7 @@ std::string write_qif(const record::RunRecord& record, const Evaluation& evaluat
   draft.lists.measured_characteristics = add_list(characteristics, "CharacteristicMeasurements");
   add(add(results, "InspectionStatus"), "InspectionStatusEnum",
       inspection_status(evaluation.verdict));
-  for (const FeatureResult& feature : evaluation.features) {
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
     add_qif_characteristics(draft, add_qif_feature(draft, feature), feature);
   }
   if (!draft.lists.measured_characteristics.first_child()) {  // these two must hold something
