@@ -62,7 +62,7 @@ core::Result<LiveCloud> evaluate_so_far(const RunRecord& record, const record::P
   const std::size_t touches = touches_in(record, visit.id);
   if (touches == 0) return core::fail(core::Code::kNoPoints, "no touch in this pose yet");
   const std::size_t every = (touches + kMostLiveTouches - 1) / kMostLiveTouches;
-  auto evaluation = evaluate(of_one_pose(record, visit, every));
+  auto evaluation = evaluation::evaluate(of_one_pose(record, visit, every));
   if (!evaluation) return core::fail(evaluation.error());
   evaluation::FeatureResult& result = evaluation->features.front();
   if (result.failure) return core::fail(*result.failure);

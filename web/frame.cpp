@@ -30,7 +30,8 @@ record::Strategy strategy_of(const record::RunRecord& record, const record::Pose
 bool is_whole(const record::RunRecord& record, const record::PoseVisit& visit) {
   const record::Feature& feature = record.features[static_cast<std::size_t>(visit.feature)];
   const int targets = feature.layers * feature.points_per_layer;
-  return touches_of(record, visit.id).size() >= static_cast<std::size_t>(std::max(targets, 1));
+  return evaluation::touches_of(record, visit.id).size() >=
+         static_cast<std::size_t>(std::max(targets, 1));
 }
 
 /// A feature with nothing but its poses, for the drawings of the search.
@@ -93,10 +94,10 @@ void LivePainter::look_at_poses(const record::PoseVisit& present) {
     if (visit.feature != present.feature) continue;
     const bool grew = visit.id == present.id || visit.id == grew_;
     if (const auto known = poses_.find(visit.id); !grew && known != poses_.end()) {
-      known->second.final_pose = is_final(record_, visit);
+      known->second.final_pose = evaluation::is_final(record_, visit);
       continue;
     }
-    const auto value = value_of_pose(record_, visit, strategy_of(record_, visit));
+    const auto value = evaluation::value_of_pose(record_, visit, strategy_of(record_, visit));
     if (value) poses_[visit.id] = *value;
   }
   grew_ = present.id;

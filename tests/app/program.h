@@ -27,17 +27,17 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// How the program is started.
+/// Conditions under which the program is started.
 struct Surroundings {
-  std::optional<std::size_t> largest_file_bytes;  ///< As a full disk: writes beyond it fail.
+  std::optional<std::size_t> largest_file_bytes;  ///< Like a full disk: writes beyond it fail.
   /// Empty: captured; "closed"; "unread": with standard error a pipe without a reader; else a file
   /// to write to.
   std::string standard_output;
   bool empty_environment = false;
-  bool unprivileged = false;  ///< As user `nobody` when the tests run as root.
+  bool unprivileged = false;  ///< Runs as user `nobody` when the tests run as root.
 };
 
-/// How the program ended.
+/// Exit and output of the program.
 struct Outcome {
   int status = -1;  ///< Exit status; -1 when a signal ended it.
   int signal = 0;   ///< The signal that ended it, or 0.
@@ -45,7 +45,7 @@ struct Outcome {
   std::string err;  ///< Standard error.
 };
 
-/// The program at work.
+/// A running program.
 class Program {
  public:
   explicit Program(const std::vector<std::string>& arguments,
@@ -54,7 +54,7 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Nothing happens to a program that was waited for.
+  /// Sends a signal; has no effect after wait().
   void send(int signal) const;
   [[nodiscard]] bool ended() const;
   [[nodiscard]] Outcome wait();
@@ -62,7 +62,7 @@ class Program {
   [[nodiscard]] std::string told() const;
 
  private:
-  TemporaryFolder folder_;  ///< Holds what it prints.
+  TemporaryFolder folder_;  ///< Holds the output of the program.
   pid_t pid_ = -1;
 };
 

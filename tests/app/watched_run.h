@@ -10,7 +10,7 @@
 
 namespace rondure::app::testing {
 
-/// What a server answered; status 0 when it did not.
+/// Answer of a server; status 0 when there was none.
 struct Answer {
   int status = 0;
   std::string type;
@@ -25,10 +25,10 @@ struct Head {
   std::string value;
 };
 
-/// A run with its live page, looked at as a browser does.
+/// A run with its live page, requested as a browser does.
 class WatchedRun {
  public:
-  /// Waits until the program tells where the page is.
+  /// Waits until the program has printed the address of the page.
   explicit WatchedRun(const std::vector<std::string>& arguments,
                       const Surroundings& surroundings = {});
 
@@ -41,9 +41,10 @@ class WatchedRun {
   [[nodiscard]] std::vector<Head> right_heads() const;
   [[nodiscard]] Answer ask(const std::string& method, const std::string& path,
                            const std::vector<Head>& heads = {}, const std::string& body = {}) const;
-  /// What changed since a version; null when nobody answers.
+  /// Changes since a version; null when the server does not answer.
   [[nodiscard]] nlohmann::json look(std::uint64_t since = 0, const std::string& client = "a") const;
-  /// Looks until a part holds a text; everything put together, null when the program went away.
+  /// Requests changes until a part holds a text; returns all parts merged, null when the program
+  /// has ended.
   [[nodiscard]] nlohmann::json look_until(const std::string& part, const std::string& text) const;
 
  private:
@@ -52,7 +53,7 @@ class WatchedRun {
   std::string token_;
 };
 
-/// A connection to a port of this computer; -1 when there is none. Close it.
+/// Connects to a port of this computer; the caller closes the handle. -1 when it fails.
 [[nodiscard]] int connect_to(std::uint16_t port);
 
 }  // namespace rondure::app::testing

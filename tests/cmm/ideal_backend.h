@@ -12,8 +12,8 @@
 
 namespace rondure::cmm {
 
-/// A machine in a world where everything is where it is expected: a touch meets its target, a move
-/// meets nothing. Its tip is that of the recorded dialogue.
+/// A machine without errors or obstacles: every touch meets its target, no move collides. Its tip
+/// is that of the recorded dialogue.
 class IdealMachine final : public Machine {
  public:
   static constexpr double kTipRadius_mm = 3.0;

@@ -14,12 +14,12 @@ class Talk {
  public:
   explicit Talk(const ServerOptions& options = {}) : server_(backend_, with_tip(options)) {}
 
-  /// Sends a line; what the server says at once.
+  /// Sends a line; returns the immediate answer of the server.
   std::vector<std::string> say(std::string_view line) {
     server_.receive({std::string(line), RawLine::Fault::kNone}, now_s);
     return server_.take_output();
   }
-  /// Lets the time pass, in steps of 10 ms; what the server says.
+  /// Advances the time in steps of 10 ms; returns the lines that the server sends.
   std::vector<std::string> wait(double seconds) {
     std::vector<std::string> out;
     const double until_s = now_s + seconds;
@@ -30,7 +30,7 @@ class Talk {
     }
     return out;
   }
-  /// A session with a homed machine and the tool Probe1.
+  /// Starts a session with a homed machine and the tool Probe1.
   void begin() {
     for (const char* line :
          {"00001 StartSession()", "00002 Home()", "00003 ChangeTool(\"Probe1\")"}) {
@@ -38,7 +38,7 @@ class Talk {
     }
     wait(1.0);
   }
-  /// The answer without & and %, when the command went well or not; lines joined by "|".
+  /// The answer to a command, successful or not, without & and %; lines joined by "|".
   std::string ask(std::string_view command) {
     const std::string tag = "09999";
     std::string out;

@@ -13,7 +13,7 @@
 #include "cmm/machine.h"
 #include "core/units.h"
 
-// What every driver of cmm::Machine must keep (cmm/machine.h). A driver's test file says
+// Tests that every driver of cmm::Machine must pass (cmm/machine.h). A driver's test file has
 //
 //   INSTANTIATE_TYPED_TEST_SUITE_P(Simulated, MachineContract, SimulatedRig);
 //
@@ -40,13 +40,13 @@ class MachineContract : public ::testing::Test {
   static TouchCommand touch_from_x(std::int64_t id) {
     return {id, {27.0, 0.0, 0.0}, -Eigen::Vector3d::UnitX(), 3.0, 3.0};
   }
-  /// Homed, the shaft on the table, the tip where touch_from_x() begins.
+  /// Homes the machine, places the shaft, and moves the tip to the start of touch_from_x().
   void stand_before_shaft() {
     rig.place(false);
     ASSERT_TRUE(machine.home());
     go_to({30.0, 0.0, 0.0});
   }
-  /// Straight up, across, and straight down.
+  /// Moves straight up, across, and straight down.
   void go_to(const Eigen::Vector3d& tip_W_mm) {
     const Eigen::Vector3d from_W_mm = machine.position_W_mm();
     ASSERT_TRUE(machine.move_to({from_W_mm.x(), from_W_mm.y(), 200.0}));

@@ -13,10 +13,10 @@
 namespace rondure::cmm {
 
 /// A transport whose other end is a function of the test: each line that is sent gives the lines
-/// that come back. Nothing more to read is silence, as from a server that hangs.
+/// that come back. Without further lines it stays silent, like a server that hangs.
 class ScriptedServer final : public wire::LineTransport {
  public:
-  /// Gets the tag and the rest of a line; gives whole lines.
+  /// Takes the tag and the rest of a line; returns whole lines.
   using Answer =
       std::function<std::vector<std::string>(const std::string& tag, const std::string& method)>;
 
@@ -44,11 +44,11 @@ class ScriptedServer final : public wire::LineTransport {
   bool is_open() const override { return open_; }
   std::string unfinished() const override { return half_; }
   std::string peer() const override { return "script"; }
-  /// Closes behind the last line.
+  /// Closes the connection after the last line.
   void hang_up() { hangs_up_ = true; }
-  /// Behind the last line comes one without an end.
+  /// Sends `half`, a line without an end, after the last line.
   void trail_off(std::string half) { half_ = std::move(half); }
-  /// A line that comes by itself.
+  /// Sends a line that answers no command.
   void say(std::string line) { lines_.push_back(std::move(line)); }
 
  private:

@@ -12,16 +12,16 @@
 
 #include <Eigen/Core>
 
-#include "cmm/ipp_server/backend.h"
 #include "cmm/ipp/frames.h"
 #include "cmm/ipp/grammar.h"
 #include "cmm/ipp/lines.h"
+#include "cmm/ipp_server/backend.h"
 #include "cmm/ipp_server/parameters.h"
 #include "wire/tcp_line.h"
 
 namespace rondure::cmm::ipp {
 
-/// In what the servers of this kind differ among themselves.
+/// Differences among servers of this kind.
 struct SeenProfile {
   bool tells_version = true;           ///< false: GetDMEVersion is 0507, as before 1.4.
   bool has_scan_parameters = true;     ///< false: Tool.ScanPar is 0502.
@@ -31,13 +31,13 @@ struct SeenProfile {
       false;  ///< Steps +-3 %, starts within a degree, 2 % of the points missing.
   double tip_radius_mm = 2.0;
   ParameterDefaults defaults;
-  /// Simulated seconds in a second of the clock, of GoTo; everything else takes no time.
+  /// Simulated seconds of a GoTo per second of the clock; everything else takes no time.
   double speed = std::numeric_limits<double>::infinity();
 };
 
 /// Double of the independent server whose dialogue was recorded (tests/data/ipp_dme_dialogue), with
-/// a machine behind it. It shares the grammar with the program, and nothing else: what it answers
-/// is what was seen, also where the specification says otherwise.
+/// a machine behind it. It shares only the grammar with the program. Its answers are those of the
+/// recorded server, also where the specification says otherwise.
 ///
 ///   values of Get and PtMeas in alphabetical order, Q first in scans; five decimals
 ///   PtMeas and ScanOnCircle take surface points: the tip centre is a tip radius farther out
@@ -52,9 +52,9 @@ class SeenServer {
 
   /// Takes a line from the client. `now_s` is any clock that does not go back.
   void receive(const RawLine& line, double now_s);
-  /// Goes on with what moves.
+  /// Advances motions to the time `now_s`.
   void advance(double now_s);
-  /// The client has gone.
+  /// Called when the client has disconnected.
   void disconnect();
   /// Lines to send, in order.
   [[nodiscard]] std::vector<std::string> take_output();
@@ -119,8 +119,8 @@ class SeenServer {
   std::mt19937_64 random_{1};
 };
 
-/// Serves such a server on a port of this computer, one client after the other, from a thread of
-/// its own, until it is destroyed.
+/// Runs such a server on a port of this computer, one client after the other, from a thread of its
+/// own, until it is destroyed.
 class SeenService {
  public:
   SeenService(Backend& backend, const SeenProfile& profile);

@@ -12,7 +12,7 @@
 
 namespace rondure::cmm {
 
-/// A simulated machine without a table, as a server sees it.
+/// Server backend of a simulated machine without a table.
 class BareBackend final : public ipp::Backend {
  public:
   explicit BareBackend(const SimulatedMachineOptions& options = {}) : machine_(options) {}

@@ -25,7 +25,7 @@ inline double sum_of(const std::vector<Wave>& waves, double constant, double ang
   return out;
 }
 
-/// dd of section 10 [um].
+/// Error of the X axis, dd of section 10 [um].
 inline double spec_x_um(double alpha) {
   return sum_of({{2, 1.8, -0.4},
                  {3, 1.1, 0.9},
@@ -36,7 +36,7 @@ inline double spec_x_um(double alpha) {
                 0.7, alpha);
 }
 
-/// dalpha of section 10 [mdeg].
+/// Error of the C axis, dalpha of section 10 [mdeg].
 inline double spec_c_mdeg(double alpha) {
   return sum_of({{1, 1.2, 0.5}, {2, 0.9, 1.4}, {4, 0.5, -0.6}, {8, 0.2, 2.0}}, 0.6, alpha);
 }
@@ -78,8 +78,8 @@ inline std::vector<double> spec_rest(std::size_t part, std::size_t count = 1440)
   return out;
 }
 
-/// f of section 10: the contour error that the spec's axis errors grind, with the spline of the
-/// specification.
+/// f of section 10: the contour error that follows from the axis errors of the specification, with
+/// its spline.
 inline fit::ContourError spec_following(double c_scale = 1.0, std::size_t path = 300,
                                         const fit::GroundContourOptions& options = {
                                             .refine = false}) {

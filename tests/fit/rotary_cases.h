@@ -24,7 +24,7 @@ inline constexpr double kUrad = 1e-6;
 /// True (t; w) at an angle from the reference; zero at 0.
 using TrueErrors = std::function<fit::Vector6(double)>;
 
-/// Balls of setups (L, H) of a hanging head.
+/// Ball positions of setups (L, H) of a head that hangs down.
 inline std::vector<Eigen::Vector3d> hanging(const std::vector<std::array<double, 2>>& setups) {
   std::vector<Eigen::Vector3d> out;
   for (const auto& [l, h] : setups) out.emplace_back(0.0, h, -l);
@@ -38,16 +38,16 @@ inline std::vector<double> angles_deg(double first, double last, int n) {
   return out;
 }
 
-/// What an axis is measured with.
+/// Conditions of the measurement of an axis.
 struct Probing {
   double u_mm = 0.5e-3;
   std::uint64_t seed = 1;
   bool noisy = true;
-  int references = 3;  ///< 0: the places in the reference pose are given exactly.
+  int references = 3;  ///< 0: the reference positions are exact.
 };
 
-/// Balls named "a", "b", ... at all stations.
-/// @param p0_mm  In the reference pose, relative to the origin of the axis.
+/// Measurement of balls named "a", "b", ... at all stations.
+/// @param p0_mm  Ball centres in the reference pose, relative to the origin of the axis.
 inline fit::RotaryMeasurement measured(const fit::RotaryAxis& axis,
                                        const std::vector<Eigen::Vector3d>& p0_mm,
                                        const std::vector<double>& stations_rad,
@@ -84,7 +84,7 @@ inline fit::RotaryMeasurement measured(const fit::RotaryAxis& axis,
   return out;
 }
 
-/// a (cos(k phi - q) - cos q).
+/// a (cos(k phi - q) - cos q): a wave that is zero at phi = 0.
 inline double wave(double phi, double a, int k, double q) {
   return a * (std::cos(k * phi - q) - std::cos(q));
 }

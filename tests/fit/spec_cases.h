@@ -45,7 +45,7 @@ inline Eigen::Matrix3d spec_tilt(char surface) {
       .toRotationMatrix();
 }
 
-/// The plain splitmix64 sequence that section 12.2 prescribes: one state, two draws a point.
+/// The plain splitmix64 sequence that section 12.2 prescribes: one state, two draws per point.
 class SpecNoise {
  public:
   explicit SpecNoise(std::uint64_t seed) : state_(seed) {}
@@ -76,14 +76,14 @@ inline std::vector<Eigen::Vector3d> spec_points(char surface, int form_um, int s
   return points;
 }
 
-/// A vector of a cube of half side `size`.
+/// A random vector from a cube of half side `size`.
 inline Eigen::Vector3d draw(core::KeyedNoise& random, double size) {
   const double x = size * (2.0 * random.uniform() - 1.0);
   const double y = size * (2.0 * random.uniform() - 1.0);
   return {x, y, size * (2.0 * random.uniform() - 1.0)};
 }
 
-/// What random_cylinder() makes: layers of a radius of 25 mm about z, bent towards x.
+/// Settings of random_cylinder(): layers of radius 25 mm about z, bent towards x.
 struct CylinderKind {
   int layers = 4;
   int points = 7;
@@ -93,7 +93,7 @@ struct CylinderKind {
   double bend_mm = 0.0;
 };
 
-/// @param stream  Of random numbers: another one, other points of the same seed.
+/// @param stream  Stream of random numbers: another stream gives other points for the same seed.
 inline std::vector<Eigen::Vector3d> random_cylinder(std::uint64_t seed, std::uint64_t stream,
                                                     const CylinderKind& kind) {
   core::KeyedNoise noise(seed, {stream});

@@ -7,7 +7,7 @@
 #include "core/units.h"
 #include "fit/spindle/three_probe.h"
 
-// Made-up parts and motions and what three probes read of them, by the measurement equations of
+// Simulated parts and motions and the readings of three probes, by the measurement equations of
 // methods, roundness A.3, independent of the code under test.
 
 namespace rondure::fit {
@@ -42,7 +42,7 @@ struct SpindleCase {
   }
 };
 
-/// What probe i reads at a work angle [um], to first order.
+/// Reading of probe i at a work angle [um], to first order.
 inline double reading_um(const SpindleCase& c, const ProbeLayout& layout, std::size_t i,
                          double alpha) {
   const double beta = c.arm.beta_rad(alpha);

@@ -28,7 +28,8 @@ inline Points2 example_2() {
           {7.037669, -74.475903},  {43.523754, -61.194289},  {68.486128, -31.452452}};
 }
 
-/// n even points over an arc of a circle, both ends included unless the arc is the whole circle.
+/// n evenly spaced points over an arc of a circle, both ends included unless the arc is the whole
+/// circle.
 inline Points2 arc_points(std::size_t n, double arc_deg, double radius, double sigma,
                           std::uint64_t seed, const Eigen::Vector2d& center = {0.0, 0.0}) {
   core::KeyedNoise noise(seed, {77});

@@ -5,14 +5,16 @@
 
 namespace rondure::fuzz {
 
-// What a fuzzer feeds with bytes. Each gives "" or what went wrong, in words; a crash, a sanitizer
-// report or an exception is wrong, too.
+// Entry points for a fuzzer. Each takes bytes and returns "" or a description of the fault; a
+// crash, a sanitizer report or an exception is a fault, too.
 
-/// The grammar: what is read as a command is written and read again the same; responses likewise.
+/// Tests the grammar: a command that is read must be equal after writing and reading; responses
+/// likewise.
 [[nodiscard]] std::string try_ipp_grammar(std::string_view bytes);
 
-/// The server behind a line cutter, with an ideal machine. The first byte chooses manner and pace;
-/// every line it says must be a response, and every acknowledged command is completed once.
+/// Tests the server, fed through a line cutter, with an ideal machine. The first byte selects
+/// options and timing; every line from the server must be a response, and every acknowledged
+/// command must be completed once.
 [[nodiscard]] std::string try_ipp_server(std::string_view bytes);
 
 }  // namespace rondure::fuzz

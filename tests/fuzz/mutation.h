@@ -6,11 +6,11 @@
 
 namespace rondure::fuzz {
 
-/// Makes damaged inputs out of good ones: bytes changed, taken out, doubled, words and lines of one
-/// put into another. The same seed gives the same input.
+/// Makes damaged inputs out of good ones: bytes changed, removed, doubled, words and lines of one
+/// input put into another. The same seed gives the same input.
 class Mutation {
  public:
-  /// @param words  Put in whole, e.g. names and numbers of the protocol.
+  /// @param words  Inserted as a whole, e.g. names and numbers of the protocol.
   Mutation(std::vector<std::string> corpus, std::vector<std::string> words)
       : corpus_(std::move(corpus)), words_(std::move(words)) {}
 
@@ -21,9 +21,8 @@ class Mutation {
   std::vector<std::string> words_;
 };
 
-/// Makes tables that can still be read out of good ones: rows taken out, doubled and sorted,
-/// columns made equal, scaled and moved, single numbers of any size. The same seed gives the same
-/// table.
+/// Makes damaged but readable tables out of good ones: rows removed, doubled and sorted, columns
+/// made equal, scaled and moved, single numbers of any size. The same seed gives the same table.
 class TableMutation {
  public:
   /// @param tables  CSV: a header line, then rows of numbers and words.

@@ -8,7 +8,7 @@
 namespace rondure::fuzz {
 
 /// Changes some rows of a SQLite file: values of every type and size, names of other rows, rows
-/// removed, doubled and renumbered. What the tables themselves refuse is left.
+/// removed, doubled and renumbered. Changes that the tables themselves refuse are skipped.
 void damage_rows(const std::filesystem::path& file, const std::vector<std::string>& tables,
                  std::mt19937& random);
 

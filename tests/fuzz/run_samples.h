@@ -11,8 +11,8 @@ namespace rondure::fuzz {
 [[nodiscard]] const std::vector<std::filesystem::path>& sample_runs();
 
 /// Damages the rows of a copy of one of them, and computes chain, seal and SHA256SUMS anew, so that
-/// the journal passes for whole. The same seed makes the same journal.
-/// @param directory  Emptied and made anew.
+/// the journal passes the checks. The same seed makes the same journal.
+/// @param directory  Emptied first.
 void write_resealed_run(const std::filesystem::path& directory, unsigned seed);
 
 }  // namespace rondure::fuzz

@@ -5,8 +5,8 @@
 
 namespace rondure::fuzz {
 
-// Verbs that read a file, in this process: "" or what is wrong with the answer. The first byte
-// chooses options; the others are the file.
+// Runs verbs that read a file, in this process; each returns "" or a description of the fault. The
+// first byte selects options; the others are the file.
 
 [[nodiscard]] std::string try_fit(std::string_view bytes);
 [[nodiscard]] std::string try_rotary_axes(std::string_view bytes);

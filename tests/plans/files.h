@@ -32,7 +32,7 @@ inline std::string bytes_of(const std::filesystem::path& path) {
   return record::read_file(path).value_or("");
 }
 
-/// The plans of a folder, by name.
+/// The plans of a folder, sorted by name.
 inline std::vector<std::filesystem::path> plans_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> out;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -42,7 +42,7 @@ inline std::vector<std::filesystem::path> plans_in(const std::filesystem::path& 
   return out;
 }
 
-/// One line a problem; empty when there is a plan.
+/// One line per problem; empty when there is a plan.
 inline std::string lines_of(const PlanOrProblems& result) {
   std::string out;
   if (result) return out;
@@ -50,14 +50,14 @@ inline std::string lines_of(const PlanOrProblems& result) {
   return out;
 }
 
-/// An example that is there and without problems.
+/// An example plan; fails the test when it is missing or has problems.
 inline Plan plan_of(const std::string& example_name) {
   auto plan = read_plan(example(example_name));
   EXPECT_TRUE(plan) << lines_of(plan);
-  return std::move(plan).value();  // throws: the test fails, the others go on
+  return std::move(plan).value();  // throws: this test fails, the others continue
 }
 
-/// A run of the same name and start, whatever the test.
+/// Options that give every test the same run name and start.
 inline RunOptions options_for(const std::filesystem::path& directory) {
   RunOptions options;
   options.directory = directory;
@@ -67,7 +67,7 @@ inline RunOptions options_for(const std::filesystem::path& directory) {
   return options;
 }
 
-/// The record in a journal, or a failed test.
+/// The record in a journal; fails the test when it cannot be read.
 inline record::RunRecord journal_of(const std::filesystem::path& directory) {
   auto read = record::read_journal(directory);
   EXPECT_TRUE(read) << (read ? "" : read.error().what);

@@ -13,7 +13,7 @@
 
 namespace rondure::test {
 
-/// A number from low to high.
+/// A random number from low to high.
 inline double between(core::KeyedNoise& random, double low, double high) {
   return low + (high - low) * random.uniform();
 }
@@ -23,7 +23,7 @@ inline double between(core::KeyedNoise& random, double low, double high) {
 [[nodiscard]] plans::Plan random_plan(std::uint64_t seed, const std::string& strategy,
                                       double resolution_deg);
 
-/// A run of a plan, from its journal.
+/// The record and evaluation of a run, from its journal.
 struct Inspection {
   record::RunRecord record;
   evaluation::Evaluation evaluation;
@@ -35,8 +35,8 @@ struct Inspection {
 /// Tip centres of the final cloud.
 [[nodiscard]] std::vector<Eigen::Vector3d> final_cloud(const record::RunRecord& record);
 
-/// Least zone found by an independent search: the plane centre search in every direction that a
-/// pattern search and random directions around `near` try. Never below the true minimum.
+/// Least zone width found by an independent search: the plane centre search in every direction that
+/// a pattern search and random directions around `near` try. Never below the true minimum.
 [[nodiscard]] double searched_zone_mm(const std::vector<Eigen::Vector3d>& points,
                                       const Eigen::Vector3d& near, std::uint64_t seed);
 

@@ -19,15 +19,15 @@ namespace rondure::record {
 [[nodiscard]] std::string every_value(const ArchiveHead& head);
 [[nodiscard]] std::string every_value(const ArchiveResult& result);
 
-/// The place, or a failed test.
+/// The parsed place; fails the test when the text is wrong.
 [[nodiscard]] ArchivePlace place_of(const std::string& text);
-/// The archive, or a failed test.
+/// The open archive; fails the test when it cannot be opened.
 [[nodiscard]] Archive open_archive(const ArchivePlace& place);
-/// Everything in an archive that passes the filter, newest first.
+/// All results in an archive that pass the filter, newest first.
 [[nodiscard]] std::vector<ArchivedResult> all_of(Archive& archive,
                                                  const ArchiveFilter& filter = {});
 
-/// An archive of either kind, empty. `server` skips the test where there is none.
+/// An empty archive of either kind. For `server` the test is skipped where no server can run.
 class EitherArchive : public ::testing::TestWithParam<ArchivePlace::Kind> {
  protected:
   void SetUp() override;

@@ -10,7 +10,7 @@
 
 namespace rondure::record {
 
-/// Runs SQL on a file behind the journal's back.
+/// Runs SQL on a journal file, without the journal code.
 inline void meddle(const std::filesystem::path& file, const std::string& sql) {
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
@@ -20,7 +20,7 @@ inline void meddle(const std::filesystem::path& file, const std::string& sql) {
   sqlite3_close(database);
 }
 
-/// The bytes of a write-ahead log that gives `journal` the contents of `other`, once it lies beside
+/// The bytes of a write-ahead log that gives `journal` the contents of `other`, when it lies beside
 /// it: whole pages, each with its checksum.
 inline std::string log_that_replaces(const std::filesystem::path& journal,
                                      const std::filesystem::path& other) {
@@ -43,8 +43,8 @@ inline std::string log_that_replaces(const std::filesystem::path& journal,
   return bytes.str();
 }
 
-/// The bytes of a rollback journal that gives a journal back the pages of `other`, which it then
-/// takes for its own before an interrupted change.
+/// The bytes of a rollback journal with the pages of `other`. SQLite restores them into a journal
+/// as its own state before an interrupted change.
 inline std::string rollback_to(const std::filesystem::path& other) {
   const std::string copy = other.string() + ".copy";
   std::filesystem::copy_file(other, copy);

@@ -8,7 +8,7 @@
 namespace rondure::record {
 
 /// A PostgreSQL cluster of its own for one test: socket only, trusted user "rondure", and "guarded"
-/// with the password "right". Ends with the test, also when that is killed.
+/// with the password "right". It ends with the test, even when the test is killed.
 class PostgresServer {
  public:
   PostgresServer();
@@ -16,18 +16,18 @@ class PostgresServer {
   PostgresServer(const PostgresServer&) = delete;
   PostgresServer& operator=(const PostgresServer&) = delete;
 
-  /// Why it cannot run here; empty when it runs.
+  /// Reason why the cluster cannot run here; empty when it runs.
   [[nodiscard]] const std::string& absent() const { return absent_; }
   /// URL of its database, as the user "rondure".
   [[nodiscard]] std::string url() const { return url_of("rondure"); }
-  /// The same with another user part ("guarded:right"), and another database.
+  /// URL with another user part ("guarded:right") and database.
   [[nodiscard]] std::string url_of(const std::string& user,
                                    const std::string& database = "postgres") const;
 
   void start();
-  /// Ends it as a power cut does: no connection is told.
+  /// Stops the server as a power cut does, without closing connections.
   void stop();
-  /// Runs SQL; its answer, or what psql complains about.
+  /// Runs SQL; returns the answer, or the error message of psql.
   [[nodiscard]] std::string sql(const std::string& text, const std::string& database = "postgres");
 
  private:

@@ -29,12 +29,12 @@ class Scratch {
   std::filesystem::path path_;
 };
 
-/// A made-up run that fills every table; doubles of every size, -0.0, denormals and infinities
+/// A synthetic run that fills every table; doubles of every size, -0.0, denormals and infinities
 /// among them. Same seed, same run.
 [[nodiscard]] RunRecord sample_run(std::uint64_t seed, int touches = 50);
 
-/// Writes a run as the program does: head, poses and touches one by one, ending, seal.
-/// A run with record.sealed == false stays open and is closed as by a crash of the program above.
+/// Writes a run as the program does: head, poses and touches one by one, ending, seal. A run with
+/// record.sealed == false is not sealed and ends as if the program had crashed.
 [[nodiscard]] core::Result<void> write_run(const std::filesystem::path& directory,
                                            const RunRecord& record);
 
@@ -44,8 +44,8 @@ class Scratch {
 /// Every value of a run as text, doubles by their bits: equal exactly when the runs are.
 [[nodiscard]] std::string every_bit(const RunRecord& record);
 
-/// every_bit() without what tells one run from another that measured the same: name, time of start,
-/// decisions about the whole run, checks.
+/// every_bit() without the values that differ between runs with equal measurements: name, time of
+/// start, decisions about the whole run, checks.
 [[nodiscard]] std::string measured_bits(RunRecord record);
 
 }  // namespace rondure::record

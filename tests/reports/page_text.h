@@ -8,7 +8,7 @@
 
 namespace rondure::reports::testing {
 
-/// "nan" as a word, not as a part of one ("Provenance").
+/// Whether the page holds "nan" as a word, not as a part of one ("Provenance").
 inline bool shows_nan(std::string_view page) {
   const auto letter = [](char c) { return c >= 'a' && c <= 'z'; };
   for (std::size_t at = page.find("nan"); at != std::string_view::npos;
@@ -21,8 +21,8 @@ inline bool shows_nan(std::string_view page) {
 
 inline bool is_void_element(std::string_view name) { return name == "br" || name == "!DOCTYPE"; }
 
-/// The first tag that closes nothing, or stays open; empty for a balanced page. Quoted attribute
-/// values may hold anything but quotes; what stands in a script is not markup.
+/// The first tag that closes no element, or is not closed; empty for a balanced page. Quoted
+/// attribute values may hold anything but quotes; the contents of a script are not markup.
 inline std::string first_unbalanced_tag(std::string_view page) {
   std::vector<std::string> open;
   for (std::size_t at = page.find('<'); at != std::string_view::npos; at = page.find('<', at)) {
@@ -54,7 +54,7 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Lines of a terminal as one: every run of blanks and line ends is one blank.
+/// Joins the lines of a terminal: every run of blanks and line ends becomes one blank.
 inline std::string one_line(std::string_view text) {
   std::string out;
   for (const char c : text) {

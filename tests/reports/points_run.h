@@ -9,15 +9,16 @@
 namespace rondure::reports {
 
 /// Layers of `points_per_layer` points, 15 mm apart, radius 25 mm, axis near z through (10, -4);
-/// two and three lobes, a taper and noise, some 10 um together. `arc_rad` of the circumference.
+/// two and three lobes, a taper and noise, some 10 um together. The points cover `arc_rad` of the
+/// circumference.
 [[nodiscard]] std::vector<Eigen::Vector3d> rough_part(std::uint64_t seed, int layers,
                                                       int points_per_layer, double arc_rad);
 
 /// A finished run over such points as a file of known layers: a cylinder, or a circle of one layer.
-/// The characteristics ask for every form and reference there is, with a tolerance of 1 mm.
+/// The characteristics cover every form and reference, with a tolerance of 1 mm.
 [[nodiscard]] record::RunRecord points_run(const std::vector<Eigen::Vector3d>& points, int layers);
 
-/// The evaluation of a run, or a failed test.
+/// The evaluation of a run; fails the test when there is none.
 [[nodiscard]] evaluation::Evaluation evaluated(const record::RunRecord& run);
 
 }  // namespace rondure::reports

@@ -8,7 +8,7 @@
 
 namespace rondure::reports {
 
-/// A record with an evaluation made by hand: plausible numbers for the writers, fitted by nobody.
+/// A record with an evaluation made by hand: plausible numbers for the writers, without a fit.
 struct Case {
   record::RunRecord record;
   evaluation::Evaluation evaluation;

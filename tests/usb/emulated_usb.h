@@ -11,13 +11,13 @@
 
 namespace rondure::testing {
 
-/// How a device in software answers.
+/// Answer of an emulated device.
 struct UsbAnswer {
   enum class Kind {
-    kData,    ///< `bytes`; for a transfer to the device: it took them.
-    kWait,    ///< Nothing yet: the transfer stays pending.
+    kData,    ///< `bytes`; for a transfer to the device: they were accepted.
+    kWait,    ///< No data yet: the transfer stays pending.
     kStall,   ///< Refused.
-    kBabble,  ///< More than was asked for.
+    kBabble,  ///< More bytes than requested.
   };
 
   Kind kind = Kind::kData;
@@ -29,7 +29,7 @@ struct UsbAnswer {
   static UsbAnswer babble() { return {Kind::kBabble, {}}; }
 };
 
-/// A USB device in software. Called from the thread of the test bed, under its lock.
+/// An emulated USB device. Called from the thread of the test bed, under its lock.
 class EmulatedUsb {
  public:
   virtual ~EmulatedUsb() = default;
@@ -38,16 +38,17 @@ class EmulatedUsb {
   [[nodiscard]] virtual std::string descriptors() const = 0;
   /// The text of a string descriptor, from 1.
   [[nodiscard]] virtual std::string string(int index) const = 0;
-  /// A control request that is not for a string. `bytes` came with it; at most `most` go back.
+  /// Answers a control request that is not for a string. `bytes` is its data; the answer has at
+  /// most `most` bytes.
   virtual UsbAnswer control(const wire::UsbSetup& setup, std::string_view bytes,
                             std::size_t most) = 0;
-  /// Bytes for an OUT endpoint.
+  /// Takes bytes for an OUT endpoint.
   virtual UsbAnswer out(std::uint8_t endpoint, std::string_view bytes) = 0;
-  /// What an IN endpoint has to send; asked again and again while a transfer is pending.
+  /// Returns the data of an IN endpoint; called repeatedly while a transfer is pending.
   virtual UsbAnswer in(std::uint8_t endpoint, std::size_t most) = 0;
 };
 
-/// One interface of made-up descriptors.
+/// One interface of synthetic descriptors.
 struct DescribedInterface {
   std::uint8_t device_class = 0xff;
   std::uint8_t subclass = 0;

@@ -8,25 +8,25 @@
 
 namespace rondure::testing {
 
-/// Calls that the system itself refuses.
+/// Calls that the operating system refuses.
 struct UsbRefusals {
-  bool open = false;          ///< The device file belongs to nobody: for users other than root.
+  bool open = false;          ///< No user but root may open the device file.
   bool claim = false;         ///< Another program has claimed it.
   std::string kernel_driver;  ///< Bound to its interfaces until it is detached; "": none.
 };
 
-/// USB devices in software that this program, and every program it starts, sees as plugged in
-/// (umockdev). One at a time.
+/// Emulated USB devices that this program, and every program it starts, sees as plugged in
+/// (umockdev). Only one test bed at a time.
 class UsbTestbed {
  public:
-  /// @param lock  Held while a device is called; a test takes it to look at its devices. It
-  ///              outlives the test bed.
+  /// @param lock  Held while a device is called; a test takes it to access its devices. It must
+  ///              outlive the test bed.
   explicit UsbTestbed(std::mutex& lock);
   ~UsbTestbed();
   UsbTestbed(const UsbTestbed&) = delete;
   UsbTestbed& operator=(const UsbTestbed&) = delete;
 
-  /// Plugs it in as the next address of bus 1, from 2 on. It outlives the test bed.
+  /// Plugs in a device at the next address of bus 1, from 2 on. It must outlive the test bed.
   /// @return  Its address.
   int plug_in(EmulatedUsb& device, const UsbRefusals& refusals = {});
   /// Pulls the plug: every transfer fails from now on.

@@ -10,7 +10,7 @@
 
 namespace rondure::testing {
 
-/// A Zaber X-MCC2 on USB: the emulated controller behind a CDC-ACM interface.
+/// A Zaber X-MCC2 on USB: the emulated controller with a CDC-ACM interface.
 class ZaberUsb final : public EmulatedUsb {
  public:
   ZaberUsb(ZaberEmulator& controller, std::string serial)
@@ -43,7 +43,7 @@ class ZaberUsb final : public EmulatedUsb {
   }
 
   bool stalled = false;           ///< Refuses bytes from now on.
-  std::size_t packet_bytes = 63;  ///< A packet holds at most so many; below 64 it is short.
+  std::size_t packet_bytes = 63;  ///< Most bytes in a packet; below 64 every packet is short.
 
  private:
   ZaberEmulator& controller_;

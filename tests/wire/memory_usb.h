@@ -9,8 +9,8 @@
 
 namespace rondure::wire {
 
-/// A USB device without a bus: what it is sent is kept, what it says stands in a queue of packets.
-/// An empty packet is a time limit that passes.
+/// State of a USB device in memory: it keeps the bytes sent to it and answers from a queue of
+/// packets. An empty packet stands for a time limit that passes.
 struct MemoryUsbState {
   UsbDeviceInfo info;
   std::vector<UsbInterface> interfaces;
@@ -18,8 +18,8 @@ struct MemoryUsbState {
   std::vector<std::string> control_data;
   std::string sent;
   std::deque<std::string> packets;
-  std::string reply_to_command;  ///< Behind a control request with data: this packet.
-  int stalls_at_request = -1;    ///< Counted from 0; -1: never.
+  std::string reply_to_command;  ///< Packet sent after a control request with data.
+  int stalls_at_request = -1;    ///< Request that stalls, counted from 0; -1: never.
   bool busy = false;
   bool gone = false;
   int resets = 0;
@@ -28,7 +28,7 @@ struct MemoryUsbState {
 
 class MemoryUsb final : public UsbDevice {
  public:
-  /// @param state  Outlives the device.
+  /// @param state  Must outlive the device.
   explicit MemoryUsb(MemoryUsbState& state) : state_(state) {}
 
   const UsbDeviceInfo& info() const override { return state_.info; }

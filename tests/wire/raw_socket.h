@@ -6,7 +6,7 @@
 
 namespace rondure::wire {
 
-/// A bare TCP client on this computer, for tests: sends any bytes, also half lines.
+/// A bare TCP client on this computer, for tests: sends any bytes, including incomplete lines.
 class RawSocket {
  public:
   /// Connects to 127.0.0.1; check connected().
@@ -16,9 +16,9 @@ class RawSocket {
   RawSocket& operator=(const RawSocket&) = delete;
 
   [[nodiscard]] bool connected() const { return connected_; }
-  /// False when the other side is gone.
+  /// False when the other side has closed the connection.
   bool send(std::string_view bytes);
-  /// Up to `most` bytes, at least one unless the other side closed. Waits at most 5 s.
+  /// Returns up to `most` bytes, at least one unless the other side has closed. Waits at most 5 s.
   std::string receive(std::size_t most);
   void close();
 

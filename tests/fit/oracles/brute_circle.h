@@ -1,6 +1,6 @@
 #pragma once
 
-// Circles by enumeration of all contact sets, in long double. Slow and obvious.
+// Reference circles by enumeration of all contact sets, in long double. Slow and simple.
 
 #include <span>
 #include <vector>
@@ -12,7 +12,7 @@ namespace rondure::test {
 using Real = long double;
 using Vector2r = Eigen::Matrix<Real, 2, 1>;
 
-/// A centre with what stands at it.
+/// A centre and its value.
 struct CirclePlace {
   Vector2r center_mm = Vector2r::Zero();
   Real value_mm = 0.0L;  ///< Zone width, or radius.

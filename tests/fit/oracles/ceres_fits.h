@@ -26,7 +26,7 @@ struct CeresAxis {
   double radius_mm = 0.0;
 };
 
-/// @param start  Where the search begins; the points are taken relative to it.
+/// @param start  Start of the search; the points are taken relative to it.
 [[nodiscard]] CeresCircle ceres_circle(std::span<const Eigen::Vector2d> points_mm,
                                        const CeresCircle& start);
 [[nodiscard]] CeresSphere ceres_sphere(std::span<const Eigen::Vector3d> points_mm,

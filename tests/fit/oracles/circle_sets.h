@@ -1,6 +1,6 @@
 #pragma once
 
-// Small and hard plane sections, the diet of the circle oracles.
+// Small and hard plane sections for the circle oracles.
 
 #include <cstdint>
 #include <string>
@@ -13,7 +13,7 @@ namespace rondure::test {
 using Points2 = std::vector<Eigen::Vector2d>;
 using Points3 = std::vector<Eigen::Vector3d>;
 
-/// What is hard about a set.
+/// Properties that make a set hard.
 enum class Hard {
   kFullCircle,  ///< jittered angles over the whole turn
   kArc,         ///< 60 to 180 deg

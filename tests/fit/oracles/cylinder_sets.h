@@ -1,6 +1,6 @@
 #pragma once
 
-// Cylinders as they are measured, the diet of the independent descent.
+// Simulated measured cylinders for the independent descent.
 
 #include <cstdint>
 
@@ -8,7 +8,7 @@
 
 namespace rondure::test {
 
-/// What part() draws.
+/// Result of part().
 struct Measured {
   Points3 points;
   double half_length_mm = 0.0;
@@ -17,7 +17,7 @@ struct Measured {
 /// A part with lobes, taper, barrel, bend and noise about z, radius 25 mm, form up to some 20 um;
 /// discs of half-length 2.5 mm to shafts of 80 mm.
 ///
-/// @param turn_rad  The arc that is probed.
+/// @param turn_rad  Arc covered by the points.
 [[nodiscard]] Measured part(std::uint64_t seed, double turn_rad);
 
 }  // namespace rondure::test

@@ -13,14 +13,14 @@ using Real = long double;
 using Vector2r = Eigen::Matrix<Real, 2, 1>;
 using Vector3r = Eigen::Matrix<Real, 3, 1>;
 
-/// What is minimised.
+/// Quantity that is minimised.
 enum class Reference {
   kMinZone,        ///< largest minus smallest distance
   kCircumscribed,  ///< the largest distance
   kInscribed,      ///< minus the smallest distance
 };
 
-/// Largest and smallest distance at a place.
+/// Smallest and largest distance of the points from a centre or an axis.
 struct Extremes {
   Real low_mm = 0.0L;
   Real high_mm = 0.0L;
@@ -47,10 +47,10 @@ struct AxisOptimum {
 [[nodiscard]] Extremes extremes(std::span<const Eigen::Vector3d> points_mm,
                                 const Vector3r& point_mm, const Vector3r& direction);
 
-/// The local optimum below a start. No step is longer than the trust region, which starts at
-/// `reach_mm` and shrinks where the linearisation does not hold; ends when no gain above 1e-19 of
-/// the radius is in sight, or after 600 linear programs. A cylinder's tilts count in mm at its
-/// ends.
+/// Descends from a start to a local optimum. No step is longer than the trust region, which starts
+/// at `reach_mm` and shrinks where the linearisation does not hold. The search ends when the
+/// predicted gain is below 1e-19 of the radius, or after 600 linear programs. Tilts of a cylinder
+/// count in mm at its ends.
 [[nodiscard]] CircleOptimum descend(std::span<const Eigen::Vector2d> points_mm,
                                     const Vector2r& center_mm, Reference reference, Real reach_mm);
 [[nodiscard]] AxisOptimum descend(std::span<const Eigen::Vector3d> points_mm,

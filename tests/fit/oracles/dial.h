@@ -4,10 +4,10 @@
 
 namespace rondure::test {
 
-/// Long counts run with RONDURE_FULL=1 (./test.sh --full); the sanitizers take a tenth.
+/// Long counts run with RONDURE_FULL=1 (./test.sh --full); sanitizer builds run a tenth.
 inline bool full() { return std::getenv("RONDURE_FULL") != nullptr; }
 
-/// How many seeded sets a test draws: `sets` in a release build.
+/// Number of seeded sets that a test draws: `sets` in a release build.
 inline int count(int sets) {
 #ifdef __SANITIZE_ADDRESS__
   return sets / 20 + 1;

@@ -1,20 +1,21 @@
 #pragma once
 
-// Point sets whose optimum is known before they are drawn.
+// Point sets with a known optimum.
 //
-// A place is a strict local optimum of a minimum zone (circumscribed, inscribed) when multipliers
-// > 0 of its contacts balance their gradients, sum lam J_h = sum mu J_l, and the contacts are as
-// many as there are unknowns (methods, certificates section 1). So: draw the contacts, solve for
-// the multipliers, keep the draw when all are positive, and put every other point strictly inside.
+// A centre or axis is a strict local optimum of a minimum zone (circumscribed, inscribed) when
+// multipliers > 0 of its contacts balance their gradients, sum lam J_h = sum mu J_l, and the
+// contacts are as many as there are unknowns (methods, certificates section 1). The sets are
+// therefore made in this order: draw the contacts, solve for the multipliers, keep the draw when
+// all are positive, and place every other point strictly inside.
 //
 // With slacks a_h = H - J_h x >= 0, b_l = J_l x - G >= 0 the map (x, H, G) -> (a, b) is square and
-// sum lam a + sum mu b = H - G: the growth sigma per unit move is read off its inverse exactly.
-// No other optimum lies within sigma/K of it (K bounds the curvature), so the form is drawn small
-// against that ball, and every sensible start lies inside it.
+// sum lam a + sum mu b = H - G: the growth sigma per unit move follows exactly from its inverse. No
+// other optimum lies within sigma/K of it (K bounds the curvature), so the form is drawn small
+// relative to that ball, and every sensible start lies inside it.
 //
-// Cylinders with one contact less: angles and multipliers that balance the normals first, then
-// heights in the kernel of the balance of the tilts; kept when the curvature of the Lagrangian is
-// positive along the one direction that the contacts leave free.
+// For cylinders with one contact less, angles and multipliers that balance the normals are drawn
+// first, then heights in the kernel of the balance of the tilts; the draw is kept when the
+// curvature of the Lagrangian is positive along the one direction that the contacts leave free.
 
 #include <algorithm>
 #include <cstdint>
@@ -27,18 +28,18 @@
 
 namespace rondure::test {
 
-/// What to plant. Lengths in mm.
+/// Settings of a planted set. Lengths in mm.
 struct Plot {
   Reference reference = Reference::kMinZone;
   double radius_mm = 25.0;
   double half_length_mm = 35.0;  ///< Cylinders only.
-  double form_mm = 0.02;         ///< Upper limit; a small ball of uniqueness makes it smaller.
-  double offset_mm = 0.0;        ///< The set is moved this far, in a random direction.
-  int fill = 20;                 ///< Points that touch nothing.
+  double form_mm = 0.02;         ///< Upper limit of the form; a small ball of uniqueness lowers it.
+  double offset_mm = 0.0;        ///< Shift of the set in a random direction.
+  int fill = 20;                 ///< Points that are no contacts.
   bool curved = false;           ///< Cylinders only: one contact less, held by curvature.
 };
 
-/// The optimum of a planted set, stated.
+/// The known optimum of a planted set.
 struct Optimum {
   double inner_mm = 0.0;   ///< Radius of the inner contacts; 0 without any.
   double outer_mm = 0.0;   ///< Radius of the outer contacts; 0 without any.
@@ -62,7 +63,8 @@ struct PlantedCylinder {
   Optimum optimum;
 };
 
-/// Same seed, same points. Full turns, so that the stated optimum is the one next to the part.
+/// Same seed, same points. The sets cover full turns, so that the known optimum is the one nearest
+/// to the part.
 [[nodiscard]] PlantedCircle plant_circle(const Plot& plot, std::uint64_t seed);
 [[nodiscard]] PlantedCylinder plant_cylinder(const Plot& plot, std::uint64_t seed);
 
@@ -70,7 +72,8 @@ struct PlantedCylinder {
 /// 1e-3 of the radius, offset up to 500 mm.
 [[nodiscard]] Plot draw_plot(Reference reference, std::uint64_t seed);
 
-/// Sets that a test of a fit draws, and how near the fit comes to what was planted [mm, rad].
+/// Number of sets that a test of a fit draws, and tolerances of the fit against the known optimum
+/// [mm, rad].
 inline constexpr int kPlanted = 1000;
 inline constexpr double kPlace = 1e-9;
 inline constexpr double kDirection = 1e-8;

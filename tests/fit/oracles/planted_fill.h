@@ -1,6 +1,6 @@
 #pragma once
 
-// What planted circles and cylinders share: radii, and the order of the points.
+// Shared by planted circles and cylinders: radii, and the order of the points.
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,12 @@
 
 namespace rondure::test {
 
-/// Radii of a planted set; the contacts stand on one or both of them.
+/// Radii of a planted set; the contacts lie on one or both of them.
 struct Band {
   double low_mm = 0.0;
   double high_mm = 0.0;
 
-  /// A radius strictly inside, by 2 % of the form at least.
+  /// A radius strictly between the two, by at least 2 % of the form.
   [[nodiscard]] double inside(double share) const {
     return low_mm + (high_mm - low_mm) * (0.02 + 0.96 * share);
   }
@@ -30,13 +30,13 @@ struct Band {
   }
 };
 
-/// @param ball_mm  Most that the form may be.
+/// @param ball_mm  Largest form allowed.
 inline Band draw_band(const Plot& plot, double ball_mm, core::KeyedNoise& noise) {
   const double form = std::min(plot.form_mm, ball_mm) * (0.2 + 0.8 * noise.uniform());
   return {plot.radius_mm - form / 2.0, plot.radius_mm + form / 2.0};
 }
 
-/// Shuffles; returns where the first `contacts` points went.
+/// Shuffles the points; returns the new indices of the first `contacts` points.
 template <class Points>
 std::vector<std::size_t> shuffle(Points& points, std::size_t contacts, core::KeyedNoise& noise) {
   std::vector<std::size_t> order(points.size());

@@ -17,11 +17,12 @@ struct LinearProgram {
   Vector cost;
 };
 
-/// The textbook revised simplex; the basis is solved anew in every pivot, so nothing accumulates.
+/// The textbook revised simplex method; every pivot solves the basis anew, so rounding errors do
+/// not accumulate.
 ///
 /// @param basis  Columns of a feasible basis, as many as rows.
-/// @return  Multipliers of the rows at the optimum (also when 3000 pivots ended it: check what you
-///          do with them).
+/// @return  Multipliers of the rows at the optimum (also when 3000 pivots ended the search: check
+///          them before use).
 [[nodiscard]] LinearProgram::Vector multipliers(const LinearProgram& program,
                                                 std::vector<Eigen::Index> basis);
 

@@ -14,8 +14,8 @@ struct Witness {
 
 /// Balances the gradients of contacts, as many as unknowns and sides together.
 ///
-/// @param gradients  One column a contact, the outer ones first.
-/// @param outer      How many are outer; 0 or all leaves one side.
+/// @param gradients  One column per contact, the outer ones first.
+/// @param outer      Number of outer contacts; 0 or all leaves one side.
 /// @return nothing where the contacts are degenerate or a multiplier is below `least`.
 [[nodiscard]] std::optional<Witness> weigh(const Eigen::MatrixXd& gradients, Eigen::Index outer,
                                            double least = 0.03);
