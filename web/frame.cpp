@@ -115,8 +115,9 @@ void LivePainter::paint_cloud(const record::PoseVisit& visit) {
   look_at_poses(visit);
   const evaluation::FeatureResult feature = with_poses(record_, visit, poses_);
   const std::string plots = reports::pose_plots(feature, std::nullopt);
-  put("poses",
-      plots.empty() ? plots : fmt::format("<h2>{}</h2>", tr("Search for the pose")) + plots);
+  put("poses", plots.empty()
+                   ? plots
+                   : fmt::format("<h2>{}</h2>", reports::tr("Search for the pose")) + plots);
 }
 
 std::shared_ptr<const LiveFrame> LivePainter::paint(double elapsed_s) {
@@ -164,8 +165,8 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
   put("head", live_head(record));
   put("now", live_over(record, report));
   put("result", reports::verdict_section(record, evaluation));
-  put("announce",
-      fmt::format("{} {}.", tr("The run is over. Verdict:"), tr(name_of(evaluation.verdict))));
+  put("announce", fmt::format("{} {}.", reports::tr("The run is over. Verdict:"),
+                              reports::tr(name_of(evaluation.verdict))));
   put("touches", live_touches(record));
   put("decisions", reports::decisions_section(record));
   std::string drawings;  // under a heading that says of which feature
@@ -173,8 +174,8 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
   for (const evaluation::FeatureResult& feature : evaluation.features) {
     const auto zone = zone_of(feature);
     if (record::is_analysis(feature.feature.shape)) continue;
-    const std::string heading =
-        fmt::format("<h2>{}</h2>", trf("Feature {}", isolated(feature.feature.id)));
+    const std::string heading = fmt::format(
+        "<h2>{}</h2>", reports::trf("Feature {}", reports::isolated(feature.feature.id)));
     if (zone)
       drawings +=
           heading + reports::polar_plots(feature, *zone) + reports::deviation_map(feature, *zone);
@@ -182,7 +183,8 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
   }
   put("drawing", std::move(drawings));
   put("poses", std::move(searches));
-  frame_.title = fmt::format("{}: {}", tr(name_of(evaluation.verdict)), record.header.part_id);
+  frame_.title =
+      fmt::format("{}: {}", reports::tr(name_of(evaluation.verdict)), record.header.part_id);
   frame_.ended = true;
   changed_ = true;
   return frame();
@@ -191,9 +193,9 @@ std::shared_ptr<const LiveFrame> LivePainter::paint_result(const record::RunReco
 std::shared_ptr<const LiveFrame> LivePainter::paint_failure(std::string_view why) {
   const reports::LanguageScope scope(language_);
   put("now", fmt::format(R"(<h2 class="doing">{}</h2><div class="banner alarm">{}</div>)",
-                         tr("No result"), isolated(why)));
-  put("announce", fmt::format("{}: {}", tr("No result"), isolated(why)));
-  frame_.title = tr("No result");
+                         reports::tr("No result"), reports::isolated(why)));
+  put("announce", fmt::format("{}: {}", reports::tr("No result"), reports::isolated(why)));
+  frame_.title = reports::tr("No result");
   frame_.ended = true;
   changed_ = true;
   return frame();

@@ -183,7 +183,7 @@ TEST(LivePainter, ChartsEveryPoseWithAllOfItsTouches) {
 
 TEST(LivePainter, ShowsTheResultOfTheReportAndEscapesIt) {
   const std::string evil = "<script>\"'&\xff\x01";
-  const Case made = hostile_case(evil);
+  const reports::Case made = reports::hostile_case(evil);
   LivePainter painter(std::make_shared<record::GrowingRecord>(), {}, reports::Language::kEnglish);
   const auto frame = painter.paint_result(made.record, made.evaluation, evil);
   EXPECT_TRUE(frame->ended);
