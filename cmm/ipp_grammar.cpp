@@ -62,6 +62,11 @@ tl::expected<Command, Refusal> parse_command(std::string_view line) {
   return out;
 }
 
+tl::expected<Command, Refusal> parse_command(const RawLine& line) {
+  if (!line.crlf) return refuse(kIllegalCharacter, {}, "the line ends without CR");
+  return parse_command(std::string_view(line.text));
+}
+
 std::string method_text(const Command& command, NumberForm form) {
   return fmt::format("{}({})", command.method,
                      to_text(std::span<const Item>(command.arguments), form));

@@ -12,7 +12,6 @@
 #include "cmm/ipp_backend.h"
 #include "cmm/ipp_controller.h"
 #include "cmm/ipp_grammar.h"
-#include "cmm/ipp_lines.h"
 
 namespace rondure::cmm::ipp {
 

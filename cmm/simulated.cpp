@@ -47,8 +47,6 @@ void SimulatedMachine::remove_part() {
   warm_part_.reset();
 }
 
-void SimulatedMachine::place_sphere(const ReferenceSphere& sphere) { spheres_.push_back(sphere); }
-
 void SimulatedMachine::place_spheres(std::vector<ReferenceSphere> spheres) {
   spheres_ = std::move(spheres);
 }

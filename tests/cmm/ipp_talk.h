@@ -16,7 +16,7 @@ class Talk {
 
   /// Sends a line; what the server says at once.
   std::vector<std::string> say(std::string_view line) {
-    server_.receive({std::string(line), RawLine::Fault::kNone}, now_s);
+    server_.receive({std::string(line)}, now_s);
     return server_.take_output();
   }
   /// Lets the time pass, in steps of 10 ms; what the server says.

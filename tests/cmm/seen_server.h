@@ -15,7 +15,6 @@
 #include "cmm/ipp_backend.h"
 #include "cmm/ipp_frames.h"
 #include "cmm/ipp_grammar.h"
-#include "cmm/ipp_lines.h"
 #include "cmm/ipp_parameters.h"
 #include "wire/tcp_line.h"
 

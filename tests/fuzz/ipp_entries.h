@@ -11,7 +11,7 @@ namespace rondure::fuzz {
 /// The grammar: what is read as a command is written and read again the same; responses likewise.
 [[nodiscard]] std::string try_ipp_grammar(std::string_view bytes);
 
-/// The server behind a line cutter, with an ideal machine. The first byte chooses manner and pace;
+/// The server, line by line, with an ideal machine. The first byte chooses manner and pace;
 /// every line it says must be a response, and every acknowledged command is completed once.
 [[nodiscard]] std::string try_ipp_server(std::string_view bytes);
 
