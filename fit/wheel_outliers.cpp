@@ -8,6 +8,7 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
+#include "fit/wheel_spread.h"
 
 namespace rondure::fit {
 namespace {
