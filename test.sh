@@ -8,6 +8,10 @@
 #   ./test.sh --sanitizers  all rooms under the sanitizers, but for the oracles of the fits
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
+if [ -n "${RONDURE_REWRITE+set}" ]; then
+  echo "RONDURE_REWRITE is set: the tests would write the files that they compare with. Unset it." >&2
+  exit 2
+fi
 . .ci/packages.sh
 sanitized="core wire record fixture cmm fit plans reports web app fuzz"
 # Figures of many trials and of time, held by the release build; and runs of the whole program that take long: what

@@ -326,13 +326,6 @@ void add_contour(CLI::App& fit_verb, ContourArguments& arguments) {
       "Method, columns, keys of the JSON: docs/contour.md");
 }
 
-void add_selftest(CLI::App& fit_verb, SelfTestArguments& arguments) {
-  auto* verb = fit_verb.add_subcommand(
-      "filter-selftest", "Measures the transmission of the Gaussian filter: 0 passed, 2 failed");
-  verb->add_option("--cutoff-upr", arguments.cutoff_upr, "Cut-off of the table (default: 50)");
-  verb->footer("\nExample: rondure fit filter-selftest --cutoff-upr 15");
-}
-
 void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
   auto* verb = app.add_subcommand(
       "simulate-cmm",
@@ -588,7 +581,6 @@ int main_of(int argc, char** argv) {
   SimulateCmmArguments simulate_arguments;
   FitArguments fit_arguments;
   RoundnessArguments roundness_arguments;
-  SelfTestArguments selftest_arguments;
   SpindleArguments spindle_arguments;
   DesignArguments design_arguments;
   DevicesArguments devices_arguments;
@@ -611,7 +603,6 @@ int main_of(int argc, char** argv) {
   add_roundness(*fit_verb, roundness_arguments);
   add_spindle(*fit_verb, spindle_arguments);
   add_contour(*fit_verb, contour_arguments);
-  add_selftest(*fit_verb, selftest_arguments);
   add_wheel(*fit_verb, wheel_arguments);
   add_rotary_axes(*fit_verb, rotary_arguments);
   add_report(app, report_arguments);
@@ -637,7 +628,6 @@ int main_of(int argc, char** argv) {
   if (app.got_subcommand("plan")) return plan(plan_arguments);
   if (fit_verb->got_subcommand("roundness")) return roundness(roundness_arguments);
   if (fit_verb->got_subcommand("spindle")) return spindle(spindle_arguments);
-  if (fit_verb->got_subcommand("filter-selftest")) return selftest_filters(selftest_arguments);
   if (fit_verb->got_subcommand("wheel")) return wheel(wheel_arguments);
   if (fit_verb->got_subcommand("contour")) return contour(contour_arguments);
   if (fit_verb->got_subcommand("rotary-axes")) return rotary_axes(rotary_arguments);

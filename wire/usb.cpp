@@ -94,11 +94,6 @@ class OpenDevice final : public UsbDevice {
     return outcome(code, fmt::format("claiming interface {}", interface));
   }
 
-  [[nodiscard]] UsbResult<void> clear_halt(std::uint8_t endpoint) override {
-    if (auto open = check_open(); !open) return open;
-    return outcome(libusb_clear_halt(handle_.get(), endpoint), "ending a stall");
-  }
-
   [[nodiscard]] UsbResult<void> control_out(const UsbSetup& setup, std::string_view bytes,
                                             Limit limit) override {
     std::string copy(bytes);  // libusb takes no const data

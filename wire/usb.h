@@ -118,8 +118,6 @@ class UsbDevice {
   /// Takes an interface for this program alone. A kernel driver that holds it is detached, and
   /// comes back when the device is closed.
   [[nodiscard]] virtual UsbResult<void> claim(int interface) = 0;
-  /// Ends the stall of an endpoint.
-  [[nodiscard]] virtual UsbResult<void> clear_halt(std::uint8_t endpoint) = 0;
 
   [[nodiscard]] virtual UsbResult<void> control_out(const UsbSetup& setup, std::string_view bytes,
                                                     Limit limit) = 0;

@@ -188,21 +188,4 @@ std::string roundness_table(const fit::RoundnessEvaluation& evaluation, bool pol
   return out;
 }
 
-std::string selftest_table(std::span<const fit::FilterSelfTest> tests) {
-  std::string out = fmt::format(
-      "Gaussian low pass (ISO 16610-21) at {} UPR, impulse on {} values\n"
-      "    n    transmission   2^-(n/fc)^2    difference\n",
-      tests.front().cutoff_upr, tests.front().samples);
-  for (const fit::TransmissionRow& row : tests.front().rows) {
-    out += fmt::format("{:5d}  {:14.12f} {:14.12f}  {:.1e}\n", row.harmonic, row.found,
-                       row.expected, row.difference);
-  }
-  for (const fit::FilterSelfTest& test : tests) {
-    out += fmt::format("{:>6} UPR: n = 1 to {}, greatest difference {:.1e}, limit {:.0e}: {}\n",
-                       test.cutoff_upr, test.rows.back().harmonic, test.greatest_difference(),
-                       fit::FilterSelfTest::kTolerance, test.passed() ? "pass" : "FAIL");
-  }
-  return out;
-}
-
 }  // namespace rondure::app

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <span>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "fit/profiles/filter_selftest.h"
 #include "fit/profiles/roundness_evaluation.h"
 
 namespace rondure::app {
@@ -16,8 +14,5 @@ namespace rondure::app {
                                                     bool polar);
 /// The same for a person.
 [[nodiscard]] std::string roundness_table(const fit::RoundnessEvaluation& evaluation, bool polar);
-
-/// The transmission table of the first test, then a line for each of them.
-[[nodiscard]] std::string selftest_table(std::span<const fit::FilterSelfTest> tests);
 
 }  // namespace rondure::app

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -11,7 +10,6 @@
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "core/units.h"
-#include "fit/profiles/filter_selftest.h"
 #include "fit/profiles/roundness_evaluation.h"
 #include "record/csv/points.h"
 
@@ -23,7 +21,6 @@ constexpr double kLeastRoundnessUm = 0.05;
 /// Radii outside these suggest metres or micrometres [mm].
 constexpr double kLeastRadius = 0.5;
 constexpr double kGreatestRadius = 500.0;
-constexpr std::array kStandardCutoffs = {15.0, 50.0, 150.0, 500.0, 1500.0};
 
 core::Result<fit::RoundnessOptions> options_of(const RoundnessArguments& arguments) {
   using fit::PassBand;
@@ -144,26 +141,6 @@ int roundness(const RoundnessArguments& arguments) {
   }
   return answer(roundness_json(*out, table->polar), arguments.json,
                 [&] { return roundness_table(*out, table->polar); });
-}
-
-int selftest_filters(const SelfTestArguments& arguments) {
-  std::vector<double> cutoffs = {arguments.cutoff_upr};
-  for (const double cutoff : kStandardCutoffs) {
-    if (cutoff != arguments.cutoff_upr) cutoffs.push_back(cutoff);
-  }
-  std::vector<fit::FilterSelfTest> tests;
-  for (const double cutoff : cutoffs) {
-    auto test = fit::filter_selftest(cutoff);
-    if (!test) {
-      print_error(test.error());
-      return kBadInput;
-    }
-    tests.push_back(*std::move(test));
-  }
-  say(selftest_table(tests));
-  const bool passed =
-      std::all_of(tests.begin(), tests.end(), [](const auto& test) { return test.passed(); });
-  return passed ? kAllWell : kBadInput;
 }
 
 }  // namespace rondure::app

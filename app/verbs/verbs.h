@@ -190,11 +190,6 @@ struct DesignArguments {
 };
 [[nodiscard]] int design_probes(const DesignArguments& arguments);
 
-struct SelfTestArguments {
-  double cutoff_upr = 50.0;  ///< Of the table; the standard ones are checked besides.
-};
-[[nodiscard]] int selftest_filters(const SelfTestArguments& arguments);
-
 struct RecordArguments {
   std::vector<std::string> probes;  ///< As open_indicator() takes them.
   double from_deg = 0.0;

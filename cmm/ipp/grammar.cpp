@@ -6,8 +6,8 @@
 
 #include "cmm/ipp/internal/errors.h"
 #include "cmm/ipp/internal/methods.h"
-#include "cmm/ipp/numbers.h"
 #include "cmm/ipp/internal/reader.h"
+#include "cmm/ipp/numbers.h"
 
 namespace rondure::cmm::ipp {
 namespace {
@@ -60,6 +60,11 @@ tl::expected<Command, Refusal> parse_command(std::string_view line) {
   }
   out.arguments = std::move(*arguments);
   return out;
+}
+
+tl::expected<Command, Refusal> parse_command(const RawLine& line) {
+  if (!line.crlf) return refuse(kIllegalCharacter, {}, "the line ends without CR");
+  return parse_command(std::string_view(line.text));
 }
 
 std::string method_text(const Command& command, NumberForm form) {

@@ -17,7 +17,7 @@
 
 /// I++ DME, the language between a measuring program and a coordinate measuring machine, as text.
 /// Both directions: what a client sends and what a server answers. Lines are without their CR LF
-/// here; ipp_lines.h cuts them out of a stream of bytes.
+/// here.
 /// Source: I++ DME 1.4.3, sections on lexical rules and transactions.
 namespace rondure::cmm::ipp {
 
@@ -104,6 +104,12 @@ struct Command {
 [[nodiscard]] std::string method_text(const Command& command,
                                       NumberForm form = NumberForm::kSixteenDigits);
 
+/// A line as it came, without its end.
+struct RawLine {
+  std::string text;
+  bool crlf = true;  ///< Ended by CR LF and not by LF alone.
+};
+
 /// Why a line is no command.
 struct Refusal {
   int number = 0;          ///< Of the error list (ipp_errors.h).
@@ -118,6 +124,8 @@ struct Refusal {
 ///          long, too deep), 0502 (form of the arguments), 0507 (no such method: ipp_methods.h),
 ///          0509 (a number out of form). O(length) time and memory; never throws but bad_alloc.
 [[nodiscard]] tl::expected<Command, Refusal> parse_command(std::string_view line);
+/// The same; 0007 for a line that LF alone ends.
+[[nodiscard]] tl::expected<Command, Refusal> parse_command(const RawLine& line);
 
 /// An error as the server reports it:  Error(severity, number, method, text).
 struct ErrorReport {

@@ -9,10 +9,9 @@
 
 #include <Eigen/Core>
 
+#include "cmm/ipp/grammar.h"
 #include "cmm/ipp_server/backend.h"
 #include "cmm/ipp_server/controller.h"
-#include "cmm/ipp/grammar.h"
-#include "cmm/ipp/lines.h"
 
 namespace rondure::cmm::ipp {
 

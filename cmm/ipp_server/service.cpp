@@ -45,8 +45,7 @@ core::Result<bool> serve_once(wire::LineTransport& client, Server& server) {
   if (!line) return core::fail(line.error());
   const bool said = line->has_value();
   if (said) {
-    const auto fault = (*line)->crlf ? RawLine::Fault::kNone : RawLine::Fault::kLineEnd;
-    server.receive({std::move((*line)->text), fault}, now_s());
+    server.receive({std::move((*line)->text), (*line)->crlf}, now_s());
   }
   server.advance(now_s());
   if (auto sent = send_all(client, server); !sent) return core::fail(sent.error());

@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "cmm/simulated/internal/contact.h"
 #include "cmm/grid.h"
-#include "cmm/simulated/internal/machine_map.h"
 #include "cmm/internal/place_text.h"
-#include "cmm/scan_path.h"
 #include "cmm/ipp_client/touch_check.h"
+#include "cmm/scan_path.h"
+#include "cmm/simulated/internal/contact.h"
+#include "cmm/simulated/internal/machine_map.h"
 #include "core/noise.h"
 #include "core/units.h"
 
@@ -46,8 +46,6 @@ void SimulatedMachine::remove_part() {
   part_.reset();
   warm_part_.reset();
 }
-
-void SimulatedMachine::place_sphere(const ReferenceSphere& sphere) { spheres_.push_back(sphere); }
 
 void SimulatedMachine::place_spheres(std::vector<ReferenceSphere> spheres) {
   spheres_ = std::move(spheres);

@@ -59,8 +59,6 @@ class SimulatedMachine final : public Machine {
   /// Puts a part on the table (X_WP maps its frame to the machine), or moves it there.
   void place_part(const PartSurface& surface, const Eigen::Isometry3d& X_WP);
   void remove_part();
-  /// Puts one more sphere on the table.
-  void place_sphere(const ReferenceSphere& sphere);
   /// These are all the spheres on the table, in place of those that were there.
   void place_spheres(std::vector<ReferenceSphere> spheres);
 

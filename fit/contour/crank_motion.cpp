@@ -79,25 +79,4 @@ std::vector<double> x_compensation_mm(const CrankGeometry& geometry,
   return out;
 }
 
-MotionExtremes motion_extremes(const CrankGeometry& geometry, double turns_per_s) {
-  constexpr int kPlaces = 7200;
-  const double crank = geometry.crank_radius_mm;
-  const double length = geometry.center_distance_mm();
-  const double omega = core::kTwoPi * turns_per_s;
-  MotionExtremes out;
-  out.pressure_angle_rad = std::asin(crank / length);
-  for (int i = 0; i < kPlaces; ++i) {
-    const double alpha = core::kTwoPi * i / kPlaces;
-    const double s = std::sin(alpha);
-    const double c = std::cos(alpha);
-    const double root = std::sqrt(length * length - crank * crank * s * s);
-    const double first = -crank * s - crank * crank * s * c / root;
-    const double second = -crank * c - crank * crank * (c * c - s * s) / root -
-                          std::pow(crank * crank * s * c, 2) / (root * root * root);
-    out.speed_mm_s = std::max(out.speed_mm_s, std::abs(omega * first));
-    out.acceleration_mm_s2 = std::max(out.acceleration_mm_s2, std::abs(omega * omega * second));
-  }
-  return out;
-}
-
 }  // namespace rondure::fit

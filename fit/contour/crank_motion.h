@@ -56,15 +56,6 @@ struct ContourSensitivity {
                                                     std::span<const double> error_mm,
                                                     std::size_t count);
 
-/// Greatest values of the ideal motion at a steady turn of C.
-struct MotionExtremes {
-  double pressure_angle_rad = 0.0;
-  double speed_mm_s = 0.0;          ///< Of X.
-  double acceleration_mm_s2 = 0.0;  ///< Of X.
-};
-/// @param turns_per_s  Speed of C, e.g. 50 r/min = 50 / 60.
-[[nodiscard]] MotionExtremes motion_extremes(const CrankGeometry& geometry, double turns_per_s);
-
 // Source: methods, contour sections 1, 2 and 5.
 
 }  // namespace rondure::fit

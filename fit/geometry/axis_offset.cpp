@@ -115,11 +115,4 @@ core::Result<AxisOffset> axis_offset(const RotaryTable& table) {
   return out;
 }
 
-Vector6 offset_errors(const AxisOffset& offset, const RotaryAxis& nominal, double angle_rad) {
-  const Eigen::Matrix3d turn = nominal.turn(angle_rad);
-  Vector6 out;
-  out << offset.d_mm - turn * offset.d_mm, offset.e_rad - turn * offset.e_rad;
-  return out;
-}
-
 }  // namespace rondure::fit

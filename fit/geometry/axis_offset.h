@@ -28,8 +28,4 @@ struct AxisOffset {
 ///         offset and motion is known, its parts are not).
 [[nodiscard]] core::Result<AxisOffset> axis_offset(const RotaryTable& table);
 
-/// What the offset alone gives at an angle counted from the reference: (I - R) d, (I - R) e.
-[[nodiscard]] Vector6 offset_errors(const AxisOffset& offset, const RotaryAxis& nominal,
-                                    double angle_rad);
-
 }  // namespace rondure::fit

@@ -39,12 +39,6 @@ double SwingArm::beta_of_theta_rad(double theta_rad) const {
                     center_distance_mm() + crank_radius_mm * std::cos(theta_rad));
 }
 
-double SwingArm::travel_rate(double alpha_rad) const {
-  if (!swings()) return 1.0;
-  return 1.0 + crank_radius_mm * std::cos(alpha_rad) /
-                   (center_distance_mm() * std::cos(beta_rad(alpha_rad)));
-}
-
 core::Result<void> check_swing_arm(const SwingArm& arm) {
   const auto refuse = [](core::Code code, std::string what) {
     return core::fail(code, std::move(what));

@@ -30,8 +30,6 @@ struct SwingArm {
   /// The inverse of theta_rad(), continuous over any number of turns.
   [[nodiscard]] double alpha_of_theta_rad(double theta_rad) const;
   [[nodiscard]] double beta_of_theta_rad(double theta_rad) const;
-  /// dtheta/dalpha at alpha; 1 without a swing.
-  [[nodiscard]] double travel_rate(double alpha_rad) const;
 };
 
 /// Checks the dimensions: kOutOfRange for a negative or not finite one, for R >= Lc, and for a

@@ -8,6 +8,7 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
+#include "fit/wheel/spread.h"
 
 namespace rondure::fit {
 namespace {

@@ -169,20 +169,6 @@ core::Result<WheelLoad> wheel_load(const WheelSurface& surface, double radius_mm
   return load;
 }
 
-core::Result<std::vector<WheelClearance>> wheel_clearances(
-    const WheelSurface& surface, std::span<const Eigen::Vector2d> centers_mm, double radius_mm,
-    const WheelPathOptions& options) {
-  if (auto checked = check(radius_mm, options); !checked) return core::fail(checked.error());
-  const auto samples = sample_of(surface, options);
-  if (!samples) return core::fail(samples.error());
-  std::vector<WheelClearance> out;
-  for (const auto& center : centers_mm) {
-    const SurfaceSamples::Place least = samples->nearest(center, 2.0 * radius_mm);
-    out.push_back({least.value, least.x_mm});
-  }
-  return out;
-}
-
 core::Result<WheelPath> wheel_path(const WheelSurface& surface, double radius_mm,
                                    const WheelPathOptions& options) {
   if (auto checked = check(radius_mm, options); !checked) return core::fail(checked.error());

@@ -73,16 +73,6 @@ struct WheelPath {
 [[nodiscard]] core::Result<WheelLoad> wheel_load(const WheelSurface& surface, double radius_mm,
                                                  const WheelPathOptions& options);
 
-/// Least distance of the surface from each centre, and the x where it is.
-struct WheelClearance {
-  double distance_mm = 0.0;
-  double x_mm = 0.0;
-};
-/// @return kSurface, kBadOption. One result a centre; distances beyond 2 `radius_mm` are cut there.
-[[nodiscard]] core::Result<std::vector<WheelClearance>> wheel_clearances(
-    const WheelSurface& surface, std::span<const Eigen::Vector2d> centers_mm, double radius_mm,
-    const WheelPathOptions& options);
-
 /// Way of the centre of a wheel that grinds z = f(x): xc = x - R f'/q, zc = f + R/q.
 ///
 /// @return kBadOption (range, step, radius not above 0), kSurface, kGouge: the radius against a

@@ -10,26 +10,21 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/app/program.h"
+
 namespace rondure::app::testing {
 
 OnTerminal::OnTerminal(const std::vector<std::string>& arguments, const std::string& locale) {
   master_ = ::posix_openpt(O_RDWR | O_NOCTTY);
   if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0) return;
   const std::string name = ::ptsname(master_);
-  std::vector<std::string> words = {RONDURE_BINARY};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  pid_ = ::fork();
-  if (pid_ != 0) return;
-  ::setsid();
-  const int slave = ::open(name.c_str(), O_RDWR);
-  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(slave, fd);
-  ::close(master_);
-  if (!locale.empty()) ::setenv("LC_ALL", locale.c_str(), 1);
-  ::execv(RONDURE_BINARY, argv.data());
-  ::_exit(127);
+  pid_ = start(arguments, [&] {
+    ::setsid();
+    const int slave = ::open(name.c_str(), O_RDWR);
+    for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(slave, fd);
+    ::close(master_);
+    if (!locale.empty()) ::setenv("LC_ALL", locale.c_str(), 1);
+  });
 }
 
 OnTerminal::~OnTerminal() {

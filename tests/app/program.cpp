@@ -65,19 +65,22 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-Program::Program(const std::vector<std::string>& arguments, const Surroundings& surroundings) {
+pid_t start(const std::vector<std::string>& arguments, const std::function<void()>& enter) {
   std::vector<std::string> words = {RONDURE_BINARY};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  pid_ = ::fork();
-  if (pid_ < 0) throw std::runtime_error("no process can be started");
-  if (pid_ > 0) return;
-  enter(surroundings, folder_.path());
+  const pid_t pid = ::fork();
+  if (pid < 0) throw std::runtime_error("no process can be started");
+  if (pid > 0) return pid;
+  enter();
   ::execv(RONDURE_BINARY, argv.data());
   ::_exit(127);
 }
+
+Program::Program(const std::vector<std::string>& arguments, const Surroundings& surroundings)
+    : pid_(start(arguments, [&] { enter(surroundings, folder_.path()); })) {}
 
 Program::~Program() {
   if (pid_ <= 0) return;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,10 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// Starts the program in a child that has called `enter` before; its process id.
+[[nodiscard]] pid_t start(const std::vector<std::string>& arguments,
+                          const std::function<void()>& enter);
 
 /// Conditions under which the program is started.
 struct Surroundings {

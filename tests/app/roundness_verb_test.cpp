@@ -1,19 +1,21 @@
-// `rondure fit roundness` and `rondure fit filter-selftest`, as a shell sees them.
+// `rondure fit roundness`, as a shell sees it.
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <numbers>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <nlohmann/json.hpp>
+
+#include "tests/app/program.h"
 
 namespace rondure::app {
 namespace {
@@ -25,17 +27,12 @@ struct Outcome {
   std::string text;  ///< Both streams.
 };
 
+/// @param arguments  Words between single blanks.
 Outcome rondure(const std::string& arguments) {
-  Outcome out;
-  FILE* pipe = popen((std::string(RONDURE_BINARY) + " " + arguments + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return out;
-  std::array<char, 4096> buffer{};
-  while (const std::size_t got = fread(buffer.data(), 1, buffer.size(), pipe)) {
-    out.text.append(buffer.data(), got);
-  }
-  const int ended = pclose(pipe);
-  out.status = WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
-  return out;
+  std::istringstream stream(arguments);
+  const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+  const testing::Outcome out = testing::rondure(words);
+  return {out.status, out.err + out.out};
 }
 
 const std::string kProfile =
@@ -208,14 +205,6 @@ TEST_F(RoundnessVerb, RefusesTooFewPointsAndMissingFiles) {
   EXPECT_EQ(rondure("fit roundness nowhere.csv").status, 2);
   EXPECT_EQ(rondure("fit roundness").status, 2);
   EXPECT_EQ(rondure("fit").status, 2);
-}
-
-TEST(FilterSelfTestVerb, PrintsTheTableAndPasses) {
-  const auto out = rondure("fit filter-selftest --cutoff-upr 15");
-  EXPECT_EQ(out.status, 0);
-  EXPECT_THAT(out.text, HasSubstr("   15  0.500000000000 0.500000000000"));
-  EXPECT_THAT(out.text, HasSubstr("1500 UPR: n = 1 to 4500"));
-  EXPECT_EQ(rondure("fit filter-selftest --cutoff-upr 0").status, 2);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ class SeenTalk {
   SeenTalk() : server_(backend_, as_recorded_profile()) {}
 
   std::vector<std::string> say(const std::string& line) {
-    server_.receive({line, RawLine::Fault::kNone}, now_s_);
+    server_.receive({line}, now_s_);
     return server_.take_output();
   }
   std::vector<std::string> wait(double seconds) {

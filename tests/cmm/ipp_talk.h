@@ -16,7 +16,7 @@ class Talk {
 
   /// Sends a line; returns the immediate answer of the server.
   std::vector<std::string> say(std::string_view line) {
-    server_.receive({std::string(line), RawLine::Fault::kNone}, now_s);
+    server_.receive({std::string(line)}, now_s);
     return server_.take_output();
   }
   /// Advances the time in steps of 10 ms; returns the lines that the server sends.

@@ -551,10 +551,7 @@ void SeenService::serve(wire::LineTransport& client) {
   while (!ends_) {
     const auto line = client.read_line(std::chrono::milliseconds(20));
     if (!line) break;
-    if (*line) {
-      const auto fault = (*line)->crlf ? RawLine::Fault::kNone : RawLine::Fault::kLineEnd;
-      server_.receive({(*line)->text, fault}, now_s());
-    }
+    if (*line) server_.receive({(*line)->text, (*line)->crlf}, now_s());
     server_.advance(now_s());
     for (const std::string& out : server_.take_output()) {
       if (!client.write_line(out)) break;

@@ -14,7 +14,6 @@
 
 #include "cmm/ipp/frames.h"
 #include "cmm/ipp/grammar.h"
-#include "cmm/ipp/lines.h"
 #include "cmm/ipp_server/backend.h"
 #include "cmm/ipp_server/parameters.h"
 #include "wire/tcp_line.h"

@@ -166,7 +166,7 @@ TEST(SimulatedMachine, MayGrazeASurfaceByAMicrometreThousandthButNotMore) {
 
 TEST(SimulatedMachine, StopsBeforeTheReferenceSphere) {
   SimulatedMachine machine({});
-  machine.place_sphere({{0, 0, 100}, 12.5});
+  machine.place_spheres({{{0, 0, 100}, 12.5}});
   ASSERT_TRUE(machine.home());
   const auto crash = machine.move_to({0.0, 0.0, 0.0});
   ASSERT_FALSE(crash);
@@ -180,7 +180,7 @@ TEST(SimulatedMachine, StopsBeforeTheReferenceSphere) {
 TEST(SimulatedMachine, TouchesWhatComesFirst) {
   SimulatedMachine machine({});
   place_shaft(machine);
-  machine.place_sphere({{28.0, 0.0, 0.0}, 1.0});
+  machine.place_spheres({{{28.0, 0.0, 0.0}, 1.0}});
   ASSERT_TRUE(machine.home());
   ASSERT_TRUE(machine.move_to({34.0, 0.0, 500.0}));
   ASSERT_TRUE(machine.move_to({34.0, 0.0, 0.0}));

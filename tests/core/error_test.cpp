@@ -12,9 +12,10 @@ namespace {
 
 TEST(Error, HasANameOfItsOwnForEveryCode) {
   std::set<std::string_view> names;
-  const int count = static_cast<int>(Code::kSeveralOptima) + 1;
+  const int count = static_cast<int>(kLastCode) + 1;
   for (int i = 0; i < count; ++i) names.insert(code_name(static_cast<Code>(i)));
   EXPECT_EQ(names.size(), static_cast<std::size_t>(count));
+  EXPECT_EQ(code_name(static_cast<Code>(count)), "internal") << "kLastCode is not the last";
 }
 
 TEST(Error, PrintsPlaceSentenceAndCodeOnOneLine) {

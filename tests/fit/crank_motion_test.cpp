@@ -28,13 +28,6 @@ TEST(CrankMotion, GivesTheTableOfTheSpecification) {
   }
 }
 
-TEST(CrankMotion, GivesTheExtremesOfTheSpecification) {
-  const auto out = motion_extremes(CrankGeometry{}, 50.0 / 60.0);
-  EXPECT_NEAR(out.pressure_angle_rad / kDegree, 8.6866, 5e-5);
-  EXPECT_NEAR(out.speed_mm_s, 259.5, 0.05);
-  EXPECT_NEAR(out.acceleration_mm_s2, 1546.0, 0.5);
-}
-
 TEST(CrankMotion, GivesTheSensitivitiesOfTheSpecification) {
   struct Row {
     double beta_deg, x, c_mm;

@@ -1,5 +1,6 @@
 // Wheel-centre path: worked examples 3 and 4, a brute-force envelope, gouging, residual form.
 
+#include "fit/geometry/surface_samples.h"
 #include "fit/wheel/path.h"
 
 #include <algorithm>
@@ -185,12 +186,12 @@ TEST(WheelPath, SeesTheWheelInsideTheSurfaceFarFromItsContact) {
   auto options = range(0.0, 30.0, 0.1);
   const SurfacePoint p = *surface.at(0.0);
   EXPECT_NEAR(50.0 * p.curvature_per_mm(), 0.025, 1e-3);
-  const std::array centers = {
-      Eigen::Vector2d(-50.0 * p.slope / p.stretch(), p.height_mm + 50.0 / p.stretch())};
-  const auto clear = wheel_clearances(surface, centers, 50.0, options);
-  ASSERT_TRUE(clear) << clear.error().what;
-  EXPECT_NEAR(50.0 - clear->front().distance_mm, 0.849, 5.1e-4);
-  EXPECT_NEAR(clear->front().x_mm, 13.70, 6e-3);
+  const Eigen::Vector2d center(-50.0 * p.slope / p.stretch(), p.height_mm + 50.0 / p.stretch());
+  const auto samples = SurfaceSamples::over(surface, 0.0, 30.0);
+  ASSERT_TRUE(samples) << samples.error().what;
+  const SurfaceSamples::Place nearest = samples->nearest(center, 100.0);
+  EXPECT_NEAR(50.0 - nearest.value, 0.849, 5.1e-4);
+  EXPECT_NEAR(nearest.x_mm, 13.70, 6e-3);
   const auto local = wheel_path(surface, 50.0, options);
   ASSERT_FALSE(local);
   EXPECT_THAT(local.error().what, HasSubstr("concave radius of curvature 10.6895 mm"));
@@ -211,20 +212,18 @@ TEST(WheelPath, SeesTheWheelInsideTheSurfaceFarFromItsContact) {
 
 TEST(WheelPath, ClearanceAgreesWithALookAtEveryPlace) {
   const WheelSurface surface = bump();
-  auto options = range(-5.0, 35.0, 0.1);
+  const auto samples = SurfaceSamples::over(surface, -5.0, 35.0);
+  ASSERT_TRUE(samples);
   for (const double radius : {5.0, 20.0, 80.0}) {
-    std::vector<Eigen::Vector2d> centers;
-    for (double x = -4.0; x < 35.0; x += 1.3) centers.emplace_back(x, radius + 0.3);
-    const auto found = wheel_clearances(surface, centers, radius, options);
-    ASSERT_TRUE(found);
-    for (std::size_t i = 0; i < centers.size(); ++i) {
+    for (double at = -4.0; at < 35.0; at += 1.3) {
+      const Eigen::Vector2d center(at, radius + 0.3);
       double least = std::numeric_limits<double>::infinity();
       for (double x = -5.0; x <= 35.0; x += 2e-3) {
-        least = std::min(least,
-                         std::hypot(x - centers[i].x(), surface.at(x)->height_mm - centers[i].y()));
+        least = std::min(least, std::hypot(x - center.x(), surface.at(x)->height_mm - center.y()));
       }
-      EXPECT_NEAR((*found)[i].distance_mm, least, 1e-6) << radius << " " << i;
-      EXPECT_LE((*found)[i].distance_mm, least + 1e-12);
+      const double found = samples->nearest(center, 2.0 * radius).value;
+      EXPECT_NEAR(found, least, 1e-6) << radius << " " << at;
+      EXPECT_LE(found, least + 1e-12);
     }
   }
 }

@@ -3,16 +3,15 @@
 #include <map>
 
 #include "cmm/ipp/grammar.h"
-#include "cmm/ipp/lines.h"
 #include "cmm/ipp_server/server.h"
 #include "tests/cmm/ideal_backend.h"
 
 namespace rondure::fuzz {
 namespace {
 
-using cmm::ipp::LineCutter;
 using cmm::ipp::parse_command;
 using cmm::ipp::parse_response;
+using cmm::ipp::RawLine;
 using cmm::ipp::Response;
 using cmm::ipp::Server;
 using cmm::ipp::ServerOptions;
@@ -81,15 +80,19 @@ std::string try_ipp_server(std::string_view bytes) {
   if ((choice & 2U) != 0) options.speed = 10.0;
   cmm::IdealBackend backend;
   Server server(backend, options);
-  LineCutter cutter;
   Account account;
   double now_s = 0.0;
   for (bytes.remove_prefix(1); !bytes.empty();) {
-    const auto fed = cutter.feed(bytes);
-    bytes.remove_prefix(fed.used);
-    if (!fed.line) continue;
-    now_s += 0.02 * static_cast<double>(fed.line->text.size() % 16);
-    server.receive(*fed.line, now_s);
+    const std::size_t end = bytes.find('\n');
+    if (end == std::string_view::npos) break;
+    RawLine line{std::string(bytes.substr(0, end)), false};
+    bytes.remove_prefix(end + 1);
+    if (line.text.ends_with('\r')) {
+      line.text.pop_back();
+      line.crlf = true;
+    }
+    now_s += 0.02 * static_cast<double>(line.text.size() % 16);
+    server.receive(line, now_s);
     server.advance(now_s);
     if (auto problem = drain(server, account); !problem.empty()) return problem;
   }

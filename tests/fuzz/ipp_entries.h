@@ -12,7 +12,7 @@ namespace rondure::fuzz {
 /// likewise.
 [[nodiscard]] std::string try_ipp_grammar(std::string_view bytes);
 
-/// Tests the server, fed through a line cutter, with an ideal machine. The first byte selects
+/// Tests the server, line by line, with an ideal machine. The first byte selects
 /// options and timing; every line from the server must be a response, and every acknowledged
 /// command must be completed once.
 [[nodiscard]] std::string try_ipp_server(std::string_view bytes);

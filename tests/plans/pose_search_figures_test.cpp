@@ -40,7 +40,7 @@ struct Column {
 struct Row {
   Column poses;
   Column zone_um;
-  Column excess_um;  ///< Reported minimum zone above the independent search.
+  Column excess_um;  ///< Reported minimum zone above that of searched directions.
   Column f_over_um;  ///< f of the final pose above the zone.
 };
 
@@ -80,7 +80,7 @@ TEST(PoseSearchFigures, HoldOnRandomParts) {
   std::puts(
       fmt::format("{} random parts, form 5-20 um, tilt 0-20 deg, 4 x 7 points, probe noise off\n"
                   "min / median / max:\n"
-                  "| strategy | poses | minimum zone um | above an independent search um | f(final "
+                  "| strategy | poses | minimum zone um | above searched directions um | f(final "
                   "pose) - zone um |\n"
                   "|---|---|---|---|---|",
                   parts())

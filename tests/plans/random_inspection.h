@@ -35,8 +35,11 @@ struct Inspection {
 /// Tip centres of the final cloud.
 [[nodiscard]] std::vector<Eigen::Vector3d> final_cloud(const record::RunRecord& record);
 
-/// Least zone width found by an independent search: the plane centre search in every direction that
-/// a pattern search and random directions around `near` try. Never below the true minimum.
+/// Least zone of many directions of the axis: a pattern search with random directions, which starts
+/// from `near` and takes the program's plane centre search (fit/zone/center_search.h) in each. It
+/// shares nothing with the search in space, but begins where that ended: it shows that no neighbour
+/// is better, not that the zone is the least of all (tests/fit/oracles does). Never below the true
+/// minimum.
 [[nodiscard]] double searched_zone_mm(const std::vector<Eigen::Vector3d>& points,
                                       const Eigen::Vector3d& near, std::uint64_t seed);
 

@@ -86,7 +86,7 @@ class WireServer {
     for (const std::string_view motion : {" Home(", " GoTo(", " AlignPart(", " PtMeas(", " Scan"}) {
       if (text.find(motion) != std::string::npos) ++motions_;
     }
-    server_.receive({text, {}}, 0.0);
+    server_.receive({text}, 0.0);
     std::size_t left_out = text.find(" ScanOnCircle(") == std::string::npos ? 0 : 3 * late_;
     for (std::string line : server_.take_output()) {
       if (spoil_) spoil_(text, line);

@@ -148,7 +148,7 @@ void expect_same_bits(const std::string& named) {
   int tag = 0;
   for (const std::string& command : commands(way, pose, radius_mm)) {
     SCOPED_TRACE(command);
-    server.receive({fmt::format("{:05} {}", ++tag, command), {}}, 0.0);
+    server.receive({fmt::format("{:05} {}", ++tag, command)}, 0.0);
     for (const std::string& line : server.take_output()) {
       const auto response = cmm::ipp::parse_response(line);
       ASSERT_TRUE(response.has_value());

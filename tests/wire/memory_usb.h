@@ -42,7 +42,6 @@ class MemoryUsb final : public UsbDevice {
     if (state_.busy) return fail(UsbFault::Kind::kBusy, "it is in use");
     return {};
   }
-  UsbResult<void> clear_halt(std::uint8_t) override { return {}; }
   UsbResult<void> control_out(const UsbSetup& setup, std::string_view bytes, Limit) override {
     if (state_.gone) return fail(UsbFault::Kind::kUnplugged, "it was unplugged");
     if (static_cast<int>(state_.requests.size()) == state_.stalls_at_request) {

@@ -66,8 +66,6 @@ constexpr std::array kErrors = {
 
 }  // namespace
 
-std::span<const ErrorEntry> error_list() { return kErrors; }
-
 const ErrorEntry* find_error(int number) {
   const auto found =
       std::lower_bound(kErrors.begin(), kErrors.end(), number,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <string_view>
 
 namespace rondure::cmm::ipp {
@@ -12,11 +11,8 @@ struct ErrorEntry {
   std::string_view text;  ///< The fixed text of the number.
 };
 
-/// All errors the protocol defines, by number. Source: I++ DME 1.4.3 and the additions of later
-/// issues.
-[[nodiscard]] std::span<const ErrorEntry> error_list();
-
-/// The entry of a number, or null when the protocol does not define it.
+/// The entry of a number, or null when the protocol does not define it. Source: I++ DME 1.4.3 and
+/// the additions of later issues.
 [[nodiscard]] const ErrorEntry* find_error(int number);
 
 /// From this severity on the server aborts what is pending and wants ClearAllErrors().
@@ -43,7 +39,6 @@ inline constexpr int kNoSuchDaemon = 513;
 inline constexpr int kUseClearAllErrors = 514;
 inline constexpr int kDaemonExists = 515;
 inline constexpr int kMachineInErrorState = 1000;
-inline constexpr int kIllegalTouch = 1001;
 inline constexpr int kNoTouch = 1003;
 inline constexpr int kAtHome = 1005;
 inline constexpr int kSurfaceNotFound = 1006;
