@@ -1,9 +1,11 @@
+#include <sys/inotify.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -73,6 +75,32 @@ TEST(Resume, ALostConnectionSaysHowToGoOnAndDoes) {
   EXPECT_THAT(resumed.out, ::testing::StartsWith("CONFORMS\n"));
   EXPECT_EQ(record::measured_bits(journal_of(run.directory())), whole_bits(run));
   EXPECT_EQ(rondure({"verify", run.directory()}).status, 0);
+}
+
+/// How often a journal is read to its end before its run writes into it again, which makes its log.
+int reads_before_it_goes_on(const Interrupted& run) {
+  const int watch = inotify_init1(IN_NONBLOCK);
+  EXPECT_GE(inotify_add_watch(watch, run.directory().c_str(), IN_CLOSE_NOWRITE | IN_CREATE), 0);
+  EXPECT_EQ(run.resume().status, 0);
+  std::array<char, 65536> bytes{};
+  const ssize_t length = ::read(watch, bytes.data(), bytes.size());
+  close(watch);
+  int reads = 0;
+  for (ssize_t at = 0; at < length;) {
+    inotify_event event{};
+    std::memcpy(&event, bytes.data() + at, sizeof event);
+    const std::string name = bytes.data() + at + sizeof event;
+    if ((event.mask & IN_CREATE) != 0 && name == "journal.db-wal") return reads;
+    if ((event.mask & IN_CLOSE_NOWRITE) != 0 && name == "journal.db") ++reads;
+    at += static_cast<ssize_t>(sizeof event + event.len);
+  }
+  ADD_FAILURE() << "the run did not go on";
+  return reads;
+}
+
+TEST(Resume, ReadsTheJournalOnce) {
+  const Interrupted run;
+  EXPECT_EQ(reads_before_it_goes_on(run), 1);
 }
 
 TEST(Resume, AStalledFixtureSaysHowToGoOnAndDoes) {
