@@ -20,7 +20,7 @@ double lower_gamma(double a, double x) {
     }
     return factor * sum;
   }
-  // Continued fraction of the upper function from its far end.
+  // Evaluates the continued fraction of the upper function from its far end.
   double tail = 0.0;
   for (int n = 500; n >= 1; --n) tail = n * (n - a) / (x + 2.0 * n + 1.0 - a - tail);
   return 1.0 - factor / (x + 1.0 - a - tail);
