@@ -6,12 +6,12 @@
 
 namespace rondure::fit {
 
-/// Transmission of the Gaussian low pass at one harmonic: found and by definition.
+/// Transmission of the Gaussian low pass at one harmonic, as found and by definition.
 struct TransmissionRow {
   int harmonic = 0;
-  double found = 0.0;       ///< In phase with the input.
+  double found = 0.0;       ///< Part in phase with the input.
   double expected = 0.0;    ///< 2^-(n/fc)^2
-  double difference = 0.0;  ///< Magnitude of the complex difference: an error of phase counts too.
+  double difference = 0.0;  ///< Magnitude of the complex difference, which includes phase.
 };
 
 /// Self-test of the Gaussian filter of closed profiles at one cut-off.
@@ -26,12 +26,13 @@ struct FilterSelfTest {
   [[nodiscard]] bool passed() const;
 };
 
-/// Filters an impulse, which holds every harmonic with the same amplitude, through filter_closed()
-/// and finds the harmonics of the response by direct summation, not by the transform the filter
-/// uses. The profile has 7 values per undulation of 3 fc.
+/// Tests the Gaussian filter: passes an impulse, which contains all harmonics with the same
+/// amplitude, through filter_closed() and finds the harmonics of the response by direct summation,
+/// not by the transform that the filter uses. The profile has 7 values per undulation of 3 fc.
 ///
 /// @param cutoff_upr  1 to 10000.
-/// @return kBadOption outside that range; what filter_closed() refuses.
+/// @return kBadOption outside that range; the errors of filter_closed(). A failed test is no error:
+///         see passed().
 [[nodiscard]] core::Result<FilterSelfTest> filter_selftest(double cutoff_upr);
 
 }  // namespace rondure::fit
