@@ -6,9 +6,9 @@
 
 namespace Eigen {
 
-// The decompositions of matrices that several files decompose, compiled once in decompositions.cpp:
-// each takes g++ three to eight seconds in every file that makes its own. Include this in place of
-// Eigen's headers.
+// Matrix decompositions that several files use, compiled once in decompositions.cpp. Each one costs
+// g++ three to eight seconds in every file that instantiates it. Include this header in place of
+// Eigen's.
 extern template SelfAdjointEigenSolver<Matrix2d>& SelfAdjointEigenSolver<Matrix2d>::compute(
     const EigenBase<Matrix2d>&, int);
 extern template SelfAdjointEigenSolver<Matrix3d>& SelfAdjointEigenSolver<Matrix3d>::compute(

@@ -16,7 +16,7 @@ std::uint64_t splitmix64(std::uint64_t& state) {
 
 KeyedNoise::KeyedNoise(std::uint64_t seed, std::initializer_list<std::uint64_t> key)
     : state_(seed) {
-  // Each part of the key is mixed in before the next one, so that (1, 2) and (2, 1) differ.
+  // Mixes in each part of the key before the next one, so that (1, 2) and (2, 1) differ.
   for (const std::uint64_t part : key) state_ = splitmix64(state_) ^ part;
 }
 

@@ -12,7 +12,7 @@ OpenSpline::OpenSpline(std::vector<double> x, std::vector<double> values)
   assert(n >= 4 && values_.size() == n);
   const auto h = [&](std::size_t i) { return x_[i + 1] - x_[i]; };
   const auto rise = [&](std::size_t i) { return (values_[i + 1] - values_[i]) / h(i); };
-  // Rows 1 .. n-2 of the tridiagonal system; both end values are put in from their conditions.
+  // Rows 1 .. n-2 of the tridiagonal system; the end conditions eliminate both end values.
   std::vector<double> below(n), diagonal(n), above(n);
   second_.resize(n);
   for (std::size_t i = 1; i + 1 < n; ++i) {

@@ -4,9 +4,10 @@
 
 namespace rondure::core {
 
-/// Cubic spline through points of an open curve; its third derivative runs on across the second and
-/// the last but one point (not-a-knot), so that any cubic is reproduced to round-off and the ends
-/// are not bent straight as in a natural spline. Error of the second derivative O(h^2).
+/// Cubic spline through the points of an open curve. Its third derivative is continuous at the
+/// second and at the last but one point (not-a-knot), so that any cubic is reproduced to round-off
+/// and the ends are not straightened as in a natural spline. The error of the second derivative is
+/// O(h^2).
 class OpenSpline {
  public:
   struct Place {
@@ -15,10 +16,10 @@ class OpenSpline {
     double second = 0.0;
   };
 
-  /// @param x  n >= 4, strictly ascending.
+  /// @pre `x` holds n >= 4 strictly ascending numbers, `values` as many.
   OpenSpline(std::vector<double> x, std::vector<double> values);
 
-  /// Value and derivatives; beyond the ends the outermost cubics run on.
+  /// Value and derivatives at `x`; beyond the ends the outermost cubics are extrapolated.
   [[nodiscard]] Place operator()(double x) const;
   [[nodiscard]] const std::vector<double>& x() const { return x_; }
 

@@ -9,23 +9,23 @@
 
 namespace rondure::core {
 
-/// A value, or the reason why there is none. Whatever points, plans or hardware can cause travels
-/// this way; asserts are for bugs.
+/// A value, or the error that explains why there is none. Every failure that points, plans or
+/// hardware can cause is returned as a Result; asserts are for bugs.
 template <class T>
 using Result = tl::expected<T, Error>;
 
-/// Shorthand for returning an error from a function that gives a Result.
+/// Makes an error to return from a function that returns a Result.
 [[nodiscard]] inline tl::unexpected<Error> fail(Code code, std::string what,
                                                 std::string where = {}) {
   return tl::unexpected<Error>(Error{code, std::move(what), std::move(where)});
 }
 
-/// Hands an error on unchanged.
+/// Passes an error on unchanged.
 [[nodiscard]] inline tl::unexpected<Error> fail(Error error) {
   return tl::unexpected<Error>(std::move(error));
 }
 
-/// Shorthand for a fault of a machine, of a fixture or of the line to it (kMachine).
+/// Makes the error for a fault of a machine, of a fixture or of the connection to it (kMachine).
 [[nodiscard]] inline tl::unexpected<Error> machine_fault(std::string what) {
   return fail(Code::kMachine, std::move(what));
 }

@@ -4,13 +4,13 @@
 
 namespace rondure::core {
 
-/// Inside the program: mm, rad, s. Degrees and micrometres exist in JSON keys, report columns and
-/// messages only; these are the factors used at that border, `30.0 * kDegree` is an angle in rad.
+/// The program calculates in mm, rad and s. Degrees and micrometres appear only in JSON keys,
+/// report columns and messages; these factors convert them: `30.0 * kDegree` is an angle in rad.
 inline constexpr double kDegree = std::numbers::pi / 180.0;
 inline constexpr double kMicrometre = 1e-3;   ///< in mm
 inline constexpr double kMicroradian = 1e-6;  ///< in rad
 inline constexpr double kTwoPi = 2.0 * std::numbers::pi;
-inline constexpr double kSameAngle = 1e-9;  ///< Angles no farther apart are one [rad].
+inline constexpr double kSameAngle = 1e-9;  ///< Angles this close or closer count as equal [rad].
 
 /// A length in um and an angle in degrees, for a key, a column or a message.
 [[nodiscard]] constexpr double micrometres(double length_mm) { return length_mm / kMicrometre; }

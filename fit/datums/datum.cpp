@@ -10,7 +10,7 @@
 namespace rondure::fit {
 namespace {
 
-/// Greatest less least value of a measure over the points.
+/// Greatest minus least value of a measure over the points.
 template <class Measure>
 core::Result<double> range_mm(std::span<const Eigen::Vector3d> points, const Measure& measure) {
   if (auto checked = check_points(points); !checked) return core::fail(checked.error());

@@ -19,7 +19,7 @@ double distance_mm(const Axis& axis, const Eigen::Vector3d& point_mm) {
 }
 
 Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& direction) {
-  // The coordinate axis least parallel to the direction gives the best conditioned cross product.
+  // The cross product with the coordinate axis least parallel to the direction is conditioned best.
   Eigen::Index smallest = 0;
   direction.cwiseAbs().minCoeff(&smallest);
   Eigen::Matrix<double, 3, 2> frame;

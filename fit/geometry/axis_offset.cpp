@@ -15,14 +15,14 @@ namespace {
 
 using Plane = Eigen::Matrix<double, 3, 2>;
 
-/// How c and d follow from the stations: c = sum of to_c tau, d = sum of to_d tau.
+/// Weights of the stations: c = sum of to_c tau, d = sum of to_d tau.
 struct Estimator {
   std::vector<Complex> to_c;
   std::vector<Complex> to_d;
 };
 
-/// Complex least squares of tau = c + (1 - z) d, with z about its mean: there the sum and d do not
-/// mix.
+/// Complex least squares of tau = c + (1 - z) d, with z taken about its mean, which decouples the
+/// sum from d.
 Estimator estimator_of(const std::vector<Complex>& z) {
   const auto n = static_cast<double>(z.size());
   Complex mean = 0.0;
@@ -43,12 +43,12 @@ struct OffsetPart {
   Eigen::Vector3d offset_u = Eigen::Vector3d::Zero();
 };
 
-/// One of t (first = 0) and w (first = 3).
+/// The offset of t (first = 0) or of w (first = 3).
 OffsetPart part_of(const RotaryTable& table, const Estimator& estimator, const Plane& plane,
                    Eigen::Index first) {
   Complex constant = 0.0;
   Complex offset = 0.0;
-  // The noise of the reference turns with the body: it is a d of the opposite sign.
+  // The noise of the reference pose turns with the body and so acts as a d of the opposite sign.
   Eigen::Matrix2d covariance =
       plane.transpose() * table.reference_covariance.block<3, 3>(first, first) * plane;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {

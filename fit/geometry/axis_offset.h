@@ -5,8 +5,8 @@
 
 namespace rondure::fit {
 
-/// Errors that do not depend on the angle: where the true axis lies. Components along the axis are
-/// zero, they cannot be seen.
+/// Location and orientation of the true axis: the errors that do not depend on the angle.
+/// Components along the axis cannot be determined and are zero.
 struct AxisOffset {
   Eigen::Vector3d d_mm = Eigen::Vector3d::Zero();    ///< Displacement of the axis [mm].
   Eigen::Vector3d d_u_mm = Eigen::Vector3d::Zero();  ///< Standard uncertainty of x, y, z.
@@ -15,15 +15,16 @@ struct AxisOffset {
   Eigen::Vector3d c_mm = Eigen::Vector3d::Zero();   ///< Constant of the translations, not an error
   Eigen::Vector3d c_rad = Eigen::Vector3d::Zero();  ///< of the axis: mean PDGE, reference noise.
   double zero_point_rad = 0.0;  ///< Mean of w along the axis: offset of the angle's zero.
-  double arc_rad = 0.0;         ///< The stations span this.
-  double arc_factor = 1.0;      ///< u(d) against that of a full circle: 1 / sqrt(1 - |mean|^2).
+  double arc_rad = 0.0;         ///< Angle that the stations span.
+  double arc_factor = 1.0;      ///< u(d) relative to that of a full circle: 1 / sqrt(1 - |mean|^2).
   RotaryAxis axis;              ///< The true line: origin + d, direction a + e x a.
 };
 
-/// Separates location and orientation of the axis from its motion errors:
-/// tau(phi) = c + (1 - e^{j phi}) d in the plane across the axis, complex least squares, for t and
-/// for w. On a full circle exact in the sense that the forward first harmonic is the offset by
-/// definition; on a short arc slow motion errors go into it, and the factor says how much noise.
+/// Separates location and orientation of the axis from its motion errors. Fits
+/// tau(phi) = c + (1 - e^{j phi}) d in the plane across the axis by complex least squares, once for
+/// t and once for w. On a full circle this is exact, because the forward first harmonic is the
+/// offset by definition. On a short arc the offset takes up slow motion errors as well, and
+/// `arc_factor` gives the amplification of the noise.
 /// @return kTooFewPoints (fewer than 3 rows), kShortArc (stations span less than 45 deg: the sum of
 ///         offset and motion is known, its parts are not).
 [[nodiscard]] core::Result<AxisOffset> axis_offset(const RotaryTable& table);

@@ -9,7 +9,7 @@
 
 namespace rondure::fit {
 
-/// Directions searched for a better axis.
+/// Directions that are searched for a better axis.
 struct AxisScope {
   enum class Kind { kCone, kHalfSphere };
   Kind kind = Kind::kHalfSphere;
@@ -17,9 +17,9 @@ struct AxisScope {
   double cone_rad = 10.0 * core::kDegree;              ///< Half angle of the cone, below 80 deg.
 };
 
-/// How far a minimum-zone, circumscribed or inscribed cylinder is proven.
+/// Extent of the proof of a minimum-zone, circumscribed or inscribed cylinder.
 struct CylinderProofOptions {
-  /// Scopes tried in order until one is proven. Empty: the local proof only, for values inside
+  /// Scopes to try in order until one is proven. Empty: local proof only, as is enough inside
   /// loops.
   std::vector<AxisScope> scopes;
   GlobalSearchOptions search;

@@ -11,7 +11,7 @@ ContactRow<D> CenterFrame<D>::contact_row(const Point& p, std::size_t index) con
   const Point v = p - center_;
   const double r = v.norm();
   ContactRow<D> out{index, r, Point::Zero(), Eigen::Matrix<double, D, D>::Zero()};
-  if (r == 0.0) return out;  // at the centre every direction is alike
+  if (r == 0.0) return out;  // no direction is distinguished at the centre
   const Point n = v / r;
   out.gradient = -n;
   out.hessian = (Eigen::Matrix<double, D, D>::Identity() - n * n.transpose()) / r;
@@ -22,8 +22,8 @@ template <int D>
 Extremes CenterFrame<D>::linearise(const WorkingPoints<D>& points, ZoneRows<D>& rows) const {
   const std::size_t count = points.size();
   rows.resize(count);
-  // Different vectors, which only __restrict tells the compiler; else the loop stays scalar. In the
-  // plane the last of each three is not touched.
+  // __restrict states that the vectors do not overlap; without it the loop stays scalar. In the
+  // plane the last of each three is not used.
   const double* __restrict px = points.column(0);
   const double* __restrict py = points.column(1);
   [[maybe_unused]] const double* __restrict pz = points.column(D - 1);
@@ -31,7 +31,7 @@ Extremes CenterFrame<D>::linearise(const WorkingPoints<D>& points, ZoneRows<D>& 
   double* __restrict along_x = rows.gradients(0).data();
   double* __restrict along_y = rows.gradients(1).data();
   [[maybe_unused]] double* __restrict along_z = rows.gradients(D - 1).data();
-  // Plain numbers: matrices of Eigen inside the loop keep it scalar too.
+  // Plain numbers, because matrices of Eigen would keep the loop scalar as well.
   const double cx = center_[0];
   const double cy = center_[1];
   [[maybe_unused]] const double cz = center_[D - 1];
@@ -41,7 +41,7 @@ Extremes CenterFrame<D>::linearise(const WorkingPoints<D>& points, ZoneRows<D>& 
     double square = x * x + y * y;
     if constexpr (D == 3) square += (cz - pz[i]) * (cz - pz[i]);
     const double r = std::sqrt(square);
-    // At the centre every direction is alike.
+    // No direction is distinguished at the centre.
     const double unit = r > 0.0 ? 1.0 / r : 0.0;
     distance[i] = r;
     along_x[i] = x * unit;

@@ -5,13 +5,13 @@
 #include <Eigen/Core>
 
 #include "fit/proof/local_certificate.h"
-#include "fit/zone/working_points.h"
 #include "fit/zone/simplex.h"
+#include "fit/zone/working_points.h"
 
 namespace rondure::fit {
 
-/// The centre of a circle (D = 2) or a sphere (D = 3) under iteration, relative to an origin near
-/// the points; its unknowns are its coordinates.
+/// The centre of a circle (D = 2) or a sphere (D = 3) during the iteration, relative to an origin
+/// near the points. The unknowns are its coordinates.
 template <int D>
 class CenterFrame {
  public:
@@ -19,7 +19,7 @@ class CenterFrame {
   static constexpr int kDimension = D;
   static constexpr bool kHasBall = true;  ///< EnclosingBall minimises the outer distance.
   using Point = Eigen::Matrix<double, D, 1>;
-  using Place = Point;  ///< What a scan measures from.
+  using Place = Point;  ///< Measuring reference of a scan.
 
   explicit CenterFrame(const Point& center_mm) : center_(center_mm) {}
 
@@ -27,11 +27,11 @@ class CenterFrame {
   [[nodiscard]] CenterFrame moved(const Point& x_mm) const { return CenterFrame(center_ + x_mm); }
   /// The centre in the frame of the data.
   [[nodiscard]] Place place(const Point& origin) const { return origin + center_; }
-  /// The centre that rounding of place() leaves, so that a scan and the iteration see the same.
+  /// The centre after the rounding of place(), so that scan and iteration use the same centre.
   [[nodiscard]] CenterFrame snapped(const Point& origin) const {
     return CenterFrame(place(origin) - origin);
   }
-  /// Whether it went farther from another than a limit.
+  /// Whether the centre is farther than `limit_mm` from that of `from`, or not finite.
   [[nodiscard]] bool strayed(const CenterFrame& from, double limit_mm) const {
     return !((center_ - from.center_).norm() <= limit_mm);
   }

@@ -12,7 +12,7 @@ namespace {
 
 const double kLeast = std::cos(10.0 * core::kDegree);
 
-/// A cylinder frame as plain numbers: origin, two directions across, the axis over the half length.
+/// A cylinder frame as plain numbers: origin, two directions across, axis divided by half length.
 struct Numbers {
   const double* o;
   const double* a;
@@ -20,8 +20,8 @@ struct Numbers {
   const double* t;
 };
 
-/// The loop of linearise(). A function of its own with columns that do not overlap: only so does
-/// the compiler take two square roots at a time.
+/// The loop of linearise(). It is a separate function with columns that do not overlap, because
+/// only then the compiler computes two square roots at a time.
 [[gnu::noinline]] void linearise_columns(std::size_t count, const double* __restrict px,
                                          const double* __restrict py, const double* __restrict pz,
                                          const Numbers& frame, double* __restrict distance,
@@ -39,7 +39,7 @@ struct Numbers {
     const double qb = x * bx + y * by + z * bz;
     const double lever = x * tx + y * ty + z * tz;
     const double r = std::sqrt(qa * qa + qb * qb);
-    // On the axis every direction is alike.
+    // No direction is distinguished on the axis.
     const double back = r > 0.0 ? -1.0 / r : 0.0;
     distance[i] = r;
     shift_a[i] = back * qa;
@@ -87,7 +87,7 @@ ContactRow<4> CylinderFrame::contact_row(const Eigen::Vector3d& p, std::size_t i
   const Eigen::Vector2d q = across_.transpose() * v;
   const double r = q.norm();
   ContactRow<4> out{index, r, Eigen::Vector4d::Zero(), Eigen::Matrix4d::Zero()};
-  if (r == 0.0) return out;  // on the axis every direction is alike
+  if (r == 0.0) return out;  // no direction is distinguished on the axis
   const Eigen::Vector2d n = q / r;
   const Eigen::Vector2d m(-n.y(), n.x());
   const double lever = v.dot(axis_.direction) / half_length_;

@@ -7,14 +7,14 @@
 
 #include "fit/geometry/axis.h"
 #include "fit/proof/local_certificate.h"
-#include "fit/zone/working_points.h"
 #include "fit/zone/simplex.h"
+#include "fit/zone/working_points.h"
 
 namespace rondure::fit {
 
-/// An axis under iteration with the four unknowns that move it, all in mm: shifts a, b across it
-/// and tilts scaled by the half length Z of the points, x = (a, b, Z tx, Z ty). The frame follows
-/// the axis, so the linearisation is always at tilt 0.
+/// An axis during the iteration, with the four unknowns that move it, all in mm: shifts a, b across
+/// the axis and tilts scaled by the half length Z of the points, x = (a, b, Z tx, Z ty). The frame
+/// follows the axis, so that the linearisation is always at tilt 0.
 ///
 /// Points are given relative to an origin near them. Source: methods, certificates section 1.
 class CylinderFrame {
@@ -23,7 +23,7 @@ class CylinderFrame {
   static constexpr int kDimension = 3;
   static constexpr bool kHasBall = false;
   using Point = Eigen::Vector3d;
-  using Place = Axis;  ///< What a scan measures from.
+  using Place = Axis;  ///< Measuring reference of a scan.
 
   /// @param half_length_mm  Z > 0: the scale of the tilts.
   CylinderFrame(const Axis& axis, double half_length_mm);
@@ -37,10 +37,10 @@ class CylinderFrame {
 
   /// The axis in the frame of the data.
   [[nodiscard]] Place place(const Eigen::Vector3d& origin) const;
-  /// The axis that rounding of place() leaves, so that a scan and the iteration see the same.
+  /// The axis after the rounding of place(), so that scan and iteration use the same axis.
   [[nodiscard]] CylinderFrame snapped(const Eigen::Vector3d& origin) const;
-  /// Whether it left another: went farther than a limit, or leans by more than 10 deg. Never
-  /// for an infinite limit.
+  /// Whether the axis is farther than `limit_mm` from that of `from`, or inclined to it by more
+  /// than 10 deg. Always false for an infinite limit.
   [[nodiscard]] bool strayed(const CylinderFrame& from, double limit_mm) const;
 
   [[nodiscard]] double distance(const Eigen::Vector3d& p) const;

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "fit/zone/internal/center_region.h"
 #include "fit/geometry/points.h"
-#include "fit/zone/internal/search_points.h"
 #include "fit/proof/internal/zone_box.h"
+#include "fit/zone/internal/center_region.h"
+#include "fit/zone/internal/search_points.h"
 
 namespace rondure::fit {
 namespace {
@@ -19,9 +19,9 @@ namespace {
 using Polygon = std::vector<Eigen::Vector2d>;
 
 constexpr int kSquareLimit = 20000;
-/// Nearest points that a search starts with, besides the spread ones.
+/// Number of nearest points that a search starts with, besides the spread ones.
 constexpr std::size_t kNearest = 24;
-/// A profile's centres are sought up to so many spreads of its values from the optimum.
+/// Greatest distance of a profile's centres from the optimum, as a multiple of its deviation.
 constexpr double kWidestSlide = 64.0;
 
 Polygon square_about(const Eigen::Vector2d& center, double half) {
@@ -29,7 +29,7 @@ Polygon square_about(const Eigen::Vector2d& center, double half) {
           center + half * Eigen::Vector2d(1.0, 1.0), center + half * Eigen::Vector2d(-1.0, 1.0)};
 }
 
-/// The part of a convex polygon where normal . c <= limit.
+/// Keeps the part of a convex polygon where normal . c <= limit.
 void clip(Polygon& polygon, const Eigen::Vector2d& normal, double limit) {
   const auto excess = [&](const Eigen::Vector2d& c) { return normal.dot(c) - limit; };
   if (std::all_of(polygon.begin(), polygon.end(), [&](const auto& c) { return excess(c) <= 0.0; }))
@@ -67,9 +67,9 @@ double least_between(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
   return least;
 }
 
-/// Widens a range by a convex deviation over a polygon: its greatest value is at a corner, its
-/// least along the longest diagonal, because the polygon is a sliver where the range is of
-/// interest.
+/// Widens a range by the values of a convex deviation over a polygon. The greatest value is at a
+/// corner. The least is sought along the longest diagonal, because the polygon is a sliver wherever
+/// the range is of interest.
 template <class Function>
 void widen(const Polygon& polygon, const Function& deviation, DeviationRange& range) {
   std::pair<std::size_t, std::size_t> ends{0, 0};
@@ -96,7 +96,7 @@ std::optional<DeviationRange> of_interest(const DeviationRange& range) {
   return range;
 }
 
-/// Searches the centres inside the hull of the points for circles as large as the largest.
+/// Searches the centres inside the hull of the points for circles as large as the largest one.
 class InscribedSearcher {
  public:
   InscribedSearcher(PlanePoints points, const Eigen::Vector2d& center, double radius)
@@ -107,7 +107,7 @@ class InscribedSearcher {
       range = std::max(range, points_.back().norm());
     }
     slack_ = kOutward * range;
-    // A square this small adds no more than a quarter of kSameRadius by its curvature.
+    // In a square this small, curvature adds at most a quarter of kSameRadius.
     leaf_ = 0.5 * std::sqrt(kSameRadius * radius);
     std::vector<std::size_t> order(points_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -177,8 +177,8 @@ class InscribedSearcher {
   double least_radius_;
   double leaf_ = 0.0;
   double slack_ = 0.0;
-  std::vector<Eigen::Vector2d> points_;  ///< Relative to the centre of the largest.
-  std::vector<Eigen::Vector3d> chosen_;  ///< Those the bounds look at, height 0.
+  std::vector<Eigen::Vector2d> points_;  ///< Relative to the centre of the largest circle.
+  std::vector<Eigen::Vector3d> chosen_;  ///< Points that the bounds use, height 0.
 };
 
 }  // namespace

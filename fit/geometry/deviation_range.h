@@ -9,23 +9,24 @@
 
 namespace rondure::fit {
 
-/// Deviations about circles that serve as the same reference equally well.
+/// Least and greatest deviation about the circles that are equally good as a reference [mm].
 struct DeviationRange {
   double low_mm = 0.0;
   double high_mm = 0.0;
 };
 
-/// Radii that differ by less are the same reference: no gauge tells them apart.
+/// Radii that differ by less count as the same reference, as no gauge can distinguish them [mm].
 inline constexpr double kSameRadius = 1e-6;
-/// Deviations that differ by less need no word: about most circles 1 nm of radius moves some nm.
+/// Deviations that differ by less are not reported as a range: for most circles, 1 nm of radius
+/// changes the deviation by some nm [mm].
 inline constexpr double kSameDeviation = 1e-4;
 
-/// The range of a profile, in the linear model of its rows: over all centres whose circumscribed or
-/// inscribed radius is as good as the optimum to kSameRadius. Two opposite values can hold a circle
-/// that is still free to slide across them.
+/// Finds the range of deviation of a profile, in the linear model of its rows, over all centres
+/// whose circumscribed or inscribed radius equals the optimum to kSameRadius. There are several
+/// where two opposite values hold a circle that can still slide across them.
 ///
 /// @param rows     Value and gradient of each angle.
-/// @param step     The optimum.
+/// @param step     Move to the optimum.
 /// @param weights  One of them is 0.
 /// @return Nothing where the range is narrower than kSameDeviation. O(n) for each side of the
 ///         polygon of such centres.
@@ -33,12 +34,13 @@ inline constexpr double kSameDeviation = 1e-4;
                                                             const Eigen::Vector2d& step,
                                                             const ZoneWeights& weights);
 
-/// The same of the maximum inscribed circles of points inside their hull, which need not lie side
-/// by side: squares of centres are searched that hold a circle as large to kSameRadius. (The
-/// minimum circumscribed circle of points is unique.)
+/// Finds the same range for the maximum inscribed circles of points, with centres inside their
+/// hull. These circles need not be neighbours: the search divides the plane into squares and keeps
+/// those that hold the centre of a circle equal to the largest to kSameRadius. (The minimum
+/// circumscribed circle of points is unique.)
 ///
-/// @param center_mm, radius_mm  The largest.
-/// @return as above; also nothing when the search reached its limit.
+/// @param center_mm, radius_mm  The largest inscribed circle.
+/// @return as deviation_range(); also nothing when the search reached its limit of 20000 squares.
 [[nodiscard]] std::optional<DeviationRange> inscribed_deviation_range(
     std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm, double radius_mm);
 

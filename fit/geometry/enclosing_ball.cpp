@@ -11,8 +11,8 @@ namespace rondure::fit {
 namespace {
 
 constexpr int kExchangeLimit = 1000;
-/// Differences of contacts that span less than this part of the box of their lengths depend on each
-/// other to round-off.
+/// Differences of contacts are linearly dependent to round-off when they span less than this part
+/// of the box of their lengths.
 constexpr double kDependent = 1e-12;
 
 }  // namespace
@@ -25,7 +25,7 @@ Ball<D> EnclosingBall<D>::enclose(const WorkingPoints<D>& points, bool again, do
   while (out.exchanges < kExchangeLimit) {
     const std::size_t farthest = look(points);
     const double limit = std::sqrt(square_) + 2.0 * round_off;
-    // A contact that is farthest itself is so by round-off.
+    // If the farthest point is itself a contact, it is so only by round-off.
     const auto contacts = std::span(rows_).first(static_cast<std::size_t>(count_));
     const bool known = std::find(contacts.begin(), contacts.end(), farthest) != contacts.end();
     out.solved = known || squares_.high <= limit * limit;
@@ -59,7 +59,8 @@ void EnclosingBall<D>::start(const WorkingPoints<D>& points, Ball<D>& out) {
   enter(out);
 }
 
-/// Squared distances of all points from the centre. @return The row of the farthest.
+/// Computes the squared distances of all points from the centre.
+/// @return The row of the farthest point.
 template <int D>
 std::size_t EnclosingBall<D>::look(const WorkingPoints<D>& points) {
   std::array<const double*, D> columns;
@@ -76,7 +77,7 @@ void EnclosingBall<D>::append(const WorkingPoints<D>& points, std::size_t row, d
   multipliers_[k] = multiplier;
 }
 
-/// Takes out a contact; the last stays the last.
+/// Removes a contact; the last one remains the last.
 template <int D>
 void EnclosingBall<D>::drop(int i) {
   --count_;
@@ -88,7 +89,8 @@ void EnclosingBall<D>::drop(int i) {
 }
 
 /// The dual step: the multiplier of the last point grows from 0 until all contacts are at one
-/// distance; those that reach 0 on the way leave. @return false where round-off leaves no way.
+/// distance; contacts whose multiplier reaches 0 before that leave.
+/// @return false if round-off leaves no such step.
 template <int D>
 bool EnclosingBall<D>::enter(Ball<D>& out) {
   while (count_ > 1) {
@@ -100,7 +102,7 @@ bool EnclosingBall<D>::enter(Ball<D>& out) {
     double part = balanced ? 1.0 : std::numeric_limits<double>::infinity();
     int leaving = -1;
     for (int i = 0; i < others; ++i) {
-      // From its value to the target, or with the slope of a dependence, which has no end.
+      // The multiplier falls towards the target, or without end along the slope of a dependence.
       const double value = multipliers_[static_cast<std::size_t>(i)];
       const double fall = balanced ? value - slope(i) : -slope(i);
       if ((balanced && slope(i) >= 0.0) || fall <= 0.0 || value > part * fall) continue;
@@ -133,7 +135,7 @@ bool EnclosingBall<D>::enter(Ball<D>& out) {
   return false;
 }
 
-/// Multipliers of the M other contacts that put all at one distance from their mean.
+/// Multipliers of the M other contacts that put all contacts at one distance from their mean.
 /// @return false where the contacts depend on each other.
 template <int D>
 template <int M>
@@ -174,7 +176,7 @@ bool EnclosingBall<D>::balance(Eigen::Matrix<double, D + 1, 1>& target) const {
   }
 }
 
-/// The last point as a mean of the others, on which it depends.
+/// The last point as a weighted mean of the others, on which it depends linearly.
 template <int D>
 Eigen::Matrix<double, D + 1, 1> EnclosingBall<D>::dependence() const {
   const int others = count_ - 1;

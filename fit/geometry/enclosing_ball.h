@@ -12,34 +12,36 @@
 
 namespace rondure::fit {
 
-/// The smallest circle (D = 2) or sphere (D = 3) that holds points.
+/// The smallest circle (D = 2) or sphere (D = 3) that encloses a set of points.
 template <int D>
 struct Ball {
   Eigen::Matrix<double, D, 1> center_mm = Eigen::Matrix<double, D, 1>::Zero();
-  Extremes zone;      ///< Least and largest distance of the points from the centre.
-  Contacts outer;     ///< Points on it, with multipliers >= 0: their mean is the centre.
-  int exchanges = 0;  ///< Points that entered or left the contacts.
-  bool solved = false;
+  Extremes zone;        ///< Least and largest distance of the points from the centre.
+  Contacts outer;       ///< Points on the ball; their mean by multipliers >= 0 is the centre.
+  int exchanges = 0;    ///< Points that entered or left the contacts.
+  bool solved = false;  ///< false: round-off or the limit of 1000 exchanges ended the search.
 };
 
-/// Minimum circumscribed circles and spheres, which need no linear programme: the squares of the
-/// distances are |p|^2 - 2 p c + |c|^2, linear in c but for what all have in common. So the dual is
-/// a quadratic programme in the contacts alone, at most D + 1 of them, and its simplex step is in
-/// closed form: the farthest point enters, contacts whose multiplier would turn negative leave. The
-/// radius grows with every point that enters: the end is the optimum, and it is the only one.
+/// Minimum circumscribed circles and spheres. They need no linear programme: the squared distances
+/// are |p|^2 - 2 p c + |c|^2, linear in c except for a term common to all points. The dual is
+/// therefore a quadratic programme in the contacts alone, at most D + 1 of them, and its simplex
+/// step has a closed form: the farthest point enters, contacts whose multiplier would turn negative
+/// leave. The radius grows with every point that enters, so the search ends at the optimum, which
+/// is unique.
 ///
-/// An object keeps its memory, and its contacts as a start. Cost: a pass over the working points
-/// for each point that enters, commonly five to eight. Sources: methods, cylindricity section 11.4
-/// (convex); D. Goldfarb, A. Idnani, Mathematical Programming 27 (1983) (dual active sets); K.
-/// Fischer, B. Gaertner, SoCG 2003 (balls).
+/// An object keeps its memory, and its contacts as the next start. Cost: one pass over the working
+/// points for each point that enters, commonly five to eight. Sources: methods, cylindricity
+/// section 11.4 (convex); D. Goldfarb, A. Idnani, Mathematical Programming 27 (1983) (dual active
+/// sets); K. Fischer, B. Gaertner, SoCG 2003 (balls).
 template <int D>
 class EnclosingBall {
  public:
   using Point = Eigen::Matrix<double, D, 1>;
 
   /// @param points     At least one.
-  /// @param again      Starts from the last contacts; the same points, in front of others.
-  /// @param round_off  Of distances [mm]: a point farther out by less is on the ball.
+  /// @param again      Start from the contacts of the last call; `points` begins with its points.
+  /// @param round_off  Rounding error of a distance [mm]; a point outside by less than twice this
+  ///                   is on the ball.
   Ball<D> enclose(const WorkingPoints<D>& points, bool again, double round_off);
 
  private:
@@ -55,14 +57,14 @@ class EnclosingBall {
   [[nodiscard]] bool balance(Eigen::Matrix<double, D + 1, 1>& target) const;
   [[nodiscard]] Eigen::Matrix<double, D + 1, 1> dependence() const;
 
-  int count_ = 0;  ///< Contacts; the one that enters is the last.
+  int count_ = 0;  ///< Number of contacts; the one that enters is the last.
   std::array<std::size_t, kMost> rows_{};
   std::array<Point, kMost> points_;
   std::array<double, kMost> multipliers_{};
   Point center_ = Point::Zero();
-  double square_ = 0.0;         ///< Of the radius.
-  ColumnExtremes squares_;      ///< Of the distances of all points.
-  std::vector<double> column_;  ///< These squares.
+  double square_ = 0.0;         ///< Squared radius.
+  ColumnExtremes squares_;      ///< Extremes of the squared distances of all points.
+  std::vector<double> column_;  ///< The squared distances.
 };
 
 extern template class EnclosingBall<2>;

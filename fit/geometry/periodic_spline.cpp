@@ -12,7 +12,7 @@
 namespace rondure::fit {
 namespace {
 
-/// Solves the tridiagonal system (below, diagonal, above) by elimination; diagonally dominant.
+/// Solves the diagonally dominant tridiagonal system (below, diagonal, above) by elimination.
 std::vector<double> solve_tridiagonal(const std::vector<double>& below,
                                       std::vector<double> diagonal,
                                       const std::vector<double>& above, std::vector<double> right) {

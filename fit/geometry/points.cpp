@@ -15,7 +15,7 @@ namespace rondure::fit {
 namespace {
 
 constexpr std::size_t kMostDistinct = 8;
-/// Beyond 10 km a coordinate itself is rounded by more than the 1e-9 mm that results are held to.
+/// Beyond 10 km a coordinate is itself rounded by more than the 1e-9 mm required of results.
 constexpr double kGreatestLength = 1e7;
 
 template <class Vector>
@@ -44,7 +44,8 @@ Vector mean(std::span<const Vector> points_mm) {
   return points_mm.front() + sum / static_cast<double>(points_mm.size());
 }
 
-// Stops at `enough`, which is small: comparing with those found so far beats sorting all points.
+// Stops at `enough`, which is small: comparing with the points found so far is faster than sorting
+// all of them.
 template <class Vector>
 std::size_t distinct(std::span<const Vector> points_mm, std::size_t enough) {
   std::array<const Vector*, kMostDistinct> found;
@@ -90,7 +91,7 @@ std::size_t distinct_points(std::span<const Eigen::Vector3d> points_mm, std::siz
 
 std::size_t spread_row(std::size_t k, std::size_t count) {
   const double place = static_cast<double>(k) / std::numbers::phi;
-  // The whole part by way of an integer: without SSE 4.1 floor() is a call.
+  // The whole part is taken by an integer conversion: without SSE 4.1 floor() is a function call.
   const double whole = static_cast<double>(static_cast<std::ptrdiff_t>(place));
   const auto row = static_cast<std::size_t>((place - whole) * static_cast<double>(count));
   return std::min(row, count - 1);
@@ -105,7 +106,7 @@ void sample_points(std::span<const Eigen::Vector3d> points_mm, std::span<Eigen::
 
 double largest_gap_rad(std::span<const Eigen::Vector2d> points_mm,
                        const Eigen::Vector2d& center_mm) {
-  // Few points need no memory of their own: fits in loops allocate nothing.
+  // Up to 64 points use the stack, so that fits in loops allocate nothing.
   std::array<double, 64> few;
   std::vector<double> many(points_mm.size() > few.size() ? points_mm.size() : 0);
   const auto angles = many.empty() ? std::span(few).first(points_mm.size()) : std::span(many);
@@ -136,7 +137,7 @@ std::vector<Eigen::Vector2d> convex_hull(std::span<const Eigen::Vector2d> points
       while (hull.size() >= first + 2 && turns_right(p)) hull.pop_back();
       hull.push_back(p);
     }
-    hull.pop_back();  // it begins the other side
+    hull.pop_back();  // the other side begins with this point
     std::reverse(sorted.begin(), sorted.end());
   }
   return hull;

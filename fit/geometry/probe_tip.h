@@ -11,12 +11,13 @@ namespace rondure::fit {
 /// Effective tip radius of a probe, from touches of a reference sphere.
 struct ProbeTip {
   Eigen::Vector3d sphere_center_mm = Eigen::Vector3d::Zero();
-  double radius_mm = 0.0;  ///< rho: effective (pre-travel included), below the nominal as a rule.
+  double radius_mm = 0.0;  ///< rho: effective (pre-travel included), usually below the nominal one.
   double radius_sigma_mm = 0.0;  ///< Standard deviation of rho from the residuals.
   double form_mm = 0.0;          ///< Probing form: peak to valley of the residuals.
 };
 
-/// Fits a least-squares sphere to tip centres and subtracts the certified radius.
+/// Determines the effective tip radius: fits a least-squares sphere to the tip centres and
+/// subtracts the certified radius of the reference sphere from that of the fit.
 ///
 /// @param tip_centers_mm  n >= 5, not all on one circle [mm].
 /// @param sphere_radius_mm  Certified radius of the reference sphere [mm].

@@ -11,7 +11,7 @@
 namespace rondure::fit {
 namespace {
 
-/// One column a point.
+/// Points as columns of a matrix.
 Eigen::Matrix3Xd columns(std::span<const Eigen::Vector3d> points_mm) {
   Eigen::Matrix3Xd out(3, static_cast<Eigen::Index>(points_mm.size()));
   for (std::size_t i = 0; i < points_mm.size(); ++i) {
@@ -27,7 +27,7 @@ bool on_one_line(const Eigen::Matrix3Xd& points) {
   return squares(1) <= 1e-12 * squares(0);
 }
 
-/// The motion for weights that sum up to 1.
+/// The motion for weights whose sum is 1.
 Eigen::Isometry3d best_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to,
                               const Eigen::VectorXd& weights) {
   const Eigen::Vector3d from_mean = from * weights;

@@ -8,16 +8,16 @@
 
 namespace rondure::fit {
 
-/// A motion without scale or reflection that brings points onto others as well as can be.
+/// The rigid motion, without scale or reflection, that brings points closest to their partners.
 struct Registration {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  ///< Maps `from` to `to`.
   double largest_residual_mm = 0.0;  ///< Greatest distance of a moved point from its partner [mm].
 };
 
-/// Least squares of weight_i |motion * from_i - to_i|^2 over rotations and shifts, closed form by
-/// the singular values of the covariance; never a reflection.
+/// Minimises the sum of weight_i |motion * from_i - to_i|^2 over rotations and shifts, in closed
+/// form by the singular value decomposition of the covariance. Never a reflection.
 /// @param from_mm, to_mm  Partners in the same order, n >= 3, not on one line [mm].
-/// @param weights  One a pair, > 0; none: all alike.
+/// @param weights  One per pair, > 0; empty: all equal.
 /// @return kTooFewPoints (n < 3 or different counts), kNotFinite, kCollinear (the points of `from`
 ///         lie on one line within 1e-6 of their spread: the turn about it is undetermined).
 /// Source: S. Umeyama, "Least-squares estimation of transformation parameters between two point

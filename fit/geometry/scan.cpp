@@ -19,7 +19,7 @@ struct AxisView {
 };
 
 template <class View>
-constexpr std::size_t kWidth = 3;  // numbers a point
+constexpr std::size_t kWidth = 3;  // coordinates per point
 template <>
 constexpr std::size_t kWidth<Eigen::Vector2d> = 2;
 
@@ -36,7 +36,7 @@ struct Running {
   }
 };
 
-/// Squared distance of one point; the order of the operations is the contract of all versions.
+/// Squared distance of one point. All versions must follow this order of operations.
 double square(const double* p, const AxisView& v) {
   const double x = p[0] - v.origin[0];
   const double y = p[1] - v.origin[1];
@@ -84,7 +84,7 @@ RONDURE_AVX2 __m256d pair(const double* low, const double* high) {
   return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(low)), _mm_loadu_pd(high), 1);
 }
 
-/// Loads of 128 bits put points 0 1 | 2 3 side by side, so that two blends and one shuffle suffice.
+/// Loads of 128 bits place points 0 1 | 2 3 side by side, so that two blends and a shuffle suffice.
 RONDURE_AVX2 Four load_four(const double* p, const Eigen::Vector3d& origin) {
   const __m256d first = pair(p, p + 6);       // x0 y0 | x2 y2
   const __m256d second = pair(p + 2, p + 8);  // z0 x1 | z2 x3
@@ -118,12 +118,12 @@ RONDURE_AVX2 __m256d four_squares(const double* p, const Eigen::Vector2d& center
   const __m256d middle = _mm256_setr_pd(center[0], center[1], center[0], center[1]);
   const __m256d first = _mm256_sub_pd(_mm256_loadu_pd(p), middle);
   const __m256d second = _mm256_sub_pd(_mm256_loadu_pd(p + 4), middle);
-  // Points 0 2 1 3: their order does not matter here.
+  // The points are in the order 0 2 1 3, which does not matter here.
   return _mm256_hadd_pd(_mm256_mul_pd(first, first), _mm256_mul_pd(second, second));
 }
 
-/// How far ahead of the arithmetic memory is asked for: 2 KiB. The processor's own guess stops at
-/// each page, which costs an eighth of a pass over points that no cache holds.
+/// Distance by which memory is prefetched ahead of the arithmetic: 2 KiB. The hardware prefetcher
+/// stops at each page, which costs an eighth of a pass over points that are in no cache.
 constexpr std::size_t kAhead = 256;
 
 /// Two independent chains, so that the latencies of min, max and sum overlap.

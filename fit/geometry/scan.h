@@ -14,39 +14,40 @@ namespace rondure::fit {
 struct ScanExtremes {
   double low = 0.0;
   double high = 0.0;
-  bool finite = true;  ///< false: a coordinate is not a finite number; the others mean nothing.
+  bool finite = true;  ///< false: a coordinate is not finite, and `low` and `high` are invalid.
 };
 
-/// One pass over all points: their extreme distances from an axis or a centre. This is S1, the unit
-/// in which the speed of the fits is stated.
+/// Finds the extreme squared distances of all points from an axis or a centre in one pass. This is
+/// S1, the unit in which the speed of the fits is stated.
 ///
 /// Points are taken relative to the axis point (the centre) first, so that sets far from the origin
-/// keep their digits. Four points at a time where the processor has AVX2, which is asked at run
-/// time; the same operations in the same order for each point, so the same bits everywhere. Reads
-/// memory once, allocates nothing.
+/// keep their digits. Processes four points at a time if the processor has AVX2, which is checked
+/// at run time. Each point undergoes the same operations in the same order, so the result has the
+/// same bits on every processor. Reads memory once and allocates nothing.
 [[nodiscard]] ScanExtremes scan(std::span<const Eigen::Vector3d> points_mm, const Axis& axis);
 [[nodiscard]] ScanExtremes scan(std::span<const Eigen::Vector3d> points_mm,
                                 const Eigen::Vector3d& center_mm);
 [[nodiscard]] ScanExtremes scan(std::span<const Eigen::Vector2d> points_mm,
                                 const Eigen::Vector2d& center_mm);
 
-/// What a pass that looks at blocks of points keeps: the squared extremes of each.
+/// The extreme squared distances of consecutive blocks of points [mm^2].
 struct BlockScan {
-  std::size_t block = 1;    ///< Points a block; the last one may be shorter.
-  std::vector<double> low;  ///< One number a block; the memory is kept between calls.
+  std::size_t block = 1;    ///< Points per block, >= 1; the last block may be shorter.
+  std::vector<double> low;  ///< One number per block; the memory is kept between calls.
   std::vector<double> high;
   ScanExtremes all;
 };
 
-/// scan() block by block. @param out  `block` is read, the rest is written.
+/// Runs scan() block by block.
+/// @param out  `block` is read, the rest is written.
 void scan_blocks(std::span<const Eigen::Vector3d> points_mm, const Axis& axis, BlockScan& out);
 void scan_blocks(std::span<const Eigen::Vector3d> points_mm, const Eigen::Vector3d& center_mm,
                  BlockScan& out);
 void scan_blocks(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
                  BlockScan& out);
 
-/// The first point whose squared distance is exactly `square_mm2`, as scan_blocks() found it;
-/// the number of points when there is none.
+/// Returns the first point whose squared distance is exactly `square_mm2`, as scan_blocks() found
+/// it, or the number of points if there is none.
 [[nodiscard]] std::size_t find_square(std::span<const Eigen::Vector3d> points_mm, const Axis& axis,
                                       double square_mm2);
 [[nodiscard]] std::size_t find_square(std::span<const Eigen::Vector3d> points_mm,

@@ -12,7 +12,8 @@ constexpr std::size_t kGrid = 2000;
 constexpr int kPiecesPerRow = 4;
 constexpr std::size_t kBoxedSamples = 64;
 
-/// Place of the least `cost` between two x, by golden section. `cost` has one minimum there.
+/// Returns the place of the least `cost` between two x, by golden section.
+/// @pre `cost` has a single minimum there.
 template <class Cost>
 double least_between(double low, double high, const Cost& cost) {
   constexpr double kGolden = 0.6180339887498949;
@@ -38,7 +39,7 @@ double least_between(double low, double high, const Cost& cost) {
   return c1 <= c2 ? x1 : x2;
 }
 
-/// Even places, and those between the rows of a table.
+/// Equally spaced places, and those between the rows of a table.
 std::vector<double> places_of(const WheelSurface& surface, double from, double to) {
   std::vector<double> out;
   for (std::size_t i = 0; i <= kGrid; ++i) {
@@ -52,7 +53,7 @@ std::vector<double> places_of(const WheelSurface& surface, double from, double t
     }
   }
   std::sort(out.begin(), out.end());
-  // Places a rounding apart would leave nothing between neighbours to refine in.
+  // Places that differ only by rounding would leave no interval between neighbours to refine in.
   const double same = 1e-9 * (to - from);
   out.erase(std::unique(out.begin(), out.end(), [&](double a, double b) { return b - a <= same; }),
             out.end());
@@ -86,7 +87,7 @@ void SurfaceSamples::make_boxes() {
   }
 }
 
-/// Least of sample i and of the surface between its neighbours.
+/// Returns the least of `cost` at sample i and between its two neighbours.
 template <class Cost>
 SurfaceSamples::Place SurfaceSamples::refined(std::size_t i, const Cost& cost) const {
   const double low = samples_[i > 0 ? i - 1 : 0].x;

@@ -10,28 +10,29 @@
 
 namespace rondure::fit {
 
-/// A surface at many places, for questions about all of it: where it is most hollow, which place is
-/// nearest to a point. Answers are refined on the surface itself between neighbouring places.
+/// Samples of a surface, to search the whole of it: for the greatest curvature, or for the place
+/// nearest to a point. Results are refined on the surface itself between neighbouring samples.
 class SurfaceSamples {
  public:
-  /// An answer: where, and what was asked for.
+  /// The result of a search: place and value there.
   struct Place {
     double x_mm = 0.0;
     double value = 0.0;
   };
 
-  /// 2000 even places over a range, and five to a step of the surface's tables. The surface must
-  /// outlive the samples.
-  /// @return kSurface.
+  /// Takes 2000 equally spaced samples of a range, and five per interval of the surface's tables.
+  /// @pre The surface outlives the samples.
+  /// @return kSurface where the surface has no height.
   static core::Result<SurfaceSamples> over(const WheelSurface& surface, double from_mm,
                                            double to_mm);
 
-  /// The greatest curvature k_s [1/mm]: the deepest hollow.
+  /// Greatest curvature k_s of the surface [1/mm].
   [[nodiscard]] Place greatest_curvature() const;
+  /// Least curvature of the samples [1/mm], not refined.
   [[nodiscard]] double least_curvature_per_mm() const;
 
-  /// Least distance of the surface from a point [mm]; `beyond_mm` where it is not nearer. Blocks of
-  /// places farther off than the best are passed over by their boxes.
+  /// Least distance of the surface from a point [mm], or `beyond_mm` if that is less. Blocks of
+  /// samples whose bounding box is farther away than the best distance are skipped.
   [[nodiscard]] Place nearest(const Eigen::Vector2d& from_mm, double beyond_mm) const;
 
  private:

@@ -12,7 +12,7 @@ namespace {
 constexpr double kGreatestWheel = 2000.0;
 constexpr double kGreatestPin = 1000.0;
 
-/// The representative of `angle` nearest to `near`, whole turns apart.
+/// Returns `angle` shifted by whole turns to be nearest to `near`.
 double unwrapped(double angle, double near) {
   return angle + core::kTwoPi * std::round((near - angle) / core::kTwoPi);
 }

@@ -13,14 +13,16 @@ namespace rondure::fit {
 ///     R sin(alpha) = Lc sin(beta),   theta = alpha + beta
 ///
 /// alpha is the rotation of the work (0 where O, A, O1 are in line, A between), beta the swing of
-/// the arm, theta the travel of probe 1 over the pin. With R = 0 (an ordinary shaft) or an arm held
-/// fixed beta = 0 and theta = alpha. Source: methods, roundness A.2.
+/// the arm, theta the travel of probe 1 over the pin. With R = 0 (an ordinary shaft) or a fixed
+/// arm, beta = 0 and theta = alpha. Source: methods, roundness A.2.
+///
+/// @pre check_swing_arm() accepts the arm, for all functions of an angle.
 struct SwingArm {
   double crank_radius_mm = 0.0;  ///< R, >= 0.
   double wheel_radius_mm = 0.0;  ///< Rs.
-  double pin_radius_mm = 0.0;    ///< Rw; also of an ordinary shaft: the second order needs it.
+  double pin_radius_mm = 0.0;    ///< Rw; the second order needs it for an ordinary shaft as well.
 
-  /// Distance of pivot and pin centre [mm].
+  /// Lc: distance between pivot and pin centre [mm].
   [[nodiscard]] double center_distance_mm() const { return wheel_radius_mm + pin_radius_mm; }
   /// Whether the arm swings at all.
   [[nodiscard]] bool swings() const { return crank_radius_mm > 0.0; }

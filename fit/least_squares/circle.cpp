@@ -8,16 +8,16 @@
 
 #include <fmt/format.h>
 
+#include "fit/geometry/points.h"
 #include "fit/least_squares/internal/gauss_newton.h"
 #include "fit/least_squares/internal/sums.h"
-#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 namespace {
 
 /// Curvature times length below which points are on a line: radius and centre are round-off.
 constexpr double kStraight = 1e-9;
-/// Radii of this many lengths and more belong to flat arcs.
+/// An arc is flat if its radius is at least this many times its length.
 constexpr double kFlat = 3.0;
 
 /// Fills deviation and rms about the centre.
@@ -35,7 +35,7 @@ void fill_residuals(std::span<const Eigen::Vector2d> points_mm, LsCircle& circle
   circle.rms_mm = std::sqrt(squares / static_cast<double>(points_mm.size()));
 }
 
-/// Circle under iteration, relative to an origin amid the points.
+/// The circle during the iteration, relative to an origin amid the points.
 struct CircleModel {
   static constexpr int kUnknowns = 3;
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
@@ -57,12 +57,13 @@ LsCircle finished(const CircleModel& model, const Eigen::Vector2d& origin, doubl
   return out;
 }
 
-/// Circle as  A (x^2 + y^2) + B x + C y + D = 0  with B^2 + C^2 - 4 A D = 1: B and C follow from an
-/// angle. A flat arc is a small A, where centre and radius run along a valley without end. All
-/// three unknowns in mm: A times the square of the length, D, the angle times the length.
+/// A circle as  A (x^2 + y^2) + B x + C y + D = 0  with B^2 + C^2 - 4 A D = 1; B and C follow from
+/// an angle. A flat arc has a small A, whereas in centre and radius its minimum lies in an endless
+/// valley. All three unknowns are in mm: A times the square of the length, D, the angle times the
+/// length.
 struct FlatCircle {
   static constexpr int kUnknowns = 3;
-  double length = 1.0;  ///< Of the points, from their mean.
+  double length = 1.0;  ///< Extent of the points from their mean.
   double curvature = 0.0;
   double offset = 0.0;
   double angle = 0.0;
@@ -116,7 +117,7 @@ NormalSums<3> flat_sums(std::span<const Eigen::Vector2d> points_mm, const Eigen:
   return out;
 }
 
-/// Whether the points are a flat arc of a circle: centre and radius are far off and go together.
+/// Whether the points are a flat arc of a circle, with a distant centre and correlated radius.
 bool is_flat(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& origin,
              double radius) {
   return std::none_of(points_mm.begin(), points_mm.end(), [&](const Eigen::Vector2d& p) {
@@ -124,7 +125,7 @@ bool is_flat(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& 
   });
 }
 
-/// The minimum where the one of centre and radius is too far along its valley.
+/// Finds the minimum in the unknowns of FlatCircle, for points whose centre is too far away.
 bool settle_flat(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& origin,
                  CircleModel& model, double& squares) {
   double length = 0.0;
@@ -140,7 +141,7 @@ bool settle_flat(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector
   return true;
 }
 
-/// A large set from the circle of a sample; nothing when that does not lead to the minimum.
+/// Fits a large set from the circle of a sample; returns nothing if that does not converge.
 std::optional<LsCircle> from_sample(std::span<const Eigen::Vector2d> points_mm) {
   std::array<Eigen::Vector2d, kStartSample> sample;
   sample_points(points_mm, sample);
@@ -218,7 +219,7 @@ core::Result<LsCircle> ls_circle(std::span<const Eigen::Vector2d> points_mm) {
   double squares = 0.0;
   const CircleModel first = model;
   bool settled = settle(model, squares, sums_at);
-  // Along the valley of a flat arc steps are short against the radius long before its end.
+  // In the valley of a flat arc, steps become short relative to the radius long before the minimum.
   if (!settled || is_flat(points_mm, origin, model.radius)) {
     CircleModel flat = settled ? model : first;
     double least = 0.0;

@@ -13,19 +13,19 @@
 
 #include "core/decompositions.h"
 #include "fit/geometry/cylinder_frame.h"
-#include "fit/zone/internal/cylinder_start.h"
+#include "fit/geometry/points.h"
 #include "fit/least_squares/internal/gauss_newton.h"
 #include "fit/least_squares/internal/sums.h"
-#include "fit/geometry/points.h"
+#include "fit/zone/internal/cylinder_start.h"
 
 namespace rondure::fit {
 namespace {
 
-// Squared extents below this share are round-off of the sums: 3e-8 of the largest extent.
+// Squared extents below this share of the largest (3e-8 in length) are round-off of the sums.
 constexpr double kFlat = 1e-15;
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;
-/// Cylinder under iteration, relative to an origin amid the points.
+/// The cylinder during the iteration, relative to an origin amid the points.
 struct CylinderModel {
   static constexpr int kUnknowns = 5;
   CylinderFrame frame;
@@ -42,12 +42,12 @@ struct Settled {
   double squares = 0.0;
 };
 
-/// Algebraic circle of the projection along a direction; the points are relative to `origin`, their
-/// mean.
+/// Starts from the algebraic circle of the projection along a direction. The points are relative to
+/// `origin`, their mean.
 core::Result<CylinderModel> start(SpacePoints points, const Eigen::Vector3d& origin,
                                   const Eigen::Vector3d& direction) {
   const auto frame = across(direction);
-  // Plain numbers: sums in Eigen matrices would go through memory at every point.
+  // Plain numbers, because sums in Eigen matrices would pass through memory at every point.
   double uu = 0.0, uv = 0.0, vv = 0.0, uc = 0.0, vc = 0.0;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
@@ -89,7 +89,7 @@ LsCylinder finished(const Settled& settled, const Eigen::Vector3d& origin,
   return out;
 }
 
-/// Refuses points of one line and of one plane; they are relative to `origin`, their mean.
+/// Refuses points on one line or in one plane. They are relative to `origin`, their mean.
 core::Result<void> check_rank(SpacePoints points, const Eigen::Vector3d& origin) {
   double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
   for (const Eigen::Vector3d& p : points) {
@@ -103,7 +103,8 @@ core::Result<void> check_rank(SpacePoints points, const Eigen::Vector3d& origin)
   }
   Eigen::Matrix3d scatter;
   scatter << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-  // The least share of extents is at least the determinant's; eigenvalues only where that is small.
+  // The least share of the extents is no less than the share given by the determinant, so the
+  // eigenvalues are needed only where that is small.
   if (scatter.determinant() > 1e-9 * std::pow(scatter.trace(), 3)) return {};
   const Eigen::Vector3d spread =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
@@ -152,7 +153,7 @@ core::Result<Settled> settle_all(SpacePoints points, const Eigen::Vector3d& orig
   return best;
 }
 
-/// A large set from the cylinder of a sample; nothing when that does not lead to the minimum.
+/// Fits a large set from the cylinder of a sample; returns nothing if that does not converge.
 std::optional<LsCylinder> from_sample(SpacePoints points_mm,
                                       const std::optional<Eigen::Vector3d>& near_direction) {
   std::array<Eigen::Vector3d, kStartSample> sample;
@@ -181,7 +182,7 @@ std::optional<LsCylinder> from_sample(SpacePoints points_mm,
   const auto range = distance_range(
       points_mm.size(), [&](std::size_t i) { return frame.distance(points_mm[i] - origin); },
       &extremes, change + 1e-13 * settled->model.scale_mm());
-  // conventional() asks of the mean only its place along the axis.
+  // conventional() uses only the position of the mean along the axis.
   return finished(*settled, origin, origin + mean, range, points_mm.size());
 }
 

@@ -18,13 +18,13 @@ struct LsCylinder {
   double rms_mm = 0.0;
 };
 
-/// Least-squares cylinder (LSCY): minimises the sum of squared radial distances over the axis (four
-/// unknowns) and the radius, by Levenberg-Marquardt in a frame that follows the axis.
+/// Fits the least-squares cylinder (LSCY): minimises the sum of squared radial distances over the
+/// axis (four unknowns) and the radius, by Levenberg-Marquardt in a frame that follows the axis.
 ///
 /// @param points_mm       n >= 5, any order, any place and orientation [mm].
 /// @param near_direction  Start direction; without it the half sphere is searched for starts.
 /// @return kNoPoints, kNotFinite (row), kTooFewPoints, kCollinear, kRank (one layer: the tilt is
-///         undetermined), kNotConverged. O(n) a step.
+///         undetermined), kNotConverged. O(n) per step.
 /// Source: ISO 12180-1; methods, cylindricity section 11.1.
 [[nodiscard]] core::Result<LsCylinder> ls_cylinder(
     std::span<const Eigen::Vector3d> points_mm,

@@ -1,5 +1,5 @@
-// Compiled with -mavx2: only ls_kernel.h and intrinsics here, no inline function of any other
-// header, which the linker could hand to processors without AVX2.
+// Compiled with -mavx2. This file uses only internal/kernel.h and intrinsics: an inline function of
+// any other header could be linked into code for processors without AVX2.
 
 #include <immintrin.h>
 
@@ -26,7 +26,7 @@ struct Avx2 : Singles<Avx2> {
   static void store(double* p, Vector v) { _mm256_storeu_pd(p, v); }
   static double root(double v) { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(v))); }
   static Vector root(Vector v) { return _mm256_sqrt_pd(v); }
-  /// The halves at p and q: [p0 p1 | q0 q1].
+  /// Loads the two halves from p and q: [p0 p1 | q0 q1].
   static Vector halves(const double* p, const double* q) {
     return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p)), _mm_loadu_pd(q), 1);
   }

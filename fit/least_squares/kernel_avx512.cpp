@@ -1,5 +1,5 @@
-// Compiled with -mavx512f: only ls_kernel.h and intrinsics here, no inline function of any other
-// header, which the linker could hand to processors without AVX-512.
+// Compiled with -mavx512f. This file uses only internal/kernel.h and intrinsics: an inline function
+// of any other header could be linked into code for processors without AVX-512.
 
 #include <immintrin.h>
 
@@ -26,7 +26,7 @@ struct Avx512 : Singles<Avx512> {
   static void store(double* p, Vector v) { _mm512_storeu_pd(p, v); }
   static double root(double v) { return _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set1_pd(v))); }
   static Vector root(Vector v) { return _mm512_maskz_sqrt_pd(0xff, v); }
-  /// Every third of 24 numbers: the index picks from a and b (+ 8), then from c where it says so.
+  /// Every third of 24 numbers: `from_ab` picks from a and b (index + 8), `from_c` then from c.
   static Vector thirds(Vector a, Vector b, Vector c, __m512i from_ab, __m512i from_c) {
     return _mm512_permutex2var_pd(_mm512_permutex2var_pd(a, from_ab, b), from_c, c);
   }

@@ -5,7 +5,7 @@
 namespace rondure::fit::ls_kernel {
 namespace {
 
-/// One number at a time: any processor.
+/// One number at a time, for any processor.
 struct Portable : Singles<Portable> {
   using Vector = double;
 

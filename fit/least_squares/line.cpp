@@ -12,7 +12,7 @@
 namespace rondure::fit {
 namespace {
 
-/// Directions whose extents differ by less than this share of the larger one are alike.
+/// Directions whose extents differ by less than this share of the larger one count as equal.
 constexpr double kAlikeExtents = 1e-12;
 
 Eigen::Matrix3d scatter_about(SpacePoints points, const Eigen::Vector3d& mean) {
@@ -21,9 +21,9 @@ Eigen::Matrix3d scatter_about(SpacePoints points, const Eigen::Vector3d& mean) {
   return out;
 }
 
-/// Turns a direction that is nearly the first principal axis the rest of the way. Of a line a metre
-/// long the eigenvector is good to 1e-16 of the length only, sums across the direction to 1e-16 of
-/// the distances.
+/// Turns a direction that is nearly the first principal axis onto it. The eigenvector is accurate
+/// only to 1e-16 of the length of the line, which may be a metre; sums across the direction are
+/// accurate to 1e-16 of the distances.
 Eigen::Vector3d refined_direction(SpacePoints points, const Eigen::Vector3d& mean,
                                   const Eigen::Vector3d& direction) {
   const auto frame = across(direction);
@@ -37,7 +37,7 @@ Eigen::Vector3d refined_direction(SpacePoints points, const Eigen::Vector3d& mea
     mixed += s * q;
     along += s * s;
   }
-  // The gradient of the sum over the tilt is -mixed, its second derivative along - side.
+  // The gradient of the sum with respect to the tilt is -mixed, its second derivative along - side.
   const Eigen::Matrix2d curvature = along * Eigen::Matrix2d::Identity() - side;
   return (direction + frame * (curvature.inverse() * mixed)).normalized();
 }

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "core/decompositions.h"
+#include "fit/geometry/points.h"
 #include "fit/least_squares/internal/gauss_newton.h"
 #include "fit/least_squares/internal/sums.h"
-#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 /// Relative eigenvalue below which all points lie in one plane and the height is undetermined.
 constexpr double kRankShare = 1e-12;
 
-/// Sphere under iteration, relative to an origin amid the points.
+/// The sphere during the iteration, relative to an origin amid the points.
 struct SphereModel {
   static constexpr int kUnknowns = 4;
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
@@ -54,7 +54,7 @@ NormalSums<4> sphere_sums(SpacePoints points, const Eigen::Vector3d& origin,
   for (const Eigen::Vector3d& p : points) {
     const Eigen::Vector3d v = (p - origin) - at.center;
     const double r = v.norm();
-    if (r == 0.0) continue;  // the centre itself has no direction; it still cannot attract the fit
+    if (r == 0.0) continue;  // a point at the centre has no gradient and adds nothing to the step
     Eigen::Vector4d row;
     row << -v / r, -1.0;
     const double residual = r - at.radius;

@@ -16,13 +16,13 @@ struct LsSphere {
   double rms_mm = 0.0;        ///< Root mean square of the radial residuals [mm].
 };
 
-/// Least-squares sphere: minimises the sum of squared radial (orthogonal) distances by damped
-/// Gauss-Newton from the algebraic sphere, which is closed form and exact for points of one sphere.
+/// Fits the least-squares sphere: minimises the sum of squared radial (orthogonal) distances by
+/// damped Gauss-Newton from the algebraic sphere, which has a closed form and is exact for points
+/// of one sphere.
 ///
 /// @param points_mm  n >= 4, not all in one plane, any order and place [mm].
 /// @return kNoPoints, kNotFinite (row), kTooFewPoints, kRank (one plane: the height of the centre
-/// is
-///         undetermined), kNotConverged. O(n) a step.
+///         is undetermined), kNotConverged. O(n) per step.
 /// Source: methods, cylindricity section 2.1.
 [[nodiscard]] core::Result<LsSphere> ls_sphere(std::span<const Eigen::Vector3d> points_mm);
 

@@ -19,10 +19,10 @@ namespace {
 constexpr double kUniformShare = 1e-6;
 constexpr double kArcGap = std::numbers::pi / 2.0;
 constexpr std::size_t kLeastResampled = 1024;
-/// By how much all points are better than every other one, at least.
+/// Least factor between the errors of the splines through every other point and through all points.
 constexpr double kHalvingGain = 4.0;
 
-/// The angle in [0, 2 pi).
+/// Reduces an angle to [0, 2 pi).
 double within_turn(double theta) {
   const double turned = theta - core::kTwoPi * std::floor(theta / core::kTwoPi);
   return turned < core::kTwoPi ? turned : 0.0;
@@ -45,7 +45,7 @@ core::Result<void> check_values(std::span<const double> theta, std::span<const d
   return {};
 }
 
-/// Steps between successive inputs, each taken the short way round.
+/// Counts the steps between successive inputs, each in the shorter direction.
 void count_steps(std::span<const double> theta, AngularProfile& out) {
   std::size_t forward = 0;
   std::size_t backward = 0;
@@ -60,7 +60,7 @@ void count_steps(std::span<const double> theta, AngularProfile& out) {
   out.turns = std::abs(sum) / core::kTwoPi;
 }
 
-/// Puts the rows of one angle, given in order of angle, into one value.
+/// Merges the rows of equal angle, given in order of angle, into one value.
 class Merger {
  public:
   explicit Merger(AngularProfile& out) : out_(out) {}
@@ -88,7 +88,7 @@ class Merger {
 
 std::size_t next_of(std::size_t i, std::size_t n) { return i + 1 < n ? i + 1 : 0; }
 
-/// Gap from point i to the next one, round the end.
+/// Gap from point i to the next one; the last point is followed by the first.
 double gap_after(std::span<const double> theta, std::size_t i) {
   const std::size_t next = next_of(i, theta.size());
   return theta[next] - theta[i] + (next == 0 ? core::kTwoPi : 0.0);
@@ -128,7 +128,7 @@ core::Result<AngularProfile> ordered_profile(std::span<const double> theta_rad,
   count_steps(theta_rad, out);
   std::vector<double> turned(theta_rad.size());
   std::transform(theta_rad.begin(), theta_rad.end(), turned.begin(), within_turn);
-  // What rounding left just below a full turn belongs to its begin.
+  // An angle just below a full turn because of rounding belongs to the beginning of the turn.
   for (double& theta : turned) {
     if (core::kTwoPi - theta < core::kSameAngle) theta = 0.0;
   }

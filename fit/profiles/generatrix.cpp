@@ -14,7 +14,7 @@
 namespace rondure::fit {
 namespace {
 
-/// Least-squares line r = mean + slope (z - mean z); nothing where all z are alike.
+/// Slope of the least-squares line r = mean + slope (z - mean z); nothing if all z are equal.
 std::optional<double> ls_slope(std::span<const Eigen::Vector2d> points,
                                const Eigen::Vector2d& mean) {
   double zz = 0.0;
@@ -62,8 +62,8 @@ std::vector<Eigen::Vector2d> hull_of(std::vector<Eigen::Vector2d> points) {
   return hull;
 }
 
-/// Least distance of two parallels that hold the points between them: one of the two goes through
-/// an edge of the hull, the other through the corner farthest from it.
+/// Least distance of two parallels that hold the points between them. One of them passes through an
+/// edge of the hull, the other through the corner farthest from that edge.
 double least_zone(std::vector<Eigen::Vector2d> points) {
   const auto hull = hull_of(std::move(points));
   const std::size_t n = hull.size();
@@ -73,7 +73,7 @@ double least_zone(std::vector<Eigen::Vector2d> points) {
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector2d& a = hull[i];
     const Eigen::Vector2d& b = hull[(i + 1) % n];
-    // The farthest corner goes round with the edge.
+    // The farthest corner advances round the hull with the edge.
     while (twice_area(a, b, hull[(far + 1) % n]) > twice_area(a, b, hull[far])) far = (far + 1) % n;
     least = std::min(least, twice_area(a, b, hull[far]) / (b - a).norm());
   }

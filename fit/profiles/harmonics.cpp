@@ -14,7 +14,7 @@
 namespace rondure::fit {
 namespace {
 
-/// From r = c cos(k theta) + s sin(k theta).
+/// The harmonic r = c cos(k theta) + s sin(k theta).
 Harmonic harmonic_of(int number, double c, double s, double sigma) {
   Harmonic out{number, std::hypot(c, s), std::nullopt};
   if (out.amplitude_mm >= 3.0 * sigma && out.amplitude_mm > 0.0) out.phase_rad = std::atan2(s, c);
@@ -53,8 +53,8 @@ void fill_basis(double theta, Eigen::Ref<Eigen::VectorXd> row) {
   }
 }
 
-/// Normal equations, summed in blocks: with gaps below half an undulation they are well
-/// conditioned.
+/// Solves by normal equations, summed in blocks. They are well conditioned, because gaps are below
+/// half an undulation.
 Eigen::VectorXd least_squares(const AngularProfile& profile, int highest) {
   constexpr std::size_t kBlock = 256;
   const std::size_t n = profile.r_mm.size();

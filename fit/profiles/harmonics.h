@@ -14,7 +14,7 @@ namespace rondure::fit {
 struct Harmonic {
   int number = 1;  ///< Undulations per revolution; 1 is eccentricity.
   double amplitude_mm = 0.0;
-  /// In (-pi, pi]; absent where the amplitude is below 3 of its standard uncertainties.
+  /// In (-pi, pi]; absent if the amplitude is below 3 times its standard uncertainty.
   std::optional<double> phase_rad;
 
   /// Angle of the first crest [rad]: phase / number.
@@ -35,25 +35,26 @@ struct HarmonicOptions {
   bool override_sampling = false;  ///< Allow K above n/7.
 };
 
-/// Checks K against the number of points: kBadOption for K < 1 or above (n - 1)/2, which n points
-/// cannot determine; kSampling above n/7, where aliased undulations carry wrong phases, unless the
-/// options override it.
+/// Checks K against the number of points.
+/// @return kBadOption for K < 1, or K above (n - 1)/2, which n points cannot determine; kSampling
+///         for K above n/7, where aliased undulations have wrong phases, unless overridden.
 [[nodiscard]] core::Result<void> check_harmonics(std::size_t points,
                                                  const HarmonicOptions& options);
 
-/// Harmonics of a profile at uniform angles, from its spectrum. Phases count from angle 0, whatever
-/// the start angle.
+/// Computes the harmonics of a profile at uniform angles from its spectrum. Phases count from angle
+/// 0, whatever the start angle.
 /// @return check_harmonics()'s errors. Source: methods, roundness B.6.
 [[nodiscard]] core::Result<HarmonicTable> harmonics(const UniformProfile& profile,
                                                     const HarmonicOptions& options);
 
-/// The same for any angles, by least squares; exact where the profile holds no higher harmonic.
-/// @return as harmonics(); kNotFullSection for a gap of 90 deg and more: an arc has no harmonics;
+/// Computes the harmonics of a profile at any angles by least squares. Exact if the profile holds
+/// no higher harmonic.
+/// @return as harmonics(); kNotFullSection for a gap of 90 deg or more, as an arc has no harmonics;
 ///         kSampling for a gap of half an undulation of the highest harmonic. O(n K^2).
 [[nodiscard]] core::Result<HarmonicTable> harmonic_fit(const AngularProfile& profile,
                                                        const HarmonicOptions& options);
 
-/// Value of a table at an angle, harmonic 0 (the mean) included [mm].
+/// Sum of the harmonics of a table at an angle, including harmonic 0 (the mean) [mm].
 [[nodiscard]] double value_at(const HarmonicTable& table, double theta_rad);
 
 }  // namespace rondure::fit

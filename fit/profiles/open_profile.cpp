@@ -13,12 +13,12 @@
 namespace rondure::fit {
 namespace {
 
-/// sqrt(ln 2 / pi): 50 % at the cut-off for the plain mean and for the local line.
+/// sqrt(ln 2 / pi) gives 50 % at the cut-off for the plain mean and for the local line.
 const double kGaussian = std::sqrt(std::numbers::ln2 / std::numbers::pi);
 /// The local parabola transmits exp(-q)(1 + q), q = pi (alpha lambda_c / lambda)^2; q = 1.678347
 /// gives 50 %, alpha = sqrt(q / pi) = 0.7309.
 const double kWide = std::sqrt(1.6783469900166605 / std::numbers::pi);
-/// Weights beyond this many cut-offs are below 1e-16 of the middle one.
+/// Beyond this many cut-offs, weights are below 1e-16 of the central one.
 constexpr double kNarrowReach = 2.0;
 constexpr double kWideReach = 2.6;
 
@@ -54,7 +54,7 @@ core::Result<void> check(std::span<const double> x, std::span<const double> r,
   return {};
 }
 
-/// Length each point stands for: half the gaps to its neighbours; at an end its one gap.
+/// Length that each point represents: half the gaps to its neighbours; at an end, the whole gap.
 std::vector<double> cells(std::span<const double> x) {
   const std::size_t n = x.size();
   std::vector<double> out(n);

@@ -7,17 +7,16 @@
 
 namespace rondure::fit {
 
-/// What the Gaussian filter of an open profile does where its weight reaches beyond an end.
+/// Treatment of the ends of an open profile, where the weight function of the Gaussian filter
+/// extends beyond the profile.
 enum class OpenEnds {
-  /// Local straight line (moments 0 and 1 retained, ISO 16610-28): a slope runs on to the end.
-  /// Inside
-  /// it is the filter of ISO 16610-21, 50 % at the cut-off. Nothing is lost.
+  /// Local straight line (moments 0 and 1 retained, ISO 16610-28): follows a slope up to the end.
+  /// In the interior it equals the filter of ISO 16610-21, 50 % at the cut-off. No length is lost.
   kLine,
-  /// Local parabola (moments 0 to 2 retained): curvature runs on too. The weight is wider
-  /// (constant 0.7309 in place of 0.4697), so that the transmission is 50 % at the cut-off here
-  /// also.
+  /// Local parabola (moments 0 to 2 retained): follows curvature as well. The weight function is
+  /// wider (constant 0.7309 instead of 0.4697), so that 50 % is transmitted at the cut-off as well.
   kParabola,
-  /// The weight is cut off and scaled to sum 1; half a cut-off at both ends is left out.
+  /// The weight function is truncated and scaled to sum 1; both ends lose half a cut-off.
   kDiscard,
 };
 
@@ -30,24 +29,24 @@ struct OpenFilterOptions {
 
 /// Mean line of an open profile.
 struct OpenProfile {
-  std::vector<double> position;  ///< Where it is evaluated: the input's, less discarded ends.
+  std::vector<double> position;  ///< Positions of the input without the discarded ends.
   std::vector<double> r_mm;
-  std::size_t first = 0;  ///< Input row of position[0].
-  bool sampling_overridden = false;
+  std::size_t first = 0;             ///< Input row of position[0].
+  bool sampling_overridden = false;  ///< Fewer than 7 points per cut-off, filtered by option.
 };
 
-/// Gaussian low pass of a profile with two ends, at any spacing: a straight generatrix (positions
-/// in mm) or an arc (positions in rad; the cut-off is 2 pi / UPR). High pass: the input less this.
+/// Filters a profile with two ends and any spacing by a Gaussian low pass: a straight generatrix
+/// (positions in mm) or an arc (positions in rad; the cut-off is 2 pi / UPR). The high pass is the
+/// input minus this result.
 ///
-/// At every position a polynomial is fitted by least squares with the weights
-/// exp(-pi ((x - x_i) / (alpha lambda))^2) times the length each point stands for; its value there
-/// is the mean line.
+/// At every position a polynomial is fitted by least squares, with the weights
+/// exp(-pi ((x - x_i) / (alpha lambda))^2) times the length that each point represents. Its value
+/// there is the mean line.
 ///
 /// @param position  n >= 3, strictly ascending.
 /// @return kNoPoints, kNotFinite (row), kTooFewPoints, kBadOption (cut-off, positions not
-/// ascending,
-///         nothing left between discarded ends), kSampling (a gap above cut-off / 7). O(n) times
-///         the points within four cut-offs.
+///         ascending, nothing left between discarded ends), kSampling (a gap above cut-off / 7).
+///         O(n) times the points within four cut-offs.
 /// Sources: ISO 16610-21, ISO 16610-28, ISO 16610-31 (constants); methods, roundness B.7.
 [[nodiscard]] core::Result<OpenProfile> filter_open(std::span<const double> position,
                                                     std::span<const double> r_mm,

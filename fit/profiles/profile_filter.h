@@ -14,15 +14,15 @@ namespace rondure::fit {
 enum class ProfileFilter {
   kNone,            ///< The profile as it is.
   kGaussian,        ///< ISO 16610-21: 50 % at the cut-off, no phase.
-  kTwoRc,           ///< Two RC stages (ISO 4291): 75 % at the cut-off, with their phase.
-  kRobustGaussian,  ///< ISO 16610-31, order 0: outliers do not pull the mean line.
+  kTwoRc,           ///< Two RC stages (ISO 4291): 75 % at the cut-off, with phase shift.
+  kRobustGaussian,  ///< ISO 16610-31, order 0: outliers do not shift the mean line.
   kSpline,          ///< ISO 16610-22, periodic: 50 % at the cut-off, no phase.
 };
 
-/// Which undulations stay.
+/// The undulations that a filter passes.
 enum class PassBand {
   kLow,   ///< Up to the cut-off: the mean line.
-  kHigh,  ///< From the cut-off on: what the mean line leaves.
+  kHigh,  ///< From the cut-off on: the profile minus the mean line.
   kBand,  ///< Between two cut-offs.
 };
 
@@ -35,44 +35,44 @@ enum class PassBand {
 struct FilterOptions {
   ProfileFilter filter = ProfileFilter::kGaussian;
   PassBand pass = PassBand::kLow;
-  double cutoff_upr = 50.0;         ///< Of low and high pass; the lower limit of a band.
-  double upper_cutoff_upr = 500.0;  ///< The upper limit of a band; not looked at otherwise.
+  double cutoff_upr = 50.0;         ///< Cut-off of low and high pass; lower limit of a band.
+  double upper_cutoff_upr = 500.0;  ///< Upper limit of a band; otherwise ignored.
   /// Filter also with fewer than 7 points per undulation; the result records it.
   bool override_sampling = false;
 
-  /// The cut-off the sampling has to resolve: the highest one.
+  /// The cut-off that the sampling must resolve: the highest one.
   [[nodiscard]] double highest_cutoff_upr() const;
 };
 
-/// How many points stand for one undulation at the cut-off, and whether that was waived.
+/// Number of points per undulation at the cut-off, and whether the limit was overridden.
 struct Sampling {
   double points_per_undulation = 0.0;
-  bool overridden = false;  ///< Fewer than 7, filtered by option.
+  bool overridden = false;  ///< Fewer than 7 points, filtered by option.
 };
 
 /// Checks the cut-offs of a filter against the number of points measured.
 ///
 /// @return kBadOption for a high pass or a band without a filter, a cut-off that is not a positive
 ///         number, a band whose limits are not in order, and a cut-off at or above half the number
-///         of points (nothing could be told apart); kSampling for fewer than 7 points per
-///         undulation, unless the options override it.
+///         of points (which could not be resolved); kSampling for fewer than 7 points per
+///         undulation, unless overridden.
 [[nodiscard]] core::Result<Sampling> check_sampling(std::size_t points,
                                                     const FilterOptions& options);
 
-/// A filtered profile: the same angles.
+/// A filtered profile, at the angles of the input.
 struct FilteredProfile {
   std::vector<double> r_mm;
   Sampling sampling;
-  int iterations = 0;          ///< Of the robust filter; 0 for the linear ones.
-  bool scale_floored = false;  ///< Of the robust filter: see RobustMeanLine.
+  int iterations = 0;          ///< Iterations of the robust filter; 0 for the linear ones.
+  bool scale_floored = false;  ///< Robust filter only: see RobustMeanLine.
 };
 
 /// Transmission of the Gaussian low pass at harmonic n: 2^-(n/fc)^2 = exp(-ln 2 (n/fc)^2).
 [[nodiscard]] double gaussian_transmission(double harmonic, double cutoff_upr);
 
-/// Transmission of a linear filter at harmonic n: the output is the input times its magnitude,
-/// turned by its argument (0 for all but 2RC). For kRobustGaussian, which has none, the one of the
-/// Gaussian filter it becomes without outliers.
+/// Complex transmission of a linear filter at harmonic n: the output is the input times its
+/// magnitude, turned by its argument (0 for all but 2RC). kRobustGaussian has none; the function
+/// returns that of the Gaussian filter, which it equals without outliers.
 ///
 ///   low pass   Gaussian  2^-(n/fc)^2
 ///              spline    1 / (1 + (sin(pi n/N) / sin(pi fc/N))^4)
@@ -80,21 +80,21 @@ struct FilteredProfile {
 ///   high pass  1 - low pass; 2RC: 1 / (1 - j fc / (sqrt(3) n))^2
 ///   band       low pass of the upper cut-off times high pass of the lower one
 ///
-/// @param samples  N of the profile: the spline of sampled data depends on it.
+/// @param samples  N of the profile, on which the spline of sampled data depends.
 [[nodiscard]] std::complex<double> transmission(const FilterOptions& options, double harmonic,
                                                 std::size_t samples);
 
 /// Filters a closed profile at uniform angles.
 ///
 /// The linear filters multiply the spectrum, which for a closed profile is the convolution of the
-/// standards without truncation and without end effects. The robust filter is iterated: Tukey
-/// weights with c = 4.4478 median|r - w| (three standard deviations of normal residuals), then the
-/// weighted Gaussian mean w, until w moves by less than 1e-9 c; its high pass is r - w, its band
-/// the robust low pass at the upper cut-off, less the robust low pass of that at the lower one.
+/// standards without truncation and without end effects. The robust filter iterates: Tukey weights
+/// with c = 4.4478 median|r - w| (three standard deviations of normal residuals), then the weighted
+/// Gaussian mean w, until w changes by less than 1e-9 c. Its high pass is r - w; its band is the
+/// robust low pass at the upper cut-off, minus the robust low pass of that result at the lower one.
 ///
 /// @param r_mm  N values at uniform angles [mm]; not changed.
-/// @return kNoPoints, kNotFinite (row), check_sampling()'s errors, kNotConverged (robust filter).
-///         O(N log N), for the robust filter each of its iterations, some 40 to 700.
+/// @return kNoPoints, kNotFinite (row), the errors of check_sampling(), kNotConverged (robust
+///         filter). O(N log N), for the robust filter per iteration, of which it needs 40 to 700.
 /// Sources: ISO 16610-21, -22, -31; ISO 4291 (2RC); methods, roundness B.2.
 [[nodiscard]] core::Result<FilteredProfile> filter_closed(std::span<const double> r_mm,
                                                           const FilterOptions& options);

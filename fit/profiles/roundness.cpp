@@ -17,12 +17,12 @@
 namespace rondure::fit {
 namespace {
 
-/// A box of this many spreads of the profile, grown where it binds.
+/// Half side of the first box as a multiple of the deviation of the profile; grown where it binds.
 constexpr double kFirstBox = 4.0;
 constexpr double kBoxGrowth = 16.0;
 constexpr int kBoxes = 12;
 
-/// Deviations from the circle (center, radius), peaks positive.
+/// Parameters of the deviations from the circle (center, radius), with peaks positive.
 template <class Radius>
 FormParameters parameters_of(std::size_t count, const Radius& deviation,
                              const RoundnessSide& side) {
@@ -147,7 +147,7 @@ ZoneRows<2> zone_rows(std::span<const double> theta, std::span<const double> r, 
   return rows;
 }
 
-/// The programme in a box that its optimum does not touch, if there is one.
+/// Solves the programme in a box that its optimum does not touch, if there is such a box.
 std::optional<ZoneStep<2>> solved(const ZoneRows<2>& rows, const ZoneWeights& weights) {
   const auto [low, high] = std::minmax_element(rows.distances().begin(), rows.distances().end());
   double box = std::max(kFirstBox * (*high - *low), 1e-12);
@@ -202,7 +202,7 @@ core::Result<Roundness> program_profile(std::span<const double> theta, std::span
   out.total_mm = high - low;
   out.outer = rows_of(step->outer);
   out.inner = rows_of(step->inner);
-  // The programme's dual value is a lower bound of every place in the linear model.
+  // The dual value of the programme is a lower bound for every centre in the linear model.
   const double reached = weights.outer * high - weights.inner * low;
   out.certificate = {Certificate::Kind::kGlobal, "all centres, limacon model",
                      std::max(0.0, reached - step->value), ""};

@@ -40,7 +40,7 @@ void warn_of_order(RoundnessEvaluation& out) {
   }
 }
 
-/// Gaps of the profile: an arc is evaluated with a warning, a very short one not at all.
+/// Checks the gaps of the profile: an arc gets a warning, a very short arc an error.
 core::Result<void> check_coverage(RoundnessEvaluation& out) {
   const double gap_deg = out.measured.largest_gap_rad / core::kDegree;
   if (360.0 - gap_deg < kLeastArcDeg) {
@@ -63,7 +63,7 @@ core::Result<void> check_coverage(RoundnessEvaluation& out) {
   return {};
 }
 
-/// A gap may hide what the filter is asked to pass.
+/// Checks that no gap can hide undulations that the filter should pass.
 core::Result<void> check_gap(RoundnessEvaluation& out) {
   if (out.filter.filter == ProfileFilter::kNone || out.measured.uniform()) return {};
   const double gap_deg = out.measured.largest_gap_rad / core::kDegree;
@@ -80,7 +80,7 @@ core::Result<void> check_gap(RoundnessEvaluation& out) {
   return {};
 }
 
-/// The filtered profile of `measured`; without a filter the profile itself.
+/// Fills in the filtered profile of `measured`; without a filter, the profile itself.
 core::Result<void> fill_filtered(RoundnessEvaluation& out) {
   const auto sampling = check_sampling(out.measured.r_mm.size(), out.filter);
   if (!sampling) return core::fail(sampling.error());
@@ -118,7 +118,7 @@ core::Result<void> fill_filtered(RoundnessEvaluation& out) {
   return {};
 }
 
-/// As many harmonics as were asked for and as the points carry.
+/// Fills in the requested harmonics, as far as the points determine them.
 core::Result<void> fill_harmonics(RoundnessEvaluation& out, int asked) {
   const double gap = out.measured.largest_gap_rad;
   const auto carried = std::min(static_cast<double>(out.measured.r_mm.size() / 7),
@@ -134,7 +134,7 @@ core::Result<void> fill_harmonics(RoundnessEvaluation& out, int asked) {
   return {};
 }
 
-/// The part that profiles and points share: up to the values to fit.
+/// The steps common to profiles and points, up to the values to be fitted.
 core::Result<RoundnessEvaluation> prepared(std::span<const double> theta, std::span<const double> r,
                                            const RoundnessOptions& options) {
   auto measured = ordered_profile(theta, r);
@@ -151,7 +151,7 @@ core::Result<RoundnessEvaluation> prepared(std::span<const double> theta, std::s
   return out;
 }
 
-/// Points of the filtered profile about the circle its deviations were taken from.
+/// Points of the filtered profile about the circle from which its deviations were taken.
 std::vector<Eigen::Vector2d> points_of(const RoundnessEvaluation& out, const LsCircle& circle) {
   std::vector<Eigen::Vector2d> points;
   points.reserve(out.r_mm.size());
@@ -162,7 +162,7 @@ std::vector<Eigen::Vector2d> points_of(const RoundnessEvaluation& out, const LsC
   return points;
 }
 
-/// What the angles of every row stand for, in the rows' order.
+/// The cell of every row, see angular_cells(), in the order of the rows.
 std::vector<double> cells_of_rows(std::span<const double> theta) {
   std::vector<std::size_t> order(theta.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -176,7 +176,7 @@ std::vector<double> cells_of_rows(std::span<const double> theta) {
   return out;
 }
 
-/// Adds the value of one reference; one that does not exist becomes a warning.
+/// Adds the value of one reference, or a warning if the reference does not exist.
 core::Result<void> add_value(RoundnessEvaluation& out, CircleReference reference,
                              core::Result<Roundness> value) {
   if (value) {

@@ -18,7 +18,7 @@ double DirectionBox::opening_rad() const {
   double largest = 0.0;
   for (const double x : {-half_side, half_side}) {
     for (const double y : {-half_side, half_side}) {
-      // From the sine: the cosine of a small angle has lost its digits.
+      // Computed from the sine, as the cosine of a small angle has lost its digits.
       largest = std::max(largest, std::asin(std::min(1.0, axis.cross(direction(x, y)).norm())));
     }
   }

@@ -7,17 +7,17 @@
 
 namespace rondure::fit {
 
-/// What is proven about a minimum zone.
+/// The extent to which a minimum zone, or a one-sided reference, is proven to be optimal.
 struct Certificate {
   enum class Kind {
-    kNone,    ///< Nothing; `reason` says why.
+    kNone,    ///< Nothing is proven; `reason` says why.
     kLocal,   ///< A strict local minimum: multipliers >= 0, no point outside, growth in all
               ///< directions.
-    kGlobal,  ///< No narrower zone exists within `scope`.
+    kGlobal,  ///< No better zone exists within `scope`.
   };
   Kind kind = Kind::kNone;
   std::string scope;    ///< "all centres", "all directions", "next to the least-squares axis".
-  double gap_mm = 0.0;  ///< Reported zone minus proven lower bound [mm].
+  double gap_mm = 0.0;  ///< Reported value minus proven lower bound [mm].
   std::string reason;   ///< Why the kind is not higher; empty for kGlobal.
 };
 

@@ -11,19 +11,19 @@ namespace rondure::fit {
 namespace {
 
 constexpr double kWeightTolerance = 1e-9;
-/// Central differences over this part of the radius leave errors of some 1e-9.
+/// Step of the central differences as a part of the radius; leaves errors of some 1e-9.
 constexpr double kDifferenceShare = 1e-5;
 constexpr double kImbalanceTolerance = 1e-6;
 
-/// Distance of a point from the place moved by `by` along unknown `k`.
+/// Distance of a point from the axis or centre moved by `by` along unknown `k`.
 using MovedDistance = std::function<double(std::size_t row, int k, double by)>;
 
-/// The greater of both; what is not a number stays, so that no limit lets it pass.
+/// Raises `worst` to `by`. A NaN is kept, so that it fails every limit.
 void raise(double& worst, double by) {
   if (!std::isnan(worst) && !(by <= worst)) worst = by;
 }
 
-/// Points against the sides that the zone claims: those with contacts, or both.
+/// Checks the points against the sides that the zone claims: those with contacts, or both.
 void check_sides(std::size_t count, const MovedDistance& distance, const StatedZone& zone,
                  ZoneCheck& out) {
   const bool outer = !zone.outer.empty() || zone.inner.empty();
@@ -35,8 +35,8 @@ void check_sides(std::size_t count, const MovedDistance& distance, const StatedZ
   }
 }
 
-/// How far the weighted mean distance of one side lies above its radius; adds its gradients to
-/// `balance`. A side without contacts claims nothing.
+/// Adds the gradients of one side to `balance`. A side without contacts claims nothing.
+/// @return Weighted mean distance of the contacts minus the radius of the side.
 double weigh(std::span<const Contact> side, double radius, double sign, int unknowns, double step,
              const MovedDistance& distance, Eigen::Vector4d& balance, ZoneCheck& out) {
   if (side.empty()) return 0.0;

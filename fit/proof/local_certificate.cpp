@@ -11,10 +11,10 @@
 namespace rondure::fit {
 namespace {
 
-/// Lifts the outer rows so far that only they can be the maximum, whatever the direction.
+/// Raises the outer rows so far that only they can be the maximum, whatever the direction.
 constexpr double kLift = 64.0;
 constexpr double kGrowthNoise = 1e-9;
-/// A move that changes the contacts' distances by less than this part of itself is level.
+/// A move is level if it changes the distances of the contacts by less than this part of its size.
 constexpr double kLevel = 1e-9;
 
 template <int K>
@@ -43,10 +43,10 @@ const ContactRow<K>& row_of(ContactRows<K> rows, std::size_t index) {
 
 using Columns = Eigen::Matrix<double, 4, 2 * static_cast<int>(Contacts::kCapacity)>;
 
-/// Unit move of the most negative curvature of w among the first `unknowns` directions and
-/// orthogonal to all columns; zero when the curvature is positive on all of these.
+/// Unit move of most negative curvature of w among the moves in the first `unknowns` directions
+/// that are orthogonal to all columns; zero if the curvature is positive on all of them.
 Eigen::Vector4d least_curved(const Eigen::Matrix4d& w, Columns columns, int unknowns) {
-  // Gram and Schmidt, the largest column first: what is held by the columns and the padding.
+  // Gram-Schmidt with the largest column first: the space held by the columns and the padding.
   Eigen::Matrix4d held = Eigen::Matrix4d::Zero();
   for (int k = unknowns; k < 4; ++k) held(k, k) = 1.0;
   const double least = kLevel * std::sqrt(columns.colwise().squaredNorm().maxCoeff());
@@ -61,7 +61,7 @@ Eigen::Vector4d least_curved(const Eigen::Matrix4d& w, Columns columns, int unkn
     for (Eigen::Index k = 0; k < columns.cols(); ++k) columns.col(k) -= q * q.dot(columns.col(k));
   }
   if (free == 0) return Eigen::Vector4d::Zero();
-  // What is held curves more than any of w does: the least curvature is that of a level move.
+  // The held space gets a larger curvature than any of w, so the least one is that of a level move.
   const Eigen::Matrix4d level = Eigen::Matrix4d::Identity() - held;
   const Eigen::Matrix4d bounded = level * w * level + (1.0 + 2.0 * w.norm()) * held;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> curvature(bounded);
@@ -76,7 +76,7 @@ Eigen::Matrix<double, K, 1> curvature_descent(std::span<const Contact> outer,
                                               std::span<const Contact> inner,
                                               ContactRows<K> outer_rows, ContactRows<K> inner_rows,
                                               const ZoneWeights& weights) {
-  // Padded to four unknowns: Eigen's decompositions take half a minute to compile for each size.
+  // Padded to four unknowns, as Eigen's decompositions take half a minute to compile for each size.
   Eigen::Matrix4d w = Eigen::Matrix4d::Zero();
   Columns differences = Columns::Zero();
   Eigen::Index column = 0;
@@ -106,7 +106,7 @@ double first_order_growth(ContactRows<K> outer, ContactRows<K> inner, const Zone
 template <int K>
 LocalProof<K> prove_local(ContactRows<K> outer, ContactRows<K> inner, double reach_mm,
                           const ZoneWeights& weights) {
-  // Distances relative to one contact keep their digits; the multipliers of each side sum to 1, so
+  // Distances relative to one contact keep their digits. The multipliers of each side sum to 1, so
   // a common value only shifts the result.
   const double base = inner.empty() ? outer.front().distance : inner.front().distance;
   ZoneRows<K> rows;

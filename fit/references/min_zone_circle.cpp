@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "fit/geometry/internal/bisectors.h"
-#include "fit/least_squares/circle.h"
 #include "fit/geometry/points.h"
-#include "fit/zone/fit.h"
+#include "fit/least_squares/circle.h"
 #include "fit/proof/internal/zone_proof.h"
+#include "fit/zone/fit.h"
 
 namespace rondure::fit {
 namespace {
@@ -30,14 +30,14 @@ double certify(PlanePoints points, const Eigen::Vector2d& center, MinZoneCircle&
   out.inner.assign(proven.proof.inner.begin(), proven.proof.inner.end());
   out.certificate =
       certify_local<2>(proven.proof, out.width_mm(), round_off, "next to the least-squares centre");
-  // All points on one circle to round-off: no zone is narrower than 0.
+  // All points are on one circle to round-off. This is global, as no zone is narrower than 0.
   if (out.width_mm() <= 16.0 * round_off) {
     out.certificate = {Certificate::Kind::kGlobal, "all centres", out.width_mm(), ""};
   }
   return proven.proof.growth;
 }
 
-/// Branch and bound over all centres; every better centre it meets becomes the new start.
+/// Branch and bound over all centres; every better centre that it finds becomes the new start.
 void search_all_centers(PlanePoints points, const GlobalSearchOptions& options,
                         CircleZoneFitter& fitter, double growth, MinZoneCircle& out) {
   for (int restart = 0; restart < kRestartLimit; ++restart) {
@@ -56,7 +56,7 @@ void search_all_centers(PlanePoints points, const GlobalSearchOptions& options,
   }
 }
 
-/// Tries every candidate of a small set whose zone is too wide for bounds to bite.
+/// Tries every candidate of a small set whose zone is too wide for useful bounds.
 void try_all_centers(PlanePoints points, CircleZoneFitter& fitter, MinZoneCircle& out) {
   const BisectorSearch all = search_bisectors(points, out.center_mm);
   if (all.width_mm < out.width_mm()) {
@@ -78,7 +78,7 @@ void try_all_centers(PlanePoints points, CircleZoneFitter& fitter, MinZoneCircle
   }
 }
 
-/// Three different points lie on one circle: nothing is left to minimise.
+/// The zone of three distinct points, which lie on one circle: its width is 0.
 MinZoneCircle exact_fit(const LsCircle& circle) {
   MinZoneCircle out;
   out.center_mm = circle.center_mm;

@@ -12,16 +12,16 @@
 
 namespace rondure::fit {
 
-/// The least cylinder about a line in space that holds all points.
+/// The smallest cylinder about a line in space that holds all points.
 struct MinZoneLine {
   Axis axis;
   double diameter_mm = 0.0;       ///< Straightness of the line (ISO 1101, zone with diameter sign).
-  std::vector<Contact> contacts;  ///< Points on the cylinder that carry it; multipliers sum to 1.
-  Certificate certificate;        ///< Local: next to the least-squares line.
+  std::vector<Contact> contacts;  ///< Points that determine the cylinder; multipliers sum to 1.
+  Certificate certificate;        ///< Local at best: next to the least-squares line.
 };
 
-/// Straightness of a line in space, or of a median line given by its section centres: the diameter
-/// of the least enclosing cylinder, the minimum circumscribed cylinder next to the least-squares
+/// Finds the minimum-zone straightness of a line in space, or of a median line given by the centres
+/// of its sections: the diameter of the minimum circumscribed cylinder next to the least-squares
 /// line.
 ///
 /// @param points_mm  n >= 2 different points, any order [mm].

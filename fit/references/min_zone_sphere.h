@@ -18,12 +18,13 @@ struct MinZoneSphere {
   double outer_radius_mm = 0.0;
   std::vector<Contact> outer;  ///< Points on the outer sphere that carry the minimum.
   std::vector<Contact> inner;
-  Certificate certificate;  ///< Local: centres far from the least-squares one are not searched.
+  Certificate certificate;  ///< Local at best: no search of centres far from the least-squares one.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
 };
 
-/// Finds the minimum-zone sphere next to the least-squares one: the least sphericity deviation.
+/// Finds the minimum-zone sphere next to the least-squares sphere, and with it the sphericity
+/// deviation.
 ///
 /// @param points_mm  n >= 4, not all in one plane [mm].
 /// @return as ls_sphere(). Same input, same bits. Cost: as ZoneDescent.

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "fit/geometry/points.h"
-#include "fit/zone/fit.h"
 #include "fit/proof/internal/zone_proof.h"
+#include "fit/zone/fit.h"
 
 namespace rondure::fit {
 namespace {
@@ -41,13 +41,13 @@ core::Result<OneSidedCenter<D>> fit_one_sided(
   OneSidedCenter<D> out;
   state<D>(points_mm, *zone, weights, out);
   if (weights.outer > 0.0 && out.certificate.kind == Certificate::Kind::kLocal) {
-    // Convex: a local minimum is the global one.
+    // The problem is convex, so a local minimum is the global one.
     out.certificate = {Certificate::Kind::kGlobal, "all centres", out.certificate.gap_mm, ""};
   }
   return out;
 }
 
-/// Branch and bound over the centres inside the hull; every better one it meets is the new start.
+/// Branch and bound over the centres inside the hull; every better one becomes the new start.
 void search_inscribed(PlanePoints points, const GlobalSearchOptions& options,
                       CircleZoneFitter& fitter, double growth, OneSidedCircle& out) {
   for (int restart = 0; restart < kRestartLimit; ++restart) {
@@ -57,7 +57,7 @@ void search_inscribed(PlanePoints points, const GlobalSearchOptions& options,
                        {-out.radius_mm, growth, {}, out.contacts, kMaximumInscribed, {}}, options);
     if (search.better) {
       const CircleZone next = fitter.fit_from(points, *search.better, kMaximumInscribed);
-      // It may leave the hull through a gap between the points; then it is no inscribed circle.
+      // The circle may leave the hull through a gap between the points and is then not inscribed.
       if (!meets_hull(convex_hull(points), next.place, 0.0)) {
         out.certificate.reason = "a larger circle leaves the hull of the points";
         return;

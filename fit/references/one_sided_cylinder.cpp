@@ -6,10 +6,10 @@
 
 #include <Eigen/Geometry>
 
-#include "fit/proof/internal/axis_proof.h"
-#include "fit/least_squares/line.h"
-#include "fit/references/min_zone_line.h"
 #include "fit/geometry/points.h"
+#include "fit/least_squares/line.h"
+#include "fit/proof/internal/axis_proof.h"
+#include "fit/references/min_zone_line.h"
 
 namespace rondure::fit {
 namespace {
@@ -47,8 +47,8 @@ core::Result<OneSidedCylinder> fit_one_sided(SpacePoints points_mm,
   const auto zone = fitter.fit(points_mm, near_direction, weights);
   if (!zone) return core::fail(zone.error());
   AxisProof proof = prove_axis(points_mm, *zone, weights);
-  // As far as the descent may go (two radii outside); inside, less, so that no axis of the scope
-  // has left the points.
+  // Circumscribed: two radii, the limit of the descent. Inscribed: less than that limit, so that
+  // all axes of the scope stay inside the points.
   const LsCylinder& start = fitter.start();
   const AxisReach reach{start.axis, (weights.outer > 0.0 ? 2.0 : 0.5) * start.radius_mm};
   search_scopes(points_mm, options, weights, reach, fitter, proof);

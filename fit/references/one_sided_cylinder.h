@@ -19,32 +19,32 @@ struct OneSidedCylinder {
   /// A cylinder that is better but not the reference.
   struct Other {
     double radius_mm = 0.0;
-    double lean_rad = 0.0;  ///< Of its axis to that of the reference.
-    double apart_mm = 0.0;  ///< Of its axis from the middle of that of the reference.
+    double lean_rad = 0.0;  ///< Angle between its axis and that of the reference.
+    double apart_mm = 0.0;  ///< Distance of its axis from the middle of that of the reference.
   };
   Axis axis;
   double radius_mm = 0.0;
   double deviation_mm = 0.0;      ///< Radial peak to valley about the axis [mm].
-  std::vector<Contact> contacts;  ///< Points on the cylinder that carry it; multipliers sum to 1.
+  std::vector<Contact> contacts;  ///< Points that determine the cylinder; multipliers sum to 1.
   Certificate certificate;
-  std::optional<Other> other;  ///< Met by the search: across a disc, or outside the reach.
+  std::optional<Other> other;  ///< If the search found one: across a disc, or outside the reach.
 };
 
-/// Minimum circumscribed cylinder (MCCY), maximum inscribed cylinder (MICY) about the axis of the
-/// part, as the standards mean it: of all axes within 10 deg of the least-squares axis the one with
-/// the smallest (largest) cylinder. A cylinder across a short disc may be smaller; it is not the
-/// reference, and `other` says so.
+/// Finds the minimum circumscribed cylinder (MCCY) or the maximum inscribed cylinder (MICY) about
+/// the axis of the part, as the standards mean it: the smallest (largest) cylinder of all axes
+/// within 10 deg of the least-squares axis. A cylinder across a short disc may be smaller; it is
+/// not the reference and is reported in `other`.
 ///
 /// The descent starts at the least-squares axis. Then the scopes of the options are searched for a
-/// better axis (global_search.h), which becomes the new start. The scope of an inscribed cylinder
-/// is that of axes within half a radius of the least-squares one over the length of the points,
-/// whatever the options name: farther out it could grow without bound.
+/// better axis (search_axes()), which becomes the new start. For an inscribed cylinder, whatever
+/// the options name, the scope is the axes within half a radius of the least-squares axis over the
+/// length of the points; farther out it could grow without bound.
 ///
 /// @param points_mm       n >= 5 points that surround the axis in at least two sections [mm].
 /// @param near_direction  Start direction; without it the half sphere is searched for starts.
-/// @return as ls_cylinder(); kReferenceAbsent where there is none within a radius (circumscribed:
-///         two radii) and 10 deg of the least-squares axis. Same input, same bits.
-/// Cost: as ZoneDescent, and some ms of proof.
+/// @return as ls_cylinder(); kReferenceAbsent if there is none within one radius (circumscribed:
+///         two radii) and 10 deg of the least-squares axis. Same input, same bits. Cost: as
+///         ZoneDescent, and some ms of proof.
 /// Sources: ISO 12180-1; methods, cylindricity section 11.4, certificates section 3.
 [[nodiscard]] core::Result<OneSidedCylinder> min_circumscribed_cylinder(
     std::span<const Eigen::Vector3d> points_mm,

@@ -13,7 +13,7 @@ namespace {
 constexpr double kContactTolerance = 1e-9;  // tau_c [mm]
 constexpr double kGapTolerance = 1e-9;      // tau_g
 
-/// Distances of all points from a centre, and who is in contact there.
+/// Extreme distances of all points from a centre, and the contacts there.
 struct ContactSets {
   double low = 0.0;
   double high = 0.0;
@@ -21,7 +21,7 @@ struct ContactSets {
   std::vector<std::size_t> inner;
 };
 
-/// tau_c, raised where coordinates are so large that 1e-9 mm is round-off.
+/// Returns tau_c, raised if the coordinates are so large that 1e-9 mm is round-off.
 double contact_tolerance(std::span<const Eigen::Vector2d> points_mm) {
   Eigen::Vector2d low = points_mm.front();
   Eigen::Vector2d high = points_mm.front();
@@ -83,11 +83,11 @@ std::vector<ContactCandidate> contact_candidates(std::span<const Eigen::Vector2d
                                                  std::span<const std::size_t> outer,
                                                  std::span<const std::size_t> inner) {
   const auto along = [&](std::size_t i) { return (points_mm[i] - center_mm).dot(direction); };
-  // Of the contacts, those that stay extreme during the move: the farthest recedes most.
+  // Contacts that stay extreme during the move: the outer one recedes most, the inner one least.
   const auto by_along = [&](std::size_t a, std::size_t b) { return along(a) < along(b); };
   const std::size_t h = *std::min_element(outer.begin(), outer.end(), by_along);
   const std::size_t l = *std::max_element(inner.begin(), inner.end(), by_along);
-  // Difference of squared distances without squaring: (a - b).(a + b), exact to the last digits.
+  // The difference of squared distances as (a - b).(a + b), which avoids cancellation.
   const auto squared_difference = [&](std::size_t a, std::size_t b) {
     return (points_mm[a] - points_mm[b])
         .dot((points_mm[a] - center_mm) + (points_mm[b] - center_mm));

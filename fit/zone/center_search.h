@@ -11,29 +11,32 @@
 
 namespace rondure::fit {
 
-/// A point that would become a contact when the centre moves along a direction.
+/// A point that becomes a contact when the centre moves far enough along a direction.
 struct ContactCandidate {
   std::size_t index = 0;
-  bool inner = false;    ///< Becomes as near as the inner reference; otherwise as far as the outer.
-  double step_mm = 0.0;  ///< Exact move at which it does; > 0.
+  bool inner = false;    ///< It becomes as near as the inner contact, else as far as the outer one.
+  double step_mm = 0.0;  ///< Exact move after which it does, > 0.
 };
 
-/// All candidates of a move from `center` along the unit vector `direction`, by step.
+/// Returns all candidates of a move from `center_mm` along the unit vector `direction`, in order of
+/// their steps.
 ///
-/// The squared distances of two points stay a linear function of the move, so each step is exact.
-/// Contacts in `outer` and `inner` are left out; of each set the one that stays extreme is the
+/// The difference of two squared distances is a linear function of the move, so each step is exact.
+/// The contacts in `outer` and `inner` are left out; in each set, the one that stays extreme is the
 /// reference. Source: methods, cylindricity section 6, formulas 6.2 and 6.3.
+///
+/// @pre `outer` and `inner` are not empty and hold valid rows of `points_mm`.
 [[nodiscard]] std::vector<ContactCandidate> contact_candidates(
     std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
     const Eigen::Vector2d& direction, std::span<const std::size_t> outer,
     std::span<const std::size_t> inner);
 
-inline constexpr int kCenterMoveLimit = 100;  ///< Moves of one search.
+inline constexpr int kCenterMoveLimit = 100;  ///< Most moves of one search.
 
 /// One move of a centre search, for the log and for tests.
 struct CenterMove {
   Eigen::Vector2d from_mm = Eigen::Vector2d::Zero();
-  double width_mm = 0.0;           ///< Zone before the move.
+  double width_mm = 0.0;           ///< Width of the zone before the move [mm].
   std::vector<std::size_t> outer;  ///< Contacts before the move.
   std::vector<std::size_t> inner;
   Eigen::Vector2d direction = Eigen::Vector2d::Zero();
@@ -41,7 +44,7 @@ struct CenterMove {
   ContactCandidate met;  ///< The new contact that ended the move.
 };
 
-/// Where a centre search ended.
+/// Result of a centre search.
 struct CenterSearch {
   enum class Ending {
     kCross,       ///< Two outer and two inner contacts alternate: a strict local minimum.
@@ -51,12 +54,12 @@ struct CenterSearch {
     kMoveLimit,   ///< 100 moves made.
   };
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();
-  double inner_radius_mm = 0.0;  ///< Least distance of all points at the end.
+  double inner_radius_mm = 0.0;  ///< Least distance of all points from the final centre [mm].
   double outer_radius_mm = 0.0;
-  std::vector<std::size_t> outer;  ///< Contacts the search holds at its end.
+  std::vector<std::size_t> outer;  ///< Contacts at the end of the search.
   std::vector<std::size_t> inner;
   std::vector<CenterMove> moves;
-  Ending ending = Ending::kMoveLimit;
+  Ending ending = Ending::kMoveLimit;  ///< Why the search ended.
 
   /// f [306] = largest minus least distance of all points at the final centre.
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
@@ -67,10 +70,10 @@ struct CenterSearch {
 
 /// Iterative minimum-zone centre search [301-306], corrected.
 ///
-/// Starts at the algebraic least-squares centre. At each centre the contacts' unit vectors span two
-/// convex polygons, outer and inner; the shortest vector between them is the steepest descent of
-/// the zone. The centre moves along it until a new point comes into contact, exactly. It ends where
-/// the polygons meet: outer and inner contacts alternate.
+/// Starts at the algebraic least-squares centre. At each centre the unit vectors to the contacts
+/// span two convex polygons, outer and inner; the shortest vector between these is the direction of
+/// steepest descent of the zone. The centre moves along it exactly until a new point comes into
+/// contact. The search ends where the polygons meet: outer and inner contacts alternate.
 ///
 /// @param points_mm  At least 3 different points of a projected section [mm].
 /// @return kNoPoints, kNotFinite, kTooFewPoints, kCollinear (from algebraic_circle()). Every other
@@ -78,10 +81,11 @@ struct CenterSearch {
 /// Source: methods, cylindricity sections 6 and 7.
 [[nodiscard]] core::Result<CenterSearch> center_search(std::span<const Eigen::Vector2d> points_mm);
 
-/// The same search in the most charitable reading of the published text (reading D of the method
-/// specification): bisector directions with correct signs and the mirror branch, but the fixed
-/// exchange of contacts, and the chord test on contacts it never checks again. It ends at a wrong
-/// centre in 3 to 17 % of full sections and still says "cross"; kept for comparison only.
+/// The same search in the most favourable reading of the published text (reading D of the method
+/// specification): bisector directions with correct signs and the mirror branch, but with the fixed
+/// exchange of contacts, and with the chord test on contacts that are never checked again. In 3 to
+/// 17 % of full sections it ends at a wrong centre and still reports "cross"; kept for comparison
+/// only. Parameters and errors as center_search().
 /// Source: methods, cylindricity section 8.
 [[nodiscard]] core::Result<CenterSearch> center_search_as_published(
     std::span<const Eigen::Vector2d> points_mm);

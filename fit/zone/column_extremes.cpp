@@ -16,7 +16,7 @@ void take(ColumnExtremes& out, double value) {
 }
 
 #if defined(__SSE2__)
-/// Extremes of two lanes in two chains each, so that the latencies of min and max overlap.
+/// Extremes of two lanes, in two independent chains each, so that latencies of min and max overlap.
 class PairExtremes {
  public:
   void take(int chain, __m128d pair) {
@@ -61,7 +61,7 @@ double largest_magnitude(std::span<const double> values) {
   const std::size_t count = values.size();
   const double* v = values.data();
   double largest = 0.0;
-  double sum = 0.0;  // a maximum may lose what is not a number
+  double sum = 0.0;  // keeps a NaN, which a maximum may lose
   std::size_t i = 0;
 #if defined(__SSE2__)
   const __m128d sign = _mm_set1_pd(-0.0);

@@ -6,32 +6,32 @@
 
 namespace rondure::fit {
 
-/// Least and largest number of a column.
+/// Least and largest number of a column; (infinity, -infinity) for an empty one.
 struct ColumnExtremes {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 };
 
-/// Two numbers at a time where the processor can: the compiler must not reorder minima, so it would
-/// leave this loop scalar.
+/// Finds the extremes of a column, two numbers at a time if the processor can. The compiler may not
+/// reorder minima and would leave a plain loop scalar.
 [[nodiscard]] ColumnExtremes column_extremes(std::span<const double> values);
 
-/// The largest absolute value; not finite as soon as one number is not.
+/// Returns the largest absolute value; not finite if any number is not.
 [[nodiscard]] double largest_magnitude(std::span<const double> values);
 
 /// Writes  moved = values + sum of gradients[k] * move[k]  and finds its extremes in the same loop.
-/// @param gradients  K columns as long as `values`, of which each takes `move[k]`.
+/// @param gradients  K columns as long as `values`; column k is multiplied by `move[k]`.
 template <int K>
 ColumnExtremes move_column(std::span<const double> values, const double* const* gradients,
                            const double* move, double* moved);
 
-/// Writes the squared distances of points, given by D columns, from a centre, and finds their
+/// Writes the squared distances from a centre of points given as D columns, and finds their
 /// extremes in the same loop.
 template <int D>
 ColumnExtremes square_column(std::size_t count, const double* const* columns, const double* center,
                              double* squares);
 
-/// The first row that holds exactly this number; the last row when none does.
+/// Returns the first row that holds exactly this number, or the last row if none does.
 [[nodiscard]] std::size_t first_row_of(std::span<const double> values, double value);
 
 extern template ColumnExtremes move_column<1>(std::span<const double>, const double* const*,

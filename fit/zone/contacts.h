@@ -6,14 +6,14 @@
 
 namespace rondure::fit {
 
-/// A point that a zone touches, with its multiplier in the stationarity condition.
+/// A point on the boundary of a zone, with its multiplier in the stationarity condition.
 struct Contact {
   std::size_t index = 0;    ///< Row of the point in the input.
   double multiplier = 0.0;  ///< >= 0; the multipliers of each side sum to 1.
 };
 
-/// The contacts of one side. A linear programme over at most four unknowns has at most five of them
-/// a side, so they need no memory of their own; fits in loops allocate nothing.
+/// The contacts of one side. A linear programme over at most four unknowns has at most five
+/// contacts per side, so a fixed array holds them and fits in loops allocate nothing.
 class Contacts {
  public:
   static constexpr std::size_t kCapacity = 6;

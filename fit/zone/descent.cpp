@@ -15,28 +15,28 @@ constexpr int kLinearProgramLimit = 200;
 constexpr int kPassLimit = 100;
 constexpr int kSaddleLimit = 20;
 constexpr int kLevelLimit = 4;
-/// The minimum of a sample is good enough when it promises less than this part of its zone.
+/// The descent on a sample stops when the predicted gain is less than this part of its zone.
 constexpr double kCoarse = 0.005;
-/// A contact with a smaller multiplier may be one too many.
+/// A contact with a smaller multiplier may be redundant.
 constexpr double kFirm = 1e-9;
 constexpr int kNewtonLimit = 20;
-/// A contact with a smaller multiplier hardly holds a vertex.
+/// A contact with a smaller multiplier hardly fixes a vertex.
 constexpr double kWeak = 1e-4;
 
-/// Points of the first sample: enough to come near, few against a pass.
+/// Points of the first sample: enough to come near the optimum, few compared with a pass.
 template <int K>
 std::size_t sample_size(std::size_t count) {
   return K == 2 ? std::clamp<std::size_t>(count / 200, 24, 1000)
                 : std::clamp<std::size_t>(count / 500, 48, 1000);
 }
-/// Points a block of a pass: each block gives one candidate a side at most.
+/// Points per block of a pass. Each block gives at most one candidate per side.
 template <int K>
 std::size_t block_size(std::size_t count) {
   if (count < 4000) return 32;
   return K == 2 ? (count < 20000 ? 64 : 256) : (count < 20000 ? 32 : 128);
 }
-/// Candidates a side and pass: the first pass meets a place that is not yet good, and more of them
-/// are cheap where a pass costs more.
+/// Candidates per side and pass. The first pass takes more, because its place is not yet good, and
+/// larger sets take more, because each candidate is cheap compared with a pass.
 template <int K>
 std::size_t candidates(int pass, std::size_t blocks) {
   if (K != 2) return pass == 1 ? 128 : 48;
@@ -48,7 +48,7 @@ bool all_nonnegative(const Contacts& contacts) {
                      [](const Contact& c) { return c.multiplier >= 0.0; });
 }
 
-/// The contacts that hold something.
+/// The contacts with a multiplier above kWeak.
 Contacts firm_of(const Contacts& contacts) {
   Contacts out;
   for (const Contact& c : contacts) {
@@ -91,7 +91,7 @@ void ZoneDescent<Frame>::take(Points points, const Point& origin, std::size_t ro
   working_.add(row, points[row] - origin);
 }
 
-/// Contacts by row of the data instead of working point, in the order of the rows.
+/// Replaces the working points of contacts by rows of the data, in the order of the rows.
 template <class Frame>
 void ZoneDescent<Frame>::name_rows(Contacts& contacts) const {
   for (Contact& c : contacts) c.index = working_.row(c.index);
@@ -104,7 +104,7 @@ Extremes ZoneDescent<Frame>::extremes(const Frame& frame) {
   return frame.linearise(working_, looked_rows_);
 }
 
-/// Minimises over the working points, looks at all, adds those outside, until there are none.
+/// Minimises over the working points and adds points outside the zone, until there are none.
 template <class Frame>
 void ZoneDescent<Frame>::minimise_large(Points points, const Point& origin, const Frame& start,
                                         double limit_mm, Result& state) {
@@ -127,7 +127,8 @@ void ZoneDescent<Frame>::minimise_large(Points points, const Point& origin, cons
   state.zone = {std::sqrt(blocks_.all.low), std::sqrt(blocks_.all.high)};
 }
 
-/// @return Whether a point lies outside the zone of the working points.
+/// Adds points that lie outside the zone of the working points.
+/// @return Whether there are any.
 template <class Frame>
 bool ZoneDescent<Frame>::add_violators(Points points, const Point& origin, const Result& state) {
   std::size_t added = 0;
@@ -163,8 +164,9 @@ std::size_t ZoneDescent<Frame>::add_worst(Points points, const Point& origin, co
   return most;
 }
 
-/// To a local minimum of the working points. Four contacts in one section are stationary, yet a
-/// tilt may still narrow the zone by its curvature: such saddles are left and the search goes on.
+/// Descends to a local minimum of the working points. With four contacts in one section the place
+/// is stationary, yet a tilt may still narrow the zone by its curvature: the search leaves such
+/// saddles and continues.
 template <class Frame>
 void ZoneDescent<Frame>::minimise(Result& state, const Frame& start, double limit_mm) {
   if constexpr (Frame::kHasBall) {
@@ -185,7 +187,7 @@ void ZoneDescent<Frame>::minimise(Result& state, const Frame& start, double limi
   }
 }
 
-/// The smallest ball of the working points: no start is too far from it.
+/// Finds the smallest ball of the working points, which needs no good start.
 template <class Frame>
 void ZoneDescent<Frame>::enclose(Result& state) {
   if constexpr (Frame::kHasBall) {
@@ -200,7 +202,8 @@ void ZoneDescent<Frame>::enclose(Result& state) {
   }
 }
 
-/// Distances relative to the inner radius keep their digits in a programme.
+/// Linearises at a frame, with distances relative to the inner radius, so that they keep their
+/// digits in a programme.
 template <class Frame>
 Extremes ZoneDescent<Frame>::linearise(const Frame& frame, ZoneRows<K>& rows) const {
   const Extremes zone = frame.linearise(working_, rows);
@@ -208,7 +211,7 @@ Extremes ZoneDescent<Frame>::linearise(const Frame& frame, ZoneRows<K>& rows) co
   return zone;
 }
 
-/// Solves the programme at the state; its contacts are those of the state from now on.
+/// Solves the programme at the state and takes over its contacts.
 template <class Frame>
 auto ZoneDescent<Frame>::programme(Result& state, double box) -> ZoneStep<K> {
   const ZoneStep<K> step =
@@ -221,7 +224,7 @@ auto ZoneDescent<Frame>::programme(Result& state, double box) -> ZoneStep<K> {
   return step;
 }
 
-/// linear programs inside a trust region, then Newton: to a stationary point.
+/// Descends to a stationary point by linear programs inside a trust region, then by Newton.
 template <class Frame>
 void ZoneDescent<Frame>::settle(Result& state) {
   state.zone = linearise(state.frame, rows_);
@@ -241,8 +244,8 @@ void ZoneDescent<Frame>::settle(Result& state) {
       if (vertex_ || !is_vertex(step) || levels++ == kLevelLimit || !level(state, step)) break;
       continue;
     }
-    // Fewer contacts than hold a vertex, or a refused step: curvature holds the rest, which a
-    // linear programme cannot see; Newton can.
+    // With fewer contacts than fix a vertex, or after a refused step, curvature determines the
+    // rest. A linear programme does not include curvature; Newton's method does.
     if (rejected || !step.inside_box) {
       polished_ = polish(state);
       if (polished_) return;
@@ -250,7 +253,7 @@ void ZoneDescent<Frame>::settle(Result& state) {
     const Frame next = state.frame.moved(step.step);
     const Extremes zone = linearise(next, trial_rows_);
     const double gained = value(state.zone) - value(zone);
-    // Along a curved valley straight steps creep; Newton's go with it until another point is met.
+    // Straight steps are short in a curved valley; Newton's follow it to the next contact.
     if (gained < 0.5 * promised && stride(state, std::max(gained, 2.0 * round_off_))) continue;
     rejected = !(gained >= 0.1 * promised);
     if (rejected) {
@@ -261,14 +264,15 @@ void ZoneDescent<Frame>::settle(Result& state) {
     state.frame = next;
     state.zone = zone;
     std::swap(rows_, trial_rows_);
-    // Straight as it was, the way holds no second step worth its programme.
+    // The path was straight, so a second step would not gain enough for its programme.
     if (coarse_ && step.inside_box && gained > 0.9 * promised) return;
   }
   if (!vertex_ && !coarse_) settle_by_curvature(state, box);
 }
 
-/// A contact with a small multiplier may be off its radius by more than it costs: the last steps of
-/// the programme level it. @return Whether the state moved.
+/// Brings all contacts to their radius by further steps of the programme: a contact with a small
+/// multiplier may be off its radius with hardly any effect on the value.
+/// @return Whether the state moved.
 template <class Frame>
 bool ZoneDescent<Frame>::level(Result& state, const ZoneStep<K>& step) {
   const Frame next = state.frame.moved(step.step);
@@ -290,8 +294,8 @@ bool ZoneDescent<Frame>::is_vertex(const ZoneStep<K>& step) const {
          std::all_of(step.inner.begin(), step.inner.end(), firm);
 }
 
-// From here on what linear programs cannot see: Newton on the equations of the contacts where
-// curvature holds the place, and the ways out of places it does not hold.
+// The functions below use curvature, which linear programs do not include: Newton's method on the
+// equations of the contacts where curvature determines the minimum, and descent where it does not.
 
 /// A step of Newton's method on the contact equations, with its multipliers.
 template <class Frame>
@@ -302,7 +306,7 @@ struct ZoneDescent<Frame>::Newton {
   bool valid = false;
 };
 
-/// Takes a step of Newton's method, or the part of it that helps most.
+/// Takes a step of Newton's method, or the part of it that gains most.
 /// @return Whether it gained more than `least`.
 template <class Frame>
 bool ZoneDescent<Frame>::stride(Result& state, double least) {
@@ -322,8 +326,9 @@ bool ZoneDescent<Frame>::stride(Result& state, double least) {
   return true;
 }
 
-/// Where curvature holds the place, a wide programme takes points for contacts that are only near:
-/// narrower ones name fewer, until Newton settles on those that count.
+/// Narrows the trust region where curvature determines the minimum. A wide programme then takes
+/// points for contacts that are only near; narrower ones name fewer, until Newton's method
+/// converges on the true contacts.
 template <class Frame>
 void ZoneDescent<Frame>::settle_by_curvature(Result& state, double box) {
   for (polished_ = polish(state); !polished_ && box > round_off_; box *= 0.125) {
@@ -333,7 +338,7 @@ void ZoneDescent<Frame>::settle_by_curvature(Result& state, double box) {
   }
 }
 
-/// Unknowns: the move, the radius of each side that counts, the multipliers of the contacts.
+/// Unknowns: the move, the radius of each side with a weight, the multipliers of the contacts.
 template <class Frame>
 auto ZoneDescent<Frame>::newton_step(const Result& state) const -> Newton {
   constexpr int kMost = K + 2 + 2 * static_cast<int>(Contacts::kCapacity);
@@ -352,7 +357,7 @@ auto ZoneDescent<Frame>::newton_step(const Result& state) const -> Newton {
     const auto row = state.frame.contact_row(working_[contact.index], contact.index);
     const double sign = outer ? weights_.outer : -weights_.inner;
     const Eigen::Index radius = outer ? K : K + sides - 1;
-    // r + J x = R of its side, relative to the inner radius, which keeps the digits.
+    // r + J x = R of its side, relative to the inner radius to keep the digits.
     matrix.template block<1, K>(i, 0) = row.gradient.transpose();
     matrix(i, radius) = -1.0;
     right(i) = state.zone.low - row.distance;
@@ -379,9 +384,9 @@ auto ZoneDescent<Frame>::newton_step(const Result& state) const -> Newton {
   return out;
 }
 
-/// Newton on the stationarity equations of the current contacts.
-/// @return Whether it settled at a zone that is not wider, with multipliers >= 0; then `state` is
-/// it.
+/// Applies Newton's method to the stationarity equations of the current contacts.
+/// @return Whether it converged to a zone that is not wider, with multipliers >= 0; `state` is then
+///         that zone.
 template <class Frame>
 bool ZoneDescent<Frame>::polish(Result& state) {
   if ((weights_.outer > 0.0 && state.outer.empty()) ||
@@ -410,7 +415,7 @@ bool ZoneDescent<Frame>::polish(Result& state) {
   return true;
 }
 
-/// Every contact must be on its radius: no stale one may carry a multiplier.
+/// Whether every contact is on its radius, so that no outdated contact carries a multiplier.
 template <class Frame>
 bool ZoneDescent<Frame>::contacts_hold(const Result& state) const {
   const double slack = 16.0 * round_off_;
@@ -424,8 +429,8 @@ bool ZoneDescent<Frame>::contacts_hold(const Result& state) const {
          std::all_of(state.inner.begin(), state.inner.end(), at_most);
 }
 
-/// Where the zone shrinks most by curvature while the contacts of a state stay level; zero where it
-/// does not.
+/// The direction in which the zone shrinks most by curvature while the contacts of a state stay
+/// level; zero if there is none.
 template <class Frame>
 auto ZoneDescent<Frame>::curvature_of(const Result& state) const -> Eigen::Matrix<double, K, 1> {
   std::array<ContactRow<K>, Contacts::kCapacity> outer;
@@ -441,12 +446,13 @@ auto ZoneDescent<Frame>::curvature_of(const Result& state) const -> Eigen::Matri
   return curvature_descent<K>(state.outer, state.inner, outer_rows, inner_rows, weights_);
 }
 
-/// Contacts that carry next to nothing hold a minimum zone over next to no distance. Where the
-/// others alone do not hold it by curvature, the zone is all but level along a valley, up to the
-/// next contact; the better end of the valley is the minimum.
+/// Follows a valley that is closed only by weak contacts. Contacts with a tiny multiplier fix a
+/// minimum zone only over a tiny distance. If curvature does not fix it with the other contacts
+/// alone, the zone is nearly constant along a valley, up to the next contact; the better end of the
+/// valley is the minimum.
 template <class Frame>
 void ZoneDescent<Frame>::slip(Result& state) {
-  // A one-sided reference is the one next to its start.
+  // A one-sided reference is the local optimum next to its start, so it stays.
   if (weights_.outer == 0.0 || weights_.inner == 0.0) return;
   Result here = state;
   here.outer = firm_of(state.outer);
@@ -474,7 +480,7 @@ void ZoneDescent<Frame>::slip(Result& state) {
   }
 }
 
-/// The way out of a saddle, or zero when the contacts hold a strict minimum.
+/// The direction that leaves a saddle, or zero if the contacts determine a strict minimum.
 template <class Frame>
 auto ZoneDescent<Frame>::escape(const Result& state) const -> Eigen::Matrix<double, K, 1> {
   if (polished_ && curvature_of(state).isZero()) return Eigen::Matrix<double, K, 1>::Zero();
@@ -496,7 +502,7 @@ auto ZoneDescent<Frame>::escape(const Result& state) const -> Eigen::Matrix<doub
   return proof.descent;
 }
 
-/// Leaves a saddle along its descent, as far as that helps.
+/// Leaves a saddle along its direction of descent, as far as the zone improves.
 /// @return Whether the zone became better by more than round-off.
 template <class Frame>
 bool ZoneDescent<Frame>::leave_saddle(Result& state) {

@@ -19,37 +19,39 @@
 
 namespace rondure::fit {
 
-/// Size of rounding errors of a distance: relative coordinates carry the error of the given ones.
-/// @param size_mm  Largest absolute coordinate.
+/// Size of the rounding error of a distance [mm]; relative coordinates carry the error of the given
+/// ones.
+/// @param size_mm  Largest absolute coordinate [mm].
 [[nodiscard]] double distance_round_off(double size_mm);
 
-/// Up to so many points a descent works on all of them.
+/// A descent works on all points of a set of this size or smaller.
 inline constexpr std::size_t kAllWorked = 128;
 
-/// Where a descent ended.
+/// Result of a descent.
 template <class Frame>
 struct Descent {
   explicit Descent(const Frame& start) : frame(start) {}
 
-  Frame frame;     ///< Relative to the origin.
-  Extremes zone;   ///< Of all points.
-  Contacts outer;  ///< By row of the data, multipliers of each side sum to 1.
+  Frame frame;     ///< Final place, relative to the origin.
+  Extremes zone;   ///< Extreme distances of all points.
+  Contacts outer;  ///< Rows of the data; the multipliers of each side sum to 1.
   Contacts inner;
-  int passes = 0;           ///< Over all points.
-  int linear_programs = 0;  ///< Linear programs solved.
+  int passes = 0;           ///< Passes over all points.
+  int linear_programs = 0;  ///< linear programs solved.
   int pivots = 0;
   ZoneEnding ending = ZoneEnding::kLimit;
 };
 
-/// Goes from a place to a local minimum of  outer weight * max r - inner weight * min r  (minimum
-/// zone, minimum circumscribed, maximum inscribed): linear programs inside a trust region, Newton
-/// on the stationarity equations of the contacts where curvature holds the place, and ways out of
-/// saddles and of valleys that weak contacts close. Circumscribed circles and spheres need none of
-/// it: EnclosingBall.
+/// Descends from a start to a local minimum of  outer weight * max r - inner weight * min r
+/// (minimum zone, minimum circumscribed, maximum inscribed). It solves linear programs inside a
+/// trust region, applies Newton's method to the stationarity equations of the contacts where
+/// curvature determines the minimum, and leaves saddles and valleys that weak contacts close.
+/// Circumscribed circles and spheres use EnclosingBall instead.
 ///
-/// Up to kAllWorked points all are worked on. Of more, a sample is; then passes over all points add
-/// those that stick out farthest, at most one a block, until none does: the optimum of a subset
-/// that holds all points is the optimum of the whole. An object keeps its memory between calls.
+/// A set of up to kAllWorked points is used whole. A larger one is represented by a sample; passes
+/// over all points then add those that stick out farthest, at most one per block, until none does:
+/// the optimum of a subset is that of the whole set if its zone holds all points. An object keeps
+/// its memory between calls.
 ///
 /// Cost: some 0.3 to 10 us up to 128 points; commonly two to four passes over more.
 /// Sources: methods, cylindricity sections 9.3, 11.2 and 11.4; performance, the method in words.
@@ -63,10 +65,11 @@ class ZoneDescent {
   using Result = Descent<Frame>;
 
   /// @param points     At least one, in the frame of the data.
-  /// @param origin     A point near them, on which `start` rests.
-  /// @param round_off  As distance_round_off().
-  /// @param limit_mm   How far the place may go from the start (see Frame::strayed); minimum zones
-  ///                   need none.
+  /// @param origin     A point near them, to which `start` is relative.
+  /// @param round_off  Rounding error of a distance, see distance_round_off().
+  /// @param limit_mm   Greatest distance from the start (see Frame::strayed); minimum zones need no
+  ///                   limit.
+  /// @return `ending` is kConverged at a local minimum, else it names the reason.
   Result run(Points points, const Point& origin, const Frame& start, const ZoneWeights& weights,
              double round_off, double limit_mm = std::numeric_limits<double>::infinity());
 
@@ -102,14 +105,14 @@ class ZoneDescent {
 
   ZoneWeights weights_;
   double round_off_ = 0.0;
-  bool vertex_ = false;    ///< As many contacts as unknowns hold the last place.
-  bool polished_ = false;  ///< Newton settled on the contacts of the last place.
-  bool coarse_ = false;    ///< Near the minimum is near enough: of a sample.
+  bool vertex_ = false;    ///< The last place is fixed by as many contacts as unknowns.
+  bool polished_ = false;  ///< Newton's method converged on the contacts of the last place.
+  bool coarse_ = false;    ///< Stop near the minimum, as is enough for a sample.
   bool warm_ = false;      ///< The programme has a basis to start from.
   WorkingPoints<D> working_;
   ZoneRows<K> rows_;
-  ZoneRows<K> trial_rows_;   ///< At the place a step leads to.
-  ZoneRows<K> looked_rows_;  ///< Of extremes(), which wants no more than these.
+  ZoneRows<K> trial_rows_;   ///< Rows at the place to which a step leads.
+  ZoneRows<K> looked_rows_;  ///< Scratch rows of extremes().
   ZoneSimplex<K> program_;
   EnclosingBall<D> ball_;
   BlockScan blocks_;

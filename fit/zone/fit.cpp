@@ -20,13 +20,13 @@ namespace {
 
 constexpr std::size_t kCenterSample = 48;
 constexpr std::size_t kCylinderSample = 240;
-/// From here on one start is enough, whatever the arc (performance: small sets).
+/// With this many points or more one start is enough, whatever the arc (performance: small sets).
 constexpr std::size_t kOneStart = 24;
-constexpr std::size_t kSmall = 64;  // up to here more starts cost little
+constexpr std::size_t kSmall = 64;  // up to this number of points, more starts cost little
 constexpr int kStarts = 8;          // around the axis, for each tilt
 constexpr double kFullGap = 120.0 * core::kDegree;
 
-/// At most `most` points that stand for all; `memory` holds them where they are fewer.
+/// Returns all points, or a sample of `most` of them, which is kept in `memory`.
 template <class Point>
 std::span<const Point> spread(std::span<const Point> points, std::size_t most,
                               std::vector<Point>& memory) {
@@ -36,8 +36,8 @@ std::span<const Point> spread(std::span<const Point> points, std::size_t most,
   return memory;
 }
 
-/// Round-off of distances: a place is never farther from the origin than the points are wide. Not
-/// finite where a coordinate is not.
+/// Rounding error of a distance: no place is farther from the origin than the extent of the points.
+/// Not finite if a coordinate is not.
 template <class Point>
 double round_off_of(std::span<const Point> sample) {
   const std::span<const double> numbers(sample.front().data(),
@@ -61,14 +61,15 @@ ZoneFit<Place> zone_of(const Descent<Frame>& descent, const Place& place) {
   return out;
 }
 
-/// How far a reference may be from the least-squares one: a maximum inscribed one goes on for ever
-/// where none exists, a minimum circumscribed one of an arc lies at its chord.
+/// Greatest distance of a reference from the least-squares one. The search for a maximum inscribed
+/// reference that does not exist would never end; the minimum circumscribed one of an arc lies at
+/// its chord.
 double limit_of(const ZoneWeights& weights, double radius) {
   if (weights.outer == 0.0) return radius;
   return weights.inner == 0.0 ? 2.0 * radius : std::numeric_limits<double>::infinity();
 }
 
-/// A fit that ended badly as an error; else the fit.
+/// Turns a fit into an error if it strayed or a number is not finite; else returns it unchanged.
 template <class Place, class Point>
 core::Result<ZoneFit<Place>> judged(ZoneFit<Place> zone, std::span<const Point> points,
                                     const ZoneWeights& weights, std::string_view shape) {
@@ -99,8 +100,8 @@ core::Result<CenterStart<3>> start_fit(std::span<const Eigen::Vector3d> points) 
   return CenterStart<3>{sphere->center_mm, sphere->radius_mm};
 }
 
-/// Whether the contacts of a ball by themselves tell that its points lie on no line (plane): they
-/// span a triangle (tetrahedron) that is not small against it.
+/// Whether the contacts of a ball alone prove that the points are not on one line (in one plane):
+/// they span a triangle (tetrahedron) that is not small compared with the ball.
 template <class Point>
 bool spans_space(std::span<const Point> points, const ZoneFit<Point>& ball) {
   constexpr int D = Point::SizeAtCompileTime;
@@ -130,9 +131,9 @@ struct Tilts {
   [[nodiscard]] const double* end() const { return angles.data() + count; }
 };
 
-/// Tilts at which a search starts too, where several minima are to be feared: minimum zones of few
-/// points, or of part of the circumference, may have others far off; circumscribed and inscribed
-/// cylinders of few points have others close by.
+/// Tilts of further starts where there may be several minima. Minimum zones of few points, or of
+/// part of the circumference, may have distant ones; circumscribed and inscribed cylinders of few
+/// points have close ones.
 Tilts other_tilts(std::span<const Eigen::Vector3d> points, const LsCylinder& start,
                   const ZoneWeights& weights) {
   if (weights.outer == 0.0 || weights.inner == 0.0) {
@@ -176,7 +177,7 @@ auto CenterZoneFitter<D>::fit_from(std::span<const Point> points_mm, const Point
   return zone_of(found, found.frame.place(center_mm));
 }
 
-/// Where to start, from a sample; from all where that misses what the data have.
+/// Finds the start from a sample, or from all points if the sample does not determine it.
 template <int D>
 auto CenterZoneFitter<D>::start_of(std::span<const Point> points_mm)
     -> core::Result<CenterStart<D>> {
@@ -190,7 +191,7 @@ auto CenterZoneFitter<D>::fit(std::span<const Point> points_mm, const ZoneWeight
   if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
   constexpr std::string_view kShape = D == 2 ? "circle" : "sphere";
   if (weights.inner == 0.0) {
-    // Convex: no start is too far.
+    // The problem is convex, so any start will do.
     const auto zone = fit_from(points_mm, points_mm.front(), weights);
     if (zone.ending == ZoneEnding::kConverged && !spans_space(points_mm, zone)) {
       if (const auto start = start_of(points_mm); !start) return core::fail(start.error());
@@ -248,7 +249,7 @@ core::Result<CylinderZone> CylinderZoneFitter::fit(
     const std::optional<Eigen::Vector3d>& near_direction, const ZoneWeights& weights) {
   if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
   auto start = ls_cylinder(spread(points_mm, kCylinderSample, sample_), near_direction);
-  // A sample may miss what the data have: a second layer, or the row that is not a number.
+  // A sample may miss a second layer of the data, or the row that is not finite.
   if (!start) start = ls_cylinder(points_mm, near_direction);
   if (!start) return core::fail(start.error());
   start_ = *start;

@@ -15,23 +15,23 @@
 
 namespace rondure::fit {
 
-/// A zone with its witness, without a proof that it is the best of all: what loops and large data
-/// need. The functions that report (min_zone_circle.h, ...) add the proof.
+/// A zone with its contacts, but without a proof of the global optimum, for loops and large data.
+/// The functions in fit/references add the proof.
 ///
-/// Which side means something depends on the weights: both for a minimum zone; the outer radius for
-/// the minimum circumscribed, the inner one for the maximum inscribed. The other side is then only
+/// The weights determine which side is valid: both for a minimum zone, the outer radius for the
+/// minimum circumscribed, the inner radius for the maximum inscribed. The other side is then only
 /// the extreme distance, without contacts.
 template <class Place>
 struct ZoneFit {
   Place place{};  ///< Centre, or axis with any of its points [mm].
   double inner_radius_mm = 0.0;
   double outer_radius_mm = 0.0;
-  Contacts outer;  ///< Rows that touch, with multipliers >= 0 that sum to 1.
+  Contacts outer;  ///< Rows in contact, with multipliers >= 0 that sum to 1.
   Contacts inner;
-  int passes = 0;           ///< Over all points; 0 where all are worked on at once.
-  int linear_programs = 0;  ///< Linear programs solved, those of every start.
-  int pivots = 0;           ///< Their pivots.
-  ZoneEnding ending = ZoneEnding::kLimit;
+  int passes = 0;                          ///< Passes over all points; 0 if no sample was needed.
+  int linear_programs = 0;                 ///< linear programs solved, over all starts.
+  int pivots = 0;                          ///< Pivots of these linear programs.
+  ZoneEnding ending = ZoneEnding::kLimit;  ///< Why the descent ended.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
 };
@@ -39,33 +39,34 @@ using CircleZone = ZoneFit<Eigen::Vector2d>;
 using SphereZone = ZoneFit<Eigen::Vector3d>;
 using CylinderZone = ZoneFit<Axis>;
 
-/// Fits zones of one shape. An object keeps its memory: once it has seen a set, sets of that size
-/// need no more. Same input, same bits, whatever was fitted before.
-///
-/// Starts at the least-squares circle (algebraic), sphere or cylinder of at most some hundred
-/// points spread over the data; see ZoneDescent for the rest and the cost. Few points, or points on
-/// part of the circumference, may have several minima: then neighbouring axes are starts too.
-/// Circumscribed circles and spheres are convex and start anywhere.
-///
-/// fit_from() starts at a place the caller knows; `ending` tells when it went farther than
-/// `limit_mm` from there. fit() returns the zone; or kNoPoints, kNotFinite (row), kTooFewPoints,
-/// kCollinear, kRank (as the least-squares fits); kReferenceAbsent for a circumscribed or inscribed
-/// reference that does not exist next to the least-squares one.
-/// Where the search for a centre starts.
+/// Centre and radius at which the search for a centre starts.
 template <int D>
 struct CenterStart {
   Eigen::Matrix<double, D, 1> center_mm = Eigen::Matrix<double, D, 1>::Zero();
   double radius_mm = 0.0;
 };
 
+/// Fits zones of circles (D = 2) or spheres (D = 3). An object keeps its memory: after the first
+/// fit, sets of the same size need no more. The same input gives the same bits, whatever was fitted
+/// before.
+///
+/// The search starts at the least-squares circle (algebraic) or sphere of at most some hundred
+/// points spread over the data; see ZoneDescent for the rest and the cost. Circumscribed circles
+/// and spheres are convex and start anywhere.
 template <int D>
 class CenterZoneFitter {
  public:
   using Point = Eigen::Matrix<double, D, 1>;
 
+  /// @return The zone (its `ending` may be kLimit); or kNoPoints, kNotFinite (row), kTooFewPoints,
+  ///         kCollinear, kRank, kNotConverged (as the least-squares fits), kUnits for coordinates
+  ///         too large to be squared, kReferenceAbsent for a circumscribed or inscribed reference
+  ///         that does not exist next to the least-squares one.
   core::Result<ZoneFit<Point>> fit(std::span<const Point> points_mm,
                                    const ZoneWeights& weights = kMinimumZone);
-  /// From a given centre, whatever the points.
+  /// Fits from a given centre and does not check the points.
+  /// @pre At least one point.
+  /// @return `ending` is kStrayed if the centre went farther than `limit_mm` from the given one.
   ZoneFit<Point> fit_from(std::span<const Point> points_mm, const Point& center_mm,
                           const ZoneWeights& weights = kMinimumZone,
                           double limit_mm = std::numeric_limits<double>::infinity());
@@ -79,18 +80,22 @@ class CenterZoneFitter {
 using CircleZoneFitter = CenterZoneFitter<2>;
 using SphereZoneFitter = CenterZoneFitter<3>;
 
+/// Fits zones of cylinders; memory, results and cost as CenterZoneFitter. The search starts at the
+/// least-squares cylinder. Few points, or points on part of the circumference, may have several
+/// minima: neighbouring axes then serve as further starts.
 class CylinderZoneFitter {
  public:
   /// @param near_direction  Start direction; without it the half sphere is searched for starts.
+  /// @return As CenterZoneFitter::fit().
   core::Result<CylinderZone> fit(std::span<const Eigen::Vector3d> points_mm,
                                  const std::optional<Eigen::Vector3d>& near_direction,
                                  const ZoneWeights& weights = kMinimumZone);
-  /// From a given axis, whatever the points.
+  /// Fits from a given axis, as CenterZoneFitter::fit_from().
   CylinderZone fit_from(std::span<const Eigen::Vector3d> points_mm, const Axis& axis,
                         const ZoneWeights& weights = kMinimumZone,
                         double limit_mm = std::numeric_limits<double>::infinity());
-  /// The least-squares cylinder from which the last fit() started: of a sample where points are
-  /// many.
+  /// The least-squares cylinder from which the last fit() started; that of a sample if there are
+  /// many points.
   [[nodiscard]] const LsCylinder& start() const { return start_; }
 
  private:

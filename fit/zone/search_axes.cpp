@@ -6,28 +6,29 @@
 
 #include <Eigen/Geometry>
 
-#include "fit/zone/internal/center_region.h"
-#include "fit/zone/global_search.h"
 #include "fit/geometry/points.h"
-#include "fit/zone/internal/search_points.h"
 #include "fit/proof/internal/zone_box.h"
+#include "fit/zone/global_search.h"
+#include "fit/zone/internal/center_region.h"
+#include "fit/zone/internal/search_points.h"
 
 namespace rondure::fit {
 namespace {
 
-/// Wider boxes of directions are split unseen: their bounds say nothing.
+/// Boxes of directions wider than this [rad] are split at once, as their bounds would be useless.
 constexpr double kWidestOpening = 0.35;
-/// Squares of centres are quartered this often before the directions are.
+/// Times that squares of centres are quartered before the directions are.
 constexpr int kSquareLevels = 6;
 
-/// Moves x = (a, b, Z tx, Z ty) with |x| <= size (max norm) in which growth beats curvature:
+/// Size of the moves x = (a, b, Z tx, Z ty), |x| <= size (max norm), in which growth exceeds
+/// curvature:
 /// sigma e - K e^2 >= 0 with K = 4/(0.85 r) + (R + 2 sqrt(2) e)/Z^2 for e up to r/20.
 double ball_size(double growth, double inner_radius, double outer_radius, double half_length) {
   const double square = 1.0 / (half_length * half_length);
   const double linear = 4.0 / (0.85 * inner_radius) + outer_radius * square;
   const double quadratic = 2.0 * std::sqrt(2.0) * square;
   const double size = std::max(growth, 0.0);
-  // The root of  quadratic e^2 + linear e = sigma, in the form that does not cancel.
+  // The root of  quadratic e^2 + linear e = sigma, in the form without cancellation.
   const double root = 2.0 * size / (linear + std::sqrt(linear * linear + 4.0 * quadratic * size));
   return std::min(root, inner_radius / 20.0);
 }
@@ -74,13 +75,13 @@ class AxisSearcher {
  private:
   struct View {
     Eigen::Matrix3d frame;                ///< Columns; the third is the middle of the box.
-    std::vector<Eigen::Vector3d> points;  ///< The chosen ones, in the frame.
-    ZoneBox box;                          ///< Axes that are left.
+    std::vector<Eigen::Vector3d> points;  ///< The chosen points, in the frame.
+    ZoneBox box;                          ///< Axes that remain.
     bool excluded = false;
     bool bounded = false;
   };
 
-  /// Radial move of the chosen points when a direction of the box is turned to its middle.
+  /// Largest radial move of the chosen points when a direction of the box is turned to its middle.
   [[nodiscard]] double turning_move(const View& view, double opening) const {
     double most = 0.0;
     for (const Eigen::Vector3d& p : view.points) {
@@ -90,7 +91,7 @@ class AxisSearcher {
     return most;
   }
 
-  /// Centres whose value is not above the claim, when no distance moves by more than `move`.
+  /// Region of the centres whose value is not above the claim if distances change by up to `move`.
   [[nodiscard]] CenterRegion region_of(const View& view, std::span<const Eigen::Vector2d> flat,
                                        double move) const {
     const ZoneWeights& weights = claim_.weights;
@@ -101,7 +102,7 @@ class AxisSearcher {
       return one_sided_region(flat, weights, radius, Eigen::Vector2d::Zero(),
                               radius + flat.front().norm());
     }
-    // Where the middle of the reach crosses; it leans by 10 deg at most, and so do the axes.
+    // Crossing of the middle of the reach, which is inclined by 10 deg at most, as the axes are.
     const Axis& about = claim_.reach.about;
     const Eigen::Vector3d point = view.frame.transpose() * (about.point_mm - axis_.point_mm);
     const Eigen::Vector3d along = view.frame.transpose() * about.direction;
@@ -122,7 +123,7 @@ class AxisSearcher {
     return bound_one_sided_box<4>(view.points, square, claim_.weights, slack_);
   }
 
-  /// Projects along the middle of the box and bounds the centres that are left.
+  /// Projects the points along the middle of the box and bounds the centres that remain.
   [[nodiscard]] View look(const DirectionBox& box) const {
     View view;
     const Eigen::Vector3d middle = box.middle();
@@ -139,8 +140,8 @@ class AxisSearcher {
     view.excluded = region.kind == CenterRegion::Kind::kEmpty;
     view.bounded = region.kind == CenterRegion::Kind::kSquare;
     if (!view.bounded) return view;
-    // The region holds centres of turned axes; where the axes themselves cross the plane differs by
-    // at most |c| (sin tan + 1 - cos) <= 2 |c| tan^2.
+    // The region holds centres of turned axes; the points where the axes themselves cross the plane
+    // differ by at most |c| (sin tan + 1 - cos) <= 2 |c| tan^2.
     const double lean = std::tan(opening);
     const double farthest = region.center_mm.norm() + std::sqrt(2.0) * region.half_side_mm;
     view.box = {region.center_mm, region.half_side_mm + 2.0 * farthest * lean * lean + slack_,
@@ -148,14 +149,14 @@ class AxisSearcher {
     return view;
   }
 
-  /// Whether all axes of a box that cross a square are in the ball of the claim.
+  /// Whether all axes of a box that cross a square lie in the ball of the claim.
   [[nodiscard]] bool closed_by_growth(const DirectionBox& box, const View& view,
                                       const ZoneBox& square) const {
     const double apart = view.frame.col(2).cross(axis_.direction).norm();
     if (std::abs(view.frame.col(2).dot(axis_.direction)) < 0.5) return false;
     const double angle = std::asin(std::min(1.0, apart)) + box.opening_rad();
     if (angle > 0.5 || half_length_ * std::tan(angle) > ball_) return false;
-    // Crossing with the plane of the claim: along a direction at `angle` at most.
+    // Crossing with the plane of the claim, along a direction inclined by `angle` at most.
     const double farthest = square.center_mm.norm() + std::sqrt(2.0) * square.half_side_mm;
     return farthest * (1.0 + apart / std::cos(angle)) <= ball_;
   }
@@ -176,7 +177,7 @@ class AxisSearcher {
       out_.better = Axis{candidate.point_mm + axis_.point_mm, candidate.direction};
       return;
     }
-    // Points the search has not looked at may exclude the box as it is.
+    // Points that are not yet among the chosen ones may exclude the box as it is.
     bool more = false;
     const auto take = [&](std::size_t row, double weight) {
       if (weight == 0.0 || !rows_.add(row)) return;
@@ -196,9 +197,9 @@ class AxisSearcher {
     for (const DirectionBox& quarter : box.quarters()) boxes_.push_back(quarter);
   }
 
-  /// Closes the squares of centres of a box, splitting them while they are wide against the move of
-  /// the ends of the axis over its directions; narrower ones gain nothing.
-  /// @return What is known of the first square that stays open; nothing when all are closed.
+  /// Closes the squares of centres of a box. Splits them while they are wide compared with the move
+  /// of the ends of the axis over the directions of the box; narrower squares gain nothing.
+  /// @return The bound of the first square that stays open; nothing if all are closed.
   std::optional<ZoneBoxBound> first_open(const DirectionBox& box, const View& view,
                                          const ZoneBox& square, int levels = kSquareLevels) {
     if (closed_by_growth(box, view, square)) return std::nullopt;
@@ -211,7 +212,7 @@ class AxisSearcher {
     const bool narrow = square.half_side_mm <= half_length_ * square.lean;
     if (narrow || levels == 0 || out_.boxes >= options_.max_boxes) return found;
     auto squares = quarters(square);
-    // The square that holds the best looking axis will most likely stay open: it comes first.
+    // The square with the most promising axis comes first, as it is the most likely to stay open.
     std::sort(squares.begin(), squares.end(), [&](const ZoneBox& a, const ZoneBox& b) {
       return (a.center_mm - found.center_mm).squaredNorm() <
              (b.center_mm - found.center_mm).squaredNorm();
@@ -278,7 +279,7 @@ class AxisSearcher {
   GlobalSearchOptions options_;
   SearchRows rows_;
   std::vector<Eigen::Vector3d> points_;  ///< Relative to the point of the claimed axis.
-  std::vector<Eigen::Vector3d> chosen_;  ///< Those of rows_.
+  std::vector<Eigen::Vector3d> chosen_;  ///< The points of rows_.
   double slack_ = 0.0;
   double ball_ = 0.0;
   std::deque<DirectionBox> boxes_;

@@ -3,16 +3,16 @@
 #include <deque>
 #include <limits>
 
-#include "fit/zone/internal/center_region.h"
-#include "fit/zone/global_search.h"
 #include "fit/geometry/points.h"
-#include "fit/zone/internal/search_points.h"
 #include "fit/proof/internal/zone_box.h"
+#include "fit/zone/global_search.h"
+#include "fit/zone/internal/center_region.h"
+#include "fit/zone/internal/search_points.h"
 
 namespace rondure::fit {
 namespace {
 
-/// Half side of the square about the centre in which growth beats curvature:
+/// Half side of the square about the centre in which growth exceeds curvature:
 /// sigma e - e^2 / (r - sqrt(2) e) > 0, with e at most r/4, where r - sqrt(2) e > 0.64 r.
 double closed_half_side(double growth, double inner_radius) {
   return std::min(0.25 * inner_radius, 0.64 * growth * inner_radius);
@@ -93,7 +93,7 @@ class CenterSearcher {
     return bound_zone_box<2>(chosen_, box, claim_.value_mm, options_.tolerance_mm, slack_);
   }
 
-  /// Outside the hull of the points no circle is inscribed in them.
+  /// Whether a box can hold a centre: that of an inscribed circle must be inside the hull.
   [[nodiscard]] bool in_hull(const ZoneBox& box) const {
     return !inscribed() || meets_hull(hull_, box.center_mm, box.half_side_mm);
   }
@@ -130,7 +130,7 @@ class CenterSearcher {
       out_.better = origin_ + found.center_mm;
       return;
     }
-    // Points the search has not looked at may exclude the box as it is.
+    // Points that are not yet among the chosen ones may exclude the box as it is.
     bool more = false;
     const auto look_at = [&](std::size_t row, double weight) {
       if (weight == 0.0 || !rows_.add(row)) return;
@@ -160,8 +160,8 @@ class CenterSearcher {
   GlobalSearchOptions options_;
   SearchRows rows_;
   std::vector<Eigen::Vector2d> points_;  ///< Relative to the centre of the claim.
-  std::vector<Eigen::Vector3d> chosen_;  ///< Those of rows_, height 0.
-  std::vector<Eigen::Vector2d> hull_;    ///< Of all points, counter-clockwise; inscribed only.
+  std::vector<Eigen::Vector3d> chosen_;  ///< The points of rows_, height 0.
+  std::vector<Eigen::Vector2d> hull_;    ///< Hull of all points, counter-clockwise; inscribed only.
   double slack_ = 0.0;
   double closed_ = 0.0;
   std::deque<ZoneBox> boxes_;

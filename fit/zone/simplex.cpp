@@ -12,18 +12,19 @@ namespace rondure::fit {
 namespace {
 
 constexpr int kDantzigPivots = 300;
-/// More pivots than this mean near ties: from here on every basis is factorised and refined.
+/// More pivots than this indicate near ties: every further basis is factorised and refined.
 constexpr int kSwiftPivots = 40;
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-/// Multipliers off by more than this are computed from a fresh factorisation.
+/// Multipliers with a larger error are computed from a fresh factorisation.
 constexpr double kWorn = 1e-13;
-/// Smaller pivots would leave a basis next to singular.
+/// Smaller pivots would make the basis nearly singular.
 constexpr double kPivot = 1e-11;
-/// Residuals above this mean that a basis was next to singular.
+/// Residuals above this indicate that a basis was nearly singular.
 constexpr double kSound = 1e-9;
 
-/// Gauss-Jordan with row exchanges: for at most 6 x 6 several times faster than a general inverse,
-/// and the residuals are looked at afterwards. @return Whether there is an inverse.
+/// Inverts by Gauss-Jordan with row exchanges: up to 6 x 6 several times faster than a general
+/// inverse; the caller checks the residuals.
+/// @return Whether there is an inverse.
 template <int N>
 bool invert(Eigen::Matrix<double, N, N> a, Eigen::Matrix<double, N, N>& inverse) {
   Eigen::Matrix<double, N, N> out = Eigen::Matrix<double, N, N>::Identity();
@@ -84,11 +85,11 @@ template <int K>
 void ZoneSimplex<K>::start_basis() {
   const std::vector<double>& distances = rows_->distances();
   const ColumnExtremes extremes = column_extremes(distances);
-  // Violations below this are round-off of the distances; they are not worth a pivot.
+  // Violations below this are round-off of the distances and do not justify a pivot.
   tolerance_ = 1e-13 * (extremes.high - extremes.low) + 4.0 * kEps * std::abs(extremes.high);
   put(0, {Column::Kind::kOuter, first_row_of(distances, extremes.high)});
   put(1, {Column::Kind::kInner, first_row_of(distances, extremes.low)});
-  // The box takes up whatever the two points do not balance; so the basis is triangular.
+  // The box takes up the imbalance of the two points, so the basis is triangular.
   inverse_.setIdentity();
   values_.template head<2>().setOnes();
   for (int k = 0; k < K; ++k) {
@@ -126,7 +127,8 @@ void ZoneSimplex<K>::put(int place, const Column& c) {
   costs_(place) = -box_;
 }
 
-/// Inverse of the basis from its columns. @return Whether it has one.
+/// Computes the inverse of the basis from its columns.
+/// @return Whether there is one.
 template <int K>
 bool ZoneSimplex<K>::factorise() {
   if (!invert<kRows>(columns_, inverse_)) return false;
@@ -134,8 +136,8 @@ bool ZoneSimplex<K>::factorise() {
   return true;
 }
 
-/// Swiftly, and where the end does not stand up to its residuals once more from the beginning, with
-/// every basis factorised.
+/// Solves with fast updates of the inverse. If the residuals of the result are too large, solves
+/// again from the beginning, with every basis factorised.
 template <int K>
 ZoneStep<K> ZoneSimplex<K>::run(int pivot_limit) {
   ZoneStep<K> out = attempt(pivot_limit, kSwiftPivots);
@@ -149,7 +151,7 @@ ZoneStep<K> ZoneSimplex<K>::run(int pivot_limit) {
   return out;
 }
 
-/// @param swift  Pivots that update the inverse; later ones factorise and refine.
+/// @param swift  Number of pivots that update the inverse; later ones factorise and refine.
 template <int K>
 ZoneStep<K> ZoneSimplex<K>::attempt(int pivot_limit, int swift) {
   ZoneStep<K> out;
@@ -176,8 +178,8 @@ ZoneStep<K> ZoneSimplex<K>::attempt(int pivot_limit, int swift) {
   return out;
 }
 
-/// Whether multipliers and prices solved the equations of the basis when needs_refactorization()
-/// refined them, and no multiplier is negative.
+/// Whether multipliers and prices solved the equations of the basis before worn() refined them, and
+/// no multiplier is negative.
 template <int K>
 bool ZoneSimplex<K>::solves_basis() const {
   return value_flaw_ <= kSound && price_flaw_ <= kSound * (1.0 + box_) &&
@@ -199,14 +201,14 @@ auto ZoneSimplex<K>::price_residual() const -> Vector {
   return out;
 }
 
-/// Prices of the rows, c_B times the inverse of the basis.
+/// Computes the prices of the rows, c_B times the inverse of the basis.
 template <int K>
 void ZoneSimplex<K>::settle_prices() {
   for (int k = 0; k < kRows; ++k) prices_(k) = inverse_.col(k).dot(costs_);
 }
 
 /// Refines multipliers and prices once with their residuals.
-/// @return Whether these were so large that the inverse should be computed anew.
+/// @return Whether the residuals were so large that the inverse should be computed anew.
 template <int K>
 bool ZoneSimplex<K>::needs_refactorization() {
   const Vector value_rest = value_residual();
@@ -225,7 +227,7 @@ bool ZoneSimplex<K>::needs_refactorization() {
            price_error.cwiseAbs().maxCoeff() <= std::max(tolerance_, kEps * box_));
 }
 
-/// The column that violates its constraint most (or, Bland, the first that does).
+/// Finds the column that violates its constraint most (by Bland's rule: the first that does).
 template <int K>
 auto ZoneSimplex<K>::price(bool bland) -> Entering {
   const Unknowns move = -prices_.template tail<K>();
@@ -247,7 +249,7 @@ auto ZoneSimplex<K>::price(bool bland) -> Entering {
     for (std::size_t i = 0; i < count; ++i)
       offer(-weights_.inner * moved_[i] - inner, Column::Kind::kInner, i);
   } else {
-    // Only the side that violates more is worth looking for its row.
+    // The row is sought only on the side with the larger violation.
     const double far = weights_.outer * extremes.high - outer;
     const double near = -weights_.inner * extremes.low - inner;
     if (far >= near && far > worst) {
@@ -265,7 +267,7 @@ auto ZoneSimplex<K>::price(bool bland) -> Entering {
   return entering;
 }
 
-/// The column as a mixture of the basic ones.
+/// The column as a linear combination of the basic ones.
 template <int K>
 auto ZoneSimplex<K>::in_basis(const Column& c) const -> Vector {
   if (c.kind == Column::Kind::kBoxUp) return inverse_.col(static_cast<Eigen::Index>(c.index) + 2);
@@ -280,7 +282,8 @@ auto ZoneSimplex<K>::in_basis(const Column& c) const -> Vector {
   return out;
 }
 
-/// Exchanges the entering column; false when no basic column limits it (never: the box bounds).
+/// Exchanges the entering column for a basic one.
+/// @return false if no basic column limits it, which the box excludes.
 template <int K>
 bool ZoneSimplex<K>::pivot(const Column& entering) {
   const Vector direction = in_basis(entering);
@@ -289,7 +292,7 @@ bool ZoneSimplex<K>::pivot(const Column& entering) {
   for (int k = 0; k < kRows; ++k) {
     if (direction(k) <= kPivot) continue;
     const double ratio = std::max(values_(k), 0.0) / direction(k);
-    // Among equal ratios the larger pivot is the safer one.
+    // Among equal ratios the larger pivot is numerically safer.
     const bool tie = leaving >= 0 && std::abs(ratio - least) <= 1e-14;
     if ((!tie && ratio < least) || (tie && direction(k) > direction(leaving))) {
       leaving = k;
@@ -320,7 +323,7 @@ void ZoneSimplex<K>::report(ZoneStep<K>& out) const {
       continue;
     }
     const bool outer = c.kind == Column::Kind::kOuter;
-    // A side without weight takes part in the programme in name only.
+    // A side without weight takes part in the programme only formally.
     if (value <= 0.0 || (outer ? weights_.outer : weights_.inner) == 0.0) continue;
     (outer ? out.outer : out.inner).push_back({c.index, value});
   }

@@ -10,7 +10,7 @@
 
 namespace rondure::fit {
 
-/// What is minimised:  outer * max_i r_i - inner * min_i r_i.
+/// Weights of the objective to be minimised,  outer * max_i r_i - inner * min_i r_i.
 struct ZoneWeights {
   double outer = 1.0;
   double inner = 1.0;
@@ -19,10 +19,9 @@ inline constexpr ZoneWeights kMinimumZone{1.0, 1.0};
 inline constexpr ZoneWeights kMinimumCircumscribed{1.0, 0.0};
 inline constexpr ZoneWeights kMaximumInscribed{0.0, 1.0};
 
-/// Points of a zone, linearised: the distance of each and the gradient of that distance with
-/// respect to the K unknowns of the place (2 circle, 3 sphere, 4 cylinder), all in mm. Stored
-/// column by column, so that pricing runs at the speed of the vector units; the memory is kept when
-/// cleared.
+/// The linearised points of a zone: distance of each point, and its gradient with respect to the K
+/// unknowns of the place (2 circle, 3 sphere, 4 cylinder), all in mm. Stored column by column, so
+/// that pricing can use vector instructions. clear() keeps the memory.
 template <int K>
 class ZoneRows {
  public:
@@ -59,37 +58,41 @@ class ZoneRows {
 template <int K>
 struct ZoneStep {
   Eigen::Matrix<double, K, 1> step = Eigen::Matrix<double, K, 1>::Zero();  ///< The move d [mm].
-  double value = 0.0;  ///< What the linearisation predicts after the move [mm].
-  Contacts outer;      ///< Points that bind, by row, with their multipliers (> 0).
+  double value = 0.0;  ///< Value that the linearisation predicts after the move [mm].
+  Contacts outer;      ///< Rows of the binding points, with their multipliers (> 0).
   Contacts inner;
   bool inside_box = false;  ///< No side of the box binds.
-  bool solved = false;      ///< false: the pivot limit ended it.
+  bool solved = false;      ///< false: the pivot limit ended the programme.
   int pivots = 0;
 };
 
 inline constexpr int kZonePivotLimit = 5000;
-inline constexpr int kBoundPivotLimit = 60;  ///< Where only a bound is wanted.
+inline constexpr int kBoundPivotLimit = 60;  ///< Limit for linear programs that only give a bound.
 
 /// Minimises  outer * max_i (r_i + J_i d) - inner * min_i (r_i + J_i d)  over |d_k| <= box.
 ///
-/// Revised primal simplex on the dual programme: K + 2 rows; a column for each point on each side
-/// and for each side of the box. The box makes a first basis feasible at once, so there is no first
-/// phase. Dantzig's rule, Bland's after 300 pivots. The inverse of the basis, at most 6 x 6, is
-/// updated at each pivot and computed anew when a check at the end finds it worn.
+/// Revised primal simplex on the dual programme, which has K + 2 rows, and a column for each point
+/// on each side and for each side of the box. Because of the box the first basis is feasible, and
+/// no first phase is needed. Pivots follow Dantzig's rule, after 300 pivots Bland's. The inverse of
+/// the basis, at most 6 x 6, is updated at each pivot and computed anew if a check at the end finds
+/// it inaccurate.
 ///
 /// An object keeps its memory, and its last basis as the start of a programme whose points moved a
-/// little. Cost: O(n K) a pivot, commonly 5 to 20 pivots.
+/// little. Cost: O(n K) per pivot, commonly 5 to 20 pivots.
 /// Source: methods, cylindricity sections 9.3, 11.2 (the box is its trust region) and 11.4.
 template <int K>
 class ZoneSimplex {
  public:
-  /// @param rows  At least one point. Where both weights are the same, distances may be given minus
-  ///              a common value; else `value` misses weight * that value.
-  /// @param pivot_limit  Where only a bound is wanted, a degenerate programme is not worth many
-  ///                     pivots: the multipliers of any basis are valid.
+  /// @param rows  At least one point. If both weights are equal, a common value may be subtracted
+  ///              from the distances; otherwise `value` is then off by weight * that value.
+  /// @param box_mm  > 0: half side of the box, the trust region.
+  /// @param pivot_limit  Most pivots. For a mere bound a low limit is enough, even in a degenerate
+  ///                     programme: the multipliers of any basis are valid.
+  /// @return `solved` is false if the pivot limit ended the programme.
   ZoneStep<K> solve(const ZoneRows<K>& rows, double box_mm, const ZoneWeights& weights,
                     int pivot_limit = kZonePivotLimit);
-  /// The same, from the basis of the last call, which had the same points in the same order.
+  /// The same, from the basis of the last call.
+  /// @pre `rows` holds the points of the last call in the same order.
   ZoneStep<K> solve_again(const ZoneRows<K>& rows, double box_mm, const ZoneWeights& weights,
                           int pivot_limit = kZonePivotLimit);
 
@@ -129,14 +132,14 @@ class ZoneSimplex {
   void report(ZoneStep<K>& out) const;
 
   const ZoneRows<K>* rows_ = nullptr;
-  std::array<const double*, K> gradients_{};  ///< Of the rows.
+  std::array<const double*, K> gradients_{};  ///< Columns of the rows.
   double box_ = 0.0;
   ZoneWeights weights_;
   double tolerance_ = 0.0;
   std::array<Column, kRows> basis_{};
-  Square columns_ = Square::Identity();  ///< Of the basis.
-  Vector costs_ = Vector::Zero();        ///< Of the basis.
-  Square inverse_ = Square::Identity();  ///< Of columns_.
+  Square columns_ = Square::Identity();  ///< Columns of the basis.
+  Vector costs_ = Vector::Zero();        ///< Costs of the basis.
+  Square inverse_ = Square::Identity();  ///< Inverse of columns_.
   Vector values_ = Vector::Zero();       ///< Multipliers of the basic columns.
   Vector prices_ = Vector::Zero();
   double value_flaw_ = 0.0;  ///< Largest residual of the multipliers before the last refinement.
@@ -144,7 +147,7 @@ class ZoneSimplex {
   std::vector<double> moved_;  ///< Distances of all points at the current prices.
 };
 
-/// One programme, on its own.
+/// Solves a single programme.
 template <int K>
 [[nodiscard]] ZoneStep<K> solve_zone_program(const ZoneRows<K>& rows, double box_mm,
                                              const ZoneWeights& weights = kMinimumZone,

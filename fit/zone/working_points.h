@@ -10,8 +10,8 @@
 
 namespace rondure::fit {
 
-/// Points a descent works on, relative to an origin, column by column, each with its row in the
-/// data. The memory is kept when cleared.
+/// The points on which a descent works: relative to an origin, column by column, each with its row
+/// in the data. clear() keeps the memory.
 template <int D>
 class WorkingPoints {
  public:
@@ -31,7 +31,7 @@ class WorkingPoints {
     rows_.clear();
     for (auto& column : columns_) column.clear();
   }
-  /// All points of a set, relative to the origin; what was here is forgotten.
+  /// Replaces the contents by all points of a set, relative to the origin.
   void assign(std::span<const Point> points, const Point& origin) {
     rows_.resize(points.size());
     std::iota(rows_.begin(), rows_.end(), std::size_t{0});

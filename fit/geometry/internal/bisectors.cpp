@@ -17,7 +17,7 @@ struct Bisector {
   double offset = 0.0;
 };
 
-/// Zone about c, or infinity as soon as it exceeds `limit`.
+/// Width of the zone about c, or infinity as soon as it exceeds `limit`.
 double width_at(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& c,
                 double limit) {
   double low = std::numeric_limits<double>::infinity();
@@ -31,7 +31,7 @@ double width_at(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2
   return high - low;
 }
 
-/// Bisectors that pass through the disc; the others cannot hold a candidate.
+/// The bisectors that pass through the disc; others cannot contain a candidate.
 std::vector<Bisector> bisectors(const std::vector<Eigen::Vector2d>& points, double radius) {
   std::vector<Bisector> out;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -46,8 +46,8 @@ std::vector<Bisector> bisectors(const std::vector<Eigen::Vector2d>& points, doub
   return out;
 }
 
-/// Least width of a strip that holds the points. A side of the best strip runs through two points,
-/// so all pairs are tried: n^3 for the few points this search is for.
+/// Least width of a strip that holds the points. One side of the best strip passes through two
+/// points, so all pairs are tried: n^3 is affordable for the few points of this search.
 double strip_width(const std::vector<Eigen::Vector2d>& points) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -67,8 +67,8 @@ double strip_width(const std::vector<Eigen::Vector2d>& points) {
   return least;
 }
 
-/// Radius about the start that holds every centre with a zone of at most `width`; infinite where a
-/// strip is as narrow.
+/// Radius of the disc about the start that holds every centre with a zone of at most `width`;
+/// infinite if a strip is as narrow.
 double disc_radius(const std::vector<Eigen::Vector2d>& points, double width, double strip) {
   const Eigen::Vector2d origin = Eigen::Vector2d::Zero();
   double nearest = std::numeric_limits<double>::infinity();

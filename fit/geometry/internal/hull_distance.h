@@ -16,21 +16,21 @@ struct HullDistance {
 
 /// Distance between the convex hulls of two sets of unit vectors (the contacts of a centre).
 ///
-/// Points of one circle are in convex position: the hull's edges are the chords between neighbours
-/// by angle, and two such hulls meet only where chords cross or vertices coincide. Testing all
-/// pairs of edges is therefore exact.
+/// Points of one circle are in convex position, so the edges of the hull are the chords between
+/// neighbours by angle, and two such hulls meet only where chords cross or vertices coincide.
+/// Testing all pairs of edges is therefore exact.
 ///
 /// @param first, second  Not empty; unit vectors, any order, duplicates allowed.
 [[nodiscard]] HullDistance hull_distance(std::vector<Eigen::Vector2d> first,
                                          std::vector<Eigen::Vector2d> second);
 
-/// Twice the area of the triangle a, b, c; > 0 where c lies to the left of a -> b.
+/// Twice the signed area of the triangle a, b, c; > 0 if c lies to the left of a -> b.
 [[nodiscard]] inline double twice_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                                        const Eigen::Vector2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// True when the segments ab and cd cross in a point inside both.
+/// Whether the segments ab and cd cross in a point inside both.
 [[nodiscard]] bool segments_cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                                   const Eigen::Vector2d& c, const Eigen::Vector2d& d);
 

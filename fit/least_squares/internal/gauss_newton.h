@@ -11,9 +11,9 @@
 
 namespace rondure::fit {
 
-/// Larger sets start from the shape of so many of their points.
+/// Sets with more points than this start from the shape fitted to a sample of this size.
 inline constexpr std::size_t kStartSample = 1000;
-/// Of an algebraic circle: below this share of (Suu + Svv)^2 the determinant is round-off and the
+/// In the algebraic circle, a determinant below this share of (Suu + Svv)^2 is round-off: the
 /// points are on a line.
 inline constexpr double kCollinearShare = 1e-12;
 
@@ -26,12 +26,13 @@ struct NormalSums {
   double squares = 0.0;
 };
 
-/// Least squares of distances: the two iterations the circle, sphere and cylinder share. A Model
-/// has `kUnknowns`, `moved(step)` and `scale_mm()`, the size steps are compared with;
-/// `sums_at(model, with_matrix)` gives its NormalSums.
+/// Minimises a sum of squared distances by Levenberg-Marquardt, from a rough start until the step
+/// is round-off. settle() and polish() serve the circle, the sphere and the cylinder.
 ///
-/// Levenberg-Marquardt from a rough start until the step is round-off.
-/// @return Whether it settled; `model` is the result and `squares` belongs to it.
+/// @param model  Has `kUnknowns`, `moved(step)` and `scale_mm()`, the size with which steps are
+///               compared.
+/// @param sums_at  `sums_at(model, with_matrix)` returns the NormalSums of a model.
+/// @return Whether it converged; if so, `model` is the result and `squares` its sum of squares.
 template <class Model, class SumsAt>
 [[nodiscard]] bool settle(Model& model, double& squares, const SumsAt& sums_at) {
   using Step = Eigen::Matrix<double, Model::kUnknowns, 1>;
@@ -48,8 +49,8 @@ template <class Model, class SumsAt>
     const double size = step.cwiseAbs().maxCoeff();
     const double scale = model.scale_mm();
     const Model next = model.moved(step);
-    // Near the end the sum of squares is constant to round-off; there a shrinking step is progress,
-    // and one that shrinks as fast as the last tells how little is left.
+    // Near the end the sum of squares is constant to round-off. A shrinking step is then the sign
+    // of progress, and its rate of shrinking gives the size of the remaining step.
     const bool rounding = size <= 1e-7 * scale;
     if (rounding && damping == 0.0) {
       stalled += size >= 0.5 * last ? 1 : 0;
@@ -75,12 +76,12 @@ template <class Model, class SumsAt>
   return false;
 }
 
-/// Gauss-Newton with the matrix of the first pass kept, from a model near the minimum: each pass
-/// leaves of the error a share of about form / radius. One pass with the matrix, then passes
-/// without it; two in all as a rule.
+/// Minimises by Gauss-Newton from a model near the minimum, with the matrix of the first pass kept:
+/// each pass reduces the error to a share of about form / radius. One pass with the matrix, then
+/// passes without it, usually two in all.
 ///
 /// @param last_step  Receives the step taken after the last pass.
-/// @return Whether it settled, as settle(); not when the sums are not finite.
+/// @return Whether it converged, as settle(); false if the sums are not finite.
 template <class Model, class SumsAt>
 [[nodiscard]] bool polish(Model& model, double& squares, const SumsAt& sums_at,
                           Eigen::Matrix<double, Model::kUnknowns, 1>& last_step) {

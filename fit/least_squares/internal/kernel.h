@@ -1,20 +1,21 @@
 #pragma once
 
-// Inner loops of ls_sums.h. Each ls_kernel_*.cpp compiles them for one instruction set, with its
-// own type T, so that no code of one set can be linked into another; for the same reason nothing
-// but <cstddef> is included here. Every set does the same operations in the same order: eight
-// partial sums (point i goes to sum i mod 8), no fused multiply-add, and so gives the same bits.
+// Inner loops of sums.h. Each file kernel_*.cpp compiles them for one instruction set, with its own
+// type T, so that no code of one set can be linked into another; for the same reason this header
+// includes only <cstddef>. All sets perform the same operations in the same order (eight partial
+// sums, point i goes to sum i mod 8, no fused multiply-add) and so give the same bits.
 
 #include <cstddef>
 
 namespace rondure::fit::ls_kernel {
 
 inline constexpr std::size_t kLanes = 8;
-inline constexpr std::size_t kAhead = 192;   ///< Numbers that memory is asked for ahead of use.
-inline constexpr std::size_t kBlock = 1024;  ///< Points of one call at most: they stay in L1.
+inline constexpr std::size_t kAhead = 192;   ///< Numbers that are prefetched ahead of their use.
+inline constexpr std::size_t kBlock = 1024;  ///< Most points of one call, so that they stay in L1.
 
-/// Where the sums are taken: q = ((p - origin) . row1 - shift1, (p - origin) . row2 - shift2) is
-/// the place across the axis in radii, s = (p - origin) . along the place along it in half lengths.
+/// Coordinates in which the sums are taken: the position across the axis in radii,
+/// q = ((p - origin) . row1 - shift1, (p - origin) . row2 - shift2), and the position along it in
+/// half lengths, s = (p - origin) . along.
 struct Spot {
   double origin[3];
   double row1[3], row2[3], along[3];
@@ -30,7 +31,7 @@ enum Place : std::size_t {
   kD,
   kDD,
   kS,
-  kGradientOnly,         // number of sums so far
+  kGradientOnly,         // number of sums above
   kM11 = kGradientOnly,  // n1 n1
   kM12,                  // n1 n2; n2 n2 follows, as n1 n1 + n2 n2 = 1
   kSM11,
@@ -45,14 +46,14 @@ enum Place : std::size_t {
   kAll
 };
 
-/// Sums of one block, and the least and largest r^2.
+/// Sums of one block, and the least and the largest r^2.
 struct Sums {
   double sum[kAll];
   double low, high;
 };
 
-/// What every instruction set does with single numbers. A template of the type that uses it, so
-/// that each has functions of its own.
+/// Operations of every instruction set on single numbers. A template on the type that uses it, so
+/// that each set has functions of its own.
 template <class T>
 struct Singles {
   static void store(double* p, double v) { *p = v; }
@@ -70,11 +71,11 @@ struct Singles {
 /// (1 - 1/sqrt(1 + e)) / e by its binomial series; the next term is below 1e-15 within kNear.
 inline constexpr double kSeries[] = {1.0 / 2.0, -3.0 / 8.0, 5.0 / 16.0, -35.0 / 128.0,
                                      63.0 / 256.0};
-inline constexpr double kNear = 1.0 / 256.0;  ///< Largest |r^2 - 1| the series is used for.
+inline constexpr double kNear = 1.0 / 256.0;  ///< Largest |r^2 - 1| for which the series is used.
 
-/// Sums of the points i, i + 8, ... of a block into `lanes`, from lane `first` on, as many lanes as
-/// V holds. kMatrix: all sums, else kGradientOnly. kSeriesOnly: r by the series instead of square
-/// root and division; the matrix then takes q for n, which is as near as |r - 1|.
+/// Adds the points i, i + 8, ... of a block to `lanes`, from lane `first` on, as many lanes as V
+/// holds. kMatrix: all sums, else kGradientOnly. kSeriesOnly: r by the series instead of square
+/// root and division; the matrix then uses q for n, which is accurate to |r - 1|.
 template <class T, class V, int kDimensions, bool kMatrix, bool kSeriesOnly>
 inline void add_lanes(const double* points, std::size_t groups, const Spot& spot, std::size_t first,
                       double (*lanes)[kLanes], double (*range)[kLanes]) {
@@ -112,7 +113,7 @@ inline void add_lanes(const double* points, std::size_t groups, const Spot& spot
           ((((e * kSeries[4] + kSeries[3]) * e + kSeries[2]) * e + kSeries[1]) * e + kSeries[0]);
       d = e - rr * k;
     } else {
-      // A point on the axis has no direction: n = 0 and k finite.
+      // A point on the axis has no direction; n becomes 0 and k stays finite.
       const V r = T::root(rr > 1e-280 ? rr : rr - rr + 1e-280);
       const V inverse = 1.0 / r;
       k = 1.0 - inverse;
@@ -188,7 +189,7 @@ inline Sums block_by(const double* points, std::size_t count, const Spot& spot) 
   return out;
 }
 
-/// The sums of one block: by the series, and again without it where a point is too far out.
+/// The sums of one block: by the series, and again without it if a point is outside kNear.
 template <class T, int kDimensions, bool kMatrix>
 inline Sums block(const double* points, std::size_t count, const Spot& spot) {
   const Sums out = block_by<T, kDimensions, kMatrix, true>(points, count, spot);
@@ -207,7 +208,7 @@ constexpr Kernel kernel_of() {
   return {block<T, 3, true>, block<T, 3, false>, block<T, 2, true>, block<T, 2, false>};
 }
 
-// One per file ls_kernel_*.cpp; the last two only on x86-64.
+// One per file kernel_*.cpp; the last two only on x86-64.
 extern const Kernel kPortable;
 extern const Kernel kAvx2;
 extern const Kernel kAvx512;

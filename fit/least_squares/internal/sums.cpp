@@ -17,7 +17,7 @@ const ls_kernel::Kernel& kernel_for(Simd simd) {
   return ls_kernel::kPortable;
 }
 
-/// One pass: which block function at which spot over which numbers.
+/// One pass: the block function, its coordinates and the numbers it reads.
 struct Pass {
   const double* numbers = nullptr;
   std::size_t dimensions = 3;
@@ -105,7 +105,7 @@ PassSums<5> cylinder_sums(std::span<const Eigen::Vector3d> points_mm,
   }
   pass.spot.shift1 = frame.axis().point_mm.dot(row1);
   pass.spot.shift2 = frame.axis().point_mm.dot(row2);
-  // Tilts turn about the point of the axis: s is measured from it.
+  // Tilts turn about the point of the axis, so s is measured from that point.
   const double foot = frame.axis().point_mm.dot(along);
   ls_kernel::Sums raw = total(pass, 0, points_mm.size());
   const double* m = raw.sum;
@@ -115,7 +115,7 @@ PassSums<5> cylinder_sums(std::span<const Eigen::Vector3d> points_mm,
   out.right << m[kQ1K], m[kQ2K], m[kSQ1K] - foot * m[kQ1K], m[kSQ2K] - foot * m[kQ2K], m[kD];
   out.right *= radius_mm;
   if (!options.matrix) return out;
-  // n2 n2 = 1 - n1 n1; then s - foot for s.
+  // n2 n2 = 1 - n1 n1; s - foot then takes the place of s.
   const double m22 = n - m[kM11], sm22 = m[kS] - m[kSM11], ssm22 = m[kSS] - m[kSSM11];
   const auto once = [&](double s, double one) { return s - foot * one; };
   const auto twice = [&](double ss, double s, double one) {

@@ -16,21 +16,21 @@ namespace rondure::fit {
 /// Instruction sets of the loops over all points. All give the same bits.
 enum class Simd { kPortable, kAvx2, kAvx512 };
 
-/// The best this processor has.
+/// The best instruction set of this processor.
 [[nodiscard]] Simd best_simd();
 
-/// Where the least and largest distances are: extremes of consecutive stretches of the points, so
-/// that after a small move of the axis only stretches near an extreme need a second look.
+/// Extreme distances of consecutive stretches of the points. After a small move of the axis, only
+/// stretches near an extreme have to be searched again.
 class StretchExtremes {
  public:
   static constexpr std::size_t kStretches = 1024;
 
-  /// For n points; the extremes are empty.
+  /// For n points, with no extremes yet.
   explicit StretchExtremes(std::size_t n);
-  /// Takes up the extremes of a block of points that begins with point `first` [mm].
+  /// Adds the extremes of a block of points that begins with point `first` [mm].
   void add(std::size_t first, double low_mm, double high_mm);
 
-  /// Points of stretch i: [i size, (i + 1) size), cut at n.
+  /// Points per stretch; stretch i holds the points [i size, (i + 1) size), cut at n.
   [[nodiscard]] std::size_t size() const { return size_; }
   /// Whether stretch i can hold an extreme after distances have changed by `change_mm` at most.
   [[nodiscard]] bool may_hold(std::size_t i, double change_mm) const;
@@ -42,12 +42,13 @@ class StretchExtremes {
   double highest_mm_ = 0.0;
 };
 
-/// Least and largest distance of n points, `distance_mm(i)` each; with `extremes`, of the stretches
-/// that can hold them after a change of the distances.
+/// Least and largest distance of n points.
 struct DistanceRange {
   double low_mm = std::numeric_limits<double>::infinity();
   double high_mm = 0.0;
 };
+/// Finds the least and largest of `distance_mm(i)` for i < n. With `extremes`, searches only the
+/// stretches that can hold them after distances have changed by `change_mm` at most.
 template <class Distance>
 [[nodiscard]] DistanceRange distance_range(std::size_t n, const Distance& distance_mm,
                                            const StretchExtremes* extremes = nullptr,
@@ -65,38 +66,39 @@ template <class Distance>
   return out;
 }
 
-/// What a pass over the points gives.
+/// Results of a pass over the points.
 template <int N>
 struct PassSums : NormalSums<N> {
-  double along_mm = 0.0;  ///< Mean of the places along the axis, from the origin [mm].
-  /// Mean of the unit vectors from the axis to the points, times the radius: their mean but for
-  /// their form [mm]; with matrix.
+  double along_mm = 0.0;  ///< Mean position of the points along the axis, from the origin [mm].
+  /// Mean of the unit vectors from the axis to the points, times the radius [mm]; equals the mean
+  /// of the points across the axis except for their form. With matrix only.
   Eigen::Vector2d across_mm = Eigen::Vector2d::Zero();
-  double lever = 0.0;  ///< No tilt moves a point by more than this times the move x; with matrix.
+  double lever = 0.0;  ///< A tilt moves a point by at most this times the move x; with matrix only.
 };
 
 /// Settings of a pass.
 struct PassOptions {
   bool matrix = true;                   ///< Otherwise the matrix stays zero.
-  StretchExtremes* extremes = nullptr;  ///< Receives the distances, where wanted.
+  StretchExtremes* extremes = nullptr;  ///< Receives the extreme distances, unless null.
   Simd simd = best_simd();
 };
 
 /// Gauss-Newton sums of the radial distances about a cylinder, in the unknowns of CylinderFrame and
 /// the radius: gradient (frame.row(p), -1).
 ///
-/// One pass, no copy, no square root or division where a point is within 0.2 % of the radius (the
-/// binomial series instead; there the matrix, not the right side, takes the place of a point in
-/// radii for its unit vector). Blocks of 1024 points are summed pairwise. A coordinate that is not
-/// finite makes `squares` so; a radius that is not positive makes them infinite.
+/// One pass without a copy. Points within 0.2 % of the radius need no square root or division: the
+/// binomial series takes their place, and the matrix, but not the right side, uses the position of
+/// a point in radii for its unit vector. Blocks of 1024 points are summed pairwise. A coordinate
+/// that is not finite makes `squares` not finite; a radius that is not positive makes it infinite.
 ///
-/// @param origin_mm  The frame of `frame` is relative to it.
+/// @param origin_mm  Origin to which `frame` is relative.
 [[nodiscard]] PassSums<5> cylinder_sums(std::span<const Eigen::Vector3d> points_mm,
                                         const Eigen::Vector3d& origin_mm,
                                         const CylinderFrame& frame, double radius_mm,
                                         const PassOptions& options = {});
 
-/// The same about a circle; unknowns: centre and radius. Centre relative to the origin.
+/// The same sums about a circle, in the unknowns centre and radius. The centre is relative to the
+/// origin.
 [[nodiscard]] PassSums<3> circle_sums(std::span<const Eigen::Vector2d> points_mm,
                                       const Eigen::Vector2d& origin_mm,
                                       const Eigen::Vector2d& center_mm, double radius_mm,

@@ -14,10 +14,11 @@ namespace {
 
 using Plan = std::unique_ptr<fftw_plan_s, void (*)(fftw_plan)>;
 
-/// Nothing is timed and no alignment is used: the same transform, and the same bits, every time.
+/// Plans without timing and without alignment, so that every run uses the same transform and gives
+/// the same bits.
 constexpr unsigned kFlags = FFTW_ESTIMATE | FFTW_UNALIGNED;
 
-/// FFTW makes and destroys plans one at a time; it executes them side by side.
+/// Guards the making and destroying of plans; FFTW allows only their execution in parallel.
 std::mutex& planning() {
   static std::mutex mutex;
   return mutex;
@@ -36,7 +37,7 @@ void execute(const Make& make) {
   fftw_execute(planned().get());
 }
 
-/// FFTW's complex is two doubles, as std::complex is by the standard.
+/// FFTW's complex number is two doubles, as std::complex is by the standard.
 fftw_complex* raw(std::vector<Complex>& values) {
   return reinterpret_cast<fftw_complex*>(values.data());
 }
@@ -74,7 +75,7 @@ std::vector<double> decimated(std::span<const double> series, std::size_t count,
   const double last = 0.5 * static_cast<double>(count);
   const double scale = static_cast<double>(count) / static_cast<double>(series.size());
   for (std::size_t k = 0; k < f.size(); ++k) {
-    // A step instead of the cosine would ring along the whole turn where its ends do not meet.
+    // A step instead of the cosine would ring along the whole turn if its ends do not meet.
     const double beyond = (static_cast<double>(k) - first) / (last - first);
     f[k] *= scale * (beyond > 0.0 ? 0.5 + 0.5 * std::cos(std::numbers::pi * beyond) : 1.0);
   }

@@ -17,20 +17,19 @@ using Spectrum = std::vector<Complex>;
 [[nodiscard]] Spectrum spectrum(std::span<const double> series);
 
 /// The real series of N values with that half spectrum.
-/// @param half  floor(N/2) + 1 values; the imaginary parts of k = 0 and k = N/2 are not looked at.
+/// @param half  floor(N/2) + 1 values; the imaginary parts of k = 0 and k = N/2 are ignored.
 [[nodiscard]] std::vector<double> series_of(std::span<const Complex> half, std::size_t count);
 
-/// A periodic series on fewer samples, without what those cannot carry: undulations up to `kept`
-/// and 3/8 of `count` stay as they are, a raised cosine takes the rest away up to count/2, so that
-/// none comes back as a lower one. The mean of white noise falls with all values, not with those
-/// kept.
+/// Reduces a periodic series to fewer samples without aliasing. Undulations up to `kept` and 3/8 of
+/// `count` remain unchanged; a raised cosine attenuates the others up to count/2, so that none is
+/// aliased. White noise is averaged over all values, not only over those kept.
 ///
-/// @param series  count times a whole number of values.
-/// @param kept    Highest undulation needed whole; < count/2.
+/// @param series  A whole multiple of `count` values.
+/// @param kept    Highest undulation to be kept unchanged; < count/2.
 [[nodiscard]] std::vector<double> decimated(std::span<const double> series, std::size_t count,
                                             double kept = 0.0);
 
-/// The last undulation that decimated() leaves as it is.
+/// The highest undulation that decimated() leaves unchanged.
 [[nodiscard]] double last_untouched(std::size_t count, double kept);
 
 }  // namespace rondure::fit

@@ -16,25 +16,25 @@ namespace rondure::fit {
 namespace {
 
 constexpr int kIterationLimit = 3000;
-/// After so many iterations only half of each step is taken, then a quarter, then an eighth: where
-/// strong undulations lie next to the cut-off the full step overshoots for ever. A line that
-/// settles does so with any share.
+/// After this many iterations only half of each step is taken, then a quarter, then an eighth. With
+/// strong undulations next to the cut-off, full steps would overshoot without end. The share of the
+/// step does not change the line to which the iteration converges.
 constexpr int kIterationsPerDamping = 100;
 constexpr int kDampings = 3;
 constexpr double kStandardised = 4.4478;  // 3 standard deviations: median|e| = 0.67449 sigma
 constexpr double kSettledStep = 1e-9;
-/// Weight of a neighbourhood below which its mean is round-off of the transform.
+/// If the weight of a neighbourhood is below this, its mean is round-off of the transform.
 constexpr double kLeastWeight = 1e-6;
-/// The floor of the scale over the largest change of the mean line by one more filtering. A spike
-/// lifts the first line by a bump b, of which the second filtering takes (1 - 1/sqrt(2)) b; at
-/// twice b the points beside the spike stay inside, and what the filter takes from smooth
-/// undulations has a weight above 0.95.
+/// Floor of the scale, as a multiple of the largest change of the mean line by a second filtering.
+/// A spike lifts the first line by a bump b, of which the second filtering removes
+/// (1 - 1/sqrt(2)) b. With a floor of twice b the points beside the spike stay inside, and the
+/// parts that the filter removes from smooth undulations have a weight above 0.95.
 constexpr double kFloor = 2.0 / (1.0 - 1.0 / std::numbers::sqrt2);
 
-/// Where the scale of the residuals comes from.
+/// Source of the scale of the residuals.
 enum class Scale {
-  kMedian,   ///< The standard's.
-  kFloored,  ///< The same, not below what the filter itself takes from its mean line.
+  kMedian,   ///< From their median, as in the standard.
+  kFloored,  ///< The same, but not below the floor.
 };
 
 std::vector<double> gaussian_mean(std::span<const double> r, double cutoff) {
@@ -67,7 +67,7 @@ double greatest_step(std::span<const double> a, std::span<const double> b) {
   return out;
 }
 
-/// The iteration, for a profile whose mean is 0.
+/// Iterates the mean line of a profile whose mean is 0.
 core::Result<RobustMeanLine> settled_line(const std::vector<double>& r, double cutoff_upr,
                                           Scale scale) {
   RobustMeanLine out{gaussian_mean(r, cutoff_upr), 0, scale == Scale::kFloored};
@@ -113,8 +113,8 @@ core::Result<RobustMeanLine> robust_mean_line(std::span<const double> r_mm, doub
   std::vector<double> r(r_mm.begin(), r_mm.end());
   for (double& value : r) value -= mean;
   auto line = settled_line(r, cutoff_upr, Scale::kMedian);
-  // A smooth profile leaves residuals that are not noise but what the filter takes from its
-  // undulations: their median says nothing of the places where these are largest.
+  // The residuals of a smooth profile are not noise, but the parts of its undulations that the
+  // filter removes; their median is no measure of the largest ones.
   if (!line) line = settled_line(r, cutoff_upr, Scale::kFloored);
   if (!line) return line;
   for (double& value : line->r_mm) value += mean;

@@ -18,7 +18,7 @@
 namespace rondure::fit {
 namespace {
 
-/// Descents on the points nearest to the sides of a zone, each from where the last one ended.
+/// Most descents on the points nearest to the sides of a zone; each starts at the last result.
 constexpr int kClosePasses = 10;
 
 double minimised(const Extremes& zone, const ZoneWeights& weights) {
@@ -30,13 +30,14 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::asin(std::min(1.0, a.cross(b).norm()));
 }
 
-/// Searches of the axes of one reference, one scope after the other.
+/// Searches the axes of one reference, one scope after the other.
 class ScopeSearcher {
  public:
   ScopeSearcher(SpacePoints points, const GlobalSearchOptions& options, const ZoneWeights& weights,
                 const AxisReach& reach, CylinderZoneFitter& fitter)
       : points_(points), options_(options), weights_(weights), reach_(reach), fitter_(fitter) {}
 
+  /// Searches one scope.
   /// @return Whether the certificate is now global.
   bool run(const AxisScope& scope, AxisProof& proof) const {
     const auto directions = directions_of(scope, proof.half_length);
@@ -86,9 +87,9 @@ class ScopeSearcher {
     return minimised(zone, weights_);
   }
 
-  /// The optimum below a better axis. The descent of many points begins with a sample of them, and
-  /// that may lead it back to where the search came from; then the points nearest to the sides,
-  /// which a descent works on all at once, are asked.
+  /// Descends from a better axis to its optimum. With many points the descent begins on a sample,
+  /// which may lead it back to the previous optimum. In that case it uses the points nearest to the
+  /// sides, few enough to be worked on all at once.
   [[nodiscard]] CylinderZone descended(const Axis& better, double value) const {
     CylinderZone out = fitter_.fit_from(points_, better, weights_);
     if (points_.size() <= kAllWorked || value_about(out.place) < value) return out;
@@ -111,7 +112,7 @@ class ScopeSearcher {
       const double reached = value_about(next.place);
       if (!(reached < value)) return out;
       out = next;
-      // The optimum of some points that holds them all is that of all.
+      // If the zone of some points holds all points, their optimum is that of all.
       if (reached <= minimised({next.inner_radius_mm, next.outer_radius_mm}, weights_) +
                          1e-12 * next.outer_radius_mm) {
         return out;
@@ -122,7 +123,7 @@ class ScopeSearcher {
     return out;
   }
 
-  /// Middle of the zone about an axis.
+  /// Mean radius of the zone about an axis.
   [[nodiscard]] double middle_of(const Axis& axis) const {
     double low = std::numeric_limits<double>::infinity();
     double high = 0.0;
@@ -136,7 +137,7 @@ class ScopeSearcher {
   [[nodiscard]] bool minimum_zone() const { return weights_.outer > 0.0 && weights_.inner > 0.0; }
   [[nodiscard]] bool inscribed() const { return weights_.outer == 0.0; }
 
-  /// Half angle in which an axis within reach over the length of the points can lie.
+  /// Half angle of the cone of axes that stay within reach over the length of the points.
   [[nodiscard]] double reached_angle(double half_length) const {
     return std::min(10.0 * core::kDegree, std::atan2(reach_.limit_mm, half_length));
   }
@@ -158,7 +159,7 @@ class ScopeSearcher {
     return fmt::format("within {:.6g} deg of nominal", scope.cone_rad / core::kDegree);
   }
 
-  /// Why the claimed axis cannot be compared with those of a scope; empty when it can.
+  /// The reason why the claimed axis cannot be compared with those of a scope; empty if it can.
   [[nodiscard]] std::string outside(const AxisProof& proof, const AxisScope& scope) const {
     if (inscribed()) {
       if (within_reach(proof)) return {};
@@ -175,12 +176,13 @@ class ScopeSearcher {
   [[nodiscard]] bool within_reach(const AxisProof& proof) const {
     const double angle = angle_between(proof.axis.direction, reach_.about.direction);
     const double apart = distance_mm(reach_.about, proof.axis.point_mm);
-    // An inscribed one is held to the reach at its ends, a circumscribed one in the middle only.
+    // An inscribed axis must keep the reach at its ends, a circumscribed one only in the middle.
     const double ends = inscribed() ? proof.half_length * std::tan(angle) : 0.0;
     return angle <= 10.0 * core::kDegree && apart + ends <= reach_.limit_mm;
   }
 
-  /// The next place of the search. @return false where it is not one the reference may take.
+  /// Takes over the next axis of the search.
+  /// @return false if the reference may not lie there.
   [[nodiscard]] bool take(AxisProof next, AxisProof& proof) const {
     proof.linear_programs += next.linear_programs;
     if (!minimum_zone() && !within_reach(next)) {
@@ -227,7 +229,7 @@ AxisProof prove_axis(SpacePoints points_mm, const CylinderZone& found, const Zon
   const double width = out.proven.zone.width();
   out.certificate =
       certify_local<4>(out.proven.proof, width, round_off, "next to the least-squares axis");
-  // All points on one cylinder to round-off: nothing is left to prove, no zone is narrower than 0.
+  // All points are on one cylinder to round-off. This is global, as no zone is narrower than 0.
   if (weights.outer > 0.0 && weights.inner > 0.0 && width <= 16.0 * round_off) {
     out.certificate = {Certificate::Kind::kGlobal, "all directions", width, ""};
   }
@@ -241,7 +243,7 @@ void search_scopes(SpacePoints points_mm, const CylinderProofOptions& options,
   for (const AxisScope& scope : options.scopes) {
     if (proof.certificate.kind == Certificate::Kind::kGlobal) return;
     if (searcher.run(scope, proof)) return;
-    // The scope of an inscribed reference is its reach, whatever was asked for.
+    // The scope of an inscribed reference is always its reach, whatever the options name.
     if (weights.outer == 0.0) return;
   }
 }

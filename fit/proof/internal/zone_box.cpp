@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kBisections = 10;
 
-/// Weak duality for one box: the multipliers of its programme and what they prove for any width.
+/// Weak duality for one box: the multipliers of its programme, and the bounds that they prove.
 class BoxProof {
  public:
   BoxProof(SpacePoints points, const ZoneBox& box, double guess_radius, const Contacts& outer,
@@ -24,14 +24,14 @@ class BoxProof {
     normalise(inner_);
   }
 
-  /// Whether every axis of the box has a zone wider than `width`, with `slack` to spare.
+  /// Whether every axis of the box has a zone wider than `width`, with a margin of `slack`.
   [[nodiscard]] bool proves(double width, double slack) const {
     if (outer_.empty() || inner_.empty()) return false;
     const double asked = width + slack;
     return least_sum(1.0, 1.0 + asked / radius_) > asked * (radius_ + asked) + slack * radius_;
   }
 
-  /// Lower bound of  outer * max r^2 - inner * min r^2  over the box, one factor being 0.
+  /// Lower bound of  outer * max r^2 - inner * min r^2  over the box, where one factor is 0.
   [[nodiscard]] double one_side(const ZoneWeights& weights, double slack) const {
     if (outer_.empty() == (weights.outer > 0.0) || inner_.empty() == (weights.inner > 0.0))
       return -std::numeric_limits<double>::infinity();
@@ -56,11 +56,11 @@ class BoxProof {
     const double h = box_.half_side_mm;
     const double t = box_.lean;
     double least = sums.constant - h * sums.across.lpNorm<1>() - t * sums.tilt.norm();
-    // |o|^2 does not cancel where the multipliers of the two sides differ.
+    // |o|^2 does not cancel if the multipliers of the two sides differ.
     double quadratic = std::min(0.0, outer - inner) * 2.0 * h * h;
     quadratic -= 2.0 * std::abs(sums.heights) * std::sqrt(2.0) * h * t;
     quadratic += std::min(0.0, least_eigenvalue(sums.quadratic)) * t * t;
-    if (inner == 0.0) {  // |o + s t|^2 as a whole is not negative
+    if (inner == 0.0) {  // |o + s t|^2 is not negative as a whole
       const Eigen::Matrix2d leant = sums.quadratic - sums.squares * Eigen::Matrix2d::Identity();
       quadratic = std::max(quadratic, std::min(0.0, least_eigenvalue(leant)) * t * t);
     }
@@ -73,7 +73,7 @@ class BoxProof {
     Eigen::Vector2d across = Eigen::Vector2d::Zero();     ///< Linear in the crossing point.
     Eigen::Vector2d tilt = Eigen::Vector2d::Zero();       ///< Linear in the tilt.
     double heights = 0.0;                                 ///< Half the factor of o.t.
-    double squares = 0.0;                                 ///< Of the heights.
+    double squares = 0.0;                                 ///< Sum of the squared heights.
     Eigen::Matrix2d quadratic = Eigen::Matrix2d::Zero();  ///< In the tilt.
     double rest = 0.0;                                    ///< Bound of third and higher orders.
   };
@@ -137,7 +137,7 @@ ZoneRows<K> linear_rows(SpacePoints points, const ZoneBox& box) {
   return rows;
 }
 
-/// The axis of the box that a programme prefers.
+/// The axis of the box at which the programme has its optimum.
 template <int K>
 ZoneBoxBound preferred(const ZoneBox& box, const ZoneStep<K>& step) {
   ZoneBoxBound out;
@@ -166,7 +166,7 @@ ZoneBoxBound bound_zone_box(SpacePoints points_mm, const ZoneBox& box, double wi
                             double tolerance_mm, double slack_mm) {
   const ZoneRows<K> rows = linear_rows<K>(points_mm, box);
   const double nearest = *std::min_element(rows.distances().begin(), rows.distances().end());
-  // Any radius would do; the one of the data is the sharpest.
+  // Any radius is valid; that of the data gives the sharpest bound.
   const double radius = std::max(std::sqrt(nearest), width_mm);
   const auto step =
       solve_zone_program<K>(rows, 1.0, {1.0, 1.0 + width_mm / radius}, kBoundPivotLimit);
@@ -179,7 +179,7 @@ ZoneBoxBound bound_zone_box(SpacePoints points_mm, const ZoneBox& box, double wi
     return out;
   }
   double high = width_mm;
-  // Near the width asked for every digit counts, far below it a few do.
+  // Near the stated width every digit counts; far below it a few are enough.
   if (proof.proves(width_mm - tolerance_mm, slack_mm)) out.lower_mm = width_mm - tolerance_mm;
   for (int i = 0; i < kBisections; ++i) {
     const double middle = 0.5 * (out.lower_mm + high);

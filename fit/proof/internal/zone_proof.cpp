@@ -29,7 +29,7 @@ ProvenZone<Frame> prove_zone(std::span<const typename Frame::Point> points,
   std::vector<ContactRow<K>> outer;
   std::vector<ContactRow<K>> inner;
   for (std::size_t k = 0; k < blocks.low.size(); ++k) {
-    // A block that has no contact by its squares, with some room for their rounding, is passed by.
+    // Skips a block whose squares, with a margin for their rounding, exclude a contact.
     if (std::sqrt(blocks.high[k]) < high - slack && std::sqrt(blocks.low[k]) > low + slack)
       continue;
     const std::size_t end = std::min((k + 1) * kProofBlock, points.size());

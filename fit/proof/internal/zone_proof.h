@@ -9,16 +9,17 @@
 
 namespace rondure::fit {
 
-/// A zone as it is stated: about a place that has its final digits.
+/// A zone as it will be reported: about a place with its final digits.
 template <class Frame>
 struct ProvenZone {
-  Extremes zone;  ///< Of all points about the place.
+  Extremes zone;  ///< Extreme distances of all points from the place.
   LocalProof<Frame::kUnknowns> proof;
 };
 
-/// States the zone about a place and proves what the points within round-off of it can.
+/// States the zone about a place and derives the local proof from the points in contact to
+/// round-off. Cost: one pass over all points, and the contacts.
 ///
-/// @param frame  Relative to `origin`. Cost: one pass over all points, and the contacts.
+/// @param frame  The place, relative to `origin`.
 template <class Frame>
 [[nodiscard]] ProvenZone<Frame> prove_zone(std::span<const typename Frame::Point> points,
                                            const typename Frame::Point& origin, const Frame& frame,

@@ -5,14 +5,14 @@
 #include <limits>
 #include <vector>
 
-#include "fit/proof/local_certificate.h"
 #include "fit/geometry/points.h"
+#include "fit/proof/local_certificate.h"
 #include "fit/zone/simplex.h"
 
 namespace rondure::fit {
 namespace {
 
-/// Centres are sought up to this many times the extent of the points from their mean.
+/// Greatest distance of centres from the mean of the points, as a multiple of their extent.
 constexpr double kReach = 64.0;
 
 }  // namespace
@@ -31,9 +31,9 @@ CenterRegion center_region(std::span<const Eigen::Vector2d> points_mm, double wi
   const auto least = solve_zone_program<2>(rows, kReach, kMinimumZone, kBoundPivotLimit);
   out.center_mm = mean + reach * least.step;
 
-  // From here on the programme is not trusted: only its centre is used. Points up to `depth` off
-  // the contacts lose area but may gain growth, where the contacts themselves lie close together;
-  // with all points the growth is that of a strip.
+  // The proof below does not rely on the programme; it uses only its centre. Including points up to
+  // `depth` off the contacts loses area but may gain growth where the contacts lie close together;
+  // with all points included the growth is that of a strip.
   std::vector<double> squares;
   for (const Eigen::Vector2d& p : points_mm) squares.push_back((p - out.center_mm).squaredNorm());
   const auto [near, far] = std::minmax_element(squares.begin(), squares.end());
@@ -41,7 +41,7 @@ CenterRegion center_region(std::span<const Eigen::Vector2d> points_mm, double wi
   const double size = std::sqrt(*far);
   const double spare = *far - *near - width_mm * (2.0 * radius + width_mm);
   const double contact = 1e-12 * reach * reach;
-  // At a distance d (max norm) a zone as narrow as asked for needs, for each depth,
+  // At a distance d (max norm) a zone of at most the given width needs, for each depth,
   //     spare - 2 depth + growth d <= 0.
   double least_distance = 0.0;
   double most_distance = std::numeric_limits<double>::infinity();
@@ -79,7 +79,7 @@ CenterRegion one_sided_region(std::span<const Eigen::Vector2d> points_mm,
                               const Eigen::Vector2d& center_mm, double half_side_mm) {
   const bool outside = weights.outer > 0.0;
   const double sign = outside ? 1.0 : -1.0;
-  // Signed so that the side asked for is the greatest.
+  // The sign makes the side in question the greatest.
   std::vector<double> squares;
   for (const Eigen::Vector2d& p : points_mm)
     squares.push_back(sign * (p - center_mm).squaredNorm());
@@ -89,7 +89,7 @@ CenterRegion one_sided_region(std::span<const Eigen::Vector2d> points_mm,
   const double contact = 1e-12 * size * size;
   const double unit = std::max(std::abs(spare), contact);
 
-  /// Distances (max norm) without a centre as good.
+  /// Interval of distances (max norm) that contains no equally good centre.
   struct Gap {
     double from = 0.0;
     double to = std::numeric_limits<double>::infinity();
@@ -107,8 +107,9 @@ CenterRegion one_sided_region(std::span<const Eigen::Vector2d> points_mm,
     const std::span<const ContactRow<2>> side = touching;
     const double growth =
         2.0 * size * first_order_growth<2>(outside ? side : none, outside ? none : side, weights);
-    // At a distance e the greatest is  most - depth + growth e + e^2  at least on the outside,
-    // where |c|^2 helps, and  most - depth + growth e - 2 e^2  on the inside, where it does not.
+    // At a distance e the greatest value is at least  most - depth + growth e + e^2  on the
+    // outside, where |c|^2 helps, and  most - depth + growth e - 2 e^2  on the inside, where it
+    // does not.
     const double need = spare + depth;
     const double square = growth * growth + (outside ? 4.0 : -8.0) * need;
     if (outside && square < 0.0) return {CenterRegion::Kind::kEmpty, center_mm, 0.0};

@@ -11,7 +11,7 @@
 namespace rondure::fit {
 namespace {
 
-constexpr std::size_t kLookedAt = 200;  // points looked at
+constexpr std::size_t kLookedAt = 200;  // points of the sample
 constexpr int kDirections = 240;        // on the half sphere, some 9 deg apart
 constexpr std::size_t kKept = 8;
 const double kApart = std::cos(12.0 * core::kDegree);
