@@ -12,8 +12,7 @@ namespace rondure::wire {
 /// Settings of lines_over().
 struct ByteLinesOptions {
   std::size_t max_line_bytes = std::size_t{1} << 20;  ///< A longer line ends the connection.
-  Clock* clock =
-      nullptr;  ///< Measures the time limits; nullptr: system_clock(). Outlives the transport.
+  Clock* clock = nullptr;  ///< For time limits; nullptr: system_clock(). Outlives the transport.
 };
 
 /// Returns a transport that cuts lines out of a byte stream. A line that arrives in pieces is put

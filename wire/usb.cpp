@@ -191,8 +191,7 @@ class OpenDevice final : public UsbDevice {
       return tl::unexpected(
           usb::fault_of(code, info_, fmt::format("sending on endpoint {:#04x}", endpoint)));
     }
-    bytes.resize(
-        static_cast<std::size_t>(count));  // after a timeout: the bytes received until then
+    bytes.resize(static_cast<std::size_t>(count));  // after a timeout: the bytes up to then
     return bytes;
   }
 

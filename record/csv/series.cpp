@@ -35,7 +35,7 @@ std::string_view name_in_file(const WantedColumn& column, std::span<const Column
   return column.name;
 }
 
-/// Why a field of the header that nobody wants is refused.
+/// The error for a header field that is not wanted.
 core::Error unknown_column(std::string_view field, std::span<const WantedColumn> wanted) {
   for (const WantedColumn& column : wanted) {
     const std::string_view unit = unit_of_column(column.name);
@@ -48,11 +48,11 @@ core::Error unknown_column(std::string_view field, std::span<const WantedColumn>
                                   quoted_text(field), list_of(wanted)));
 }
 
-/// A table's columns, as the file orders them.
+/// The columns of a table, in the order of the file.
 struct Layout {
-  std::vector<std::string_view> fields;  ///< Of the header.
-  std::vector<std::size_t> wanted;       ///< For each column of the result, its place in `wanted`.
-  /// For each field its place in the result, or nothing for one that is passed over.
+  std::vector<std::string_view> fields;  ///< Fields of the header.
+  std::vector<std::size_t> wanted;       ///< For each column of the result, its index in `wanted`.
+  /// For each field its index in the result, or nothing for a skipped one.
   std::vector<std::optional<std::size_t>> places;
 };
 

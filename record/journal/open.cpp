@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Why a journal takes nothing more, or empty.
+/// The reason why a journal accepts no more rows, or empty.
 std::string why_not_to_go_on(const ReadJournal& journal) {
   if (journal.record.sealed) return "the run is finished and its journal is sealed";
   if (journal.listed) {
@@ -77,7 +77,7 @@ core::Result<Journal> Journal::reopen(const fs::path& directory) {
                       fmt::format("the run cannot go on in {}: {}", file.string(), reason),
                       file.string());
   }
-  if (fs::is_symlink(file, ignored)) {  // SQLite keeps the log beside what it leads to
+  if (fs::is_symlink(file, ignored)) {  // SQLite keeps the log beside the link's target
     return core::fail(
         core::Code::kFile,
         fmt::format("{} is a link; a run goes on only where its journal stands", file.string()),
@@ -92,7 +92,7 @@ core::Result<Journal> Journal::reopen(const fs::path& directory) {
     int timeout_ms = 0;
     impl->sql << "pragma busy_timeout = 0", soci::into(timeout_ms);  // a run holds it for hours
     keep_log(impl->sql);
-    require_schema(impl->sql, kSchemaVersion);  // of the file itself, now that it is ours alone
+    require_schema(impl->sql, kSchemaVersion);  // of the file itself, now locked by this process
     impl->prepare();
   } catch (const std::exception& exception) {
     return core::fail(core::Code::kJournal,

@@ -5,8 +5,8 @@
 namespace rondure::record {
 namespace {
 
-// Numbers that were measured have the type `any`: a column of type `real` would lose the sign of
-// -0.0, because SQLite packs whole numbers there as integers.
+// Measured numbers have the type `any`: a column of type `real` would lose the sign of -0.0,
+// because SQLite packs whole numbers there as integers.
 constexpr std::array<Table, 20> kTables = {{
     {"header",
      R"(create table header (
