@@ -8,7 +8,7 @@
 #include "cmm/ipp/internal/errors.h"
 #include "core/units.h"
 
-// What is told: positions, points, scans, temperatures.
+// Reports: positions, points, scans, temperatures.
 
 namespace rondure::cmm::ipp {
 namespace {
