@@ -48,9 +48,9 @@ struct GeometricErrors {
   Eigen::Vector3d tip_offset_mm = Eigen::Vector3d::Zero();
 };
 
-/// Where the tip really is minus where the scales say, at a reading: the 21 parametric errors of a
-/// bridge machine whose y axis carries x, which carries z, which carries the probe. Rigid bodies,
-/// small angles:
+/// True tip position minus scale reading, at a reading: the 21 parametric errors of a bridge
+/// machine whose y axis carries x, which carries z, which carries the probe. Rigid bodies, small
+/// angles:
 ///   e = sum over the axes k of  t_k + r_k x L_k  +  squareness,
 ///   q = reading - tip offset (positions of the axes),
 ///   L_z = tip offset, L_x = L_z + (0, 0, q_z), L_y = L_x + (q_x, 0, 0).
@@ -87,7 +87,7 @@ struct PretravelLobe {
   double phase_rad = 0.0;
 };
 
-/// A cantilever of round section that the trigger force bends: 64 F L^3 / (3 pi E D^4).
+/// A cantilever of circular section bent by the trigger force: 64 F L^3 / (3 pi E D^4).
 struct StylusShaft {
   double length_mm = 0.0;
   double diameter_mm = 1.0;
@@ -106,24 +106,24 @@ struct MachineErrors {
   double repeatability_mm = 0.0;  ///< Standard deviation of a touch along its approach direction.
   double tip_radius_error_mm = 0.0;  ///< Real minus nominal radius of the ball.
   GeometricErrors geometry;
-  double pretravel_mm = 0.0;    ///< Mean way across the stylus from contact to trigger.
-  double pretravel_z_mm = 0.0;  ///< The same along the stylus.
+  double pretravel_mm = 0.0;    ///< Mean travel across the stylus from contact to trigger.
+  double pretravel_z_mm = 0.0;  ///< Mean travel along the stylus.
   std::vector<PretravelLobe> pretravel_lobes;
   StylusShaft stylus;
   Eigen::Vector3d backlash_mm = Eigen::Vector3d::Zero();  ///< Reading approached from below minus
                                                           ///< from above, each axis.
   double scale_expansion_1_K = 0.0;                       ///< Of the scales.
-  double scale_temperature_degC = 20.0;                   ///< Real, and as read.
+  double scale_temperature_degC = 20.0;                   ///< True value, also as read.
   Eigen::Vector3d drift_mm =
-      Eigen::Vector3d::Zero();   ///< Of the readings of a fixed point, finally.
+      Eigen::Vector3d::Zero();   ///< Final drift of the readings of a fixed point.
   double drift_time_s = 3600.0;  ///< Its time constant, > 0.
 };
 
-/// How the points of a simulated scan lie: a real one gives about the step that was asked for, on
+/// Positions of the points of a simulated scan: a real machine keeps the requested step only on
 /// average. All zero: even steps from the commanded start on.
 struct ScanScatter {
-  double start_rad = 0.0;      ///< The first point lies at most so far beside the start; uniform.
-  double step_1 = 0.0;         ///< Each step is longer or shorter by at most this share; uniform.
+  double start_rad = 0.0;      ///< Largest offset of the first point from the start; uniform.
+  double step_1 = 0.0;         ///< Largest relative change of a step; uniform.
   double dropped_share = 0.0;  ///< Share of the points that are missing, 0..1.
 
   [[nodiscard]] bool even() const {

@@ -6,8 +6,8 @@
 
 namespace rondure::cmm {
 
-// What goes to a machine and comes from it lies on a decimal grid that survives a line of text with
-// at most 16 digits a number. Each function leaves alone what lies on the grid already.
+// Values sent to and received from a machine lie on a decimal grid, so that they survive a line of
+// text with at most 16 digits per number. Each function leaves a value on the grid unchanged.
 
 inline constexpr double kStepsPerMm = 1e10;
 inline constexpr double kStepsPerUnit = 1e15;  ///< Of the components of a direction.
@@ -18,13 +18,13 @@ inline constexpr double kStepsPerKelvin = 1e6;
 [[nodiscard]] Eigen::Vector3d on_grid_mm(const Eigen::Vector3d& p_mm);
 
 /// A direction with its components on the grid; its length is 1 to the last bits. A vector whose
-/// length differs from 1 by more than 1e-9 is scaled before.
+/// length differs from 1 by more than 1e-9 is normalised first.
 [[nodiscard]] Eigen::Vector3d direction_on_grid(const Eigen::Vector3d& direction);
 
-/// On the grid in degrees.
+/// The angle on the grid in degrees.
 [[nodiscard]] double angle_on_grid(double angle_rad);
 
-/// As the machine executes it. A command or reading that is not finite stays so.
+/// The command as the machine executes it. A command or reading that is not finite stays so.
 [[nodiscard]] TouchCommand on_grid(const TouchCommand& command);
 [[nodiscard]] ScanCircleCommand on_grid(const ScanCircleCommand& command);
 [[nodiscard]] TouchReading on_grid(const TouchReading& reading);

@@ -13,7 +13,7 @@
 namespace rondure::cmm {
 
 // The contract of every coordinate measuring machine with a touch probe.
-// tests/cmm/machine_contract.h holds each driver to it.
+// tests/cmm/machine_contract.h checks each driver against it.
 //
 // Frames: W is the machine frame. Every position is the centre of the tip, never a surface point.
 // Units: mm, mm/s, s, rad, degC.
@@ -33,14 +33,15 @@ struct TouchCommand {
   double search_mm = 3.0;
 };
 
-/// What a touch, or one point of a scan, gave.
+/// Result of a touch, or of one point of a scan.
 struct TouchReading {
   Eigen::Vector3d tip_W_mm =
       Eigen::Vector3d::Zero();             ///< Tip centre at the trigger, machine frame, as read.
-  std::optional<double> temperature_degC;  ///< Of the part; none: nobody measured it.
+  std::optional<double> temperature_degC;  ///< Of the part; none: not measured.
   double time_s = 0.0;                     ///< Machine clock at the trigger.
-  double tip_radius_mm = 0.0;  ///< Effective radius the machine works with; 0: it says none.
-  std::optional<double> scale_temperature_degC;  ///< Of the scales of the machine; none: as above.
+  double tip_radius_mm = 0.0;  ///< Effective radius the machine works with; 0: not reported.
+  /// Of the scales of the machine; none: not measured.
+  std::optional<double> scale_temperature_degC;
 };
 
 /// One circle to scan on a round surface, at the scan speed.
@@ -57,10 +58,10 @@ struct ScanCircleCommand {
   Eigen::Vector3d start_tip_W_mm =
       Eigen::Vector3d::UnitX();  ///< Tip centre at the nominal contact of the first point.
   bool inside = false;           ///< The surface surrounds the tip.
-  double sweep_rad = 0.0;        ///< May exceed one turn; negative: clockwise about the axis.
+  double sweep_rad = 0.0;        ///< May exceed one revolution; negative: clockwise about the axis.
   int points = 0;                ///< 3..kMaxScanPoints; a real machine may give a few more or less.
   double approach_mm = 3.0;
-  double search_mm = 3.0;  ///< How far the surface may be behind the circle before it is lost.
+  double search_mm = 3.0;  ///< Largest distance of the surface beyond the circle before it is lost.
 };
 
 /// Points of one scan, at most.
@@ -75,11 +76,11 @@ struct Speeds {
   friend bool operator==(const Speeds&, const Speeds&) = default;
 };
 
-/// What a machine can do.
+/// Capabilities of a machine.
 struct Capabilities {
-  std::string name;  ///< Of the machine, as it calls itself.
+  std::string name;  ///< Name that the machine reports.
   bool scans_circles = false;
-  std::string no_scans;            ///< Why not, where the machine says.
+  std::string no_scans;            ///< Reason, if the machine gives one.
   Speeds least;                    ///< Slowest speeds it accepts.
   Speeds greatest;                 ///< Fastest.
   std::vector<std::string> tools;  ///< Names for select_tool().
@@ -89,12 +90,12 @@ struct Capabilities {
       Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
 };
 
-/// How a machine stands.
+/// State of a machine.
 struct MachineStatus {
   bool homed = false;
-  bool stopped = false;  ///< stop() was called; recover() takes it back.
-  std::string tool;      ///< Active tool; "" when none is.
-  std::string fault;     ///< What the machine reports; "" when all is well.
+  bool stopped = false;  ///< stop() was called; recover() clears it.
+  std::string tool;      ///< Active tool; "": none.
+  std::string fault;     ///< Reported by the machine; "": none.
 };
 
 /// A coordinate measuring machine. A command that is refused moves nothing.
@@ -104,8 +105,8 @@ struct MachineStatus {
 ///   kCollision    contact during a move, or before a search; the machine stopped where it was
 ///   kUnreachable  a target outside the volume; no motion
 ///   kStopped      stop() was called; the motion has ended
-///   kMachine      any other fault: not homed, a command that is not finite or makes no sense, tool
-///                 unknown, line lost; `what` holds what the machine said
+///   kMachine      any other fault: not homed, a command that is not finite or invalid, tool
+///                 unknown, line lost; `what` holds the message of the machine
 class Machine {
  public:
   virtual ~Machine() = default;
@@ -118,11 +119,11 @@ class Machine {
   [[nodiscard]] virtual Capabilities capabilities() const = 0;
   [[nodiscard]] virtual core::Result<MachineStatus> status() = 0;
 
-  /// References the axes and goes to the park position above everything. First call of a run:
+  /// References the axes and goes to the park position above all obstacles. First call of a run:
   /// before it every motion is kMachine.
   [[nodiscard]] virtual core::Result<void> home() = 0;
-  /// Takes a tool by its name; moves to a rack where the machine has one. kMachine, naming the
-  /// tools there are, for another name.
+  /// Takes a tool by its name; moves to a rack where the machine has one. kMachine, with the names
+  /// of its tools, for an unknown name.
   [[nodiscard]] virtual core::Result<void> select_tool(const std::string& name) = 0;
   /// kOutOfRange, with the limit, when one of the speeds is beyond it; then none is changed.
   [[nodiscard]] virtual core::Result<void> set_speeds(const Speeds& speeds) = 0;
@@ -130,16 +131,16 @@ class Machine {
   /// Moves the tip centre in a straight line.
   [[nodiscard]] virtual core::Result<void> move_to(const Eigen::Vector3d& tip_W_mm) = 0;
   [[nodiscard]] virtual core::Result<TouchReading> touch(const TouchCommand& command) = 0;
-  /// Scans a circle; the readings in order along it. kMachine when the machine cannot scan, or
-  /// points or sweep are out of range. No reading is kept of a scan that failed.
+  /// Scans a circle. Returns the readings in order along it. kMachine when the machine cannot scan,
+  /// or points or sweep are out of range. The readings of a failed scan are discarded.
   [[nodiscard]] virtual core::Result<std::vector<TouchReading>> scan_circle(
       const ScanCircleCommand& command) = 0;
 
   /// Ends the motion in progress, whose command returns kStopped, as does every later motion until
   /// recover(). May be called from a signal handler and from another thread; returns at once.
   virtual void stop() noexcept = 0;
-  /// Takes back a stop, or a fault that can be put right from here; moves nothing. kMachine, with
-  /// what the machine says, when the fault stays.
+  /// Clears a stop, or a fault that can be cleared by command; moves nothing. kMachine, with the
+  /// message of the machine, when the fault stays.
   [[nodiscard]] virtual core::Result<void> recover() = 0;
 
   /// Tip centre now, machine frame [mm].

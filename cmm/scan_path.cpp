@@ -62,7 +62,7 @@ TouchCommand scan_point(const ScanCircleCommand& command, int index) {
 TouchCommand scan_point_at(const ScanCircleCommand& command, double angle_rad, int index) {
   const Vector3d& n = command.axis_W;
   Vector3d radius = radius_of(command);
-  radius -= n * n.dot(radius);  // the grid leaves the start a hair out of the plane
+  radius -= n * n.dot(radius);  // the grid leaves the start slightly out of the plane
   const Vector3d turned = std::cos(angle_rad) * radius + std::sin(angle_rad) * n.cross(radius);
   TouchCommand out;
   out.id = command.first_id + index;

@@ -5,19 +5,19 @@
 
 namespace rondure::cmm {
 
-/// Why a scan cannot be commanded (kMachine): not finite, no axis, a start on the axis, too many
-/// points. Only the command is looked at.
+/// Checks a scan command before it is sent (kMachine): not finite, no axis, a start on the axis,
+/// too many points. Only the command is checked.
 [[nodiscard]] core::Result<void> check_scan(const ScanCircleCommand& command);
 
 /// The touch that finds the surface at point `index` of a scan, 0..points; `points` is the end of
-/// the sweep. Its direction points along the radius, its number is that of the point.
+/// the sweep. Its direction is radial, its number is that of the point.
 [[nodiscard]] TouchCommand scan_point(const ScanCircleCommand& command, int index);
 
-/// The same at an angle from the start [rad], about the axis of the circle.
+/// The touch at an angle from the start [rad], about the axis of the circle.
 [[nodiscard]] TouchCommand scan_point_at(const ScanCircleCommand& command, double angle_rad,
                                          int index);
 
-/// Angle of a place from the start, about the axis of the circle [rad], in -pi..pi.
+/// Angle of a position from the start, about the axis of the circle [rad], in -pi..pi.
 [[nodiscard]] double scan_angle(const ScanCircleCommand& command, const Eigen::Vector3d& p_W_mm);
 
 /// Length of the expected path of the tip centre [mm].

@@ -51,7 +51,7 @@ core::Result<std::vector<Checksum>> read_checksums(const fs::path& directory) {
 
 core::Result<void> update_checksums(const fs::path& directory, const std::vector<Checksum>& files) {
   std::vector<Checksum> list;
-  std::error_code unknown;  // what cannot be looked at cannot be written either
+  std::error_code unknown;  // a list that cannot be examined cannot be written either
   if (fs::exists(directory / kChecksumsName, unknown)) {
     auto present = read_checksums(directory);
     if (!present) return core::fail(present.error());

@@ -23,8 +23,8 @@ struct Checksum {
 [[nodiscard]] core::Result<std::vector<Checksum>> read_checksums(
     const std::filesystem::path& directory);
 
-/// Puts lines into `directory`/SHA256SUMS in place of those of the same files, or behind them; the
-/// other lines stay. Makes the list when there is none. Errors as read_checksums(), kFile when it
+/// Updates `directory`/SHA256SUMS: a line replaces that of the same file or is appended; other
+/// lines stay. Creates the list when there is none. Errors as read_checksums(); kFile when it
 /// cannot be written.
 [[nodiscard]] core::Result<void> update_checksums(const std::filesystem::path& directory,
                                                   const std::vector<Checksum>& files);

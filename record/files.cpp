@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An open file of the system, closed when it leaves its scope.
+/// An open file descriptor, closed at the end of its scope.
 class OpenFile {
  public:
   OpenFile(const fs::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
@@ -27,7 +27,7 @@ class OpenFile {
 
   [[nodiscard]] bool ok() const { return fd_ >= 0; }
   [[nodiscard]] int fd() const { return fd_; }
-  /// False when the system could not keep what was written (network disks tell it only now).
+  /// False when the system could not store the data (network disks report this only on close).
   bool close() { return fd_ < 0 || ::close(std::exchange(fd_, -1)) == 0; }
 
  private:
@@ -41,7 +41,7 @@ tl::unexpected<core::Error> cannot(std::string_view verb, const fs::path& path, 
       path.string());
 }
 
-/// Writes every byte and flushes them to the disk; false leaves the reason in errno.
+/// Writes all bytes and flushes them to the disk; when false, errno has the reason.
 bool write_through(OpenFile& file, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::write(file.fd(), bytes.data(), bytes.size());
@@ -55,8 +55,8 @@ bool write_through(OpenFile& file, std::string_view bytes) {
 constexpr std::string_view kTemporaryPrefix = ".rondure-";
 constexpr std::string_view kTemporarySuffix = ".tmp";
 
-/// A name in the folder of `path` that nobody can foresee and nothing left behind has: numbers of
-/// processes repeat, in a container each program is number 1.
+/// A name in the folder of `path` that cannot be predicted and that no leftover file has. Process
+/// numbers repeat: in a container each program is number 1.
 fs::path temporary_name(const fs::path& path) {
   std::uint64_t number = 0;
   while (::getrandom(&number, sizeof number, 0) < 0 && errno == EINTR) {
@@ -93,7 +93,7 @@ std::string system_reason(int error_number) {
 }
 
 core::Result<std::string> read_file(const fs::path& path) {
-  // Nothing is waited for: a pipe without a writer would stop the program here for ever.
+  // Opened without waiting: a pipe without a writer would block the program forever.
   const OpenFile file(path, O_RDONLY | O_NONBLOCK | O_NOCTTY);
   if (!file.ok()) return cannot("read", path, errno);
   struct stat status = {};
@@ -122,13 +122,13 @@ core::Result<void> sync_directory(const fs::path& directory) {
   const fs::path name = directory.empty() ? fs::path(".") : directory;
   const OpenFile folder(name, O_RDONLY | O_DIRECTORY);
   if (!folder.ok()) return cannot("flush the folder", name, errno);
-  // EINVAL: file systems that have nothing to flush for a folder.
+  // EINVAL comes from file systems on which a folder needs no flush.
   if (::fsync(folder.fd()) != 0 && errno != EINVAL) return cannot("flush the folder", name, errno);
   return {};
 }
 
 void remove_temporaries(const fs::path& directory) {
-  std::error_code ignored;  // what cannot be removed does no harm
+  std::error_code ignored;  // a file that cannot be removed does no harm
   for (const auto& entry : fs::directory_iterator(directory, ignored)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with(kTemporaryPrefix) && name.ends_with(kTemporarySuffix)) {
@@ -138,10 +138,10 @@ void remove_temporaries(const fs::path& directory) {
 }
 
 core::Result<void> write_file(const fs::path& path, std::string_view bytes) {
-  std::error_code ignored;  // whatever cannot be looked at fails again below, with its reason
+  std::error_code ignored;  // an error here occurs again below, with its reason
   if (fs::is_directory(path, ignored)) return cannot("write", path, EISDIR);
   const fs::file_status there = fs::status(path, ignored);
-  if (fs::exists(there) && !fs::is_regular_file(there)) {  // it would be replaced by a file
+  if (fs::exists(there) && !fs::is_regular_file(there)) {  // a file would replace it
     return core::fail(
         core::Code::kFile,
         fmt::format("cannot write {}: it is a device or a pipe; name a file", path.string()),

@@ -7,7 +7,7 @@
 namespace rondure::record {
 namespace {
 
-/// Rows are only ever added.
+/// Copies the rows that are new. Rows are only ever added.
 template <class Row>
 bool append_new(const std::vector<Row>& all, std::vector<Row>& seen) {
   if (seen.size() == all.size()) return false;

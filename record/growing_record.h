@@ -10,24 +10,24 @@
 
 namespace rondure::record {
 
-/// What the journal of a run at work holds, for whoever watches from another thread. The journal
-/// adds each row after it is on disk: what is seen here is never more than what is kept. Every call
-/// is safe from any thread; a call of the run waits for nothing but the copy of what a watcher has
-/// not seen yet.
+/// A copy of the journal of a running measurement, for watchers in other threads. The journal adds
+/// each row after it is on disk, so that a watcher never sees a row that could still be lost. Every
+/// call is safe from any thread; a call of the run waits at most for the copy of the rows that a
+/// watcher has not seen yet.
 class GrowingRecord {
  public:
-  /// The run begins, or goes on, with this on record. Its header names the version that measures.
+  /// Starts, or resumes, with this record. Its header names the version that measures.
   void begin(RunRecord record);
   void add(std::span<const Touch> touches);
   void add(const PoseVisit& pose);
   void add(const Decision& decision);
   void mark_final(int pose_id);
-  /// The run ended so; a watcher sees no more of it.
+  /// Records the ending of the run; watchers receive nothing after it.
   void end(const std::string& ending, const core::Error* failure);
 
-  /// Brings the watcher's own copy up to date: O(what it has not seen), and the poses.
-  /// @param mine  Default-made at first, then only changed by this call.
-  /// @return  Whether there was anything new.
+  /// Brings the watcher's own copy up to date: O(new rows + poses).
+  /// @param mine  Default-constructed at first, then changed only by this call.
+  /// @return  Whether anything was new.
   bool catch_up(RunRecord& mine) const;
 
  private:

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestHolder = 300;
 
-/// "process 4711 on host lab3", as the holder wrote it; empty while it writes.
+/// "process 4711 on host lab3", as written by the holder; empty until then.
 std::string holder_of(int fd) {
   std::array<char, kLongestHolder> text{};
   const ssize_t count = ::pread(fd, text.data(), text.size(), 0);
@@ -38,7 +38,7 @@ bool write_holder(int fd) {
          ::pwrite(fd, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
 }
 
-/// Whether the name still leads to the open file: its last holder may have removed it meanwhile.
+/// Whether the name still refers to the open file: its last holder may have removed it meanwhile.
 bool is_in_place(int fd, const fs::path& file) {
   struct stat opened = {};
   struct stat named = {};
@@ -46,14 +46,14 @@ bool is_in_place(int fd, const fs::path& file) {
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// Why an open file is not a lock, or nothing. A second name (a hard link) would be emptied with
-/// it.
+/// Why an open file is not a lock, or nothing. A file with a second name (a hard link) is refused,
+/// because emptying the lock would empty it too.
 std::string_view why_no_lock(int fd) {
   struct stat opened = {};
   if (::fstat(fd, &opened) != 0 || !S_ISREG(opened.st_mode)) return "a pipe, a device or a folder";
   if (opened.st_nlink > 1) return "a second name of another file";
   const std::string holder = holder_of(fd);
-  // Where the power failed its bytes may never have reached the disk: empty, or zeros.
+  // After a power failure the contents may be missing: empty, or zeros.
   const bool ours = holder.empty() || holder.front() == '\0' || holder.starts_with(kHolderBegins);
   return ours ? "" : "a file of something else";
 }
@@ -79,7 +79,7 @@ tl::unexpected<core::Error> cannot_lock(const fs::path& file, int error_number) 
 core::Result<RunLock> RunLock::take(const fs::path& directory) {
   const fs::path file = directory / kLockName;
   while (true) {
-    // A link is not followed, and a pipe or a device not waited for: only a lock is written to.
+    // A link is not followed, and a pipe or device does not block: only a lock is written to.
     const int fd = ::open(file.c_str(),
                           O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY, 0666);
     if (fd < 0 && errno == ELOOP) return not_a_lock(file, "a link");
@@ -102,7 +102,7 @@ core::Result<RunLock> RunLock::take(const fs::path& directory) {
     }
     RunLock lock(file, fd);
     if (!is_in_place(fd, file)) {
-      lock.file_.clear();  // not ours to remove
+      lock.file_.clear();  // belongs to another process
       continue;
     }
     if (!write_holder(fd)) return cannot_lock(file, errno);

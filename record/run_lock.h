@@ -10,19 +10,19 @@ namespace rondure::record {
 /// Name of the lock in a run directory.
 inline constexpr std::string_view kLockName = "run.lock";
 
-/// One process a run directory. The lock belongs to the open file (flock), so the system gives it
-/// back when its process dies, however it dies: a file that a killed run left behind locks nothing.
-/// The file says which process on which host holds it.
+/// Allows one process per run directory. The lock belongs to the open file (flock), so that the
+/// system releases it whenever the process ends: a file left by a killed run locks nothing. The
+/// file names the process and the host that hold the lock.
 class RunLock {
  public:
-  /// Takes the lock of a directory that exists, without waiting. kFile when another process holds
-  /// it (`what` names its pid and host), when the file cannot be made, or when something else
-  /// stands in its place (a link, a pipe, a file of the user), which is left as it is.
+  /// Locks an existing directory without waiting. kFile when another process holds the lock (`what`
+  /// names its pid and host), when the file cannot be created, or when something else has that name
+  /// (a link, a pipe, a user's file), which is not changed.
   [[nodiscard]] static core::Result<RunLock> take(const std::filesystem::path& directory);
 
   RunLock(RunLock&& other) noexcept;
   RunLock& operator=(RunLock&&) = delete;
-  ~RunLock();  ///< Removes the file, then gives the lock back.
+  ~RunLock();  ///< Removes the file, then releases the lock.
 
  private:
   RunLock(std::filesystem::path file, int fd);

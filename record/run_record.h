@@ -15,13 +15,13 @@
 
 namespace rondure::record {
 
-/// What the plan asks of a feature. Stands in the journal, so that a run can be evaluated without
-/// the code that reads plans.
+/// Shape of a feature as the plan states it. It is stored in the journal, so that a run can be
+/// evaluated without the code that reads plans.
 /// kSpindle, kWheel and kContour are analyses: their data are series, not touches. kRotaryAxes, the
-/// calibration of the fixture, is one of touches.
+/// calibration of the fixture, is an analysis of touches.
 enum class Shape { kCylinder, kCircle, kSpindle, kWheel, kContour, kRotaryAxes };
 enum class Side { kOutside, kInside };
-/// kCylindricity and kRoundness have a reference; the others do not look at it.
+/// kCylindricity and kRoundness have a reference; the others ignore it.
 enum class Form {
   kCylindricity,        ///< CYLt.
   kRoundness,           ///< RONt.
@@ -34,11 +34,11 @@ enum class Form {
   kRunOut,              ///< Radial run-out.
   kContourDeviation,    ///< Peak to valley of a contour, the greatest of all parts.
   kContourSpread,       ///< Standard deviation of the parts about their mean contour.
-  kFixtureResidual,     ///< Largest distance of a ball from its place by the calibration.
-  kFixtureResidualRms,  ///< The root mean square of these distances.
+  kFixtureResidual,     ///< Largest distance of a ball from its predicted position.
+  kFixtureResidualRms,  ///< Root mean square of these distances.
 };
 enum class Reference { kLeastSquares, kMinimumZone, kMinimumCircumscribed, kMaximumInscribed };
-/// kMerged: no search, one cloud out of several poses. kStations: balls of a calibration.
+/// kMerged: no search, one cloud from several poses. kStations: balls of a calibration.
 enum class Strategy {
   kGuided,
   kRefined,
@@ -50,7 +50,7 @@ enum class Strategy {
   kStations,
 };
 
-/// Whether a shape is an analysis: evaluated by its own rules, not as a surface.
+/// Whether a shape is an analysis, with an evaluation of its own, instead of a surface.
 [[nodiscard]] bool is_analysis(Shape shape);
 
 /// Spelling in plans, journals and JSON: "cylinder", "outside", "cylindricity", "ls", "mz", ...
@@ -60,7 +60,7 @@ enum class Strategy {
 [[nodiscard]] std::string_view name_of(Reference reference);
 [[nodiscard]] std::string_view name_of(Strategy strategy);
 
-/// Largest amplitude of the harmonics first..last; one line of a mask.
+/// Largest amplitude of the harmonics first..last; one line of a harmonic mask.
 struct HarmonicLimit {
   int first = 2;
   int last = 50;
@@ -73,24 +73,24 @@ struct Characteristic {
   Form form = Form::kCylindricity;  ///< CYLt, or RONt of the worst layer.
   Reference reference = Reference::kMinimumZone;
   std::optional<double> tolerance_mm;  ///< Upper limit of the deviation [mm]; none: reported only.
-  std::string drawing_zone;            ///< Where it stands on the drawing; may be empty.
-  std::vector<HarmonicLimit> harmonic_limits = {};  ///< Of kHarmonicLimits; never empty there.
+  std::string drawing_zone;            ///< Its grid square on the drawing; may be empty.
+  std::vector<HarmonicLimit> harmonic_limits = {};  ///< For kHarmonicLimits, never empty there.
 };
 
 /// One setting of a feature or of the whole run, by its key in the plan ("phi2_deg"): a number or a
-/// text, e.g. a word.
+/// text, e.g. a keyword.
 struct Setting {
   std::string name;
   std::optional<double> number;
-  std::string text;  ///< Only looked at without a number.
+  std::string text;  ///< Used only when there is no number.
 };
 
-/// The first number, or text, of that name, or nothing.
+/// The first number, or text, with that name, or nothing.
 [[nodiscard]] std::optional<double> number_in(std::span<const Setting> settings,
                                               std::string_view name);
 [[nodiscard]] std::optional<std::string> word_in(std::span<const Setting> settings,
                                                  std::string_view name);
-/// All numbers of that name, in order.
+/// All numbers with that name, in order.
 [[nodiscard]] std::vector<double> numbers_in(std::span<const Setting> settings,
                                              std::string_view name);
 
@@ -104,11 +104,11 @@ struct Feature {
   int points_per_layer = 0;
   Strategy strategy = Strategy::kGuided;
   std::vector<double> search_steps_deg;  ///< Steps of the software pose search, in order.
-  std::string points_file;               ///< Data that were read, as the plan names the file(s).
-  std::string points_sha256;  ///< Of that file's bytes; of several, of lines "sha256 name".
-  std::optional<double> tip_radius_mm;  ///< Of the probe behind a points file, if stated.
+  std::string points_file;               ///< The data file or files, as named in the plan.
+  std::string points_sha256;  ///< Of the file's bytes; for several files, of lines "sha256 name".
+  std::optional<double> tip_radius_mm;  ///< Of the probe that measured a points file, if stated.
   std::vector<Characteristic> characteristics;
-  std::vector<Setting> settings;  ///< A list has its key once for each item.
+  std::vector<Setting> settings;  ///< A list repeats its key for each item.
 
   /// As number_in(), word_in() and numbers_in() of the settings.
   [[nodiscard]] std::optional<double> number(std::string_view name) const;
@@ -116,11 +116,11 @@ struct Feature {
   [[nodiscard]] std::vector<double> numbers(std::string_view name) const;
 };
 
-/// Head of a run: who measured what with which program, and how it ended.
+/// Head of a run: part, plan, machine, program and conditions.
 struct Header {
   std::string run_id;       ///< Name of the run, e.g. "01_spool_simulated-20261121T023302Z".
-  std::string version;      ///< core::kVersion that measured.
-  std::string processor;    ///< Model and vector units: same bits are promised on this kind.
+  std::string version;      ///< core::kVersion of the program that measured.
+  std::string processor;    ///< Model and vector units; results are bit-identical on the same kind.
   std::string started_utc;  ///< ISO 8601.
   std::string plan_file;    ///< As given on the command line, without folders.
   std::string plan_name;
@@ -136,7 +136,7 @@ struct Header {
   std::string fixture;        ///< e.g. "simulated two-axis fixture, resolution 0.05 deg".
   std::string decision_rule;  ///< "simple-acceptance".
   bool simulated = false;
-  std::uint64_t seed = 0;             ///< Of the simulation; 0 when nothing is simulated.
+  std::uint64_t seed = 0;             ///< Seed of the simulation; 0 when nothing is simulated.
   double temperature_min_degC = 0.0;  ///< Outside these limits a result is void.
   double temperature_max_degC = 0.0;
 };
@@ -154,17 +154,17 @@ struct PoseVisit {
   int id = 0;       ///< 0-based, counts through the whole run.
   int feature = 0;  ///< Index into RunRecord::features.
   core::Pose commanded;
-  core::Pose reached;        ///< As the fixture reads it back.
-  bool final_cloud = false;  ///< The cloud that is evaluated (set by a later decision).
+  core::Pose reached;        ///< As read back from the fixture.
+  bool final_cloud = false;  ///< Its cloud is evaluated; set by a later decision.
   double time_s = 0.0;       ///< Machine clock.
 };
 
 /// One touch of the probe (or one row of a points file).
 struct Touch {
-  /// kLocate: finds where the part sits before the first measuring touch, or, without a pose, where
-  /// the base of the fixture stands (`layer` counts its spheres), or in which pose it was set (the
-  /// spheres on its ring count on from there); enters no result.
-  /// kCheck: repeats an earlier touch before an interrupted run goes on; enters no result.
+  /// kLocate finds where the part sits before the first measuring touch; without a pose it finds
+  /// where the base of the fixture stands (`layer` counts its spheres) or in which pose the fixture
+  /// was set (the count continues with the spheres on its ring). Enters no result.
+  /// kCheck repeats an earlier touch before an interrupted run is resumed. Enters no result.
   enum class Purpose { kQualification, kLocate, kMeasure, kCheck };
   std::int64_t id = 0;  ///< 0-based, counts through the whole run; checks count from -1 downward.
   Purpose purpose = Purpose::kMeasure;
@@ -182,7 +182,7 @@ struct Touch {
 /// "qualification", "locate", "measure", "check".
 [[nodiscard]] std::string_view name_of(Touch::Purpose purpose);
 
-/// A decision of the program during the run, e.g. why the pose search stopped.
+/// A decision of the program during the run, in words, e.g. why the pose search stopped.
 struct Decision {
   int feature = -1;  ///< -1: concerns the whole run.
   double time_s = 0.0;
@@ -196,8 +196,7 @@ struct SeriesColumn {
   std::string unit;
 };
 
-/// Rows of numbers that belong together: what probes or a control recorded, in the units of the
-/// columns.
+/// Rows of numbers recorded together by probes or a controller, in the units of the columns.
 struct Series {
   /// kTruth: the hidden truth of a simulation; reports show it, evaluation never reads it.
   enum class Role { kData, kTruth };
@@ -231,19 +230,19 @@ struct SimulationTruth {
   double cylt_mm = 0.0;  ///< Minimum zone of the noise-free tip centres of the final cloud.
 };
 
-/// A number of the evaluation as the run stored it, for verify.
+/// A number of the evaluation as the run stored it; `rondure verify` compares it.
 struct StoredResult {
   std::string name;  ///< JSON pointer into report.json, e.g. "/features/0/mz/deviation_um".
   double value = 0.0;
 };
 
-/// Everything a run left behind: the contents of journal.db.
+/// All data of a run: the contents of journal.db.
 struct RunRecord {
   Header header;
   std::string ending;                  ///< "finished", "stopped", "failed: ..."; "" while it runs.
   std::optional<core::Error> failure;  ///< Why a run did not finish.
   Artefact artefact;                   ///< Only meaningful when there are qualification touches.
-  std::vector<Setting> settings;       ///< Of the whole run; known before its first touch.
+  std::vector<Setting> settings;       ///< Settings of the whole run; known before its first touch.
   std::vector<Feature> features;
   std::vector<PoseVisit> poses;
   std::vector<Touch> touches;  ///< By id, without checks.
@@ -257,7 +256,7 @@ struct RunRecord {
 
   /// The recorded series of a feature by name, or nullptr. Never a truth.
   [[nodiscard]] const Series* data_of(int feature, std::string_view name) const;
-  /// The same of the hidden truth, for reports.
+  /// Same as data_of(), for the hidden truth shown in reports.
   [[nodiscard]] const Series* truth_series_of(int feature, std::string_view name) const;
 };
 

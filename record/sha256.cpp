@@ -12,7 +12,7 @@ struct Sha256::Impl {
   ~Impl() { EVP_MD_CTX_free(context); }
 };
 
-// Hashing memory with a digest of the default provider fails for want of memory only.
+// Hashing memory with a digest of the default provider fails only when memory runs out.
 Sha256::Sha256() : impl_(std::make_unique<Impl>()) {
   if (EVP_DigestInit_ex(impl_->context, EVP_sha256(), nullptr) != 1) throw std::bad_alloc();
 }

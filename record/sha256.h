@@ -6,7 +6,7 @@
 
 namespace rondure::record {
 
-/// SHA-256 (FIPS 180-4) of bytes that arrive in pieces.
+/// SHA-256 (FIPS 180-4) of bytes that are added in pieces.
 class Sha256 {
  public:
   Sha256();

@@ -25,7 +25,7 @@ Key read_key(const std::string& pem, Reader reader) {
   return {reader(text.get(), nullptr, nullptr, nullptr), &EVP_PKEY_free};
 }
 
-/// Why a text is not the key that is needed.
+/// The error for a text that is not the required key.
 core::Error wrong_key(const std::string& pem, const Key& key, std::string_view kind,
                       std::string_view command) {
   ERR_clear_error();
@@ -62,7 +62,7 @@ core::Result<std::string> sign(std::string_view bytes, const std::string& privat
   const Context context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
   std::array<unsigned char, kSignatureBytes> signature{};
   std::size_t length = signature.size();
-  // Ed25519 hashes by itself: no digest is named.
+  // Ed25519 hashes internally: no digest is set.
   if (EVP_DigestSignInit(context.get(), nullptr, nullptr, nullptr, key.get()) != 1 ||
       EVP_DigestSign(context.get(), signature.data(), &length, octets(bytes), bytes.size()) != 1) {
     ERR_clear_error();

@@ -50,7 +50,7 @@ class ByteLines final : public LineTransport {
   [[nodiscard]] std::string peer() const override { return stream_->peer(); }
 
  private:
-  /// The first whole line of what was received.
+  /// Takes the first complete line of the received bytes; nothing when there is none.
   std::optional<Line> take_line() {
     const auto end = received_.find('\n', searched_);
     if (end == std::string::npos || end > max_line_bytes_) {
@@ -78,7 +78,7 @@ class ByteLines final : public LineTransport {
     return core::fail(*failure_);
   }
 
-  /// The stream is lost; says so of a line that it cut.
+  /// Reports that the stream is lost, and names the line that it cut.
   tl::unexpected<core::Error> lose(core::Error error) {
     if (!received_.empty()) {
       error.what += fmt::format(" in the middle of a line, after {} bytes of it", received_.size());
@@ -91,7 +91,7 @@ class ByteLines final : public LineTransport {
   Clock& clock_;
   std::size_t max_line_bytes_;
   std::string received_;
-  std::size_t searched_ = 0;  ///< So many received bytes hold no line end.
+  std::size_t searched_ = 0;  ///< This many received bytes hold no line end.
   std::optional<core::Error> failure_;
 };
 

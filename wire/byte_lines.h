@@ -9,14 +9,14 @@
 
 namespace rondure::wire {
 
-/// How lines are cut out of a stream of bytes.
+/// Settings of lines_over().
 struct ByteLinesOptions {
   std::size_t max_line_bytes = std::size_t{1} << 20;  ///< A longer line ends the connection.
-  Clock* clock = nullptr;  ///< Of the time limits; nullptr: system_clock(). Outlives the transport.
+  Clock* clock = nullptr;  ///< For time limits; nullptr: system_clock(). Outlives the transport.
 };
 
-/// Lines over any stream of bytes. A line that came in pieces is put together; what is not complete
-/// within a time limit waits for the next call.
+/// Returns a transport that cuts lines out of a byte stream. A line that arrives in pieces is put
+/// together. A line that is incomplete when the time limit passes is kept for the next call.
 [[nodiscard]] std::unique_ptr<LineTransport> lines_over(std::unique_ptr<ByteStream> stream,
                                                         const ByteLinesOptions& options = {});
 

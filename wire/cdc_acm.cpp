@@ -19,7 +19,7 @@ constexpr std::uint8_t kSetLineCoding = 0x20;
 constexpr std::uint8_t kSetControlLineState = 0x22;
 constexpr std::uint16_t kDtrAndRts = 0x03;
 
-/// Where a device of this class is spoken to.
+/// The interfaces and endpoints of a device of this class.
 struct Ends {
   int control = 0;
   int data = 0;

@@ -8,8 +8,8 @@
 
 namespace rondure::wire {
 
-/// A USB device of the communications class (CDC-ACM) as a byte stream, without the kernel's
-/// /dev/ttyACM*: finds the communication and the data interface and their endpoints in the
+/// Opens a USB device of the communications class (CDC-ACM) as a byte stream, without the kernel's
+/// /dev/ttyACM*. Finds the communication and the data interface and their endpoints in the
 /// descriptors, claims both, sets the line coding, and raises DTR and RTS.
 /// @return  kMachine when the device has no such interfaces, is busy, or refuses the settings.
 /// Source: USB Class Definitions for Communication Devices 1.2, PSTN subclass 1.2, sections 6.3.10

@@ -5,8 +5,8 @@
 
 namespace rondure::wire {
 
-/// The time that a device and its driver live in. A driver that waits asks it, so that a test can
-/// let hours pass in no time.
+/// The clock of a device and its driver. A driver that waits uses this clock, so that a test can
+/// simulate hours without waiting.
 class Clock {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -20,14 +20,14 @@ class Clock {
   virtual void sleep_for(std::chrono::milliseconds time) = 0;
 };
 
-/// The time of the world.
+/// The clock of the computer.
 class SystemClock final : public Clock {
  public:
   [[nodiscard]] Time now() const override { return std::chrono::steady_clock::now(); }
   void sleep_for(std::chrono::milliseconds time) override { std::this_thread::sleep_for(time); }
 };
 
-/// The one that is used where none is given.
+/// The clock that is used where none is given.
 [[nodiscard]] inline Clock& system_clock() {
   static SystemClock clock;
   return clock;

@@ -25,7 +25,7 @@ struct Request {
   bool pause_behind;
 };
 
-/// The opening, in this order. Sources name the two purges differently: both are made.
+/// The opening, in this order. Sources disagree on which purge is which: both are sent.
 constexpr std::array<Request, 9> kOpening = {{{0, 0, 0, false},         // reset
                                               {3, 0x001a, 0, false},    // 3 MHz / 26 = 115200
                                               {4, 0x0008, 0, false},    // 8N1

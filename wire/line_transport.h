@@ -15,11 +15,11 @@ struct Line {
   bool crlf = true;  ///< Ended by CR LF; false: by LF alone. Any other CR stays in the text.
 };
 
-/// A connection that carries lines of text both ways. The bytes of a line are not judged here:
-/// whoever knows the protocol says what a strange character means.
+/// A connection that carries lines of text both ways. The bytes of a line are not checked here; the
+/// protocol layer decides about unexpected characters.
 ///
-/// Errors are kMachine, with whom the connection is to and what happened; is_open() is false from
-/// then on, and every further call fails with the same error. Not for use by two threads at once.
+/// Errors are kMachine and name the peer and the cause. After an error is_open() is false, and
+/// every further call fails with the same error. Not for use by two threads at once.
 class LineTransport {
  public:
   virtual ~LineTransport() = default;
@@ -29,18 +29,19 @@ class LineTransport {
 
   /// Sends the text and CR LF. Returns when the system has taken all of it.
   [[nodiscard]] virtual core::Result<void> write_line(std::string_view text) = 0;
-  /// The next line, or nothing when none was complete within the time limit: what came of it is
-  /// kept for the next call. A limit of zero only looks at what is there.
-  /// Errors: the other side closed, also in the middle of a line; a line beyond the length limit.
+  /// The next line, or nothing when no line was complete within the time limit; an incomplete line
+  /// is kept for the next call. With a limit of zero the call does not wait.
+  /// Errors: the other side closed the connection, also in the middle of a line; a line exceeds the
+  /// length limit.
   [[nodiscard]] virtual core::Result<std::optional<Line>> read_line(
       std::chrono::milliseconds time_limit) = 0;
-  /// What came of a line whose end has not come, its first 100 bytes at most; also of a connection
-  /// that was lost. "" otherwise.
+  /// The first 100 bytes at most of a line whose end has not arrived, also after the connection was
+  /// lost; "" when there is none.
   [[nodiscard]] virtual std::string unfinished() const { return {}; }
   /// Closes the connection. Safe to call twice.
   virtual void close() = 0;
   [[nodiscard]] virtual bool is_open() const = 0;
-  /// Who is at the other end, e.g. "127.0.0.1:1294".
+  /// The other end, e.g. "127.0.0.1:1294".
   [[nodiscard]] virtual std::string peer() const = 0;
 };
 

@@ -6,19 +6,19 @@
 
 namespace rondure::wire {
 
-/// A serial device of the system that a USB plug has made: /dev/ttyUSB*, /dev/ttyACM*.
+/// A serial device that the system made for a USB device: /dev/ttyUSB*, /dev/ttyACM*.
 struct SerialPortInfo {
   std::string device;  ///< E.g. "/dev/ttyUSB0".
   std::uint16_t vendor = 0;
   std::uint16_t product = 0;
-  std::string product_name;  ///< As the plug says; "" when it says nothing.
-  std::string serial;        ///< The same.
+  std::string product_name;  ///< From the USB descriptor; "" when it has none.
+  std::string serial;        ///< From the USB descriptor; "" when it has none.
   std::string kernel_driver;
-  std::string refused;  ///< Why this user may not open it, with what to do; "": he may.
-  std::string held_by;  ///< Programs that have it open, device_holders().
+  std::string refused;  ///< Why this user may not open it and how to fix that; "": allowed.
+  std::string held_by;  ///< Programs that have it open, as given by device_holders().
 };
 
-/// The serial devices behind USB plugs, by name, from /sys/class/tty. None is opened.
+/// Lists the serial devices of USB adapters, by name, from /sys/class/tty. None is opened.
 [[nodiscard]] std::vector<SerialPortInfo> list_serial_ports();
 
 }  // namespace rondure::wire

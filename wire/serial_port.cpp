@@ -58,8 +58,8 @@ termios with_settings(termios line, const SerialSettings& settings, speed_t spee
   return line;
 }
 
-/// The settings that a device can take. A pseudo-terminal has no wire: it carries whole bytes, and
-/// the C library reports 7 bits or parity there as refused.
+/// The settings that a device supports. A pseudo-terminal has no wire: it carries whole bytes, and
+/// the C library reports 7 data bits or parity there as refused.
 SerialSettings on(const std::filesystem::path& device, SerialSettings settings) {
   if (device.string().starts_with("/dev/pts/")) {
     settings.data_bits = 8;
@@ -124,7 +124,7 @@ class SerialPort final : public ByteStream {
     const auto count = ::read(file_.number(), bytes.data(), bytes.size());
     if (count < 0 && (errno == EAGAIN || errno == EINTR)) return std::string{};
     if (count < 0) return lose(broken());
-    if (count == 0) return lose(unplugged());  // readable, and nothing there: the line is hung up
+    if (count == 0) return lose(unplugged());  // readable without data: the line was hung up
     bytes.resize(static_cast<std::size_t>(count));
     return bytes;
   }
@@ -209,7 +209,7 @@ core::Result<std::unique_ptr<ByteStream>> open_serial(const std::filesystem::pat
   }
   Descriptor file(::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (file.number() < 0) return core::machine_fault(why_not_opened(device, errno));
-  // Two locks: the first keeps other programs that ask for it away, the second all but root.
+  // Two locks: the first keeps out programs that ask for it, the second all others but root's.
   if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0)
     return core::machine_fault(why_not_opened(device, errno));
   termios line = {};

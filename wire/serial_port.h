@@ -9,15 +9,16 @@
 
 namespace rondure::wire {
 
-/// Opens a serial device of the system, e.g. /dev/ttyACM0 or /dev/ttyUSB0, raw and for this program
-/// alone. What came before is thrown away.
-/// @return  kMachine when it is not there, is no serial device, may not be opened by this user (the
-///          group to join is named), is in use (by whom), or does not know the settings.
+/// Opens a serial device of the system, e.g. /dev/ttyACM0 or /dev/ttyUSB0, in raw mode and for this
+/// program alone. Bytes received before the opening are discarded.
+/// @return  kMachine when the device does not exist, is not a serial device, may not be opened by
+///          this user (the message names the group to join), is in use (the message names the
+///          holder), or does not support the settings.
 [[nodiscard]] core::Result<std::unique_ptr<ByteStream>> open_serial(
     const std::filesystem::path& device, const SerialSettings& settings = {});
 
-/// Why the system refuses to open a serial device, with what to do.
-/// @param error  As errno says it.
+/// Says why the system refuses to open a serial device, and what to do about it.
+/// @param error  The errno of the attempt.
 [[nodiscard]] std::string why_not_opened(const std::filesystem::path& device, int error);
 
 }  // namespace rondure::wire

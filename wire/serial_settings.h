@@ -4,7 +4,7 @@
 
 namespace rondure::wire {
 
-/// How a serial line is spoken, over a tty or over a USB bridge.
+/// Settings of a serial line, over a tty or over a USB bridge.
 struct SerialSettings {
   enum class Parity { kNone, kOdd, kEven };
 
@@ -13,7 +13,7 @@ struct SerialSettings {
   Parity parity = Parity::kNone;
   int stop_bits = 1;                            ///< 1 or 2.
   bool rts_cts = false;                         ///< Flow control by the RTS and CTS lines.
-  std::chrono::milliseconds write_limit{1000};  ///< Until the device takes what is sent.
+  std::chrono::milliseconds write_limit{1000};  ///< Time for the device to take what is sent.
 };
 
 }  // namespace rondure::wire

@@ -19,26 +19,25 @@ using Tcp = asio::ip::tcp;
 
 constexpr std::size_t kTcpChunk_bytes = 16'384;
 
-/// A peer that went without a word (power, cable) is noticed after some 25 s: by probes of a
-/// connection on which nothing is said, by data that nobody acknowledges. The system would wait for
-/// two hours.
+/// Detects a peer that vanished without closing (power, cable) after some 25 s: by probes on an
+/// idle connection, and by data that is not acknowledged. The system default is two hours.
 void notice_a_dead_peer(int handle) {
-  const auto set = [handle](int level, int name, int value) {  // without these a line still works
+  const auto set = [handle](int level, int name, int value) {  // failures do no harm
     (void)::setsockopt(handle, level, name, &value, sizeof(value));
   };
   set(SOL_SOCKET, SO_KEEPALIVE, 1);
-  set(IPPROTO_TCP, TCP_KEEPIDLE, 10);          // s without a word until the first probe
+  set(IPPROTO_TCP, TCP_KEEPIDLE, 10);          // s of silence until the first probe
   set(IPPROTO_TCP, TCP_KEEPINTVL, 5);          // s between two probes
   set(IPPROTO_TCP, TCP_KEEPCNT, 3);            // probes without an answer
-  set(IPPROTO_TCP, TCP_USER_TIMEOUT, 25'000);  // ms, of data that was sent
+  set(IPPROTO_TCP, TCP_USER_TIMEOUT, 25'000);  // ms, for data that was sent
 }
 
 std::string place(const std::string& host, std::uint16_t port) {
   return fmt::format("{}:{}", host, port);
 }
 
-/// Runs the pending operation to its end, at most for the time limit; `cancel` stops it then.
-/// False when the limit passed. Either way its handler has been called.
+/// Runs the pending operation to its end, or calls `cancel` when the time limit passes. Returns
+/// false when it passed. In both cases the operation's handler has been called.
 template <class Cancel>
 bool run_within(asio::io_context& io, milliseconds limit, Cancel cancel) {
   io.restart();
@@ -53,7 +52,7 @@ class TcpStream final : public ByteStream {
  public:
   TcpStream(std::unique_ptr<asio::io_context> io, Tcp::socket socket, const TcpOptions& options)
       : io_(std::move(io)), socket_(std::move(socket)), write_limit_(options.write_limit) {
-    asio::error_code ignored;  // a line without these options still works
+    asio::error_code ignored;  // the connection works without these options
     socket_.set_option(Tcp::no_delay(true), ignored);
     notice_a_dead_peer(socket_.native_handle());
     asio::error_code unknown;

@@ -13,8 +13,8 @@ namespace rondure::wire {
 
 /// Limits of a TCP connection.
 struct TcpOptions {
-  std::chrono::milliseconds connect_limit{5000};      ///< Until the connection stands.
-  std::chrono::milliseconds write_limit{5000};        ///< Until the other side takes what is sent.
+  std::chrono::milliseconds connect_limit{5000};      ///< Time to establish the connection.
+  std::chrono::milliseconds write_limit{5000};        ///< Time for the peer to take what is sent.
   std::size_t max_line_bytes = std::size_t{1} << 20;  ///< A longer line ends the connection.
 };
 
@@ -24,7 +24,7 @@ struct TcpOptions {
 [[nodiscard]] core::Result<std::unique_ptr<LineTransport>> connect_tcp(
     const std::string& host, std::uint16_t port, const TcpOptions& options = {});
 
-/// A TCP port that takes clients, one call of accept() each.
+/// A TCP port that accepts clients; each call of accept() returns one.
 class TcpListener {
  public:
   /// Listens on an address of this computer.

@@ -18,7 +18,7 @@ unsigned int milliseconds_of(UsbDevice::Limit limit) {
 }
 
 UsbEndpoint endpoint_of(const libusb_endpoint_descriptor& text) {
-  constexpr unsigned kPacketBits = 0x7ff;  // the others tell of several packets a microframe
+  constexpr unsigned kPacketBits = 0x7ff;  // the upper bits count packets per microframe
   constexpr unsigned kKindBits = 0x3;
   return {text.bEndpointAddress, static_cast<UsbEndpoint::Kind>(text.bmAttributes & kKindBits),
           text.wMaxPacketSize & kPacketBits};
@@ -52,7 +52,7 @@ class OpenDevice final : public UsbDevice {
         handle_(std::move(handle)),
         info_(std::move(info)),
         interfaces_(interfaces_of(*libusb_get_device(handle_.get()))) {
-    libusb_set_auto_detach_kernel_driver(handle_.get(), 1);  // an error shows when claiming
+    libusb_set_auto_detach_kernel_driver(handle_.get(), 1);  // an error shows up when claiming
   }
   ~OpenDevice() override { close(); }
 
@@ -186,7 +186,7 @@ class OpenDevice final : public UsbDevice {
       return tl::unexpected(
           usb::fault_of(code, info_, fmt::format("sending on endpoint {:#04x}", endpoint)));
     }
-    bytes.resize(static_cast<std::size_t>(count));  // at a timeout: what came until then
+    bytes.resize(static_cast<std::size_t>(count));  // after a timeout: the bytes up to then
     return bytes;
   }
 
@@ -204,7 +204,7 @@ bool is_meant(const UsbSelector& selector, const UsbDeviceInfo& info) {
           std::find(products.begin(), products.end(), info.product) != products.end());
 }
 
-/// A device that fits, open.
+/// An opened device that matches the selector.
 struct Candidate {
   usb::Handle handle;
   UsbDeviceInfo info;

@@ -15,25 +15,25 @@
 
 namespace rondure::wire {
 
-/// What went wrong on the bus. The kind is for a driver that can do something about it, the
-/// sentence for the person who has to.
+/// A fault on the bus. The kind is for a driver that can react to it, the sentence for the user who
+/// has to.
 struct UsbFault {
   enum class Kind {
     kNotFound,    ///< No such device is plugged in.
-    kAmbiguous,   ///< Several are, and nothing says which.
-    kUnplugged,   ///< It was there and is gone.
-    kBusy,        ///< Another program or a kernel driver has it; the sentence says who.
+    kAmbiguous,   ///< Several are plugged in, and the selector fits more than one.
+    kUnplugged,   ///< The device was unplugged while it was in use.
+    kBusy,        ///< A program or a kernel driver holds it; the sentence names the holder.
     kPermission,  ///< This user may not open it; the sentence names the udev rules file.
     kStall,       ///< The device refused the request (STALL).
-    kTimeout,     ///< Not everything was sent, or nothing answered, within the limit.
-    kBabble,      ///< The device sent more than was asked for.
-    kOther,       ///< Anything else, as the system calls it.
+    kTimeout,     ///< Not all bytes were sent, or no answer arrived, within the limit.
+    kBabble,      ///< The device sent more than was requested.
+    kOther,       ///< Any other fault, in the words of the system.
   };
 
   Kind kind = Kind::kOther;
   std::string what;  ///< One sentence with the device and what to do.
 
-  /// The same as every other fault of a machine (kMachine).
+  /// The fault as an error of a machine (kMachine).
   [[nodiscard]] core::Error error() const { return {core::Code::kMachine, what, {}}; }
 };
 
@@ -46,26 +46,26 @@ struct UsbDeviceInfo {
   std::uint16_t product = 0;
   int bus = 0;
   int address = 0;
-  std::string manufacturer;         ///< As the device says; "" when it cannot be asked.
-  std::string product_name;         ///< The same.
-  std::string serial;               ///< The same.
-  std::optional<UsbFault> refused;  ///< Why it cannot be opened, with what to do; none: it can.
-  std::string kernel_driver;        ///< Bound to it; claim() detaches it. "": none. Of lists only.
-  std::string held_by;  ///< Programs that have it open, device_holders(). Of lists only.
+  std::string manufacturer;         ///< From the device; "" when it cannot be read.
+  std::string product_name;         ///< From the device; "" when it cannot be read.
+  std::string serial;               ///< From the device; "" when it cannot be read.
+  std::optional<UsbFault> refused;  ///< Why it cannot be opened and what to do; empty: it can.
+  std::string kernel_driver;  ///< Bound to it; claim() detaches it. "": none. Set in lists only.
+  std::string held_by;        ///< Programs that have it open. Set in lists only.
 
   /// E.g. "2939:49c2 at bus 1, address 2".
   [[nodiscard]] std::string place() const;
 };
 
-/// All devices of the computer, by bus and address. Each is opened for a moment to ask its strings;
-/// nothing is claimed, no driver detached.
+/// Lists all devices of the computer, by bus and address. Each is opened briefly to read its
+/// strings; nothing is claimed and no driver is detached.
 [[nodiscard]] UsbResult<std::vector<UsbDeviceInfo>> list_usb_devices();
 
-/// Which device is meant.
+/// Selects a device.
 struct UsbSelector {
   std::uint16_t vendor = 0;
   std::vector<std::uint16_t> products;  ///< Any of these; empty: all of the vendor.
-  std::string serial;                   ///< "": the only one of them that is plugged in.
+  std::string serial;                   ///< "": the only matching one that is plugged in.
   std::string name;                     ///< For messages, e.g. "Zaber controller".
 };
 
@@ -73,7 +73,7 @@ struct UsbSelector {
 struct UsbEndpoint {
   enum class Kind { kControl, kIsochronous, kBulk, kInterrupt };
 
-  std::uint8_t address = 0;  ///< Bit 7: IN, from the device to us.
+  std::uint8_t address = 0;  ///< Bit 7 set: IN, from the device to the computer.
   Kind kind = Kind::kBulk;
   std::size_t packet_bytes = 0;  ///< Longest packet.
 
@@ -97,9 +97,9 @@ struct UsbSetup {
   std::uint16_t index = 0;
 };
 
-/// An open USB device. open_usb() gives the real one; a test may put its own in its place. Every
-/// time limit is at least 1 ms: 0 only looks at what is there. After kUnplugged nothing works any
-/// more. Not for use by two threads at once.
+/// An open USB device: the real one from open_usb(), or a test's own implementation. Every time
+/// limit is at least 1 ms; a limit of 0 does not wait. After kUnplugged every call fails. Not for
+/// use by two threads at once.
 class UsbDevice {
  public:
   using Limit = std::chrono::milliseconds;
@@ -111,12 +111,12 @@ class UsbDevice {
 
   [[nodiscard]] virtual const UsbDeviceInfo& info() const = 0;
   [[nodiscard]] virtual const std::vector<UsbInterface>& interfaces() const = 0;
-  /// Chooses a configuration; nothing happens when it is the active one already.
+  /// Chooses a configuration; does nothing when that one is active already.
   [[nodiscard]] virtual UsbResult<void> configure(int configuration) = 0;
-  /// Resets the device on the bus. Interfaces are to be claimed again.
+  /// Resets the device on the bus. Interfaces must be claimed again afterwards.
   [[nodiscard]] virtual UsbResult<void> reset() = 0;
-  /// Takes an interface for this program alone. A kernel driver that holds it is detached, and
-  /// comes back when the device is closed.
+  /// Takes an interface for this program alone. A kernel driver that holds it is detached, and is
+  /// attached again when the device is closed.
   [[nodiscard]] virtual UsbResult<void> claim(int interface) = 0;
 
   [[nodiscard]] virtual UsbResult<void> control_out(const UsbSetup& setup, std::string_view bytes,
@@ -127,24 +127,24 @@ class UsbDevice {
   /// Sends all bytes; kTimeout when not all were taken.
   [[nodiscard]] virtual UsbResult<void> bulk_out(std::uint8_t endpoint, std::string_view bytes,
                                                  Limit limit) = 0;
-  /// What came in one transfer, which a short packet ends; "" when nothing came within the limit.
-  /// @param most  A multiple of the packet length of the endpoint, or a device that sends a full
-  ///              packet gives kBabble.
+  /// The bytes of one transfer, which a short packet ends; "" when none arrived within the limit.
+  /// @param most  A multiple of the packet length of the endpoint; otherwise a device that sends a
+  ///              full packet causes kBabble.
   [[nodiscard]] virtual UsbResult<std::string> bulk_in(std::uint8_t endpoint, std::size_t most,
                                                        Limit limit) = 0;
-  /// The same from an interrupt endpoint.
+  /// Same as bulk_in(), from an interrupt endpoint.
   [[nodiscard]] virtual UsbResult<std::string> interrupt_in(std::uint8_t endpoint, std::size_t most,
                                                             Limit limit) = 0;
-  /// Releases what was claimed and gives kernel drivers their interfaces back. Safe to call twice.
+  /// Releases the claimed interfaces and returns them to their kernel drivers. Safe to call twice.
   virtual void close() = 0;
 };
 
-/// Of a serial line over USB: the limit of a request that sets it up, and the packets that one
-/// transfer reads at most.
+/// For serial lines over USB: the time limit of a setup request, and the largest number of packets
+/// that one transfer reads.
 inline constexpr UsbDevice::Limit kControlLimit(1000);
 inline constexpr std::size_t kPacketsAtOnce = 8;
 
-/// Opens the device that is meant. Nothing is claimed.
+/// Opens the selected device. Nothing is claimed.
 /// @return  kNotFound, kAmbiguous (the sentence lists the serial numbers), kPermission, kBusy.
 [[nodiscard]] UsbResult<std::unique_ptr<UsbDevice>> open_usb(const UsbSelector& selector);
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "wire/usb.h"
 #include "wire/internal/usb_context.h"
+#include "wire/usb.h"
 
 namespace rondure::wire {
 
@@ -19,9 +19,9 @@ UsbResult<std::vector<UsbDeviceInfo>> list_usb_devices() {
   std::vector<UsbDeviceInfo> out;
   for (libusb_device** device = list->get(); *device != nullptr; ++device) {
     auto info = usb::identity(**device);
-    if (!info) continue;  // gone in this moment
+    if (!info) continue;  // unplugged in the meantime
     info->kernel_driver = usb::kernel_driver_of(**device, 0);
-    info->held_by = usb::programs_with(*info);  // before this program is one of them
+    info->held_by = usb::programs_with(*info);  // asked before this program opens it
     if (const auto handle = usb::open_device(**device, *info)) {
       usb::ask_strings(**handle, *info);
     } else {

@@ -76,7 +76,7 @@ class LoggedLine final : public LineTransport {
     file_ << utc_now() << ' ' << who << ' ' << printable(text) << '\n' << std::flush;
   }
 
-  /// Notes how the connection was lost, once.
+  /// Logs once how the connection was lost.
   template <class T>
   core::Result<T> told(core::Result<T> result) {
     if (!result && !lost_) {

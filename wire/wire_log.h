@@ -8,20 +8,20 @@
 
 namespace rondure::wire {
 
-/// Which end of the connection this program is.
+/// The end of the connection that this program is.
 enum class Side { kClient, kServer };
 
-/// A transport that hands everything on to another one and writes it down:
+/// Returns a transport that forwards every call to another one and logs its lines:
 ///
 ///     2026-11-21T02:33:02.123456Z -> C: 00001 StartSession()
 ///     2026-11-21T02:33:02.123512Z <- S: 00001 &
 ///     2026-11-21T02:33:02.130000Z -- #: 127.0.0.1:1294 closed the connection
 ///
-/// -> was sent, <- was received, -- happened; C: is the client, S: the server. Bytes that do not
-/// print stand as \xNN, of a line of more than 4096 bytes the beginning. Every line is in the file
-/// before the call returns; a disk that is full ends the log, never the measurement.
+/// -> was sent, <- was received, -- happened; C: is the client, S: the server. Non-printing bytes
+/// stand as \xNN; a line of more than 4096 bytes is logged up to that length. Every line is in the
+/// file before the call returns. A full disk ends the log, but not the measurement.
 ///
-/// @param file  Lines are added behind what it holds.
+/// @param file  New lines are appended.
 /// @return kFile when it cannot be opened for writing.
 [[nodiscard]] core::Result<std::unique_ptr<LineTransport>> logged(
     std::unique_ptr<LineTransport> inner, const std::filesystem::path& file, Side side);

@@ -38,7 +38,7 @@ constexpr std::array<Row, 4> kRows = {
      {"mahr", 9600, 7, Parity::kEven, 2, "M1?\r", "^1 +([+-] *[0-9]*[.]?[0-9]+) *(mm|um|in)$"},
      {"qm-height", 9600, 8, Parity::kNone, 1, "1\r", "^01A([+-][0-9]*[.][0-9]+)$"}}};
 
-/// A regular expression of the C library: std::regex of GCC 12 does not pass our warnings.
+/// A regular expression of the C library: std::regex of GCC 12 causes warnings in this build.
 class Pattern {
  public:
   Pattern() = default;
@@ -52,7 +52,7 @@ class Pattern {
     compiled_ = ::regcomp(&expression_, text.c_str(), REG_EXTENDED) == 0;
     return compiled_ && expression_.re_nsub >= 1;
   }
-  /// Groups 1 and 2; empty where there is none. Nothing when the text does not match.
+  /// Groups 1 and 2; empty if missing. Nothing when the text does not match.
   [[nodiscard]] std::optional<std::array<std::string, 2>> match(const std::string& text) const {
     std::array<regmatch_t, 3> found = {};
     if (::regexec(&expression_, text.c_str(), found.size(), found.data(), 0) != 0) {
@@ -122,7 +122,7 @@ class AsciiProbe final : public DisplacementProbe {
   }
 
  private:
-  /// Throws away what was not asked for.
+  /// Discards bytes that arrived without a request.
   [[nodiscard]] core::Result<void> drain() {
     const wire::Clock::Time end = clock_.now() + 5 * settings_.answer_limit;
     for (;;) {
@@ -139,7 +139,7 @@ class AsciiProbe final : public DisplacementProbe {
     return {};
   }
 
-  /// The first line that is neither empty nor the echo of the request.
+  /// The first line that is neither empty nor an echo of the request.
   [[nodiscard]] core::Result<std::string> receive() {
     const std::string echo = settings_.request.substr(0, settings_.request.find_first_of("\r\n"));
     const wire::Clock::Time end = clock_.now() + settings_.answer_limit;
@@ -162,7 +162,7 @@ class AsciiProbe final : public DisplacementProbe {
                                   description(), settings_.answer_limit.count()));
   }
 
-  /// Bytes that do not print, but for line ends, become question marks.
+  /// Replaces non-printing bytes, except line ends, by question marks.
   [[nodiscard]] static std::string printable(std::string text) {
     std::replace_if(
         text.begin(), text.end(),
@@ -175,7 +175,7 @@ class AsciiProbe final : public DisplacementProbe {
   wire::Clock& clock_;
   Pattern pattern_;
   std::string buffer_;
-  bool late_ = false;  ///< An answer is missing: it may still come.
+  bool late_ = false;  ///< A missing answer may still arrive.
 };
 
 }  // namespace

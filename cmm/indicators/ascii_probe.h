@@ -13,7 +13,7 @@
 
 namespace rondure::cmm {
 
-/// How an indicator that talks in lines of text is spoken to.
+/// Settings of an indicator that exchanges lines of text.
 struct AsciiProbeSettings {
   std::string name;
   wire::SerialSettings line;
@@ -21,12 +21,12 @@ struct AsciiProbeSettings {
   /// Extended regular expression of a reply without its line end. Group 1: the number, with sign;
   /// group 2, where there is one: its unit, "mm", "um" or "in".
   std::string reply;
-  double unit_mm = 1.0;  ///< Of the number where the reply names none.
+  double unit_mm = 1.0;  ///< Unit of the number when the reply names none.
   double resolution_mm = 0.001;
   std::chrono::milliseconds answer_limit{1000};
 };
 
-/// The settings of an indicator by its name; nothing for one that is not known:
+/// The settings of an indicator by its name; nothing for an unknown one:
 ///   sylvac     Sylvac and Bowers, also OPTO-RS and their USB cables: 4800 7E2, "?"
 ///   tesa       TESA TT80, TT90: 4800 7E2 (set the instrument so), "?"
 ///   mahr       Mahr Millimar C1202, first input: 9600 7E2, "M1?"
@@ -35,10 +35,10 @@ struct AsciiProbeSettings {
 /// "sylvac, tesa, mahr, qm-height".
 [[nodiscard]] std::string ascii_probe_names();
 
-/// An indicator on a serial line. An echo of the request is passed over; what came unasked is
-/// thrown away; an answer that comes too late never becomes the next one.
-/// @param clock  Outlives the probe; nullptr: the time of the world.
-/// @return kBadOption when `reply` is no regular expression, or has no group.
+/// Opens an indicator on a serial line. An echo of the request is skipped, unrequested bytes are
+/// discarded, and a late answer is never taken for the next one.
+/// @param clock  Outlives the probe; nullptr: the system clock.
+/// @return kBadOption when `reply` is not a regular expression, or has no group.
 [[nodiscard]] core::Result<std::unique_ptr<DisplacementProbe>> open_ascii_probe(
     std::unique_ptr<wire::ByteStream> stream, const AsciiProbeSettings& settings,
     wire::Clock* clock = nullptr);

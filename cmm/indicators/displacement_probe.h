@@ -6,15 +6,15 @@
 
 namespace rondure::cmm {
 
-/// What an indicator can do.
+/// Properties of an indicator.
 struct IndicatorTraits {
-  double resolution_mm = 0.001;  ///< Of its last digit.
-  double reading_time_s = 0.05;  ///< From the question to the reading, usually.
+  double resolution_mm = 0.001;  ///< Value of its last digit.
+  double reading_time_s = 0.05;  ///< Typical time from the request to the reading.
 };
 
-/// An indicator that says, when it is asked, how far its tip stands: a dial gauge, an inductive
-/// probe with a display. One question, one reading; indicators side by side are read one after the
-/// other. That serves setting up, and work at stopped angles.
+/// An indicator that returns the position of its tip on request: a dial gauge, an inductive probe
+/// with a display. Each request gives one reading, and several indicators are read one after the
+/// other. This suits setting up, and measurements at stopped angles.
 class DisplacementProbe {
  public:
   virtual ~DisplacementProbe() = default;
@@ -25,15 +25,15 @@ class DisplacementProbe {
   /// One line for the record.
   [[nodiscard]] virtual std::string description() const = 0;
   [[nodiscard]] virtual IndicatorTraits traits() const = 0;
-  /// Asks for a reading [mm]; it is never older than the question. kMachine, with what the
-  /// indicator said, when none comes.
+  /// Requests a reading [mm]; it is never older than the request. kMachine, with the message of the
+  /// indicator, when none arrives.
   [[nodiscard]] virtual core::Result<double> read_mm() = 0;
 };
 
-/// Whether indicators that are asked one after the other can follow a part that turns: they cannot,
-/// and kBadOption says why in numbers.
-/// @param rate_Hz     Readings a second that are wanted of each indicator, > 0.
-/// @param indicators  How many are read, >= 1.
+/// The error kBadOption for indicators that are to follow a rotating part: read one after the
+/// other, they cannot, and the message says why in numbers.
+/// @param rate_Hz     Readings per second wanted of each indicator, > 0.
+/// @param indicators  Number of indicators, >= 1.
 [[nodiscard]] core::Error refuse_tracking(const IndicatorTraits& traits, double rate_Hz,
                                           int indicators);
 

@@ -80,7 +80,7 @@ class MitutoyoItn final : public DisplacementProbe {
   }
 
  private:
-  /// Throws away what was not asked for: a press of the button, an answer that came too late.
+  /// Discards data without a request: from a press of the button, or a late answer.
   [[nodiscard]] wire::UsbResult<void> drain() {
     for (;;) {
       const auto old = device_->interrupt_in(in_.address, in_.packet_bytes,
@@ -92,7 +92,7 @@ class MitutoyoItn final : public DisplacementProbe {
     return {};
   }
 
-  /// One message, put together from its packets, without its CR.
+  /// One message, joined from its packets, without its CR.
   [[nodiscard]] core::Result<std::string> receive() {
     std::string message;
     const wire::Clock::Time end = clock_.now() + kAnswerLimit;
@@ -115,7 +115,7 @@ class MitutoyoItn final : public DisplacementProbe {
   wire::UsbEndpoint in_;
   MitutoyoItnOptions options_;
   wire::Clock& clock_;
-  bool late_ = false;  ///< An answer is missing: it may still come.
+  bool late_ = false;  ///< A missing answer may still arrive.
 };
 
 }  // namespace

@@ -10,16 +10,16 @@ namespace rondure::cmm {
 
 inline constexpr double kInch_mm = 25.4;
 
-/// What the cable does not say of the gauge at its end.
+/// Properties of the gauge that the cable does not report.
 struct MitutoyoItnOptions {
-  double unit_mm = 1.0;  ///< Of what the gauge shows: 1, or kInch_mm.
+  double unit_mm = 1.0;  ///< Unit that the gauge shows: 1, or kInch_mm.
   double resolution_mm = 0.001;
 };
 
-/// A Digimatic gauge on a Mitutoyo USB-ITN cable (0fe7:4001), asked with the vendor protocol of the
-/// cable, which leaves its keyboard mode until it is unplugged. A reading that was sent by the
-/// button of the cable is thrown away; an answer that comes too late never becomes the next one.
-/// @param clock  Outlives the probe; nullptr: the time of the world.
+/// Opens a Digimatic gauge on a Mitutoyo USB-ITN cable (0fe7:4001) with the vendor protocol of the
+/// cable, which leaves its keyboard mode until it is unplugged. A reading sent by the button of the
+/// cable is discarded, and a late answer is never taken for the next one.
+/// @param clock  Outlives the probe; nullptr: the system clock.
 /// @return  kMachine when the device is busy or refuses the requests.
 /// Source: protocol of the cable as open drivers use it; message as in Mitutoyo's description of
 /// the interface.

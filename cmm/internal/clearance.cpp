@@ -29,7 +29,7 @@ std::optional<Segment> clip_to_slab(const Segment& whole, double limit) {
   return Segment{whole.a + from * ab, whole.a + to * ab};
 }
 
-/// Distance of the z axis from a segment seen along z.
+/// Distance of the z axis from a segment projected along z.
 double nearest_to_axis(const Vector2d& a, const Vector2d& b) {
   const Vector2d ab = b - a;
   const double length2 = ab.squaredNorm();

@@ -6,8 +6,8 @@
 
 namespace rondure::cmm {
 
-/// True when a sphere surely keeps off the solid all the way from a to b (part frame, straight
-/// line); false when that takes a closer look. Costs a few dozen operations.
+/// True when a sphere is certain to stay clear of the solid on the straight line from a to b (part
+/// frame); false when a closer check is needed. Costs a few dozen operations.
 /// @param deviation_mm  Bound of the form toward the free side (shape_bounds()).
 [[nodiscard]] bool surely_clear(const PartSurface& surface, double deviation_mm,
                                 const Eigen::Vector3d& a_P_mm, const Eigen::Vector3d& b_P_mm,

@@ -7,7 +7,7 @@ namespace rondure::cmm::ipp {
 Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation) {
   using Eigen::AngleAxisd;
   using Eigen::Vector3d;
-  // The axes turn, hence the coordinates of a fixed point turn the other way.
+  // The axes turn, so the coordinates of a fixed point turn in the opposite sense.
   const Eigen::Matrix3d axes =
       (AngleAxisd(transformation.psi_deg * core::kDegree, Vector3d::UnitZ()) *
        AngleAxisd(transformation.theta_deg * core::kDegree, Vector3d::UnitX()) *

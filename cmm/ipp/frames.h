@@ -13,8 +13,8 @@ struct CsyTransformation {
 };
 
 /// Maps the machine frame to the system: turn about z by psi, the new x by theta, the new z by phi,
-/// x_csy = R (x_machine - x0). So reads the chapter on machines, and VDMA 8722; the description of
-/// the command in 1.4.3 reads x_csy = R x_machine + x0, and servers follow either.
+/// x_csy = R (x_machine - x0). This follows the chapter on machines, and VDMA 8722; the description
+/// of the command in 1.4.3 has x_csy = R x_machine + x0, and servers follow either.
 [[nodiscard]] Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation);
 
 }  // namespace rondure::cmm::ipp

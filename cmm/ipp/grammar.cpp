@@ -16,7 +16,7 @@ tl::unexpected<Refusal> refuse(int number, std::optional<Tag> tag, std::string w
   return tl::unexpected(Refusal{number, tag, std::move(what)});
 }
 
-/// What must be right before a tag can be answered.
+/// Checks what is needed before a tag can be answered.
 tl::expected<Tag, Refusal> read_head(std::string_view line) {
   if (line.size() > kMaxLineLength) {
     return refuse(

@@ -38,18 +38,18 @@ bool is_exponent(std::string_view text, std::size_t begin) {
   return end == text.size() && end - at >= 1 && end - at <= 3;
 }
 
-/// Digits of the mantissa of a number that to_chars() wrote.
+/// Number of mantissa digits in the output of to_chars().
 std::ptrdiff_t digits_of(std::string_view text) {
   text = text.substr(0, text.find('e'));
   return std::count_if(text.begin(), text.end(), is_digit);
 }
 
-/// At most 16 digits.
+/// The number with at most 16 digits.
 std::string in_digits(double value) {
   std::string text = core::shortest(value + 0.0);  // + 0.0: no negative zero
   if (digits_of(text) <= kDigits) return text;
   std::array<char, 32> rounded{};
-  // Fifteen significant digits: a leading zero counts, too.
+  // Fifteen significant digits, because a leading zero counts as well.
   const auto end = std::to_chars(rounded.data(), rounded.data() + rounded.size(), value,
                                  std::chars_format::general, kDigits - 1);
   text.assign(rounded.data(), end.ptr);

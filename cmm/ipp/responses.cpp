@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/internal/errors.h"
 #include "cmm/ipp/grammar.h"
+#include "cmm/ipp/internal/errors.h"
 #include "cmm/ipp/internal/reader.h"
 
 namespace rondure::cmm::ipp {
@@ -35,7 +35,7 @@ std::optional<int> small_number(std::string_view text) {
   return value;
 }
 
-/// Cuts `text` at its first comma.
+/// Splits `text` at its first comma.
 std::string_view take_field(std::string_view& text) {
   const std::size_t comma = text.find(',');
   const std::string_view field = text.substr(0, comma);
@@ -43,8 +43,8 @@ std::string_view take_field(std::string_view& text) {
   return field;
 }
 
-/// Error(F1, F2, F3, Text). F3 is often a whole command and not always quoted: it is what stands
-/// between F2 and the last string.
+/// Parses Error(F1, F2, F3, Text). F3 is often a whole command and not always quoted: it is the
+/// text between F2 and the last string.
 std::optional<ErrorReport> read_error(std::string_view text) {
   text = trim(text);
   const std::size_t open = text.find('(');

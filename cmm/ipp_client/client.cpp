@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
-#include "cmm/ipp_client/internal/failure.h"
 #include "cmm/internal/place_text.h"
-#include "cmm/scan_path.h"
+#include "cmm/ipp_client/internal/failure.h"
 #include "cmm/ipp_client/touch_check.h"
+#include "cmm/scan_path.h"
 #include "core/numbers.h"
 #include "core/units.h"
 
@@ -26,7 +26,8 @@ using ipp::Item;
 using ipp::client::error_of;
 using ipp::client::Reply;
 
-constexpr double kAfterMove_mm = 1.0;  // more than any window within which a move counts as done
+// Exceeds every window within which a move counts as finished.
+constexpr double kAfterMove_mm = 1.0;
 constexpr double kToReturn_mm = -1.0;  // PtMeasPar.Retract: back to the approach point
 
 std::vector<Item> coordinates(const Vector3d& p) {
@@ -41,7 +42,7 @@ IppMachine::IppMachine(Connect connect, IppMachineOptions options)
 core::Result<std::unique_ptr<IppMachine>> IppMachine::open(Connect connect,
                                                            const IppMachineOptions& options) {
   std::unique_ptr<IppMachine> out(new IppMachine(std::move(connect), options));
-  // Whatever the error of the machine is about, nothing of the plan has been tried yet.
+  // Whatever the error of the machine, no command of the plan has been sent yet.
   if (auto connected = out->connect(); !connected) {
     return core::machine_fault(connected.error().what);
   }
@@ -62,7 +63,7 @@ core::Result<void> IppMachine::connect() {
   const auto tool = dialogue_->active_tool();
   if (!tool) return core::fail(tool.error());
   tool_ = *tool;
-  if (auto named = check_named(options_.tool); !named) return named;  // before anything moves
+  if (auto named = check_named(options_.tool); !named) return named;  // before any motion
   if (auto read = read_tool_radius(); !read) return read;
   const auto homed = dialogue_->is_homed();
   if (!homed) return core::fail(homed.error());
@@ -193,7 +194,7 @@ core::Result<void> IppMachine::go_to(const Vector3d& tip_W_mm) {
 }
 
 core::Result<void> IppMachine::home() {
-  homed_ = true;  // for what check_ready() looks at besides
+  homed_ = true;  // needed by the other checks of check_ready()
   if (auto ready = check_ready(); !ready) {
     homed_ = false;
     return ready;
@@ -268,7 +269,7 @@ core::Result<TouchReading> IppMachine::touch(const TouchCommand& given) {
   const auto reply = run("PtMeas", std::move(items), command.approach_mm + command.search_mm,
                          fmt::format("the touch at {}", in_words(command.expected_tip_W_mm)));
   if (!reply) {
-    // Along the line that was just searched the way back is free.
+    // The way back is free along the line that was just searched.
     const bool goes_back = reply.error().code == core::Code::kNoTouch;
     if (goes_back) {
       if (auto back = go_to(start); !back) return core::fail(back.error());

@@ -12,63 +12,64 @@
 
 #include <Eigen/Core>
 
-#include "cmm/ipp_client/dialogue.h"
 #include "cmm/ipp/named_point.h"
+#include "cmm/ipp_client/dialogue.h"
 #include "cmm/machine.h"
 #include "core/result.h"
 #include "wire/line_transport.h"
 
 namespace rondure::cmm {
 
-/// How a machine behind I++ DME is used, and what is special about its server.
+/// Settings of a machine that is reached over I++ DME, and the peculiarities of its server.
 struct IppMachineOptions {
-  std::string tool;  ///< Taken when the machine is homed; "": the tool that is active stays.
+  std::string tool;  ///< Selected when the machine is homed; "": the active tool is kept.
   Eigen::Vector3d park_W_mm = {0.0, 0.0, 500.0};
   Speeds speeds;
   std::chrono::milliseconds answer_limit{5000};    ///< For & and for commands that move nothing.
   std::chrono::milliseconds motion_limit{120000};  ///< For one motion, homing and tool change.
-  bool abort_works = true;  ///< false: a server whose AbortE is broken; see ipp_client_session.h.
+  bool abort_works = true;          ///< false: a server whose AbortE is broken; see session.h.
   bool returns_to_approach = true;  ///< false: a server that refuses a negative Retract.
   ipp::NamedPoint point = ipp::NamedPoint::kSurface;
   ipp::NumberForm numbers = ipp::NumberForm::kSixteenDigits;
-  double tip_radius_mm = 0.0;            ///< Nominal, of the tip in the plan; 0: any tool will do.
-  double tip_tolerance_mm = 0.1;         ///< How far the tool of the machine may be off.
-  std::function<bool()> stop_requested;  ///< Asked 50 times a second while something moves.
+  double tip_radius_mm = 0.0;            ///< Nominal, from the plan; 0: any tool is accepted.
+  double tip_tolerance_mm = 0.1;         ///< Largest difference of the machine's tool from it.
+  std::function<bool()> stop_requested;  ///< Polled 50 times a second during a motion.
 };
 
 /// A coordinate measuring machine that is reached over I++ DME.
 ///
-/// Everything is said in the frame of the machine (MachineCsy): servers disagree about the
+/// All coordinates are in the frame of the machine (MachineCsy), because servers disagree about the
 /// translation of a part frame. Reports are matched by name. The tip is moved to the start of a
-/// touch with GoTo; PtMeas gets the expected point of the surface, or the expected tip centre
+/// touch with GoTo; PtMeas receives the expected point of the surface, or the expected tip centre
 /// (IppMachineOptions::point), the outward direction and the approach and search distances of the
-/// command. After a contact was not found the error is taken back and the tip goes back to its
-/// start. A stop sends AbortE on the fast queue.
+/// command. After a missing contact the error is cleared and the tip returns to its start. A stop
+/// sends AbortE on the fast queue.
 ///
-/// Whether the server means the same point shows after the first touch of a connection: a negative
-/// Retract brings the tip back to the start of the search, which is one tip radius off where it
-/// does not. Up to then no touch is made that could collide under either reading. A contradiction
-/// is kMeaning. A server that refuses a negative Retract shows nothing: then PtMeas stays slow.
+/// The first touch of a connection shows whether the server means the same point: a negative
+/// Retract brings the tip back to the start of the search, which is one tip radius off if it does
+/// not. Before that no touch is made that could collide under either reading. A contradiction is
+/// kMeaning. A server that refuses a negative Retract gives no such evidence: then PtMeas stays
+/// slow.
 ///
-/// An answer that cannot belong to what was asked (touch_check.h) is kMachine and keeps every
-/// motion back until recover().
+/// An answer that cannot belong to its command (touch_check.h) is kMachine and blocks every motion
+/// until recover().
 ///
-/// What the server reports without having been asked, and what a daemon sends, is never taken for
-/// an answer. An error that only refuses a command is taken back; any other one (emergency stop,
-/// collision, fault of a drive) keeps every motion back until recover(). When the connection is
-/// lost every command is kMachine; recover() connects again.
+/// Unsolicited reports of the server and those of daemons are never taken for an answer. An error
+/// that only refuses a command is cleared; any other one (emergency stop, collision, fault of a
+/// drive) blocks every motion until recover(). When the connection is lost every command is
+/// kMachine; recover() connects again.
 ///
-/// time_s() is the time since the connection was opened, unless the server gives its own with each
-/// point; the points of a scan carry the time of the last touch then. Temperatures that the
-/// server does not give are absent; see knows_temperature().
+/// time_s() is the time since the connection was opened, unless the server reports its own time
+/// with each point; the points of a scan then carry the time of the last touch. Temperatures that
+/// the server does not report are absent; see knows_temperature().
 class IppMachine final : public Machine {
  public:
-  /// Makes the connection; also called by recover() when it was lost.
+  /// Makes the connection; recover() calls it again after a loss.
   using Connect = std::function<core::Result<std::unique_ptr<wire::LineTransport>>()>;
 
-  /// Connects, opens a session and asks who answers. Nothing moves.
-  /// @return  kMachine when nobody answers, or not as a machine of I++ DME 1.x or 2.x, or when the
-  ///          machine reports a fault.
+  /// Connects, opens a session and identifies the server. Nothing moves.
+  /// @return  kMachine when there is no answer, or not that of an I++ DME 1.x or 2.x machine, or
+  ///          when the machine reports a fault.
   [[nodiscard]] static core::Result<std::unique_ptr<IppMachine>> open(
       Connect connect, const IppMachineOptions& options);
 
@@ -90,22 +91,23 @@ class IppMachine final : public Machine {
   [[nodiscard]] const ipp::client::Identity& identity() const { return identity_; }
   /// Whether the machine has a rotary table that align_part() can turn.
   [[nodiscard]] bool has_rotary_table() const;
-  /// Whether readings carry a temperature that was measured.
+  /// Whether readings carry a measured temperature.
   [[nodiscard]] bool knows_temperature() const { return temperature_degC_.has_value(); }
-  /// Whether rondure simulate-cmm answers, whose noise is that of numbered touches and turns.
+  /// Whether the server is rondure simulate-cmm, whose noise depends on the numbers of touches and
+  /// turns.
   [[nodiscard]] bool is_simulated() const { return identity_.simulated; }
-  /// Tells a simulator where the program stands, e.g. ("Simulation.NextTurn", 3). Nothing is said
+  /// Sends the state of the program to a simulator, e.g. ("Simulation.NextTurn", 3). Sends nothing
   /// to a real machine.
   [[nodiscard]] core::Result<void> tell_simulation(std::string_view name, std::int64_t value);
 
-  /// Two directions of the part and where they shall point, or where they do point.
+  /// Two directions of the part in the machine frame: target, or result.
   struct Alignment {
     Eigen::Vector3d first_W = Eigen::Vector3d::UnitZ();
     Eigen::Vector3d second_W = Eigen::Vector3d::UnitY();
   };
   /// Turns the tables of the machine so that z of the part points along `target.first_W` and y
   /// along `target.second_W` (AlignPart with 14 numbers, no limits of error).
-  /// @return  Where both point then.
+  /// @return  The directions after the turn.
   [[nodiscard]] core::Result<Alignment> align_part(const Alignment& target);
 
  private:
@@ -113,54 +115,56 @@ class IppMachine final : public Machine {
 
   [[nodiscard]] core::Result<void> connect();
   [[nodiscard]] bool is_stop_wanted();
-  /// Why a motion did not begin: a stop that was not taken back.
+  /// Why a motion did not start: a stop that was not cleared.
   [[nodiscard]] core::Error stopped_before(std::string_view what) const;
-  /// What every motion needs: a session, no stop, no fault, homed.
+  /// Checks the conditions of every motion: a session, no stop, no fault, homed.
   [[nodiscard]] core::Result<void> check_ready();
   [[nodiscard]] core::Result<void> take_tool(const std::string& name);
-  /// That the machine names this tool, where it names its tools.
+  /// Checks that the machine names this tool, if it names its tools.
   [[nodiscard]] core::Result<void> check_named(const std::string& tool) const;
-  /// That the machine has a tool, and one whose tip is the expected one.
+  /// Checks that the machine has a tool, with the expected tip.
   [[nodiscard]] core::Result<void> check_tool();
-  /// The radius the machine works with, that of the plan where it tells none.
+  /// Reads the radius the machine works with; that of the plan if it reports none.
   [[nodiscard]] core::Result<void> read_tool_radius();
-  /// Touches of a simulator have numbers; what came between must not shift them.
+  /// Sends the number of the next touch to a simulator, so that other touches do not shift the
+  /// noise.
   [[nodiscard]] core::Result<void> number_touch(std::int64_t id);
   [[nodiscard]] core::Result<void> send_speeds();
   [[nodiscard]] core::Result<void> read_speed_limits();
   [[nodiscard]] core::Result<void> read_part_temperature();
   [[nodiscard]] core::Result<bool> scans_with_tool();
-  /// A motion: its answer, or the error with the place where the machine stands.
+  /// Runs a motion. Returns its answer, or the error with the position of the machine.
   [[nodiscard]] core::Result<ipp::client::Reply> run(std::string_view method,
                                                      std::vector<ipp::Item> items, double length_mm,
                                                      const std::string& doing);
   [[nodiscard]] core::Result<void> go_to(const Eigen::Vector3d& tip_W_mm);
   [[nodiscard]] core::Result<void> set_touch_distances(const TouchCommand& command);
-  // Which point the server means: ipp_client_point.cpp.
-  /// The point to name for a tip centre.
+  // The point that the server means: point.cpp.
+  /// The point to send for a tip centre.
   [[nodiscard]] Eigen::Vector3d named_point(const Eigen::Vector3d& tip_W_mm,
                                             const Eigen::Vector3d& direction_W) const;
-  /// Whether a tip could come to harm by the other reading. A simulator has none to lose, and its
-  /// clock is to show the time of the planned path.
+  /// Whether a tip could be damaged if the server means the other point. Not on a simulator, which
+  /// has no real tip and whose clock is to show the time of the planned path.
   [[nodiscard]] bool is_cautious() const { return !point_known_ && !identity_.simulated; }
-  /// The touch with distances that suit either reading.
+  /// The touch with distances that are safe under either reading.
   [[nodiscard]] TouchCommand for_either_reading(const TouchCommand& command) const;
-  /// How far the tip has just come straight in along the line of the touch: this way is free.
+  /// Distance over which the tip has just moved straight along the line of the touch; it is free of
+  /// obstacles.
   [[nodiscard]] double came_along_mm(const TouchCommand& command) const;
-  /// Approaches of PtMeas itself are made no faster than a touch, or as fast as others again.
+  /// Limits the speed of PtMeas' own approach to the touch speed, or restores it.
   [[nodiscard]] core::Result<void> slow_down(bool slow);
-  /// Looks where the tip came back to after `sent`, the touch `command` with other distances.
+  /// Checks where the tip returned to after `sent`, the touch `command` with other distances.
   [[nodiscard]] core::Result<void> check_point(const TouchCommand& command,
                                                const TouchCommand& sent);
-  /// A failed touch while the reading is not known.
+  /// Adds advice to the error of a touch that failed while the point was not yet known.
   [[nodiscard]] core::Error with_point_advice(core::Error error) const;
   [[nodiscard]] core::Result<TouchReading> reading_of(const ipp::client::Reply& reply,
                                                       const TouchCommand& command);
   /// Whether a point can be the answer to a touch (touch_check.h).
   [[nodiscard]] core::Result<void> check_point_of(const ipp::client::PointReport& point,
                                                   const TouchCommand& command) const;
-  /// Keeps the machine still after an answer that does not belong to what was asked: where its tip
-  /// stands is not known either. Gives the error.
+  /// Blocks every motion after an answer that does not belong to its command, because the position
+  /// of the tip is unknown. Returns the error.
   [[nodiscard]] core::Error distrust(const core::Error& error);
   [[nodiscard]] core::Result<std::vector<TouchReading>> readings_of(
       const ipp::client::Reply& reply, const ScanCircleCommand& command);
@@ -174,18 +178,18 @@ class IppMachine final : public Machine {
   Speeds greatest_;
   Eigen::Vector3d position_W_mm_ = Eigen::Vector3d::Zero();
   std::optional<double> temperature_degC_;
-  std::optional<double> scale_temperature_degC_;  ///< Of the last touch that came with one.
+  std::optional<double> scale_temperature_degC_;  ///< From the last touch that reported one.
   std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
-  /// The touch before, and its answer.
+  /// The previous touch and its answer.
   std::optional<std::pair<TouchCommand, Eigen::Vector3d>> last_touch_;
-  std::optional<double> effective_radius_mm_;  ///< Of the first touch with this tool.
-  double server_time_s_ = 0.0;                 ///< Of the last point.
-  double tool_radius_mm_ = 0.0;                ///< 0: neither machine nor plan tell one.
+  std::optional<double> effective_radius_mm_;  ///< From the first touch with this tool.
+  double server_time_s_ = 0.0;                 ///< From the last point.
+  double tool_radius_mm_ = 0.0;                ///< 0: reported by neither machine nor plan.
   bool tool_scans_ = true;                     ///< The active tool has Tool.ScanPar.
-  bool point_known_ = false;                   ///< What the server means by a point was seen.
+  bool point_known_ = false;                   ///< The point that the server means was verified.
   std::array<Eigen::Vector3d, 2> last_move_W_mm_ = {Eigen::Vector3d::Zero(),
                                                     Eigen::Vector3d::Zero()};  ///< From, to.
-  std::int64_t next_touch_ = -1;  ///< As a simulator counts; -1: not known.
+  std::int64_t next_touch_ = -1;  ///< Count of a simulator; -1: unknown.
   bool homed_ = false;
   std::atomic<bool> stopped_ = false;
 };

@@ -6,14 +6,14 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp_client/internal/failure.h"
 #include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp_client/internal/failure.h"
 
 namespace rondure::cmm::ipp::client {
 namespace {
 
-// What a probed point is asked to come with: not every server has all of them, so the first
-// seven, four or three are asked for.
+// Values to request with a probed point. Not every server has all of them, so the first seven, four
+// or three are requested.
 constexpr auto kPointReport = std::to_array<std::string_view>(
     {"X", "Y", "Z", "ER", "Part.Temperature", "Scale.Temperature", "Time"});
 constexpr auto kReportLengths = std::to_array<std::size_t>({7, 4, 3});
@@ -26,7 +26,7 @@ void collect(std::span<const Item> items, std::vector<const Item*>& out) {
   }
 }
 
-/// A name or string as an answer gives it: DMEVersion("1.4"), GetMachineClass(CartCMM), "T1".
+/// The name or string in an answer: DMEVersion("1.4"), GetMachineClass(CartCMM), "T1".
 std::string word_of(const Reply& reply) {
   for (const Response& line : reply.data) {
     for (const Item& item : line.data) {
@@ -42,7 +42,7 @@ std::string word_of(const Reply& reply) {
   return "";
 }
 
-/// What the machine tells about its faults.
+/// The faults that the machine reports.
 std::string told(const Reply& reply) {
   std::string out;
   for (const Response& line : reply.data) {
@@ -52,17 +52,17 @@ std::string told(const Reply& reply) {
   return out;
 }
 
-/// The first issue whose points and parts have temperatures.
+/// The first issue with temperatures of points and parts.
 constexpr double kFirstWithTemperatures = 1.5;
 
-/// Whether an answer to the first command reports more than the error state or session of a client
-/// before: what a person has to see and put right before a session is tried.
+/// Whether the answer to the first command reports more than an error state or session left by an
+/// earlier client: a person has to correct it before a session is started.
 bool waits_for_a_person(const ErrorReport& report) {
   return report.severity > kErrorState && report.number != kUseClearAllErrors &&
          !is_refusal(report);
 }
 
-/// A failure that came right behind what the machine said before, so that neither hides the other.
+/// Adds the earlier message of the machine to a failure, so that neither hides the other.
 Failure with_earlier(Failure failure, const std::string& said) {
   if (!said.empty()) failure.what += fmt::format("; before that the machine said {}", said);
   return failure;
@@ -183,8 +183,7 @@ core::Result<void> Dialogue::clear() {
 
 core::Result<void> Dialogue::fresh_session() {
   constexpr std::string_view kDoing = "opening a session";
-  // A session that was not ended may still be there; a server in its error state refuses
-  // EndSession.
+  // A session that was not ended may still exist; a server in its error state refuses EndSession.
   auto ended = session_.call("EndSession", {}, limit_);
   std::string said;
   if (!ended && ended.error().kind == Failure::Kind::kServer) {
@@ -209,7 +208,7 @@ core::Result<void> Dialogue::check_state() {
   if (!status && status.error().kind == Failure::Kind::kLine) {
     return core::fail(error_of(status.error(), "asking for the state of the machine"));
   }
-  if (!status) {  // a server without this command has to show its state otherwise
+  if (!status) {  // the state of such a server shows at the next command
     settle(status.error());
     return {};
   }
@@ -293,7 +292,7 @@ core::Result<Identity> Dialogue::start() {
 }
 
 core::Result<bool> Dialogue::is_simulator() {
-  const auto list = tool_list();  // ours lists what it has
+  const auto list = tool_list();  // the list of our own server is complete
   if (!list) return core::fail(list.error());
   if (list->find("\"Id\"") == std::string::npos) return false;
   const auto id = ask_if_known("GetProp", {call_item("Tool.Id")});
@@ -310,7 +309,7 @@ core::Result<std::string> Dialogue::tool_list() {
     if (!list) return core::fail(list.error());
     tool_list_ = *list ? told(**list) : "";
   }
-  // A list without the parameters of a touch is none: no tool is active, or it is not all there.
+  // A list without the parameters of a touch is unusable: no tool is active, or it is incomplete.
   return tool_list_->find("PtMeasPar") == std::string::npos ? std::string() : *tool_list_;
 }
 

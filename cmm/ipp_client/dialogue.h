@@ -20,64 +20,65 @@
 
 namespace rondure::cmm::ipp::client {
 
-/// Who answers at the other end.
+/// Identity of the server.
 struct Identity {
-  std::string version;             ///< "1.4"; "before 1.4" of a server that cannot say.
-  std::string machine_class;       ///< "CartCMMWithRotaryTable"; "" of a server that cannot say.
+  std::string version;             ///< "1.4"; "before 1.4" when the server cannot report it.
+  std::string machine_class;       ///< "CartCMMWithRotaryTable"; "" when not reported.
   std::vector<std::string> tools;  ///< Without the reserved names that measure nothing.
   bool scans = false;              ///< It takes a scan report.
   std::string no_scans;            ///< Why not.
-  bool has_temperatures = false;   ///< It may know those of part and scales.
-  bool tells_temperature = false;  ///< Points come with the temperature of the part,
+  bool has_temperatures = false;   ///< It may report those of part and scales.
+  bool tells_temperature = false;  ///< Points are reported with the temperature of the part,
   bool tells_time = false;         ///< and with the time of the machine's clock [s].
   bool simulated = false;          ///< It is rondure simulate-cmm.
 };
 
-/// What a probed point came with.
+/// Values reported with a probed point.
 struct PointReport {
   Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();
-  std::optional<double> tip_radius_mm;           ///< ER.
-  std::optional<Eigen::Vector3d> normal_W;       ///< IJK, where the server gives it unasked.
-  std::optional<double> temperature_degC;        ///< Of the part.
+  std::optional<double> tip_radius_mm;      ///< ER.
+  std::optional<Eigen::Vector3d> normal_W;  ///< IJK, if the server reports it without a request.
+  std::optional<double> temperature_degC;   ///< Of the part.
   std::optional<double> scale_temperature_degC;  ///< Of the scales of the machine.
   std::optional<double> time_s;
 };
 
-/// The values of the reply by name, wherever they stand: servers change the order, spread them over
-/// lines, and put them inside the name of a method.
+/// Finds a value of the reply by name, in any place: servers change the order, spread values over
+/// several lines, and put them inside the name of a method.
 [[nodiscard]] const Item* find_value(const Reply& reply, std::string_view name);
 [[nodiscard]] std::optional<double> find_number(const Reply& reply, std::string_view name);
 /// X, Y and Z.
 [[nodiscard]] core::Result<Eigen::Vector3d> find_point(const Reply& reply);
-/// All vectors, written in parentheses or as bare numbers, three a vector.
+/// All vectors, written in parentheses or as bare numbers, three per vector.
 [[nodiscard]] std::vector<Eigen::Vector3d> find_vectors(const Reply& reply);
-/// All bare numbers in groups of three, as a scan with the report X(),Y(),Z() gives them.
+/// All bare numbers in groups of three, as reported by a scan with X(),Y(),Z().
 [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> scan_points(const Reply& reply);
 
-/// What a client asks of a server, in values instead of lines. Errors of the server that are mere
-/// refusals are taken back at once (is_refusal()); another one leaves the server in its error state
-/// and is kept as fault() until clear().
+/// The requests of a client in values instead of lines. Errors that are mere refusals are cleared
+/// at once (is_refusal()); any other one leaves the server in its error state and is kept as
+/// fault() until clear().
 class Dialogue {
  public:
   using Milliseconds = std::chrono::milliseconds;
 
   Dialogue(std::unique_ptr<wire::LineTransport> line, const SessionOptions& options,
            Milliseconds limit);
-  ~Dialogue();  ///< Ends the session politely, where it still goes on.
+  ~Dialogue();  ///< Ends the session with EndSession() if the line still works.
   Dialogue(const Dialogue&) = delete;
   Dialogue& operator=(const Dialogue&) = delete;
 
-  /// Begins a fresh session, asks who answers, keeps the machine frame active and says what reports
-  /// shall hold. kMachine when the server speaks another language or version, or reports a fault.
+  /// Starts a new session, identifies the server, keeps the machine frame active and sets the
+  /// contents of reports. kMachine when the server speaks another language or version, or reports a
+  /// fault.
   [[nodiscard]] core::Result<Identity> start();
 
   /// One command with its answer.
   [[nodiscard]] Outcome<Reply> ask(std::string_view method, std::vector<Item> arguments = {});
-  /// The same for a motion: with its own time limit, and ended when a stop is asked for.
+  /// As ask(), for a motion: with its own time limit; a requested stop ends it.
   [[nodiscard]] Outcome<Reply> move(std::string_view method, std::vector<Item> arguments,
                                     Milliseconds limit);
-  /// As ask(); nothing when the server does not know the command, argument or property, or does
-  /// not without a tool.
+  /// As ask(); nothing when the server does not know the command, argument or property, or knows it
+  /// only with a tool.
   [[nodiscard]] core::Result<std::optional<Reply>> ask_if_known(std::string_view method,
                                                                 std::vector<Item> arguments);
 
@@ -87,12 +88,12 @@ class Dialogue {
   [[nodiscard]] core::Result<std::string> active_tool();
   /// The number of a property, or nothing when the server does not have it.
   [[nodiscard]] core::Result<std::optional<double>> property(std::string_view name);
-  /// Sets properties that have not these values already. kOutOfRange when the server clamps one.
+  /// Sets the properties whose values differ. kOutOfRange when the server clamps one.
   [[nodiscard]] core::Result<void> set(std::span<const std::pair<std::string_view, double>> values);
-  /// Whether the active tool may have a property or block of properties; false where the server
-  /// lists those it has, and this one is not among them. Asked so that a server need not refuse.
+  /// Whether the active tool may have a property or block of properties; false when the server
+  /// lists its properties and this one is missing. Avoids requests that the server would refuse.
   [[nodiscard]] core::Result<bool> tool_may_have(std::string_view name);
-  /// A tool change gives the properties their own values again, and may give others.
+  /// After a tool change the properties have the defaults of the tool and may be others.
   void forget_properties() {
     known_.clear();
     tool_list_.reset();
@@ -100,11 +101,12 @@ class Dialogue {
 
   [[nodiscard]] core::Result<PointReport> point_of(const Reply& reply) const;
 
-  /// What the machine reports; "" when all is well.
+  /// The fault that the machine reports; "" when there is none.
   [[nodiscard]] const std::string& fault() const { return fault_; }
-  /// Keeps the machine still from here until clear().
+  /// Blocks every motion until clear().
   void hold(std::string why) { fault_ = std::move(why); }
-  /// Takes errors back: ClearAllErrors(). kMachine, with what the machine says, when one stays.
+  /// Clears errors with ClearAllErrors(). kMachine, with the message of the machine, when one
+  /// stays.
   [[nodiscard]] core::Result<void> clear();
   [[nodiscard]] Session& session() { return session_; }
   [[nodiscard]] const Session& session() const { return session_; }
@@ -115,15 +117,15 @@ class Dialogue {
   [[nodiscard]] core::Result<std::string> version();
   [[nodiscard]] core::Result<void> choose_reports(Identity& identity);
   [[nodiscard]] core::Result<bool> is_simulator();
-  /// The properties of the active tool as the server lists them; "" where it does not.
+  /// The properties of the active tool as listed by the server; "" when it has no list.
   [[nodiscard]] core::Result<std::string> tool_list();
-  /// Takes back a refusal, keeps anything else as the fault.
+  /// Clears a refusal; keeps any other failure as the fault.
   void settle(const Failure& failure);
 
   Session session_;
   Milliseconds limit_;
-  std::map<std::string, double, std::less<>> known_;  ///< Properties as set from here.
-  std::optional<std::string> tool_list_;  ///< What EnumAllProp(Tool()) told, as it came.
+  std::map<std::string, double, std::less<>> known_;  ///< Properties set by this client.
+  std::optional<std::string> tool_list_;              ///< Reply to EnumAllProp(Tool()), unparsed.
   std::string fault_;
   bool started_ = false;
 };

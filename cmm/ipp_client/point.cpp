@@ -10,7 +10,8 @@
 #include "cmm/grid.h"
 #include "cmm/ipp_client/touch_check.h"
 
-// Which point PtMeas means: what the plan says, and what the first touch of a connection shows.
+// The point that PtMeas means: as stated in the plan, and as shown by the first touch of a
+// connection.
 
 namespace rondure::cmm {
 namespace {
@@ -18,9 +19,9 @@ namespace {
 using Eigen::Vector3d;
 using ipp::NamedPoint;
 
-constexpr double kOnLine_mm = 1e-3;       // beside the line of a touch, and still on it
-constexpr double kOfRadius = 0.25;        // of the tip radius that separates both readings
-constexpr double kStillAtStart_mm = 0.1;  // how a real machine stands where it was told to
+constexpr double kOnLine_mm = 1e-3;       // beside the line of a touch, but still on it
+constexpr double kOfRadius = 0.25;        // share of the tip radius that separates the readings
+constexpr double kStillAtStart_mm = 0.1;  // positioning of a real machine
 
 std::string_view in_plan(NamedPoint point) {
   return point == NamedPoint::kSurface ? "surface" : "center";
@@ -41,12 +42,12 @@ double IppMachine::came_along_mm(const TouchCommand& command) const {
   return (way + along_mm * command.direction_W).norm() <= kOnLine_mm ? along_mm : 0.0;
 }
 
-// With the start of the planned search at A and its end at -Q, measured outwards from the expected
-// tip centre, and the tip radius r, a server that takes the other point than is meant here searches
-// r deeper (surface meant, centre taken) or r higher. Where the tip has just come in along this
-// line both searches may begin at A or A + r, so the approach grows by r where the surface is
-// meant. Elsewhere nothing is known to be free: the way to the other start is made at touch speed,
-// where a contact does no harm. Where the centre is meant the search grows by r: both get to -Q.
+// Let A be the start of the planned search and -Q its end, measured outwards from the expected tip
+// centre, and r the tip radius. A server that takes the other point searches r deeper (surface
+// meant, centre taken) or r higher. If the tip has just moved in along this line, both searches may
+// begin at A or A + r, so the approach grows by r where the surface is meant. Otherwise no space is
+// known to be free: the tip moves to the other start at touch speed, at which a contact does no
+// harm. Where the centre is meant the search grows by r, so that both readings reach -Q.
 TouchCommand IppMachine::for_either_reading(const TouchCommand& command) const {
   TouchCommand out = command;
   if (!options_.returns_to_approach) return out;
@@ -69,7 +70,7 @@ core::Result<void> IppMachine::slow_down(bool slow) {
 
 core::Result<void> IppMachine::check_point(const TouchCommand& command, const TouchCommand& sent) {
   const double radius_mm = tool_radius_mm_;
-  if (radius_mm == 0.0) {  // both readings are the same
+  if (radius_mm == 0.0) {  // both readings agree
     point_known_ = true;
     return {};
   }
@@ -100,7 +101,7 @@ core::Result<void> IppMachine::check_point(const TouchCommand& command, const To
     position_W_mm_ = start;
     return {};
   }
-  if (auto back = go_to(start); !back) return back;  // on the line that was searched
+  if (auto back = go_to(start); !back) return back;  // on the searched line
   if (point_known_) return {};
   return core::fail(
       core::Code::kMeaning,

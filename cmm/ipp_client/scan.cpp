@@ -8,12 +8,12 @@
 
 #include "cmm/grid.h"
 #include "cmm/internal/place_text.h"
-#include "cmm/scan_path.h"
 #include "cmm/ipp_client/touch_check.h"
+#include "cmm/scan_path.h"
 #include "core/numbers.h"
 #include "core/units.h"
 
-// Circle scans and the rotary tables of a machine behind I++ DME.
+// Circle scans and the rotary tables of a machine reached over I++ DME.
 
 namespace rondure::cmm {
 namespace {
@@ -23,7 +23,7 @@ using ipp::Item;
 using ipp::number_item;
 using ipp::client::Reply;
 
-/// Servers retract from the end of a scan by a length of their own.
+/// Servers retract from the end of a scan by a distance of their own choice.
 constexpr double kAfterScan_mm = 50.0;
 
 void append(std::vector<Item>& items, const Vector3d& v) {
@@ -90,7 +90,7 @@ core::Result<std::vector<TouchReading>> IppMachine::readings_of(const Reply& rep
     return core::fail(distrust(there.error()));
   }
   position_W_mm_ = on_grid_mm(*stands);
-  // The points come without temperatures, and no touch may have given one for many circles.
+  // The points have no temperatures, and the last touch may be many circles ago.
   if (auto read = read_part_temperature(); !read) return core::fail(read.error());
   std::vector<TouchReading> out;
   out.reserve(tips->size());
@@ -112,7 +112,7 @@ core::Result<IppMachine::Alignment> IppMachine::align_part(const Alignment& targ
   append(items, target.first_W);
   append(items, Vector3d::UnitY());
   append(items, target.second_W);
-  items.push_back(number_item(0.0));  // no check of the error that is left: the pose is read back
+  items.push_back(number_item(0.0));  // no limit for the residual error: the pose is read back
   items.push_back(number_item(0.0));
   const auto reply = run("AlignPart", std::move(items), 0.0, "turning the part");
   if (!reply) return core::fail(reply.error());

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLastTag = 99'999;
 constexpr int kLastEventTag = 9'999;
-constexpr std::chrono::milliseconds kLook(20);       // between two looks at a wish to stop
+constexpr std::chrono::milliseconds kLook(20);       // between two polls for a stop
 constexpr std::chrono::milliseconds kGoodbye(1000);  // for AbortE on a line that is given up
 constexpr std::size_t kMaxReply_bytes = std::size_t{64} << 20;  // a scan of 100 000 points has 6 MB
 constexpr std::size_t kShown = 80;                              // characters of a line, in messages
@@ -148,7 +148,7 @@ Outcome<void> Session::take(const wire::Line& line) {
     return {};
   }
   const auto found = running_.find(to_text(response->tag));
-  if (found == running_.end()) return {};  // of a daemon, or of a command that AbortE ended
+  if (found == running_.end()) return {};  // from a daemon, or from a command that AbortE ended
   Running& running = found->second;
   running.bytes += line.text.size();
   if (running.bytes > kMaxReply_bytes) {

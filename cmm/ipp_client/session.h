@@ -17,83 +17,83 @@
 
 namespace rondure::cmm::ipp::client {
 
-/// What a transaction gave that ended well.
+/// Result of a successful transaction.
 struct Reply {
   std::vector<Response> data;         ///< The # lines, in order.
   std::vector<ErrorReport> warnings;  ///< Reports of severity 0 and 1.
 };
 
-/// Why a transaction did not end well.
+/// Why a transaction failed.
 struct Failure {
   enum class Kind {
-    kLine,     ///< The line is lost, silent, or speaks something else: no call works any more.
+    kLine,     ///< The line is lost, silent, or carries another protocol: every later call fails.
     kServer,   ///< The server reported an error of severity 2 or more (`report`).
-    kStopped,  ///< Stopped from here, by AbortE: ClearAllErrors() comes next.
+    kStopped,  ///< Stopped by this client with AbortE: ClearAllErrors() comes next.
   };
 
   Kind kind = Kind::kLine;
-  std::string what;    ///< For a person; holds what the machine said.
-  ErrorReport report;  ///< Of kServer the first such report.
+  std::string what;    ///< For the user; includes the message of the machine.
+  ErrorReport report;  ///< For kServer the first such report.
 };
 
 template <class T>
 using Outcome = tl::expected<T, Failure>;
 
-/// How a session talks.
+/// Settings of a session.
 struct SessionOptions {
   std::chrono::milliseconds answer_limit{5000};  ///< For & after a command, and for AbortE.
   bool abort_works = true;  ///< false: a server whose AbortE is broken; motions run to their end.
-  NumberForm numbers = NumberForm::kSixteenDigits;  ///< Of commands.
+  NumberForm numbers = NumberForm::kSixteenDigits;  ///< In commands.
 };
 
-/// The client's half of an I++ DME connection: commands with their tags, answers sorted by tag.
+/// The client side of an I++ DME connection: commands with their tags, answers sorted by tag.
 ///
 /// One command is in flight at a time (begin() and finish() allow more). Lines of daemons, of
 /// unsolicited events (E0000) and with tags of old commands are never taken for an answer. An
-/// unsolicited error of severity 2 or more fails the command that is under way, or the next one,
-/// whatever is answered to it; a motion is ended by AbortE. The end
-/// of AbortE ends every older command, whether the server says so or not. A line that is no answer
-/// of I++ DME, an answer that does not come in time and a lost connection end the session: what
-/// moves then is stopped by AbortE where the line still stands, and every later call gives the
-/// same failure. Source: I++ DME 1.4.3, transactions; what servers really do is in docs/ipp-dme.md.
+/// unsolicited error of severity 2 or more fails the command in progress, or the next one, whatever
+/// its answer; a motion is ended by AbortE. The end of AbortE ends every older command, whether the
+/// server says so or not. A line that is not an answer of I++ DME, a late answer and a lost
+/// connection end the session: motions are stopped by AbortE if the line still works, and every
+/// later call gives the same failure. Source: I++ DME 1.4.3, transactions; docs/ipp-dme.md
+/// describes the behaviour of real servers.
 ///
 /// Not for use by two threads at once.
 class Session {
  public:
   using Milliseconds = std::chrono::milliseconds;
-  /// Whether a wish to stop ends a command: motions only.
+  /// Whether a stop request ends a command: motions only.
   enum class Watch { kNothing, kStop };
 
   explicit Session(std::unique_ptr<wire::LineTransport> line, const SessionOptions& options = {});
 
-  /// Asked about 50 times a second while the end of a motion is awaited; true sends AbortE.
+  /// Polled about 50 times a second until a motion ends; true sends AbortE.
   void ask_for_stop(std::function<bool()> stop) { stop_ = std::move(stop); }
 
   /// Sends a command and waits for its end.
-  /// @param limit  For the whole of it.
+  /// @param limit  For the whole transaction.
   [[nodiscard]] Outcome<Reply> call(std::string_view method, std::vector<Item> arguments,
                                     Milliseconds limit, Watch watch = Watch::kNothing);
-  /// The same on the fast queue, with an event tag: GetErrStatusE, OnMoveReportE.
+  /// As call(), on the fast queue with an event tag: GetErrStatusE, OnMoveReportE.
   [[nodiscard]] Outcome<Reply> call_event(std::string_view method, std::vector<Item> arguments,
                                           Milliseconds limit);
 
-  /// Sends a command and waits for its & only.
+  /// Sends a command and waits only for its &.
   [[nodiscard]] Outcome<Tag> begin(std::string_view method, std::vector<Item> arguments);
   /// Waits for the end of a command that was begun.
   [[nodiscard]] Outcome<Reply> finish(const Tag& tag, Milliseconds limit,
                                       Watch watch = Watch::kNothing);
-  /// Stops all motion: AbortE, and waits for its end. Older commands end as kStopped.
+  /// Stops all motion: sends AbortE and waits for its end. Older commands end as kStopped.
   [[nodiscard]] Outcome<void> abort();
 
   [[nodiscard]] bool usable() const { return broken_.empty() && line_->is_open(); }
   [[nodiscard]] std::string peer() const { return line_->peer(); }
-  /// The last error that came without being asked for (E0000), since this was asked last; else "".
+  /// The last unsolicited error (E0000) since the previous call, or "".
   [[nodiscard]] std::string take_unsolicited();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// A command between being sent and its end.
+  /// A command that was sent and has not ended.
   struct Running {
     std::string text;
     bool acknowledged = false;
@@ -112,7 +112,7 @@ class Session {
   [[nodiscard]] Outcome<void> take(const wire::Line& line);
   void take_unsolicited_line(const Response& response);
   [[nodiscard]] Outcome<Reply> result_of(const Tag& tag);
-  /// Ends the session; what may move is told to stop.
+  /// Ends the session; sends a stop to anything that may move.
   [[nodiscard]] tl::unexpected<Failure> break_off(std::string what);
   [[nodiscard]] std::string with_unsolicited(std::string what);
 
@@ -122,10 +122,11 @@ class Session {
   std::map<std::string, Running> running_;  ///< By tag.
   int last_tag_ = 0;
   int last_event_tag_ = 0;
-  std::string broken_;                 ///< Why the session ended; "" while it goes on.
-  std::string unsolicited_;            ///< The last E0000 error.
-  std::optional<ErrorReport> severe_;  ///< The first of severity 2 or more that failed no command.
-  std::string heard_;                  ///< The beginning of the last line that was one of I++ DME.
+  std::string broken_;       ///< Why the session ended; "" while it is open.
+  std::string unsolicited_;  ///< The last E0000 error.
+  /// The first of severity 2 or more that has not failed a command.
+  std::optional<ErrorReport> severe_;
+  std::string heard_;  ///< Start of the last valid I++ DME line.
 };
 
 }  // namespace rondure::cmm::ipp::client

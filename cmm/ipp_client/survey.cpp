@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "cmm/ipp/internal/errors.h"
 #include "cmm/ipp_client/dialogue.h"
 #include "cmm/ipp_client/internal/failure.h"
-#include "cmm/ipp/internal/errors.h"
 
 namespace rondure::cmm::ipp::client {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 constexpr auto kAsked = std::to_array<std::string_view>(
     {"Tool.GoToPar.Speed", "Tool.PtMeasPar.Speed", "Tool.PtMeasPar.Approach",
      "Tool.PtMeasPar.Search", "Tool.PtMeasPar.Retract", "Tool.ScanPar.Speed"});
-// What a touch may report besides X, Y and Z.
+// Values that a touch may report besides X, Y and Z.
 constexpr auto kPointValues = std::to_array<std::string_view>(
     {"ER", "IJK", "Q", "Part.Temperature", "Scale.Temperature", "Time"});
 
@@ -40,12 +40,13 @@ std::vector<std::string> words_of(const Reply& reply) {
 
 bool is_no_tool(const std::string& name) { return name == "NoTool" || name == "UnDefTool"; }
 
-/// The conversation. Every question is asked in its own function; an answer that is lost ends the
-/// connection, and what is asked after it is not sent any more.
+/// The dialogue of a survey. Each request has a function of its own; a missing answer ends the
+/// connection, and the requests after it are not sent.
 class Surveyor {
  public:
   Surveyor(std::unique_ptr<wire::LineTransport> line, std::chrono::milliseconds limit)
-      // Nothing moves for us: an AbortE could only stop what moves for somebody else.
+      // AbortE is not sent: nothing moves for this client, so it could only stop another one's
+      // motion.
       : session_(std::move(line), {limit, false}), limit_(limit) {}
 
   core::Result<Survey> run() {
@@ -128,7 +129,7 @@ class Surveyor {
       const auto words = words_of(*id);
       out_.simulated = !words.empty() && words.front() == kSimulatorId;
     }
-    // A run asks no older server either, which would only refuse the names.
+    // An older server is not asked by a run either: it would refuse the names.
     has_temperatures_ = out_.simulated || std::strtod(out_.version.c_str(), nullptr) >= 1.5;
   }
 
@@ -182,7 +183,7 @@ class Surveyor {
     if (const auto sensors = ask("GetTemperatureSensors")) out_.sensors = words_of(*sensors);
   }
 
-  /// What reports may hold; EndSession takes the choice back.
+  /// Finds the values that reports may hold; EndSession restores the previous choice.
   void ask_reports() {
     const std::vector<Item> place = {call_item("X"), call_item("Y"), call_item("Z")};
     if (ask("OnPtMeasReport", place)) out_.point_values = {"X", "Y", "Z"};
@@ -199,8 +200,8 @@ class Surveyor {
   Session session_;
   std::chrono::milliseconds limit_;
   Survey out_;
-  bool has_temperatures_ = false;  ///< And the time, of points: since issue 1.5.
-  std::string lost_;               ///< Why no further answer comes.
+  bool has_temperatures_ = false;  ///< And the time, with points: since issue 1.5.
+  std::string lost_;               ///< Why no further answers arrive.
 };
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "cmm/grid.h"
 #include "cmm/ipp_client/internal/failure.h"
 
-// Tools and speeds of a machine behind I++ DME.
+// Tools and speeds of a machine reached over I++ DME.
 
 namespace rondure::cmm {
 namespace {
@@ -22,7 +22,7 @@ std::string listed(const std::vector<std::string>& names) {
   return out.empty() ? "none" : out;
 }
 
-/// Speeds as properties of the active tool, with the member each one is.
+/// Speeds as properties of the active tool, with the member of Speeds for each.
 struct SpeedProperty {
   std::string_view name;
   double Speeds::*member;
@@ -65,7 +65,7 @@ core::Result<void> IppMachine::take_tool(const std::string& name) {
                     "tool is in its head",
                     name, tool_.empty() ? "none" : tool_));
   }
-  const auto stands = dialogue_->position_W_mm();  // another tip stands elsewhere
+  const auto stands = dialogue_->position_W_mm();  // another tip has another position
   if (!stands) return core::fail(stands.error());
   position_W_mm_ = on_grid_mm(*stands);
   if (auto read = read_tool_radius(); !read) return read;
@@ -97,7 +97,7 @@ core::Result<void> IppMachine::read_tool_radius() {
   if (!*listed) return {};
   const auto radius = dialogue_->property("Tool.AvrRadius");
   if (!radius) return core::fail(radius.error());
-  // 0: not known, the qualification of the run will find it.
+  // 0: unknown; the qualification of the run determines it.
   if (*radius && **radius > 0.0) tool_radius_mm_ = **radius;
   return {};
 }
@@ -115,7 +115,7 @@ core::Result<bool> IppMachine::scans_with_tool() {
   if (!listed || !*listed) return listed;
   const auto speed = dialogue_->property("Tool.ScanPar.Speed");
   if (!speed) return core::fail(speed.error());
-  return speed->has_value() || tool_.empty();  // without a tool nothing is known yet
+  return speed->has_value() || tool_.empty();  // unknown without a tool
 }
 
 core::Result<void> IppMachine::read_speed_limits() {

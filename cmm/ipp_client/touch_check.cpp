@@ -17,25 +17,26 @@ using Eigen::Vector3d;
 
 constexpr double kAtStart_mm = 1e-6;
 
-// Controllers hold the line of a search and the plane of a scan to some hundredths of a millimetre;
-// probes that report their deflection across the search show a few tenths on steep surfaces.
+// Controllers stay on the line of a search and in the plane of a scan to some hundredths of a
+// millimetre; probes that report their deflection across the search show a few tenths on steep
+// surfaces.
 constexpr double kBeside_mm = 1.0;
-// Over-travel, and the tip radius the machine takes off and on again at either end of a search.
+// Over-travel, and the tip radius that the machine subtracts and adds at either end of a search.
 constexpr double kEnds_mm = 0.1;
-// A place that is known to the last digit cannot come back from a search so far beside it.
+// A result equal to the last digit cannot come from a search displaced by this much.
 constexpr double kElsewhere_mm = 0.01;
 
-// Of a scan: servers promise an average step, and probes lose points.
+// For scans: servers promise an average step, and probes lose points.
 constexpr double kLeastShare = 0.8;
 constexpr double kMostShare = 2.0;
-constexpr double kGapSteps = 3.5;       // two neighbours missing, wherever they are few
+constexpr double kGapSteps = 3.5;       // two neighbours missing, where points are sparse
 constexpr double kDenseGapSteps = 5.5;  // four, where they are dense:
 constexpr double kDenseGap_rad = 10.0 * core::kDegree;
 
 constexpr double kUnit = 0.01;                     // two decimals
-constexpr double kTurn_rad = 8.0 * core::kDegree;  // heads that lock every 15 deg are 7.5 off
+constexpr double kTurn_rad = 8.0 * core::kDegree;  // heads that lock every 15 deg are off by 7.5
 
-constexpr double kColdest_degC = 5.0;  // the widest range machines are built for
+constexpr double kColdest_degC = 5.0;  // the widest range for which machines are built
 constexpr double kWarmest_degC = 45.0;
 
 constexpr double kLeastNormal = 0.5;
@@ -48,12 +49,12 @@ core::Result<void> answers_otherwise(std::string what) {
   return core::fail(core::Code::kMachine, fmt::format("{}; {}", what, kThenResume));
 }
 
-/// Limit of the way between two neighbours of a scan [rad].
+/// Largest angle between two neighbours of a scan [rad].
 double greatest_gap(double step_rad) {
   return std::max(kGapSteps * step_rad, std::min(kDenseGapSteps * step_rad, kDenseGap_rad));
 }
 
-/// That each point lies on the circle.
+/// Checks that each point lies on the circle.
 core::Result<void> check_places(const ScanCircleCommand& command,
                                 std::span<const Vector3d> tips_W_mm) {
   const double radius_mm = (command.start_tip_W_mm - command.center_W_mm).norm();
@@ -85,7 +86,7 @@ core::Result<void> check_places(const ScanCircleCommand& command,
   return {};
 }
 
-/// That the points go round as far, and the way, that was asked for.
+/// Checks that the points cover the commanded sweep in the commanded sense.
 core::Result<void> check_sweep(const ScanCircleCommand& command,
                                std::span<const Vector3d> tips_W_mm) {
   const double sweep_rad = std::abs(command.sweep_rad);

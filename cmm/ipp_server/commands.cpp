@@ -7,7 +7,7 @@
 #include "cmm/ipp/internal/errors.h"
 #include "cmm/ipp_server/server.h"
 
-// What the server answers by itself: session, errors, daemons, abort.
+// Commands that the server answers itself: session, errors, daemons, abort.
 
 namespace rondure::cmm::ipp {
 namespace {
@@ -51,7 +51,7 @@ Server::Outcome Server::start_session(const Command&) {
   session_ = true;
   error_.reset();
   controller_.begin_session();
-  // A machine that stays in its fault tells so at the first motion.
+  // A machine that keeps its fault reports it at the first motion.
   [[maybe_unused]] const auto recovered = controller_.recover();
   return Reply{};
 }
@@ -107,7 +107,7 @@ void Server::receive_event(const Waiting& waiting, double now_s) {
   const Command& command = waiting.command;
   say(ack_line(waiting.tag));
   const auto closed = gate(command);
-  // A stop must get through, whatever went wrong before.
+  // A stop must get through, whatever failed before.
   const bool stops = command.method == "AbortE" && session_;
   if (closed && !stops) return conclude(waiting, tl::unexpected(*closed));
   if (command.method == "GetPropE") return conclude(waiting, controller_.execute(command));

@@ -10,44 +10,45 @@
 #include <Eigen/Geometry>
 #include <tl/expected.hpp>
 
-#include "cmm/ipp_server/backend.h"
 #include "cmm/ipp/frames.h"
 #include "cmm/ipp/grammar.h"
 #include "cmm/ipp/named_point.h"
+#include "cmm/ipp_server/backend.h"
 #include "cmm/ipp_server/parameters.h"
 #include "cmm/machine.h"
 
 namespace rondure::cmm::ipp {
 
-/// What a server is told to be. Values the machine cannot tell itself.
+/// Settings of a server that the machine does not report itself.
 struct ControllerOptions {
   ParameterDefaults defaults;
   NamedPoint point = NamedPoint::kSurface;
   NumberForm numbers = NumberForm::kSixteenDigits;
   double tip_radius_mm = 2.0;      ///< Tool.AvrRadius().
-  double temperature_degC = 20.0;  ///< Of the part, until the first touch has told it.
+  double temperature_degC = 20.0;  ///< Of the part, until the first touch has measured it.
   std::string version = "1.4";     ///< GetDMEVersion().
 };
 
-/// Why a command failed: a number of the error list, and words for GetXtdErrStatus().
+/// Why a command failed: a number of the error list, and the text for GetXtdErrStatus().
 struct Failure {
   int number = 0;
   std::string what;
 };
 
-/// What a command gives.
+/// Result of a command.
 struct Reply {
   std::vector<std::vector<Item>> lines;  ///< Data.
-  int report = 0;                        ///< Number of an error to tell behind them; 0: none.
+  int report = 0;                        ///< Number of an error to report after the data; 0: none.
 };
 
 using Outcome = tl::expected<Reply, Failure>;
 
 /// A part of a motion.
 struct Phase {
-  /// A straight move of the tip, made when its time is over: until then it can be stopped anywhere.
+  /// A straight move of the tip, made at the end of its time: until then it can be stopped
+  /// anywhere.
   std::function<Eigen::Vector3d()> target_W_mm;
-  /// Anything else: done at once, its time passes afterwards. Gives corners of the way of the tip.
+  /// Any other action: done at once, then its time passes. Returns the corners of the tip's path.
   std::function<core::Result<std::vector<Eigen::Vector3d>>()> act;
 };
 
@@ -57,31 +58,31 @@ struct Motion {
   std::function<Reply()> reply;  ///< After the last phase.
 };
 
-/// What a server knows and does, without tags, queues and time: tools, properties, coordinate
-/// systems, reports, and how a command becomes a motion of the machine.
+/// State and functions of a server, without tags, queues and time: tools, properties, coordinate
+/// systems, reports, and the conversion of a command into a motion of the machine.
 ///
-/// Positions are of the centre of the tip. PtMeas(X, Y, Z, IJK) expects the surface, or by
-/// ControllerOptions::point the tip centre, at (X,Y,Z), searches from Approach * IJK before the
-/// tip centre expected at contact to Search * IJK behind it; ScanOnCircle probes its start point
+/// Positions are those of the tip centre. PtMeas(X, Y, Z, IJK) expects the surface, or by
+/// ControllerOptions::point the tip centre, at (X,Y,Z). It searches from Approach * IJK before the
+/// tip centre expected at contact to Search * IJK beyond it. ScanOnCircle probes its start point
 /// likewise and then expects the tip on the circle through it.
 class Controller {
  public:
   Controller(Backend& backend, const ControllerOptions& options);
 
-  /// Reports and hints as StartSession() leaves them.
+  /// Restores the reports and hints that StartSession() sets.
   void begin_session();
-  /// Takes back what keeps the machine from moving.
+  /// Clears the faults that block the machine.
   [[nodiscard]] core::Result<void> recover();
 
   [[nodiscard]] static bool is_motion(std::string_view method);
-  /// Carries out a command that moves nothing.
+  /// Executes a command without motion.
   [[nodiscard]] Outcome execute(const Command& command);
-  /// What a command that moves will do; nothing moves yet.
+  /// Plans a command with motion; nothing moves yet.
   [[nodiscard]] tl::expected<Motion, Failure> plan_motion(const Command& command);
 
-  /// The failure that an error of machine or table is to a client.
+  /// The failure to report to a client for an error of machine or table.
   [[nodiscard]] Failure failure_of(const core::Error& error, std::string_view method);
-  /// Values of the position, for Get() and daemons. 0505 for a name that is none.
+  /// Values of the position, for Get() and daemons. 0505 for an unknown name.
   [[nodiscard]] tl::expected<std::vector<Item>, Failure> position_report(
       const std::vector<std::string>& names, const Eigen::Vector3d& tip_W_mm) const;
 
@@ -139,7 +140,7 @@ class Controller {
   tl::expected<Motion, Failure> plan_touch(const Arguments& arguments);
   tl::expected<Motion, Failure> plan_scan(const Arguments& arguments);
   tl::expected<Motion, Failure> plan_align(const Arguments& arguments);
-  /// The tip centre in contact where a command names the point.
+  /// The tip centre in contact for the point in a command.
   [[nodiscard]] Eigen::Vector3d tip_at(const Eigen::Vector3d& named_W_mm,
                                        const Eigen::Vector3d& direction_W) const;
   Motion touch_motion(const TouchCommand& touch);
@@ -153,7 +154,7 @@ class Controller {
                                   const std::vector<double>& limits_deg,
                                   const std::vector<Eigen::Vector3d>& reached) const;
   [[nodiscard]] Reply scan_reply(const std::vector<TouchReading>& readings) const;
-  /// (X(..), Y(..), Z(..)) in the active system over the position now.
+  /// (X(..), Y(..), Z(..)) in the active system; a missing value keeps the present position.
   tl::expected<Eigen::Vector3d, Failure> position_argument(const Arguments& arguments,
                                                            bool direction_allowed);
   [[nodiscard]] tl::expected<void, Failure> ready_to_move();
@@ -170,7 +171,7 @@ class Controller {
   std::vector<std::string> scan_report_;
   std::optional<TouchReading> last_reading_;
   bool user_enabled_ = false;
-  double expansion_ = 0.0;       ///< Part.XpanCoefficient, kept for who asks.
+  double expansion_ = 0.0;       ///< Part.XpanCoefficient, stored for queries only.
   std::int64_t next_touch_ = 0;  ///< Number of the next touch: key of the simulated noise.
   int feature_ = 0;
 };

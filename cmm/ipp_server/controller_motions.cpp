@@ -7,19 +7,19 @@
 
 #include "cmm/grid.h"
 #include "cmm/ipp/internal/arguments.h"
-#include "cmm/ipp_server/controller.h"
 #include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp_server/controller.h"
 #include "cmm/scan_path.h"
 #include "core/units.h"
 
-// What moves: commands become phases of a motion.
+// Commands with motion: they become phases of a motion.
 
 namespace rondure::cmm::ipp {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kThere_mm = 1e-6;  // the tip stands where it shall be
+constexpr double kThere_mm = 1e-6;  // the tip is at its target
 
 /// All arguments as numbers.
 std::optional<std::vector<double>> numbers(const Arguments& arguments) {
@@ -30,7 +30,7 @@ Vector3d three(const std::vector<double>& n, std::size_t first) {
   return {n[first], n[first + 1], n[first + 2]};
 }
 
-/// A straight move, made when its time is over.
+/// A straight move, made at the end of its time.
 Phase move_phase(const Vector3d& target_W_mm) {
   return {[target_W_mm] { return target_W_mm; }, {}};
 }
@@ -152,7 +152,7 @@ tl::expected<Motion, Failure> Controller::plan_touch(const Arguments& arguments)
 
 Vector3d Controller::tip_at(const Vector3d& named_W_mm, const Vector3d& direction_W) const {
   if (options_.point == NamedPoint::kCenter) return named_W_mm;
-  // On the grid: a client that came from a tip centre there has its bits back.
+  // On the grid, so that a client that started from a tip centre there gets its bits back.
   return on_grid_mm(named_W_mm - options_.tip_radius_mm * direction_W);
 }
 

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include "cmm/ipp/internal/arguments.h"
-#include "cmm/ipp_server/controller.h"
 #include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp_server/controller.h"
 #include "core/units.h"
 
-// What is told: positions, points, scans, temperatures.
+// Reports: positions, points, scans, temperatures.
 
 namespace rondure::cmm::ipp {
 namespace {

@@ -9,7 +9,7 @@ constexpr double kAccel_mm_s2 = 1000.0;
 constexpr double kMaxAccel_mm_s2 = 10'000.0;
 constexpr double kMaxDistance_mm = 1000.0;
 
-/// Cuts ".Max" and its like off a name: what follows the last point, if it is one of the four.
+/// Cuts the suffix ".Act", ".Min", ".Max" or ".Def" off a name and returns it.
 std::string_view take_aspect(std::string_view& name) {
   const std::size_t point = name.rfind('.');
   if (point == std::string_view::npos) return "Act";

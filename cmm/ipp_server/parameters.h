@@ -9,28 +9,28 @@
 
 namespace rondure::cmm::ipp {
 
-/// What the parameters of a tool are after every tool change.
+/// Values of the parameters of a tool after every tool change.
 struct ParameterDefaults {
   Speeds speeds;  ///< Of travel (GoToPar), of touches (PtMeasPar), of scans (ScanPar).
   double approach_mm = 3.0;
   double search_mm = 3.0;
-  double retract_mm = -1.0;  ///< Negative: back to where the search began.
+  double retract_mm = -1.0;  ///< Negative: back to where the search started.
 };
 
 /// The blocks GoToPar, PtMeasPar and ScanPar of the active tool: each parameter with the values
-/// Act, Min, Max and Def. Accelerations are kept and have no effect.
+/// Act, Min, Max and Def. Accelerations are stored and have no effect.
 class ToolParameters {
  public:
   /// @param least, greatest  Speeds the machine accepts.
   ToolParameters(const ParameterDefaults& defaults, const Speeds& least, const Speeds& greatest);
 
-  /// By the name behind "Tool.": "PtMeasPar.Speed", "PtMeasPar.Speed.Max".
+  /// Gets a value by its name after "Tool.": "PtMeasPar.Speed", "PtMeasPar.Speed.Max".
   [[nodiscard]] std::optional<double> get(std::string_view name) const;
 
   enum class Set { kDone, kClamped, kNoSuch };
   /// Sets Act; a value out of range is clamped.
   [[nodiscard]] Set set(std::string_view name, double value);
-  /// Act becomes Def everywhere.
+  /// Sets Act to Def for all parameters.
   void reset();
 
   [[nodiscard]] Speeds speeds() const;

@@ -25,7 +25,7 @@ double length_of(const std::vector<Vector3d>& way) {
   return length_mm;
 }
 
-/// The place at a part of the time on a way; its pieces take the same time.
+/// The position after a fraction of the time on a path; all its legs take the same time.
 Vector3d along(const std::vector<Vector3d>& way, double part) {
   const double at = std::clamp(part, 0.0, 1.0) * static_cast<double>(way.size() - 1);
   const auto piece = std::min(static_cast<std::size_t>(at), way.size() - 1);
@@ -195,7 +195,7 @@ void Server::report(const Waiting& waiting, int number) {
 void Server::enter_error_state(const Failure& failure) {
   if (severity_of(failure.number) < kErrorState) return;
   if (!error_) error_ = failure;
-  // What waits is told so; a motion in progress of an older command goes on to its end.
+  // Waiting commands are closed; the motion in progress of an older command continues to its end.
   abort_waiting(false);
 }
 
@@ -213,7 +213,7 @@ void Server::stop_running(double now_s) {
   if (!running_) return;
   const Phase& phase = running_->motion.phases[running_->phase];
   if (phase.target_W_mm) {
-    // Wherever it stops, it has come there on a straight line; a collision on it stops it before.
+    // The tip has come here on a straight line; a collision on it stops it earlier.
     [[maybe_unused]] const auto stopped = controller_.machine().move_to(tip_now_W_mm(now_s));
   }
   running_.reset();

@@ -15,23 +15,23 @@
 
 namespace rondure::cmm::ipp {
 
-/// What a server is told to be.
+/// Settings of a server.
 struct ServerOptions {
   ControllerOptions controller;
-  /// Simulated seconds in a second of the clock; infinity: motions take no time.
+  /// Simulated seconds per second of the clock; infinity: motions take no time.
   double speed = std::numeric_limits<double>::infinity();
 };
 
-/// The server's half of an I++ DME connection as a machine without sockets and clock: lines and the
-/// time go in, lines come out. One client at a time.
+/// The server side of an I++ DME connection as a state machine without sockets and clock: lines and
+/// times go in, lines come out. One client at a time.
 ///
 /// A command is acknowledged at once and waits for the commands before it; event commands are
-/// carried out at once. A straight move is made when its time is over and can be stopped on its way
-/// (AbortE); a touch or scan is made when it begins, and what it gave is told when its time is
-/// over. An error of severity 2 or more closes the commands that wait with 0006.
+/// executed at once. A straight move is made at the end of its time and can be stopped on its path
+/// (AbortE); a touch or scan is made when it starts, and its result is reported at the end of its
+/// time. An error of severity 2 or more closes the waiting commands with 0006.
 ///
-/// Anything may come in: nothing throws but bad_alloc, and no more than kMaxWaiting commands and
-/// kMaxDaemons daemons are kept.
+/// Any input is accepted: only bad_alloc is thrown, and at most kMaxWaiting commands and
+/// kMaxDaemons daemons are stored.
 class Server {
  public:
   static constexpr std::size_t kMaxWaiting = 256;
@@ -39,24 +39,24 @@ class Server {
 
   Server(Backend& backend, const ServerOptions& options);
 
-  /// Takes a line from the client. `now_s` is any clock that does not go back.
+  /// Takes a line from the client. `now_s` is the time of any monotonic clock.
   void receive(const RawLine& line, double now_s);
-  /// Goes on with what moves; call it when next_event_s() is over.
+  /// Advances the motions; call it when the time of next_event_s() has come.
   void advance(double now_s);
-  /// The client has gone: what moves is stopped, the session is over, nothing is told.
+  /// The client has disconnected: motions are stopped, the session ends, no responses are sent.
   void disconnect(double now_s);
 
   /// Lines to send, in order.
   [[nodiscard]] std::vector<std::string> take_output();
-  /// When advance() has to be called next; nothing: only after a line.
+  /// Time of the next call of advance(); nothing: only after a line.
   [[nodiscard]] std::optional<double> next_event_s() const;
 
  private:
-  /// A command that was acknowledged.
+  /// A command that was acknowledged and waits.
   struct Waiting {
     Tag tag;
     std::string text;  ///< The line, for errors.
-    Command command;   ///< Not of a refusal.
+    Command command;   ///< Empty for a refusal.
     std::optional<Failure> refusal;
   };
 
@@ -67,8 +67,8 @@ class Server {
     std::size_t phase = 0;
     double begin_s = 0.0;
     double end_s = 0.0;
-    std::vector<Eigen::Vector3d> way;  ///< Of the tip in this phase.
-    std::optional<Failure> failure;    ///< Told when the time is over.
+    std::vector<Eigen::Vector3d> way;  ///< Path of the tip in this phase.
+    std::optional<Failure> failure;    ///< Reported at the end of the time.
   };
 
   /// OnMoveReportE.
@@ -83,7 +83,7 @@ class Server {
 
   using Outcome = tl::expected<Reply, Failure>;
 
-  // The queue: ipp_server.cpp.
+  // The queue: server.cpp.
   void refuse(const RawLine& line, const Refusal& refusal, double now_s);
   [[nodiscard]] bool is_in_use(const Tag& tag) const;
   void run(double now_s);
@@ -99,7 +99,7 @@ class Server {
   [[nodiscard]] Eigen::Vector3d tip_now_W_mm(double now_s) const;
   void say(std::string line) { output_.push_back(std::move(line)); }
 
-  // Commands of the server itself: ipp_server_commands.cpp.
+  // Commands of the server itself: commands.cpp.
   [[nodiscard]] Outcome execute(const Command& command);
   [[nodiscard]] Outcome start_session(const Command& command);
   [[nodiscard]] Outcome end_session(const Command& command);
@@ -115,7 +115,7 @@ class Server {
   Controller controller_;
   double speed_;
   bool session_ = false;
-  std::optional<Failure> error_;  ///< Of the error state.
+  std::optional<Failure> error_;  ///< Set in the error state.
   std::deque<Waiting> waiting_;
   std::optional<Running> running_;
   std::vector<Daemon> daemons_;

@@ -15,7 +15,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kLook{100};  // between looks for a stop and for other clients
+constexpr milliseconds kLook{100};  // between polls for a stop and for other clients
 constexpr int kEmergencyStop = 500;
 
 double now_s() {
@@ -23,7 +23,7 @@ double now_s() {
   return std::chrono::duration<double>(since).count();
 }
 
-/// How long to wait for a line: until the server has something to do.
+/// Time to wait for a line: until the server has something to do.
 milliseconds waits(const Server& server) {
   const auto next_s = server.next_event_s();
   if (!next_s) return kLook;
@@ -38,8 +38,8 @@ core::Result<void> send_all(wire::LineTransport& client, Server& server) {
   return {};
 }
 
-/// Takes the next line, if one comes in time, and does what is due.
-/// @return  Whether the client said something.
+/// Takes the next line, if one arrives in time, and advances the server.
+/// @return  Whether the client sent a line.
 core::Result<bool> serve_once(wire::LineTransport& client, Server& server) {
   auto line = client.read_line(waits(server));
   if (!line) return core::fail(line.error());
@@ -58,18 +58,18 @@ void send_away(wire::LineTransport& client, const std::string& why) {
   client.close();
 }
 
-/// How the time of a client ended.
+/// Why the service of a client ended.
 struct Departure {
   std::string why;
-  std::unique_ptr<wire::LineTransport> next;  ///< Who takes the place; null: nobody yet.
+  std::unique_ptr<wire::LineTransport> next;  ///< The client that takes its place; null: none yet.
 };
 
-/// Until the client goes, loses its place or a stop is requested.
+/// Serves until the client leaves, loses its place or a stop is requested.
 Departure serve_client(wire::TcpListener& listener, wire::LineTransport& client, Server& server,
                        const ServiceOptions& options) {
   const double limit_s = std::chrono::duration<double>(options.silence_limit).count();
   double looked_s = now_s();
-  double active_s = looked_s;  // the client said something, or what it asked for moved
+  double active_s = looked_s;  // of the client's last line or motion
   while (!options.stop_requested()) {
     const auto said = serve_once(client, server);
     if (!said) return {said.error().what, nullptr};
@@ -78,7 +78,7 @@ Departure serve_client(wire::TcpListener& listener, wire::LineTransport& client,
     looked_s = now_s();
     auto other = listener.accept(milliseconds(0));
     if (!other || *other == nullptr) continue;
-    // The first one may have closed just before: its program ended, and the other is the next one.
+    // The first client may just have closed: its program ended, and the other is the next one.
     const auto there = serve_once(client, server);
     if (!there) return {there.error().what, std::move(*other)};
     if (*there) active_s = now_s();

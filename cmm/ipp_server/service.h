@@ -11,21 +11,21 @@
 
 namespace rondure::cmm::ipp {
 
-/// How a server is run.
+/// Settings of a running service.
 struct ServiceOptions {
-  std::function<bool()> stop_requested;        ///< Asked at least ten times a second.
-  std::function<void(std::string_view)> tell;  ///< One line for the person who watches.
-  std::filesystem::path wire_log;              ///< Empty: none.
-  /// After so long without a line from the client, while nothing moves, another one takes its
-  /// place.
+  std::function<bool()> stop_requested;        ///< Polled at least ten times a second.
+  std::function<void(std::string_view)> tell;  ///< Receives one line for the user.
+  std::filesystem::path wire_log;              ///< Log of all lines; empty: none.
+  /// A client that sent no line for this long, while nothing moves, may be replaced by another one.
   std::chrono::milliseconds silence_limit{60'000};
 };
 
 /// Serves one client after the other until a stop is requested. A second client is told who is
-/// there and sent away, unless the first one has been silent for too long: that one is sent away
-/// then (a program that hangs or was halted keeps its connection for ever). When the client goes,
-/// what moves is stopped and its session is over; the machine stays as it is for the next one.
-/// @return  kMachine when the port cannot be listened to any longer, kFile of the wire log.
+/// connected and is disconnected, unless the first one exceeds the silence limit: then the first
+/// one is disconnected (a hung or halted program would otherwise keep its connection for ever).
+/// When a client leaves, motions are stopped and its session ends; the machine keeps its state for
+/// the next one.
+/// @return  kMachine when the port can no longer be listened to, kFile for the wire log.
 [[nodiscard]] core::Result<void> serve(wire::TcpListener& listener, Server& server,
                                        const ServiceOptions& options);
 

@@ -20,7 +20,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint64_t kTouchStream = 0x746f756368;  // keeps the noise apart from other devices
+constexpr std::uint64_t kTouchStream = 0x746f756368;  // separates the noise from other devices
 constexpr std::uint64_t kDustStream = 0x64757374;
 constexpr std::uint64_t kScanStream = 0x7363616e;
 constexpr std::size_t kLeastScanned = 3;
@@ -171,7 +171,7 @@ core::Result<void> SimulatedMachine::move_to(const Vector3d& target_W_mm) {
 
 core::Error SimulatedMachine::stop_before(const Obstacle& obstacle, const Vector3d& direction,
                                           const Vector3d& target_W_mm) {
-  // One graze short of the contact, so that the tip is free to go back.
+  // Stops 1e-6 mm before the contact, so that the tip is free to go back.
   const double travel_mm = std::max(0.0, obstacle.travel_mm - kGraze_mm);
   position_W_mm_ = on_grid_mm(position_W_mm_ + travel_mm * direction);
   time_s_ += travel_mm / options_.speeds.travel_mm_s;
@@ -267,7 +267,7 @@ core::Result<SimulatedMachine::Found> SimulatedMachine::find_contact(const Touch
     if (!contact) return core::fail(contact.error());
     return Found{start + contact->travel_mm * command.direction_W, !contact->is_sphere};
   }
-  // The errors bend the way of a few mm by less than 1e-9 mm: it stays a straight line.
+  // The errors bend a path of a few mm by less than 1e-9 mm: it stays a straight line.
   const Vector3d from = true_position(options_.errors, start, time_s);
   const Vector3d way =
       true_position(options_.errors, start + reach_mm * command.direction_W, time_s) - from;
@@ -347,13 +347,13 @@ core::Result<std::vector<TouchReading>> SimulatedMachine::scan_circle(
     readings.push_back(reading_at(found, points[i], scan_time_s(command, static_cast<int>(i))));
   }
   settle(command, readings.back());
-  // Full turns end where they began, to the last bit.
+  // Full revolutions end where they began, to the last bit.
   const bool full_turns = std::abs(std::remainder(command.sweep_rad, core::kTwoPi)) < 1e-9;
   if (!full_turns) position_W_mm_ = on_grid_mm(start_of(scan_point(command, command.points)));
   return readings;
 }
 
-// Counted with the nominal way to the surface: what is found there does not change the clock.
+// Uses the nominal path to the surface: the measured surface does not change the clock.
 double SimulatedMachine::scan_time_s(const ScanCircleCommand& command, int index) const {
   return time_s_ + command.approach_mm / options_.speeds.touch_mm_s + index * scan_step_s(command);
 }
@@ -362,7 +362,7 @@ double SimulatedMachine::scan_step_s(const ScanCircleCommand& command) const {
   return scan_length_mm(command) / command.points / options_.speeds.scan_mm_s;
 }
 
-// From the reading, not from the hidden truth: a journal can give it again.
+// Uses the reading, not the hidden truth, so that a journal can reproduce it.
 void SimulatedMachine::settle(const TouchCommand& command, const TouchReading& reading) {
   const double back_mm = (reading.tip_W_mm - start_of(command)).norm();
   time_s_ = reading.time_s + back_mm / options_.speeds.travel_mm_s + kSettle_s;

@@ -15,13 +15,13 @@
 
 namespace rondure::cmm {
 
-/// What stands on the table of a simulated machine.
+/// A reference sphere on the table of a simulated machine.
 struct ReferenceSphere {
   Eigen::Vector3d center_W_mm = Eigen::Vector3d::Zero();
   double radius_mm = 0.0;
 };
 
-/// What a simulated machine is told to be.
+/// Settings of a simulated machine.
 struct SimulatedMachineOptions {
   double nominal_tip_radius_mm = 2.0;
   Eigen::Vector3d park_W_mm = {0.0, 0.0, 500.0};
@@ -31,26 +31,25 @@ struct SimulatedMachineOptions {
   MachineErrors errors;            ///< Hidden truth.
   PartErrors part_errors;          ///< Hidden truth.
   ScanScatter scan_scatter;        ///< Hidden truth.
-  std::uint64_t seed = 1;          ///< Of the probe noise and the places of scanned points.
-  std::int64_t lost_at_touch = 0;  ///< The line breaks at this touch, counted from 1; 0: never.
+  std::uint64_t seed = 1;          ///< Seeds the probe noise and the positions of scanned points.
+  std::int64_t lost_at_touch = 0;  ///< The connection is lost at this touch, from 1; 0: never.
 };
 
-/// A machine that exists in software. It knows the real part and where it really stands, and finds
-/// the true contact of the tip sphere along the way that its errors make of the approach line
-/// (machine_map.h). To the reading there it adds pre-travel, bending of the stylus, backlash, noise
-/// and dust, the last two keyed with (seed, touch id). The errors of the axes count in searches; in
-/// moves, which keep clear by millimetres, they do not. It stops just before the tip would meet
-/// part or reference sphere in a move (kCollision; moves may graze them by 1e-6 mm). A touch that
-/// begins in contact is a kCollision too; a command that is not finite, or a touch that does not
-/// begin where the tip stands (1e-6 mm), is kMachine and moves nothing. Its volume is a cube of 20
-/// m about the origin.
+/// A machine in software. It knows the real part and its true position, and finds the true contact
+/// of the tip sphere along the approach path as distorted by its errors (machine_map.h). To the
+/// reading it adds pre-travel, bending of the stylus, backlash, noise and dust, the last two keyed
+/// with (seed, touch id). The errors of the axes apply to searches, but not to moves, which keep
+/// clear by millimetres. It stops just before the tip would meet part or reference sphere in a move
+/// (kCollision; moves may graze them by 1e-6 mm). A touch that starts in contact is also a
+/// kCollision. A command that is not finite, or a touch that does not start at the position of the
+/// tip (1e-6 mm), is kMachine and moves nothing. Its volume is a cube of 20 m about the origin.
 ///
-/// A scan touches the surface at every point of its circle, along the radius there; where those
-/// points lie says ScanScatter, keyed with (seed, first id).
+/// A scan touches the surface at every point of its circle, along the radius there; ScanScatter,
+/// keyed with (seed, first id), sets the positions of these points.
 ///
 /// The clock advances by distance / speed: travel speed, touch speed along the search, scan speed
-/// along the circle, and 0.2 s of settling after each touch and each scan. Once the line is lost
-/// every command is kMachine. home() goes straight up to the park height, then across.
+/// along the circle, and 0.2 s of settling after each touch and each scan. After the connection is
+/// lost every command is kMachine. home() goes straight up to the park height, then across.
 class SimulatedMachine final : public Machine {
  public:
   /// The tip stands in the park position; nothing moves before home().
@@ -77,9 +76,9 @@ class SimulatedMachine final : public Machine {
   [[nodiscard]] Eigen::Vector3d position_W_mm() const override { return position_W_mm_; }
   [[nodiscard]] double time_s() const override { return time_s_; }
 
-  // A run that was interrupted goes on: these take the state that a command left when it gave its
-  // readings, the clock and the hidden truth. They move nothing. The error of the command when the
-  // part cannot have given such readings.
+  // For resumed runs: these restore the state after a command, its clock and its hidden truth, from
+  // the readings it gave. They move nothing. When the part cannot have given such readings, the
+  // error of the command is returned.
 
   [[nodiscard]] core::Result<void> continue_after(const TouchCommand& command,
                                                   const TouchReading& reading);
@@ -89,29 +88,29 @@ class SimulatedMachine final : public Machine {
 
   /// Noise-free tip centre of the last touch: hidden truth for the simulated cell and for tests.
   [[nodiscard]] const Eigen::Vector3d& true_tip_W_mm() const { return true_tips_W_mm_.back(); }
-  /// The same of all points of the last scan; one after a touch. Never empty.
+  /// The tip centres of all points of the last scan; one after a touch. Never empty.
   [[nodiscard]] const std::vector<Eigen::Vector3d>& true_tips_W_mm() const {
     return true_tips_W_mm_;
   }
 
  private:
-  /// What the tip meets first on a straight line.
+  /// The first obstacle on a straight line.
   struct Obstacle {
     double travel_mm = 0.0;
     bool is_sphere = false;
     Eigen::Vector3d point_W_mm = Eigen::Vector3d::Zero();
   };
 
-  /// What the scales read at the first contact of a search, before the probe triggers.
+  /// Scale reading at the first contact of a search, before the probe triggers.
   struct Found {
     Eigen::Vector3d reading_W_mm = Eigen::Vector3d::Zero();
     bool on_part = false;
   };
 
   [[nodiscard]] double tip_radius_mm() const;
-  /// The part as it is, or nullptr.
+  /// The part at its temperature, or nullptr.
   [[nodiscard]] const PartSurface* warm_part() const;
-  /// @param part  None: only the reference sphere is there.
+  /// @param part  Null: only the reference spheres are there.
   [[nodiscard]] core::Result<Obstacle> first_obstacle(const PartSurface* part,
                                                       const Eigen::Vector3d& start_W_mm,
                                                       const Eigen::Vector3d& direction_W,
@@ -119,30 +118,30 @@ class SimulatedMachine final : public Machine {
                                                       double max_travel_mm) const;
   [[nodiscard]] core::Error stop_before(const Obstacle& obstacle, const Eigen::Vector3d& direction,
                                         const Eigen::Vector3d& target_W_mm);
-  /// Where a machine without errors meets the part at 20 degC.
+  /// Contact of a machine without errors with the part at 20 degC.
   [[nodiscard]] core::Result<Eigen::Vector3d> true_contact(const TouchCommand& command) const;
-  /// Where this one meets the part as it is, at a time of its clock.
+  /// Contact of this machine with the part at its temperature, at a time of its clock.
   [[nodiscard]] core::Result<Found> find_contact(const TouchCommand& command, double time_s) const;
-  /// The points that a scan will give: its command, where ScanScatter puts them.
+  /// The points of a scan at the positions that ScanScatter gives.
   [[nodiscard]] std::vector<TouchCommand> points_of(const ScanCircleCommand& command) const;
   [[nodiscard]] core::Result<std::vector<Found>> find_circle(
       const ScanCircleCommand& command, const std::vector<TouchCommand>& points) const;
-  /// The hidden truth of a search; the reading where a machine without errors would meet nothing.
+  /// The hidden truth of a search; the reading if a machine without errors would meet nothing.
   [[nodiscard]] Eigen::Vector3d truth_of(const TouchCommand& command, const Found& found) const;
-  /// The reading of a touch. `time_s` not yet on the grid.
+  /// The reading of a touch. `time_s` is not yet on the grid.
   [[nodiscard]] TouchReading reading_at(const Found& found, const TouchCommand& touch,
                                         double time_s) const;
-  /// Clock when a scan that begins now comes to a point.
+  /// Clock time at which a scan that starts now reaches a point.
   [[nodiscard]] double scan_time_s(const ScanCircleCommand& command, int index) const;
-  /// From one point of a scan to the next.
+  /// Time from one point of a scan to the next.
   [[nodiscard]] double scan_step_s(const ScanCircleCommand& command) const;
-  /// Sets the clock to the end of a touch or scan: the way back and the settling.
+  /// Sets the clock to the end of a touch or scan, including the way back and the settling.
   void settle(const TouchCommand& command, const TouchReading& reading);
   void settle(const ScanCircleCommand& command, const TouchReading& last);
-  /// Line, stop and homing.
+  /// Checks connection, stop and homing.
   [[nodiscard]] core::Result<void> check_ready() const;
   [[nodiscard]] core::Result<void> check_volume(const Eigen::Vector3d& tip_W_mm) const;
-  /// That a search can begin: it makes sense, and the tip stands at its start.
+  /// Checks that a search can start: the command is valid, and the tip is at its start.
   [[nodiscard]] core::Result<void> check_command(const TouchCommand& command) const;
   [[nodiscard]] core::Error touch_failed(const core::Error& cause, const TouchCommand& command);
   [[nodiscard]] static core::Error scan_failed(const core::Error& cause,

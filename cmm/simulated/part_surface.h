@@ -26,7 +26,7 @@ struct PartForm {
   double bend_phase_rad = 0.0;
 };
 
-/// A keyway, a burr, a flat spot: a patch of the surface that is raised or sunk. Its flanks are C2:
+/// A keyway, a burr, a flat spot: a raised or sunk patch of the surface. Its flanks are C2:
 ///   dr = height W(u) W(z),  W = 1 within the patch but for its flanks, 0 outside,
 /// u along the circumference at the nominal radius; the floor follows the surface.
 struct SurfaceMark {
@@ -53,7 +53,8 @@ struct PartSurface {
 
   /// Radius at an angle and height.
   [[nodiscard]] double radius_at(double theta_rad, double z_mm) const;
-  /// The same part with every length multiplied, about the origin of P: as heat changes it.
+  /// The same part with every length multiplied by `factor`, about the origin of P (thermal
+  /// expansion).
   [[nodiscard]] PartSurface scaled(double factor) const;
 };
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "plans/analyses/contour_plan.h"
-#include "plans/schema/key_spec.h"
 #include "plans/analyses/spindle_table.h"
+#include "plans/schema/key_spec.h"
 
-// The part of plan_table.h that describes features of the type "contour" and their simulation.
+// The part of plan_table.h for features of the type "contour" and their simulation.
 
 namespace rondure::plans {
 

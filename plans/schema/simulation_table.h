@@ -1,14 +1,14 @@
 #pragma once
 
 #include "plans/analyses/contour_table.h"
-#include "plans/schema/key_spec.h"
-#include "plans/schema/machine_errors_table.h"
-#include "plans/plan.h"
 #include "plans/analyses/rotary_table.h"
 #include "plans/analyses/spindle_table.h"
 #include "plans/analyses/wheel_table.h"
+#include "plans/plan.h"
+#include "plans/schema/key_spec.h"
+#include "plans/schema/machine_errors_table.h"
 
-// The part of plan_table.h that describes the hidden truth of a simulation.
+// The part of plan_table.h for the hidden truth of a simulation.
 
 namespace rondure::plans {
 

@@ -13,10 +13,10 @@
 
 namespace rondure::record {
 
-/// Counts changes of the archive's tables (docs/archive.md).
+/// Version of the archive's tables; goes up with every change (docs/archive.md).
 inline constexpr int kArchiveVersion = 1;
 
-/// Who measured what with what: the part of a run that all its results share.
+/// The data of a run that all its results share.
 struct ArchiveHead {
   std::string journal_sha256;  ///< Of the bytes of the sealed journal.db: the key of a run.
   std::string run_id;
@@ -31,7 +31,7 @@ struct ArchiveHead {
   std::string plan_name;
   std::string plan_revision;
   std::string plan_sha256;
-  std::string version;  ///< core::kVersion that measured.
+  std::string version;  ///< core::kVersion of the program that measured.
 };
 
 /// The result of one characteristic.
@@ -42,29 +42,29 @@ struct ArchiveResult {
   std::string reference;              ///< "MZCY", "LSCI", ...
   std::string filter;                 ///< "unfiltered".
   std::string sampling;               ///< "4 x 7 points; mean of 5 touches a point".
-  std::optional<double> value;        ///< In `unit`; nothing when it could not be evaluated.
-  std::optional<double> upper_limit;  ///< In `unit`; nothing when it is not toleranced.
+  std::optional<double> value;        ///< In `unit`; empty when it could not be evaluated.
+  std::optional<double> upper_limit;  ///< In `unit`; empty when not toleranced.
   std::string unit = "mm";
   std::string verdict;  ///< "conforms", "does not conform", "undecided", "void", "not toleranced".
-  std::string certificate;  ///< "global", "local", "none" of the reference.
+  std::string certificate;  ///< Of the reference: "global", "local", "none".
 };
 
-/// A finished run on its way to the archive.
+/// A finished run to be archived.
 struct ArchiveRun {
   ArchiveHead head;
   std::vector<ArchiveResult> results;
 };
 
-/// A result that came back from the archive.
+/// A result read from the archive.
 struct ArchivedResult {
   ArchiveHead head;
   ArchiveResult result;
   std::int64_t time_s = 0;  ///< Start of the run, seconds since 1970.
   std::int64_t run = 0;     ///< Number of the run in this archive.
-  int number = 0;           ///< Of the result in its run, from 0.
+  int number = 0;           ///< Index of the result in its run, from 0.
 };
 
-/// Which results are wanted; what is not given does not matter.
+/// Selects results; a member without a value matches every result.
 struct ArchiveFilter {
   std::optional<std::string> part = {};
   std::optional<std::string> feature = {};
@@ -77,16 +77,16 @@ struct ArchiveFilter {
   std::optional<std::int64_t> until_s = {};  ///< Started then or earlier.
 };
 
-/// Results of finished runs, in a file of SQLite or on a PostgreSQL server. Several programs may
-/// use one archive at a time. Every call can fail with kArchive (server gone, file read-only, disk
-/// full): what could not be written is not there in part.
+/// Results of finished runs, in an SQLite file or on a PostgreSQL server. Several programs may use
+/// one archive at a time. Every call can fail with kArchive (server gone, file read-only, disk
+/// full); a call that fails has written nothing.
 class Archive {
  public:
   enum class Access { kRead, kWrite };
 
-  /// Opens an archive; kWrite makes its tables where there are none. Gives up on a server that
-  /// does not answer after 5 s. kFile when there is no archive, something else is in its place, or
-  /// its tables are of another version; kArchive when it cannot be reached.
+  /// Opens an archive; kWrite creates the tables when there are none. Gives up after 5 s on a
+  /// server that does not answer. kFile when there is no archive, when the file is something else,
+  /// or when its tables have another version; kArchive when it cannot be reached.
   [[nodiscard]] static core::Result<Archive> open(const ArchivePlace& place, Access access);
 
   Archive(Archive&&) noexcept;
@@ -95,11 +95,12 @@ class Archive {
 
   /// Adds a run with all its results, in one transaction. A run that is there already (same
   /// journal_sha256) stays as it is.
-  /// @return Whether it was new. kBadOption for a time that is not UTC.
+  /// @return Whether the run was new. kBadOption for a time that is not UTC.
   [[nodiscard]] core::Result<bool> push(const ArchiveRun& run);
 
   /// The newest results that pass the filter, newest first, at most `count`.
-  /// @param before  Only results older than this one: goes on behind an earlier answer.
+  /// @param before  Returns only results older than this one: the next page after an earlier
+  ///                answer.
   [[nodiscard]] core::Result<std::vector<ArchivedResult>> newest(
       const ArchiveFilter& filter, std::size_t count, const ArchivedResult* before = nullptr);
 

@@ -9,7 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The time and the patience of one delivery.
+/// The time limits of one delivery.
 class RetryPolicy {
  public:
   explicit RetryPolicy(const DeliveryOptions& options) : options_(options) {}
@@ -33,7 +33,7 @@ class RetryPolicy {
   Clock::time_point start_ = Clock::now();
 };
 
-/// An archive that is opened again after a fault.
+/// An archive that is reopened after a fault.
 class Receiver {
  public:
   Receiver(const ArchivePlace& place, const RetryPolicy& patience)
@@ -43,7 +43,7 @@ class Receiver {
     core::Result<bool> pushed = false;
     for (int attempt = 0; patience_.allows(attempt); ++attempt) {
       pushed = push_once(run);
-      // Only what may pass by itself is worth another attempt.
+      // Only a fault that may pass by itself is worth another attempt.
       if (pushed || pushed.error().code != core::Code::kArchive) return pushed;
       archive_.reset();
     }
@@ -119,7 +119,7 @@ Delivery deliver(const ArchivePlace& place, const std::filesystem::path& queue_f
     } else {
       delivery.failure = pushed.error();
       if (pushed.error().code == core::Code::kBadOption)
-        return delivery;  // no archive will take it
+        return delivery;  // the run can go into no archive
       left = run;
     }
   }

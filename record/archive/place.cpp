@@ -9,9 +9,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether a password may have been cut at an @ or a / that was not encoded: libpq takes what
-/// stands before the first @ for user and password, if no / stands before it, and the rest for the
-/// host.
+/// Whether a password may have been cut at an unencoded @ or /: libpq takes the text before the
+/// first @ as user and password, unless a / precedes it, and the rest as the host.
 bool has_stray_at(std::string_view after_scheme) {
   const std::size_t at = after_scheme.find_first_of("@/");
   if (at != std::string_view::npos && after_scheme[at] == '@') after_scheme.remove_prefix(at + 1);
@@ -45,7 +44,8 @@ core::Result<ArchivePlace> parse_archive_place(std::string_view text, const fs::
     return core::fail(core::Code::kBadOption,
                       fmt::format("{}; give a file, postgresql://... or none", found));
   }
-  // A file of such a name would be made, and named in messages and in the queue.
+  // Otherwise a file of that name would be created, and its name shown in messages and in the
+  // queue.
   if (is_connection_text(text) || text.starts_with("postgresql:") ||
       text.starts_with("postgres:")) {
     return core::fail(core::Code::kBadOption,

@@ -17,7 +17,7 @@ struct ArchiveQueue::Impl {
 
   [[nodiscard]] soci::session& sql() const { return session->sql; }
 
-  /// Runs `read`, which gives the answer.
+  /// Runs `read` and returns its result.
   template <class T, class Read>
   core::Result<T> answer(const Read& read) {
     try {
@@ -92,7 +92,7 @@ core::Result<void> ArchiveQueue::remove(const std::string& target, const Archive
     soci::session& sql = impl_->sql();
     sql << "delete from rondure_queue where journal_sha256 = :journal and target = :target",
         use(journal), use(target);
-    // Another archive may still wait for it.
+    // The run may still be queued for another archive.
     sql << "delete from rondure_result where run in (select id from rondure_run where "
            "journal_sha256 = :journal) and not exists (select 1 from rondure_queue where "
            "journal_sha256 = :again)",

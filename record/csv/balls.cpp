@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 11> kColumns = {"axis",  "station_deg", "
                                                        "y_mm",  "z_mm",        "u_um",     "ux_um",
                                                        "uy_um", "uz_um",       "direction"};
 
-/// Place of each column in a row; nothing for one that the file does not have.
+/// Position of each column in a row; empty for a column that the file does not have.
 using Places = std::array<std::optional<std::size_t>, kColumns.size()>;
 
 std::optional<std::size_t> index_of(std::string_view column) {

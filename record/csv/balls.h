@@ -15,24 +15,23 @@ namespace rondure::record {
 /// One ball measured at one angle of a rotary axis.
 struct BallRow {
   std::string axis;                   ///< Name of the axis.
-  std::optional<double> station_deg;  ///< Nothing: the reference pose.
+  std::optional<double> station_deg;  ///< Empty: the reference pose.
   std::string ball;
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d u_um = Eigen::Vector3d::Zero();  ///< Standard uncertainty of x, y, z.
-  int direction = 0;     ///< +1, -1: approached forward or backward; 0: not said.
+  int direction = 0;     ///< +1, -1: approached forward or backward; 0: not stated.
   std::size_t line = 0;  ///< In the file, from 1.
 };
 
-/// Reads ball centres for the calibration of rotary axes: a header line naming the columns
-/// `axis,station_deg,ball,x_mm,y_mm,z_mm` and either `u_um` or `ux_um,uy_um,uz_um`, and perhaps
-/// `direction` (`+`, `-` or empty), in any order; then a row a ball. `station_deg` is a number or
-/// the word `reference`. Blank lines, `#` comments, CRLF and byte order mark as in
+/// Reads ball centres for the calibration of rotary axes: a header line with the columns
+/// `axis,station_deg,ball,x_mm,y_mm,z_mm`, either `u_um` or `ux_um,uy_um,uz_um`, and optionally
+/// `direction` (`+`, `-` or empty), in any order; then one row per ball. `station_deg` is a number
+/// or the word `reference`. Blank lines, `#` comments, CRLF and byte order mark as in
 /// parse_points_csv().
 ///
 /// @param name  The file's name for `where` ("name:line").
-/// @return kWrongUnit for a column of these with another unit (all lengths are in mm, u in um, so
-///         that units cannot be mixed), kSyntax, kNotFinite, kNoPoints as parse_points_csv().
-///         O(bytes).
+/// @return kWrongUnit when one of these columns has another unit (coordinates are in mm, u in um;
+/// other units are refused), kSyntax, kNotFinite, kNoPoints as parse_points_csv(). O(bytes).
 [[nodiscard]] core::Result<std::vector<BallRow>> parse_ball_csv(std::string_view text,
                                                                 std::string_view name);
 

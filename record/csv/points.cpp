@@ -20,22 +20,22 @@ namespace {
 struct ColumnSet {
   std::array<std::string_view, 3> names;
   std::array<std::string_view, 3> units;
-  std::size_t required;  ///< The first so many must be there.
+  std::size_t required;  ///< This many columns, from the first, are required.
 };
 constexpr ColumnSet kPoints = {{"x", "y", "z"}, {"mm", "mm", "mm"}, 2};
 constexpr ColumnSet kSection = {{"x", "y", ""}, {"mm", "mm", ""}, 2};
 constexpr ColumnSet kPolar = {{"theta_deg", "r_um", ""}, {"deg", "um", ""}, 2};
 
-/// What a kind of file may hold.
+/// The column sets that a kind of file may have.
 struct Format {
   std::array<ColumnSet, 2> sets;
-  std::string_view columns;  ///< As a message names them.
+  std::string_view columns;  ///< The columns in the wording of messages.
   std::string_view units;
 };
 constexpr Format kPointFormat = {{kPoints, kPoints}, "x,y or x,y,z", " (mm)"};
 constexpr Format kProfileFormat = {{kPolar, kSection}, "theta_deg,r_um or x,y", " (mm)"};
 
-/// The columns of a file: fields[i] is the place in the set of field i.
+/// The columns of a file: fields[i] is the index of field i in the set.
 struct Columns {
   ColumnSet set;
   std::array<std::size_t, 3> fields{};
@@ -83,9 +83,9 @@ core::Result<Columns> read_header(std::string_view line, const Format& format) {
   return columns;
 }
 
-/// Reads a number as std::from_chars does, to the same bits. Up to 19 digits without an exponent
-/// that make an integer a double holds, over a power of ten a double holds: one division rounds
-/// correctly (Clinger's case), in a third of the time. Everything else is left to from_chars.
+/// Reads a number as std::from_chars does, to the same bits. If up to 19 digits without an exponent
+/// form an integer that a double holds exactly, and the power of ten is exact too, one division
+/// rounds correctly (Clinger's case) in a third of the time. All other numbers go to from_chars.
 std::from_chars_result read_number(const char* at, const char* end, double& value) {
   static constexpr std::array<double, 20> kPowers = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
                                                      1e7,  1e8,  1e9,  1e10, 1e11, 1e12, 1e13,
@@ -110,7 +110,7 @@ std::from_chars_result read_number(const char* at, const char* end, double& valu
     decimals = next - point;
     count += decimals;
   }
-  // 19 digits cannot overflow the integer; `digits` of more is never looked at.
+  // 19 digits cannot overflow the integer; with more, `digits` is not used.
   if (count == 0 || count > 19 || digits > kExact || next == end || *next == 'e' || *next == 'E') {
     return std::from_chars(at, end, value);
   }
@@ -119,9 +119,9 @@ std::from_chars_result read_number(const char* at, const char* end, double& valu
   return {next, std::errc()};
 }
 
-/// Reads the row at the start of `text` where it holds nothing but numbers, commas, single blanks
-/// before numbers and the end of the line: nearly every row.
-/// @return Bytes of the row with its end; 0 for any other row, which read_row() must look at.
+/// Reads the row at the start of `text` if it consists of numbers, commas, single blanks before
+/// numbers and the line end, as nearly every row does.
+/// @return Bytes of the row with its end; 0 for any other row, which read_row() must read.
 std::size_t read_plain_row(std::string_view text, const Columns& columns,
                            Eigen::Vector3d& point_mm) {
   const char* at = text.data();
@@ -139,7 +139,7 @@ std::size_t read_plain_row(std::string_view text, const Columns& columns,
   return static_cast<std::size_t>(at + 1 - text.data());
 }
 
-/// Reads one row; false when anything is wrong with it: explain() then says what.
+/// Reads one row; false when it has an error, which explain() then describes.
 bool read_row(std::string_view line, const Columns& columns, Eigen::Vector3d& point_mm) {
   const char* at = line.data();
   const char* const end = at + line.size();
@@ -149,7 +149,7 @@ bool read_row(std::string_view line, const Columns& columns, Eigen::Vector3d& po
   for (std::size_t i = 0; i < columns.count; ++i) {
     if (i > 0 && (at == end || *at++ != ',')) return false;
     skip_blanks();
-    if (at != end && *at == '+') {  // from_chars knows no plus sign
+    if (at != end && *at == '+') {  // from_chars does not accept a plus sign
       ++at;
       if (at != end && *at == '-') return false;
     }

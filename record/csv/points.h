@@ -17,12 +17,11 @@ struct PointTable {
 };
 
 /// Reads points from CSV text: a header line naming the columns (`x,y` or `x,y,z`, any order, mm),
-/// then a row a point. Spaces around a field, blank lines, lines that begin with `#` and a UTF-8
-/// byte order mark are passed over; lines end with LF or CRLF. Anything else is an error with
+/// then one row per point. Spaces around a field, blank lines, lines that begin with `#` and a
+/// UTF-8 byte order mark are skipped; lines end with LF or CRLF. Anything else is an error with
 /// `where` "name:line", the text found and what is expected: kSyntax for another header, a missing
 /// or extra field or text that is not a number, kNotFinite for NaN, infinity or a number beyond
-/// double's range, kNoPoints for a table without rows. One pass; about the speed of
-/// std::from_chars.
+/// double's range, kNoPoints for a table without rows. One pass, about as fast as std::from_chars.
 ///
 /// @param name  The file's name for `where`.
 [[nodiscard]] core::Result<PointTable> parse_points_csv(std::string_view text,
@@ -35,8 +34,8 @@ struct ProfileTable {
       rows;  ///< (theta, r) in deg and um, or (x, y) in mm: as in the file.
 };
 
-/// Reads a section from CSV text: columns `theta_deg,r_um` or `x,y` (mm), in any order. The rest as
-/// in parse_points_csv().
+/// Reads a section from CSV text: columns `theta_deg,r_um` or `x,y` (mm), in any order. Otherwise
+/// as parse_points_csv().
 [[nodiscard]] core::Result<ProfileTable> parse_profile_csv(std::string_view text,
                                                            std::string_view name);
 

@@ -34,9 +34,9 @@ std::string_view name_in_file(const WantedColumn& column, std::span<const Column
 
 /// A table's columns, as the file orders them.
 struct Layout {
-  std::vector<std::string_view> fields;  ///< Of the header.
-  std::vector<std::size_t> wanted;       ///< For each column of the result, its place in `wanted`.
-  /// For each field its place in the result, or nothing for one that is passed over.
+  std::vector<std::string_view> fields;  ///< Fields of the header.
+  std::vector<std::size_t> wanted;       ///< For each column of the result, its index in `wanted`.
+  /// For each field its index in the result, or nothing for a skipped one.
   std::vector<std::optional<std::size_t>> places;
 };
 

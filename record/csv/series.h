@@ -15,7 +15,7 @@ struct WantedColumn {
   bool required = true;
 };
 
-/// How a file calls a wanted column, where it calls it otherwise.
+/// The name of a wanted column in a file that uses another one.
 struct ColumnName {
   std::string wanted;
   std::string in_file;
@@ -24,8 +24,8 @@ struct ColumnName {
 /// Reads a table of numbers: a header line with the names of the columns, in any order, then a row
 /// a line. Blank lines, `#` comments, CRLF and a byte order mark as in parse_points_csv().
 ///
-/// Without `names` every column must be a wanted one. With `names` a column is looked for under its
-/// name in the file; what nobody asked for is passed over.
+/// Without `names` every column must be a wanted one. With `names` a column is found under its name
+/// in the file, and other columns are skipped.
 ///
 /// @param name  The file's name for `where` ("name:line").
 /// @return  The wanted columns that the file has, in the order of `wanted`; kWrongUnit for a column

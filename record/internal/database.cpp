@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
-#include "record/journal/internal/canonical.h"
 #include "record/files.h"
+#include "record/journal/internal/canonical.h"
 
 namespace rondure::record {
 namespace {
 
-/// SQLite's own words, without the name of the function in SOCI that passed them on.
+/// SQLite's own message, without the name of the SOCI function that reported it.
 std::string words_of(const soci::soci_error& error) {
   std::string words = error.get_error_message();
   const std::size_t colon = words.find(": ");
@@ -27,7 +27,7 @@ std::string reason_of_constraint(const std::string& words) {
   return words;
 }
 
-/// The operating system's number for the last failed call on one file of SQLite's, 0 for none.
+/// The errno of the last failed call on one file of SQLite, 0 for none.
 int last_errno_of(sqlite_api::sqlite3_file* file) {
   int number = 0;
   if (file != nullptr && file->pMethods != nullptr) {
@@ -36,8 +36,8 @@ int last_errno_of(sqlite_api::sqlite3_file* file) {
   return number;
 }
 
-/// The operating system's reason for the last failed call. SQLite remembers it in one of three
-/// places: at the log, at the database file, or at the connection.
+/// The operating system's reason for the last failed call. SQLite stores it in one of three places:
+/// the log, the database file, or the connection.
 std::string system_reason_of(soci::session* session) {
   constexpr const char* kUnknown = "the disk gave an error; check the disk";
   if (session == nullptr || !session->is_connected()) return kUnknown;

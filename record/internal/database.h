@@ -11,17 +11,17 @@
 
 namespace rondure::record {
 
-/// What SOCI's session wants to hear to open a file of SQLite; kFile when the path cannot be said
-/// in it (a double quote).
+/// The connection string with which SOCI opens an SQLite file; kFile when the path contains a
+/// double quote, which cannot be expressed in it.
 [[nodiscard]] core::Result<std::string> connection_string(const std::filesystem::path& file);
 
-/// From now on nothing that stands in the file itself is run: no triggers, no views, no functions
-/// in its schema; damaged cells are found as they are read. For every file that somebody else may
-/// have written. @throws  soci::soci_error.
+/// Stops SQLite from running anything stored in the file itself (triggers, views, functions in its
+/// schema), and makes it report damaged cells as they are read. For every file that somebody else
+/// may have written. @throws  soci::soci_error.
 void distrust(soci::session& sql);
 
-/// What a failed call of SOCI or SQLite means, in words, and what can be done about it:
-/// "the disk is full; free space on the disk".
+/// The cause of a failed SOCI or SQLite call and the remedy, in words: "the disk is full; free
+/// space on the disk".
 [[nodiscard]] std::string reason_of(const std::exception& exception, soci::session* session);
 
 }  // namespace rondure::record

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Puts the digest of the closed journal into the list beside it.
+/// Writes the digest of the closed journal into the list beside it.
 core::Result<void> list_digest(const fs::path& file) {
   const auto bytes = read_file(file);
   if (!bytes) return core::fail(bytes.error());
@@ -57,7 +57,7 @@ core::Result<void> Journal::finish_seal(const fs::path& directory) {
   try {
     sql.emplace(soci::sqlite3, *connection);
     distrust(*sql);
-    int tables = 0;  // reading takes back a change of the mode that was not finished
+    int tables = 0;  // this read rolls back an unfinished change of the mode
     *sql << "select count(*) from sqlite_schema", soci::into(tables);
     checkpoint_wal(*sql);
     disable_wal(*sql);
@@ -68,8 +68,8 @@ core::Result<void> Journal::finish_seal(const fs::path& directory) {
                       file.string());
   }
   sql.reset();
-  // Of a death in disable_wal(): SQLite took back or has finished what it held, and leaves the
-  // file.
+  // Left by a process that died in disable_wal(): SQLite has rolled back or finished its contents,
+  // but keeps the file.
   fs::remove(file.string() + "-journal", ignored);
   return list_digest(file);
 }

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Why a journal takes nothing more, or empty.
+/// The reason why a journal accepts no more rows, or empty.
 std::string why_not_to_go_on(const ReadJournal& journal) {
   if (journal.record.sealed) return "the run is finished and its journal is sealed";
   if (journal.listed) {
@@ -91,7 +91,7 @@ core::Result<Journal> Journal::reopen(const fs::path& directory, HeldJournal hel
                       fmt::format("the run cannot go on in {}: {}", file.string(), reason),
                       file.string());
   }
-  if (fs::is_symlink(file, ignored)) {  // SQLite keeps the log beside what it leads to
+  if (fs::is_symlink(file, ignored)) {  // SQLite keeps the log beside the link's target
     return core::fail(
         core::Code::kFile,
         fmt::format("{} is a link; a run goes on only where its journal stands", file.string()),

@@ -10,15 +10,15 @@
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
-#include "record/journal/internal/canonical.h"
 #include "record/checksums.h"
-#include "record/internal/database.h"
 #include "record/files.h"
+#include "record/internal/database.h"
+#include "record/journal/internal/canonical.h"
 #include "record/journal/internal/damage.h"
+#include "record/journal/internal/private_copy.h"
 #include "record/journal/internal/reader.h"
 #include "record/journal/internal/schema.h"
 #include "record/journal/internal/seal.h"
-#include "record/journal/internal/private_copy.h"
 #include "record/sha256.h"
 
 namespace rondure::record {
@@ -39,7 +39,7 @@ std::string advice_after(const std::string& loss) {
   return fmt::format("{}{}; {}", loss.empty() ? "" : "; ", loss, kCopyAgain);
 }
 
-/// Whether nothing of a journal is there but its name.
+/// Whether the file of a journal is empty.
 bool holds_nothing(const fs::path& file) {
   std::error_code absent;
   const auto log = fs::file_size(file.string() + "-wal", absent);
@@ -99,7 +99,7 @@ core::Result<ReadJournal> read_copy(const fs::path& file, Logs logs) {
                     file.string());
 }
 
-/// The digest of the journal in SHA256SUMS, if that names it.
+/// The digest of the journal in SHA256SUMS, if it is listed there.
 std::optional<std::string> listed_digest(const fs::path& directory) {
   const auto list = read_checksums(directory);
   if (!list) return std::nullopt;
@@ -113,7 +113,7 @@ bool has_digest(const fs::path& file, const std::string& sha256) {
   return bytes && sha256_hex(*bytes) == sha256;
 }
 
-/// What `look` finds in a private copy; nothing when that cannot be opened or read.
+/// The result of `look` on a private copy; nothing when the copy cannot be opened or read.
 template <class Look>
 auto looked_up(const fs::path& file, Logs logs, const Look& look)
     -> std::optional<std::invoke_result_t<Look, soci::session&>> {
@@ -129,7 +129,7 @@ auto looked_up(const fs::path& file, Logs logs, const Look& look)
   }
 }
 
-/// The journal by itself, if it was closed: whole and sealed without any log.
+/// The journal without its logs, if it is whole and sealed so.
 std::optional<ReadJournal> closed_journal(const fs::path& file) {
   if (looked_up(file, Logs::kWithout, is_sealed) != true) return std::nullopt;
   auto alone = read_copy(file, Logs::kWithout);
@@ -137,8 +137,8 @@ std::optional<ReadJournal> closed_journal(const fs::path& file) {
   return *std::move(alone);
 }
 
-/// Whether the logs change anything: a run that died as it closed its journal may leave a log whose
-/// rows are in the file already.
+/// Whether the logs change anything: a run that died while closing its journal may leave a log
+/// whose rows are in the file already.
 bool logs_change(const fs::path& file, std::int64_t version) {
   const auto contents = [&](soci::session& sql) {
     std::string digests = digest_of(sql, "sqlite_schema").sha256;

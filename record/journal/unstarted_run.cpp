@@ -23,8 +23,7 @@ namespace fs = std::filesystem;
 
 using Logs = PrivateCopy::Logs;
 
-/// Whether SQLite finds a database without tables behind the name; nothing when it finds no
-/// database at all, or a damaged one.
+/// Whether the file is a database without tables; nothing when it is not a database or is damaged.
 core::Result<std::optional<bool>> holds_no_table(const fs::path& journal, Logs logs) {
   const auto copy = PrivateCopy::of(journal, logs);
   if (!copy) return core::fail(copy.error());
@@ -43,20 +42,20 @@ core::Result<std::optional<bool>> holds_no_table(const fs::path& journal, Logs l
   }
 }
 
-/// Whether a journal has no tables, once SQLite has finished its log. One that has them without its
-/// log is a journal, whatever a log beside it says.
+/// Whether a journal has no tables after SQLite has finished its log. A file that has tables
+/// without its log is a journal, whatever the log contains.
 core::Result<bool> is_unborn(const fs::path& journal) {
   const auto alone = holds_no_table(journal, Logs::kWithout);
   if (!alone) return core::fail(alone.error());
   if (!alone->value_or(true)) return false;
   const auto whole = holds_no_table(journal, Logs::kWith);
   if (!whole) return core::fail(whole.error());
-  return whole->value_or(false);  // a damaged one is for the reader of journals to judge
+  return whole->value_or(false);  // a damaged one is left to the reader of journals
 }
 
 constexpr std::array kSuffixes = {"-shm", "-wal", "-journal", ""};  ///< Files of one journal.
 
-/// Whether a directory holds only what a run begins with. Beside reports or a list of digests an
+/// Whether a directory holds only the first files of a run. Beside reports or a list of digests, an
 /// empty journal is one that lost its contents.
 bool holds_only_a_beginning(const fs::path& directory) {
   std::error_code problem;

@@ -5,8 +5,8 @@
 
 namespace rondure::wire {
 
-/// Who has a device file open, e.g. "minicom (process 4711)"; several with commas. "" when nobody
-/// is found: programs of other users cannot be seen.
+/// The programs that have a device file open, e.g. "minicom (process 4711)"; several are separated
+/// by commas. "" when none is found: programs of other users cannot be seen.
 [[nodiscard]] std::string device_holders(const std::filesystem::path& device);
 
 }  // namespace rondure::wire

@@ -5,12 +5,12 @@
 
 #include "wire/usb.h"
 
-// The types of libusb, which its header leaves open; the header itself stays in the .cpp files.
+// Forward declarations of libusb types; libusb's own header is included only in the .cpp files.
 struct libusb_context;
 struct libusb_device;
 struct libusb_device_handle;
 
-// What the files behind usb.h share; nobody else includes it.
+// Shared by the files that implement wire/usb.h.
 
 namespace rondure::wire::usb {
 
@@ -24,7 +24,7 @@ struct HandleEnd {
 };
 using Handle = std::unique_ptr<libusb_device_handle, HandleEnd>;
 
-/// Of all devices that are plugged in; each holds a reference until the list goes.
+/// Frees a list of all plugged-in devices. Each entry holds a reference until then.
 struct ListEnd {
   void operator()(libusb_device** list) const;
 };
@@ -33,21 +33,21 @@ using List = std::unique_ptr<libusb_device*, ListEnd>;
 [[nodiscard]] UsbResult<Context> new_context();
 [[nodiscard]] UsbResult<List> all_devices(libusb_context& context);
 
-/// Vendor, product, bus and address.
+/// Reads vendor, product, bus and address of a device.
 [[nodiscard]] UsbResult<UsbDeviceInfo> identity(libusb_device& device);
-/// Asks an open device for its strings.
+/// Reads the string descriptors of an open device.
 void ask_strings(libusb_device_handle& handle, UsbDeviceInfo& info);
 [[nodiscard]] UsbResult<Handle> open_device(libusb_device& device, const UsbDeviceInfo& info);
 
-/// The fault that a code of libusb stands for, of this device while it did this.
+/// The fault that a libusb code stands for, worded for this device and for the action in `doing`.
 [[nodiscard]] UsbFault fault_of(int libusb_code, const UsbDeviceInfo& info,
                                 const std::string& doing);
 
 /// The kernel driver of an interface; "" when there is none, or this library itself.
 [[nodiscard]] std::string kernel_driver_of(libusb_device& device, int interface);
-/// The programs that have a device open, as device_holders() tells them.
+/// The programs that have a device open, as given by device_holders().
 [[nodiscard]] std::string programs_with(const UsbDeviceInfo& info);
-/// Who has an interface of a device: a kernel driver, or a program.
+/// The holder of an interface of a device: a kernel driver or a program.
 [[nodiscard]] std::string holder_of(libusb_device& device, const UsbDeviceInfo& info,
                                     int interface);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kHead = "01A";  // reading, channel 1, item A
 constexpr std::size_t kLength = 12;
 
-/// As it came, with what does not print as dots.
+/// The message with non-printing bytes as dots.
 std::string shown(std::string_view message) {
   std::string out(message.substr(0, 40));
   std::replace_if(

@@ -11,22 +11,22 @@
 
 #include <tl/expected.hpp>
 
-#include "cmm/ipp_server/controller.h"
 #include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp_server/controller.h"
 
-// What the handlers of commands share. Internal to the server.
+// Shared by the command handlers of the server.
 
 namespace rondure::cmm::ipp {
 
 using Arguments = std::vector<Item>;
 
-inline constexpr std::size_t kMaxNames = 64;  ///< In a command: the answer must fit into a line.
+inline constexpr std::size_t kMaxNames = 64;  ///< Per command: the answer must fit into a line.
 
 [[nodiscard]] inline tl::unexpected<Failure> refusal(int number, std::string what) {
   return tl::unexpected(Failure{number, std::move(what)});
 }
 
-/// The refusal of arguments that are not as `wanted`: "()", "(number)".
+/// The refusal of arguments that do not match `wanted`: "()", "(number)".
 [[nodiscard]] inline tl::unexpected<Failure> wrong_arguments(std::string_view wanted) {
   return refusal(kIncorrectArguments, "the arguments are not " + std::string(wanted));
 }
@@ -39,8 +39,8 @@ inline constexpr std::size_t kMaxNames = 64;  ///< In a command: the answer must
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The names of X(), Y(), IJK(); nothing when one of the arguments is anything else, when there is
-/// none, or more than kMaxNames.
+/// The names of X(), Y(), IJK(); nothing when any argument is something else, when there are none,
+/// or more than kMaxNames.
 [[nodiscard]] inline std::optional<std::vector<std::string>> empty_calls(
     const Arguments& arguments) {
   std::vector<std::string> out;

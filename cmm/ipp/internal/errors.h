@@ -15,10 +15,10 @@ struct ErrorEntry {
 /// the additions of later issues.
 [[nodiscard]] const ErrorEntry* find_error(int number);
 
-/// From this severity on the server aborts what is pending and wants ClearAllErrors().
+/// From this severity on the server aborts pending commands and requires ClearAllErrors().
 inline constexpr int kErrorState = 2;
 
-// The numbers that the server gives, by their meaning.
+// The numbers that the server uses, by meaning.
 inline constexpr int kIllegalTag = 1;
 inline constexpr int kNoSpace = 2;
 inline constexpr int kAborted = 6;

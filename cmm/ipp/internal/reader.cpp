@@ -10,11 +10,11 @@
 namespace rondure::cmm::ipp {
 namespace {
 
-constexpr int kLiberalDigits = 400;  // a server that writes more digits than it may is understood
+constexpr int kLiberalDigits = 400;  // accepts servers that write more digits than allowed
 
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
-/// Characters of which numbers are made, right or wrong ones.
+/// Characters that occur in numbers, valid or not.
 bool is_number_character(char c) {
   return is_digit(c) || is_letter(c) || c == '+' || c == '-' || c == '.';
 }

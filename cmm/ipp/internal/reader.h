@@ -12,11 +12,11 @@ namespace rondure::cmm::ipp {
 
 /// Whether every character is ASCII 32..126.
 [[nodiscard]] bool is_plain(std::string_view text);
-/// The first `shown` characters of a line for a message: "?" for one that is not plain, "..." for
-/// the others.
+/// The first `shown` characters of a line for a message; "?" replaces a character that is not
+/// plain, "..." the rest of the line.
 [[nodiscard]] std::string excerpt(std::string_view line, std::size_t shown);
 
-/// Reads items out of one line, from left to right. Internal to the grammar.
+/// Reads items from one line, from left to right. Internal to the grammar.
 class ItemReader {
  public:
   enum class Manner { kStrict, kLiberal };
@@ -31,9 +31,9 @@ class ItemReader {
 
   ItemReader(std::string_view text, Manner manner) : text_(text), manner_(manner) {}
 
-  /// letter {letter | digit}; of `dotted` also with points between. Empty when there is none.
+  /// letter {letter | digit}; with `dotted` also with points in between. Empty when there is none.
   [[nodiscard]] std::string_view read_name(bool dotted);
-  /// "(" [item {"," item}] ")" with spaces where they may stand.
+  /// "(" [item {"," item}] ")", with the spaces that the grammar allows.
   [[nodiscard]] Read<std::vector<Item>> read_arguments(int depth);
   /// item {"," item} up to the end of the line.
   [[nodiscard]] Read<std::vector<Item>> read_list();

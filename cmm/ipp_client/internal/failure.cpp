@@ -51,7 +51,7 @@ constexpr auto kUnknown =
     std::to_array<int>({kUnsupportedCommand, kIncorrectArguments, kNotRecognized, kNotSupported,
                         kIllegalCommand, kBadArgument, kBadProperty, kToolNotDefined});
 
-/// What a person can do about an error number.
+/// The remedy for an error number.
 std::string_view advice(int number) {
   switch (number) {
     case 500:

@@ -8,23 +8,21 @@
 
 namespace rondure::cmm::ipp::client {
 
-/// Whether an error only says that the server did not accept or could not fulfil what was asked
-/// (arguments, unknown tool, no contact, target out of limits): nothing is wrong with the machine,
-/// so that the client may take the error back with ClearAllErrors() by itself. Everything else
-/// waits until a person has looked.
+/// Whether an error only says that the server refused a request or could not fulfil it (arguments,
+/// unknown tool, no contact, target out of limits). The machine itself is in order, so the client
+/// may clear the error with ClearAllErrors(). Every other error waits for a person.
 [[nodiscard]] bool is_refusal(const ErrorReport& report);
 
-/// Whether an error says that the tip met something in a move. The server's error is taken back, so
-/// that it tells where the tip stands; nothing moves before a person has looked.
+/// Whether an error says that the tip touched something during a move. The error is cleared so that
+/// the server reports the position of the tip; nothing moves before a person has checked.
 [[nodiscard]] bool is_contact(const ErrorReport& report);
 
-/// Whether an error says that the server does not know a command, argument or property at all.
+/// Whether an error says that the server does not know a command, argument or property.
 [[nodiscard]] bool is_unknown_here(const ErrorReport& report);
 
-/// The failure of a transaction as the rest of the program knows errors: kNoTouch, kCollision,
-/// kUnreachable, kPoseRange, kStopped, else kMachine. Its text holds what the machine said and what
-/// to do.
-/// @param doing  What was tried, e.g. "the move to (1, 2, 3) mm".
+/// The failure of a transaction as an error of the program: kNoTouch, kCollision, kUnreachable,
+/// kPoseRange, kStopped, else kMachine. Its text holds the message of the machine and the remedy.
+/// @param doing  The action, e.g. "the move to (1, 2, 3) mm".
 [[nodiscard]] core::Error error_of(const Failure& failure, std::string_view doing);
 
 }  // namespace rondure::cmm::ipp::client

@@ -32,7 +32,7 @@ bool in_material(const PartSurface& surface, const Vector3d& p) {
   return std::abs(p.z()) <= surface.half_length_mm && on_end(surface, p);
 }
 
-/// Contact with the flat of the upper (side = 1) or lower (-1) end, rim excluded.
+/// Contact with the flat of the upper (side = 1) or lower (-1) end, without its rim.
 std::optional<SideContact> end_contact(const PartSurface& surface, const SphereSweep& sweep,
                                        double side) {
   const double height = side * sweep.start_P_mm.z() - surface.half_length_mm;  // above the end

@@ -7,7 +7,7 @@
 
 namespace rondure::cmm {
 
-/// Where the sphere of a probe tip first meets a part, in the part frame.
+/// First contact of the sphere of a probe tip with a part, in the part frame.
 struct Contact {
   double travel_mm = 0.0;                                ///< From the start, >= 0.
   Eigen::Vector3d tip_P_mm = Eigen::Vector3d::Zero();    ///< Tip centre at contact.
@@ -23,7 +23,7 @@ struct Contact {
 /// @param start_P_mm  Tip centre at the start.
 /// @param direction_P  Unit vector of the motion.
 /// @param tip_radius_mm  > 0.
-/// @param max_travel_mm  How far the tip may go, >= 0.
+/// @param max_travel_mm  Largest travel of the tip, >= 0.
 /// @return  The contact; kCollision when the sphere overlaps the part at its start by more than
 ///          1e-9 mm, kNoTouch when it meets nothing, kNotConverged should the solver fail.
 [[nodiscard]] core::Result<Contact> first_contact(const PartSurface& surface,
@@ -31,8 +31,8 @@ struct Contact {
                                                   const Eigen::Vector3d& direction_P,
                                                   double tip_radius_mm, double max_travel_mm);
 
-/// The same question asked of a bare sphere, e.g. the reference sphere of a probe qualification.
-/// Same errors. Any frame.
+/// First contact with a single sphere, e.g. the reference sphere of a probe qualification. Same
+/// errors. Any frame.
 [[nodiscard]] core::Result<Contact> first_contact_with_sphere(
     const Eigen::Vector3d& center_mm, double radius_mm, const Eigen::Vector3d& start_mm,
     const Eigen::Vector3d& direction, double tip_radius_mm, double max_travel_mm);

@@ -42,7 +42,7 @@ Vector3d true_position(const MachineErrors& errors, const Vector3d& reading_W_mm
 }
 
 Vector3d reading_of(const MachineErrors& errors, const Vector3d& true_W_mm, double time_s) {
-  // The errors change by far less than 1e-2 per mm: each pass gains two digits at least.
+  // The errors change by far less than 1e-2 per mm: each pass gains at least two digits.
   Vector3d reading = true_W_mm;
   for (int pass = 0; pass < 20; ++pass) {
     const Vector3d miss = true_W_mm - true_position(errors, reading, time_s);
@@ -63,7 +63,7 @@ double trigger_delay_mm(const MachineErrors& errors, const Vector3d& direction) 
 }
 
 Vector3d backlash_shift_mm(const MachineErrors& errors, const Vector3d& direction) {
-  constexpr double kMoves = 1e-9;  // a component below this is a number that should be zero
+  constexpr double kMoves = 1e-9;  // smaller components are zero up to round-off
   Vector3d shift = Vector3d::Zero();
   for (int k = 0; k < 3; ++k) {
     if (std::abs(direction[k]) < kMoves) continue;

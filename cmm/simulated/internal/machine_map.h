@@ -6,8 +6,8 @@
 
 namespace rondure::cmm {
 
-/// Where the tip really is when the scales read so at a time: geometry, expansion of the scales
-/// about the machine origin, drift.
+/// True position of the tip for a scale reading at a time: geometry, expansion of the scales about
+/// the machine origin, drift.
 [[nodiscard]] Eigen::Vector3d true_position(const MachineErrors& errors,
                                             const Eigen::Vector3d& reading_W_mm, double time_s);
 
@@ -15,8 +15,8 @@ namespace rondure::cmm {
 [[nodiscard]] Eigen::Vector3d reading_of(const MachineErrors& errors,
                                          const Eigen::Vector3d& true_W_mm, double time_s);
 
-/// How far the reading at the trigger lies along the approach behind that at the contact:
-/// pre-travel and bending of the stylus. The stylus stands along z.
+/// Distance along the approach from the reading at the contact to the reading at the trigger:
+/// pre-travel and bending of the stylus. The stylus is parallel to z.
 /// @param direction  Unit vector of the approach.
 [[nodiscard]] double trigger_delay_mm(const MachineErrors& errors,
                                       const Eigen::Vector3d& direction);

@@ -26,7 +26,7 @@ struct Local {
   Matrix2d hessian = Matrix2d::Zero();
 };
 
-/// A point of the surface seen from the line of the sweep.
+/// A point of the surface relative to the line of the sweep.
 struct Sight {
   double along_mm = 0.0;  ///< Along the line, from the start.
   Vector3d across_mm;     ///< From the line, perpendicular to it.
@@ -39,7 +39,7 @@ Sight sight(const SphereSweep& sweep, const Vector3d& x_mm) {
 }
 
 /// Travel s until the sphere reaches a surface point; nothing when it passes by, or when the point
-/// lies behind the start: a sphere that starts clear of it never meets it.
+/// lies before the start: a sphere that starts clear of it never meets it.
 std::optional<Local> travel_to(const PartSurface& surface, const SphereSweep& sweep,
                                const Vector2d& at) {
   const SurfaceJet jet = surface_jet(surface, at.x(), at.y());
@@ -104,13 +104,13 @@ struct Minimum {
   double value = 0.0;
 };
 
-/// True when z stands at an end of its range and the function falls toward the outside.
+/// True when z is at an end of its range and the function falls toward the outside.
 bool held_at_rim(const Local& f, double z_mm, double half_length_mm) {
   return (z_mm >= half_length_mm && f.gradient.y() <= 0.0) ||
          (z_mm <= -half_length_mm && f.gradient.y() >= 0.0);
 }
 
-/// Slope in the directions that are free.
+/// Magnitude of the slope in the free directions.
 double free_slope(const Local& f, double z_mm, double half_length_mm) {
   return held_at_rim(f, z_mm, half_length_mm) ? std::abs(f.gradient.x()) : f.gradient.norm();
 }
@@ -130,7 +130,7 @@ std::optional<Minimum> minimise(const Function& function, Vector2d at, double ha
     const bool to_rim = std::abs(step.y()) > std::abs(room);
     if (to_rim) step *= room / step.y();
     if (!to_rim && step.norm() <= kStep_mm) return Minimum{at + step, f->value};
-    // Near the minimum the value is flat to the last bit while the slope still shrinks.
+    // Near the minimum the value is constant to the last bit while the slope still shrinks.
     const double least_slope = 0.5 * free_slope(*f, at.y(), half_length_mm);
     for (;; step *= 0.5) {
       if (step.norm() <= 0.1 * kStep_mm) return Minimum{at, f->value};  // nothing lower
@@ -163,25 +163,25 @@ std::optional<Vector2d> ideal_contact(const PartSurface& surface, const SphereSw
   if (a < 0.25 || root2 < 0.0) return std::nullopt;
   const double root = std::sqrt(root2);
   const double travel = (-b + (surface.inside ? root : -root)) / a;
-  constexpr double kLeastSine = 0.5;  // root / offset: of the angle between line and surface
+  constexpr double kLeastSine = 0.5;  // root / offset: sine of the angle between line and surface
   if (travel < 0.0 || root < kLeastSine * offset_mm) return std::nullopt;
   const Vector3d center = sweep.start_P_mm + travel * sweep.direction_P;
   return Vector2d(surface.radius_mm * std::atan2(center.y(), center.x()), center.z());
 }
 
-/// The sphere can roll over the form without bridging anything.
+/// Whether the sphere can roll over the form without bridging anything.
 bool is_gentle(const PartSurface& surface, const ShapeBounds& bounds, double sphere_radius_mm) {
   const double room =
       surface.inside ? 1.0 - sphere_radius_mm / (surface.radius_mm - bounds.deviation_mm) : 1.0;
   return bounds.form_curvature_1_mm * sphere_radius_mm < 0.5 * room;
 }
 
-/// Branch and bound over the side: every surface box that could be met first is looked at.
+/// Branch and bound over the side: examines every surface box that could be met first.
 class SideSearch {
  public:
   SideSearch(const PartSurface& surface, const ShapeBounds& bounds, const SphereSweep& sweep)
       : surface_(surface), bounds_(bounds), sweep_(sweep), bound_mm_(sweep.travel_mm) {
-    // Small enough for Newton: a part of the tip and a small part of an undulation.
+    // Small enough for Newton: a fraction of the tip and of an undulation.
     leaf_mm_ = std::min(sweep.radius_mm / 4.0, bounds.wavelength_mm / 16.0);
   }
 
@@ -196,7 +196,7 @@ class SideSearch {
         return found_;
       } else if (!finish(box.center)) {
         if (reach(box.half) < kFinest_mm) return not_found();
-        split(box);  // closer to the minimum Newton succeeds
+        split(box);  // Newton's method converges closer to the minimum
       }
     }
     return found_;
@@ -210,7 +210,7 @@ class SideSearch {
     friend bool operator<(const Box& a, const Box& b) { return a.least_mm > b.least_mm; }
   };
 
-  /// No point of a box of that half size is farther from the point at its centre.
+  /// Upper bound of the distance of a point of a box from the point at its centre.
   [[nodiscard]] double reach(const Vector2d& half) const {
     return bounds_.stretch_u * half.x() + bounds_.stretch_z * half.y();
   }
@@ -234,7 +234,7 @@ class SideSearch {
     const double depth2 = radius * radius - seen.across_mm.squaredNorm();
     if (depth2 < 0.0) return;  // the sphere passes by
     const double depth = std::sqrt(depth2);
-    if (seen.along_mm + depth < 0.0) return;  // behind the start
+    if (seen.along_mm + depth < 0.0) return;  // before the start
     open_.push({center, half, seen.along_mm - depth});
   }
 
@@ -263,7 +263,8 @@ class SideSearch {
     return true;
   }
 
-  /// Local minimum of the travel near a place; false when Newton does not get there.
+  /// Adds the local minimum of the travel near `start`; false when Newton's method does not
+  /// converge.
   bool finish(const Vector2d& start) {
     const auto travel = [this](const Vector2d& at) { return travel_to(surface_, sweep_, at); };
     Vector2d at = start;
@@ -297,7 +298,7 @@ class SideSearch {
                       "the contact of tip and part was not found within the iteration limit");
   }
 
-  static constexpr double kTouching_mm = 1e-9;  // the sphere may touch the surface where it starts
+  static constexpr double kTouching_mm = 1e-9;  // allowed overlap at the start of a sweep
   static constexpr double kFinest_mm = 1e-6;
 
   const PartSurface& surface_;
@@ -309,8 +310,8 @@ class SideSearch {
   std::priority_queue<Box> open_;
 };
 
-/// The contact by Newton alone, when it is sure to be the only candidate: the outer optional says
-/// whether that is so.
+/// The contact by Newton alone, if it is certain to be the only candidate: the outer optional is
+/// empty otherwise.
 std::optional<std::optional<SideContact>> gentle_contact(const PartSurface& surface,
                                                          const ShapeBounds& bounds,
                                                          const SphereSweep& sweep) {
@@ -328,13 +329,13 @@ std::optional<std::optional<SideContact>> gentle_contact(const PartSurface& surf
   return SideContact{minimum->value, surface_jet(surface, minimum->at.x(), minimum->at.y()).x_mm};
 }
 
-/// True when the sphere stays away from every mark all along its way.
+/// True when the sphere stays away from every mark on its whole path.
 bool passes_marks(const PartSurface& surface, const SphereSweep& sweep) {
   const Vector3d a = sweep.start_P_mm;
   const Vector3d b = a + sweep.travel_mm * sweep.direction_P;
   const double theta = std::atan2(a.y(), a.x());
   const double turn = std::abs(std::remainder(std::atan2(b.y(), b.x()) - theta, core::kTwoPi));
-  // Seen from the axis the way turns by less than half a turn only where it does not cross it.
+  // Seen from the axis, a path turns by less than half a revolution only if it does not cross it.
   if (turn > 0.25 * core::kTwoPi) return false;
   return std::none_of(surface.marks.begin(), surface.marks.end(), [&](const SurfaceMark& mark) {
     const double keep_off = sweep.radius_mm + std::abs(mark.height_mm);

@@ -14,10 +14,10 @@ struct SphereSweep {
   Eigen::Vector3d start_P_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction_P = Eigen::Vector3d::UnitX();  ///< Unit vector.
   double radius_mm = 0.0;                                  ///< > 0.
-  double travel_mm = 0.0;                                  ///< How far it may go.
+  double travel_mm = 0.0;                                  ///< Largest travel.
 };
 
-/// Where a sweep first meets the round side of a part, or its rims.
+/// First contact of a sweep with the round side of a part, or its rims.
 struct SideContact {
   double travel_mm = 0.0;  ///< < 0: the sphere overlaps the side at its start, by that much.
   Eigen::Vector3d point_P_mm = Eigen::Vector3d::Zero();
@@ -36,7 +36,7 @@ struct SideContact {
 /// starts on the free side of the surface and meets it steeper than 30 deg, the minimum next to the
 /// contact with the ideal cylinder is the only one, and Newton starts there.
 ///
-/// @return nothing when the side is out of range; kNotConverged should Newton fail.
+/// @return Nothing when the side is out of range; kNotConverged when Newton's method fails.
 [[nodiscard]] core::Result<std::optional<SideContact>> first_side_contact(
     const PartSurface& surface, const SphereSweep& sweep);
 

@@ -18,7 +18,8 @@ struct Window {
 };
 
 Window window(double x_mm, double width_mm, double flank_mm) {
-  const double t = (0.5 * width_mm - std::abs(x_mm)) / flank_mm;  // 0 at the edge, 1 behind
+  // 0 at the edge, 1 at the inner end.
+  const double t = (0.5 * width_mm - std::abs(x_mm)) / flank_mm;
   if (t <= 0.0) return {};
   if (t >= 1.0) return {1.0, 0.0, 0.0};
   const double down = x_mm < 0.0 ? 1.0 / flank_mm : -1.0 / flank_mm;  // dt/dx
@@ -42,7 +43,7 @@ void add_mark(const PartSurface& surface, const SurfaceMark& mark, double theta_
   d.zz += height * around.value * along.curvature;
 }
 
-/// Adds what marks add to the bounds of the absolute values.
+/// Adds the contribution of a mark to the bounds of the absolute values.
 void bound_mark(const PartSurface& surface, const SurfaceMark& mark, RadiusDerivatives& b) {
   constexpr double kSlope = 1.875;       // largest derivative of the flank
   constexpr double kCurvature = 5.7736;  // and of its derivative

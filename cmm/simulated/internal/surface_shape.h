@@ -38,12 +38,12 @@ struct ShapeBounds {
   double toward_free_mm = 0.0;       ///< r - radius of a shaft, radius - r of a bore.
   double stretch_u = 0.0;            ///< |dX/du|.
   double stretch_z = 0.0;            ///< |dX/dz|.
-  double form_curvature_1_mm = 0.0;  ///< Of the form alone, the ideal cylinder left out [1/mm].
-  double wavelength_mm = 0.0;        ///< Of the finest undulation, either way along the surface.
+  double form_curvature_1_mm = 0.0;  ///< Of the form without the ideal cylinder [1/mm].
+  double wavelength_mm = 0.0;  ///< Of the finest undulation, in either direction of the surface.
 };
 
 [[nodiscard]] ShapeBounds shape_bounds(const PartSurface& surface);
-/// The same where no mark is.
+/// Bounds of the surface outside all marks.
 [[nodiscard]] ShapeBounds bounds_beside_marks(const PartSurface& surface);
 
 }  // namespace rondure::cmm

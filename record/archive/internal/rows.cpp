@@ -71,7 +71,7 @@ void insert_results(soci::session& sql, const ArchiveRun& run, std::int64_t id,
   }
 }
 
-/// Everything of a result and of its run, in the order of Row.
+/// All columns of a result and of its run, in the order of Row.
 constexpr std::string_view kSelect =
     "select n.journal_sha256, n.run_id, n.started_utc, n.part_id, n.part_name, n.serial, "
     "n.operator_name, n.machine, n.fixture, n.simulated, n.plan_name, n.plan_revision, "
@@ -79,7 +79,7 @@ constexpr std::string_view kSelect =
     "r.sampling, r.value, r.upper_limit, r.unit, r.verdict, r.certificate, r.time_s, r.run, "
     "r.number from rondure_result r join rondure_run n on n.id = r.run";
 
-/// What a fetch fills.
+/// The variables that a fetch fills.
 struct Row {
   ArchivedResult out;
   int simulated = 0;
@@ -125,22 +125,22 @@ struct Row {
   }
 };
 
-/// Later places are of newer results.
+/// Orders results by age: a greater value is a newer result.
 auto place_of(const ArchivedResult& result) {
   return std::tuple(result.time_s, result.run, result.number);
 }
 
-/// The keys of the names were equal; the names nearly always are. Asked here and not of the
-/// database: PostgreSQL would take key and name for independent, expect a handful of rows, and
-/// sort all of a part instead of reading the newest.
+/// Compares the names themselves; their keys are equal already, and the names nearly always are.
+/// Done here and not in the query: PostgreSQL would treat key and name as independent, expect a
+/// handful of rows, and sort all rows of a part instead of reading the newest.
 bool is_named(const ArchivedResult& row, const ArchiveFilter& filter) {
   return (!filter.part || *filter.part == row.head.part_id) &&
          (!filter.characteristic || *filter.characteristic == row.result.characteristic) &&
          (!filter.serial || *filter.serial == row.head.serial);
 }
 
-/// The conditions of a filter, and the values bound to them. Stays where it is: SOCI keeps
-/// pointers.
+/// The conditions of a filter, and the values bound to them. Not movable: SOCI keeps pointers to
+/// the values.
 class Conditions {
  public:
   Conditions(const ArchiveFilter& filter, const ArchivedResult* before)
@@ -150,7 +150,7 @@ class Conditions {
     if (filter.serial) serial_key_ = key_of(*filter.serial);
   }
 
-  /// Binds the values and gives " where ...".
+  /// Binds the values and returns " where ...".
   std::string bind(soci::statement& select) {
     number(select, "r.part_key =", part_key_);
     number(select, "r.characteristic_key =", characteristic_key_);
@@ -220,7 +220,7 @@ std::vector<ArchivedResult> select_newest(soci::session& sql, const ArchiveFilte
   std::vector<ArchivedResult> out;
   for (bool more = select.execute(true); more; more = select.fetch()) {
     const ArchivedResult& result = row.fetched();
-    // A row with another value in place of a number would be found on every page again.
+    // A row whose number column holds another type would be found again on every page.
     const ArchivedResult* newer = out.empty() ? before : &out.back();
     if (newer != nullptr && place_of(result) >= place_of(*newer)) {
       throw std::runtime_error(

@@ -9,13 +9,15 @@
 
 #include "record/archive/archive.h"
 
-// Private to the room: runs and results to rows and back. Everything here throws soci::soci_error.
+// Private to the room: converts runs and results to rows and back. All functions throw
+// soci::soci_error.
 
 namespace rondure::record {
 
-/// Inserts a run with its results, unless its journal is there already. Inside a transaction.
-/// @param time_s  Its start, as a number.
-/// @return Whether it was new.
+/// Inserts a run with its results, unless its journal is there already. Call it inside a
+/// transaction.
+/// @param time_s  Start of the run, seconds since 1970.
+/// @return Whether the run was new.
 bool insert_run(soci::session& sql, const ArchiveRun& run, std::int64_t time_s);
 
 /// The newest results that pass the filter.

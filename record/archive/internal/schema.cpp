@@ -61,7 +61,7 @@ const Dialect& sqlite_dialect() {
   static constexpr Dialect kDialect = {
       .id_type = "integer primary key",
       .has_archive = "select count(*) from sqlite_master where name = 'rondure_archive'",
-      // Takes the right to write at once: two readers that both want to write would block.
+      // Takes the write lock at once: two readers that both want to write would block each other.
       .begin = "begin immediate",
       .lock = ""};
   return kDialect;

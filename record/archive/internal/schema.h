@@ -5,27 +5,27 @@
 #include <string_view>
 #include <vector>
 
-// Private to the room: the tables of an archive, alike on both kinds of database.
-// docs/archive.md explains them; a test holds both together.
+// Private to the room: the tables of an archive, the same on both kinds of database.
+// docs/archive.md explains them; a test checks that both agree.
 
 namespace rondure::record {
 
-/// What the two databases spell differently.
+/// SQL that differs between the two databases.
 struct Dialect {
-  std::string_view id_type;      ///< Of a column that counts by itself.
+  std::string_view id_type;      ///< Of a column that numbers its rows itself.
   std::string_view has_archive;  ///< Query: 1 when our tables are there.
   std::string_view begin;        ///< Starts a transaction that writes.
-  std::string_view lock;         ///< Keeps a second program from making the tables too; or empty.
+  std::string_view lock;         ///< Keeps a second program from creating them; may be empty.
 };
 
 [[nodiscard]] const Dialect& sqlite_dialect();
 [[nodiscard]] const Dialect& postgresql_dialect();
 
-/// The statements that make an archive.
+/// The statements that create an archive.
 [[nodiscard]] std::vector<std::string> archive_statements(const Dialect& dialect);
 
-/// A number that stands for a name in an index: PostgreSQL indexes no text beyond 2.7 kB. Two names
-/// may share one, so the names that come back are compared besides.
+/// A number that stands for a name in an index: PostgreSQL cannot index text longer than 2.7 kB.
+/// Two names may share a number, so the names of the rows found are compared as well.
 [[nodiscard]] std::int64_t key_of(std::string_view name);
 
 }  // namespace rondure::record

@@ -17,7 +17,7 @@ struct FreeWords {
 };
 using Settings = std::unique_ptr<PQconninfoOption, FreeSettings>;
 
-/// libpq's array; null with its reason in `words`.
+/// The settings as parsed by libpq; null with the reason in `words`.
 Settings parsed_by_libpq(std::string_view text, std::string& words) {
   char* reason = nullptr;
   Settings out(PQconninfoParse(std::string(text).c_str(), &reason));
@@ -51,7 +51,7 @@ core::Result<std::vector<ServerSetting>> parse_server_url(std::string_view url) 
   std::string words;
   const Settings settings = parsed_by_libpq(url, words);
   if (!settings) {
-    // What follows is a piece of the URL in quotes, which may be a password.
+    // The reason continues with a quoted part of the URL, which may be a password.
     words = words.substr(0, std::min(words.find(": \""), words.find('\n')));
     return core::fail(
         core::Code::kBadOption,
@@ -95,8 +95,8 @@ std::string shown_url(std::string_view url, const std::vector<ServerSetting>& se
   };
   std::string out(url.substr(0, url.find("://") + 3));
   const std::string host = value("host");
-  const bool several = host.find(',') != std::string::npos;  // their ports are a list of their own
-  const bool numbers = host.find(':') != std::string::npos;  // of IPv6
+  const bool several = host.find(',') != std::string::npos;  // their ports are a separate list
+  const bool numbers = host.find(':') != std::string::npos;  // an IPv6 address
   if (!value("user").empty()) out += percent_encoded(value("user")) + "@";
   if (!several) out += numbers ? fmt::format("[{}]", host) : percent_encoded(host);
   if (!several && !value("port").empty()) out += ":" + percent_encoded(value("port"));

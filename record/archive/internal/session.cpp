@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
-#include "record/internal/database.h"
-#include "record/files.h"
 #include "record/archive/internal/server_url.h"
+#include "record/files.h"
+#include "record/internal/database.h"
 
-// SOCI's own header for PostgreSQL asks for the headers of libpq, of which nothing is used here.
+// SOCI's own header for PostgreSQL includes the headers of libpq, which are not needed here.
 extern "C" soci::backend_factory const* factory_postgresql();
 
 namespace rondure::record {
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using core::Code;
 
-/// The words of libpq in one line, without the sentence that SOCI puts before them.
+/// The message of libpq in one line, without the sentence that SOCI puts before it.
 std::string words_of_server(const std::string& message) {
   constexpr std::string_view kOfSoci = "Cannot establish connection to the database.";
   std::string words;
@@ -54,7 +54,7 @@ std::string reason_of_server(const ArchivePlace& place, const std::exception& ex
   return words;
 }
 
-/// SQLite says "unable to open" and no more; the system knows why.
+/// SQLite only says "unable to open"; the system gives the reason.
 std::string reason_of_file(const fs::path& file, const std::exception& exception,
                            soci::session* session) {
   const auto* error = dynamic_cast<const soci::sqlite3_soci_error*>(&exception);
@@ -73,7 +73,7 @@ tl::unexpected<core::Error> not_ours(const ArchivePlace& place, std::string_view
   return core::fail(Code::kFile, fmt::format("{} {}", place.shown, what), place.shown);
 }
 
-/// What can be told of a file before SQLite opens it.
+/// Checks a file before SQLite opens it.
 core::Result<void> check_file(const ArchivePlace& place, Archive::Access access) {
   std::error_code unknown;
   const fs::file_status status = fs::status(place.address, unknown);
@@ -85,14 +85,14 @@ core::Result<void> check_file(const ArchivePlace& place, Archive::Access access)
   return {};
 }
 
-/// Asked of SQLite, which reads under its lock: another program may be writing the first page.
+/// Taken from SQLite, which reads under its lock: another program may be writing the first page.
 bool is_no_database(const std::exception& exception) {
   const auto* error = dynamic_cast<const soci::sqlite3_soci_error*>(&exception);
   return error != nullptr && (error->result() & 0xff) == SQLITE_NOTADB;
 }
 
-/// Waits are bounded: for an answer 5 s, for a cut cable 15 s. Spelled anew, since SOCI cuts a URL
-/// at its spaces and quotes.
+/// Adds time limits to a URL: 5 s for an answer, 15 s for a cut cable. The URL is rebuilt, since
+/// SOCI cuts it at spaces and quotes.
 std::string with_limits(const std::string& url) {
   auto settings = parse_server_url(url).value_or(std::vector<ServerSetting>{});
   for (const ServerSetting& limit :
@@ -133,7 +133,7 @@ bool has_archive(ArchiveSession& session) {
   return found > 0;
 }
 
-/// Whether there is any table. All of an archive appear at once.
+/// Whether there is any table. All tables of an archive appear in one transaction.
 bool has_tables(ArchiveSession& session) {
   if (session.place.kind != ArchivePlace::Kind::kFile) return false;  // a server serves many
   int tables = 0;
@@ -146,14 +146,15 @@ void make_tables(ArchiveSession& session) {
     int ignored = 0;
     session.sql << std::string(session.dialect->lock), soci::into(ignored);
   }
-  if (has_archive(session)) return;  // another program was faster
+  if (has_archive(session)) return;  // another program created them in the meantime
   for (const std::string& statement : archive_statements(*session.dialect)) {
     session.sql << statement;
   }
 }
 
 core::Result<void> check_tables(ArchiveSession& session, Archive::Access access) {
-  // Asked first: tables that another program makes between the two questions are then an archive's.
+  // Queried first: if another program creates tables between the two queries, they are an
+  // archive's.
   const bool holds_tables = has_tables(session);
   if (!has_archive(session)) {
     if (holds_tables) {
@@ -210,7 +211,7 @@ core::Result<void> write_in_one(ArchiveSession& session, const std::function<voi
     auto failure = archive_failure(session.place, "written", exception, &session.sql);
     try {
       if (begun) session.sql << "rollback";
-    } catch (const std::exception&) {  // a server that is gone has rolled back by itself
+    } catch (const std::exception&) {  // a server that is gone has rolled back already
     }
     return failure;
   }

@@ -22,16 +22,16 @@ struct ArchiveSession {
   soci::session sql;
 };
 
-/// Connects and sees that the tables are there, of the version this program knows; kWrite makes
-/// them where there is nothing. Errors as Archive::open().
+/// Connects and checks that the tables exist and have the version of this program; kWrite creates
+/// them in an empty database. Errors as Archive::open().
 [[nodiscard]] core::Result<std::unique_ptr<ArchiveSession>> open_archive_session(
     const ArchivePlace& place, Archive::Access access);
 
-/// Runs `work` in one transaction that writes: all of it is there afterwards, or nothing. kArchive.
+/// Runs `work` in one writing transaction: afterwards all of it is stored, or nothing. kArchive.
 [[nodiscard]] core::Result<void> write_in_one(ArchiveSession& session,
                                               const std::function<void()>& work);
 
-/// "the archive X cannot be read: why; what to do", kArchive.
+/// Makes the kArchive error "the archive X cannot be read: why; what to do".
 [[nodiscard]] tl::unexpected<core::Error> archive_failure(const ArchivePlace& place,
                                                           std::string_view participle,
                                                           const std::exception& exception,

@@ -13,21 +13,21 @@
 
 #include "core/result.h"
 
-// Private to the room: what every CSV reader here does alike. Plain CSV: a header line naming the
-// columns, a row a line, fields between commas, decimals with a point, no quotes.
+// Private to the room: functions shared by the CSV readers. Plain CSV: a header line that names the
+// columns, one row per line, fields separated by commas, decimal points, no quotes.
 
 namespace rondure::record {
 
-/// Hands out lines without their LF or CRLF and counts them from 1.
+/// Returns lines without their LF or CRLF and counts them from 1.
 class CsvLines {
  public:
   explicit CsvLines(std::string_view text) : rest_(text) {}
 
   [[nodiscard]] std::optional<std::string_view> next();
 
-  /// What is still to be read, from the start of a line.
+  /// The text not yet read, from the start of a line.
   [[nodiscard]] std::string_view rest() const { return rest_; }
-  /// Passes over the next line, which takes so many bytes with its end.
+  /// Skips the next line, which is `bytes` long including its end.
   void pass(std::size_t bytes) {
     rest_.remove_prefix(bytes);
     ++number_;
@@ -43,19 +43,19 @@ class CsvLines {
 
 [[nodiscard]] core::Error syntax_error(std::string what);
 
-/// Blank lines and comments hold no row.
+/// Whether a line is blank or a comment.
 [[nodiscard]] bool holds_nothing(std::string_view line);
 
 /// The fields of a line without blanks around them.
 [[nodiscard]] std::vector<std::string_view> split_fields(std::string_view line);
 
-/// At most 40 characters of a file's text, in quotes, with bytes that do not print spelled out.
+/// At most 40 characters of a file's text, in quotes, with non-printing bytes escaped.
 [[nodiscard]] std::string quoted_text(std::string_view text);
 
-/// What spreadsheets and editors do to a table, or nothing.
+/// The error for a line in a format that spreadsheets or editors write, or nothing.
 [[nodiscard]] std::optional<core::Error> foreign_format(std::string_view line);
 
-/// What is wrong with one field that has to be a number core::is_measurable(), or nothing.
+/// The error in a field that must be a number core::is_measurable(), or nothing.
 [[nodiscard]] std::optional<core::Error> explain_field(std::string_view field,
                                                        std::string_view column,
                                                        std::string_view unit);

@@ -10,7 +10,7 @@
 namespace rondure::record {
 namespace {
 
-/// Appends the eight bytes of a number, lowest first, on every kind of processor.
+/// Appends the eight bytes of a number, lowest first, whatever the byte order of the processor.
 void append_number(std::string& bytes, std::uint64_t number) {
   for (unsigned shift = 0; shift < 64; shift += 8) {
     bytes += static_cast<char>((number >> shift) & 0xffU);
@@ -29,7 +29,7 @@ void append_value(std::string& bytes, sqlite_api::sqlite3_stmt* row, int column)
     case SQLITE_NULL:
       append_null(bytes);
       break;
-    default: {  // text; the schema knows no other type
+    default: {  // text; the schema has no other type
       const void* text = sqlite_api::sqlite3_column_blob(row, column);
       const auto size = static_cast<std::size_t>(sqlite_api::sqlite3_column_bytes(row, column));
       append_text(bytes, size == 0 ? std::string_view()

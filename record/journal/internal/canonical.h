@@ -10,8 +10,8 @@
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
-// Private to the room: the bytes over which digests run (docs/journal.md, "Bytes of a value"), and
-// the rows of a table as such bytes. What reads throws soci::soci_error.
+// Private to the room: the bytes over which digests are computed (docs/journal.md, "Bytes of a
+// value"), and the rows of a table as such bytes. Functions that read throw soci::soci_error.
 
 namespace rondure::record {
 
@@ -24,7 +24,7 @@ void append_real(std::string& bytes, double number);
 void append_text(std::string& bytes, std::string_view text);
 void append_null(std::string& bytes);
 
-/// Appends a value as the journal keeps it: null for an optional without value.
+/// Appends a value as the journal stores it: null for an empty optional.
 template <class Value>
 void append_given(std::string& bytes, const Value& value) {
   if constexpr (std::is_integral_v<Value>) {
@@ -52,11 +52,11 @@ template <class... Values>
   return bytes;
 }
 
-/// Hands out all rows of a table in the order of their first column, the id.
+/// Calls `take` for every row of a table, in the order of the first column, the id.
 void for_each_row(soci::session& session, std::string_view table,
                   const std::function<void(std::int64_t id, const std::string& bytes)>& take);
 
-/// Number of rows of a table and one SHA-256 that stands for all their values.
+/// Number of rows of a table and one SHA-256 over all their values.
 struct Digest {
   std::int64_t rows = 0;
   std::string sha256;

@@ -15,8 +15,8 @@ namespace {
 using soci::into;
 using soci::use;
 
-/// The digest of a link: over the digest of the one before (empty text for the first) and all that
-/// this one says.
+/// The digest of a link: over the digest of the link before (empty text for the first) and all
+/// fields of this link.
 std::string link_sha256(std::string_view before, std::int64_t id, std::string_view table,
                         std::int64_t row, std::string_view row_sha256) {
   std::string bytes;
@@ -34,10 +34,10 @@ std::string name_of_row(std::string_view table, std::int64_t row) {
   return fmt::format("{} {}", table, row);
 }
 
-/// What the links say of the rows of one table: the last digest of each.
+/// The last digest of each row of one table, from the links.
 using Expected = std::unordered_map<std::int64_t, std::string>;
 
-/// Gathers complaints about one table: the first in words, the others by number.
+/// Collects the mismatches of one table: the first in words, the others by number.
 class Complaints {
  public:
   void add(std::string what) {
@@ -54,7 +54,7 @@ class Complaints {
   std::size_t count_ = 0;
 };
 
-/// Reads all links; tells those that do not follow from the one before.
+/// Reads all links; reports those that do not follow from the one before.
 std::map<std::string, Expected> follow_links(soci::session& sql, std::vector<BrokenTable>& out) {
   std::map<std::string, Expected> expected;
   Complaints complaints;
@@ -85,7 +85,7 @@ std::map<std::string, Expected> follow_links(soci::session& sql, std::vector<Bro
   return expected;
 }
 
-/// Compares the rows of one table with what the links say of them.
+/// Compares the rows of one table with the digests in the links.
 void compare_rows(soci::session& sql, std::string_view table, Expected expected,
                   std::vector<BrokenTable>& out) {
   Complaints complaints;

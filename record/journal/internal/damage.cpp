@@ -11,8 +11,8 @@
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
-#include "record/journal/internal/canonical.h"
 #include "record/internal/database.h"
+#include "record/journal/internal/canonical.h"
 #include "record/journal/internal/schema.h"
 
 namespace rondure::record {
@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The length that the head of a database states, in pages times bytes of a page
-/// (sqlite.org/fileformat2.html, 1.3); nothing when the head is no such head.
+/// The length that the header of a database states, pages times page size
+/// (sqlite.org/fileformat2.html, 1.3); nothing when the header is not valid.
 std::optional<std::uintmax_t> stated_length(const fs::path& file) {
   constexpr std::size_t kHeadBytes = 32;
   std::array<char, kHeadBytes> head{};
@@ -39,22 +39,22 @@ std::optional<std::uintmax_t> stated_length(const fs::path& file) {
   return page * number(28, 4);
 }
 
-/// Fills a file that was cut up to its stated length, so that SQLite reads what is left; says how
-/// much is missing.
+/// Pads a truncated file to its stated length, so that SQLite reads the rest; says how much is
+/// missing.
 std::string fill_up(const fs::path& file) {
   std::error_code problem;
   const std::uintmax_t length = fs::file_size(file, problem);
   const std::uintmax_t log = fs::file_size(file.string() + "-wal", problem);
-  if (!problem && log > 0) return {};  // then the log knows the length
+  if (!problem && log > 0) return {};  // the length is in the log
   const auto stated = stated_length(file);
-  constexpr std::uintmax_t kLongest = std::uintmax_t{1} << 32;  // a damaged head states anything
+  constexpr std::uintmax_t kLongest = std::uintmax_t{1} << 32;  // a damaged header states anything
   if (!stated || length >= *stated || *stated > kLongest) return {};
   fs::resize_file(file, *stated, problem);
   return fmt::format("the file ends after {} of {} bytes, the last {} are missing", length, *stated,
                      *stated - length);
 }
 
-/// Rows of a table that can be read, and whether that is the end of the table.
+/// Number of rows of a table that can be read, and whether the table ends there.
 std::pair<std::int64_t, bool> readable_rows(soci::session& sql, std::string_view table) {
   std::int64_t rows = 0;
   try {
@@ -65,7 +65,7 @@ std::pair<std::int64_t, bool> readable_rows(soci::session& sql, std::string_view
   }
 }
 
-/// Numbers of rows when the journal was closed, as far as the seal can be read.
+/// Row counts from when the journal was closed, as far as the seal can be read.
 std::map<std::string, std::int64_t> sealed_rows(soci::session& sql) {
   std::map<std::string, std::int64_t> rows;
   try {
@@ -75,7 +75,7 @@ std::map<std::string, std::int64_t> sealed_rows(soci::session& sql) {
                            soci::into(table), soci::into(count));
     all.execute();
     while (all.fetch()) rows[table] = count;
-  } catch (const std::exception&) {  // what was read before the damage counts
+  } catch (const std::exception&) {  // the rows read before the damage count
   }
   return rows;
 }
@@ -91,7 +91,7 @@ std::string loss_of(soci::session& sql, std::string_view table,
   return to_the_end ? std::string() : fmt::format("{}: only {} rows can be read", table, rows);
 }
 
-/// Of the tables; the present one where the head does not tell it.
+/// Version of the tables; the present one when the header does not state it.
 std::int64_t version_of(soci::session& sql) {
   long long version = 0;
   sql << "pragma user_version", soci::into(version);
@@ -119,7 +119,7 @@ std::string loss_in_words(const fs::path& copy) {
   try {
     soci::session sql(soci::sqlite3, *connection);
     distrust(sql);
-    int tables = 0;  // a head without tables is no damaged journal but another file
+    int tables = 0;  // a file without tables is not a damaged journal
     sql << "select count(*) from sqlite_schema where name in ('header', 'touch')",
         soci::into(tables);
     if (tables == 0) return words;

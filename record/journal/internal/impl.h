@@ -23,33 +23,33 @@
 #include "record/journal/message_text.h"
 #include "record/run_lock.h"
 
-// Private to the room: the open journal. journal_open.cpp makes it, journal.cpp writes rows,
-// journal_close.cpp seals it.
+// Private to the room: the open journal. open.cpp creates it, journal.cpp writes rows, close.cpp
+// seals it.
 
 namespace rondure::record {
 
 struct Journal::Impl {
   enum class State { kOpen, kDigested, kFolded, kClosed };
 
-  RunLock lock;  ///< Before the session: given back after the journal is closed.
+  RunLock lock;  ///< Before the session, so that it is released after the journal is closed.
   std::filesystem::path file;
   soci::session sql;
   std::optional<Statements> statements;
   std::optional<Chain> chain;
   std::optional<std::int64_t> last_touch;
-  Header header;                   ///< As it was given, and the poses: rows that change later.
-  std::map<int, PoseVisit> poses;  ///< By id.
+  Header header;                          ///< Header and poses as given: these rows change later.
+  std::map<int, PoseVisit> poses;         ///< By id.
   std::int64_t version = kSchemaVersion;  ///< Of its tables.
   bool ended = false;
   State state = State::kOpen;
-  std::shared_ptr<GrowingRecord> follower;  ///< Or none.
+  std::shared_ptr<GrowingRecord> follower;  ///< May be null.
 
   Impl(RunLock taken, std::filesystem::path path, const std::string& connection)
       : lock(std::move(taken)), file(std::move(path)), sql(soci::sqlite3, connection) {
     distrust(sql);
   }
 
-  /// Why `subject` is not in the journal, and what is safe.
+  /// The error "`subject` cannot be written", with the touches that are safe.
   [[nodiscard]] tl::unexpected<core::Error> failure(std::string_view subject,
                                                     std::string_view reason) const {
     return core::fail(
@@ -77,7 +77,7 @@ struct Journal::Impl {
     }
   }
 
-  /// Prepares what runs during a measurement.
+  /// Prepares the statements that run during a measurement.
   void prepare() {
     statements.emplace(sql, version);
     chain.emplace(sql);
@@ -140,7 +140,7 @@ struct Journal::Impl {
     link_header("", nullptr);
   }
 
-  /// Makes one closed file of the journal and its log.
+  /// Folds the log into the journal, so that one closed file remains.
   core::Result<void> fold() {
     try {
       checkpoint_wal(sql);
@@ -150,7 +150,7 @@ struct Journal::Impl {
       sql.close();
       state = State::kFolded;
       return {};
-    } catch (const std::exception& exception) {  // the digests are safe
+    } catch (const std::exception& exception) {  // the digests are on disk already
       return failure("the folded log", reason_of(exception, &sql));
     }
   }

@@ -6,14 +6,14 @@
 
 namespace rondure::record {
 
-/// Exclusive: no other program can hold up a touch. WAL and synchronous=full: one flush a commit,
-/// on disk when the call returns.
+/// Sets the modes of an open journal. Exclusive: no other program can delay a touch. WAL and
+/// synchronous=full: one flush per commit, on disk when the call returns.
 void enable_wal(soci::session& sql);
 
 /// Moves the write-ahead log into the file.
 void checkpoint_wal(soci::session& sql);
 
-/// From then on the journal is one file.
+/// Leaves WAL mode: afterwards the journal is one file.
 void disable_wal(soci::session& sql);
 
 }  // namespace rondure::record

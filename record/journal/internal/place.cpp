@@ -58,13 +58,13 @@ core::Result<void> require_empty_directory(const fs::path& directory) {
 }  // namespace
 
 Undo::~Undo() {
-  std::error_code ignored;  // a folder that another program filled meanwhile stays
+  std::error_code ignored;  // a folder that another program has filled is kept
   for (auto path = made.rbegin(); path != made.rend(); ++path) fs::remove(*path, ignored);
 }
 
 core::Result<RunLock> lock_new_directory(const fs::path& directory, Undo& undo) {
   if (auto made = make_directory(directory, undo); !made) return core::fail(made.error());
-  // A lock is only made in an empty directory; where one lies, it says who is at work there.
+  // A new lock is created only in an empty directory; an existing one names its holder.
   std::error_code ignored;
   if (!fs::exists(directory / kLockName, ignored)) {
     if (auto empty = require_empty_directory(directory); !empty) return core::fail(empty.error());

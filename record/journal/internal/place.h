@@ -10,7 +10,7 @@
 
 namespace rondure::record {
 
-/// Removes what was made for a journal, last first, unless `made` is cleared.
+/// Removes the files and folders created for a journal, last first, unless `made` is cleared.
 struct Undo {
   std::vector<std::filesystem::path> made;
 
@@ -20,15 +20,15 @@ struct Undo {
   ~Undo();
 };
 
-/// Makes a directory where it is missing and takes its lock. kFile when that fails, when another
-/// process holds the lock, or when the directory holds anything else: nothing is put into it then.
+/// Creates a directory where it is missing and takes its lock. kFile when that fails, when another
+/// process holds the lock, or when the directory holds anything else; nothing is written then.
 [[nodiscard]] core::Result<RunLock> lock_new_directory(const std::filesystem::path& directory,
                                                        Undo& undo);
 
-/// Makes the empty file of a journal, so that two runs can never share one; kFile.
+/// Creates the empty file of a journal exclusively, so that two runs never share one; kFile.
 [[nodiscard]] core::Result<void> make_empty_journal(const std::filesystem::path& file, Undo& undo);
 
-/// The new names reach the disk before the first touch does; kFile.
+/// Flushes the new directory entries to disk before the first touch is written; kFile.
 [[nodiscard]] core::Result<void> sync_names(const Undo& undo);
 
 }  // namespace rondure::record

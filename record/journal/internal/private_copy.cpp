@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Changes whenever the log is folded into the file: time of the file and head of the log.
+/// Changes whenever the log is folded into the file: file time and start of the log.
 std::pair<fs::file_time_type, std::string> stamp_of(const fs::path& journal,
                                                     PrivateCopy::Logs logs) {
   std::error_code ignored;
@@ -33,8 +33,8 @@ std::pair<fs::file_time_type, std::string> stamp_of(const fs::path& journal,
   return {fs::last_write_time(journal, ignored), std::string(head.data(), kLogHead)};
 }
 
-/// Whether a rollback journal ends in the name of a super-journal (sqlite.org/fileformat2.html,
-/// 3): a file that SQLite reads, and may delete, wherever it is. No journal of a run has one.
+/// Whether a rollback journal ends in the name of a super-journal (sqlite.org/fileformat2.html, 3):
+/// a file that SQLite reads, and may delete, in any place. No journal of a run has one.
 bool names_super_journal(const fs::path& rollback) {
   constexpr std::array<unsigned char, 8> kMagic = {0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7};
   std::array<char, kMagic.size()> tail{};
@@ -47,14 +47,14 @@ bool names_super_journal(const fs::path& rollback) {
 
 constexpr std::string_view kFolderBegins = "rondure-journal-";
 
-/// Of the files that are copied: the journal, then its logs.
+/// Suffixes of the copied files: the journal, then its logs.
 std::span<const char* const> suffixes_of(PrivateCopy::Logs logs) {
   static constexpr std::array<const char*, 3> kAll = {"", "-wal", "-journal"};
   return std::span(kAll).first(logs == PrivateCopy::Logs::kWith ? kAll.size() : 1);
 }
 
-/// Opens a folder of this user and takes its lock, which ends with the process; -1 when another
-/// process holds it, or has removed the folder meanwhile (errno).
+/// Opens a folder of this user and takes its lock, which ends with the process; -1 (errno) when
+/// another process holds it or has just removed the folder.
 int locked_folder(const fs::path& folder) {
   const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (fd < 0) return -1;
@@ -68,10 +68,10 @@ int locked_folder(const fs::path& folder) {
   return -1;
 }
 
-/// Removes the copies of programs that were killed: their locks are free. Nothing but the files of
-/// a copy is removed, so that a folder of another name's sake keeps what it holds.
+/// Removes the copies of killed programs, whose locks are free. Only the files of a copy are
+/// removed, so that an unrelated folder of that name keeps its contents.
 void remove_left_behind(const fs::path& place) {
-  std::error_code ignored;  // what cannot be removed waits for the next start
+  std::error_code ignored;  // a leftover is removed at the next start
   for (const auto& entry : fs::directory_iterator(place, ignored)) {
     if (!entry.path().filename().string().starts_with(kFolderBegins)) continue;
     const int fd = locked_folder(entry.path());
@@ -99,7 +99,7 @@ std::vector<std::string> logs_beside(const fs::path& journal) {
   std::vector<std::string> out;
   for (const char* suffix : {"-wal", "-journal"}) {
     const fs::path log = journal.string() + suffix;
-    std::error_code unknown;  // what cannot be looked at may well be applied
+    std::error_code unknown;  // a log that cannot be examined counts as applicable
     const fs::file_status status = fs::status(log, unknown);
     if (status.type() == fs::file_type::not_found) continue;
     if (fs::is_regular_file(status) && fs::file_size(log, unknown) == 0) continue;
@@ -123,7 +123,7 @@ core::Result<PrivateCopy> PrivateCopy::of(const fs::path& journal, Logs logs) {
   remove_left_behind(place);
   PrivateCopy copy = in_new_folder(place);
   if (copy.folder_.empty()) return cannot_copy(journal, system_reason(errno));
-  constexpr int kTries = 50;  // a run that goes on may fold its log meanwhile: then once more
+  constexpr int kTries = 50;  // tried again when a running measurement folds its log
   for (int i = 0; i < kTries; ++i) {
     const auto before = stamp_of(journal, logs);
     problem = copy.take(journal, logs);
@@ -142,7 +142,7 @@ core::Result<PrivateCopy> PrivateCopy::of(const fs::path& journal, Logs logs) {
 }
 
 PrivateCopy PrivateCopy::in_new_folder(const fs::path& place) {
-  constexpr int kTries = 20;  // another program may take the folder for one left behind
+  constexpr int kTries = 20;  // another program may mistake the folder for a leftover
   for (int i = 0; i < kTries; ++i) {
     std::string folder = (place / kFolderBegins).string() + "XXXXXX";
     if (::mkdtemp(folder.data()) == nullptr) return {{}, -1};

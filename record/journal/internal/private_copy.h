@@ -12,14 +12,13 @@
 
 namespace rondure::record {
 
-/// What SQLite would apply to a journal as it opens it: the names of the files beside it, a
-/// write-ahead log or a rollback journal, that are not empty.
+/// The names of the non-empty files beside a journal, a write-ahead log or a rollback journal, that
+/// SQLite would apply when it opens the journal.
 [[nodiscard]] std::vector<std::string> logs_beside(const std::filesystem::path& journal);
 
-/// The journal, alone or with its logs, copied into a folder of our own: SQLite may then finish
-/// what a killed run left in the log, and the original is never touched, not even in a read-only
-/// place. The folder is locked while it is in use; what a killed program left is removed by the
-/// next copy.
+/// A copy of the journal, alone or with its logs, in a private folder. SQLite may finish the log of
+/// a killed run in the copy; the original is never changed and may be in a read-only place. The
+/// folder is locked while it is in use. The next copy removes the folders of killed programs.
 class PrivateCopy {
  public:
   enum class Logs { kWith, kWithout };
@@ -38,12 +37,12 @@ class PrivateCopy {
 
  private:
   PrivateCopy(std::filesystem::path folder, int lock);
-  /// With an empty folder when none can be made (errno).
+  /// Has an empty folder when none can be created (errno).
   [[nodiscard]] static PrivateCopy in_new_folder(const std::filesystem::path& place);
   [[nodiscard]] std::error_code take(const std::filesystem::path& journal, Logs logs) const;
 
   std::filesystem::path folder_;
-  int lock_ = -1;  ///< The open folder.
+  int lock_ = -1;  ///< Descriptor of the open folder.
 };
 
 }  // namespace rondure::record

@@ -34,7 +34,7 @@ Number single(soci::session& sql, const std::string& query) {
   return number;
 }
 
-/// The version of its tables.
+/// Returns the version of the tables; throws unless the file is a journal.
 std::int64_t require_journal(soci::session& sql) {
   const auto application = single<long long>(sql, "pragma application_id");
   if (application != kApplicationId) {
@@ -56,7 +56,7 @@ std::int64_t require_journal(soci::session& sql) {
   return version;
 }
 
-/// The enumerator that is spelled `text`.
+/// The enumerator with the name `text`.
 template <class Enum>
 Enum named(std::string_view column, const std::string& text, std::initializer_list<Enum> all) {
   for (const Enum candidate : all) {
@@ -82,7 +82,7 @@ std::uint64_t seed_from(const std::string& text) {
   return seed;
 }
 
-/// Throws unless `feature` is an index into the features read before (or -1, where that is
+/// Throws unless `feature` is an index into the features already read (or -1, where that is
 /// allowed).
 void require_feature(const RunRecord& record, int feature, int lowest, std::string_view table) {
   if (feature >= lowest && feature < static_cast<int>(record.features.size())) return;
@@ -239,7 +239,7 @@ void read_touches(soci::session& sql, RunRecord& record, std::int64_t version) {
   std::string purpose;
   Measured temperature;
   Measured scales;
-  // Before version 3 nothing was brought to 20 degC, and nobody asked how warm the scales were.
+  // Before version 3 nothing was corrected to 20 degC, and no scale temperatures were recorded.
   const std::string query = fmt::format(
       "select id, purpose, pose, layer, point, repeat, tip_x_mm, tip_y_mm, tip_z_mm, approach_x, "
       "approach_y, approach_z, temperature_degC, time_s, {} from touch order by id",
@@ -331,14 +331,14 @@ std::vector<SchemaObject> schema_of(soci::session& sql) {
   return out;
 }
 
-/// Takes the one object out of a schema that is this table, and neither a view nor a look-alike.
+/// Removes from a list of objects the one that is this table, and neither a view nor a look-alike.
 void take_table(std::vector<SchemaObject>& schema, const Table& table, std::int64_t version) {
   const auto found = std::find_if(schema.begin(), schema.end(), [&](const SchemaObject& object) {
     return object.type == "table" && object.name == table.name;
   });
   if (found == schema.end()) throw Contradiction(fmt::format("it has no table {}", table.name));
-  // SQLite keeps "CREATE TABLE " in capitals, and what follows it as it was written: the columns
-  // with their types, checks and defaults.
+  // SQLite stores "CREATE TABLE " in capitals and the text after it as written: the columns with
+  // their types, checks and defaults.
   constexpr std::string_view kVerb = "CREATE TABLE ";
   if (!found->sql.starts_with(kVerb) ||
       std::string_view(found->sql).substr(kVerb.size()) != table.sql.substr(kVerb.size())) {
@@ -354,7 +354,7 @@ void require_schema(soci::session& sql, std::int64_t version) {
   std::vector<SchemaObject> schema = schema_of(sql);
   for (const Table& table : tables_of(version)) take_table(schema, table, version);
   for (const SchemaObject& object : schema) {
-    // SQLite's own, which keeps `unique` in table seal.
+    // SQLite's own index for `unique` in table seal.
     const bool of_seal = object.type == "index" && object.name == "sqlite_autoindex_seal_1" &&
                          object.table == seal_table().name && object.sql.empty();
     if (of_seal) continue;

@@ -25,7 +25,7 @@ void make_tables(soci::session& sql) {
 
 void insert_header(soci::session& sql, const Header& h) {
   const int simulated = h.simulated ? 1 : 0;
-  const std::string seed = std::to_string(h.seed);  // SQLite's integers have a sign
+  const std::string seed = std::to_string(h.seed);  // SQLite has no unsigned integers
   sql << "insert into header values (0, :run_id, :version, :processor, :started, :plan_file, "
          ":plan_name, :plan_revision, :plan_text, :plan_sha256, :part_id, :part_name, :drawing, "
          ":serial, :operator, :machine, :fixture, :rule, :simulated, :seed, :min, :max, '', null, "
@@ -43,7 +43,7 @@ void insert_artefact(soci::session& sql, const Artefact& artefact) {
       use(artefact.radius_tolerance_mm), use(artefact.form_limit_mm);
 }
 
-/// What is bound beside an indicator. SQLite would take NaN for "not given".
+/// The number bound with an indicator. SQLite would store NaN as null.
 double number_or_zero(const std::optional<double>& number, const std::string& name) {
   if (number && std::isnan(*number)) throw std::runtime_error(name + " is not a number (NaN)");
   return number.value_or(0.0);

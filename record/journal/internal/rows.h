@@ -10,21 +10,21 @@
 #include "record/journal/internal/chain.h"
 #include "record/run_record.h"
 
-// Private to the room: how records become rows. Everything here throws soci::soci_error.
+// Private to the room: writes records as rows. All functions throw soci::soci_error.
 
 namespace rondure::record {
 
-/// A number that is bound with its indicator, null where nobody measured it.
+/// A number bound with its indicator; null when it was not measured.
 struct Measured {
   double value = 0.0;
   soci::indicator given = soci::i_null;
 
-  /// @throws  std::runtime_error of NaN, which SQLite would take for null.
+  /// @throws  std::runtime_error for NaN, which SQLite would store as null.
   void take(const std::optional<double>& number, const std::string& name);
   [[nodiscard]] std::optional<double> get() const;
 };
 
-/// The statements that run during a measurement: prepared once, bound to the rows beside them.
+/// The statements that run during a measurement: prepared once, bound to the members beside them.
 struct Statements {
   Touch touch;
   std::string purpose;
@@ -49,8 +49,8 @@ struct Statements {
   Statements& operator=(const Statements&) = delete;
 };
 
-/// Makes the tables, fills those that are known before the first touch and links their rows, in one
-/// transaction.
+/// Creates the tables, fills those that are known before the first touch and links their rows, in
+/// one transaction.
 void insert_head(soci::session& sql, const Header& header, const Artefact& artefact,
                  std::span<const Feature> features, std::span<const Setting> settings);
 

@@ -4,12 +4,12 @@
 #include <string_view>
 #include <vector>
 
-// Private to the room: the tables of journal.db. docs/journal.md explains them; a test holds both
-// together.
+// Private to the room: the tables of journal.db. docs/journal.md explains them; a test checks that
+// both agree.
 
 namespace rondure::record {
 
-/// "Rond" in SQLite's header: this database is a journal of ours.
+/// "Rond" in SQLite's header: this database is a journal of Rondure.
 inline constexpr std::int64_t kApplicationId = 0x526f6e64;
 /// Counts changes of the tables below.
 inline constexpr std::int64_t kSchemaVersion = 6;
@@ -30,18 +30,18 @@ inline constexpr std::int64_t kOldestSchemaVersion = 1;
 /// One table of the journal.
 struct Table {
   std::string_view name;
-  std::string_view sql;                 ///< The statement that makes it, as SQLite keeps it.
-  std::int64_t since = 1;               ///< The first version that has it so.
-  std::int64_t until = kSchemaVersion;  ///< The last one.
+  std::string_view sql;                 ///< The statement that creates it, as SQLite stores it.
+  std::int64_t since = 1;               ///< The first version with this form of it.
+  std::int64_t until = kSchemaVersion;  ///< The last version with this form of it.
 };
 
 /// The tables of a version whose rows are linked in the chain, in their order in the seal.
 [[nodiscard]] std::vector<Table> chained_tables(std::int64_t version = kSchemaVersion);
 /// All tables of a version.
 [[nodiscard]] std::vector<Table> tables_of(std::int64_t version);
-/// The links themselves; absent in version 1.
+/// The table of links; absent in version 1.
 [[nodiscard]] const Table& chain_table();
-/// The table of the digests themselves.
+/// The table of digests.
 [[nodiscard]] const Table& seal_table();
 
 }  // namespace rondure::record

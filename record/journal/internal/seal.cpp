@@ -16,7 +16,7 @@ namespace {
 using soci::into;
 using soci::use;
 
-/// What stands for a table in the seal: the head of the chain for the chain itself.
+/// The digest of a table in the seal; for the chain it is the head of the chain.
 Digest seal_digest_of(soci::session& sql, const Table& table) {
   return table.name == chain_table().name ? chain_head(sql) : digest_of(sql, table.name);
 }

@@ -17,8 +17,8 @@ void insert_seal(soci::session& sql, std::int64_t version);
 
 [[nodiscard]] bool is_sealed(soci::session& sql);
 
-/// Checks the chain (version 2 on) and, in a sealed journal, every digest of the seal. A table that
-/// both find broken is told once, with the number of rows and the name of the first bad row.
+/// Checks the chain (from version 2) and, in a sealed journal, every digest of the seal. A table
+/// that fails both is reported once, with the number of rows and the name of the first bad row.
 [[nodiscard]] std::vector<BrokenTable> check_seal(soci::session& sql, std::int64_t version);
 
 }  // namespace rondure::record

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "record/journal/internal/canonical.h"
 #include "record/csv/internal/lines.h"
+#include "record/journal/internal/canonical.h"
 #include "record/journal/internal/reader.h"
 #include "record/journal/internal/schema.h"
 
@@ -21,7 +21,7 @@ namespace {
 using soci::into;
 using soci::use;
 
-/// A line a row, numbers in the shortest form that reads back to the same bits.
+/// One line per row, numbers in the shortest form that reads back to the same bits.
 std::string block_text(std::span<const double> values, std::size_t columns) {
   std::string text;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -166,7 +166,7 @@ void take_block(std::string_view text, std::int64_t rows, Series& series) {
   }
 }
 
-/// A series by its id in the journal, and how many rows it states.
+/// A series by its id in the journal, and the number of rows it states.
 struct Stated {
   Series series;
   std::int64_t rows = 0;

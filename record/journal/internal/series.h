@@ -8,15 +8,16 @@
 #include "record/journal/internal/chain.h"
 #include "record/run_record.h"
 
-// Private to the room: series, settings and harmonic limits as rows and back. Everything here
-// throws: soci::soci_error, std::runtime_error for a series that is none, Contradiction in reading.
+// Private to the room: converts series, settings and harmonic limits to rows and back. All
+// functions throw: soci::soci_error, std::runtime_error for an invalid series, Contradiction when
+// reading.
 
 namespace rondure::record {
 
-/// Rows of a series in one row of table series_block.
+/// Rows of a series that are stored in one row of table series_block.
 inline constexpr std::size_t kBlockRows = 256;
 
-/// What stands in place of a feature where a setting is one of the whole run.
+/// Replaces the feature index in a setting of the whole run.
 inline constexpr int kWholeRun = -1;
 
 /// Writes the settings of a feature, or of the whole run.
@@ -28,8 +29,8 @@ void insert_harmonic_limits(soci::session& sql, std::span<const HarmonicLimit> l
 void insert_series(soci::session& sql, Chain& chain, std::span<const Series> series,
                    std::span<const TruthValue> truths);
 
-/// Reads all of that into a record that has its features. Nothing of it is there before
-/// version 3, no setting of the whole run before version 4.
+/// Reads these tables into a record that has its features. They exist from version 3 on, settings
+/// of the whole run from version 4 on.
 void read_series_tables(soci::session& sql, RunRecord& record, std::int64_t version);
 
 }  // namespace rondure::record
