@@ -21,8 +21,8 @@
 #include "reports/exports.h"
 #include "reports/language.h"
 #include "reports/stored_results.h"
+#include "reports/summary.h"
 #include "reports/verdict.h"
-#include "reports/writers.h"
 
 namespace rondure::app {
 namespace {

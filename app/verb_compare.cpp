@@ -8,7 +8,9 @@
 #include "plans/record_check.h"
 #include "record/journal.h"
 #include "reports/evaluation.h"
+#include "reports/factor_json.h"
 #include "reports/factor_study.h"
+#include "reports/factor_text.h"
 
 namespace rondure::app {
 

@@ -17,7 +17,7 @@
 #include "reports/evaluation.h"
 #include "reports/exports.h"
 #include "reports/language.h"
-#include "reports/writers.h"
+#include "reports/summary.h"
 
 namespace rondure::app {
 namespace {

@@ -1,3 +1,5 @@
+#include "reports/dmis_report.h"
+
 #include <optional>
 #include <string>
 
@@ -8,7 +10,6 @@
 #include "reports/facts.h"
 #include "reports/feature_values.h"
 #include "reports/section.h"
-#include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {

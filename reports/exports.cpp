@@ -9,8 +9,13 @@
 #include "record/files.h"
 #include "record/sha256.h"
 #include "reports/analysis_result.h"
+#include "reports/csv_files.h"
+#include "reports/dmis_report.h"
+#include "reports/html_report.h"
+#include "reports/json_report.h"
 #include "reports/pdf_report.h"
 #include "reports/qif_check.h"
+#include "reports/qif_report.h"
 #include "reports/writers.h"
 
 namespace rondure::reports {

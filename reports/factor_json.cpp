@@ -1,4 +1,5 @@
-#include "reports/factor_study.h"
+#include "reports/factor_json.h"
+
 #include "reports/json_parts.h"
 
 namespace rondure::reports {

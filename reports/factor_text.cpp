@@ -1,3 +1,5 @@
+#include "reports/factor_text.h"
+
 #include <algorithm>
 #include <iterator>
 #include <string>
@@ -9,7 +11,6 @@
 #include "core/numbers.h"
 #include "core/utf8.h"
 #include "reports/columns.h"
-#include "reports/factor_study.h"
 #include "reports/language.h"
 
 namespace rondure::reports {

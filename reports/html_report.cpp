@@ -1,3 +1,5 @@
+#include "reports/html_report.h"
+
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,7 +11,6 @@
 #include "reports/html_sections.h"
 #include "reports/html_style.h"
 #include "reports/language.h"
-#include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {

@@ -1,5 +1,6 @@
+#include "reports/json_report.h"
+
 #include "reports/json_document.h"
-#include "reports/writers.h"
 
 namespace rondure::reports {
 

@@ -1,3 +1,5 @@
+#include "reports/qif_report.h"
+
 #include <string>
 
 #include <fmt/format.h>
@@ -6,7 +8,6 @@
 #include "record/sha256.h"
 #include "reports/facts.h"
 #include "reports/qif_parts.h"
-#include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {

@@ -6,8 +6,8 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "reports/csv_field.h"
+#include "reports/csv_files.h"
 #include "reports/feature_values.h"
-#include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {

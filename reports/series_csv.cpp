@@ -3,7 +3,7 @@
 #include "core/numbers.h"
 #include "core/utf8.h"
 #include "reports/csv_field.h"
-#include "reports/writers.h"
+#include "reports/csv_files.h"
 
 namespace rondure::reports {
 

@@ -1,3 +1,5 @@
+#include "reports/summary.h"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -10,7 +12,6 @@
 #include "reports/facts.h"
 #include "reports/feature_values.h"
 #include "reports/language.h"
-#include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {

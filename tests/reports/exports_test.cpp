@@ -10,7 +10,9 @@
 
 #include "core/numbers.h"
 #include "reports/columns.h"
-#include "reports/language.h"
+#include "reports/csv_files.h"
+#include "reports/dmis_report.h"
+#include "reports/polar_sketch.h"
 #include "reports/writers.h"
 #include "synthetic.h"
 

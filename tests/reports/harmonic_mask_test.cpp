@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reports/conformance.h"
-#include "reports/writers.h"
+#include "reports/html_report.h"
 #include "synthetic.h"
 
 namespace rondure::reports {

@@ -13,8 +13,10 @@
 #include "fit/one_sided_cylinder.h"
 #include "reports/archive_entry.h"
 #include "reports/evaluation.h"
+#include "reports/html_report.h"
+#include "reports/json_report.h"
+#include "reports/summary.h"
 #include "reports/warnings.h"
-#include "reports/writers.h"
 #include "tests/reports/points_run.h"
 
 namespace rondure::reports {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "reports/columns.h"
-#include "reports/writers.h"
+#include "reports/summary.h"
 #include "synthetic.h"
 
 namespace rondure::reports {

@@ -8,7 +8,7 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "reports/feature_values.h"
-#include "reports/writers.h"
+#include "reports/html_report.h"
 
 namespace rondure::reports {
 namespace {

@@ -15,9 +15,10 @@
 #include "reports/declared.h"
 #include "reports/defect.h"
 #include "reports/escaping.h"
+#include "reports/html_report.h"
 #include "reports/language.h"
 #include "reports/stored_results.h"
-#include "reports/writers.h"
+#include "reports/summary.h"
 #include "tests/reports/page_text.h"
 #include "tests/reports/points_run.h"
 

@@ -12,9 +12,11 @@
 #include "record/run_record.h"
 #include "reports/escaping.h"
 #include "reports/evaluation.h"
+#include "reports/html_report.h"
+#include "reports/json_report.h"
 #include "reports/language.h"
 #include "reports/stored_results.h"
-#include "reports/writers.h"
+#include "reports/summary.h"
 #include "tests/fit/wheel_cases.h"
 #include "tests/reports/page_text.h"
 

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "record/run_record.h"
+#include "reports/evaluation.h"
+
+namespace rondure::reports {
+
+/// report.json: every number of the evaluation, in um and deg where the key says so; keys in a
+/// fixed order; numbers in the shortest form that reads back to the same double.
+[[nodiscard]] std::string write_json(const record::RunRecord& record, const Evaluation& evaluation);
+
+}  // namespace rondure::reports
