@@ -19,9 +19,9 @@
 #include "record/files.h"
 #include "record/journal/journal.h"
 #include "reports/exports.h"
+#include "reports/terminal/summary.h"
 #include "reports/verify/stored_results.h"
 #include "reports/words/language.h"
-#include "reports/writers.h"
 
 namespace rondure::app {
 namespace {

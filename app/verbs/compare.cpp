@@ -9,6 +9,8 @@
 #include "evaluation/factors/study.h"
 #include "plans/checks/record.h"
 #include "record/journal/journal.h"
+#include "reports/data/factors.h"
+#include "reports/terminal/factors.h"
 
 namespace rondure::app {
 

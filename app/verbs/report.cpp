@@ -17,8 +17,8 @@
 #include "record/journal/journal.h"
 #include "record/signature.h"
 #include "reports/exports.h"
+#include "reports/terminal/summary.h"
 #include "reports/words/language.h"
-#include "reports/writers.h"
 
 namespace rondure::app {
 namespace {

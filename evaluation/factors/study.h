@@ -89,12 +89,4 @@ struct RunComparison {
 /// One sentence: the value as reported, and how much each factor changes it.
 [[nodiscard]] std::string answer_of(const FactorStudy& study);
 
-/// What a comparison shows on a terminal, at most 80 columns.
-/// @param all  Also every combination that has a value.
-[[nodiscard]] std::string comparison_text(const std::string& run_id,
-                                          const RunComparison& comparison, bool all);
-/// The same as JSON (docs/compare.md), always with every combination; a line feed at the end.
-[[nodiscard]] std::string comparison_json(const std::string& run_id,
-                                          const RunComparison& comparison);
-
 }  // namespace rondure::evaluation

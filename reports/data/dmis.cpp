@@ -1,3 +1,5 @@
+#include "reports/data/dmis.h"
+
 #include <optional>
 #include <string>
 
@@ -8,7 +10,6 @@
 #include "evaluation/feature_values.h"
 #include "evaluation/section.h"
 #include "reports/words/facts.h"
-#include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {

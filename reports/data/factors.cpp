@@ -1,4 +1,4 @@
-#include "evaluation/factors/study.h"
+#include "reports/data/factors.h"
 #include "reports/data/json_parts.h"
 
 namespace rondure::reports {

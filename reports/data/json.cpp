@@ -1,5 +1,5 @@
+#include "reports/data/json.h"
 #include "reports/data/json_document.h"
-#include "reports/writers.h"
 
 namespace rondure::reports {
 

@@ -7,7 +7,7 @@
 #include "core/units.h"
 #include "evaluation/feature_values.h"
 #include "reports/data/csv_field.h"
-#include "reports/writers.h"
+#include "reports/data/csv_files.h"
 
 namespace rondure::reports {
 namespace {

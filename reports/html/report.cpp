@@ -1,3 +1,5 @@
+#include "reports/html/report.h"
+
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,7 +11,6 @@
 #include "reports/html/sections.h"
 #include "reports/html/style.h"
 #include "reports/words/language.h"
-#include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {

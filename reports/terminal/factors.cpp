@@ -1,3 +1,5 @@
+#include "reports/terminal/factors.h"
+
 #include <algorithm>
 #include <iterator>
 #include <string>
@@ -8,7 +10,6 @@
 
 #include "core/numbers.h"
 #include "core/utf8.h"
-#include "evaluation/factors/study.h"
 #include "reports/terminal/columns.h"
 #include "reports/words/language.h"
 

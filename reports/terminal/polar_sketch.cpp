@@ -156,7 +156,7 @@ std::optional<PolarSketch> polar_sketch(const evaluation::FeatureResult& feature
   draw_circle(canvas, kOuter, braille ? 72 : 36);
   draw_profile(canvas, *widest, zone->deviation_mm);
   draw_contacts(canvas, feature);
-  return PolarSketch{canvas.rows(), widest->title,
+  return PolarSketch{canvas.rows(), title_of(*widest),
                      static_cast<std::size_t>(widest - sections.begin()) + 1, sections.size()};
 }
 

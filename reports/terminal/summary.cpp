@@ -1,3 +1,5 @@
+#include "reports/terminal/summary.h"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -10,7 +12,6 @@
 #include "reports/terminal/columns.h"
 #include "reports/words/facts.h"
 #include "reports/words/language.h"
-#include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {

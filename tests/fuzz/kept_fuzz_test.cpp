@@ -14,7 +14,6 @@
 #include "record/journal/journal.h"
 #include "reports/history/earlier_results.h"
 #include "reports/history/history.h"
-#include "reports/writers.h"
 #include "tests/app/files.h"
 #include "tests/fuzz/cases.h"
 #include "tests/fuzz/mutation.h"

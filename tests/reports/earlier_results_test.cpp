@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reports/history/archive_entry.h"
-#include "reports/writers.h"
+#include "reports/html/report.h"
 #include "synthetic.h"
 #include "tests/reports/page_text.h"
 

@@ -8,8 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "core/numbers.h"
+#include "reports/data/csv_files.h"
+#include "reports/data/dmis.h"
 #include "reports/terminal/columns.h"
-#include "reports/words/language.h"
+#include "reports/terminal/polar_sketch.h"
 #include "reports/writers.h"
 #include "synthetic.h"
 

@@ -1,6 +1,7 @@
 // Why two programs differ: the cells against fits of subsets made by hand, the shares against their
 // definition, and planted cases whose cause is known. 1e5 points with RONDURE_FULL=1.
 #include "evaluation/factors/study.h"
+#include "reports/terminal/factors.h"
 
 #include <algorithm>
 #include <chrono>

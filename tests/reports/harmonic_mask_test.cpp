@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "evaluation/conformance.h"
-#include "reports/writers.h"
+#include "reports/html/report.h"
 #include "synthetic.h"
 
 namespace rondure::reports {

@@ -11,9 +11,15 @@
 #include <pugixml.hpp>
 
 #include "core/utf8.h"
-#include "reports/terminal/columns.h"
+#include "reports/data/csv_files.h"
+#include "reports/data/dmis.h"
+#include "reports/data/json.h"
 #include "reports/data/qif/check.h"
+#include "reports/data/qif/report.h"
 #include "reports/escaping.h"
+#include "reports/html/report.h"
+#include "reports/terminal/columns.h"
+#include "reports/terminal/summary.h"
 #include "reports/words/language.h"
 #include "reports/writers.h"
 #include "synthetic.h"

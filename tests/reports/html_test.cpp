@@ -14,7 +14,6 @@
 #include <openssl/sha.h>
 #include <pugixml.hpp>
 
-#include "reports/writers.h"
 #include "synthetic.h"
 #include "tests/reports/page_text.h"
 

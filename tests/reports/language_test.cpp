@@ -19,10 +19,11 @@
 
 #include "reports/escaping.h"
 #include "reports/exports.h"
+#include "reports/html/report.h"
 #include "reports/terminal/columns.h"
+#include "reports/terminal/summary.h"
 #include "reports/words/sentence_format.h"
 #include "reports/words/zh.h"
-#include "reports/writers.h"
 #include "synthetic.h"
 #include "tests/reports/english_left.h"
 #include "tests/reports/page_text.h"

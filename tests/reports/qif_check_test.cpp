@@ -11,7 +11,7 @@
 #include <pugixml.hpp>
 
 #include "core/units.h"
-#include "reports/writers.h"
+#include "reports/data/qif/report.h"
 #include "synthetic.h"
 #include "tests/reports/points_run.h"
 #include "tests/reports/qif_schema.h"

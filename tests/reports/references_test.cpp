@@ -13,8 +13,10 @@
 #include "evaluation/warnings.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
+#include "reports/data/json.h"
 #include "reports/history/archive_entry.h"
-#include "reports/writers.h"
+#include "reports/html/report.h"
+#include "reports/terminal/summary.h"
 #include "tests/reports/points_run.h"
 
 namespace rondure::reports {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "reports/terminal/columns.h"
-#include "reports/writers.h"
+#include "reports/terminal/summary.h"
 #include "synthetic.h"
 
 namespace rondure::reports {

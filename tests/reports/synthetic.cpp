@@ -8,7 +8,7 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "evaluation/feature_values.h"
-#include "reports/writers.h"
+#include "reports/html/report.h"
 
 namespace rondure::reports {
 namespace {

@@ -15,9 +15,10 @@
 #include "evaluation/uncertainty/declared.h"
 #include "fixture/calibration.h"
 #include "reports/escaping.h"
+#include "reports/html/report.h"
+#include "reports/terminal/summary.h"
 #include "reports/verify/stored_results.h"
 #include "reports/words/language.h"
-#include "reports/writers.h"
 #include "tests/reports/page_text.h"
 #include "tests/reports/points_run.h"
 

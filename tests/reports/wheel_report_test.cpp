@@ -11,10 +11,12 @@
 #include "core/utf8.h"
 #include "evaluation/evaluation.h"
 #include "record/run_record.h"
+#include "reports/data/json.h"
 #include "reports/escaping.h"
+#include "reports/html/report.h"
+#include "reports/terminal/summary.h"
 #include "reports/verify/stored_results.h"
 #include "reports/words/language.h"
-#include "reports/writers.h"
 #include "tests/fit/wheel_cases.h"
 #include "tests/reports/page_text.h"
 

@@ -1,3 +1,5 @@
+#include "reports/data/qif/report.h"
+
 #include <string>
 
 #include <fmt/format.h>
@@ -6,7 +8,6 @@
 #include "record/sha256.h"
 #include "reports/data/qif/parts.h"
 #include "reports/words/facts.h"
-#include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "evaluation/evaluation.h"
+#include "record/run_record.h"
+
+namespace rondure::reports {
+
+/// report.json: every number of the evaluation, in um and deg where the key says so; keys in a
+/// fixed order; numbers in the shortest form that reads back to the same double.
+[[nodiscard]] std::string write_json(const record::RunRecord& record,
+                                     const evaluation::Evaluation& evaluation);
+
+}  // namespace rondure::reports

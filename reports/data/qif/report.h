@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "evaluation/evaluation.h"
+#include "record/run_record.h"
+
+namespace rondure::reports {
+
+/// report.qif: a results document of QIF 3.0 (ISO 23952): features, characteristics, points, what
+/// measured. Lengths in mm. Valid against its schema; check_qif() checks what the schema does not.
+[[nodiscard]] std::string write_qif(const record::RunRecord& record,
+                                    const evaluation::Evaluation& evaluation);
+
+}  // namespace rondure::reports

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "evaluation/factors/study.h"
+
+namespace rondure::reports {
+
+/// What a comparison shows on a terminal, at most 80 columns.
+/// @param all  Also every combination that has a value.
+[[nodiscard]] std::string comparison_text(const std::string& run_id,
+                                          const evaluation::RunComparison& comparison, bool all);
+
+}  // namespace rondure::reports
