@@ -9,7 +9,6 @@
 #include "evaluation/conformance.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/feature_values.h"
-#include "reports/data/json_parts.h"
 
 namespace rondure::evaluation {
 namespace {

@@ -15,7 +15,7 @@
 #include "reports/data/qif/check.h"
 #include "reports/data/qif/report.h"
 #include "reports/html/report.h"
-#include "reports/writers.h"
+#include "reports/html/pdf.h"
 
 namespace rondure::reports {
 

@@ -8,7 +8,6 @@
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/feature_values.h"
-#include "reports/data/wheel.h"
 
 namespace rondure::evaluation {
 namespace {

@@ -10,7 +10,6 @@
 #include "record/files.h"
 #include "record/sha256.h"
 
-#include "reports/writers.h"
 
 namespace rondure::reports {
 namespace {

@@ -12,7 +12,6 @@
 #include "reports/data/dmis.h"
 #include "reports/terminal/columns.h"
 #include "reports/terminal/polar_sketch.h"
-#include "reports/writers.h"
 #include "synthetic.h"
 
 namespace rondure::reports {

@@ -21,7 +21,6 @@
 #include "reports/terminal/columns.h"
 #include "reports/terminal/summary.h"
 #include "reports/words/language.h"
-#include "reports/writers.h"
 #include "synthetic.h"
 #include "tests/reports/page_text.h"
 #include "tests/reports/qif_schema.h"

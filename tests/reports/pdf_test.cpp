@@ -19,7 +19,7 @@
 #include "record/files.h"
 #include "reports/exports.h"
 #include "reports/html/pdf.h"
-#include "reports/writers.h"
+#include "reports/html/report.h"
 #include "synthetic.h"
 
 namespace rondure::reports {
