@@ -46,8 +46,7 @@ struct PoseJointOptions {
 /// Errors of one pose relative to the first one, at the middle of the part, in the part frame: z
 /// along the axis of the part, x as near as possible to body x. All zero for the first pose.
 struct PoseErrorFound {
-  /// True pose relative to the pose by the kinematics: shift x, y, z [mm], turn about x, y, z
-  /// [rad].
+  /// True pose relative to that of the kinematics: shift x, y, z [mm], turn about x, y, z [rad].
   Eigen::Matrix<double, 6, 1> error = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, 1> u = Eigen::Matrix<double, 6, 1>::Zero();  ///< Standard uncertainty.
   Eigen::Matrix<double, 6, 1> prior_u = Eigen::Matrix<double, 6, 1>::Zero();  ///< By kinematics.

@@ -31,8 +31,8 @@ struct PoseWalk {
 /// continues with the next step. It ends after the last step.
 ///
 /// @param steps_deg  Steps in order, each > 0.
-/// @return kPoseRange if the fixture cannot take the start itself, or the error that ended the
-/// walk. Source: methods, cylindricity section 10.1.
+/// @return kPoseRange if the fixture cannot take the start, or the error that ended the walk.
+/// Source: methods, cylindricity section 10.1.
 [[nodiscard]] core::Result<PoseWalk> walk_poses(const PoseFunction& f, const core::Pose& start,
                                                 std::span<const double> steps_deg);
 
