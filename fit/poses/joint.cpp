@@ -22,7 +22,7 @@ using core::Code;
 using core::fail;
 
 constexpr int kFormPasses = 20;
-/// Above this share of the prior uncertainty a parameter counts as that of the kinematics.
+/// A parameter with an uncertainty above this share of its prior counts as left to the kinematics.
 constexpr double kFromPrior = 0.7;
 constexpr double kWarnCondition = 30.0;  // half shells that just meet have 8, whole turns 3
 constexpr std::array<std::string_view, 6> kNames = {"shift along x",        "shift along y",
@@ -78,7 +78,7 @@ std::vector<Eigen::Vector3d> by_kinematics(std::span<const JointPose> poses) {
 
 core::Result<void> check_rank(const JointRank& rank, double limit) {
   if (rank.condition <= limit) return {};
-  // Of the four of the model: shifts x, y, tilts x, y.
+  // `parameter` is one of the four of the model: shifts x, y, tilts x, y.
   const auto name = kNames[static_cast<std::size_t>(rank.parameter + (rank.parameter > 1 ? 1 : 0))];
   return fail(
       Code::kRank,
@@ -90,7 +90,7 @@ core::Result<void> check_rank(const JointRank& rank, double limit) {
                       : "touch it there on a wider arc, 90 deg or more around the part"));
 }
 
-/// Solves, takes the size of the form from what is left, and again until that holds.
+/// Solves and estimates the size of the form from the residuals, repeatedly until it settles.
 core::Result<Eigen::VectorXd> settle_form(JointModel& model, double touch_mm) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(model.unknowns());
   for (int pass = 0; pass < kFormPasses; ++pass) {
@@ -98,11 +98,11 @@ core::Result<Eigen::VectorXd> settle_form(JointModel& model, double touch_mm) {
     const Eigen::VectorXd d = model.deviations(x);
     const double freedom = std::max(1.0, static_cast<double>(d.size()) - 5.0);
     const double square = d.squaredNorm() / freedom - touch_mm * touch_mm;
-    // A part without form: a hundredth of the noise keeps the equations regular.
+    // For a part without form, a hundredth of the noise keeps the equations regular.
     const double form = std::sqrt(std::max(square, 1e-4 * touch_mm * touch_mm));
     const bool settled = std::abs(form - model.form_mm()) <= 1e-3 * form;
     if (settled) return x;
-    // The amplitudes are in units of the form: what they stand for stays.
+    // The amplitudes are in units of the form; rescaling keeps their values in mm.
     x.segment(JointModel::kCylinder, model.pose_column(0) - JointModel::kCylinder) *=
         model.form_mm() / form;
     model.set_form(form);
@@ -111,12 +111,12 @@ core::Result<Eigen::VectorXd> settle_form(JointModel& model, double touch_mm) {
               fmt::format("part and poses: no solution that holds in {} passes", kFormPasses));
 }
 
-/// Covariance of the unknowns of all poses, units of their priors.
+/// Covariance of the unknowns of all poses, in units of their priors.
 Eigen::MatrixXd pose_covariance(const JointModel& model, const Eigen::VectorXd& x) {
   Eigen::VectorXd residuals(model.residuals());
   JointModel::RowMatrix derivatives(model.residuals(), model.unknowns());
   model.evaluate(x, residuals, &derivatives);
-  // The cylinder is in mm, all others near 1: scaled alike before they are inverted.
+  // The unknowns of the cylinder are in mm, all others near 1, so they are scaled before inversion.
   const Eigen::VectorXd size = derivatives.colwise().norm().cwiseMax(1e-300).transpose();
   const Eigen::MatrixXd scaled = derivatives * size.cwiseInverse().asDiagonal();
   const int n = model.unknowns();
@@ -152,7 +152,8 @@ void set_errors(const JointModel& model, const Eigen::VectorXd& x, const Eigen::
   }
 }
 
-/// chi2 of the corrections: what priors that are right give in the directions the touches see.
+/// Sets chi2 of the corrections, with the degrees of freedom and limit that correct priors imply in
+/// the directions determined by the touches.
 void set_chi2(const Eigen::VectorXd& z, const Eigen::MatrixXd& unit, PoseJoint& joint) {
   const Eigen::MatrixXd gained = Eigen::MatrixXd::Identity(z.size(), z.size()) - unit;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(gained);
@@ -168,8 +169,8 @@ void set_chi2(const Eigen::VectorXd& z, const Eigen::MatrixXd& unit, PoseJoint& 
   }
 }
 
-/// Root mean square change of CYLt when the poses differ by draws with this square root of a
-/// covariance.
+/// Root mean square change of CYLt when the poses vary by random draws, given a square root of
+/// their covariance.
 double spread_mm(const JointModel& model, const Eigen::VectorXd& x, const Eigen::MatrixXd& root,
                  const PoseJoint& joint, int draws) {
   CylinderZoneFitter fitter;

@@ -9,7 +9,7 @@
 namespace rondure::fit {
 namespace {
 
-/// All residuals as one function of all unknowns: every touch knows the part, so nothing is sparse.
+/// All residuals as one function of all unknowns; each depends on the part, so nothing is sparse.
 class JointCost final : public ceres::CostFunction {
  public:
   explicit JointCost(const JointModel& model) : model_(model) {
@@ -47,7 +47,7 @@ bool solve_joint(const JointModel& model, Eigen::VectorXd& x) {
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
   options.max_num_iterations = 100;
-  // Nearly linear: the unknowns settle to 1e-9 of their priors in a few steps.
+  // The problem is nearly linear: the unknowns converge to 1e-9 of their priors in a few steps.
   options.function_tolerance = 1e-16;
   options.gradient_tolerance = 1e-14;
   options.parameter_tolerance = 1e-11;
@@ -61,15 +61,15 @@ JointRank joint_rank(const JointModel& model) {
   JointRank rank;
   const Eigen::Matrix<double, Eigen::Dynamic, 5> seen = model.seen();
   const int poses = model.pose_count();
-  // The first pose stands still: the cylinder takes what all poses share.
+  // The first pose is held fixed, as the cylinder takes up errors common to all poses.
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(model.touches(), 5 + 4 * (poses - 1));
   jacobian.leftCols(5) = seen;
   for (int i = 0; i < model.touches(); ++i) {
     const int k = model.pose_of(i);
     if (k > 0) jacobian.row(i).segment<4>(5 + 4 * (k - 1)) = seen.row(i).head<4>();
   }
-  // All columns are in mm of the surface, tilts at the half length of the part: not scaled further,
-  // so that a column that is next to nothing counts as such.
+  // All columns are in mm at the surface, tilts at the half length of the part. They are not scaled
+  // further, so that an almost vanishing column counts as such.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> values(jacobian.transpose() * jacobian,
                                                               Eigen::EigenvaluesOnly);
   const double least = values.eigenvalues()(0);

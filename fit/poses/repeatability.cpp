@@ -33,7 +33,7 @@ core::Result<void> check_curves(std::span<const std::vector<double>> curves) {
   return {};
 }
 
-/// Mean and spread of the curves, place by place and altogether.
+/// Fills in mean and spread of the curves, place by place and in total.
 void compare_places(std::span<const std::vector<double>> curves, Repeatability& out) {
   const std::size_t places = curves.front().size();
   const auto parts = static_cast<double>(curves.size());

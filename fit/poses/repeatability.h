@@ -12,12 +12,12 @@
 
 namespace rondure::fit {
 
-/// How well a curve repeats from part to part.
+/// Verdict on how well a curve repeats from part to part.
 enum class StabilityWord { kStable, kPartly, kUnstable };
 /// "stable", "partly", "unstable".
 [[nodiscard]] std::string_view name_of(StabilityWord word);
 
-/// From which index on a word is said; both in [0, 1], in order.
+/// Least index for each verdict; both in [0, 1], partly <= stable.
 struct StabilityLimits {
   double stable = 0.9;
   double partly = 0.5;
@@ -25,25 +25,25 @@ struct StabilityLimits {
 
 /// The same curve of several parts, side by side.
 struct Repeatability {
-  std::vector<double> mean_curve;    ///< Over the parts, in the unit of the curves.
+  std::vector<double> mean_curve;    ///< Mean over the parts, in the unit of the curves.
   std::vector<double> spread_curve;  ///< Standard deviation over the parts, place by place.
-  double mean_rms = 0.0;             ///< A, of the mean curve.
-  double spread = 0.0;               ///< s, of the parts about the mean curve.
-  /// S = (A^2 - s^2/q) / (A^2 - s^2/q + s^2): 1 repeats perfectly, 0 is only random; a negative
-  /// estimate stays as it is. Absent when all curves are zero.
+  double mean_rms = 0.0;             ///< A: rms of the mean curve.
+  double spread = 0.0;               ///< s: standard deviation of the parts from the mean curve.
+  /// S = (A^2 - s^2/q) / (A^2 - s^2/q + s^2): 1 for perfect repetition, 0 for random curves. A
+  /// negative estimate is kept. Absent if all curves are zero.
   std::optional<double> index;
-  std::vector<double> peak_to_valley;  ///< One a part.
-  std::vector<double> rms;             ///< One a part.
-  double variation = 0.0;       ///< Of the peak to valley: standard deviation / mean; 0 for mean 0.
-  Eigen::MatrixXd correlation;  ///< q x q.
-  double mean_correlation = 0.0;   ///< Of the pairs.
-  double least_correlation = 0.0;  ///< Of the pairs.
+  std::vector<double> peak_to_valley;  ///< One per part.
+  std::vector<double> rms;             ///< One per part.
+  double variation = 0.0;       ///< Standard deviation / mean of the peak to valley; 0 for mean 0.
+  Eigen::MatrixXd correlation;  ///< Correlation of all pairs of parts, q x q.
+  double mean_correlation = 0.0;   ///< Mean over the pairs.
+  double least_correlation = 0.0;  ///< Least of the pairs.
 
-  /// Nothing with fewer than 4 parts, or without an index.
+  /// The verdict; nothing with fewer than 4 parts, or without an index.
   [[nodiscard]] std::optional<StabilityWord> word(const StabilityLimits& limits = {}) const;
 };
 
-/// Compares q >= 2 curves of M >= 16 values each.
+/// Compares q >= 2 curves of M >= 16 values each, one per part.
 ///
 /// @return kTooFewPoints (fewer than 2 curves, or 16 values), kMeaning (different lengths).
 /// Source: methods, contour section 8.

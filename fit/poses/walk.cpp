@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTie = 1e-9;  // mm
 
-/// Walk state in degrees, so that poses on the grid stay on it.
+/// State of the walk in degrees, so that poses on the grid stay on it.
 struct Degrees {
   double alpha = 0.0;
   double beta = 0.0;
@@ -22,7 +22,7 @@ class Walker {
  public:
   explicit Walker(const PoseFunction& f) : f_(f) {}
 
-  /// Index of the pose among the visited; nothing when it cannot be taken.
+  /// Index of the pose in `visited`; nothing if the fixture cannot take it.
   core::Result<std::optional<std::size_t>> visit(const Degrees& at, double step_deg) {
     const std::pair<long long, long long> key{std::llround(at.alpha / 1e-7),
                                               std::llround(at.beta / 1e-7)};
@@ -40,7 +40,7 @@ class Walker {
     return index;
   }
 
-  /// Moves to the least of the block around the current pose until that is the centre itself.
+  /// Moves to the best pose of the block around the current one until that is its centre.
   core::Result<void> settle(double step_deg) {
     for (;;) {
       const std::size_t center = walk_.best;

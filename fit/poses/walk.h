@@ -9,34 +9,34 @@
 
 namespace rondure::fit {
 
-/// f in a pose: the least zone with the axis held parallel to machine z [mm]. kPoseRange says that
-/// the pose cannot be taken and is passed over; any other error ends the walk.
+/// Returns f in a pose: the least zone with the axis held parallel to machine z [mm]. kPoseRange
+/// means that the fixture cannot take the pose, which is skipped; any other error ends the walk.
 using PoseFunction = std::function<core::Result<double>(const core::Pose&)>;
 
-/// One pose a walk evaluated.
+/// One pose that a walk evaluated.
 struct PoseStep {
   core::Pose pose;
   double f_mm = 0.0;
-  double step_deg = 0.0;  ///< Step of the walk when it came here.
+  double step_deg = 0.0;  ///< Step of the walk when it reached this pose.
 };
 
 /// Course and end of a walk.
 struct PoseWalk {
   std::vector<PoseStep> visited;  ///< In order, each pose once.
-  std::size_t best = 0;           ///< Index of the pose where the walk stands.
+  std::size_t best = 0;           ///< Index of the final, best pose in `visited`.
 };
 
-/// Pose search [401-402]: around the current pose the eight neighbours at the current step are
-/// evaluated; the walk moves to the least and repeats; when the centre is the least, the next step
-/// follows. Gains of 1e-9 mm and less count as "the centre is the least".
+/// Pose search [401-402]. Evaluates the eight neighbours of the current pose at the current step
+/// and moves to the one with the least f, until no neighbour is better by more than 1e-9 mm; then
+/// continues with the next step. It ends after the last step.
 ///
 /// @param steps_deg  Steps in order, each > 0.
-/// @return kPoseRange when the start itself cannot be taken, or the error that ended the walk.
+/// @return kPoseRange if the fixture cannot take the start, or the error that ended the walk.
 /// Source: methods, cylindricity section 10.1.
 [[nodiscard]] core::Result<PoseWalk> walk_poses(const PoseFunction& f, const core::Pose& start,
                                                 std::span<const double> steps_deg);
 
-/// The published steps, then halves of the last one down to `least_deg`.
+/// Returns the given steps, followed by halves of the last one down to `least_deg`.
 [[nodiscard]] std::vector<double> halved_steps(std::span<const double> steps_deg, double least_deg);
 
 }  // namespace rondure::fit

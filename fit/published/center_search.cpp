@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/zone/center_search.h"
 #include "fit/geometry/internal/hull_distance.h"
-#include "fit/least_squares/circle.h"
 #include "fit/geometry/points.h"
+#include "fit/least_squares/circle.h"
+#include "fit/zone/center_search.h"
 
 namespace rondure::fit {
 namespace {
@@ -15,7 +15,7 @@ Eigen::Vector2d unit(PlanePoints points, const Eigen::Vector2d& center, std::siz
   return (points[i] - center).normalized();
 }
 
-/// Sets radii and picks the first contacts [302]: the farthest and the nearest point.
+/// Sets the radii and, with `pick`, the first contacts [302]: the farthest and the nearest point.
 void measure(PlanePoints points, CenterSearch& search, bool pick) {
   std::size_t far = 0;
   std::size_t near = 0;
@@ -31,11 +31,11 @@ void measure(PlanePoints points, CenterSearch& search, bool pick) {
   search.inner = {near};
 }
 
-/// Direction that keeps two contacts of one side equally far: their bisector, toward or away.
+/// Direction that keeps two contacts of one side at equal distance: their bisector, of either sign.
 Eigen::Vector2d bisector(const Eigen::Vector2d& first, const Eigen::Vector2d& second) {
   const Eigen::Vector2d sum = first + second;
   if (sum.norm() >= 1e-9) return sum.normalized();
-  const Eigen::Vector2d chord = second - first;  // diametral: the published text is silent
+  const Eigen::Vector2d chord = second - first;  // diametral; not covered by the published text
   return Eigen::Vector2d(-chord.y(), chord.x()).normalized();
 }
 
@@ -56,7 +56,7 @@ Eigen::Vector2d direction(PlanePoints points, const CenterSearch& search) {
   return difference.normalized();
 }
 
-/// The chord test [305] on the contacts the search holds, as unit vectors.
+/// The chord test [305] on the unit vectors of the current contacts.
 bool chords_cross(PlanePoints points, const CenterSearch& search) {
   return segments_cross(unit(points, search.center_mm, search.outer.front()),
                         unit(points, search.center_mm, search.outer.back()),
@@ -64,7 +64,7 @@ bool chords_cross(PlanePoints points, const CenterSearch& search) {
                         unit(points, search.center_mm, search.inner.back()));
 }
 
-/// The fixed exchange: a side that holds two contacts gives up its second one, whatever it does.
+/// The fixed exchange: a side with two contacts drops its second one, whatever its effect.
 void take(std::vector<std::size_t>& side, std::size_t met) {
   if (side.size() == 2) side.pop_back();
   side.push_back(met);
@@ -97,7 +97,7 @@ core::Result<CenterSearch> center_search_as_published(PlanePoints points_mm) {
       out.ending = CenterSearch::Ending::kCross;
       break;
     }
-    // [306] "discard H1": the newer outer contact stays, and the search goes on as in [303].
+    // [306] "discard H1": the newer outer contact stays, and the search continues as in [303].
     out.outer.erase(out.outer.begin());
   }
   measure(points_mm, out, false);

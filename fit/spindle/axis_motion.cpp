@@ -10,7 +10,7 @@
 namespace rondure::fit {
 namespace {
 
-/// Least-squares c + a cos + b sin of a series.
+/// Least-squares fit of c + a cos + b sin to a series.
 Eigen::Vector3d plot_centre(std::span<const double> alpha_rad, const std::vector<double>& values) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();

@@ -6,20 +6,20 @@
 
 namespace rondure::fit {
 
-/// Error motion of an axis in one fixed direction, over the revolutions on record.
+/// Error motion of an axis in one fixed direction, over all recorded revolutions.
 struct AxisMotion {
   double total_mm = 0.0;        ///< Greatest minus least value of all revolutions.
-  double synchronous_mm = 0.0;  ///< Of the mean revolution.
+  double synchronous_mm = 0.0;  ///< Greatest minus least value of the mean revolution.
   /// Greatest spread of the revolutions at one angle; none for a single revolution.
   std::optional<double> asynchronous_mm;
-  double fundamental_mm = 0.0;  ///< Amplitude at one cycle a turn, taken out of all of them.
+  double fundamental_mm = 0.0;  ///< Amplitude at one cycle per turn, removed from all revolutions.
   std::vector<double> mean_mm;  ///< The mean revolution about the centre of its polar plot.
   std::vector<std::vector<double>> turns_mm;  ///< Every revolution about that same centre.
 };
 
-/// Error motion values of ISO 230-7 from the polar plot of one direction. The centre of the plot is
-/// that of the least-squares circle of the mean revolution: constant and one cycle a turn are no
-/// error motion.
+/// Computes the error motion values of ISO 230-7 from the polar plot of one direction. The centre
+/// of the plot is that of the least-squares circle of the mean revolution: a constant and one cycle
+/// per turn are not error motion.
 /// @param alpha_rad  Work angle of each sample of a revolution, N >= 4.
 /// @param turns_mm   The revolutions, N values each; at least one. O(N revolutions).
 /// Source: ISO 230-7:2015, 3.2 (error motion polar plot and values).

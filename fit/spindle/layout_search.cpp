@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kGrid_deg = 0.25;
 constexpr double kFinest_deg = 0.001;
-constexpr double kNeighbour_deg = 2.0;  ///< Layouts nearer than this are the same valley.
-constexpr std::size_t kRefined = 4;     ///< Candidates refined for each layout that is wanted.
+constexpr double kNeighbour_deg = 2.0;  ///< Layouts nearer than this are in the same valley.
+constexpr std::size_t kRefined = 4;     ///< Candidates refined per layout to be returned.
 
-/// P2 and P3 from P1.
+/// Angles of P2 and P3 from P1.
 struct Place {
   double p2_deg = 0.0;
   double p3_deg = 0.0;
@@ -42,8 +42,8 @@ bool fits(const Place& place, const LayoutSearch& search) {
          apart_deg(place.p2_deg, place.p3_deg) >= search.least_apart_deg;
 }
 
-/// Least |G|^2 of the band over the squared weight norm, 1 / g^2, or nothing where two probes are
-/// in line. Powers by multiplication: this is the inner loop.
+/// Least |G|^2 of the band over the squared weight norm, 1 / g^2, or 0 if two probes are in line.
+/// Powers are found by multiplication, as this is the inner loop.
 double inverse_worst(const Place& place, const LayoutSearch& search, double give_up_below) {
   const double a2 = place.p2_deg * core::kDegree;
   const double a3 = place.p3_deg * core::kDegree;
@@ -71,7 +71,7 @@ double inverse_worst(const Place& place, const LayoutSearch& search, double give
   return least;
 }
 
-/// All places of the grid that are no worse than 3 times the best seen before them.
+/// All places of the grid that are at most 3 times worse than the best one before them.
 std::vector<Candidate> scan_grid(const LayoutSearch& search) {
   const double step = search.samples > 0 ? 360.0 / search.samples : kGrid_deg;
   const auto first_of = [&](double low) { return std::ceil(low / step - 1e-9) * step; };
@@ -94,7 +94,7 @@ std::vector<Candidate> scan_grid(const LayoutSearch& search) {
   return out;
 }
 
-/// Walks to a neighbour while that is better, with halved steps in the end.
+/// Moves to a better neighbour as long as there is one, then halves the step.
 Candidate refined_candidate(Candidate at, const LayoutSearch& search) {
   for (double step = kGrid_deg / 2.0; step >= kFinest_deg / 2.0;) {
     Candidate best = at;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kLeastSine = 1e-3;
 constexpr double kAlikeGains = 1e-9;  ///< Relative; equal gains differ by rounding.
 
-/// Of N = 1024 samples a turn.
+/// The angle of a number of samples, with 1024 per turn.
 double of_1024(int samples) { return samples * core::kTwoPi / 1024.0; }
 
 }  // namespace

@@ -42,7 +42,8 @@ core::Result<void> check(std::size_t count, const StepOptions& options) {
                                 count, options.highest, needed));
 }
 
-/// Noise gain and place in the table; `gain` of the part's complex amplitude against one trace.
+/// Entry of the table for one harmonic. `gain` is the noise gain of the complex amplitude of the
+/// part relative to one trace.
 RecoveredHarmonic harmonic_of(int order, double gain, const Complex& value, std::size_t count,
                               const StepOptions& options) {
   RecoveredHarmonic out;
@@ -58,7 +59,7 @@ RecoveredHarmonic harmonic_of(int order, double gain, const Complex& value, std:
   return out;
 }
 
-/// Solves r and S of one harmonic from all traces; gives r, S and the gain of r.
+/// One harmonic solved from all traces: r, S and the gain of r.
 struct SolvedHarmonic {
   Complex part;
   Complex motion;
@@ -118,7 +119,7 @@ core::Result<StepSeparation> separate_multi_step(std::span<const double> steps_r
     const bool asked = order <= options.highest;
     const bool kept = asked && solved.gain <= options.greatest_gain;
     if (kept) part[k] = solved.part;
-    Complex mean;  // what is not recovered of the part stays in the motion, as in its mean
+    Complex mean;  // a harmonic that is not recovered remains in the motion, as the mean trace
     for (const Spectrum& trace : traces) mean += trace[k] / static_cast<double>(traces.size());
     motion[k] = kept ? solved.motion : mean;
     if (!asked) continue;

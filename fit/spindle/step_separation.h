@@ -9,12 +9,12 @@
 
 namespace rondure::fit {
 
-/// Part and motion in the direction of one probe, by turning the part against the spindle.
+/// Part and motion in the direction of one probe, found by turning the part against the spindle.
 struct StepSeparation {
   UniformProfile part;                       ///< Without harmonics 0 and 1.
-  std::vector<double> motion_mm;             ///< In the direction of the probe, same samples, same.
+  std::vector<double> motion_mm;             ///< In the direction of the probe, same samples.
   std::vector<RecoveredHarmonic> harmonics;  ///< 2..highest; `transfer` is 1/gain.
-  std::vector<int> unrecovered;  ///< They stay in the motion, where nothing tells them apart.
+  std::vector<int> unrecovered;  ///< Harmonics not separated; they remain in the motion.
 };
 
 /// Settings of both separations.
@@ -24,17 +24,17 @@ struct StepOptions {
   double greatest_gain = 100.0;  ///< Harmonics above it are listed, not recovered.
 };
 
-/// Multi-step separation: one probe, the part turned against the spindle by known angles,
+/// Multi-step separation with one probe. The part is turned against the spindle by known angles,
 ///
 ///     m_j(phi) = r(phi + step_j) + S(phi).
 ///
 /// Each harmonic is solved for r and S by least squares over the steps. With M equal steps of a
-/// turn the multiples of M are the same in every trace and are not recovered.
+/// turn, multiples of M are the same in every trace and cannot be recovered.
 ///
-/// @param steps_rad  Angle of the part against the first mounting, one a trace; at least 2.
-/// @param traces_mm  N readings each, uniform in the spindle angle, starting at the same one.
+/// @param steps_rad  Angle of the part relative to the first mounting, one per trace; at least 2.
+/// @param traces_mm  N readings each, uniform in the spindle angle, starting at the same angle.
 /// @return kSampling (counts, lengths, N < 2 highest + 2), kNotFinite, kBadOption, kRank (all steps
-///         alike). O(M N log N).
+///         equal). O(M N log N).
 /// Source: D. J. Whitehouse, J. Phys. E 9 (1976) 531 (multi-step method).
 [[nodiscard]] core::Result<StepSeparation> separate_multi_step(
     std::span<const double> steps_rad, std::span<const std::vector<double>> traces_mm,

@@ -20,7 +20,7 @@ constexpr int kSecondOrderPasses = 5;
 constexpr double kSecondOrderDone_mm = 1e-9;
 constexpr double kSecondOrderSettled = 0.01;  ///< Change of the last pass over the correction.
 constexpr double kPhaseFrom = 3.0;            ///< Standard uncertainties of an amplitude.
-constexpr double kBelowProbes = 1e-5;         ///< Of the readings: no probe is that linear.
+constexpr double kBelowProbes = 1e-5;         ///< Share of the readings; no probe is that linear.
 
 core::Result<void> check_options(const ThreeProbeOptions& options) {
   const auto refuse = [](std::string what) {
@@ -42,13 +42,13 @@ core::Result<void> check_options(const ThreeProbeOptions& options) {
   return {};
 }
 
-/// Of the weighted sum of the mean revolution. What it gains from one revolution to the next is
-/// drift of a probe, or a part that grows: a ramp in time, as the work angle, that would stand in
-/// every harmonic.
+/// Spectrum of the weighted sum of the mean revolution. Its increase from one revolution to the
+/// next is drift of a probe, or growth of the part. This ramp in time, and so in the work angle, is
+/// removed, as it would appear in every harmonic.
 Spectrum weighted_spectrum(const ProbeSamples& samples, const ProbeLayout& layout) {
   const auto& w = layout.weights();
   std::vector<double> sum(samples.count);
-  double drift = 0.0;  // of a revolution
+  double drift = 0.0;  // per revolution
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& h = samples.h_mm[i];
     const std::size_t last = h.size() - samples.count;
@@ -63,12 +63,12 @@ Spectrum weighted_spectrum(const ProbeSamples& samples, const ProbeLayout& layou
   return spectrum(sum);
 }
 
-/// What decides over the recovery of a harmonic.
+/// Decides on the recovery of a harmonic.
 struct Guard {
   const ThreeProbeOptions& options;
   const ProbeLayout& layout;
   double noise_mm = 0.0;
-  double values = 1.0;  ///< Readings of a probe behind an amplitude.
+  double values = 1.0;  ///< Readings per probe that enter an amplitude.
 
   [[nodiscard]] RecoveredHarmonic look_at(int order) const {
     RecoveredHarmonic out;
@@ -89,7 +89,7 @@ struct Guard {
   }
 };
 
-/// The part's half spectrum, and its harmonics as a table.
+/// Computes the half spectrum of the part, and its harmonics as a table.
 Spectrum recover(const Spectrum& sum, const Guard& guard, std::size_t count, double start_rad,
                  ThreeProbeResult& result) {
   Spectrum part(sum.size());
@@ -128,7 +128,7 @@ void judge_residual(const Spectrum& sum, const Spectrum& part, const ProbeSample
         recovered ? sum[k] - part[k] * result.layout.transfer(static_cast<int>(k)) : sum[k];
     power += 2.0 * std::norm(left) / (n * n);
   }
-  for (const auto& h : samples.mean_mm) {  // the zeros of the probes are no displacement
+  for (const auto& h : samples.mean_mm) {  // the zero of a probe is not a displacement
     const auto [low, high] = std::minmax_element(h.begin(), h.end());
     largest = std::max(largest, 0.5 * (*high - *low));
   }
@@ -137,7 +137,7 @@ void judge_residual(const Spectrum& sum, const Spectrum& part, const ProbeSample
   result.first_harmonic_limit_mm =
       std::max(3.0 * result.noise_mm * std::sqrt(2.0 / static_cast<double>(samples.rows)),
                kBelowProbes * largest);
-  // A gain error g of probe i leaves |c w_i g| there; twice the limit stands out of any noise.
+  // A gain error g of probe i leaves |c w_i g| there; twice the limit exceeds any noise.
   const auto& w = result.layout.weights();
   const double least_weight = std::min({w[0], std::abs(w[1]), std::abs(w[2])});
   if (result.eccentricity_mm > 0.0) {
@@ -163,7 +163,7 @@ std::string orders_in_words(const std::vector<int>& orders) {
   return out;
 }
 
-/// Harmonics that are lost or weak.
+/// Adds warnings for harmonics that are lost or weak.
 void warn_of_loss(const ThreeProbeOptions& options, ThreeProbeResult& result) {
   if (!result.unrecovered.empty()) {
     add(result, Code::kHarmonicLoss,
@@ -197,8 +197,8 @@ void warn_of_sampling(const ProbeSamples& samples, const ThreeProbeOptions& opti
   }
 }
 
-/// A.8, where the options want it: repeats recovery and motion with corrected readings.
-/// @return kUnits where the motion is no longer small beside the part, so that A.8 does not settle.
+/// A.8, if the options require it: repeats recovery and motion with corrected readings.
+/// @return kUnits if the motion is too large compared with the part for A.8 to converge.
 core::Result<void> refine_second_order(double part_radius_mm, const Guard& guard,
                                        ProbeSamples& samples, Spectrum& sum, Spectrum& part,
                                        ThreeProbeResult& result) {

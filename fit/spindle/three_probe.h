@@ -9,16 +9,16 @@
 
 #include "core/error.h"
 #include "core/result.h"
+#include "fit/geometry/swing_arm.h"
 #include "fit/profiles/closed_profile.h"
 #include "fit/spindle/probe_layout.h"
-#include "fit/geometry/swing_arm.h"
 
 namespace rondure::fit {
 
-/// What three probes read, in the order of time, over one revolution or more.
+/// Readings of three probes in order of time, over one revolution or more.
 struct ProbeReadings {
   std::vector<double> alpha_rad;            ///< Rotation of the work, increasing, not wrapped.
-  std::vector<double> beta_rad;             ///< Swing of the arm, measured; empty: by the arm.
+  std::vector<double> beta_rad;             ///< Measured swing of the arm; empty: from SwingArm.
   std::array<std::vector<double>, 3> h_mm;  ///< Positive when the surface moves outward [mm].
 };
 
@@ -26,18 +26,18 @@ struct ProbeReadings {
 struct ThreeProbeOptions {
   /// kTikhonov attenuates weak harmonics by |G|^2 / (|G|^2 + mu^2) instead of dropping them.
   enum class Recovery { kThreshold, kTikhonov };
-  /// kAuto: above 10 um of motion. Needs the radius of the part.
+  /// kAuto: for more than 10 um of motion. Needs the radius of the part.
   enum class SecondOrder { kAuto, kOff, kOn };
-  /// kAsPublished: RY by the printed formula, which is wrong; for comparison.
+  /// kAsPublished: RY by the printed formula, which is wrong; for comparison only.
   enum class Motion { kLeastSquares, kAsPublished };
 
   int samples = 1024;              ///< N of a revolution; >= 2 highest + 2. 0: as many as recorded.
   int highest = 50;                ///< Harmonics 2..highest are recovered; >= 2.
-  double greatest_gain = 100.0;    ///< A harmonic above it is not recovered; >= 1.
-  double warn_gain = 25.0;         ///< One above it is named in a warning.
+  double greatest_gain = 100.0;    ///< A harmonic with a greater gain is not recovered; >= 1.
+  double warn_gain = 25.0;         ///< A harmonic with a greater gain is named in a warning.
   std::optional<double> noise_mm;  ///< Standard deviation of a reading; none: estimated.
-  double expected_amplitude_mm = 1e-4;  ///< Of a harmonic, for kTikhonov; > 0.
-  bool resample = true;                 ///< false: readings stand for uniform theta as they are.
+  double expected_amplitude_mm = 1e-4;  ///< Amplitude of a harmonic, for kTikhonov; > 0.
+  bool resample = true;                 ///< false: readings are taken as uniform in theta.
   Recovery recovery = Recovery::kThreshold;
   SecondOrder second_order = SecondOrder::kAuto;
   Motion motion = Motion::kLeastSquares;
@@ -46,13 +46,13 @@ struct ThreeProbeOptions {
 /// One harmonic of the part.
 struct RecoveredHarmonic {
   int order = 2;
-  bool recovered = false;     ///< false: 0 in the profile, its motion-like share is in the motion.
+  bool recovered = false;     ///< false: 0 in the profile; its motion-like share is in the motion.
   double amplitude_mm = 0.0;  ///< In r = sum A cos(k theta - phase).
   std::optional<double> phase_rad;  ///< Absent below three standard uncertainties.
   double transfer = 0.0;            ///< |G|.
   double gain = 0.0;                ///< Noise gain g.
   double sigma_mm = 0.0;            ///< Standard uncertainty of the amplitude, g s sqrt(2/n).
-  double attenuation = 1.0;         ///< Of the regularised form; 1 for the threshold.
+  double attenuation = 1.0;         ///< Factor of kTikhonov; 1 for kThreshold.
 };
 
 /// Motion of the part's centre, X and Y over the samples of one revolution [mm].
@@ -65,55 +65,57 @@ struct CentreMotion {
 struct ThreeProbeResult {
   ProbeLayout layout;
   int revolutions = 1;
-  std::size_t readings = 0;            ///< Rows that were used.
-  bool interpolated = false;           ///< Brought to uniform theta: even_samples().
+  std::size_t readings = 0;            ///< Rows used.
+  bool interpolated = false;           ///< Resampled to uniform theta by even_samples().
   UniformProfile profile = {};         ///< r(theta) without harmonics 0 and 1.
   std::vector<double> alpha_rad = {};  ///< Work angle of each sample, in the first revolution.
   std::vector<double> beta_rad = {};
   std::vector<RecoveredHarmonic> harmonics = {};  ///< 2..highest.
-  std::vector<int> unrecovered = {};              ///< Those above the greatest gain.
+  std::vector<int> unrecovered = {};              ///< Harmonics above the greatest gain.
 
   std::vector<CentreMotion> motion =
-      {};                         ///< A revolution each; without eccentricity and probe zeros.
+      {};                         ///< One per revolution, without eccentricity and probe zeros.
   CentreMotion mean_motion = {};  ///< Their mean: the synchronous part.
-  CentreMotion mean_motion_before = {};  ///< The mean before eccentricity and zeros were taken out.
-  double eccentricity_mm = 0.0;          ///< |c| of c e^{j alpha}; a motion of that shape is in it.
+  CentreMotion mean_motion_before = {};  ///< Mean before removal of eccentricity and zeros.
+  double eccentricity_mm = 0.0;          ///< |c| of c e^{j alpha}, includes motion of that shape.
   double eccentricity_rad = 0.0;         ///< Its direction on the part: a cos + b sin, atan2(b, a).
 
   double noise_mm = 0.0;          ///< s: stated or estimated.
-  bool noise_estimated = false;   ///< From the scatter of the revolutions; of one, from what the
-                                  ///< weighted sum holds above the highest harmonic.
+  bool noise_estimated = false;   ///< Estimated from the scatter of the revolutions; for a single
+                                  ///< one, from the weighted sum above the highest harmonic.
   double profile_sigma_mm = 0.0;  ///< rms standard uncertainty of r.
-  /// What the weighted sum holds at k = 1, where it must vanish, over the weight norm; above its
-  /// limit (3 standard uncertainties) angles, gains or theta are wrong. Below it proves nothing.
+  /// Content of the weighted sum at k = 1, where it must vanish, over the weight norm. Above its
+  /// limit (3 standard uncertainties), angles, gains or theta are wrong. A value below the limit
+  /// proves nothing.
   double first_harmonic_mm = 0.0;
   double first_harmonic_limit_mm = 0.0;
   /// The relative gain error (or angle error [rad]) of any one probe that the eccentricity surely
-  /// lifts above that limit; a smaller one may pass unseen. Infinite without eccentricity.
+  /// raises above that limit; a smaller error may go unnoticed. Infinite without eccentricity.
   double least_error_shown = std::numeric_limits<double>::infinity();
   double residual_rms_mm =
-      0.0;  ///< Of the redundant equation, over the weight norm, without k = 0.
+      0.0;  ///< Residual of the redundant equation, over the weight norm, without k = 0.
   int second_order_passes = 0;
-  /// Readings that contradict the stated probes, arm or angles, and readings that are none; they
-  /// stand in `warnings`, too. With one of them part and motion are not to be judged.
+  /// Readings that contradict the stated probes, arm or angles, and invalid readings. They are also
+  /// in `warnings`. If there is any, part and motion must not be judged.
   std::vector<core::Error> contradictions = {};
   std::vector<core::Error> warnings = {};
 };
 
 /// Separates the form of a part from the motion of its centre with three probes.
 ///
-/// theta = alpha + beta; each reading is brought to N uniform theta by a periodic spline (over all
-/// revolutions; more than N readings a revolution through a low pass, which uses them all and keeps
-/// undulations from N/2 on from coming back as lower ones), the revolutions are averaged, H = H1 +
-/// k2 H2 + k3 H3 is divided by G(k) with the true angles in the frequency domain, and the motion
-/// follows from H_i(theta) - r(theta + Phi_i) by least squares over the three probes. A best c e^{j
-/// alpha} + c0 e^{-j beta} (eccentricity, probe zeros) is taken out of the motion.
+/// The readings are resampled to N uniform values of theta = alpha + beta by a periodic spline over
+/// all revolutions. More than N readings per revolution pass through a low pass, which uses all of
+/// them and prevents aliasing of undulations from N/2 on. The revolutions are averaged, and
+/// H = H1 + k2 H2 + k3 H3 is divided by G(k), with the true angles, in the frequency domain. The
+/// motion follows from H_i(theta) - r(theta + Phi_i) by least squares over the three probes; the
+/// best fit of c e^{j alpha} + c0 e^{-j beta} (eccentricity, probe zeros) is removed from it.
 ///
-/// @return kRank (layout); check_swing_arm()'s errors; kSampling (lengths differ, too few readings,
-///         highest beyond N/2 - 1, or nothing to estimate the noise from); kNotFinite (row);
+/// @return kRank (layout); the errors of check_swing_arm(); kSampling (lengths differ, too few
+///         readings, highest above N/2 - 1, or no data to estimate the noise); kNotFinite (row);
 ///         kAngleOrder (theta not increasing, row); kNotFullSection (less than one revolution);
-///         kUnits (angles that run over one turn in radians and are far from a turn in degrees are
-///         the caller's to see); kBadOption. O(M log M): 1e5 samples in some 20 ms.
+///         kUnits (motion too large compared with the part for the second order); kBadOption.
+///         Angles in degrees instead of radians are not detected. O(M log M): 1e5 samples in some
+///         20 ms.
 /// Source: methods, roundness A.2 to A.8.
 [[nodiscard]] core::Result<ThreeProbeResult> separate_three_probe(
     const ProbeReadings& readings, const SwingArm& arm, const ProbeLayout& layout,

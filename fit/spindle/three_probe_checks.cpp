@@ -22,9 +22,9 @@ using core::Code;
 
 constexpr double kSwingTolerance_rad = 0.05 * core::kDegree;
 constexpr double kGross = 8.0;          ///< Standard deviations of a reading from its neighbours.
-constexpr double kGrossFloor = 1e-5;    ///< Of the range of a probe.
-constexpr std::size_t kGrossReach = 4;  ///< Rows that one gross reading seems to move.
-constexpr double kSamePlace = 2.5;      ///< Rows: so far apart two probes see one edge of the part.
+constexpr double kGrossFloor = 1e-5;    ///< Share of the range of a probe.
+constexpr std::size_t kGrossReach = 4;  ///< Rows affected by one gross reading.
+constexpr double kSamePlace = 2.5;      ///< Rows within which two probes see the same edge.
 constexpr std::size_t kNamedReadings = 5;
 constexpr double kLeastNoise_mm = 1e-3 * core::kMicrometre;  ///< Better than any probe.
 
@@ -41,21 +41,22 @@ std::vector<std::vector<double>> sums_of_turns(const ProbeSamples& samples,
   return out;
 }
 
-/// What the spline leaves of a harmonic: it takes from noise what it takes from undulations of few
+/// Transmission of a harmonic by the spline, which attenuates noise as it does undulations of few
 /// readings.
 double kept(const ProbeSamples& samples, std::size_t order) {
   const double readings = static_cast<double>(samples.rows) / samples.revolutions;
   return samples.interpolated ? spline_transmission(static_cast<double>(order) / readings) : 1.0;
 }
 
-/// Of a reading, from the mean |F(k)|^2 of the mean revolution: N^2 s^2 W^2 over the readings.
+/// Standard deviation of a reading from the mean |F(k)|^2 of the mean revolution, which is
+/// N^2 s^2 W^2 over the number of readings.
 double noise_of(double power, const ProbeSamples& samples, const ProbeLayout& layout) {
   return std::sqrt(power * static_cast<double>(samples.rows)) /
          (static_cast<double>(samples.count) * layout.weight_norm());
 }
 
-/// Standard deviation of a reading from what differs between the revolutions in the harmonics that
-/// are asked for.
+/// Standard deviation of a reading from the differences between revolutions in the requested
+/// harmonics.
 double scatter_mm(const ProbeSamples& samples, const std::vector<std::vector<double>>& sums,
                   const ProbeLayout& layout, int highest) {
   const auto turns = static_cast<double>(sums.size());
@@ -71,15 +72,15 @@ double scatter_mm(const ProbeSamples& samples, const std::vector<std::vector<dou
     for (std::size_t k = 2; k <= static_cast<std::size_t>(highest); ++k)
       power += std::norm(f[k] / kept(samples, k));
   }
-  // The variance of the mean revolution is that of one over their number.
+  // The variance of the mean revolution is that of one revolution divided by their number.
   return noise_of(power / ((turns - 1.0) * turns * (highest - 1)), samples, layout);
 }
 
-/// A reading that its neighbours do not explain.
+/// A reading that deviates from its neighbours.
 struct LoneReading {
   std::size_t probe = 0;
   std::size_t row = 0;
-  double score = 0.0;   ///< Distance from the prediction over that of white noise of 1.
+  double score = 0.0;   ///< Distance from the prediction, relative to unit white noise.
   double off_mm = 0.0;  ///< From the cubic through its four nearest neighbours.
 };
 
@@ -116,7 +117,7 @@ std::vector<LoneReading> lone_readings(std::span<const double> h, std::span<cons
                                        std::size_t probe) {
   std::vector<LoneReading> all;
   std::vector<double> distances;
-  // A gross reading at either end shows in the row two beside it.
+  // A gross reading at either end shows two rows away.
   for (std::size_t m = 2; m + 2 < theta.size(); ++m) {
     all.push_back(against_neighbours(h, theta, m));
     all.back().probe = probe;
@@ -137,8 +138,8 @@ bool near_in_time(const LoneReading& a, const LoneReading& b) {
   return a.probe == b.probe && std::max(a.row, b.row) - std::min(a.row, b.row) <= kGrossReach;
 }
 
-/// Readings that are gross: beyond their neighbours, where no other probe and no other revolution
-/// sees the same place of the part jump. One for each neighbourhood.
+/// Gross readings: they deviate from their neighbours, and no other probe or revolution shows a
+/// jump at the same place of the part. One for each neighbourhood.
 std::vector<LoneReading> gross_readings(const ProbeReadings& readings, const ProbeSamples& samples,
                                         const ProbeLayout& layout) {
   const std::span<const double> theta(samples.theta_rad);
@@ -187,13 +188,13 @@ void name_gross_readings(const std::vector<LoneReading>& gross, ThreeProbeResult
           gross.size() > kNamedReadings ? ", ..." : ""));
 }
 
-/// The revolutions tell what a stated noise is worth.
+/// Checks a stated noise against the scatter of the revolutions.
 void check_stated_noise(const ProbeSamples& samples, const ThreeProbeOptions& options,
                         ThreeProbeResult& result) {
   if (!options.noise_mm || samples.revolutions < 2) return;
   const auto sums = sums_of_turns(samples, result.layout);
   const double found = scatter_mm(samples, sums, result.layout, options.highest);
-  // 3 standard deviations of a root of that many squares.
+  // 3 standard deviations of a root mean square of this many values.
   const double values = 2.0 * (options.highest - 1) * (samples.revolutions - 1);
   if (found <= *options.noise_mm * (1.0 + 3.0 / std::sqrt(2.0 * values)) ||
       found < kLeastNoise_mm) {

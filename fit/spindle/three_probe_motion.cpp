@@ -40,8 +40,8 @@ struct Turns {
   }
 };
 
-/// The least-squares solution (X, Y) = P m without swing; m are the three readings without the
-/// part.
+/// The matrix P of the least-squares solution (X, Y) = P m without swing, where m holds the three
+/// readings minus the part.
 Eigen::Matrix<double, 2, 3> solver(const std::array<double, 3>& angles_rad) {
   Eigen::Matrix<double, 3, 2> n;
   for (int i = 0; i < 3; ++i) {
@@ -53,7 +53,7 @@ Eigen::Matrix<double, 2, 3> solver(const std::array<double, 3>& angles_rad) {
   return normal.inverse() * n.transpose();
 }
 
-/// The same after a swing, which turns the directions of all probes, and so the solution, by beta.
+/// The same matrix after a swing, which turns all probes, and so the solution, by beta.
 Eigen::Matrix<double, 2, 3> swung(const Eigen::Matrix<double, 2, 3>& p, double beta_rad) {
   return Eigen::Rotation2Dd(-beta_rad).toRotationMatrix() * p;
 }

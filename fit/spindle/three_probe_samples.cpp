@@ -15,9 +15,9 @@ namespace {
 using core::Code;
 using core::kTwoPi;
 
-constexpr double kUniform = 1e-6;      ///< Of a step: closer to uniform needs no interpolation.
-constexpr double kMissingSteps = 1.5;  ///< A revolution may lack so many samples at its end.
-/// Of all revolutions together; the separation holds some 100 bytes for each.
+constexpr double kUniform = 1e-6;      ///< Share of a step: closer to uniform is not interpolated.
+constexpr double kMissingSteps = 1.5;  ///< Most samples missing at the end of a revolution.
+/// Limit for all revolutions together; the separation needs some 100 bytes per sample.
 constexpr double kMostSamples = 1e7;
 
 core::Result<void> check_rows(const ProbeReadings& readings, const ThreeProbeOptions& options) {
@@ -52,7 +52,7 @@ core::Result<void> check_rows(const ProbeReadings& readings, const ThreeProbeOpt
   return {};
 }
 
-/// theta of every row, strictly increasing; a work that turns backwards is refused.
+/// Returns theta of every row, strictly increasing; refuses work that turns backwards.
 core::Result<std::vector<double>> travel(const ProbeReadings& readings, const SwingArm& arm,
                                          bool resample) {
   std::vector<double> theta;
@@ -60,7 +60,7 @@ core::Result<std::vector<double>> travel(const ProbeReadings& readings, const Sw
   for (std::size_t m = 0; m < readings.alpha_rad.size(); ++m) {
     const double alpha = readings.alpha_rad[m];
     const double beta = readings.beta_rad.empty() ? arm.beta_rad(alpha) : readings.beta_rad[m];
-    // Without resampling the rows stand for uniform theta: what they are is not looked at.
+    // Without resampling the rows count as uniform in theta, so their swing is ignored.
     theta.push_back(resample ? alpha + beta : alpha);
     if (m == 0 || theta[m] > theta[m - 1]) continue;
     return core::fail(Code::kAngleOrder,
@@ -71,7 +71,7 @@ core::Result<std::vector<double>> travel(const ProbeReadings& readings, const Sw
   return theta;
 }
 
-/// Rows of whole revolutions, and how many revolutions they are.
+/// Number of whole revolutions, and of their rows.
 struct Extent {
   int revolutions = 1;
   std::size_t rows = 0;
@@ -123,7 +123,7 @@ bool is_uniform(const std::vector<double>& theta, const Extent& extent) {
 
 void interpolate(const ProbeReadings& readings, const std::vector<double>& theta,
                  const Extent& extent, int highest, ProbeSamples& out) {
-  // One period spans all revolutions, so that a motion that does not repeat stays smooth inside.
+  // One period spans all revolutions, so that motion that does not repeat stays smooth inside.
   std::vector<double> scaled(extent.rows);
   for (std::size_t m = 0; m < extent.rows; ++m)
     scaled[m] = (theta[m] - theta[0]) / extent.revolutions;
@@ -144,8 +144,8 @@ void take_rows(const ProbeReadings& readings, std::size_t rows, ProbeSamples& ou
   }
 }
 
-/// Work angle and swing of the samples of the first revolution: from the measured columns where
-/// there are any, else by the arm.
+/// Sets work angle and swing of the samples of the first revolution, from the measured columns if
+/// there are any, else from the arm.
 void place_samples(const ProbeReadings& readings, const std::vector<double>& theta,
                    const SwingArm& arm, ProbeSamples& out) {
   out.alpha_rad.resize(out.count);

@@ -8,8 +8,8 @@
 namespace rondure::fit {
 namespace {
 
-/// Shares of the variance of the form: lobes times heights, taper with barrel and bend, and what
-/// each spot has of its own. Results hardly move with them; see tests/fit/pose_joint_test.cpp.
+/// Shares of the variance of the form: lobes times heights, taper with barrel and bend, and the
+/// separate part of each spot. Results hardly depend on them, as the tests of pose_joint() show.
 constexpr double kLobeShare = 0.75;
 constexpr double kLengthShare = 0.20;
 constexpr double kSpotShare = 0.05;
@@ -26,8 +26,8 @@ Eigen::Matrix3d rotation(const Eigen::Vector3d& w) {
   return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
 }
 
-/// exp(w + dw) = exp(w) exp(J dw). The angles here are far below 0.01 rad: the series is exact to
-/// the last bit.
+/// J of exp(w + dw) = exp(w) exp(J dw). The angles here are far below 0.01 rad, so that the series
+/// is exact to the last bit.
 Eigen::Matrix3d right_jacobian(const Eigen::Vector3d& w) {
   const Eigen::Matrix3d m = cross(w);
   const double square = w.squaredNorm();
@@ -35,7 +35,7 @@ Eigen::Matrix3d right_jacobian(const Eigen::Vector3d& w) {
          (1.0 / 6.0 - square / 120.0) * m * m;
 }
 
-/// z along the axis, x as near to body x as can be, origin in the middle of the points.
+/// The part frame: z along the axis, x as near as possible to body x, origin amid the points.
 Eigen::Isometry3d part_frame(const Axis& axis, const Eigen::Vector3d& nominal) {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   const Eigen::Vector3d z =
@@ -97,8 +97,8 @@ std::size_t JointModel::shared() const {
   return count;
 }
 
-// The columns stand for the places as the kinematics see them: an error of a few um there changes
-// the form by some 1e-7 of itself.
+// The columns belong to the places by the kinematics: an error of a few um there changes the form
+// by some 1e-7 of its size.
 void JointModel::set_form_columns(const PoseJointOptions& options) {
   const int n = touches();
   std::vector<Eigen::Vector3d> points_P;
@@ -213,8 +213,9 @@ void JointModel::evaluate(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> 
   if (derivatives != nullptr) derivatives->bottomRightCorner(priors, priors).setIdentity();
 }
 
-// Touches of one spot share what it has of its own, variance g, and have the noise s of each: the
-// inverse square root of s I + g 1 1^T is (I - c/m 1 1^T) / sqrt(s), c = 1 - 1/sqrt(1 + m g/s).
+// Touches of one spot share its separate part of the form, with variance g, and each has noise of
+// variance s. The inverse square root of s I + g 1 1^T is (I - c/m 1 1^T) / sqrt(s), with
+// c = 1 - 1/sqrt(1 + m g/s).
 void JointModel::whiten(Eigen::Ref<Eigen::VectorXd> residuals, RowMatrix* derivatives) const {
   const double ratio = kSpotShare * form_mm_ * form_mm_ / (touch_mm_ * touch_mm_);
   for (const auto& rows : groups_) {

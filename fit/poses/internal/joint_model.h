@@ -14,13 +14,13 @@ namespace rondure::fit {
 
 /// Residuals and derivatives of pose_joint(). Unknowns: 5 of the cylinder (shift x, y of its axis,
 /// tilt toward x, y times the half length, radius), the amplitudes of the smooth form in units of
-/// their prior, and six of each pose in units of theirs. Everything but the form is in mm.
+/// their prior, and six of each pose in units of their priors. Everything but the form is in mm.
 class JointModel {
  public:
   using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   static constexpr int kCylinder = 5;
 
-  /// @param start  Of the touches as the kinematics place them.
+  /// @param start  Least-squares cylinder of the touches as the kinematics place them.
   JointModel(std::span<const JointPose> poses, const PoseJointOptions& options,
              const LsCylinder& start);
 
@@ -37,23 +37,23 @@ class JointModel {
   [[nodiscard]] double half_length_mm() const { return half_length_mm_; }
   [[nodiscard]] double form_mm() const { return form_mm_; }
 
-  /// The standard deviation of the form from now on [mm].
+  /// Sets the standard deviation of the form [mm].
   void set_form(double form_mm) { form_mm_ = form_mm; }
 
   /// Whitened residuals of the touches, then the priors; with derivatives if wanted.
   void evaluate(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> residuals,
                 RowMatrix* derivatives) const;
 
-  /// Distances from the cylinder [mm] of x, without the form.
+  /// Distances of the touches from the cylinder of x, without the form [mm].
   [[nodiscard]] Eigen::VectorXd deviations(const Eigen::VectorXd& x) const;
-  /// Tip centres in the body frame with the errors of the poses taken out.
+  /// Tip centres in the body frame with the errors of the poses removed.
   [[nodiscard]] std::vector<Eigen::Vector3d> corrected(const Eigen::VectorXd& x) const;
-  /// True body to machine of a pose.
+  /// True motion of a pose, body to machine.
   [[nodiscard]] Eigen::Isometry3d motion(const Eigen::VectorXd& x, int pose) const;
-  /// Its error at the middle of the part, part frame, from its six unknowns.
+  /// Matrix from the six unknowns of a pose to its error at the middle of the part, part frame.
   [[nodiscard]] Eigen::Matrix<double, 6, 6> error_of_unknowns(int pose) const;
-  /// Derivatives of the distances by shift x, y and tilt about x, y (times the half length) of the
-  /// pose each touch belongs to, at the kinematics' place; column 4: the radius.
+  /// Derivatives of the distances with respect to shift x, y and tilt about x, y (times the half
+  /// length) of the pose of each touch, at the place by the kinematics; column 4: the radius.
   [[nodiscard]] Eigen::Matrix<double, Eigen::Dynamic, 5> seen() const;
 
  private:
@@ -80,13 +80,14 @@ class JointModel {
 /// @return Whether it converged.
 [[nodiscard]] bool solve_joint(const JointModel& model, Eigen::VectorXd& x);
 
-/// How well the touches see the poses.
+/// How well the touches determine the poses.
 struct JointRank {
-  double condition = 0.0;  ///< Of the Jacobian of cylinder and poses, see joint_rank().
-  int pose = 0;            ///< Whose touches see least,
-  int parameter = 0;       ///< and what: 0, 1: shift along x, y; 2, 3: tilt about x, y.
+  double condition = 0.0;  ///< Condition of the Jacobian of cylinder and poses.
+  int pose = 0;            ///< Pose that is determined worst.
+  int parameter = 0;       ///< Its worst parameter: 0, 1: shift along x, y; 2, 3: tilt about x, y.
 };
-/// Columns: radial movement of the touches [mm] by each parameter, tilts at the half length.
+/// Columns of the Jacobian: radial move of the touches [mm] by each parameter, tilts at the half
+/// length.
 [[nodiscard]] JointRank joint_rank(const JointModel& model);
 
 }  // namespace rondure::fit

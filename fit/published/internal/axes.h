@@ -4,29 +4,30 @@
 
 #include "fit/rotary/errors.h"
 
-// The matrices of CN105479268A for the swivel axes C (about Z) and A (about X) of a five-axis head,
-// for comparison: identify_rotary_axis() takes any balls.
+// The matrices of CN105479268A for the swivel axes C (about Z) and A (about X) of a five-axis head.
+// For comparison only: identify_rotary_axis() accepts any arrangement of balls.
 
 namespace rondure::fit {
 
-/// Vertical (L) and horizontal (H) distances of the ball from the point where the axes meet, two
-/// each; the head hangs, so that a ball stands at (0, H, -L).
+/// Two vertical (L) and two horizontal (H) distances of the ball from the intersection of the axes.
+/// The head hangs, so that a ball is at (0, H, -L).
 struct PublishedSetups {
   double l1_mm = 0.0;
   double l2_mm = 0.0;
   double h1_mm = 0.0;
   double h2_mm = 0.0;
 
-  /// The three setups the C matrix has: (L1, H1), (L1, H2), (L2, H1).
+  /// The three setups of the C matrix: (L1, H1), (L1, H2), (L2, H1).
   [[nodiscard]] std::array<Eigen::Vector3d, 3> of_c() const;
-  /// Those of the A matrix: (L1, H1), (L1, H2), (L2, H2).
+  /// The three setups of the A matrix: (L1, H1), (L1, H2), (L2, H2).
   [[nodiscard]] std::array<Eigen::Vector3d, 3> of_a() const;
 };
 
-/// The A matrix has an entry without its operator, "-H sin A  L cos A" (row Y, column al).
+/// Reading of an entry of the A matrix that is printed without its operator, "-H sin A  L cos A"
+/// (row Y, column al).
 enum class PublishedSigns {
-  kRestored,   ///< -H sin A + L cos A, which is equation dp = t + w x p.
-  kAsPrinted,  ///< Read as it stands, as a product: wrong at every angle.
+  kRestored,   ///< -H sin A + L cos A, which agrees with dp = t + w x p.
+  kAsPrinted,  ///< Read literally, as a product: wrong at every angle.
 };
 
 using PublishedMatrix = Eigen::Matrix<double, 9, 6>;
