@@ -94,8 +94,8 @@ core::Result<void> close_sealed(const record::ReadJournal& read, const fs::path&
 
 /// A sealed run with its reports may have died before it was archived.
 int finish_archived(const record::ArchivePlace& archive, const fs::path& directory,
-                    const EvaluatedRun& told) {
-  if (archive_run(archive, directory, told.record, told.evaluation)) {
+                    const EvaluatedRun& evaluated) {
+  if (archive_run(archive, directory, evaluated.record, evaluated.evaluation)) {
     tell(fmt::format(
         "rondure: the run in {} is finished and sealed; only its results had still to go to {}\n",
         directory.string(), archive.shown));
@@ -103,10 +103,10 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
     tell(fmt::format(
         "rondure: the run in {} is finished and sealed, there is nothing to resume: {}; its "
         "reports are there (again: rondure report {})\n",
-        directory.string(), evaluation::name_of(told.evaluation.verdict),
+        directory.string(), evaluation::name_of(evaluated.evaluation.verdict),
         quoted(directory.string())));
   }
-  return exit_status(false, told.evaluation.verdict);
+  return exit_status(false, evaluated.evaluation.verdict);
 }
 
 /// To the terminal, and to the page, which would wait for a verdict that never comes.
@@ -116,9 +116,9 @@ void tell_failure(const core::Error& error, web::LiveView* live) {
 }
 
 /// @param run  None for a run that was sealed before.
-int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& told, plans::Run* run) {
+int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& evaluated, plans::Run* run) {
   const auto& [arguments, plan, archive, directory, live] = ending;
-  const evaluation::Evaluation& evaluation = told.evaluation;
+  const evaluation::Evaluation& evaluation = evaluated.evaluation;
   const bool failed = run != nullptr && run->failure;
   // An unfinished run stays open: it has no results to seal.
   if (run != nullptr && !failed) {
@@ -129,11 +129,11 @@ int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& told, plan
       return kRunFailed;
     }
   }
-  if (!failed) keep_earlier_results(archive, directory, told.record);
+  if (!failed) keep_earlier_results(archive, directory, evaluated.record);
   const auto formats = with_those_there(formats_of(arguments, plan), directory);
   const reports::Language language = language_of(arguments);
-  const auto written = reports::write_exports(directory, formats, told.record, evaluation, language,
-                                              paper_of(arguments, plan));
+  const auto written = reports::write_exports(directory, formats, evaluated.record, evaluation,
+                                              language, paper_of(arguments, plan));
   if (!written) {
     tell_failure(written.error(), live);
     if (!failed) {
@@ -144,13 +144,13 @@ int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& told, plan
     return kRunFailed;
   }
   if (live != nullptr) {
-    live->show_result(told.record, evaluation, fs::absolute(directory).string());
+    live->show_result(evaluated.record, evaluation, fs::absolute(directory).string());
   }
   if (!arguments.quiet) {
-    say(reports::write_summary(told.record, evaluation, sketch_style(), language));
+    say(reports::write_summary(evaluated.record, evaluation, sketch_style(), language));
     for (const fs::path& file : *written) say_line(file.string());
   }
-  if (!failed) (void)archive_run(archive, directory, told.record, evaluation);
+  if (!failed) (void)archive_run(archive, directory, evaluated.record, evaluation);
   return exit_status(failed, evaluation.verdict);
 }
 
@@ -161,12 +161,12 @@ const std::vector<std::string>& formats_of(const RunArguments& arguments, const 
 }
 
 int conclude(const RunToFinish& ending, plans::Run& run) {
-  const auto told = read_and_evaluate(ending.directory);
-  if (!told) {
-    tell_failure(told.error(), ending.live);
+  const auto evaluated = read_and_evaluate(ending.directory);
+  if (!evaluated) {
+    tell_failure(evaluated.error(), ending.live);
     return kRunFailed;
   }
-  return conclude_evaluated(ending, *told, &run);
+  return conclude_evaluated(ending, *evaluated, &run);
 }
 
 int finish_sealed(const RunToFinish& ending, record::HeldJournal held) {
@@ -176,19 +176,19 @@ int finish_sealed(const RunToFinish& ending, record::HeldJournal held) {
     print_error(closed.error());
     return kRunFailed;
   }
-  const auto told = evaluate(std::move(held.read.record), directory);
-  if (!told) {
-    print_error(told.error());
+  const auto evaluated = evaluate(std::move(held.read.record), directory);
+  if (!evaluated) {
+    print_error(evaluated.error());
     return kRunFailed;
   }
-  if (reports::exports_are_current(directory, formats_of(arguments, plan), told->record,
-                                   told->evaluation, language_of(arguments),
+  if (reports::exports_are_current(directory, formats_of(arguments, plan), evaluated->record,
+                                   evaluated->evaluation, language_of(arguments),
                                    paper_of(arguments, plan))) {
-    return finish_archived(archive, directory, *told);
+    return finish_archived(archive, directory, *evaluated);
   }
   tell(fmt::format("rondure: the run in {} is finished and sealed; only its reports are written\n",
                    directory.string()));
-  return conclude_evaluated(ending, *told, nullptr);
+  return conclude_evaluated(ending, *evaluated, nullptr);
 }
 
 }  // namespace rondure::app

@@ -73,7 +73,7 @@ std::vector<int> touches_to_stop_at(std::size_t all) {
   return out;
 }
 
-/// A run directory with the journal of version 5 that was stopped after 81 touches.
+/// A run directory with the journal of version 5 that was stopped after 80 touches.
 void copy_old_interrupted_run(const fs::path& directory) {
   fs::create_directory(directory);
   fs::copy_file(testing::source_dir() / "tests/data/journal_v5_interrupted/journal.db",
@@ -98,7 +98,7 @@ TEST(ResumeOldJournals, GoesOnInVersion5ToTheBitsOfARunWithoutInterruption) {
   EXPECT_EQ(read->version, 5);
   EXPECT_TRUE(read->broken.empty());
   EXPECT_TRUE(read->record.sealed);
-  EXPECT_EQ(read->record.decisions.back().sentence.rfind("resumed on 2026-11-21T02:33:02Z after 81 "
+  EXPECT_EQ(read->record.decisions.back().sentence.rfind("resumed on 2026-11-21T02:33:02Z after 80 "
                                                          "touches; the last 3 repeated, ",
                                                          0),
             0U);

@@ -113,7 +113,7 @@ TEST_F(InterruptedRun, EveryChangeOfARowIsNamed) {
       {"update touch set time_s = -1.0 where id = 7", "touch: touch 7 was changed after it was"},
       {"update touch set layer = 99 where id > 36",
        "touch: touch 37 was changed after it was written (and 2 more)"},
-      {"update decision set text = 'another word' where id = 1",
+      {"update decision set arguments = '{\"sentence\":\"another\"}' where id = 1",
        "decision: decision 1 was changed after"},
       {"update truth set cylt_mm = 1e-300", "truth: truth 1 was changed after it was written"},
       {"delete from truth", "truth: truth 1 was removed after it was written"},

@@ -59,7 +59,7 @@ TEST_F(JournalDamage, OfEachTableIsFoundByItsDigest) {
       {"characteristic", "update characteristic set tolerance_mm = 0.011 where id = 1"},
       {"pose", "update pose set final_cloud = 1 - final_cloud where id = 2"},
       {"touch", "update touch set tip_z_mm = 1.0000000000000002 where id = 17"},
-      {"decision", "update decision set text = text || '.' where id = 2"},
+      {"decision", "update decision set arguments = '{\"sentence\":\".\"}' where id = 2"},
       {"truth", "update truth set cylt_mm = 1e-300"},
       {"result", "update result set value = 7.42 where id = 0"},
       {"touch",
