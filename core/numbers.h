@@ -6,29 +6,46 @@
 
 namespace rondure::core {
 
-/// Upper limit of every number that is measured, declared or stored, in its own unit: 1e9 mm are
-/// 1000 km, 1e9 deg are nearly 3 million turns, 1e9 s are 30 years. Squares and products of such
-/// numbers stay far from the range limit of a double, and differences of 1 nm remain resolvable.
+/// Nothing that is measured, declared or kept is greater, in its own unit: 1e9 mm are 1000 km, 1e9
+/// deg near 3 million turns, 1e9 s 30 years. Squares and products of such numbers stay far from
+/// the end of what a double holds, and differences of 1 nm can still be told.
 inline constexpr double kGreatestNumber = 1e9;
 
-/// Whether a value is finite and its absolute value is at most kGreatestNumber.
+/// Finite, and no greater in size than kGreatestNumber.
 [[nodiscard]] inline bool is_measurable(double value) {
   return value >= -kGreatestNumber && value <= kGreatestNumber;
 }
 
-/// Returns the shortest text that reads back to the same double ("0.1", "1e-09"), with a decimal
-/// point in every locale.
-/// @pre `value` is finite.
+/// The shortest text that reads back to the same double ("0.1", "1e-09"); never a locale's comma.
+/// `value` must be finite.
 [[nodiscard]] std::string shortest(double value);
 
-/// Reads the whole of `text` as one number, without surrounding spaces.
-/// @return The number, or nothing if `text` is not a number or the number fails is_measurable().
+/// The shortest decimal text, without an exponent, that reads back to the same double
+/// ("0.0000001"). `value` must be finite.
+[[nodiscard]] std::string decimal(double value);
+
+/// Numbers as reports and sentences print them. No locale: same value, same text. A value that is
+/// not finite is an en dash, a rounded zero has no sign.
+[[nodiscard]] std::string fixed(double value, int decimals);
+/// A length in um: three decimals below 1 mm, one above.
+[[nodiscard]] std::string um(double length_mm);
+/// The same with its sign, also "+".
+[[nodiscard]] std::string signed_um(double length_mm);
+/// f of a pose in um: three decimals, two above 100 um.
+[[nodiscard]] std::string f_um(double f_mm);
+/// A very small length in um, two digits: "1.2e-09".
+[[nodiscard]] std::string tiny_um(double length_mm);
+/// An angle in degrees.
+[[nodiscard]] std::string deg(double angle_rad, int decimals = 4);
+
+/// Reads the whole of `text` as one number that is_measurable(), or nothing. Spaces around it are
+/// not accepted.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
-/// Rounds `value` to the nearest multiple of 1 / steps_per_unit (half to even) and returns the
-/// double nearest to that decimal number. Printed with log10(steps_per_unit) decimals and read
-/// back, it gives the same bits. A value on the grid is returned unchanged, and so is a value that
-/// is not finite or has more than 2^53 steps.
+/// The multiple of 1 / steps_per_unit next to `value` (half to even), as the double next to that
+/// decimal number: printed with log10(steps_per_unit) decimals and read back it gives the same
+/// bits, and a value on the grid stays as it is. What is not finite, or has more than 2^53 steps,
+/// too.
 /// @param steps_per_unit  A power of ten up to 1e15.
 [[nodiscard]] double on_grid(double value, double steps_per_unit);
 

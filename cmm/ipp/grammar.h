@@ -15,15 +15,15 @@
 #include "cmm/ipp/numbers.h"
 #include "core/result.h"
 
-/// I++ DME, the language between a measuring program and a coordinate measuring machine, as text,
-/// in both directions: commands of a client and responses of a server. Lines are without their CR
-/// LF here; lines.h cuts them out of a stream of bytes.
+/// I++ DME, the language between a measuring program and a coordinate measuring machine, as text.
+/// Both directions: what a client sends and what a server answers. Lines are without their CR LF
+/// here.
 /// Source: I++ DME 1.4.3, sections on lexical rules and transactions.
 namespace rondure::cmm::ipp {
 
 inline constexpr std::uint16_t kDefaultPort = 1294;
-/// Tool.Id() of rondure simulate-cmm, whatever tool is active: a client recognises the simulator
-/// without a request that other servers do not know.
+/// Tool.Id() of rondure simulate-cmm, whatever tool is active: a client knows it by this without
+/// asking for anything that other servers do not have.
 inline constexpr std::string_view kSimulatorId = "rondure simulate-cmm";
 inline constexpr std::size_t kMaxLineLength = 65536;  ///< Characters, without CR LF.
 inline constexpr int kMaxDepth = 8;                   ///< Of parentheses in parentheses.
@@ -70,15 +70,15 @@ struct Item {
 [[nodiscard]] Item call_item(std::string_view name, std::initializer_list<double> values);
 [[nodiscard]] Item call_item(std::string_view name, const Eigen::Vector3d& values);
 
-/// The text of an item on the wire. Numbers as wire_number(). A string cannot hold a double quote
-/// and has no escapes: a double quote becomes a single one, a character that is not ASCII 32..126
-/// becomes "?", and an empty string, which the grammar forbids, one space.
+/// As it stands on the wire. Numbers as wire_number(). A string cannot hold a double quote and has
+/// no escapes: a double quote becomes a single one, what is not ASCII 32..126 becomes "?", and an
+/// empty string, which the grammar forbids, one space.
 [[nodiscard]] std::string to_text(const Item& item, NumberForm form = NumberForm::kSixteenDigits);
 /// Joined by ", "; bare numbers by "," as in scan data.
 [[nodiscard]] std::string to_text(std::span<const Item> items,
                                   NumberForm form = NumberForm::kSixteenDigits);
 
-/// The call with this name, or null. Servers order reports differently: match by name.
+/// The call with this name, or null. Reports come back in any order: match by name.
 [[nodiscard]] const Item* find_call(std::span<const Item> items, std::string_view name);
 /// The only argument of a call, when it is a number.
 [[nodiscard]] std::optional<double> single_number(const Item& call);
@@ -89,7 +89,7 @@ struct Item {
 /// The contents of a string, or of a call whose only argument is one: "T" and Tool.Name("T").
 [[nodiscard]] std::optional<std::string> string_of(const Item& item);
 
-/// A command of a client:  tag method(arguments).
+/// What a client sends:  tag method(arguments).
 struct Command {
   Tag tag;
   std::string method;
@@ -104,50 +104,55 @@ struct Command {
 [[nodiscard]] std::string method_text(const Command& command,
                                       NumberForm form = NumberForm::kSixteenDigits);
 
-/// Why a line is not a command.
-struct Refusal {
-  int number = 0;          ///< From the error list (internal/errors.h).
-  std::optional<Tag> tag;  ///< None when the line has no tag to answer to.
-  std::string what;        ///< For the user, and for the log.
+/// A line as it came, without its end.
+struct RawLine {
+  std::string text;
+  bool crlf = true;  ///< Ended by CR LF and not by LF alone.
 };
 
-/// Parses a line from a client strictly: the grammar decides, and an event tag is required for
-/// event commands and refused for all others. Only spaces after the last parenthesis are tolerated.
+/// Why a line is no command.
+struct Refusal {
+  int number = 0;          ///< Of the error list (ipp_errors.h).
+  std::optional<Tag> tag;  ///< None when the line has no tag that could be answered.
+  std::string what;        ///< For a person, and for the log.
+};
+
+/// Reads a line from a client, strictly: the grammar decides, and an event tag belongs to event
+/// commands and to them only. Spaces after the last parenthesis are accepted all the same.
 /// @param line  Any bytes, without CR LF.
 /// @return  The command; or 0001, 0002 (tag), 0007 (a character outside ASCII 32..126), 0008 (too
-///          long, too deep), 0502 (form of the arguments), 0507 (no such method:
-///          internal/methods.h), 0509 (malformed number). O(length) time and memory; throws only
-///          bad_alloc.
+///          long, too deep), 0502 (form of the arguments), 0507 (no such method: ipp_methods.h),
+///          0509 (a number out of form). O(length) time and memory; never throws but bad_alloc.
 [[nodiscard]] tl::expected<Command, Refusal> parse_command(std::string_view line);
 /// The same; 0007 for a line that LF alone ends.
 [[nodiscard]] tl::expected<Command, Refusal> parse_command(const RawLine& line);
 
-/// An error reported by the server:  Error(severity, number, method, text).
+/// An error as the server reports it:  Error(severity, number, method, text).
 struct ErrorReport {
   int severity = 0;
   int number = 0;
-  std::string method;  ///< The method that failed; often the whole command.
+  std::string method;  ///< What failed; often the whole command.
   std::string text;
 
   friend bool operator==(const ErrorReport&, const ErrorReport&) = default;
 };
 
-/// The report of a number with the severity and text of the list; an unknown number gives 3, "Error
-/// <number>".
+/// The report of a number with the severity and text of the list; a number that is not there is 3,
+/// "Error <number>".
 [[nodiscard]] ErrorReport error_report(int number, std::string_view method);
 
 /// "error 1006, severity 2: Surface not found (00012 PtMeas(...))".
 [[nodiscard]] std::string in_words(const ErrorReport& error);
 
-/// A response of a server.
+/// What a server sends.
 struct Response {
   enum class Kind { kAck, kData, kError, kComplete };
 
   Tag tag;
   Kind kind = Kind::kAck;
-  std::vector<Item> data;  ///< For kData; empty when the text follows no grammar (XML).
-  std::string raw;         ///< For kData: the text after "# ".
-  ErrorReport error;       ///< For kError.
+  std::vector<Item> data;  ///< Of kData; empty when its text follows no grammar (XML).
+  std::string raw;         ///< Of kData: the text behind "# ".
+  ErrorReport error;       ///< Of kError.
 };
 
 [[nodiscard]] std::string ack_line(const Tag& tag);
@@ -156,12 +161,11 @@ struct Response {
                                     NumberForm form = NumberForm::kSixteenDigits);
 [[nodiscard]] std::string error_line(const Tag& tag, const ErrorReport& error);
 
-/// Parses a line from a server liberally: accepts bare strings and vectors, an unquoted method or a
-/// number of one to four digits in an error, any spaces, numbers with more digits than allowed,
-/// data of any form (`raw`).
+/// Reads a line from a server, liberally: bare strings and vectors, an unquoted method or a number
+/// of one to four digits in an error, any spaces, numbers with more digits than allowed, data of
+/// any form (`raw`).
 /// @return  The response; or kSyntax when there is no tag and response character, a character
-///          outside ASCII 32..126, a line above kMaxLineLength, or an error report without a
-///          number.
+///          outside ASCII 32..126, a line above kMaxLineLength, or an error report without number.
 [[nodiscard]] core::Result<Response> parse_response(std::string_view line);
 
 }  // namespace rondure::cmm::ipp
