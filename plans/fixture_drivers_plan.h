@@ -7,15 +7,15 @@
 
 namespace rondure::plans {
 
-// What single drivers of the fixture need, as the JSON spells it; see plan.h. Keys and meanings:
+// Settings of single fixture drivers, as the JSON spells them; see plan.h. Keys and meanings:
 // fixture_drivers_table.h.
 
 /// One axis on a Thorlabs APT unit.
 struct ThorlabsAxisPlan {
   std::string serial;
   std::string stage = "K10CR1";          ///< "K10CR1", "PRM1-Z8", "other".
-  std::string motor = "stepper";         ///< Of the stage "other": "stepper", "dc-servo".
-  std::optional<double> counts_per_deg;  ///< Take the place of the numbers of the stage.
+  std::string motor = "stepper";         ///< For the stage "other": "stepper", "dc-servo".
+  std::optional<double> counts_per_deg;  ///< Replace the numbers of the stage.
   std::optional<double> velocity_per_deg_s;
   std::optional<double> acceleration_per_deg_s2;
   double zero_deg = 0.0;             ///< Angle of the stage where the fixture reads 0.
@@ -35,12 +35,12 @@ struct CarriedSpherePlan {
   std::array<double, 3> center_mm = {0.0, 0.0, 0.0};  ///< Certified, frame of the ring.
 };
 
-/// How the pose is measured that a fixture without encoders was set to.
+/// Measurement of the pose to which a fixture without encoders was set.
 struct ReachedPosePlan {
   double sphere_diameter_mm = 20.0;
   std::vector<CarriedSpherePlan> spheres;
   int points = 7;                        ///< Touches of each sphere.
-  double setting_uncertainty_deg = 0.5;  ///< How far from the asked angle a hand may set it.
+  double setting_uncertainty_deg = 0.5;  ///< Largest deviation of a pose set by hand.
   double residual_limit_um = 20.0;
 };
 

@@ -20,9 +20,9 @@
 
 namespace rondure::plans {
 
-// The plan as its JSON spells it: degrees and micrometres where the key says so. The one place
-// where keys, units, ranges, meanings and defaults stand is plans/schema/internal/plan_table.h; a member
-// initialiser here is the default.
+// The plan as its JSON spells it: degrees and micrometres where the key says so. Keys, units,
+// ranges and meanings are defined only in plans/schema/internal/plan_table.h; a member initialiser
+// here is the default.
 
 struct PlanHead {
   std::string name;
@@ -43,8 +43,8 @@ struct PartPlan {
   std::string name;
   std::string drawing;
   double location_uncertainty_mm =
-      1.0;  ///< How far the surface may be from nominal at first touch.
-  std::optional<double> expansion_per_K;  ///< None: nothing is brought to 20 degC.
+      1.0;  ///< Largest deviation of the surface from nominal at first touch.
+  std::optional<double> expansion_per_K;  ///< None: no correction to 20 degC.
   double expansion_uncertainty_per_K = 1e-6;
   std::vector<SectionPlan> sections;
 };
@@ -52,28 +52,28 @@ struct PartPlan {
 struct MachinePlan {
   std::string driver = "simulated";
   double approach_mm = 3.0;   ///< Start of the search before the expected contact.
-  double search_mm = 3.0;     ///< End of the search behind it.
+  double search_mm = 3.0;  ///< End of the search beyond it.
   double clearance_mm = 5.0;  ///< Kept from the part while travelling.
   double travel_speed_mm_s = 100.0;
   double touch_speed_mm_s = 5.0;
   double scan_speed_mm_s = 10.0;
   std::optional<double> scale_expansion_per_K;  ///< Of the scales; none: the machine compensates.
   double scale_expansion_uncertainty_per_K = 1e-6;
-  std::array<double, 3> park_mm = {0.0, 0.0, 500.0};  ///< Tip position above everything.
+  std::array<double, 3> park_mm = {0.0, 0.0, 500.0};  ///< Tip position above all obstacles.
   std::array<double, 3> volume_min_mm = {-10'000.0, -10'000.0, -10'000.0};  ///< Reach of the tip.
   std::array<double, 3> volume_max_mm = {10'000.0, 10'000.0, 10'000.0};
-  double step_speed_mm_s = 10.0;  ///< Of a first run in single steps.
-  double resume_limit_um = 5.0;   ///< Largest change of a repeated touch before a run goes on.
-  // Of the driver "ippdme".
+  double step_speed_mm_s = 10.0;  ///< For a first run in single steps.
+  double resume_limit_um = 5.0;  ///< Largest change of a repeated touch at which a run is resumed.
+  // For the driver "ippdme".
   std::string host = "127.0.0.1";
   int port = 1294;
-  std::string tool;  ///< Empty: the tool that is active.
+  std::string tool;  ///< Empty: the active tool.
   double answer_limit_s = 5.0;
   double motion_limit_s = 120.0;
   std::string abort = "works";          ///< Or "broken".
   std::string retract = "to-approach";  ///< Or "by-distance".
   std::string numbers = "16-digits";    ///< On the wire; or "16-characters".
-  std::string point = "surface";        ///< That PtMeas names; or "center", of the tip.
+  std::string point = "surface";  ///< Named by PtMeas; or "center", of the tip.
 };
 
 /// A reference sphere on the base of the fixture.
@@ -81,12 +81,12 @@ struct DatumSpherePlan {
   std::array<double, 3> center_mm = {0.0, 0.0, 0.0};  ///< Nominal, base frame.
 };
 
-/// Where the base of the fixture is: found by touching its spheres.
+/// Position of the fixture base, found by touching its spheres.
 struct DatumPlan {
   double sphere_diameter_mm = 20.0;
   std::vector<DatumSpherePlan> spheres;
   int points = 7;               ///< Touches of each sphere.
-  double uncertainty_mm = 1.0;  ///< How far a sphere may be from its nominal place.
+  double uncertainty_mm = 1.0;  ///< Largest distance of a sphere from its nominal place.
   double residual_limit_um = 20.0;
 };
 
@@ -104,14 +104,14 @@ struct FixturePlan {
   double rim_height_mm = -1000.0;  ///< Machine z below which the tip must not go.
   double clamp_from_mm = 0.0;      ///< Clamped band on the part, part z; empty when from >= to.
   double clamp_to_mm = 0.0;
-  double ring_diameter_mm = 0.0;     ///< Outside of the clamping ring; 0: nothing passes it.
+  double ring_diameter_mm = 0.0;  ///< Outside of the clamping ring; 0: no tool passes it.
   double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
   double table_height_mm = -1000.0;  ///< Machine z.
   std::optional<DatumPlan> datum;
   std::optional<CalibrationPlan> calibration;   ///< None: the fixture is taken as nominal.
-  std::optional<ZaberPlan> zaber;               ///< Used by the driver of that name only.
-  std::optional<ThorlabsPlan> thorlabs;         ///< Needed by, and only by, the driver.
-  std::optional<ReachedPosePlan> reached_pose;  ///< The same of "manual".
+  std::optional<ZaberPlan> zaber;  ///< Used only by the driver of that name.
+  std::optional<ThorlabsPlan> thorlabs;  ///< Needed and accepted only by that driver.
+  std::optional<ReachedPosePlan> reached_pose;  ///< Needed and accepted only by "manual".
 };
 
 struct QualificationPlan {
@@ -125,9 +125,10 @@ struct QualificationPlan {
 
 struct ProbePlan {
   double tip_diameter_mm = 4.0;
-  double stylus_length_mm = 0.0;    ///< From the centre of the ball up; 0: only the ball counts.
+  /// From the centre of the ball up; 0: only the ball is considered.
+  double stylus_length_mm = 0.0;
   double stylus_diameter_mm = 0.0;  ///< Of the shaft.
-  double holder_diameter_mm = 0.0;  ///< Of what carries the stylus; 0: nothing.
+  double holder_diameter_mm = 0.0;  ///< Of the stylus holder; 0: none.
   QualificationPlan qualification;
 };
 
@@ -135,7 +136,7 @@ struct EnvironmentPlan {
   double min_degC = 18.0;
   double max_degC = 22.0;
   double temperature_uncertainty_K = 0.1;
-  std::optional<double> assumed_degC;  ///< Of part and scales where nobody measures it.
+  std::optional<double> assumed_degC;  ///< Of part and scales when not measured.
 };
 
 struct NominalPlan {
@@ -149,7 +150,7 @@ struct SamplingPlan {
   int points_per_layer = 7;
   double margin_mm = 5.0;
   double start_deg = 0.0;
-  double stagger = 1.0;          ///< 0: every layer starts alike; 1: evenly interleaved.
+  double stagger = 1.0;  ///< 0: all layers start at one angle; 1: evenly interleaved.
   std::string method = "touch";  ///< "touch" or "scan".
 };
 
@@ -161,13 +162,13 @@ struct MeasuringPosePlan {
 
 struct PoseSearchPlan {
   std::string strategy = "guided";
-  std::vector<MeasuringPosePlan> poses;  ///< Of "merged": at least two.
-  std::string merge = "joint";           ///< Of "merged": or "kinematics".
+  std::vector<MeasuringPosePlan> poses;  ///< For "merged": at least two.
+  std::string merge = "joint";  ///< For "merged"; or "kinematics".
   double start_alpha_deg = 0.0;
   double start_beta_deg = 0.0;
   std::vector<double> steps_deg = {5.0, 2.0};
   double min_step_deg = 0.05;  ///< End of step halving (refined, virtual).
-  int max_poses = 6;           ///< guided: gives up levelling after so many.
+  int max_poses = 6;  ///< guided: limit of levelling poses.
   int repeats = 5;             ///< Touches of every point of the final cloud.
 };
 
@@ -186,17 +187,17 @@ struct CharacteristicPlan {
   std::vector<HarmonicLimitPlan> harmonic_limits = {};  ///< Of the form "harmonic-limits".
 };
 
-/// How a file calls a column that an analysis reads.
+/// The name of a column in a file that uses another one.
 struct ColumnPlan {
-  std::string column;   ///< As the analysis names it, e.g. "H1_um".
-  std::string in_file;  ///< As the file names it.
+  std::string column;  ///< Name in the analysis, e.g. "H1_um".
+  std::string in_file;  ///< Name in the file.
 };
 
 struct SourcePlan {
   std::string file;  ///< CSV of tip centres or of series, relative to the plan.
   std::optional<double>
       tip_diameter_mm;  ///< Of the probe that took them; none: radii stay tip-centre radii.
-  std::vector<ColumnPlan> columns;  ///< Of series whose file names them otherwise.
+  std::vector<ColumnPlan> columns;  ///< For series whose file uses other names.
 };
 
 struct FeaturePlan {
@@ -206,10 +207,10 @@ struct FeaturePlan {
   NominalPlan nominal;
   SamplingPlan sampling;
   PoseSearchPlan pose_search;
-  std::optional<SpindlePlan> spindle;     ///< Needed by, and only by, the type of that name.
-  std::optional<WheelPlan> wheel;         ///< The same.
-  std::optional<ContourPlan> contour;     ///< The same.
-  std::optional<RotaryPlan> rotary_axes;  ///< The same.
+  std::optional<SpindlePlan> spindle;  ///< Needed and accepted only by the type of that name.
+  std::optional<WheelPlan> wheel;  ///< As spindle.
+  std::optional<ContourPlan> contour;  ///< As spindle.
+  std::optional<RotaryPlan> rotary_axes;  ///< As spindle.
   std::optional<SourcePlan> source;
   std::vector<CharacteristicPlan> characteristics;
 };
@@ -232,7 +233,7 @@ struct SimulatedPartPlan {
   double tilt_toward_deg = 0.0;
   double offset_x_mm = 0.0;
   double offset_y_mm = 0.0;
-  double expansion_per_K = 0.0;  ///< Real.
+  double expansion_per_K = 0.0;  ///< True value.
   std::vector<KeywayPlan> keyways;
   std::vector<BurrPlan> burrs;
   double dust_share = 0.0;  ///< Of the touches.
@@ -253,15 +254,16 @@ struct SimulatedFixturePlan {
   double zero_beta_deg = 0.0;
   double squareness_deg = 0.0;
   double repeatability_deg = 0.0;
-  std::optional<SimulatedMotionPlan> motion;  ///< None: the axes turn truly.
+  std::optional<SimulatedMotionPlan> motion;  ///< None: the axes have no errors.
 };
 
-/// What interrupts a simulated run, once: a resumed run meets none of it.
+/// Faults that interrupt a simulated run, once: a resumed run does not repeat them.
 struct SimulatedFaultsPlan {
   int connection_lost_at_touch = 0;  ///< From 1, 0: never.
   int fixture_stalls_at_move = 0;    ///< From 1, 0: never.
   double part_moved_um = 0.0;        ///< Shift of the part while the run is interrupted, ring x.
-  double fixture_off_deg = 0.0;      ///< Alpha beside the commanded one after the interruption.
+  /// Offset of alpha from the commanded angle after the interruption.
+  double fixture_off_deg = 0.0;
 };
 
 struct SimulationPlan {
@@ -288,7 +290,7 @@ struct Plan {
   std::optional<MachinePlan> machine;  ///< Needed when a feature is touched, not read from a file.
   std::optional<FixturePlan> fixture;
   std::optional<ProbePlan> probe;
-  std::optional<EnvironmentPlan> environment;  ///< None: its defaults, for what is touched.
+  std::optional<EnvironmentPlan> environment;  ///< None: its defaults, for touched features.
   std::vector<FeaturePlan> features;
   DecisionRulePlan decision_rule;
   std::optional<UncertaintyPlan> uncertainty;
@@ -299,15 +301,16 @@ struct Plan {
   std::string text;              ///< The file, byte for byte.
 };
 
-/// A plan, or everything that is wrong with it.
+/// A plan, or all its problems.
 using PlanOrProblems = tl::expected<Plan, std::vector<core::Error>>;
 
-/// Reads and checks a plan. Every problem is reported, not only the first: `where` is the JSON
+/// Reads and checks a plan. All problems are reported, not only the first: `where` is the JSON
 /// pointer of the value ("name.json:line:column" for text that is not JSON), `what` one sentence
-/// with value, unit and limit. Points files are opened and read too.
+/// with value, unit and limit. Points files are opened and read, too.
 [[nodiscard]] PlanOrProblems read_plan(const std::filesystem::path& path);
 
-/// The same for text; `folder` resolves points files, `name` stands in places of syntax errors.
+/// As read_plan(), for a text; `folder` resolves points files, `name` is used in places of syntax
+/// errors.
 [[nodiscard]] PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
                                         std::string_view name);
 

@@ -11,7 +11,7 @@ namespace rondure::plans {
 
 // decision_rule and uncertainty, as their JSON spells them. See plan.h.
 
-/// What is known of the parts before this one was measured.
+/// Knowledge of the parts before this one was measured.
 struct PriorPlan {
   std::string distribution = "gamma";  ///< Or "normal", cut at 0.
   double mean_um = 0.0;
@@ -22,13 +22,13 @@ struct DecisionRulePlan {
   std::string rule = "simple-acceptance";
   std::string measurand = "sampled-points";  ///< Or "whole-surface".
   std::string judge = "as-read";             ///< Or "corrected".
-  double guard_factor = 1.0;                 ///< Of "iso-14253-1".
-  double consumer_risk_percent = 5.0;        ///< Of "jcgm-106".
-  double producer_risk_percent = 5.0;        ///< Of "jcgm-106".
+  double guard_factor = 1.0;                 ///< For "iso-14253-1".
+  double consumer_risk_percent = 5.0;        ///< For "jcgm-106".
+  double producer_risk_percent = 5.0;        ///< For "jcgm-106".
   std::optional<PriorPlan> prior;
   double ratio = 4.0;                       ///< N of "n-to-1".
-  double acceptance_guard_percent = 100.0;  ///< Of "guard-band".
-  double rejection_guard_percent = 100.0;   ///< Of "guard-band".
+  double acceptance_guard_percent = 100.0;  ///< For "guard-band".
+  double rejection_guard_percent = 100.0;   ///< For "guard-band".
   // The statements of ASME B89.7.3.1; needed by "n-to-1" and "guard-band".
   std::string zones;
   std::string outcomes;
@@ -44,8 +44,8 @@ struct LobeInfluencePlan {
 
 struct ProbeInfluencesPlan {
   std::optional<double> repeatability_um;  ///< None: from the repeats of the run.
-  double degrees_of_freedom = 0.0;         ///< Behind it; 0: known.
-  double correlation_length_mm = 0.0;      ///< Of a scan; 0: each touch anew.
+  double degrees_of_freedom = 0.0;         ///< Of the value above; 0: known exactly.
+  double correlation_length_mm = 0.0;      ///< For a scan; 0: touches are independent.
   std::vector<LobeInfluencePlan> lobes;
   double form_limit_um = 0.0;
   std::optional<double> tip_radius_um;  ///< None: from the qualification of the run.

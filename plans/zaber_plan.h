@@ -4,22 +4,22 @@
 
 namespace rondure::plans {
 
-// The keys of a fixture behind a Zaber controller, as the JSON spells them; see plan.h. Keys and
-// meanings: zaber_table.h.
+// Keys of a fixture on a Zaber controller, as the JSON spells them; see plan.h. Keys and meanings:
+// zaber_table.h.
 
 struct ZaberAxisPlan {
-  int axis = 0;                      ///< 0: 1 of alpha, 2 of beta.
+  int axis = 0;                      ///< 0: 1 for alpha, 2 for beta.
   double microstep_deg = 0.0;        ///< 0: from the controller.
   std::string sense = "as-counted";  ///< Or "reversed".
   double zero_deg = 0.0;             ///< Angle at position 0.
-  double max_speed_deg_s = 0.0;      ///< 0: as the controller is set.
+  double max_speed_deg_s = 0.0;      ///< 0: the setting of the controller.
 };
 
 struct ZaberPlan {
   std::string connection = "usb";  ///< Or "serial".
-  std::string device;              ///< Of "serial".
-  int baud = 115'200;              ///< Of "serial".
-  std::string usb_serial;          ///< Of "usb"; empty: the only one plugged in.
+  std::string device;              ///< For "serial".
+  int baud = 115'200;              ///< For "serial".
+  std::string usb_serial;          ///< For "usb"; empty: the only one plugged in.
   int address = 1;
   ZaberAxisPlan alpha;
   ZaberAxisPlan beta;

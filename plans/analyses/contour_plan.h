@@ -13,7 +13,7 @@ namespace rondure::plans {
 /// Files of one ground part.
 struct ContourPartPlan {
   std::string name;
-  std::string axes;  ///< Trace of the control.
+  std::string axes;  ///< Trace of the controller.
   std::string pin;   ///< Contour of the pin from the gauge.
   std::string main;  ///< Of the neighbouring main journal; empty: none.
 };
@@ -58,7 +58,7 @@ struct SimulatedContourPlan {
   double c_error_spread = 0.0;  ///< Standard deviation of the size of C errors from part to part.
   std::vector<HarmonicPlan>
       rest;  ///< Non-following, of every part: amplitude cos(order beta - phase).
-  double rest_spread_um = 0.0;  ///< Size of what of it differs from part to part.
+  double rest_spread_um = 0.0;  ///< Part-to-part variation of that part.
   double c_noise_mdeg = 0.0;
   double x_noise_um = 0.0;
   double roughness_um = 0.0;  ///< Standard deviation of a gauge value.

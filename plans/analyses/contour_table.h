@@ -4,7 +4,7 @@
 #include "plans/schema/key_spec.h"
 #include "plans/analyses/spindle_table.h"
 
-// The part of plan_table.h that describes features of the type "contour" and their simulation.
+// The part of plan_table.h for features of the type "contour" and their simulation.
 
 namespace rondure::plans {
 

@@ -25,13 +25,13 @@ struct CombinedPosePlan {
 /// Calibration of the fixture with balls that it carries.
 struct RotaryPlan {
   std::vector<BallPlan> balls;
-  double ball_diameter_mm = 10.0;  ///< Calibrated: it is held while centres are fitted.
+  double ball_diameter_mm = 10.0;  ///< Calibrated; held constant while centres are fitted.
   int points = 9;                  ///< Touches of each ball in each pose.
-  double uncertainty_mm = 0.5;     ///< How far a ball may be from its nominal place.
+  double uncertainty_mm = 0.5;     ///< Largest distance of a ball from its nominal place.
   std::vector<double> alpha_stations_deg;
   std::vector<double> beta_stations_deg;
   std::vector<CombinedPosePlan> verification;  ///< Poses that the fit does not use.
-  double machine_uncertainty_um = 0.0;         ///< Standard, of a centre, beside the touches.
+  double machine_uncertainty_um = 0.0;  ///< Standard, of a centre, in addition to the touches.
   double valid_for_days = 365.0;
 };
 

@@ -4,8 +4,8 @@
 #include "plans/schema/key_spec.h"
 #include "plans/analyses/rotary_plan.h"
 
-// The part of plan_table.h that describes features of the type "rotary_axes", the simulated errors
-// that they find, and the calibration that other runs use.
+// The part of plan_table.h for features of the type "rotary_axes", the simulated errors that they
+// find, and the calibration that other runs use.
 
 namespace rondure::plans {
 

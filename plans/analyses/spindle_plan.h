@@ -15,7 +15,7 @@ struct SpindlePlan {
   std::optional<double> p1_to_p2_deg;
   std::optional<double> p2_to_p3_deg;  ///< One of these two.
   std::optional<double> p1_to_p3_deg;
-  double crank_radius_mm = 0.0;  ///< 0: an ordinary shaft; otherwise the arm follows a crank pin.
+  double crank_radius_mm = 0.0;  ///< 0: an ordinary shaft; else the arm follows a crank pin.
   double wheel_radius_mm = 0.0;
   double pin_radius_mm = 0.0;
   int samples = 1024;
@@ -44,7 +44,7 @@ struct SimulatedSpindlePlan {
   std::vector<HarmonicPlan> profile;   ///< amplitude cos(order theta - phase).
   std::vector<HarmonicPlan> motion_x;  ///< amplitude cos(order alpha - phase).
   std::vector<HarmonicPlan> motion_y;
-  double asynchronous_um = 0.0;  ///< Amplitude of a motion of 0.37 cycles a turn, X and Y.
+  double asynchronous_um = 0.0;  ///< Amplitude of a motion of 0.37 cycles per turn, X and Y.
   double eccentricity_um = 0.0;
   double eccentricity_deg = 0.0;
   double probe_noise_um = 0.0;

@@ -3,7 +3,7 @@
 #include "plans/schema/key_spec.h"
 #include "plans/analyses/spindle_plan.h"
 
-// The part of plan_table.h that describes features of the type "spindle" and their simulation.
+// The part of plan_table.h for features of the type "spindle" and their simulation.
 
 namespace rondure::plans {
 

@@ -9,7 +9,7 @@ namespace rondure::plans {
 // The keys of a feature of the type "wheel" and of its simulation, as the JSON spells them; see
 // plan.h. Keys and meanings: wheel_table.h.
 
-/// What the wheel is to grind, and how its path is made.
+/// The surface that the wheel is to grind, and the generation of its path.
 struct GroundSurfacePlan {
   std::string form = "polynomial";  ///< "polynomial", "asphere", "table".
   std::vector<double> coefficients;
@@ -23,7 +23,7 @@ struct GroundSurfacePlan {
   double from_mm = 0.0;
   double to_mm = 0.0;
   double step_mm = 0.1;
-  std::optional<double> cusp_um;  ///< In place of the step.
+  std::optional<double> cusp_um;  ///< Given instead of the step.
   std::string radius = "mean";    ///< "mean", "effective".
   double wheel_arc_from_deg = -90.0;
   double wheel_arc_to_deg = 90.0;

@@ -20,8 +20,8 @@
 
 namespace rondure::plans {
 
-/// Fixture, machine and part as one: what a plan is executed on. The runner sees nothing else of
-/// the world; which drivers stand behind it is the matter of open_cell().
+/// Fixture, machine and part together: a plan is executed on a cell. The runner uses nothing else;
+/// open_cell() selects the drivers.
 class Cell {
  public:
   virtual ~Cell() = default;
@@ -30,57 +30,56 @@ class Cell {
 
   [[nodiscard]] virtual fixture::Fixture& fixture() = 0;
   [[nodiscard]] virtual cmm::Machine& machine() = 0;
-  /// Whether the part exists in software only, here or behind a simulated server.
+  /// Whether the part exists in software only, in this program or in a simulated server.
   [[nodiscard]] virtual bool is_simulated() const = 0;
-  /// Nominal axes, on the base as found, with the errors that are known: all that the program may
-  /// assume.
+  /// Nominal axes on the located base, with the known errors: all that the program may assume.
   [[nodiscard]] const fixture::Kinematics& kinematics() const { return kinematics_; }
-  /// The base of the fixture was found there.
+  /// Sets the located base of the fixture.
   void set_base(const Eigen::Isometry3d& X_WF) { kinematics_.X_WF = X_WF; }
-  /// From now on the errors of this calibration are reckoned with.
+  /// From now on the kinematics include the errors of this calibration.
   void use(const fixture::Calibration& calibration) {
     kinematics_ = fixture::compensated(kinematics_, calibration);
   }
   /// Nominal part frame in the body frame: X_BP.
   [[nodiscard]] const Eigen::Isometry3d& nominal_part() const { return X_BP_; }
 
-  /// From now on this feature of the part in the clamping ring is measured.
+  /// From now on this feature of the clamped part is measured.
   virtual void mount(const FeaturePlan& feature) = 0;
   /// Turns the fixture; the part follows.
   [[nodiscard]] virtual core::Result<core::Pose> home_fixture() = 0;
   [[nodiscard]] virtual core::Result<core::Pose> turn_to(const core::Pose& commanded) = 0;
 
-  // A resumed run goes through what its journal says once more, without moving anything. Whoever
-  // keeps state that depends on the past keeps up with it here: a simulation has then the pose, the
-  // clock and the hidden truth of the run that was interrupted.
+  // A resumed run goes through its journal once more, without moving anything. A cell whose state
+  // depends on the past updates it here: a simulation then has the pose, the clock and the hidden
+  // truth of the interrupted run.
 
-  /// The homing of the fixture.
+  /// Recalls the homing of the fixture.
   [[nodiscard]] virtual core::Result<core::Pose> recall_home() = 0;
-  /// A turn of the fixture; kPoseRange for one that was refused.
+  /// Recalls a turn of the fixture; kPoseRange for one that was refused.
   [[nodiscard]] virtual core::Result<core::Pose> recall_turn(const core::Pose& commanded) = 0;
-  /// A touch; kNoTouch or kCollision when the part cannot have given it. Also called once after the
-  /// checks: the clock goes on as if there had been no interruption.
+  /// Recalls a touch; kNoTouch or kCollision when the part cannot have given it. Also called once
+  /// after the checks, so that the clock continues as if there had been no interruption.
   [[nodiscard]] virtual core::Result<void> recall_touch(const cmm::TouchCommand& command,
                                                         const cmm::TouchReading& reading) = 0;
-  /// A scan, by its last reading; otherwise like recall_touch().
+  /// Recalls a scan, by its last reading; otherwise like recall_touch().
   [[nodiscard]] virtual core::Result<void> recall_scan(const cmm::ScanCircleCommand& command,
                                                        const cmm::TouchReading& last);
-  /// Homes machine and fixture and turns the part to where the last recalled turn left it; gives
+  /// Homes machine and fixture and turns the part to the pose of the last recalled turn. Returns
   /// the pose that the fixture reads there.
   [[nodiscard]] virtual core::Result<core::Pose> home_again() = 0;
 
-  /// Noise-free tip centre of the last touch, where the world is simulated in this program. For the
-  /// truth that a simulation shows beside its result.
+  /// Noise-free tip centre of the last touch, if this program simulates the cell. For the truth
+  /// that a simulation shows beside its result.
   [[nodiscard]] virtual std::optional<Eigen::Vector3d> true_tip_W_mm() const = 0;
-  /// The same for all points of the last scan; empty where the world is real.
+  /// Noise-free tip centres of the last scan; empty for a real cell.
   [[nodiscard]] virtual std::vector<Eigen::Vector3d> true_scan_W_mm() const { return {}; }
-  /// The true errors of an axis of the fixture, where it is simulated in this program; see
+  /// The true errors of an axis of the fixture, if this program simulates it; see
   /// SimulatedFixture::true_errors().
   [[nodiscard]] virtual std::optional<fixture::AxisErrors> true_errors(bool /*carried*/,
                                                                        double /*angle_rad*/) const {
     return std::nullopt;
   }
-  /// Where the body frame really is, where the world is simulated in this program.
+  /// True position of the body frame, if this program simulates the cell.
   [[nodiscard]] virtual std::optional<Eigen::Isometry3d> true_body_to_machine() const {
     return std::nullopt;
   }
@@ -94,23 +93,23 @@ class Cell {
   Eigen::Isometry3d X_BP_ = Eigen::Isometry3d::Identity();
 };
 
-/// What a cell needs to know beside its plan.
+/// Settings of a cell that are not in its plan.
 struct CellOptions {
-  std::uint64_t seed = 1;               ///< Of all simulated noise; takes the place of the plan's.
-  bool resumed = false;                 ///< The faults of the simulation lie in the past.
-  std::filesystem::path wire_log = {};  ///< Of what goes to a machine and comes; "": none.
-  std::function<bool()> stop_requested = {};  ///< Asked while a machine moves: it stops at once.
-  fixture::SetByHand set_by_hand = {};        ///< Of a fixture "manual" in front of a real machine.
+  std::uint64_t seed = 1;               ///< Of all simulated noise; replaces the seed of the plan.
+  bool resumed = false;                 ///< The simulated faults have happened already.
+  std::filesystem::path wire_log = {};  ///< Log of all lines from and to a machine; "": none.
+  std::function<bool()> stop_requested = {};  ///< Polled during motions; true stops at once.
+  fixture::SetByHand set_by_hand = {};        ///< For a fixture "manual" with a real machine.
 };
 
-/// Whether a machine can do what the plan asks of it. kMachine, at the feature, when it is to scan
-/// and cannot.
+/// Checks that a machine has the abilities that the plan requires. kMachine, at the feature, when
+/// it has to scan and cannot.
 [[nodiscard]] core::Result<void> check_abilities(const Plan& plan,
                                                  const cmm::Capabilities& machine);
 
-/// Opens the cell of a plan that has `machine`, `fixture` and `probe`, with the drivers it names.
-/// Nothing moves. kMachine when a machine or a fixture cannot be reached, or lacks an ability
-/// (check_abilities()).
+/// Opens the cell of a plan that has `machine`, `fixture` and `probe`, with the drivers named
+/// there. Nothing moves. kMachine when a machine or a fixture cannot be reached, or lacks an
+/// ability (check_abilities()).
 [[nodiscard]] core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan,
                                                             const CellOptions& options);
 

@@ -12,15 +12,15 @@
 
 namespace rondure::plans {
 
-/// What stands in the way of the tool.
+/// Obstacles of the tool.
 enum class Body { kFeature, kSection, kShoulder, kRing, kRim, kTable, kSphere, kStem, kVolume };
-/// Which part of the tool met it.
+/// The part of the tool that meets an obstacle.
 enum class Limb { kBall, kShaft, kHolder };
 
-/// How near the tool may come on a move.
+/// Distance that the tool keeps on a move.
 enum class Phase {
-  kTravel,  ///< The clearance, from everything.
-  kNear,    ///< Beside the surface to be touched: from the part also the approach, if that is less.
+  kTravel,  ///< The clearance, from all obstacles.
+  kNear,  ///< Beside the surface to be touched: from the part only the approach, if that is less.
   kTouch,  ///< From the pre-touch point to the contact: the ball meets the surface, the shaft keeps
            ///< kTouchGap_mm from the part.
 };
@@ -36,18 +36,18 @@ struct Way {
 /// Sum of the lengths of the straight moves [mm].
 [[nodiscard]] double length_mm(const Polyline& path);
 
-/// Where part and clamping ring are, machine frame.
+/// Positions of part and clamping ring, machine frame.
 struct Placement {
   Eigen::Isometry3d X_WP = Eigen::Isometry3d::Identity();  ///< The part, as best known.
-  Eigen::Isometry3d X_WN = Eigen::Isometry3d::Identity();  ///< Its nominal seat: there is the ring.
+  Eigen::Isometry3d X_WN = Eigen::Isometry3d::Identity();  ///< Its nominal seat, where the ring is.
 };
 
-/// A place where the tool would come too near to something.
+/// A place where the tool would come too close to an obstacle.
 struct Hit {
   Body body = Body::kFeature;
   Limb limb = Limb::kBall;
-  double room_mm = 0.0;                                ///< Distance that is to be kept.
-  Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();  ///< End of the move on which it happens.
+  double room_mm = 0.0;  ///< Distance to keep.
+  Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();  ///< End of the move on which it occurs.
 };
 
 /// "the shaft of the stylus would come nearer than 5.3 mm to the clamping ring on the way to
@@ -55,7 +55,8 @@ struct Hit {
 [[nodiscard]] std::string in_words(const Hit& hit);
 
 /// The tool, pointing to machine -z: ball, shaft from its centre up, holder above the shaft. Shaft
-/// and holder have round ends, as if a ball ran along their axes: more than there is.
+/// and holder are modelled with round ends, as swept balls, which is slightly more than the real
+/// tool.
 struct Tool {
   double tip_radius_mm = 2.0;
   double shaft_length_mm = 0.0;  ///< 0: only the ball is considered.
@@ -65,18 +66,18 @@ struct Tool {
 
 [[nodiscard]] Tool tool_of(const Plan& plan);
 
-/// Everything a plan says to be in the cell while one feature is inspected, as simple solids: the
-/// surface, sections of the part beside it, clamping ring, rim of the bowl, table, reference sphere
-/// with its stem; and the volume of the machine.
+/// All obstacles in the cell during the inspection of one feature, as simple solids: the surface,
+/// sections of the part beside it, clamping ring, rim of the bowl, table, reference sphere with its
+/// stem; and the volume of the machine.
 class Scene {
  public:
   Scene(const Plan& plan, const FeaturePlan& feature);
 
   [[nodiscard]] const Tool& tool() const { return tool_; }
-  /// The same scene with another tool.
+  /// Changes the tool.
   void take(const Tool& tool) { tool_ = tool; }
-  /// The first place where the tool comes too near on these moves, if there is one. Exact but for
-  /// what Obstacle::meets() says, and never too late.
+  /// The first place on these moves where the tool comes too close, if there is one. Exact except
+  /// for the margins of Obstacle::meets(), which err on the safe side.
   [[nodiscard]] std::optional<Hit> first_hit(const Way& way, const Placement& placement,
                                              const PathGeometry& geometry) const;
 
@@ -87,7 +88,7 @@ class Scene {
     Frame frame = Frame::kMachine;
     Eigen::Vector3d origin_mm = Eigen::Vector3d::Zero();  ///< Of its own frame, axes parallel.
     Revolved shape;
-    std::vector<Obstacle> grown = {};  ///< As far as asked for.
+    std::vector<Obstacle> grown = {};  ///< Solids with the clearances requested so far.
   };
 
   void add(Body body, Frame frame, const Eigen::Vector3d& origin_mm, const Revolved& shape);

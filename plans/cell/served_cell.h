@@ -12,8 +12,8 @@
 
 namespace rondure::plans {
 
-/// The virtual cell of a plan as it stands behind an I++ DME server: machine, part and the two-axis
-/// fixture, which AlignPart turns.
+/// The simulated cell of a plan for an I++ DME server: machine, part and the two-axis fixture,
+/// which AlignPart turns.
 class ServedCell final : public cmm::ipp::Backend {
  public:
   /// @param plan  Has `machine`, `fixture`, `probe` and `simulation`, and a feature to touch; the
@@ -31,19 +31,19 @@ class ServedCell final : public cmm::ipp::Backend {
  private:
   std::vector<FeaturePlan> features_;
   SimulatedCell cell_;
-  core::Pose pose_;  ///< As the fixture reads it.
+  core::Pose pose_;  ///< As read back from the fixture.
 };
 
-/// The point that a command of I++ DME names by `machine.point`.
+/// The point meant by I++ DME commands, from `machine.point`.
 [[nodiscard]] cmm::ipp::NamedPoint named_point_of(const MachinePlan& machine);
-/// How numbers are sent by `machine.numbers`.
+/// The form of sent numbers, from `machine.numbers`.
 [[nodiscard]] cmm::ipp::NumberForm number_form_of(const MachinePlan& machine);
 
-/// What the server is told by the plan: speeds, distances, tip, temperature, named
-/// points, numbers.
+/// The settings of the server from the plan: speeds, distances, tip, temperature, named points,
+/// numbers.
 [[nodiscard]] cmm::ipp::ServerOptions server_options(const Plan& plan);
 
-/// kMeaning, with what to do, when nothing of the plan can be served: no simulation, nothing to
+/// kMeaning, with the remedy, when the plan cannot be served: no simulation, or no feature to
 /// touch.
 [[nodiscard]] core::Result<void> check_servable(const Plan& plan);
 

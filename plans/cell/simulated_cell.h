@@ -13,15 +13,15 @@
 
 namespace rondure::plans {
 
-/// Machine and part in software, and the fixture too, or a real one. The simulated machine cannot
-/// know how the fixture moved the part; the cell tells it after every turn. A real fixture turns
-/// nothing but itself; the part in software then follows what it reads, with the errors that the
-/// plan simulates.
+/// Machine and part in software, with a simulated or a real fixture. The simulated machine does not
+/// know how the fixture moves the part; the cell places the part after every turn. With a real
+/// fixture the part in software follows the angles that it reads, with the errors that the plan
+/// simulates.
 class SimulatedCell final : public Cell {
  public:
   /// Opens the simulated cell of a plan that has `machine`, `fixture`, `probe` and `simulation`.
-  /// @param seed     Of all noise; takes the place of the plan's.
-  /// @param resumed  The faults of the simulation lie in the past.
+  /// @param seed     Of all noise; replaces the seed of the plan.
+  /// @param resumed  The simulated faults have happened already.
   /// @param driven   A real fixture; nullptr: a simulated one.
   SimulatedCell(const Plan& plan, std::uint64_t seed, bool resumed,
                 std::unique_ptr<fixture::Fixture> driven = nullptr);
@@ -33,7 +33,7 @@ class SimulatedCell final : public Cell {
 
   [[nodiscard]] bool is_simulated() const override { return true; }
 
-  /// Puts the part with this feature into the clamping ring.
+  /// Clamps the part with this feature.
   void mount(const FeaturePlan& feature) override;
   [[nodiscard]] core::Result<core::Pose> home_fixture() override;
   [[nodiscard]] core::Result<core::Pose> turn_to(const core::Pose& commanded) override;
@@ -48,7 +48,8 @@ class SimulatedCell final : public Cell {
   }
   [[nodiscard]] core::Result<core::Pose> home_again() override;
 
-  /// The next turn of the fixture has the noise of this one since its homing, which is number 0.
+  /// Gives the next turn of the fixture the noise of this number, counted from its homing, number
+  /// 0.
   void continue_at_turn(std::uint64_t number) { fixture_.continue_after(number - 1); }
 
   [[nodiscard]] std::optional<Eigen::Vector3d> true_tip_W_mm() const override {
@@ -81,7 +82,7 @@ class SimulatedCell final : public Cell {
   std::vector<cmm::ReferenceSphere> ring_spheres_;   ///< Those that show its pose, body frame.
   Eigen::Isometry3d true_X_WF_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d true_X_BP_ = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d shift_mm_ = Eigen::Vector3d::Zero();  ///< Of the part, while interrupted.
+  Eigen::Vector3d shift_mm_ = Eigen::Vector3d::Zero();  ///< Of the part, during the interruption.
   std::uint64_t turns_ = 0;                             ///< Of the fixture since its homing.
   core::Pose last_turn_;                                ///< As commanded.
 };

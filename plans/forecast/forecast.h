@@ -27,11 +27,12 @@ struct ForecastStage {
   enum class Kind { kQualification, kBase, kRing, kLocation, kCloud };
   Kind kind = Kind::kCloud;
   int feature = -1;          ///< Index; -1 for spheres.
-  core::Pose pose;           ///< As the fixture would read it.
+  core::Pose pose;  ///< As the fixture would read it.
   bool final_cloud = false;  ///< Its touches would be evaluated.
-  int times = 1;             ///< The cloud is touched so often.
-  int touches = 0;           ///< Of one time.
-  double path_mm = 0.0;      ///< Of all times: moves, and the strokes of the touches to and fro.
+  int times = 1;  ///< Number of times that the cloud is touched.
+  int touches = 0;  ///< Per time.
+  /// Of all times: moves, and the strokes of the touches in both directions.
+  double path_mm = 0.0;
   double time_s = 0.0;       ///< Of all times.
   Polyline moves_W;          ///< Ends of the moves of the first time, in order.
   Polyline contacts_W;       ///< Tip centres at the expected contacts, in the order of touching.
@@ -39,22 +40,21 @@ struct ForecastStage {
   Placement placement;                  ///< Of a cloud.
 };
 
-/// What a run would do, if part, fixture and probe were as the plan says.
+/// Forecast of a run whose part, fixture and probe are as stated in the plan.
 struct Forecast {
   std::vector<ForecastStage> stages;
   int touches = 0;
-  int poses = 0;  ///< The fixture turns so often.
+  int poses = 0;  ///< Number of turns of the fixture.
   double path_mm = 0.0;
   double time_s =
-      0.0;  ///< By the machine's clock; turning the fixture by hand or motor not counted.
+      0.0;  ///< By the machine clock, without turns of the fixture by hand or motor.
 };
 
 /// Goes through a plan as a run does, with the same pose search and the same planner, on a part
-/// without form error that sits where the plan says. Nothing moves, nothing is written. A real part
-/// sits elsewhere: `guided` then needs a pose or two more, each one more cloud.
+/// without form error at its nominal place. Nothing moves, nothing is written. A real part is
+/// displaced: `guided` then needs one or two more poses, each with one more cloud.
 /// @return  kUnreachable or kSampling with the pointer of the feature; a forecast without stages
-/// for
-///          a plan whose points all come from files.
+///          for a plan whose points all come from files.
 [[nodiscard]] core::Result<Forecast> forecast(const Plan& plan);
 
 }  // namespace rondure::plans

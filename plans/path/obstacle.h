@@ -12,8 +12,8 @@ namespace rondure::plans {
 /// ball about the origin.
 struct Revolved {
   double inner_mm = 0.0;  ///< 0: no hole.
-  double outer_mm = 0.0;  ///< Of a ball: its radius.
-  double from_mm = 0.0;   ///< Lower end; not of a ball.
+  double outer_mm = 0.0;  ///< Radius, also of a ball.
+  double from_mm = 0.0;   ///< Lower end; not for a ball.
   double to_mm = 0.0;
   bool ball = false;
 };
@@ -21,25 +21,25 @@ struct Revolved {
 /// Distance of a point from the solid, in its frame [mm]; 0 inside. Closed form.
 [[nodiscard]] double distance_mm(const Revolved& solid, const Eigen::Vector3d& point_mm);
 
-/// The parallelogram start + s along + t up, 0 <= s, t <= 1: what a straight limb of the tool
-/// passes on a straight move. `along` or `up` may be zero or parallel: then a segment or a point.
+/// The parallelogram start + s along + t up, 0 <= s, t <= 1, swept by a straight limb of the tool
+/// on a straight move. `along` or `up` may be zero or parallel: then it is a segment or a point.
 struct Sweep {
   Eigen::Vector3d start_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d along_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d up_mm = Eigen::Vector3d::Zero();
 };
 
-/// A solid with room around it. Most questions are settled by a plane or a cylinder that separates;
-/// the rest by exact intersection with a mesh of the grown solid, made when first needed.
-/// Not for use by several threads at once.
+/// A solid with a clearance around it. A separating plane or cylinder answers most queries; the
+/// rest use exact intersection with a mesh of the grown solid, built on first use. Not for use by
+/// several threads at once.
 class Obstacle {
  public:
-  /// @param grown_mm  Room to keep, > 0.
+  /// @param grown_mm  Clearance to keep, > 0.
   Obstacle(const Revolved& solid, double grown_mm);
 
-  /// Whether any point of the sweep, in the frame of the solid, is nearer to it than `grown_mm`.
-  /// Never false when one is nearer by more than 1e-6 mm; may be true up to 0.02 mm beside round
-  /// walls and up to 4 % of `grown_mm` beside edges before one is.
+  /// Whether any point of the sweep, in the frame of the solid, is closer to it than `grown_mm`.
+  /// Never false when a point is closer by more than 1e-6 mm; may be true from up to 0.02 mm
+  /// outside the limit at round walls, and up to 4 % of `grown_mm` outside it at edges.
   [[nodiscard]] bool meets(const Sweep& sweep) const;
   [[nodiscard]] double grown_mm() const { return grown_mm_; }
 

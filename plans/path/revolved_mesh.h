@@ -7,14 +7,15 @@
 
 namespace rondure::plans {
 
-/// A closed surface of revolution about z, made of plane triangles, that tells exactly whether a
-/// segment or a triangle meets it. The answer is that of exact arithmetic on the corners as given;
-/// only the facets stand for round walls. Should the library fail, the answer is "meets".
+/// A closed surface of revolution about z, made of plane triangles, with an exact intersection test
+/// for segments and triangles. The answer is that of exact arithmetic on the given corners; round
+/// walls are approximated by facets. If the library fails, the answer is "meets".
 class RevolvedMesh {
  public:
   /// @param profile_rz  Corners (r, z) of the outline in the half plane r >= 0 [mm], in order: from
   ///                    axis to axis, or around a ring (the last one is joined to the first).
-  /// @param facets      Of a full turn, >= 3. A facet lies inside the circle through its corners.
+  /// @param facets      Per full revolution, >= 3. A facet lies inside the circle through its
+  ///                corners.
   RevolvedMesh(std::span<const Eigen::Vector2d> profile_rz, int facets);
   RevolvedMesh(RevolvedMesh&&) noexcept;
   RevolvedMesh& operator=(RevolvedMesh&&) noexcept;

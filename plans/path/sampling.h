@@ -9,7 +9,7 @@
 
 namespace rondure::plans {
 
-/// A place on the nominal surface to be touched, in the part frame (z along the part axis, heights
+/// A point on the nominal surface to be touched, in the part frame (z along the part axis, heights
 /// as in the plan).
 struct Target {
   int layer = 0;  ///< 0 is the lowest.
@@ -23,25 +23,25 @@ struct Target {
 /// The targets of a feature, layer by layer from below, by angle within a layer:
 ///   z_j = from + margin + j (to - from - 2 margin) / (m - 1)
 ///   theta_ji = start + 360 deg (i / k + stagger j / (m k)).
-/// A single layer, as of a circle, lies in the middle.
+/// A single layer, as for a circle, lies in the middle.
 /// @return  kSampling when the layers or points cannot be placed.
 /// Source: methods, cylindricity section 4.
 [[nodiscard]] core::Result<std::vector<Target>> sampling_targets(const FeaturePlan& feature);
 
-/// Targets that find where a part sits before it is measured: two layers of three points, 60 deg
-/// between the layers. A cylinder has five unknowns (two crossings of its axis with two planes, and
-/// the radius); three points a layer give a crossing and a radius each, so the six touches
-/// determine all five and leave one check, that both layers have one radius. The variance of a
-/// crossing is 2/3 of that of a touch in every direction. The layers are kept from both ends by the
-/// margin and by how far the surface may be from nominal, so that a crooked part is met on its side
-/// and not on its rim.
+/// Targets that locate the part before it is measured: two layers of three points, offset by 60 deg
+/// from one another. A cylinder has five unknowns (two crossings of its axis with two planes, and
+/// the radius). Three points per layer give a crossing and a radius each, so the six touches
+/// determine all five and leave one check, that both layers have the same radius. The variance of a
+/// crossing is 2/3 of that of a touch in every direction. The layers keep a distance from both ends
+/// of the margin plus the largest deviation of the surface from nominal, so that a crooked part is
+/// touched on its side and not on its rim.
 /// @return  As sampling_targets().
 [[nodiscard]] core::Result<std::vector<Target>> locating_targets(const FeaturePlan& feature,
                                                                  double uncertainty_mm);
 
-/// Where to touch a reference sphere: unit vectors from its centre, all in the upper half space,
-/// pole first, then rings from above down to the equator, spread evenly over the half sphere.
-/// Fewer than 9 points are the pole and the equator.
+/// Directions for touching a reference sphere: unit vectors from its centre, all in the upper half
+/// space, the pole first, then rings from above down to the equator, spread evenly over the
+/// hemisphere. Fewer than 9 points are the pole and the equator.
 /// @param points  5..100, else kSampling.
 [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> qualification_directions(int points);
 

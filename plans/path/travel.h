@@ -9,7 +9,7 @@
 
 namespace rondure::plans {
 
-/// What the way of the tip around a part depends on. Part frame, heights as in the plan.
+/// Parameters of the path of the tip around a part. Part frame, heights as in the plan.
 struct PathGeometry {
   double radius_mm = 0.0;  ///< Nominal.
   double from_mm = 0.0;    ///< Lower end of the part.
@@ -17,8 +17,8 @@ struct PathGeometry {
   bool inside = false;     ///< true: a bore, open above.
   double tip_radius_mm = 2.0;
   double approach_mm = 3.0;   ///< From the pre-touch point to the expected contact.
-  double clearance_mm = 5.0;  ///< Kept from everything while travelling.
-  double stand_off_mm = 0.0;  ///< Added to the radius of the way around a shaft.
+  double clearance_mm = 5.0;  ///< Kept from all obstacles while travelling.
+  double stand_off_mm = 0.0;  ///< Added to the radius of the path around a shaft.
 
   friend bool operator==(const PathGeometry&, const PathGeometry&) = default;
 };
@@ -39,22 +39,22 @@ using Polyline = std::vector<Eigen::Vector3d>;
 /// Tip centre where the search begins.
 [[nodiscard]] Eigen::Vector3d pre_touch(const PathGeometry& geometry, const Target& target);
 
-/// From above the upper end of the part to a pre-touch point. The first corner lies
-/// tip radius + clearance beyond the end plane: a motion between it and the sky, straight along
-/// machine z, meets no part that is tilted by 90 deg or less.
+/// From above the upper end of the part to a pre-touch point. The first corner lies tip radius +
+/// clearance beyond the end plane: a motion between it and the sky, straight along machine z, does
+/// not meet a part that is tilted by 90 deg or less.
 [[nodiscard]] Polyline entry_path(const PathGeometry& geometry, const Target& target);
 
 /// Between two pre-touch points, both included. Outside: out to the travel radius, along the axis,
-/// around (the shorter way) and in again; no point nearer to the axis than
-/// radius + tip radius + max(approach, clearance) on the way around. Inside: the straight line.
+/// around (the shorter direction) and in again; on the path around, no point is closer to the axis
+/// than radius + tip radius + max(approach, clearance). Inside: the straight line.
 [[nodiscard]] Polyline path_between(const PathGeometry& geometry, const Target& from,
                                     const Target& to);
 
-/// entry_path() backwards.
+/// The reverse of entry_path().
 [[nodiscard]] Polyline exit_path(const PathGeometry& geometry, const Target& target);
 
 /// Around a reference sphere between two directions of qualification_directions(): from pre-touch
-/// point to pre-touch point, both included, never nearer than these to the sphere. Machine frame.
+/// point to pre-touch point, both included, never closer to the sphere than these. Machine frame.
 [[nodiscard]] Polyline path_around_sphere(const Eigen::Vector3d& center_W_mm, double radius_mm,
                                           const PathGeometry& geometry, const Eigen::Vector3d& from,
                                           const Eigen::Vector3d& to);

@@ -6,11 +6,11 @@
 
 namespace rondure::plans {
 
-/// The record that a run would leave if part, fixture and probe were as the plan says: settings,
-/// features, and the touches of the final clouds with their repeats, places and times. No touch has
-/// an error, the part is at 20 degC; touches that enter no result (qualification, location, search)
-/// and fields of the header that only a run knows are left out.
-/// @param forecast  Of this plan.
+/// The record of a run whose part, fixture and probe are as stated in the plan: settings, features,
+/// and the touches of the final clouds with their repeats, positions and times. The touches have no
+/// errors, and the part is at 20 degC. Touches that enter no result (qualification, location,
+/// search) and header fields known only to a run are left out.
+/// @param forecast  Forecast of this plan.
 [[nodiscard]] record::RunRecord expected_record(const Plan& plan, const Forecast& forecast);
 
 }  // namespace rondure::plans

@@ -6,7 +6,7 @@
 #include "plans/run/runner.h"
 #include "record/run_record.h"
 
-// What a plan says to the journal before the first touch: the rows of its head.
+// Converts a plan into the head of the journal, which is written before the first touch.
 
 namespace rondure::plans {
 
@@ -15,7 +15,7 @@ namespace rondure::plans {
 [[nodiscard]] bool is_touched(const FeaturePlan& feature);
 /// Whether anything of a plan is simulated.
 [[nodiscard]] bool simulates_anything(const Plan& plan);
-/// Whether the series of a feature are simulated: they are, also in front of a real machine.
+/// Whether the series of a feature are simulated, which is possible with a real machine, too.
 [[nodiscard]] bool simulates_analysis(const Plan& plan);
 /// Whether a feature needs the machine: a surface that is touched, or balls.
 [[nodiscard]] bool needs_machine(const FeaturePlan& feature);
@@ -23,15 +23,15 @@ namespace rondure::plans {
 [[nodiscard]] bool touches_anything(const Plan& plan);
 
 [[nodiscard]] record::Strategy strategy_of(const FeaturePlan& feature);
-/// A feature without the digest of its points file, which is not read here.
+/// Converts a feature, without the digest of its points file, which is not read here.
 [[nodiscard]] record::Feature feature_of(const FeaturePlan& plan);
-/// How a touched feature is sampled and brought to 20 degC, where the evaluation needs it.
+/// Sampling and temperature correction of a touched feature, as needed by the evaluation.
 [[nodiscard]] std::vector<record::Setting> settings_of(const Plan& plan,
                                                        const FeaturePlan& feature);
-/// What belongs to the whole run: the decision rule and the declared uncertainty, by their keys.
+/// Settings of the whole run: the decision rule and the declared uncertainty, by their keys.
 [[nodiscard]] std::vector<record::Setting> settings_of(const Plan& plan);
 /// The head without the descriptions of machine and fixture.
-/// @param seed  Of the simulation; kept when anything is simulated.
+/// @param seed  Of the simulation; stored when anything is simulated.
 [[nodiscard]] record::Header header_of(const Plan& plan, const RunOptions& options,
                                        std::uint64_t seed);
 /// The reference sphere; empty for a plan without a probe.

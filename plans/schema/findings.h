@@ -10,8 +10,8 @@
 
 namespace rondure::plans {
 
-/// Everything that is wrong with a plan, and which keys it gives. Problems of structure come first,
-/// in the order of the document, then those of meaning, in the order they were found.
+/// All problems of a plan, and the keys that it gives. Problems of structure come first, in the
+/// order of the document, then those of meaning, in the order of their detection.
 class Findings {
  public:
   /// A problem of structure; `order` is that of the value (JsonValue::order).
@@ -23,10 +23,11 @@ class Findings {
   void note_given(std::string pointer) { given_.insert(std::move(pointer)); }
   [[nodiscard]] bool is_given(const std::string& pointer) const { return given_.contains(pointer); }
 
-  /// No problem of structure at that pointer, inside it or around it: its values can be judged.
+  /// Whether there is no problem of structure at that pointer, inside it or around it, so that its
+  /// values can be checked.
   [[nodiscard]] bool sound(std::string_view pointer) const;
 
-  /// All problems in order; leaves nothing behind.
+  /// Moves all problems out, in order.
   [[nodiscard]] std::vector<core::Error> take();
 
  private:

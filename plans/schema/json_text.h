@@ -11,7 +11,7 @@ namespace rondure::plans {
 
 struct JsonMember;
 
-/// A JSON value that still knows what the text said: repeated keys, and the order of everything.
+/// A JSON value that keeps repeated keys and the order of the text.
 struct JsonValue {
   enum class Kind { kNull, kBoolean, kNumber, kText, kArray, kObject };
 
@@ -32,25 +32,25 @@ struct JsonMember {
   JsonValue value;
 };
 
-/// Limits that keep a hostile file from exhausting memory; no honest plan comes near.
+/// Limits that keep a hostile file from exhausting memory; real plans are far smaller.
 inline constexpr std::size_t kMaxPlanBytes = 10'000'000;
 inline constexpr std::size_t kMaxNesting = 64;
 inline constexpr std::size_t kMaxValues = 100'000;
 
-/// Parses the text of a plan. A UTF-8 byte order mark is passed over.
+/// Parses the text of a plan. A UTF-8 byte order mark is skipped.
 ///
-/// @param name  Stands in `where`: "name:line:column", both from 1, the column in characters.
+/// @param name  Name in `where`: "name:line:column", both from 1, the column in characters.
 /// @return  An object; or kSyntax: not UTF-8, not JSON (NaN, comments, trailing commas, numbers
 ///          beyond double), not an object, or beyond the limits above.
 [[nodiscard]] core::Result<JsonValue> parse_json(std::string_view text, std::string_view name);
 
-/// A value as a message shows it: `the text "abc"`, `the number 4.5`, `an array of 3 values`.
+/// A value as shown in messages: `the text "abc"`, `the number 4.5`, `an array of 3 values`.
 [[nodiscard]] std::string found(const JsonValue& value);
 
 /// Text in quotes, shortened, control characters escaped: safe for one line of a message.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
-/// A number as a message shows it: the shortest digits that read back, "100000" and not "1e+05".
+/// A number as shown in messages: the shortest digits that read back, "100000" and not "1e+05".
 [[nodiscard]] std::string plain(double value);
 
 /// The pointer to a member of an object or to an item of an array (RFC 6901: "~" and "/" escaped).

@@ -8,8 +8,8 @@
 
 namespace rondure::plans {
 
-// What plan_table.h says about a key, besides its name, its place and its default. Plain data: the
-// same specification reads a value, writes its schema and describes it in docs/plan.md.
+// The specification of a key in plan_table.h, besides its name, its place and its default. Plain
+// data: the same specification reads a value, writes its schema and describes it in docs/plan.md.
 
 /// A number, or each number of an array. The lower limit itself is allowed unless `above` is set.
 struct NumberSpec {
@@ -17,7 +17,7 @@ struct NumberSpec {
   double at_most = 0.0;
   bool above = false;  ///< The value must be greater than `at_least`, not equal to it.
   bool required = false;
-  core::Code code = core::Code::kOutOfRange;  ///< Of a value beyond the limits.
+  core::Code code = core::Code::kOutOfRange;  ///< For a value beyond the limits.
   std::string_view hint = {};  ///< Added to the message of a value beyond the limits.
   std::string_view meaning;
 };
@@ -33,18 +33,18 @@ struct TextSpec {
 /// An object, or an array of objects.
 struct GroupSpec {
   bool required = false;
-  bool empty_allowed = true;  ///< Of an array.
+  bool empty_allowed = true;  ///< For an array.
   std::string_view meaning;
 };
 
 inline constexpr std::size_t kMaxTextBytes = 10'000;
 inline constexpr std::size_t kMaxListItems = 1000;
 
-/// The unit a key carries in its suffix, as messages print it: "diameter_mm" gives "mm",
+/// The unit in the suffix of a key, as messages print it: "diameter_mm" gives "mm",
 /// "touch_speed_mm_s" gives "mm/s", "layers" gives "".
 [[nodiscard]] std::string_view unit_of(std::string_view key);
 
-/// The key without its unit suffix, also when that unit is one no plan uses ("diameter_inch").
+/// The key without its unit suffix, also for a unit that no plan uses ("diameter_inch").
 [[nodiscard]] std::string_view stem_of(std::string_view key);
 
 }  // namespace rondure::plans

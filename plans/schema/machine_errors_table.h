@@ -6,17 +6,17 @@
 #include "plans/schema/key_spec.h"
 #include "plans/machine_errors_plan.h"
 
-// The part of plan_table.h that describes the hidden errors of the simulated machine and the marks
-// on the simulated part.
+// The part of plan_table.h for the hidden errors of the simulated machine and the marks on the
+// simulated part.
 
 namespace rondure::plans {
 
-/// A number about zero.
+/// A number in -limit..limit.
 [[nodiscard]] inline NumberSpec within(double limit, std::string_view meaning) {
   return {.at_least = -limit, .at_most = limit, .meaning = meaning};
 }
 
-/// A number from `least` on.
+/// A number in least..most.
 [[nodiscard]] inline NumberSpec range(double least, double most, std::string_view meaning) {
   return {.at_least = least, .at_most = most, .meaning = meaning};
 }

@@ -8,7 +8,7 @@
 #include "plans/analyses/spindle_table.h"
 #include "plans/analyses/wheel_table.h"
 
-// The part of plan_table.h that describes the hidden truth of a simulation.
+// The part of plan_table.h for the hidden truth of a simulation.
 
 namespace rondure::plans {
 

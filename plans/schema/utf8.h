@@ -9,18 +9,18 @@ namespace rondure::plans {
 /// Index of the first byte that is not part of well-formed UTF-8 (RFC 3629), or text.size().
 [[nodiscard]] std::size_t first_not_utf8(std::string_view text);
 
-/// Index of the first character that no report can show, or text.size(): a control character other
-/// than line feed and tab (DEL and U+0080..9F among them), a noncharacter (U+FDD0..FDEF, U+FFFE and
-/// U+FFFF of every plane), or a byte that is not UTF-8.
+/// Index of the first character that a report cannot show, or text.size(): a control character
+/// other than line feed and tab (DEL and U+0080..9F among them), a noncharacter (U+FDD0..FDEF,
+/// U+FFFE and U+FFFF of every plane), or a byte that is not UTF-8.
 [[nodiscard]] std::size_t first_unshowable(std::string_view text);
 
-/// What stands at first_unshowable(), in words: "the character U+FFFE", "the byte 0xFF".
+/// The character or byte at first_unshowable(), in words: "the character U+FFFE", "the byte 0xFF".
 [[nodiscard]] std::string unshowable_in_words(std::string_view text, std::size_t index);
 
-/// The text on one line: a line feed becomes \n, what else no report can show \u001b or \xff.
+/// The text on one line: a line feed becomes \n, other unshowable characters \u001b or \xff.
 [[nodiscard]] std::string escaped_line(std::string_view text);
 
-/// Characters (code points) of well-formed UTF-8.
+/// Number of characters (code points) of well-formed UTF-8.
 [[nodiscard]] std::size_t characters(std::string_view text);
 
 /// At most `bytes` of well-formed UTF-8, cut between characters.

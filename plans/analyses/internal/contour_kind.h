@@ -7,8 +7,8 @@
 
 namespace rondure::plans {
 
-/// Simulated pins of a contour feature: traces of the control, pins as the envelope of all wheel
-/// positions with their non-following part, main journals that carry that part alone.
+/// Simulated pins of a contour feature: traces of the controller, pins as the envelope of all wheel
+/// positions with their non-following part, and main journals with that part alone.
 /// @return wheel_path()'s errors.
 [[nodiscard]] core::Result<AnalysisData> simulate_contour(const Plan& plan, std::size_t index,
                                                           std::uint64_t seed);

@@ -7,8 +7,8 @@
 
 namespace rondure::plans {
 
-/// The bytes of a file that a plan names; an error names it as the plan does.
-/// @return kFile when it is not there, no file, or larger than 1 GB.
+/// Reads a file named in a plan; an error uses the name in the plan.
+/// @return kFile when it does not exist, is not a file, or is larger than 1 GB.
 [[nodiscard]] core::Result<std::string> read_data_file(const std::filesystem::path& path,
                                                        const std::string& file);
 

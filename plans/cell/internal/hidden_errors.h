@@ -6,11 +6,11 @@
 
 namespace rondure::plans {
 
-/// The hidden errors of the simulated machine and probe: what the plan gives, else what its
-/// `errors` says.
+/// The hidden errors of the simulated machine and probe: the values in the plan, and the class in
+/// `errors` for the others.
 [[nodiscard]] cmm::MachineErrors machine_errors(const SimulationPlan& simulation);
 
-/// How the points of a simulated scan lie.
+/// The scatter of the points of a simulated scan.
 [[nodiscard]] cmm::ScanScatter scan_scatter(const SimulatedMachinePlan& machine);
 
 /// Expansion of, and dust on, the simulated part.

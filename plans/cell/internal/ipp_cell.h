@@ -11,9 +11,9 @@
 
 namespace rondure::plans {
 
-/// Two rotary axes of a machine behind I++ DME as a fixture. They are turned with AlignPart (14
-/// numbers): z and y of the ring are to point where the pose puts them; where they point afterwards
-/// gives the pose that was reached.
+/// Two rotary axes of an I++ DME machine as a fixture. AlignPart (14 numbers) turns z and y of the
+/// ring to their directions in the commanded pose; their directions afterwards give the pose that
+/// was reached.
 class IppFixture final : public fixture::Fixture {
  public:
   /// @param machine  Outlives the fixture.
@@ -30,15 +30,15 @@ class IppFixture final : public fixture::Fixture {
   fixture::FixtureLimits limits_;
 };
 
-/// Machine and fixture behind I++ DME, with a real part on them, or with the world of
-/// rondure simulate-cmm. A real part keeps no state that depends on the past; the simulator is told
-/// which feature is measured, and which turn of the fixture comes next, so that a run that was
-/// interrupted meets the noise it would have met. The fixture is the rotary axes of the machine, or
-/// a real one that this program drives.
+/// Machine and fixture over I++ DME, with a real part or with the simulated cell of rondure
+/// simulate-cmm. A real part has no state that depends on the past. The simulator receives the
+/// feature to measure and the number of the next turn of the fixture, so that a resumed run has the
+/// noise of the uninterrupted one. The fixture is the rotary axes of the machine, or a real one
+/// that this program drives.
 class IppCell final : public Cell {
  public:
-  /// Connects. Nothing moves. kMachine when nobody answers, when the machine has no rotary axes, or
-  /// is a simulation whose part a real fixture does not turn.
+  /// Connects. Nothing moves. kMachine when there is no answer, when the machine has no rotary
+  /// axes, or when it is a simulation whose part a real fixture cannot turn.
   /// @param driven  A real fixture; nullptr: the rotary axes of the machine.
   [[nodiscard]] static core::Result<std::unique_ptr<Cell>> open(
       const Plan& plan, const CellOptions& options,
@@ -65,15 +65,15 @@ class IppCell final : public Cell {
  private:
   IppCell(const Plan& plan, std::unique_ptr<cmm::IppMachine> machine,
           std::unique_ptr<fixture::Fixture> driven);
-  /// Tells a simulator what was not told yet.
+  /// Sends the feature to a simulator if it has changed.
   [[nodiscard]] core::Result<void> tell_feature();
   void note_turn(const core::Pose& commanded);
 
   std::unique_ptr<cmm::IppMachine> machine_;
   std::unique_ptr<fixture::Fixture> fixture_;
   std::vector<std::string> features_;  ///< Their ids, in the order of the plan.
-  std::int64_t feature_ = 0;           ///< That is measured.
-  std::int64_t told_feature_ = -1;     ///< That the simulator knows of.
+  std::int64_t feature_ = 0;           ///< Index of the measured one.
+  std::int64_t told_feature_ = -1;     ///< Last one sent to the simulator.
   std::int64_t turns_ = 0;             ///< Of the fixture since its homing.
   core::Pose last_turn_;               ///< As commanded.
 };

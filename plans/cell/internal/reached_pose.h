@@ -8,33 +8,33 @@
 #include "fixture/kinematics.h"
 #include "plans/run/internal/inspection.h"
 
-// The pose of a fixture without encoders, measured: reference spheres that turn with the part show
-// which angles a hand has set (`fixture.reached_pose` of the plan).
+// Measures the pose of a fixture without encoders: reference spheres that turn with the part show
+// the angles set by hand (`fixture.reached_pose` of the plan).
 
 namespace rondure::plans {
 
-/// How the spheres on the ring are touched when the fixture stands about in a pose: each from park
-/// height down to the pole, around, up again; `row.layer` counts on from the spheres of the base.
-/// @param kinematics  As far as the axes of the fixture are known.
+/// Steps that touch the spheres on the ring near a pose of the fixture: each from park height down
+/// to the pole, around, up again; `row.layer` continues the count of the spheres on the base.
+/// @param kinematics  Kinematics of the fixture as far as known.
 /// @param X_BP        Nominal part frame in the body frame.
-/// @return Empty without `fixture.reached_pose`; kUnreachable, naming the sphere, when the tool
-///         would come too near to part, ring or anything else the plan knows. Nothing moves.
+/// @return Empty without `fixture.reached_pose`; kUnreachable, with the name of the sphere, when
+/// the tool would come too close to part, ring or another known obstacle. Nothing moves.
 [[nodiscard]] core::Result<std::vector<TouchStep>> reached_pose_steps(
     const Plan& plan, const fixture::Kinematics& kinematics, const Eigen::Isometry3d& X_BP,
     int feature, const core::Pose& asked);
 
 /// The pose in which the spheres were found: least squares of the directions between them, so that
-/// errors of the place of the axes do not count.
-/// @param tips_W_mm  One list of tip centres a sphere, in the order of the plan.
-/// @param asked      The pose that was asked for; of two solutions the one next to it is meant.
-/// @return kCalibration for a sphere with too much form, or one that is not where the others put
-///         it; kRank when the spheres do not tell an angle in this pose; kMachine when the pose is
-///         farther from the asked one than setting_uncertainty_deg.
+/// position errors of the axes have no effect.
+/// @param tips_W_mm  One list of tip centres per sphere, in the order of the plan.
+/// @param asked      The commanded pose; of two solutions the closer one is taken.
+/// @return kCalibration for a sphere with too much form, or one that does not fit the others; kRank
+/// when the spheres do not determine an angle in this pose; kMachine when the pose differs from the
+/// commanded one by more than setting_uncertainty_deg.
 [[nodiscard]] core::Result<core::Pose> reached_pose(
     const Plan& plan, const fixture::Kinematics& kinematics,
     std::span<const std::vector<Eigen::Vector3d>> tips_W_mm, const core::Pose& asked);
 
-/// Makes the touches, journals them, and gives the pose.
+/// Makes and journals the touches. Returns the pose.
 [[nodiscard]] core::Result<core::Pose> measure_reached_pose(RunContext& context,
                                                             const std::vector<TouchStep>& steps,
                                                             const core::Pose& asked);

@@ -10,7 +10,8 @@ namespace rondure::plans {
 
 /// Opens the two Thorlabs units of a plan over USB; nothing turns.
 /// @param plan  Has `thorlabs`.
-/// @return  kMachine, at the key, when a unit is not plugged in, busy, not allowed, or another one.
+/// @return  kMachine, at the key, when a unit is not plugged in, busy, not permitted, or not the
+///          one in the plan.
 [[nodiscard]] core::Result<std::unique_ptr<fixture::Fixture>> open_thorlabs(
     const FixturePlan& plan);
 

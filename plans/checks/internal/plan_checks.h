@@ -5,15 +5,15 @@
 #include "plans/schema/findings.h"
 #include "plans/plan.h"
 
-// What no single key can show: keys that contradict each other, layers that miss the part, files
-// that cannot be read. Each check judges only values without a problem of structure.
+// Problems that no single key shows: contradicting keys, layers off the part, unreadable files.
+// Each check uses only values without a problem of structure.
 
 namespace rondure::plans {
 
-/// Everything below, in this order.
+/// Runs all checks below, in this order.
 void check_plan(const Plan& plan, Findings& findings);
 
-/// Travel, resolution, temperature limits, and that whatever a touched feature needs is there.
+/// Travel, resolution, temperature limits, and everything that touched features need.
 void check_equipment(const Plan& plan, Findings& findings);
 
 /// Ids, characteristics, and keys that have no effect.
@@ -28,7 +28,7 @@ void check_pose_search(const Plan& plan, std::size_t index, Findings& findings);
 /// The points file of a feature that has one: opened, read, counted.
 void check_points_file(const Plan& plan, std::size_t index, Findings& findings);
 
-/// Parameters and statements of the decision rule, and that the uncertainty gives what it needs.
+/// Parameters and statements of the decision rule, and whether the uncertainty provides its inputs.
 void check_uncertainty(const Plan& plan, Findings& findings);
 
 /// The pointer of a feature: "/features/2".

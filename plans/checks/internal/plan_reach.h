@@ -22,47 +22,46 @@ namespace rondure::plans {
   return {v[0], v[1], v[2]};
 }
 
-/// The axes of the fixture, as the plan states them.
+/// The axes of the fixture as stated in the plan.
 [[nodiscard]] fixture::Kinematics nominal_kinematics(const FixturePlan& fixture);
 
-/// Where the plan says that the part sits in the clamping ring: X_BP.
+/// The position of the part in the clamping ring as stated in the plan: X_BP.
 [[nodiscard]] Eigen::Isometry3d nominal_seat(const FixturePlan& fixture);
 
 [[nodiscard]] fixture::FixtureLimits limits_of(const FixturePlan& fixture);
 
-/// The pose in which the plan has the measurement of a feature begin.
+/// The pose in which the measurement of a feature starts.
 [[nodiscard]] core::Pose start_pose(const FeaturePlan& feature);
 
 /// A pose for messages: "(12.3400, 0.0000) deg".
 [[nodiscard]] std::string in_degrees(const core::Pose& pose, int decimals = 4);
 
-/// The part beside a feature: the sections of the plan, and the other touched outside surfaces that
-/// lie above or below it (not of a bore, whose block hides them).
+/// The part beside a feature: the sections of the plan, and the other touched outside surfaces
+/// above or below it (not for a bore, whose block hides them).
 [[nodiscard]] std::vector<SectionPlan> part_sections(const Plan& plan, const FeaturePlan& feature);
 
-/// The way of the tip around a feature. Shoulders, and a ring of known size, above the lower end of
-/// a shaft push the way around it out. `location_mm` is added to approach and clearance while the
-/// part is not located.
+/// The path geometry of a feature. Shoulders, and a ring of known size, above the lower end of a
+/// shaft increase the radius of the path around it. `location_mm` is added to approach and
+/// clearance while the part is not located.
 [[nodiscard]] PathGeometry path_geometry(const Plan& plan, const FeaturePlan& feature,
                                          double location_mm);
 
-/// Checks that no target outside lies in or below the clamped band of a ring of unknown size: the
-/// tip comes from above and cannot pass it.
-/// @return kUnreachable, naming layer and point (from 1), height and limit.
+/// Checks that no target on a shaft lies in or below the clamped band of a ring of unknown size:
+/// the tip comes from above and cannot pass it.
+/// @return kUnreachable with layer and point (from 1), height and limit.
 [[nodiscard]] core::Result<void> check_clamp(const std::vector<Target>& targets,
                                              const PathGeometry& geometry,
                                              const FixturePlan& fixture);
 
-/// Targets of a touched feature, if the tool can reach every one of them in the start pose, with
-/// the part where the plan says it is.
-/// @return kSampling or kUnreachable with the pointer of the feature's sampling; the first target
-///         that cannot be reached, how many more there are, why, and what would help. Nothing
-///         moves.
+/// The targets of a touched feature, if the tool can reach all of them in the start pose, with the
+/// part where the plan says it is.
+/// @return kSampling or kUnreachable with the pointer of the feature's sampling; names the first
+/// unreachable target, the number of others, the cause and the remedy. Nothing moves.
 [[nodiscard]] core::Result<std::vector<Target>> reachable_targets(const Plan& plan,
                                                                   std::size_t index);
 
-/// Checks what no single feature shows: that the park height clears the part in every pose and the
-/// reference sphere, and that the sphere stands beside whatever the fixture can sweep.
+/// Checks across all features that the park height clears the part in every pose and the reference
+/// sphere, and that the sphere stands outside the space that the fixture sweeps.
 /// @return kUnreachable with the pointer of the key to change.
 [[nodiscard]] core::Result<void> check_room(const Plan& plan);
 

@@ -7,22 +7,22 @@
 
 namespace rondure::plans {
 
-/// Lays the ways of the tip for one feature: what stands in the cell is built once, the order of
-/// touches found once for a list of targets. Runs and forecasts both ask here: one planner, one
-/// path.
+/// Plans the paths of the tip for one feature. The scene is built once, and the order of touches is
+/// determined once per list of targets. Runs and forecasts use the same planner, so their paths
+/// agree.
 class FeaturePlanner {
  public:
   FeaturePlanner(const Plan& plan, const FeaturePlan& feature);
 
   /// @param X_WB  The clamping ring (body frame) in the machine.
   /// @param X_BP  The part in the body frame, as best known.
-  /// @return kUnreachable, naming the first target that cannot be reached and why.
+  /// @return kUnreachable with the first unreachable target and the cause.
   [[nodiscard]] core::Result<CloudPath> lay(const std::vector<Target>& targets,
                                             const PathGeometry& geometry,
                                             const Eigen::Isometry3d& X_WB,
                                             const Eigen::Isometry3d& X_BP);
 
-  /// Those of the targets that the tool can reach, in their order.
+  /// The targets that the tool can reach, in their order.
   [[nodiscard]] std::vector<Target> reachable(const std::vector<Target>& targets,
                                               const PathGeometry& geometry,
                                               const Eigen::Isometry3d& X_WB,
@@ -32,7 +32,7 @@ class FeaturePlanner {
   const Plan& plan_;
   const FeaturePlan& feature_;
   Scene scene_;
-  std::vector<Target> ordered_;  ///< What `order_` was found for.
+  std::vector<Target> ordered_;  ///< The targets for which `order_` was determined.
   PathGeometry ordered_geometry_;
   std::vector<std::size_t> order_;
 };

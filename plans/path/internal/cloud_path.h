@@ -8,27 +8,28 @@
 
 namespace rondure::plans {
 
-/// A target that the tool cannot reach in a pose, and what is in its way.
+/// A target that the tool cannot reach in a pose, and the obstacle.
 struct Unreachable {
   Target target;
   Hit hit;
 };
 
-/// The way of the tip through all targets of a feature in one pose: from the sky (park height)
+/// The path of the tip through all targets of a feature in one pose: from the sky (park height)
 /// down, from pre-touch point to pre-touch point, and back to the sky. Every move was checked
-/// against the scene. Machine frame. Between two targets the shortest clear way of: around at the
-/// travel radius; the same further out, where the shaft leans over the part; over the end of the
-/// part (in a bore: along its axis); through the sky, which is always clear when both targets are
-/// reachable. Bores are entered along their axis. Keeps references to `scene`.
+/// against the scene. Machine frame. Between two targets it takes the shortest clear one of these
+/// paths: around at the travel radius; the same further out, where the shaft leans over the part;
+/// over the end of the part (in a bore: along its axis); through the sky, which is always clear
+/// when both targets are reachable. Bores are entered along their axis. Keeps references to
+/// `scene`.
 class CloudPath {
  public:
   /// @param targets   At least one.
-  /// @param proposed  Order in which to touch them, as indices; taken unless the targets' own order
-  ///                  is shorter, which is looked at for up to 2000 targets.
+  /// @param proposed  Order of touching, as indices; used unless the targets' own order is shorter,
+  ///                  which is checked for up to 2000 targets.
   CloudPath(const Scene& scene, const Placement& placement, const PathGeometry& geometry,
             double sky_mm, std::vector<Target> targets, std::vector<std::size_t> proposed);
 
-  /// Targets without a way; when there are any the ways below must not be asked for.
+  /// Targets without a path. @pre for the paths below: there are none.
   [[nodiscard]] const std::vector<Unreachable>& unreachable() const { return unreachable_; }
   /// Indices of the targets in the order of touching.
   [[nodiscard]] const std::vector<std::size_t>& order() const { return order_; }
@@ -36,7 +37,7 @@ class CloudPath {
   [[nodiscard]] const Target& target(std::size_t k) const { return targets_[order_[k]]; }
   /// From park height to the pre-touch point of the k-th target.
   [[nodiscard]] Polyline entry_W(std::size_t k) const;
-  /// From the pre-touch point before, or from park height, to that of the k-th target.
+  /// From the previous pre-touch point, or from park height, to that of the k-th target.
   [[nodiscard]] Polyline way_W(std::size_t k) const;
   /// From the pre-touch point of the k-th target to park height.
   [[nodiscard]] Polyline exit_W(std::size_t k) const;
@@ -57,7 +58,7 @@ class CloudPath {
   const Scene* scene_;
   Placement placement_;
   PathGeometry geometry_;
-  PathGeometry further_;  ///< With the way around further out, for the shaft.
+  PathGeometry further_;  ///< With a path around further out, for the shaft.
   double sky_mm_;
   std::vector<Target> targets_;
   std::vector<Entry> entries_;

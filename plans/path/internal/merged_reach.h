@@ -9,16 +9,17 @@
 
 namespace rondure::plans {
 
-/// A pose of a merged cloud must reach so many targets: a cylinder shows four parameters of it.
+/// Least number of reachable targets in a pose of a merged cloud: a cylinder has four parameters
+/// besides its radius.
 inline constexpr std::size_t kLeastTargets = 4;
 
 /// "pose (60, 0) deg: 2 targets can be reached, at least 4 are needed".
 [[nodiscard]] std::string too_few_targets(const core::Pose& pose, std::size_t reached);
 
-/// Checks of a feature of the strategy "merged", with the part where the plan says it is: every
-/// pose reaches kLeastTargets, and every target is reached in one of the poses.
-/// @return kUnreachable with the pointer of what to change, and with what is missing. Nothing
-///         moves.
+/// Checks a feature of the strategy "merged", with the part where the plan says it is: every pose
+/// reaches kLeastTargets, and every target is reached in one of the poses.
+/// @return kUnreachable with the pointer of the key to change, and the missing targets. Nothing
+/// moves.
 [[nodiscard]] core::Result<void> check_merged_reach(const Plan& plan, std::size_t index);
 
 }  // namespace rondure::plans

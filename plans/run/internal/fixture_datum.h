@@ -9,22 +9,22 @@
 
 namespace rondure::plans {
 
-/// How the reference spheres on the base of the fixture are touched, one after the other: from park
-/// height down to the pole, around, up again. Approach and search are longer by how far the base
-/// may be off. `row.layer` is the sphere. Empty without `fixture.datum`.
+/// Steps that touch the reference spheres on the base of the fixture, one after the other: from
+/// park height down to the pole, around, up again. Approach and search are longer by the largest
+/// offset of the base. `row.layer` is the sphere. Empty without `fixture.datum`.
 [[nodiscard]] core::Result<std::vector<TouchStep>> datum_steps(const Plan& plan);
 
 /// The base frame of the fixture, from the touches of its spheres: fits each sphere, then registers
-/// their nominal centres with those found.
-/// @param tips_W_mm  One list of tip centres a sphere, in the order of the plan.
+/// the nominal centres with the fitted ones.
+/// @param tips_W_mm  One list of tip centres per sphere, in the order of the plan.
 /// @return  Motion: X_WF. kCalibration when a sphere has more form than probing allows
 ///          (probe.qualification.form_limit_um) or the centres fit worse than residual_limit_um;
-///          kLocation when a sphere stands farther off than uncertainty_mm.
+///          kLocation when a sphere is farther off than uncertainty_mm.
 [[nodiscard]] core::Result<fit::Registration> fixture_base(
     const Plan& plan, std::span<const std::vector<Eigen::Vector3d>> tips_W_mm);
 
-/// Touches the spheres of `fixture.datum`, journals touches and result, and tells the cell; nothing
-/// without one. From then on the axes of the fixture are where its base is.
+/// Touches the spheres of `fixture.datum`, journals touches and result, and sets the base of the
+/// cell; does nothing without that key. The kinematics are then on the located base.
 [[nodiscard]] core::Result<void> find_fixture_base(RunContext& context);
 
 }  // namespace rondure::plans

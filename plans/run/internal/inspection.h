@@ -19,86 +19,87 @@
 
 namespace rondure::plans {
 
-/// One touch to make and the ways to it, in the machine frame.
+/// One touch to make and the paths to it, in the machine frame.
 struct TouchStep {
-  cmm::TouchCommand command;  ///< Its number is filled in.
-  record::Touch row;          ///< What it is for; number, reading and direction are filled in.
+  cmm::TouchCommand command;  ///< Its number is set later.
+  record::Touch row;  ///< Its purpose; number, reading and direction are set later.
   Polyline entry_W;           ///< From park height to its pre-touch point.
-  Polyline way_W;             ///< From where the tip stands to its pre-touch point.
-  Polyline aside_W = {};      ///< From there to the start of the touch, where that is elsewhere.
-  /// The scan that it stands for, as its first point, and how that ended.
+  Polyline way_W;  ///< From the position of the tip to its pre-touch point.
+  Polyline aside_W = {};  ///< From there to a start of the touch at another place.
+  /// For the first point of a scan: that scan, and its last reading.
   std::optional<cmm::ScanCircleCommand> scan = {};
   cmm::TouchReading scan_end = {};
 };
 
-/// One circle to scan and the ways to it.
+/// One circle to scan and the paths to it.
 struct ScanStep {
-  cmm::ScanCircleCommand command;  ///< Its number is filled in.
-  record::Touch row;               ///< Of its points; what differs among them is filled in.
-  Polyline entry_W;                ///< As of a touch at its first point.
+  cmm::ScanCircleCommand command;  ///< Its number is set later.
+  record::Touch row;  ///< Of its points; values that differ among them are set later.
+  Polyline entry_W;  ///< As for a touch at its first point.
   Polyline way_W;
 };
 
-/// What all features of a run share: cell, journal, the numbers of touches and poses, who watches,
-/// and what is known from before an interruption.
+/// State shared by all features of a run: cell, journal, the numbers of touches and poses,
+/// observers, and the data from before an interruption.
 struct RunContext {
   const Plan& plan;
   const RunOptions& options;
-  Cell* cell;  ///< None when every feature comes from a file.
+  Cell* cell;  ///< Null when every feature comes from a file.
   record::Journal& journal;
   std::int64_t next_touch = 0;
   int next_pose = 0;
   Progress progress = {};
   Past past = {};
   std::vector<TouchStep> last_steps = {};  ///< The last recalled touches of the present cloud.
-  bool retreating = false;      ///< The operator refused a motion: back and up without asking.
-  std::string doing = {};       ///< What the next motions are for, in words.
-  bool relocation_due = false;  ///< The part has moved: locate it, measure the cloud anew.
-  bool lost_place = false;  ///< An interruption was not overcome: only a person may move the tip.
+  bool retreating = false;  ///< The operator refused a motion: go back and up without asking.
+  std::string doing = {};  ///< Purpose of the next motions, in words.
+  bool relocation_due = false;  ///< The part has moved: locate it, measure the cloud again.
+  /// Recovery from an interruption failed: only a person may move the tip.
+  bool lost_place = false;
 
-  /// While touches come from the journal nothing moves.
+  /// Whether touches come from the journal; nothing moves then.
   [[nodiscard]] bool recalling() const { return past.recalling(next_touch); }
-  /// kStopped when the operator asked for it.
+  /// kStopped when the operator has requested it.
   [[nodiscard]] core::Result<void> check_stop() const;
   void show() const;
-  /// Makes a touch where the tip stands and journals it, or takes it from the journal; behind the
-  /// last known touch the machine is brought to where it stood (come_back()). Nothing is journalled
-  /// when it fails.
+  /// Makes and journals a touch at the position of the tip, or takes it from the journal. After the
+  /// last recorded touch the machine returns to its position (come_back()). A touch that fails is
+  /// not journalled.
   [[nodiscard]] core::Result<record::Touch> touch(TouchStep step);
-  /// The same for a whole scan: all of its points are journalled in one transaction before the next
-  /// command. When a run goes on behind it, its first point is touched for comparison.
+  /// As touch(), for a whole scan: all its points are journalled in one transaction before the next
+  /// command. When a run is resumed after it, its first point is touched for comparison.
   [[nodiscard]] core::Result<std::vector<record::Touch>> scan(ScanStep step);
-  /// Homes machine and fixture, goes to the last known touches and repeats them: kLocation, with
-  /// difference and limit, when one is not where it was; kMachine when the fixture does not read
-  /// what it read in that pose. Then the tip stands at the last of them.
+  /// Homes machine and fixture, goes to the last recorded touches and repeats them: kLocation, with
+  /// difference and limit, when one has moved; kMachine when the fixture does not read the recorded
+  /// pose. Then the tip is at the last of them.
   [[nodiscard]] core::Result<void> come_back();
-  /// kStopped when the operator, asked in a run of single steps, wants no motion.
+  /// kStopped when the operator refuses the motion in a run of single steps.
   [[nodiscard]] core::Result<void> ask_for_homing();
-  /// Moves the tip through the corners of a path. When the operator refuses one of the moves the
-  /// tip goes back to where the path began.
+  /// Moves the tip through the corners of a path. When the operator refuses one of the moves, the
+  /// tip goes back to the start of the path.
   [[nodiscard]] core::Result<void> follow(const Polyline& path_W);
   /// Straight up to the park height, from above the part or from the reference sphere.
   [[nodiscard]] core::Result<void> rise();
   /// Turns the fixture and journals the pose it reached, or takes both from the journal. kMachine
-  /// when it is turned to a recorded pose and does not read what it read then.
+  /// when it is turned to a recorded pose and does not read the recorded angles.
   [[nodiscard]] core::Result<record::PoseVisit> turn(int feature, const core::Pose& commanded);
   [[nodiscard]] core::Result<void> note(int feature, const std::string& text);
 
  private:
   [[nodiscard]] core::Result<void> ask(const NextMove& move);
   [[nodiscard]] core::Result<record::Touch> recall(TouchStep step, const record::Touch& known);
-  /// What follows when the part is not where it was: kLocation, with relocation_due set if the part
-  /// may be located again. The tip is at park height.
+  /// The error after the part has moved: kLocation, with relocation_due set if the part may be
+  /// located again. @pre The tip is at park height.
   [[nodiscard]] tl::unexpected<core::Error> part_has_moved(const core::Error& error);
   [[nodiscard]] core::Result<std::vector<record::Touch>> recall_scan(ScanStep step);
-  /// A step that came from the journal is among those that are checked before the run goes on, and
-  /// behind the last of them it does.
+  /// Adds a step from the journal to those that are checked before the run is resumed; after the
+  /// last one, resumes the run.
   [[nodiscard]] core::Result<void> keep_recalled(TouchStep step);
-  /// The simulation takes the state behind a recalled step.
+  /// Sets the simulation to its state after a recalled step.
   [[nodiscard]] core::Result<void> recall_state(const TouchStep& step);
-  /// Of the fixture: how far two readings of one pose may differ.
+  /// Largest difference of two readings of one pose of the fixture.
   [[nodiscard]] double resolution_rad() const;
-  /// Repeats a touch; the difference to the recorded one [mm].
+  /// Repeats a touch. Returns the difference from the recorded one [mm].
   [[nodiscard]] core::Result<double> repeat_touch(const TouchStep& step, std::int64_t check_id);
 };
 
@@ -125,47 +126,47 @@ class FeatureSession final : public PoseSession {
   void show(double f_mm) override;
 
  private:
-  /// Whether several poses make the cloud: it cannot begin anew in one of them.
+  /// Whether several poses make the cloud: it cannot be restarted in one of them.
   [[nodiscard]] bool merging() const { return !all_targets_.empty(); }
-  /// Keeps the truth of this part of such a cloud.
+  /// Stores the truth of this part of such a cloud.
   void keep_merged_truth();
-  /// Turns to a pose and touches one cloud, once more after each relocation that becomes due.
+  /// Turns to a pose and touches one cloud; repeats both after each relocation.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> turn_and_touch(
       const core::Pose& commanded);
-  /// Locates the part that has moved, in the pose where that was found.
+  /// Locates the part that has moved, in the pose in which that was found.
   [[nodiscard]] core::Result<void> locate_again();
   /// Touches the locating targets in a pose and follows the axis found.
   [[nodiscard]] core::Result<fit::Axis> locate_once(const core::Pose& commanded);
   /// Turns to a pose in which all targets can be reached.
   [[nodiscard]] core::Result<void> turn(const core::Pose& commanded,
                                         const std::vector<Target>& targets);
-  /// Touches targets once in the present pose, in the order of the path, rises, and gives the tip
+  /// Touches targets once in the present pose, in the order of the path, and rises. Returns the tip
   /// centres in the order of the targets.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> touch_cloud(
       const std::vector<Target>& targets, record::Touch::Purpose purpose);
   [[nodiscard]] core::Result<Eigen::Vector3d> touch(TouchStep step, const Target& target);
   /// Measures all targets once, as the plan samples them.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> measure_cloud();
-  /// Scans the targets layer by layer, rises, and gives the tip centres.
+  /// Scans the targets layer by layer and rises. Returns the tip centres.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> scan_cloud(
       const std::vector<Target>& targets);
-  /// The scan of a whole layer from the k-th target of a path through one target a layer.
+  /// The scan of a whole layer from the k-th target of a path that has one target per layer.
   [[nodiscard]] ScanStep scan_of(const CloudPath& path, std::size_t k, int points) const;
-  /// Targets that stand for all of them when their reach is looked at.
+  /// Targets that represent all of them in reach checks.
   [[nodiscard]] std::vector<Target> reach_targets() const;
-  /// The ways through these targets in a pose. kUnreachable: nothing has moved.
+  /// The path through these targets in a pose. kUnreachable: nothing has moved.
   [[nodiscard]] core::Result<CloudPath> lay(const std::vector<Target>& targets,
                                             const core::Pose& pose);
-  /// How the k-th target of a path is touched, from the one before it or from above.
+  /// The step that touches the k-th target of a path, from the one before it or from above.
   [[nodiscard]] TouchStep step_to(const CloudPath& path, std::size_t k,
                                   record::Touch::Purpose purpose) const;
-  /// After a refused or failed motion to the k-th target: from the pre-touch point where the tip
-  /// stands up to the sky.
+  /// After a refused or failed motion to the k-th target: moves from the pre-touch point at which
+  /// the tip is up to the sky.
   void leave(const CloudPath& path, std::size_t k);
-  /// The same fault with the point it happened at, and what a person can do about it.
+  /// The error with its point and the remedy.
   [[nodiscard]] tl::unexpected<core::Error> fault_at(const Target& target,
                                                      const core::Error& error) const;
-  /// Whether a located cylinder can be the part of the plan; otherwise nothing may move on it.
+  /// Checks that a located cylinder can be the part of the plan; otherwise nothing may move on it.
   [[nodiscard]] core::Result<void> check_location(const fit::LsCylinder& found) const;
   /// From now on targets follow this axis, seen in the present pose.
   void follow_axis(const fit::Axis& axis_W);
@@ -175,7 +176,7 @@ class FeatureSession final : public PoseSession {
   int index_;
   const FeaturePlan& feature_;
   std::vector<Target> targets_;
-  Eigen::Isometry3d X_BP_;  ///< Best knowledge of the part in the body frame.
+  Eigen::Isometry3d X_BP_;  ///< Best estimate of the part in the body frame.
   PathGeometry geometry_;
   FeaturePlanner planner_;
   core::Pose commanded_;
@@ -184,8 +185,8 @@ class FeatureSession final : public PoseSession {
   int repeat_ = 0;
   int visits_ = 0;
   std::vector<Eigen::Vector3d> truth_;  ///< Noise-free tips of the last first cloud of a pose.
-  std::ptrdiff_t truths_ = 0;           ///< Final clouds so far that have one.
-  std::vector<Target> all_targets_;     ///< Of a cloud that several poses make; otherwise empty.
+  std::ptrdiff_t truths_ = 0;  ///< Number of final clouds with a truth so far.
+  std::vector<Target> all_targets_;  ///< Of a cloud from several poses; otherwise empty.
   std::vector<Eigen::Vector3d> merged_truth_B_;  ///< Its noise-free tips, in the true body frame.
 };
 

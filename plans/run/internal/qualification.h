@@ -14,38 +14,39 @@ struct SphereToTouch {
   Eigen::Vector3d center_W_mm = Eigen::Vector3d::Zero();  ///< Nominal.
   double radius_mm = 0.0;
   int points = 13;
-  double uncertainty_mm = 0.0;  ///< How far it may be off: approach and search are longer by it.
+  double uncertainty_mm = 0.0;  ///< Largest offset; approach and search are longer by it.
 };
 
-/// How a sphere is touched: from park height down to its pole, then around it. kSampling when the
-/// points are too few or too many. Purpose and layer of the rows are those of a qualification.
+/// Steps that touch a sphere: from park height down to its pole, then around it. kSampling when
+/// there are too few or too many points. Purpose and layer of the rows are those of a
+/// qualification.
 [[nodiscard]] core::Result<std::vector<TouchStep>> sphere_steps(const Plan& plan,
                                                                 const SphereToTouch& sphere);
 
-/// Makes the touches of one sphere and rises; the tip centres.
-/// @param name  Of the sphere, for messages.
+/// Makes the touches of one sphere and rises. Returns the tip centres.
+/// @param name  Name of the sphere, for messages.
 [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> touch_sphere_steps(
     RunContext& context, const std::vector<TouchStep>& steps, const std::string& name);
 
-/// Touches several spheres, one after the other: the steps of one have one `row.layer`. Tip
-/// centres, one list a sphere, in the order of the steps.
-/// @param name  Of the spheres, for messages: "sphere of the fixture".
+/// Touches several spheres, one after the other; the steps of one sphere have the same `row.layer`.
+/// Returns one list of tip centres per sphere, in the order of the steps.
+/// @param name  Name of the spheres, for messages: "sphere of the fixture".
 [[nodiscard]] core::Result<std::vector<std::vector<Eigen::Vector3d>>> touch_spheres(
     RunContext& context, const std::vector<TouchStep>& steps, const std::string& name);
 
 /// The centre of a sphere from its tip centres. kCalibration when it has more form than probing
 /// allows (probe.qualification.form_limit_um).
-/// @param name  Of the sphere, for messages.
+/// @param name  Name of the sphere, for messages.
 [[nodiscard]] core::Result<Eigen::Vector3d> sphere_center(const Plan& plan,
                                                           const std::vector<Eigen::Vector3d>& tips,
                                                           const std::string& name);
 
-/// How the reference sphere of the plan is touched.
+/// Steps that touch the reference sphere of the plan.
 [[nodiscard]] core::Result<std::vector<TouchStep>> qualification_steps(const Plan& plan);
 
 /// Touches the reference sphere, journals the touches, and checks the effective tip radius and the
 /// probing form against the limits of the plan.
-/// @return kCalibration with value and limit when the probe is not fit for measuring.
+/// @return kCalibration with value and limit when the probe exceeds a limit.
 [[nodiscard]] core::Result<fit::ProbeTip> qualify_probe(RunContext& context);
 
 }  // namespace rondure::plans

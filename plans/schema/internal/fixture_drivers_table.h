@@ -3,11 +3,11 @@
 #include "plans/fixture_drivers_plan.h"
 #include "plans/schema/key_spec.h"
 
-// The part of plan_table.h that describes what single drivers of the fixture need.
+// The part of plan_table.h for the settings of single fixture drivers.
 
 namespace rondure::plans {
 
-/// How a stage counts, where the table of the driver does not say it.
+/// Units of a stage that is not in the table of the driver.
 template <class Visitor>
 void describe_scaling(Visitor& v, ThorlabsAxisPlan& p) {
   const auto factor = [](std::string_view meaning) {

@@ -5,8 +5,8 @@
 
 namespace rondure::plans {
 
-/// The word that was probably meant: the nearest by edit distance (a swap of neighbours counts one)
-/// when it is near enough to be a slip, else "".
+/// The most similar word by edit distance (swapped neighbours count as one edit), if it is close
+/// enough to be a typing error, else "".
 [[nodiscard]] std::string_view nearest_word(std::string_view word,
                                             const std::vector<std::string_view>& known);
 

@@ -76,7 +76,7 @@ void describe(Visitor& v, PartPlan& p) {
                      "path of the tip keeps clear of them."});
 }
 
-/// What the driver "ippdme" needs to know of its server.
+/// Settings of the server for the driver "ippdme".
 template <class Visitor>
 void describe_server(Visitor& v, MachinePlan& p) {
   v.text("host", p.host,

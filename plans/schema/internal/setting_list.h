@@ -14,9 +14,9 @@
 
 namespace rondure::plans {
 
-/// Visitor of plan_table.h that turns the section of an analysis into settings of the journal, so
-/// that it can be evaluated without its plan. Every key is written, defaults too; what is left out
-/// and has no default is absent. Keys of objects inside carry their path ("mask/from").
+/// Visitor of plan_table.h that converts the section of an analysis into settings of the journal,
+/// so that it can be evaluated without its plan. Every key is written, also with its default; a key
+/// without value and default is absent. Keys of nested objects carry their path ("mask/from").
 class SettingList {
  public:
   explicit SettingList(std::string path = {}) : path_(std::move(path)) {}
@@ -76,8 +76,8 @@ class SettingList {
   std::vector<record::Setting> settings_;
 };
 
-/// The settings of one section of a feature, such as &FeaturePlan::spindle; of a missing one the
-/// defaults.
+/// The settings of one section of a feature, such as &FeaturePlan::spindle; the defaults if the
+/// section is missing.
 template <auto section>
 [[nodiscard]] std::vector<record::Setting> settings_of_section(const FeaturePlan& feature) {
   SettingList list;

@@ -13,8 +13,8 @@
 
 namespace rondure::plans {
 
-/// Visitor of plan_table.h that fills a struct from a JSON object. A value that is missing or wrong
-/// leaves its default; every problem goes to the findings. Call finish() after describe().
+/// Visitor of plan_table.h that fills a struct from a JSON object. A missing or wrong value leaves
+/// its default; every problem goes to the findings. Call finish() after describe().
 class TableReader {
  public:
   /// All three must outlive the reader.
@@ -30,7 +30,7 @@ class TableReader {
   void numbers(std::string_view key, std::vector<double>& values, const NumberSpec& spec);
   void whole(std::string_view key, int& value, const NumberSpec& spec);
   void whole(std::string_view key, std::uint64_t& value, const NumberSpec& spec);
-  /// A text that is allowed but not read.
+  /// Accepts a text without using it.
   void passed_over(std::string_view key, std::string_view meaning);
 
   template <class T>
@@ -54,7 +54,7 @@ class TableReader {
     }
   }
 
-  /// Reports the keys of the object that the table does not know, and those that stand twice.
+  /// Reports the keys of the object that are not in the table, and repeated ones.
   void finish();
 
  private:

@@ -6,7 +6,7 @@
 #include "plans/schema/machine_errors_table.h"
 #include "plans/uncertainty_plan.h"
 
-// The part of plan_table.h that describes the decision rule and the uncertainty.
+// The part of plan_table.h for the decision rule and the uncertainty.
 
 namespace rondure::plans {
 

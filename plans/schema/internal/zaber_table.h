@@ -3,7 +3,7 @@
 #include "plans/schema/key_spec.h"
 #include "plans/zaber_plan.h"
 
-// The part of plan_table.h that describes a fixture behind a Zaber controller.
+// The part of plan_table.h for a fixture on a Zaber controller.
 
 namespace rondure::plans {
 
