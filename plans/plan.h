@@ -52,7 +52,7 @@ struct PartPlan {
 struct MachinePlan {
   std::string driver = "simulated";
   double approach_mm = 3.0;   ///< Start of the search before the expected contact.
-  double search_mm = 3.0;  ///< End of the search beyond it.
+  double search_mm = 3.0;     ///< End of the search beyond it.
   double clearance_mm = 5.0;  ///< Kept from the part while travelling.
   double travel_speed_mm_s = 100.0;
   double touch_speed_mm_s = 5.0;
@@ -63,7 +63,7 @@ struct MachinePlan {
   std::array<double, 3> volume_min_mm = {-10'000.0, -10'000.0, -10'000.0};  ///< Reach of the tip.
   std::array<double, 3> volume_max_mm = {10'000.0, 10'000.0, 10'000.0};
   double step_speed_mm_s = 10.0;  ///< For a first run in single steps.
-  double resume_limit_um = 5.0;  ///< Largest change of a repeated touch at which a run is resumed.
+  double resume_limit_um = 5.0;   ///< Largest change of a repeated touch at which a run is resumed.
   // For the driver "ippdme".
   std::string host = "127.0.0.1";
   int port = 1294;
@@ -73,7 +73,7 @@ struct MachinePlan {
   std::string abort = "works";          ///< Or "broken".
   std::string retract = "to-approach";  ///< Or "by-distance".
   std::string numbers = "16-digits";    ///< On the wire; or "16-characters".
-  std::string point = "surface";  ///< Named by PtMeas; or "center", of the tip.
+  std::string point = "surface";        ///< Named by PtMeas; or "center", of the tip.
 };
 
 /// A reference sphere on the base of the fixture.
@@ -104,13 +104,13 @@ struct FixturePlan {
   double rim_height_mm = -1000.0;  ///< Machine z below which the tip must not go.
   double clamp_from_mm = 0.0;      ///< Clamped band on the part, part z; empty when from >= to.
   double clamp_to_mm = 0.0;
-  double ring_diameter_mm = 0.0;  ///< Outside of the clamping ring; 0: no tool passes it.
+  double ring_diameter_mm = 0.0;     ///< Outside of the clamping ring; 0: no tool passes it.
   double rim_diameter_mm = 0.0;      ///< Outside of the bowl; 0: the rim is everywhere.
   double table_height_mm = -1000.0;  ///< Machine z.
   std::optional<DatumPlan> datum;
   std::optional<CalibrationPlan> calibration;   ///< None: the fixture is taken as nominal.
-  std::optional<ZaberPlan> zaber;  ///< Used only by the driver of that name.
-  std::optional<ThorlabsPlan> thorlabs;  ///< Needed and accepted only by that driver.
+  std::optional<ZaberPlan> zaber;               ///< Used only by the driver of that name.
+  std::optional<ThorlabsPlan> thorlabs;         ///< Needed and accepted only by that driver.
   std::optional<ReachedPosePlan> reached_pose;  ///< Needed and accepted only by "manual".
 };
 
@@ -150,7 +150,7 @@ struct SamplingPlan {
   int points_per_layer = 7;
   double margin_mm = 5.0;
   double start_deg = 0.0;
-  double stagger = 1.0;  ///< 0: all layers start at one angle; 1: evenly interleaved.
+  double stagger = 1.0;          ///< 0: all layers start at one angle; 1: evenly interleaved.
   std::string method = "touch";  ///< "touch" or "scan".
 };
 
@@ -163,12 +163,12 @@ struct MeasuringPosePlan {
 struct PoseSearchPlan {
   std::string strategy = "guided";
   std::vector<MeasuringPosePlan> poses;  ///< For "merged": at least two.
-  std::string merge = "joint";  ///< For "merged"; or "kinematics".
+  std::string merge = "joint";           ///< For "merged"; or "kinematics".
   double start_alpha_deg = 0.0;
   double start_beta_deg = 0.0;
   std::vector<double> steps_deg = {5.0, 2.0};
   double min_step_deg = 0.05;  ///< End of step halving (refined, virtual).
-  int max_poses = 6;  ///< guided: limit of levelling poses.
+  int max_poses = 6;           ///< guided: limit of levelling poses.
   int repeats = 5;             ///< Touches of every point of the final cloud.
 };
 
@@ -189,7 +189,7 @@ struct CharacteristicPlan {
 
 /// The name of a column in a file that uses another one.
 struct ColumnPlan {
-  std::string column;  ///< Name in the analysis, e.g. "H1_um".
+  std::string column;   ///< Name in the analysis, e.g. "H1_um".
   std::string in_file;  ///< Name in the file.
 };
 
@@ -207,9 +207,9 @@ struct FeaturePlan {
   NominalPlan nominal;
   SamplingPlan sampling;
   PoseSearchPlan pose_search;
-  std::optional<SpindlePlan> spindle;  ///< Needed and accepted only by the type of that name.
-  std::optional<WheelPlan> wheel;  ///< As spindle.
-  std::optional<ContourPlan> contour;  ///< As spindle.
+  std::optional<SpindlePlan> spindle;     ///< Needed and accepted only by the type of that name.
+  std::optional<WheelPlan> wheel;         ///< As spindle.
+  std::optional<ContourPlan> contour;     ///< As spindle.
   std::optional<RotaryPlan> rotary_axes;  ///< As spindle.
   std::optional<SourcePlan> source;
   std::vector<CharacteristicPlan> characteristics;

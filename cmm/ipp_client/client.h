@@ -27,12 +27,12 @@ struct IppMachineOptions {
   Speeds speeds;
   std::chrono::milliseconds answer_limit{5000};    ///< For & and for commands that move nothing.
   std::chrono::milliseconds motion_limit{120000};  ///< For one motion, homing and tool change.
-  bool abort_works = true;  ///< false: a server whose AbortE is broken; see session.h.
+  bool abort_works = true;          ///< false: a server whose AbortE is broken; see session.h.
   bool returns_to_approach = true;  ///< false: a server that refuses a negative Retract.
   ipp::NamedPoint point = ipp::NamedPoint::kSurface;
   ipp::NumberForm numbers = ipp::NumberForm::kSixteenDigits;
-  double tip_radius_mm = 0.0;  ///< Nominal, from the plan; 0: any tool is accepted.
-  double tip_tolerance_mm = 0.1;  ///< Largest difference of the machine's tool from it.
+  double tip_radius_mm = 0.0;            ///< Nominal, from the plan; 0: any tool is accepted.
+  double tip_tolerance_mm = 0.1;         ///< Largest difference of the machine's tool from it.
   std::function<bool()> stop_requested;  ///< Polled 50 times a second during a motion.
 };
 
@@ -183,10 +183,10 @@ class IppMachine final : public Machine {
   /// The previous touch and its answer.
   std::optional<std::pair<TouchCommand, Eigen::Vector3d>> last_touch_;
   std::optional<double> effective_radius_mm_;  ///< From the first touch with this tool.
-  double server_time_s_ = 0.0;  ///< From the last point.
-  double tool_radius_mm_ = 0.0;  ///< 0: reported by neither machine nor plan.
+  double server_time_s_ = 0.0;                 ///< From the last point.
+  double tool_radius_mm_ = 0.0;                ///< 0: reported by neither machine nor plan.
   bool tool_scans_ = true;                     ///< The active tool has Tool.ScanPar.
-  bool point_known_ = false;  ///< The point that the server means was verified.
+  bool point_known_ = false;                   ///< The point that the server means was verified.
   std::array<Eigen::Vector3d, 2> last_move_W_mm_ = {Eigen::Vector3d::Zero(),
                                                     Eigen::Vector3d::Zero()};  ///< From, to.
   std::int64_t next_touch_ = -1;  ///< Count of a simulator; -1: unknown.

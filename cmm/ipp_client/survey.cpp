@@ -201,7 +201,7 @@ class Surveyor {
   std::chrono::milliseconds limit_;
   Survey out_;
   bool has_temperatures_ = false;  ///< And the time, with points: since issue 1.5.
-  std::string lost_;  ///< Why no further answers arrive.
+  std::string lost_;               ///< Why no further answers arrive.
 };
 
 }  // namespace

@@ -38,7 +38,7 @@ struct Failure {
 /// Result of a command.
 struct Reply {
   std::vector<std::vector<Item>> lines;  ///< Data.
-  int report = 0;  ///< Number of an error to report after the data; 0: none.
+  int report = 0;                        ///< Number of an error to report after the data; 0: none.
 };
 
 using Outcome = tl::expected<Reply, Failure>;
@@ -171,7 +171,7 @@ class Controller {
   std::vector<std::string> scan_report_;
   std::optional<TouchReading> last_reading_;
   bool user_enabled_ = false;
-  double expansion_ = 0.0;  ///< Part.XpanCoefficient, stored for queries only.
+  double expansion_ = 0.0;       ///< Part.XpanCoefficient, stored for queries only.
   std::int64_t next_touch_ = 0;  ///< Number of the next touch: key of the simulated noise.
   int feature_ = 0;
 };

@@ -57,7 +57,7 @@ class Server {
   struct Waiting {
     Tag tag;
     std::string text;  ///< The line, for errors.
-    Command command;  ///< Empty for a refusal.
+    Command command;   ///< Empty for a refusal.
     std::optional<Failure> refusal;
   };
 
@@ -69,7 +69,7 @@ class Server {
     double begin_s = 0.0;
     double end_s = 0.0;
     std::vector<Eigen::Vector3d> way;  ///< Path of the tip in this phase.
-    std::optional<Failure> failure;  ///< Reported at the end of the time.
+    std::optional<Failure> failure;    ///< Reported at the end of the time.
   };
 
   /// OnMoveReportE.

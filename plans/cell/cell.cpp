@@ -49,7 +49,7 @@ core::Result<std::unique_ptr<Cell>> open_cell(const Plan& plan, const CellOption
   return cell;
 }
 
-// A real machine keeps no state that depends on the past.
+// A real machine has no state that depends on the past.
 core::Result<void> Cell::recall_scan(const cmm::ScanCircleCommand& /*command*/,
                                      const cmm::TouchReading& /*last*/) {
   return {};

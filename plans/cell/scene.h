@@ -20,7 +20,7 @@ enum class Limb { kBall, kShaft, kHolder };
 /// Distance that the tool keeps on a move.
 enum class Phase {
   kTravel,  ///< The clearance, from all obstacles.
-  kNear,  ///< Beside the surface to be touched: from the part only the approach, if that is less.
+  kNear,    ///< Beside the surface to be touched: from the part only the approach, if that is less.
   kTouch,  ///< From the pre-touch point to the contact: the ball meets the surface, the shaft keeps
            ///< kTouchGap_mm from the part.
 };
@@ -46,7 +46,7 @@ struct Placement {
 struct Hit {
   Body body = Body::kFeature;
   Limb limb = Limb::kBall;
-  double room_mm = 0.0;  ///< Distance to keep.
+  double room_mm = 0.0;                                ///< Distance to keep.
   Eigen::Vector3d tip_W_mm = Eigen::Vector3d::Zero();  ///< End of the move on which it occurs.
 };
 

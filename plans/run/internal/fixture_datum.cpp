@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 constexpr const char* kDatumPointer = "/fixture/datum";
 
-/// Where the base is, in words for the journal.
+/// Position of the base, in words for the journal.
 std::string in_words(const fit::Registration& base) {
   const Vector3d shift = base.motion.translation();
   const Eigen::AngleAxisd turn(base.motion.rotation());

@@ -22,10 +22,10 @@ namespace rondure::plans {
 /// One touch to make and the paths to it, in the machine frame.
 struct TouchStep {
   cmm::TouchCommand command;  ///< Its number is set later.
-  record::Touch row;  ///< Its purpose; number, reading and direction are set later.
+  record::Touch row;          ///< Its purpose; number, reading and direction are set later.
   Polyline entry_W;           ///< From park height to its pre-touch point.
-  Polyline way_W;  ///< From the position of the tip to its pre-touch point.
-  Polyline aside_W = {};  ///< From there to a start of the touch at another place.
+  Polyline way_W;             ///< From the position of the tip to its pre-touch point.
+  Polyline aside_W = {};      ///< From there to a start of the touch at another place.
   /// For the first point of a scan: that scan, and its last reading.
   std::optional<cmm::ScanCircleCommand> scan = {};
   cmm::TouchReading scan_end = {};
@@ -34,8 +34,8 @@ struct TouchStep {
 /// One circle to scan and the paths to it.
 struct ScanStep {
   cmm::ScanCircleCommand command;  ///< Its number is set later.
-  record::Touch row;  ///< Of its points; values that differ among them are set later.
-  Polyline entry_W;  ///< As for a touch at its first point.
+  record::Touch row;               ///< Of its points; values that differ among them are set later.
+  Polyline entry_W;                ///< As for a touch at its first point.
   Polyline way_W;
 };
 
@@ -51,8 +51,8 @@ struct RunContext {
   Progress progress = {};
   Past past = {};
   std::vector<TouchStep> last_steps = {};  ///< The last recalled touches of the present cloud.
-  bool retreating = false;  ///< The operator refused a motion: go back and up without asking.
-  std::string doing = {};  ///< Purpose of the next motions, in words.
+  bool retreating = false;      ///< The operator refused a motion: go back and up without asking.
+  std::string doing = {};       ///< Purpose of the next motions, in words.
   bool relocation_due = false;  ///< The part has moved: locate it, measure the cloud again.
   /// Recovery from an interruption failed: only a person may move the tip.
   bool lost_place = false;
@@ -185,8 +185,8 @@ class FeatureSession final : public PoseSession {
   int repeat_ = 0;
   int visits_ = 0;
   std::vector<Eigen::Vector3d> truth_;  ///< Noise-free tips of the last first cloud of a pose.
-  std::ptrdiff_t truths_ = 0;  ///< Number of final clouds with a truth so far.
-  std::vector<Target> all_targets_;  ///< Of a cloud from several poses; otherwise empty.
+  std::ptrdiff_t truths_ = 0;           ///< Number of final clouds with a truth so far.
+  std::vector<Target> all_targets_;     ///< Of a cloud from several poses; otherwise empty.
   std::vector<Eigen::Vector3d> merged_truth_B_;  ///< Its noise-free tips, in the true body frame.
 };
 

@@ -35,7 +35,7 @@ struct Journal::Impl {
   std::optional<Statements> statements;
   std::optional<Chain> chain;
   std::optional<std::int64_t> last_touch;
-  Header header;  ///< Header and poses as given: these rows change later.
+  Header header;                   ///< Header and poses as given: these rows change later.
   std::map<int, PoseVisit> poses;  ///< By id.
   bool ended = false;
   State state = State::kOpen;
