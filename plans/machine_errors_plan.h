@@ -34,7 +34,7 @@ struct PretravelLobePlan {
   double phase_deg = 0.0;
 };
 
-/// Hidden errors of the machine. What is given takes the place of what `errors` says.
+/// Hidden errors of the machine. A given value replaces that of the class in `errors`.
 struct SimulatedMachinePlan {
   std::string errors = "off";  ///< "off" or "typical".
   std::vector<TranslationErrorPlan> translations;

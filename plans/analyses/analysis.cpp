@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "plans/schema/json_text.h"
-#include "plans/checks/internal/plan_checks.h"
 #include "plans/analyses/internal/series_file.h"
+#include "plans/checks/internal/plan_checks.h"
+#include "plans/schema/json_text.h"
 #include "record/sha256.h"
 
 namespace rondure::plans {
@@ -65,7 +65,7 @@ void check_forms(const FeaturePlan& feature, const AnalysisKind& kind, const std
   }
 }
 
-/// Its own section is there and no other's; nothing stands there that has no effect.
+/// Checks that a feature has its own section and no others, and no keys without effect.
 void check_sections(const AnalysisKind& kind, const std::string& where, Findings& findings) {
   if (!findings.is_given(fmt::format("{}/{}", where, kind.type))) {
     findings.meaning(Code::kMissingKey, fmt::format("{}/{}", where, kind.type),

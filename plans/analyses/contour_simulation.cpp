@@ -23,7 +23,7 @@ constexpr std::uint64_t kGaugeStream = 0xc0a9u;
 constexpr int kHighestSpread = 6;
 constexpr std::size_t kPathSamples = 2048;
 
-/// What is hidden of one ground part.
+/// Hidden truth of one ground part.
 struct GroundWorld {
   const SimulatedContourPlan& hidden;
   double c_scale = 1.0;
@@ -55,7 +55,7 @@ GroundWorld world_of(const SimulatedContourPlan& hidden, std::uint64_t seed, std
   return out;
 }
 
-/// Samples of the control, in the sense and sign that the plan states.
+/// Samples of the controller, in the sense and sign that the plan states.
 record::Series axes_of(const GroundWorld& world, const ContourPlan& asked, std::uint64_t seed,
                        std::uint64_t feature, std::uint64_t part) {
   const SimulatedContourPlan& hidden = world.hidden;
@@ -77,7 +77,7 @@ record::Series axes_of(const GroundWorld& world, const ContourPlan& asked, std::
   return out;
 }
 
-/// What all wheel positions leave of the pin, less its nominal radius [um].
+/// The pin as the envelope of all wheel positions, less its nominal radius [um].
 core::Result<std::vector<double>> ground_um(const GroundWorld& world,
                                             const fit::CrankGeometry& geometry,
                                             std::size_t points) {
@@ -100,7 +100,7 @@ struct GaugeSetting {
   double roughness_um = 0.0;
 };
 
-/// A contour at equal angles beta as the gauge prints it.
+/// A contour at equal angles beta in the format of the gauge.
 record::Series gauge_of(const std::vector<double>& deviation_um, const GaugeSetting& setting,
                         core::KeyedNoise noise) {
   record::Series out;

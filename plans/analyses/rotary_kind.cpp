@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "plans/analyses/analysis.h"
-#include "plans/schema/json_text.h"
-#include "plans/checks/internal/plan_checks.h"
 #include "plans/analyses/rotary_table.h"
+#include "plans/checks/internal/plan_checks.h"
 #include "plans/schema/internal/setting_list.h"
+#include "plans/schema/json_text.h"
 
 namespace rondure::plans {
 namespace {
@@ -117,7 +117,7 @@ void check_cell(const Plan& plan, std::size_t index, Findings& findings) {
                      "has no effect: balls are touched; balls of a file are evaluated by \"rondure "
                      "fit rotary-axes\"; remove it");
   }
-  if (!plan.fixture) return;  // check_equipment() says it
+  if (!plan.fixture) return;  // check_equipment() reports this
   if (plan.fixture->id.empty() && findings.sound("/fixture/id")) {
     findings.meaning(Code::kMissingKey, "/fixture/id",
                      "this key is missing: what the fixture is called; its calibration belongs to "

@@ -6,11 +6,11 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/spindle/probe_layout.h"
 #include "fit/geometry/swing_arm.h"
+#include "fit/spindle/probe_layout.h"
 #include "plans/analyses/analysis.h"
-#include "plans/schema/internal/setting_list.h"
 #include "plans/analyses/spindle_table.h"
+#include "plans/schema/internal/setting_list.h"
 
 namespace rondure::plans {
 namespace {
@@ -24,13 +24,13 @@ constexpr std::array<std::string_view, 6> kSpindleForms = {
 constexpr std::array<record::WantedColumn, 5> kProbeColumns = {
     {{"alpha_deg"}, {"H1_um"}, {"H2_um"}, {"H3_um"}, {"beta_deg", false}}};
 constexpr std::uint64_t kProbeStream = 0x5b1d1eU;
-constexpr double kDriftCycles = 0.37;  ///< A turn: never in step with it.
+constexpr double kDriftCycles = 0.37;  ///< Per turn, so that it never repeats with the work.
 
 fit::SwingArm arm_of(const SpindlePlan& plan) {
   return {plan.crank_radius_mm, plan.wheel_radius_mm, plan.pin_radius_mm};
 }
 
-/// The stated layout; nothing of it is guessed.
+/// The layout stated in the plan; no value is guessed.
 core::Result<fit::ProbeLayout> layout_of(const SpindlePlan& plan) {
   if (plan.layout == "published-a") return fit::published_layout_a();
   if (plan.layout == "published-b") return fit::published_layout_b();
@@ -40,7 +40,7 @@ core::Result<fit::ProbeLayout> layout_of(const SpindlePlan& plan) {
   return fit::ProbeLayout::of(p2 * kDegree, between * kDegree);
 }
 
-/// Angles are given once and completely, or not at all.
+/// Checks that the angles are given once and completely, or not at all.
 bool check_angles(const SpindlePlan& plan, const std::string& where, Findings& findings) {
   const bool own = plan.layout == "angles";
   const auto refuse = [&](Code code, std::string_view key, std::string what) {
@@ -97,11 +97,11 @@ void check_spindle(const FeaturePlan& feature, const std::string& where, Finding
   }
 }
 
-/// What the simulated probes see at one angle of the work.
+/// The simulated profile and motion in front of the probes.
 struct ProbedWorld {
   const SimulatedSpindlePlan& hidden;
   fit::SwingArm arm;
-  std::array<double, 3> places_rad;  ///< Where the probes really are.
+  std::array<double, 3> places_rad;  ///< True angles of the probes.
 
   [[nodiscard]] double drift_um(double alpha) const {
     return hidden.asynchronous_um * std::sin(kDriftCycles * alpha);
@@ -117,7 +117,8 @@ struct ProbedWorld {
     return sum_of(hidden.profile, theta) +
            hidden.eccentricity_um * std::cos(theta - hidden.eccentricity_deg * kDegree);
   }
-  /// The reading of probe i, without noise: the exact distance along its line for a part of a known
+  /// The noise-free reading of probe i: the exact distance along its line for a part of known
+  /// radius, else to first order.
   /// radius, else to first order.
   [[nodiscard]] double reading_um(std::size_t i, double alpha) const {
     const double beta = arm.beta_rad(alpha);
@@ -158,7 +159,7 @@ record::Series readings(const ProbedWorld& world, int feature, std::uint64_t see
   return out;
 }
 
-/// Profile over the part and motion over the work, each at equal angles.
+/// Adds the profile over the part and the motion over the work, each at equal angles.
 void add_truth(const ProbedWorld& world, int feature, const SpindlePlan& plan, AnalysisData& out) {
   record::Series truth;
   truth.feature = feature;

@@ -8,8 +8,8 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
-#include "plans/schema/internal/setting_list.h"
 #include "plans/analyses/wheel_table.h"
+#include "plans/schema/internal/setting_list.h"
 
 namespace rondure::plans {
 namespace {
@@ -21,9 +21,9 @@ using core::kMicrometre;
 constexpr std::array<std::string_view, 3> kWheelForms = {"radius", "run-out", "roundness"};
 constexpr std::array<record::WantedColumn, 2> kEdgeColumns = {{{"x"}, {"z"}}};
 constexpr std::uint64_t kEdgeStream = 0x3e1eeU;
-constexpr int kBodyPoints = 3600;  ///< Of the noise-free body behind the stated truth.
+constexpr int kBodyPoints = 3600;  ///< Of the noise-free body for the stated truth.
 
-/// Keys that belong together, and those that have no effect.
+/// Checks keys that belong together, and keys without effect.
 struct Checker {
   const std::string& where;
   Findings& findings;
@@ -128,7 +128,7 @@ struct SimulatedWheel {
   static Eigen::Vector2d direction(double deg) {
     return {std::cos(deg * kDegree), std::sin(deg * kDegree)};
   }
-  /// A point of the edge, seen from its centre; `noise_um` along the radius.
+  /// A point of the edge relative to its centre; `noise_um` along the radius.
   [[nodiscard]] Eigen::Vector2d edge(double deg, double noise_um) const {
     double r = hidden.radius_mm + noise_um * kMicrometre;
     for (const WheelLobePlan& lobe : hidden.lobes) {

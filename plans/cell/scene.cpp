@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kWide_mm = 1e5;      // a disc that nothing goes around
-constexpr double kDeep_mm = 1e4;      // thickness of what nothing goes below
+constexpr double kWide_mm = 1e5;      // radius of a disc without a way around it
+constexpr double kDeep_mm = 1e4;      // thickness of a body without a way below it
 constexpr double kHolder_mm = 300.0;  // length of the holder above the stylus
 
 const char* name_of(Body body) {
@@ -68,7 +68,7 @@ bool has(const Tool& tool, Limb limb) {
   return limb_radius(tool, limb) > 0.0;
 }
 
-/// What a limb passes while the tip goes from a to b, machine frame.
+/// The volume that a limb sweeps while the tip moves from a to b, machine frame.
 Sweep sweep_of(const Tool& tool, Limb limb, const Vector3d& a, const Vector3d& b) {
   const Vector3d shaft = tool.shaft_length_mm * Vector3d::UnitZ();
   if (limb == Limb::kBall) return {a, b - a, Vector3d::Zero()};

@@ -41,7 +41,7 @@ fixture::SimulatedFixtureOptions fixture_options(const Plan& plan, std::uint64_t
   out.seed = seed;
   const int stall = plan.simulation->faults.fixture_stalls_at_move;
   if (!resumed) out.stalls_at_move = static_cast<std::uint64_t>(stall);
-  if (drives_fixture(plan)) {  // it follows a real one, which has its own limits and steps
+  if (drives_fixture(plan)) {  // follows a real one with its own limits and resolution
     out.limits = {-kAnyTurn_rad, kAnyTurn_rad, -kAnyTurn_rad, kAnyTurn_rad, 0.0};
   }
   return out;
@@ -64,8 +64,8 @@ cmm::SimulatedMachineOptions machine_options(const Plan& plan, std::uint64_t see
   return out;
 }
 
-/// Where the simulated part really sits: shifted and tilted about the part origin, then up to the
-/// middle of the surface, where its own frame begins.
+/// True seat of the simulated part: shifted and tilted about the part origin, then moved up to the
+/// middle of the surface, the origin of its own frame.
 Eigen::Isometry3d true_seat(const Eigen::Isometry3d& nominal, const SimulatedPartPlan& part,
                             const FeaturePlan& feature) {
   const double toward = part.tilt_toward_deg * core::kDegree;
@@ -78,7 +78,7 @@ Eigen::Isometry3d true_seat(const Eigen::Isometry3d& nominal, const SimulatedPar
   return seat;
 }
 
-/// Where the simulated fixture really stands on the table.
+/// True position of the simulated fixture on the table.
 Eigen::Isometry3d true_base(const SimulatedFixturePlan& hidden) {
   const Eigen::Vector3d turn = vector3(hidden.base_rotation_deg) * core::kDegree;
   Eigen::Isometry3d X_WF = Eigen::Isometry3d::Identity();
@@ -120,7 +120,7 @@ void SimulatedCell::mount(const FeaturePlan& feature) {
   if (feature.rotary_axes) {
     surface_.reset();
     machine_.remove_part();
-    // The artefact sits in the ring as crooked as the part of the simulation would.
+    // The artefact has the same seat error in the ring as the simulated part.
     true_X_BP_ = true_seat(Eigen::Isometry3d::Identity(), simulation_.part, feature);
     for (const BallPlan& ball : feature.rotary_axes->balls) {
       balls_.push_back({vector3(ball.center_mm), 0.5 * feature.rotary_axes->ball_diameter_mm});
@@ -147,7 +147,7 @@ core::Result<core::Pose> SimulatedCell::replay_home() {
   return reached;
 }
 
-/// The real fixture turns; where it reads to be, there the part is turned.
+/// Turns the real fixture and moves the part to the pose that it reads.
 core::Result<core::Pose> SimulatedCell::turn_driven(const core::Pose& commanded) {
   const auto reached = driven_->move_to(on_grid(commanded));
   if (!reached) return reached;

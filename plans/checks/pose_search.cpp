@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "plans/schema/json_text.h"
 #include "plans/checks/internal/plan_checks.h"
+#include "plans/schema/json_text.h"
 
 namespace rondure::plans {
 namespace {
@@ -31,7 +31,7 @@ void check_fineness(double step_deg, double resolution_deg, const std::string& w
                   plain(step_deg), plain(resolution_deg)));
 }
 
-/// What a cloud of several poses needs, and what it cannot do yet.
+/// Checks the requirements of a cloud from several poses, and its present limitations.
 void check_merged(const Plan& plan, const FeaturePlan& feature, const std::string& feature_where,
                   Findings& findings) {
   const std::string where = feature_where + "/pose_search";

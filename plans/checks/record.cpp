@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 
 #include "core/version.h"
-#include "plans/schema/json_text.h"
 #include "plans/schema/internal/plan_table.h"
+#include "plans/schema/json_text.h"
 
 namespace rondure::plans {
 namespace {
@@ -25,20 +25,21 @@ using record::Shape;
 using record::Strategy;
 using record::Touch;
 
-/// What is wrong, in words; nothing where all is well.
+/// The fault in words; nothing for a sound record.
 using Fault = std::optional<std::string>;
 
-/// What a setting may say.
+/// Permitted values of a setting.
 struct SettingLimits {
   bool is_number = false;
   bool is_whole = false;
   NumberSpec range = {};
   std::vector<std::string_view> one_of = {};
-  std::optional<double> otherwise = {};  ///< The default, which the range need not hold.
+  std::optional<double> otherwise = {};  ///< The default, which may lie outside the range.
 };
 using SettingTable = std::map<std::string, SettingLimits, std::less<>>;
 
-/// Visitor of plan_table.h: every key with its limits, by the name that SettingList writes.
+/// Visitor of plan_table.h: collects every key with its limits, by the name that SettingList
+/// writes.
 class LimitList {
  public:
   LimitList(std::string path, SettingTable& table) : path_(std::move(path)), table_(table) {}
@@ -217,10 +218,10 @@ Fault check_feature_settings(const record::Feature& feature, bool strict) {
   }
 }
 
-/// Columns that the evaluation of a series reads, after its name.
+/// Columns that the evaluation of a series reads, with the name of the series.
 struct WantedSeries {
   Shape shape;
-  std::string_view name;  ///< Of a contour without the number of the part.
+  std::string_view name;  ///< For a contour without the number of the part.
   std::array<std::string_view, 4> columns;
 };
 constexpr std::array<WantedSeries, 5> kWantedSeries = {
@@ -230,7 +231,7 @@ constexpr std::array<WantedSeries, 5> kWantedSeries = {
      {Shape::kContour, "pin", {"angle_deg", "deviation_um"}},
      {Shape::kContour, "main", {"angle_deg", "deviation_um"}}}};
 
-/// The part's number behind the name of a contour's series, from 1; 0 where there is none.
+/// The number of the part in the name of a contour's series, from 1; 0 if there is none.
 std::size_t part_number(std::string_view name, std::string_view stem) {
   constexpr std::size_t kMostParts = kMaxListItems;
   for (std::size_t part = 1; part <= kMostParts; ++part) {
@@ -258,7 +259,7 @@ Fault check_one_series(const record::Series& series, const record::Feature& feat
   return {};
 }
 
-/// That the parts of a contour count from 1 and each has its axes and its pin.
+/// Checks that the parts of a contour count from 1 and that each has its axes and its pin.
 Fault check_parts(const RunRecord& record, int index) {
   for (const char* stem : {"axes", "pin", "main"}) {
     for (const record::Series& series : record.series) {
@@ -298,7 +299,7 @@ Fault check_series(const RunRecord& record, int index) {
 Fault check_feature(const RunRecord& record, int index, bool strict) {
   const record::Feature& feature = record.features[static_cast<std::size_t>(index)];
   constexpr int kMostLayers = 10'000;
-  constexpr int kMostPoints = 100'000;  // times the layers it stays a whole number of the computer
+  constexpr int kMostPoints = 100'000;  // times the layers it does not overflow an int
   if (feature.layers < 0 || feature.layers > kMostLayers || feature.points_per_layer < 0 ||
       feature.points_per_layer > kMostPoints) {
     return fmt::format("{} layers of {} points are outside 0..{} and 0..{}", feature.layers,
@@ -336,7 +337,7 @@ Fault check_feature(const RunRecord& record, int index, bool strict) {
   return check_series(record, index);
 }
 
-/// Whether the layer of a measuring touch is one of its feature.
+/// Checks that the layer of a measuring touch belongs to its feature.
 Fault check_layer(const Touch& touch, const record::Feature& feature) {
   const auto balls = std::count_if(feature.settings.begin(), feature.settings.end(),
                                    [](const auto& setting) { return setting.name == "balls/id"; });
@@ -358,7 +359,7 @@ Fault check_touch(const Touch& touch, const RunRecord& record,
   if (touch.pose != -1 && pose == feature_of_pose.end()) {
     return fmt::format("pose {} is not there", touch.pose);
   }
-  constexpr double kUnit = 1e-6;  // a direction in doubles is one to some 1e-16
+  constexpr double kUnit = 1e-6;  // in doubles a direction is a unit vector to some 1e-16
   const double length = touch.approach.norm();
   const bool of_file =
       pose != feature_of_pose.end() &&

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "plans/schema/json_text.h"
 #include "plans/checks/internal/plan_checks.h"
 #include "plans/path/sampling.h"
+#include "plans/schema/json_text.h"
 
 namespace rondure::plans {
 namespace {
@@ -29,7 +29,7 @@ bool check_nominal_given(const std::string& nominal, Findings& findings) {
   return complete;
 }
 
-// The extent of the surface can carry the layers.
+// Checks that the surface is long enough for the layers.
 bool check_extent(const FeaturePlan& feature, const std::string& where, Findings& findings) {
   const NominalPlan& nominal = feature.nominal;
   const double length_mm = nominal.to_mm - nominal.from_mm;
@@ -95,7 +95,7 @@ void check_clamp(const FeaturePlan& feature, const FixturePlan& fixture, const s
                  Findings& findings) {
   if (fixture.clamp_from_mm >= fixture.clamp_to_mm) return;
   const auto targets = sampling_targets(feature);
-  if (!targets) return;  // check_counts() and check_extent() have said why
+  if (!targets) return;  // check_counts() and check_extent() have reported this
   for (const Target& target : *targets) {
     const bool clamped = target.z_mm >= fixture.clamp_from_mm && target.z_mm <= fixture.clamp_to_mm;
     if (target.point != 0 || !clamped) continue;
@@ -108,7 +108,8 @@ void check_clamp(const FeaturePlan& feature, const FixturePlan& fixture, const s
   }
 }
 
-// The tip starts its search between the axis of a bore and the wall, wherever the part really is.
+// Checks that the search starts between the axis of a bore and its wall for any position of the
+// part.
 void check_bore(const Plan& plan, const FeaturePlan& feature, const std::string& where,
                 Findings& findings) {
   const double bore_mm = feature.nominal.diameter_mm;

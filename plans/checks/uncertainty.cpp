@@ -5,15 +5,15 @@
 
 #include <fmt/format.h>
 
-#include "plans/schema/json_text.h"
 #include "plans/checks/internal/plan_checks.h"
+#include "plans/schema/json_text.h"
 
 namespace rondure::plans {
 namespace {
 
 using core::Code;
 
-/// The four statements of ASME B89.7.3.1: needed by its rules, without effect under others.
+/// Checks the four statements of ASME B89.7.3.1: needed by its rules, without effect under others.
 void check_statements(const DecisionRulePlan& rule, Findings& findings) {
   const bool needed = rule.rule == "n-to-1" || rule.rule == "guard-band";
   const std::array<std::pair<std::string_view, std::string_view>, 4> statements = {
@@ -76,8 +76,8 @@ bool any_terms(const MachineInfluencesPlan& machine) {
          machine.squareness_xy_urad + machine.squareness_xz_urad + machine.squareness_yz_urad > 0.0;
 }
 
-/// Limits of ISO 10360 hold everything that the machine or the probe does: beside its parts the
-/// same error would count twice.
+/// Checks that nothing is counted twice: limits of ISO 10360 include all errors of the machine or
+/// the probe, so the single errors must not be given as well.
 void check_limits(const UncertaintyPlan& u, Findings& findings) {
   if (u.machine && u.machine->length_limit_um + u.machine->length_limit_um_m > 0.0 &&
       any_terms(*u.machine)) {

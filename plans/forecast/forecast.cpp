@@ -25,7 +25,7 @@ using Eigen::Vector3d;
 
 constexpr double kSettle_s = 0.2;  // after each touch, as the simulated machine does
 
-/// Follows the tip and adds up.
+/// Follows the tip and adds up touches, lengths and times.
 class Tally {
  public:
   Tally(const MachinePlan& machine, Forecast& out)
@@ -52,7 +52,7 @@ class Tally {
       ++stage.touches;
     }
   }
-  /// A whole circle that begins and ends at one contact.
+  /// Adds a whole circle that starts and ends at one contact.
   void scan(ForecastStage& stage, const Vector3d& contact_W_mm, double approach_mm,
             double circle_mm, int points) {
     touch(stage, contact_W_mm, approach_mm);
@@ -81,7 +81,7 @@ core::Result<void> add_spheres(const core::Result<std::vector<TouchStep>>& steps
   if (!steps) return core::fail(steps.error());
   if (steps->empty()) return {};
   for (const TouchStep& step : *steps) {
-    if (step.row.point == 0) tally.rise(stage);  // from the sphere before
+    if (step.row.point == 0) tally.rise(stage);  // from the previous sphere
     tally.move(stage, step.way_W);
     tally.touch(stage, step.command.expected_tip_W_mm, step.command.approach_mm);
   }
@@ -96,7 +96,7 @@ ForecastStage stage_of(ForecastStage::Kind kind) {
   return out;
 }
 
-/// The spheres that show how a hand has set a pose.
+/// Adds the spheres that show the pose set by hand.
 core::Result<void> add_ring(const Plan& plan, int feature, const core::Pose& commanded,
                             Tally& tally) {
   ForecastStage stage = stage_of(ForecastStage::Kind::kRing);
@@ -107,7 +107,7 @@ core::Result<void> add_ring(const Plan& plan, int feature, const core::Pose& com
                      std::move(stage), tally);
 }
 
-/// A feature on the nominal part: the pose search sees ideal touches.
+/// A feature on the nominal part: the pose search receives ideal touches.
 class NominalSession final : public PoseSession {
  public:
   NominalSession(const Plan& plan, int index, Tally& tally)
@@ -186,7 +186,7 @@ class NominalSession final : public PoseSession {
   void show(double) override {}
 
  private:
-  /// All, or those that can be reached in a pose of several.
+  /// All targets, or those that can be reached in one of several poses.
   [[nodiscard]] core::Result<std::vector<Target>> measured_targets() const {
     if (!reachable_.empty()) return reachable_;
     return sampling_targets(feature_);
@@ -194,7 +194,8 @@ class NominalSession final : public PoseSession {
 
   [[nodiscard]] bool scans() const { return feature_.sampling.method == "scan"; }
 
-  /// Where the tip goes down to the surface: every target, or the start of each scanned layer.
+  /// The places where the tip goes down to the surface: every target, or the start of each scanned
+  /// layer.
   [[nodiscard]] std::vector<Target> stops_of(const std::vector<Target>& targets) const {
     if (!scans()) return targets;
     std::vector<Target> out;
@@ -260,10 +261,10 @@ class NominalSession final : public PoseSession {
     stage.measured.push_back({target, part_at(reached_) * contact_tip(geometry_, target), time_s});
   }
 
-  /// The points of a circle that has just ended.
+  /// Stores the points of a circle that has just ended.
   void keep_scan(const Target& start, ForecastStage& stage) const {
     const auto targets = measured_targets();
-    if (!targets) return;  // its path could not have been laid
+    if (!targets) return;  // in that case there would be no path
     const double circle_mm = core::kTwoPi * contact_tip(geometry_, start).head<2>().norm();
     const double circle_s = circle_mm / plan_.machine->scan_speed_mm_s;
     const int points = feature_.sampling.points_per_layer;
@@ -287,11 +288,11 @@ class NominalSession final : public PoseSession {
   fixture::SimulatedFixture fixture_;
   FeaturePlanner planner_;
   PathGeometry geometry_;
-  std::vector<Target> reachable_;  ///< In the present pose of several; otherwise empty.
+  std::vector<Target> reachable_;  ///< In the present one of several poses; otherwise empty.
   core::Pose reached_;
 };
 
-/// The poses of a calibration of the fixture, a stage each.
+/// Adds the poses of a calibration of the fixture, one stage each.
 core::Result<void> add_calibration(const Plan& plan, std::size_t feature, Tally& tally) {
   const auto visits = rotary_visits(plan, feature);
   if (!visits) return core::fail(visits.error());

@@ -46,7 +46,7 @@ struct Forecast {
   int touches = 0;
   int poses = 0;  ///< Number of turns of the fixture.
   double path_mm = 0.0;
-  double time_s = 0.0;  ///< By the machine clock, without turns of the fixture by hand or motor.
+  double time_s = 0.0;  ///< By the machine clock, without turns of the fixture.
 };
 
 /// Goes through a plan as a run does, with the same pose search and the same planner, on a part

@@ -23,7 +23,7 @@ constexpr double kMargin_px = 30.0;
 constexpr double kHead_px = 64.0;
 constexpr int kCorners = 72;  // of a drawn circle
 
-/// One view: which two machine axes are shown, and where.
+/// One view: the two machine axes shown, and its place.
 struct View {
   int right = 0;
   int up = 2;
@@ -39,9 +39,9 @@ struct View {
 };
 
 struct Shape {
-  std::vector<Vector3d> points_W;  ///< Whose convex hull is drawn.
+  std::vector<Vector3d> points_W;  ///< Their convex hull is drawn.
   const char* fill = "";
-  bool framed = true;  ///< Counts for the size of the window.
+  bool framed = true;  ///< Whether it affects the size of the window.
 };
 
 /// Degrees to two digits, without the sign of a rounded zero.
@@ -49,7 +49,7 @@ double hundredths(double angle_rad) {
   return std::round(100.0 * angle_rad / core::kDegree) / 100.0 + 0.0;
 }
 
-/// Text as XML takes it.
+/// Text escaped for XML.
 std::string xml_text(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -108,7 +108,7 @@ std::vector<Vector3d> ball(const Vector3d& center, double radius_mm) {
   return out;
 }
 
-/// Part, ring, rim and sphere. What has no size in the plan is not drawn.
+/// Part, ring, rim and sphere. Bodies without a size in the plan are not drawn.
 std::vector<Shape> shapes_of(const Plan& plan, const ForecastStage& stage) {
   std::vector<Shape> out;
   const FixturePlan& fixture = *plan.fixture;
@@ -146,7 +146,7 @@ std::vector<Shape> shapes_of(const Plan& plan, const ForecastStage& stage) {
   return out;
 }
 
-/// The way of the tip below the park height, where it goes about the part.
+/// The path of the tip below the park height, around the part.
 Polyline low_path(const Plan& plan, const ForecastStage& stage) {
   Polyline out;
   double highest = -1e9;
@@ -154,7 +154,7 @@ Polyline low_path(const Plan& plan, const ForecastStage& stage) {
   const double sky_mm = plan.machine->park_mm[2];
   for (const Vector3d& corner : stage.moves_W) {
     Vector3d p = corner;
-    // The descent from the park height is drawn as far as it tells something.
+    // The descent from the park height is drawn only over its last part.
     if (p.z() >= sky_mm - 1e-9) p.z() = std::min(p.z(), highest + 40.0);
     out.push_back(p);
   }

@@ -17,10 +17,10 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 4>;  // around the parallelogram
 
-constexpr double kGraze_mm = 1e-6;   // rounding of paths laid at the very distance
-constexpr double kFacet_mm = 0.02;   // how far a facet may stand outside a round wall
+constexpr double kGraze_mm = 1e-6;   // round-off of paths laid exactly at the limit
+constexpr double kFacet_mm = 0.02;   // largest distance of a facet from a round wall
 constexpr double kFlat_mm2 = 1e-12;  // area below which a parallelogram is a segment
-constexpr int kArcSides = 3;         // of a quarter turn around an edge
+constexpr int kArcSides = 3;         // per quarter turn around an edge
 
 Corners corners_of(const Sweep& s) {
   return {s.start_mm, s.start_mm + s.along_mm, s.start_mm + s.along_mm + s.up_mm,
@@ -34,7 +34,8 @@ double distance_of_origin(const Vector2d& a, const Vector2d& b) {
   return (a + t * ab).norm();
 }
 
-/// Distance of the z axis from the parallelogram, seen along z; 0 when the axis goes through.
+/// Distance of the z axis from the parallelogram projected along z; 0 when the axis passes through
+/// it.
 double from_axis(const Corners& c) {
   double nearest = std::numeric_limits<double>::infinity();
   int left = 0;
@@ -50,7 +51,7 @@ double from_axis(const Corners& c) {
   return left == 4 || right == 4 ? 0.0 : nearest;
 }
 
-/// Whether a plane across the axis, or a cylinder about it, surely parts sweep and solid.
+/// Whether a plane across the axis, or a cylinder about it, certainly separates sweep and solid.
 bool surely_apart(const Revolved& solid, double room_mm, const Corners& c) {
   const double from_mm = solid.ball ? -solid.outer_mm : solid.from_mm;
   const double to_mm = solid.ball ? solid.outer_mm : solid.to_mm;
@@ -64,7 +65,7 @@ bool surely_apart(const Revolved& solid, double room_mm, const Corners& c) {
   });
 }
 
-/// Corners of a quarter of a polygon around a circle, which touches it at both ends.
+/// Adds the corners of a quarter of a polygon around a circle, tangent to it at both ends.
 void add_quarter(const Vector2d& center, double radius_mm, double start_rad,
                  std::vector<Vector2d>& out) {
   const double side_rad = 0.5 * std::numbers::pi / kArcSides;
@@ -129,7 +130,8 @@ const RevolvedMesh& Obstacle::mesh() const {
     const double room_mm = grown_mm_ - kGraze_mm;
     const int facets = facets_for(solid_.outer_mm + room_mm);
     std::vector<Vector2d> outline = grown_outline(solid_, room_mm);
-    // Facets around the outer wall touch it, those of a hole stand in it: the mesh holds the solid.
+    // Facets around the outer wall touch it from outside, those of a hole lie inside it: the mesh
+    // contains the solid.
     const double widen = 1.0 / std::cos(std::numbers::pi / facets);
     const double hole_mm = solid_.inner_mm > room_mm ? solid_.inner_mm : -1.0;
     for (Vector2d& corner : outline) {
@@ -150,7 +152,7 @@ bool Obstacle::meets(const Sweep& sweep) const {
   if (sweep.along_mm.cross(sweep.up_mm).norm() > kFlat_mm2) {
     return mesh().meets(c[0], c[1], c[2]) || mesh().meets(c[0], c[2], c[3]);
   }
-  // Flat: the longest of the spans between two corners holds them all.
+  // Flat: the longest of the spans between two corners contains the others.
   std::size_t far_a = 0;
   std::size_t far_b = 0;
   for (std::size_t i = 0; i < c.size(); ++i) {

@@ -23,7 +23,7 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 Point at(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
-/// The corner of a profile on facet edge `k`; the last edge is the first one, bit for bit.
+/// The corner of a profile on facet edge `k`; the last edge is identical to the first.
 Point turned(const Eigen::Vector2d& corner, int k, int facets) {
   const double theta_rad = core::kTwoPi * (k % facets) / facets;
   return {corner.x() * std::cos(theta_rad), corner.x() * std::sin(theta_rad), corner.y()};

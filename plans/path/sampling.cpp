@@ -40,7 +40,7 @@ double layer_height(const FeaturePlan& feature, int layer, int layers) {
   return nominal.from_mm + margin_mm + layer * span_mm / (layers - 1);
 }
 
-/// Points of each ring, equator first: in proportion to its length, `points` in all.
+/// Number of points on each ring, equator first, in proportion to its length; `points` in total.
 std::vector<int> share_among_rings(int points, int rings) {
   std::vector<double> length;
   double total = 0.0;
@@ -83,11 +83,11 @@ core::Result<std::vector<Target>> locating_targets(const FeaturePlan& feature,
                                                    double uncertainty_mm) {
   FeaturePlan locating = feature;
   const double length_mm = feature.nominal.to_mm - feature.nominal.from_mm;
-  locating.type = "cylinder";  // a circle's surface has an axis too
+  locating.type = "cylinder";  // the surface of a circle has an axis, too
   locating.sampling.layers = 2;
   locating.sampling.points_per_layer = 3;
   locating.sampling.stagger = 1.0;
-  // A fifth of the length must stay between the layers, or the tilt could not be told.
+  // A fifth of the length must remain between the layers to determine the tilt.
   locating.sampling.margin_mm =
       std::min(feature.sampling.margin_mm + uncertainty_mm, 0.4 * length_mm);
   return sampling_targets(locating);
@@ -98,7 +98,8 @@ core::Result<std::vector<Eigen::Vector3d>> qualification_directions(int points) 
     return core::fail(core::Code::kSampling,
                       fmt::format("{} touches of the reference sphere are outside 5..100", points));
   }
-  // Rings as far apart as the points of an even spread: sqrt(2 pi / points) on the half sphere.
+  // Ring spacing equal to the point spacing of an even spread: sqrt(2 pi / points) on the
+  // hemisphere.
   const double spacing_rad = std::sqrt(core::kTwoPi / points);
   const int rings =
       points < 9 ? 1 : static_cast<int>(std::lround(std::numbers::pi / 2.0 / spacing_rad));

@@ -27,8 +27,8 @@ double pre_touch_radius(const PathGeometry& g) {
   return contact_radius(g) + (g.inside ? -g.approach_mm : g.approach_mm);
 }
 
-/// Radius of the corners of the polygon around a shaft: its sides keep the clearance. On the axis
-/// of a bore.
+/// Radius of the corners of the polygon around a shaft, chosen so that its sides keep the
+/// clearance; 0, on the axis, for a bore.
 double travel_radius(const PathGeometry& g) {
   if (g.inside) return 0.0;
   return (contact_radius(g) + std::max(g.approach_mm, g.clearance_mm) + g.stand_off_mm) /
@@ -36,7 +36,7 @@ double travel_radius(const PathGeometry& g) {
 }
 
 int arc_steps(double angle_rad) {
-  // A hair of slack, so that 45 deg are three steps of 15 deg and not four.
+  // A small slack, so that 45 deg are three steps of 15 deg and not four.
   return std::max(1, static_cast<int>(std::ceil(std::abs(angle_rad) / kArcStep_rad - 1e-9)));
 }
 
@@ -97,7 +97,7 @@ Polyline path_around_sphere(const Vector3d& center_W_mm, double radius_mm,
   const double start_mm = radius_mm + geometry.tip_radius_mm + geometry.approach_mm;
   const double corner_mm = start_mm / std::cos(0.5 * kArcStep_rad);
   const double turn_rad = std::atan2(from.cross(to).norm(), from.dot(to));
-  // Between opposite directions of the equator every way is as short: go over the pole.
+  // Between opposite directions of the equator all paths have the same length: go over the pole.
   Vector3d axis = from.cross(to);
   axis = axis.norm() > 1e-9 ? Vector3d(axis.normalized())
                             : Vector3d(from.cross(Vector3d::UnitZ()).normalized());

@@ -1,4 +1,4 @@
-// Clouds that several poses make: the part of inspection.h that measures what can be reached.
+// Clouds from several poses: the part of inspection.h that measures the reachable targets.
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ void FeatureSession::keep_merged_truth() {
 core::Result<void> FeatureSession::end_merged() {
   if (merged_truth_B_.empty() || context_.recorded.truths_of(index_) > 0) return {};
   const auto zone = fit::min_zone_cylinder(merged_truth_B_, Eigen::Vector3d::UnitZ());
-  if (!zone) return {};  // only a comparison: it must not end the run
+  if (!zone) return {};  // only a comparison: the run continues
   return context_.journal.add(record::SimulationTruth{index_, zone->width_mm()});
 }
 

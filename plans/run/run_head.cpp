@@ -47,7 +47,7 @@ record::Characteristic characteristic_of(const CharacteristicPlan& plan) {
   return out;
 }
 
-/// What the evaluation needs to bring the clouds of several poses together.
+/// Adds the settings with which the evaluation merges the clouds of several poses.
 void add_merged_settings(const FixturePlan& fixture, const FeaturePlan& feature,
                          std::vector<record::Setting>& out) {
   out.push_back({"merge", std::nullopt, feature.pose_search.merge});
@@ -168,7 +168,7 @@ std::vector<record::Setting> settings_of(const Plan& plan) {
   if (uncertainty.thermal && plan.part.expansion_per_K) {
     out.push_back({"uncertainty/thermal/expansion_per_K", *plan.part.expansion_per_K, ""});
   }
-  // A group without a key of its own is declared all the same.
+  // A group without keys is declared as well.
   const auto given = [&](const char* name, bool there) {
     if (there) out.push_back({"uncertainty/declared", std::nullopt, name});
   };

@@ -15,12 +15,12 @@
 namespace rondure::plans {
 namespace {
 
-/// The rows of a scan: which point each is, and from where the tip came to the place that was read.
+/// The rows of a scan: the index of each point, and the direction of approach to the read position.
 std::vector<record::Touch> rows_of(const ScanStep& step, const std::vector<Eigen::Vector3d>& tips) {
   const cmm::ScanCircleCommand command = cmm::on_grid(step.command);
   std::vector<record::Touch> rows(tips.size(), step.row);
   for (std::size_t i = 0; i < tips.size(); ++i) {
-    // Real machines give about the points that were asked for, not at even angles.
+    // Real machines give approximately the requested number of points, and not at even angles.
     const auto index = static_cast<int>(i);
     const cmm::TouchCommand point =
         cmm::scan_point_at(command, cmm::scan_angle(command, tips[i]), index);
@@ -39,7 +39,7 @@ std::vector<Eigen::Vector3d> tips_of(const std::vector<Point>& points,
   for (const Point& point : points) out.push_back(point.*tip);
   return out;
 }
-/// A recorded point of a scan that lies no farther beside its start stands for the start itself.
+/// Largest distance at which a recorded point of a scan counts as its start.
 constexpr double kAtStart_mm = 0.01;
 
 void take_reading(const cmm::TouchReading& reading, record::Touch& row) {
@@ -51,7 +51,7 @@ void take_reading(const cmm::TouchReading& reading, record::Touch& row) {
 
 /// From the pre-touch point at the start of a scan to that at an angle, around the surface.
 Polyline arc_to(const cmm::ScanCircleCommand& scan, double angle_rad) {
-  constexpr double kPiece_rad = 2.0 * core::kDegree;  // its chord is 0.02 % of the radius nearer
+  constexpr double kPiece_rad = 2.0 * core::kDegree;  // its chord is 0.02 % of the radius closer
   const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(angle_rad) / kPiece_rad)));
   Polyline out;
   for (int i = 0; i <= pieces; ++i) {
@@ -100,7 +100,7 @@ core::Result<std::vector<record::Touch>> RunContext::replay_scan(ScanStep step) 
   first.scan = step.command;
   const record::Touch& end = known.back();
   first.scan_end = {end.tip_mm, end.temperature_degC, end.time_s, 0.0, end.scale_temperature_degC};
-  // A real machine begins a scan where it likes: the touch is at the nearest of the points it gave.
+  // A real machine may begin a scan beside its start: the touch is at the nearest recorded point.
   const cmm::ScanCircleCommand command = cmm::on_grid(step.command);
   const auto off_start = [&](const record::Touch& row) {
     return std::abs(cmm::scan_angle(command, row.tip_mm));
@@ -128,7 +128,7 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::measure_cloud() {
 }
 
 std::vector<Target> FeatureSession::reach_targets() const {
-  constexpr int kAround = 24;  // every 15 deg: beside the shaft of the stylus nothing is finer
+  constexpr int kAround = 24;  // every 15 deg: the shaft of the stylus is wider than that
   if (feature_.sampling.method != "scan") return targets_;
   const int step = std::max(1, feature_.sampling.points_per_layer / kAround);
   std::vector<Target> out;
@@ -157,7 +157,7 @@ ScanStep FeatureSession::scan_of(const CloudPath& path, std::size_t k, int point
 
 core::Result<std::vector<Eigen::Vector3d>> FeatureSession::scan_cloud(
     const std::vector<Target>& targets) {
-  std::vector<Target> starts;  // the tip ends a full turn where it began
+  std::vector<Target> starts;  // the tip ends a full revolution at its start
   for (const Target& target : targets) {
     if (starts.empty() || target.layer != starts.back().layer) starts.push_back(target);
   }
@@ -176,7 +176,7 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::scan_cloud(
     }
     const auto rows = context_.scan(std::move(step));
     if (!rows) {
-      // Where a relocation is due the tip is at park height already.
+      // If a relocation is due, the tip is at park height already.
       if (context_.lost_place || context_.relocation_due) return core::fail(rows.error());
       if (rows.error().code != core::Code::kCollision) leave(*path, k);
       return fault_at(start, rows.error());

@@ -16,7 +16,7 @@ namespace {
 using core::Code;
 using nlohmann::json;
 
-constexpr int kNumberOverflow = 406;  // as the parser numbers its errors
+constexpr int kNumberOverflow = 406;  // error number of the parser
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string place(std::string_view text, std::size_t index, std::string_view name) {
@@ -48,7 +48,7 @@ class Builder final : public nlohmann::json_sax<json> {
     if (added != nullptr) added->text = std::move(value);
     return added != nullptr;
   }
-  bool binary(binary_t&) override { return false; }  // JSON text has none
+  bool binary(binary_t&) override { return false; }  // JSON text has no binary
   bool start_object(std::size_t) override { return open(JsonValue::Kind::kObject); }
   bool start_array(std::size_t) override { return open(JsonValue::Kind::kArray); }
   bool key(string_t& value) override {
@@ -66,10 +66,10 @@ class Builder final : public nlohmann::json_sax<json> {
   }
 
   JsonValue root;
-  std::size_t error_position = 0;  ///< Characters read when the parser gave up.
+  std::size_t error_position = 0;  ///< Characters read when the parser stopped.
   std::string error_token;
-  int error_id = 0;   ///< 0: the parser did not complain.
-  std::string limit;  ///< Which of our limits ended the parsing.
+  int error_id = 0;   ///< 0: no error.
+  std::string limit;  ///< The limit of ours that ended the parsing.
 
   [[nodiscard]] std::size_t depth() const { return open_.size(); }
 
@@ -112,7 +112,7 @@ class Builder final : public nlohmann::json_sax<json> {
     return true;
   }
 
-  std::vector<JsonValue*> open_;  // a container grows only while it is the last one here
+  std::vector<JsonValue*> open_;  // a container grows only while it is the last one
   std::string key_;
   std::size_t count_ = 0;
 };
@@ -144,7 +144,7 @@ char last_visible_before(std::string_view text, std::size_t index) {
   return end == std::string_view::npos ? '\0' : text[end];
 }
 
-// What the parser stumbled over at text[index], in words for whoever edits the plan.
+// The cause of the syntax error at text[index], in words for the author of the plan.
 std::string complaint(std::string_view text, std::size_t index, const Builder& builder) {
   const std::string_view word = word_at(text, index);
   const char here = index < text.size() ? text[index] : '\0';
@@ -180,8 +180,8 @@ std::string complaint(std::string_view text, std::size_t index, const Builder& b
       in_quotes(word));
 }
 
-// Where the complaint belongs: the parser stands behind a whole text or number when it finds that
-// it should not be there.
+// The place of the error: the parser is already past a whole text or number when it finds it
+// misplaced.
 std::size_t error_index(std::string_view text, const Builder& builder) {
   const std::size_t end = builder.error_position;
   const std::string& token = builder.error_token;

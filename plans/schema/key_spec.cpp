@@ -11,7 +11,7 @@ struct Suffix {
 };
 
 // Longest first: "_um_m" ends in "_m". The units of hidden errors come first, then those of the
-// plan; behind "_um" stand units that a plan never uses but that people write.
+// plan; after "_um" come units that no plan uses but that people write.
 constexpr std::array kSuffixes = {
     Suffix{"_urad_m2", "urad/m^2"},
     Suffix{"_um_m2", "um/m^2"},

@@ -26,7 +26,7 @@ tl::unexpected<std::vector<core::Error>> refuse(core::Error problem) {
   return tl::unexpected(std::vector<core::Error>{std::move(problem)});
 }
 
-// A circle is one layer; a plan may leave that out.
+// Sets the single layer of a circle, which a plan may omit.
 void complete_circles(Plan& plan, const Findings& findings) {
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     FeaturePlan& feature = plan.features[i];
@@ -62,7 +62,7 @@ PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& fo
     if (touches_anything(plan)) {
       if (auto free = check_room(plan); !free) problems.push_back(free.error());
     }
-    // What stands in the way of the whole part would be found again at every feature.
+    // An obstacle of the whole part would be reported again at every feature.
     const bool room = problems.empty();
     for (std::size_t i = 0; room && i < plan.features.size(); ++i) {
       if (measures_by_touch(plan.features[i])) {
@@ -96,7 +96,7 @@ PlanOrProblems read_plan(const std::filesystem::path& path) {
                    path.string()});
   }
   const std::uintmax_t bytes = std::filesystem::file_size(path, reason);
-  if (!reason && bytes > kMaxPlanBytes) {  // before it is read into memory
+  if (!reason && bytes > kMaxPlanBytes) {  // checked before reading it into memory
     return refuse({Code::kSyntax,
                    fmt::format("the file has {} bytes, the limit is {}; this is not a plan", bytes,
                                kMaxPlanBytes),

@@ -7,16 +7,16 @@
 
 #include <nlohmann/json.hpp>
 
-#include "plans/schema/key_spec.h"
 #include "plans/plan.h"
 #include "plans/schema/internal/plan_table.h"
+#include "plans/schema/key_spec.h"
 
 namespace rondure::plans {
 namespace {
 
 using nlohmann::ordered_json;
 
-// Whole limits of whole numbers print without ".0".
+// Integer limits of integers are printed without ".0".
 ordered_json limit(double value, bool whole) {
   return whole ? ordered_json(static_cast<std::int64_t>(value)) : ordered_json(value);
 }

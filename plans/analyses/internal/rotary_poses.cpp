@@ -15,7 +15,7 @@ namespace {
 using core::kDegree;
 using Eigen::Vector3d;
 
-/// Whether the tip comes to ball `i`, around it and away without meeting ball `other`.
+/// Whether the tip can reach ball `i`, go around it and leave without meeting ball `other`.
 bool is_free(const Plan& plan, const RotaryPlan& rotary, const Vector3d& ball,
              const Vector3d& other) {
   const double radius_mm = 0.5 * rotary.ball_diameter_mm;
@@ -47,7 +47,7 @@ std::string in_words(const core::Pose& pose) {
   return fmt::format("({:g}, {:g}) deg", pose.alpha_rad / kDegree, pose.beta_rad / kDegree);
 }
 
-/// That the balls of a visit tell six errors about an axis.
+/// Checks that the balls of a visit determine six errors about an axis.
 core::Result<void> check_visit(const RotaryPlan& rotary, const std::vector<Vector3d>& centers,
                                const RotaryVisit& visit) {
   if (visit.pose == core::Pose{} && visit.balls.size() < rotary.balls.size()) {

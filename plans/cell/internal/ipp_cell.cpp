@@ -23,15 +23,15 @@ std::chrono::milliseconds milliseconds_of(double time_s) {
   return std::chrono::milliseconds(std::llround(1000.0 * time_s));
 }
 
-/// Where z and y of the ring point in a pose. The axes of the fixture are those of the machine, so
-/// only the turn counts.
+/// The directions of z and y of the ring in a pose. The axes of the fixture are those of the
+/// machine, so only the rotation counts.
 cmm::IppMachine::Alignment alignment_of(const core::Pose& pose) {
   const Eigen::Matrix3d R = fixture::body_to_machine({}, pose).linear();
   return {R.col(2), R.col(1)};
 }
 
-/// The pose in which z and y of the ring point there: with R = Rx(alpha) Ry(beta), y is
-/// (0, cos alpha, sin alpha), and z turned back by alpha (sin beta, 0, cos beta).
+/// The pose with these directions of z and y of the ring: with R = Rx(alpha) Ry(beta), y is (0, cos
+/// alpha, sin alpha), and z turned back by alpha (sin beta, 0, cos beta).
 core::Pose pose_of(const cmm::IppMachine::Alignment& reached) {
   const Eigen::Vector3d& z = reached.first_W;
   const Eigen::Vector3d& y = reached.second_W;
@@ -60,7 +60,7 @@ cmm::IppMachineOptions machine_options(const Plan& plan, const CellOptions& opti
   return out;
 }
 
-/// Connects, with a log where one is asked for.
+/// Connects, with a log if the plan run has one.
 cmm::IppMachine::Connect connector(const MachinePlan& machine,
                                    const std::filesystem::path& wire_log) {
   wire::TcpOptions tcp;

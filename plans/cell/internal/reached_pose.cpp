@@ -8,10 +8,10 @@
 #include "core/decompositions.h"
 #include "core/units.h"
 #include "fixture/alignment.h"
+#include "plans/cell/scene.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "plans/path/internal/pose_grid.h"
 #include "plans/run/internal/qualification.h"
-#include "plans/cell/scene.h"
 
 namespace rondure::plans {
 namespace {
@@ -19,16 +19,16 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr const char* kReachedPosePointer = "/fixture/reached_pose";
-constexpr double kLeastLever_mm = 10.0;  ///< 1 um of a sphere is 0.006 deg there.
+constexpr double kLeastLever_mm = 10.0;  ///< There 1 um of a sphere is 0.006 deg.
 
-/// How far a sphere may be from where the asked pose puts it [mm].
+/// Largest distance of a sphere from its place in the commanded pose [mm].
 double setting_room_mm(const ReachedPosePlan& plan, const fixture::Kinematics& kinematics,
                        const Vector3d& center_B_mm) {
   const double lever_mm = center_B_mm.norm() + (kinematics.axis_offset_mm + center_B_mm).norm();
   return lever_mm * plan.setting_uncertainty_deg * core::kDegree;
 }
 
-/// That the tool is clear of all that the plan knows on its way to and around a sphere.
+/// Checks that the tool is clear of all known obstacles on its path to and around a sphere.
 core::Result<void> check_ways(const Scene& scene, const Placement& placement,
                               const PathGeometry& geometry, std::span<const TouchStep> steps,
                               std::size_t sphere) {
@@ -47,14 +47,14 @@ core::Result<void> check_ways(const Scene& scene, const Placement& placement,
   return {};
 }
 
-/// The middle of some points.
+/// The mean of some points.
 Vector3d mean_of(const std::vector<Vector3d>& points) {
   Vector3d sum = Vector3d::Zero();
   for (const Vector3d& p : points) sum += p;
   return sum / static_cast<double>(points.size());
 }
 
-/// Lever with which the less certain of the two angles moves the spheres [mm].
+/// Lever arm with which the less certain of the two angles moves the spheres [mm].
 double least_lever_mm(std::span<const fixture::DirectionPair> pairs, const core::Pose& pose) {
   const Eigen::Matrix3d R = fixture::body_to_machine({}, pose).linear();
   const Vector3d carried(0.0, std::cos(pose.alpha_rad), std::sin(pose.alpha_rad));
@@ -70,7 +70,7 @@ double least_lever_mm(std::span<const fixture::DirectionPair> pairs, const core:
   return std::sqrt(std::max(0.0, solver.eigenvalues().minCoeff()));
 }
 
-/// What speaks against a pose that was found.
+/// Checks the pose that was found.
 core::Result<void> check_pose(const ReachedPosePlan& plan,
                               std::span<const fixture::DirectionPair> pairs,
                               const core::Pose& found, const core::Pose& asked) {

@@ -51,7 +51,7 @@ core::Result<std::unique_ptr<fixture::Fixture>> open_thorlabs(const FixturePlan&
   options.alpha = axis_of(plan.thorlabs->alpha);
   options.beta = axis_of(plan.thorlabs->beta);
   options.limits = limits_of(plan);
-  // Two readings of one pose may differ by what a stage is allowed to be off.
+  // Two readings of one pose may differ by the tolerance of the stages.
   options.limits.resolution_rad = std::max(
       {options.limits.resolution_rad, options.alpha.tolerance_rad, options.beta.tolerance_rad});
   auto alpha = open_unit(options.alpha.serial, "/fixture/thorlabs/alpha");

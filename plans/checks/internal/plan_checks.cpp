@@ -144,7 +144,7 @@ void check_needs(const Plan& plan, std::size_t touched, Findings& findings) {
   }
 }
 
-// The lines of a mask, and that it stands where it has an effect.
+// Checks the lines of a mask, and that it has an effect.
 void check_mask(const CharacteristicPlan& c, const std::string& where, Findings& findings) {
   const bool masked = c.form == "harmonic-limits";
   if (masked && c.harmonic_limits.empty() && !findings.is_given(where + "/harmonic_limits")) {
@@ -168,7 +168,8 @@ void check_mask(const CharacteristicPlan& c, const std::string& where, Findings&
   }
 }
 
-/// Harmonics of touched sections need as many points as reports filter: 7 at 50 undulations.
+/// Checks the points of touched sections for harmonics: as many as reports filter, 7 at 50
+/// undulations.
 void check_dense(const FeaturePlan& feature, const CharacteristicPlan& c,
                  const std::string& feature_where, const std::string& where, Findings& findings) {
   constexpr int kDense = 350;
@@ -191,7 +192,7 @@ void check_dense(const FeaturePlan& feature, const CharacteristicPlan& c,
   }
 }
 
-/// What the driver "zaber" needs, and that nothing is said to another driver that it ignores.
+/// Checks the settings of the driver "zaber", and that no other driver has settings it ignores.
 void check_zaber(const FixturePlan& fixture, Findings& findings) {
   constexpr std::string_view kWhere = "/fixture/zaber";
   const bool is_zaber = fixture.driver == "zaber";
@@ -214,8 +215,8 @@ void check_zaber(const FixturePlan& fixture, Findings& findings) {
   }
 }
 
-/// A part that is simulated here does not stand in front of a machine elsewhere, nor the reverse.
-/// A device of its own turns either, as a hand does.
+/// Checks the drivers of machine and fixture together: both are simulated here, or neither. A
+/// fixture with its own driver, or set by hand, turns with either.
 void check_drivers(const Plan& plan, Findings& findings) {
   if (!plan.machine || !plan.fixture || !findings.sound("/machine/driver") ||
       !findings.sound("/fixture/driver")) {
@@ -233,7 +234,7 @@ void check_drivers(const Plan& plan, Findings& findings) {
                                fixture, machine));
 }
 
-/// A section that one driver needs and no other reads.
+/// Checks a section that one driver needs and no other reads.
 void check_driver_section(const FixturePlan& fixture, std::string_view driver, std::string_view key,
                           bool given, std::string_view what, Findings& findings) {
   const std::string where = fmt::format("/fixture/{}", key);
@@ -264,7 +265,7 @@ void check_thorlabs_axis(const ThorlabsAxisPlan& axis, const std::string& where,
   }
 }
 
-/// What only single drivers need.
+/// Checks the sections of single drivers.
 void check_driver_sections(const FixturePlan& fixture, Findings& findings) {
   if (!findings.sound("/fixture/driver")) return;
   check_driver_section(fixture, "thorlabs", "thorlabs", fixture.thorlabs.has_value(),
@@ -338,14 +339,14 @@ void check_characteristic(const FeaturePlan& feature, std::size_t index,
   }
 }
 
-// Keys of a feature that would be read and then ignored.
+// Checks for keys of a feature that would be ignored.
 void check_without_effect(const FeaturePlan& feature, const std::string& where,
                           Findings& findings) {
   const auto refuse = [&](const std::string& key, std::string_view why) {
     if (!findings.is_given(where + key)) return;
     findings.meaning(Code::kMeaning, where + key, fmt::format("has no effect: {}; remove it", why));
   };
-  if (analysis_kind(feature.type) != nullptr) return;  // check_analysis() says it
+  if (analysis_kind(feature.type) != nullptr) return;  // check_analysis() reports these
   refuse("/spindle", "the feature is touched, not probed by three probes");
   refuse("/wheel", "the feature is no wheel");
   refuse("/contour", "the feature is touched, not ground after axis traces");

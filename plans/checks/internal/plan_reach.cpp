@@ -7,16 +7,16 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "plans/checks/internal/reach_advice.h"
 #include "plans/forecast/internal/feature_planner.h"
 #include "plans/path/internal/merged_reach.h"
-#include "plans/checks/internal/reach_advice.h"
 #include "plans/run/run_head.h"
 
 namespace rondure::plans {
 namespace {
 
-/// The targets that are out of reach besides the first: "; nor can layer 1 points 2, 3, layer 2
-/// point 1 be reached".
+/// The unreachable targets after the first: "; nor can layer 1 points 2, 3, layer 2 point 1 be
+/// reached".
 std::string others(const std::vector<Unreachable>& missed) {
   constexpr std::size_t kNamed = 20;
   if (missed.size() < 2) return {};
@@ -144,7 +144,7 @@ core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_
 core::Result<void> check_room(const Plan& plan) {
   const FixturePlan& fixture = *plan.fixture;
   const QualificationPlan& sphere = plan.probe->qualification;
-  // Ball about the base-fixed axis that holds the part, wherever the fixture turns it.
+  // Ball about the base-fixed axis that contains the part in every pose of the fixture.
   double reach_mm = 0.0;
   for (const FeaturePlan& feature : plan.features) {
     if (feature.source) continue;

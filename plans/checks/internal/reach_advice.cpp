@@ -22,7 +22,7 @@ bool reaches_all(const Plan& plan, const FeaturePlan& feature, const core::Pose&
   return unreachable_targets(plan, feature, pose).empty();
 }
 
-/// The pose nearest to the start on a grid of 15 deg that reaches everything.
+/// The pose closest to the start on a grid of 15 deg that reaches all targets.
 std::optional<core::Pose> other_pose(const Plan& plan, const FeaturePlan& feature) {
   const fixture::FixtureLimits limits = limits_of(*plan.fixture);
   const core::Pose start = start_pose(feature);
@@ -48,7 +48,7 @@ std::optional<core::Pose> other_pose(const Plan& plan, const FeaturePlan& featur
   return std::nullopt;
 }
 
-/// The shortest stylus, in steps of 5 mm, that reaches everything.
+/// The shortest stylus, in steps of 5 mm, that reaches all targets.
 std::optional<double> longer_stylus(const Plan& plan, const FeaturePlan& feature) {
   if (plan.probe->stylus_length_mm <= 0.0 || plan.probe->holder_diameter_mm <= 0.0) return {};
   Plan other = plan;
@@ -60,7 +60,7 @@ std::optional<double> longer_stylus(const Plan& plan, const FeaturePlan& feature
   return std::nullopt;
 }
 
-/// The smallest margin, in steps of 1 mm or more of a long surface, that reaches everything.
+/// The smallest margin, in steps of 1 mm (more on a long surface), that reaches all targets.
 std::optional<double> larger_margin(const Plan& plan, const FeaturePlan& feature) {
   if (feature.type == "circle") return std::nullopt;
   FeaturePlan other = feature;

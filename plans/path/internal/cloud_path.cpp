@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kCompared = 2000;  // targets up to which two orders are measured
-constexpr double kFarthest_mm = 200.0;   // the way around goes no further out than this
+constexpr std::size_t kCompared = 2000;  // targets up to which two orders are compared
+constexpr double kFarthest_mm = 200.0;   // limit of the paths around further out
 constexpr double kHair_mm = 1e-9;
 
 Way backward(Way way) {
@@ -21,7 +21,7 @@ Way backward(Way way) {
   return way;
 }
 
-/// Two ways, joined by a straight move.
+/// Two paths, joined by a straight move.
 Way joined(Way first, const Way& second, Phase across) {
   first.phases.push_back(across);
   first.corners.insert(first.corners.end(), second.corners.begin(), second.corners.end());
@@ -44,7 +44,7 @@ CloudPath::CloudPath(const Scene& scene, const Placement& placement, const PathG
   if (unreachable_.empty()) choose_order(std::move(proposed));
 }
 
-/// How far a vertical shaft leans over a part that is not upright, at most.
+/// Largest overhang of a vertical shaft over a part that is not upright.
 double CloudPath::further_mm() const {
   const Tool& tool = scene_->tool();
   if (tool.shaft_length_mm <= 0.0 || geometry_.inside) return 0.0;
@@ -73,12 +73,12 @@ Way CloudPath::entry(std::size_t target, Entry kind) const {
   const Polyline along = entry_path(g, t);
   Way out;
   if (kind == Entry::kAlongAxis || kind == Entry::kAlongAxisFurther) {
-    // In a bore every wall is near.
+    // In a bore every wall is close.
     out = in_machine(along, g.inside ? Phase::kNear : Phase::kTravel, Phase::kNear, Phase::kNear);
   } else {
     out = in_machine({along[1], along[2]}, Phase::kNear, Phase::kNear, Phase::kNear);
   }
-  // Sideways only at park height; then straight down.
+  // Moves sideways only at park height; then straight down.
   Vector3d above = out.corners.front();
   above.z() = std::max(above.z(), sky_mm_);
   out.corners.insert(out.corners.begin(), above);
@@ -120,7 +120,7 @@ Way CloudPath::over_the_end(std::size_t from, std::size_t to) const {
   }
   Way down = entry(to, entries_[to]);
   Way up = backward(entry(from, entries_[from]));
-  // Without their corners in the sky; a vertical entry has no corner above the end.
+  // Removes the corners in the sky; a vertical entry has no corner above the end.
   const auto drop_sky = [](Way& way, bool front) {
     way.corners.erase(front ? way.corners.begin() : way.corners.end() - 1);
     way.phases.erase(front ? way.phases.begin() : way.phases.end() - 1);

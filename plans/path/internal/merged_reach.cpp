@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "plans/forecast/internal/feature_planner.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "plans/checks/internal/reach_advice.h"
+#include "plans/forecast/internal/feature_planner.h"
 #include "plans/path/sampling.h"
 
 namespace rondure::plans {
@@ -23,7 +23,7 @@ core::Result<void> check_merged_reach(const Plan& plan, std::size_t index) {
   const std::string where = fmt::format("/features/{}", index);
   const auto targets = sampling_targets(feature);
   if (!targets) return core::fail(targets.error().at(where + "/sampling"));
-  std::vector<Unreachable> never;  // missed in every pose so far, with the reason of the last
+  std::vector<Unreachable> never;  // unreachable in every pose so far, with the last reason
   for (std::size_t k = 0; k < feature.pose_search.poses.size(); ++k) {
     const MeasuringPosePlan& at = feature.pose_search.poses[k];
     const core::Pose pose{at.alpha_deg * core::kDegree, at.beta_deg * core::kDegree};

@@ -9,8 +9,8 @@
 
 namespace rondure::plans {
 
-/// Least number of reachable targets in a pose of a merged cloud: a cylinder has four parameters
-/// besides its radius.
+/// Least number of reachable targets in a pose of a merged cloud: a cylinder determines four
+/// parameters of the pose.
 inline constexpr std::size_t kLeastTargets = 4;
 
 /// "pose (60, 0) deg: 2 targets can be reached, at least 4 are needed".

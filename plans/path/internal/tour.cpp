@@ -11,11 +11,11 @@ namespace {
 
 using Order = std::vector<std::size_t>;
 
-constexpr std::size_t kEnumerated = 7;  // stops up to which every order is tried
+constexpr std::size_t kEnumerated = 7;  // stops up to which all orders are tried
 constexpr std::size_t kImproved = 128;  // stops up to which a tour is improved
-constexpr double kGain_mm = 1e-9;       // less is rounding
+constexpr double kGain_mm = 1e-9;       // smaller gains are rounding
 
-/// Costs between all stops and the sky, looked up.
+/// Table of the costs between all stops and the sky.
 class CostTable {
  public:
   CostTable(std::size_t stops, const TourCost& cost) : side_(stops + 1) {
@@ -31,7 +31,7 @@ class CostTable {
   std::vector<double> table_;
 };
 
-/// Turns pieces of the ring round while that shortens it. `ring[0]` is the sky.
+/// Reverses pieces of the ring as long as that shortens it. `ring[0]` is the sky.
 bool turn_round(Order& ring, const CostTable& cost) {
   bool better = false;
   const std::size_t n = ring.size();
@@ -49,7 +49,7 @@ bool turn_round(Order& ring, const CostTable& cost) {
   return better;
 }
 
-/// Takes ring[from .. from + count) out and puts it behind ring[to] if that shortens the ring.
+/// Moves ring[from .. from + count) to after ring[to] if that shortens the ring.
 bool move_piece(Order& ring, std::size_t from, std::size_t count, std::size_t to,
                 const CostTable& cost) {
   const std::size_t n = ring.size();
@@ -97,7 +97,7 @@ Order improved(Order order, const TourCost& cost) {
   return {ring.begin() + 1, ring.end()};
 }
 
-/// The best of all orders.
+/// The shortest of all orders.
 Order shortest(Order order, const TourCost& cost) {
   const CostTable table(order.size(), cost);
   Order best = order;
@@ -111,7 +111,7 @@ Order shortest(Order order, const TourCost& cost) {
   return best;
 }
 
-/// Sorted by keys; equal keys keep their order.
+/// The indices sorted by keys; equal keys keep their order.
 template <class Key>
 Order sorted(std::size_t n, const Key& key) {
   Order out(n);
@@ -160,7 +160,7 @@ TourCost bare_cost(std::span<const Target> targets, const PathGeometry& geometry
     const std::size_t sky = targets.size();
     if (from == sky) return length_mm(entry_path(geometry, targets[to]));
     if (to == sky) return length_mm(exit_path(geometry, targets[from]));
-    // One direction for both, so that rounding does not tell them apart.
+    // The same direction for both, so that they have the same rounding.
     const Target& a = targets[std::min(from, to)];
     const Target& b = targets[std::max(from, to)];
     const double around_mm = length_mm(path_between(geometry, a, b));

@@ -4,8 +4,8 @@
 
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
-#include "plans/checks/internal/plan_reach.h"
 #include "plans/analyses/internal/series_file.h"
+#include "plans/checks/internal/plan_reach.h"
 
 namespace rondure::plans {
 namespace {
@@ -44,7 +44,7 @@ core::Result<std::optional<UsedCalibration>> used_calibration(const Plan& plan,
   if (!text) return core::fail(text.error().at(kCalibrationFilePointer));
   auto calibration = fixture::parse_calibration(*text, file);
   if (!calibration) {
-    // Codes of structure are those of plans; this is another file.
+    // Codes of structure refer to plans; this is another file.
     const bool no_json = calibration.error().code == core::Code::kSyntax;
     return core::fail(no_json ? core::Code::kSyntax : core::Code::kCalibration,
                       calibration.error().where + ": " + calibration.error().what,

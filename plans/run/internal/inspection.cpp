@@ -31,10 +31,10 @@ Eigen::Isometry3d FeatureSession::part_at(const core::Pose& pose) const {
   return fixture::body_to_machine(context_.cell->kinematics(), pose) * X_BP_;
 }
 
-/// The same fault with the point it happened at, and what a person can do about it.
+/// The error with its point and the remedy.
 tl::unexpected<core::Error> FeatureSession::fault_at(const Target& target,
                                                      const core::Error& error) const {
-  // A stop by the operator and a journal that cannot be written have no place on the part.
+  // A stop by the operator and a journal that cannot be written are not tied to a point.
   if (error.code == core::Code::kStopped || error.code == core::Code::kJournal) {
     return core::fail(error);
   }
@@ -120,7 +120,7 @@ core::Result<fit::Axis> FeatureSession::locate(const core::Pose& commanded) {
   for (;;) {
     auto axis = locate_once(commanded);
     if (axis || !context_.relocation_due) return axis;
-    context_.relocation_due = false;  // it moved while it was located: begin again
+    context_.relocation_due = false;  // it moved again while it was being located: start again
   }
 }
 
@@ -154,7 +154,7 @@ core::Result<void> FeatureSession::repeat(int times) {
     const auto tips = measure_cloud();
     if (tips) continue;
     if (!context_.relocation_due || merging()) return core::fail(tips.error());
-    // The whole final cloud anew: touches of two placements are never merged.
+    // Repeats the whole final cloud: touches of two placements are never merged.
     if (auto located = locate_again(); !located) return located;
     if (const auto anew = turn_and_touch(commanded_); !anew) return core::fail(anew.error());
     if (auto kept = keep_as_final(); !kept) return kept;
@@ -173,7 +173,7 @@ core::Result<void> FeatureSession::keep_as_final() {
     return {};
   }
   if (truth_.empty()) return {};
-  // Only a comparison for simulations: a truth that cannot be evaluated must not end the run.
+  // Only a comparison for simulations: if it cannot be evaluated, the run continues.
   std::optional<double> zone_mm;
   if (feature_.type == "circle") {
     const auto frame = fit::across(expected_axis());
@@ -192,7 +192,7 @@ void FeatureSession::follow_axis(const fit::Axis& axis_W) {
       fixture::body_to_machine(context_.cell->kinematics(), reached_).inverse();
   Eigen::Vector3d z = X_BW.linear() * axis_W.direction;
   if (z.z() < 0.0) z = -z;  // a cylinder's axis has two directions; the part stands upright
-  // Neither the turn about the axis nor the shift along it shows in a cylinder: both stay nominal.
+  // A cylinder shows neither the rotation about its axis nor the shift along it: both stay nominal.
   const Eigen::Isometry3d nominal = context_.cell->nominal_part();
   const Eigen::Vector3d on_axis = X_BW * axis_W.point_mm;
   X_BP_.linear() =
@@ -260,14 +260,14 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud(
     context_.doing =
         fmt::format("{}, layer {}, point {}", feature_.id, target.layer + 1, target.point + 1);
     if (auto moved = context_.follow(step.way_W); !moved) {
-      // Refused by the operator: the tip is back at the touch before. After a fault it stays.
+      // Refused by the operator: the tip is back at the previous touch. After a fault it stays.
       if (context_.retreating && k > 0) leave(*path, k - 1);
       return fault_at(target, moved.error());
     }
     const auto tip = touch(step, target);
     if (!tip) {
-      // The tip stands at the pre-touch point, except after a collision: then the machine has
-      // stopped and only a person may move it.
+      // The tip is at the pre-touch point, except after a collision: then the machine has stopped
+      // and only a person may move it.
       const bool standing = tip.error().code != core::Code::kCollision;
       if (standing && !context_.lost_place && !context_.relocation_due) leave(*path, k);
       return core::fail(tip.error());

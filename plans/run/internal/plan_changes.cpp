@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kShownDigits = 12;  ///< Of a digest.
 
-/// A value as one line shows it.
+/// A value as shown in one line.
 std::string shown(const JsonValue& value) {
   switch (value.kind) {
     case JsonValue::Kind::kNull:

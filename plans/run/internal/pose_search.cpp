@@ -14,7 +14,7 @@
 namespace rondure::plans {
 namespace {
 
-/// An angle no fixture resolves: at 35 mm it moves a point by 1 nm.
+/// Finer than any fixture resolves: at 35 mm this angle moves a point by 1 nm.
 constexpr double kFinestStep = 2e-6 * core::kDegree;
 
 core::Pose start_pose(const PoseSession& session, const FeaturePlan& feature) {
@@ -40,7 +40,7 @@ core::Result<void> finish(PoseSession& session, const FeaturePlan& feature) {
   return session.repeat(feature.pose_search.repeats - 1);
 }
 
-/// The step of the guided search after a cloud.
+/// The decision of the guided search after a cloud.
 struct NextStep {
   core::MessageCode code = core::MessageCode::kLevellingStep;  ///< Any other ends the search.
   core::Pose pose;                                             ///< The pose to step to.
@@ -92,8 +92,8 @@ NextStep next_step(const PoseSession& session, const Cloud& cloud,
   return out;
 }
 
-/// Solves each cloud as a cylinder and steps to the pose it predicts, until the fixture cannot do
-/// better.
+/// Fits a cylinder to each cloud and goes to the pose it predicts, until the fixture cannot
+/// improve it.
 ///
 /// @param pose  First pose: where the located part should be level.
 core::Result<void> guided(PoseSession& session, const FeaturePlan& feature, core::Pose pose) {
@@ -101,7 +101,7 @@ core::Result<void> guided(PoseSession& session, const FeaturePlan& feature, core
   for (int visit = 1;; ++visit) {
     const auto cloud = session.measure(pose);
     if (!cloud) {
-      // The start pose is asked for by the plan; any other is only wanted.
+      // The plan demands the start pose; any other pose is optional.
       const bool wanted = visit > 1 || !(pose == start_pose(session, feature));
       if (!wanted || cloud.error().code != core::Code::kUnreachable)
         return core::fail(cloud.error());
@@ -128,13 +128,13 @@ core::Result<void> guided(PoseSession& session, const FeaturePlan& feature, core
   return finish(session, feature);
 }
 
-/// The published grid, or the same followed by step halving; then the best pose measured anew.
+/// Searches the published grid, or also with step halving; then measures the best pose again.
 core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool as_published) {
   const PoseSearchPlan& plan = feature.pose_search;
   const auto f = [&](const core::Pose& pose) -> core::Result<double> {
     const auto cloud = session.measure(pose);
     if (!cloud) {
-      // A pose that cannot be measured is passed over, like one beyond the limits.
+      // A pose that cannot be measured is skipped, as one beyond the limits.
       const bool unreachable = cloud.error().code == core::Code::kUnreachable;
       return core::fail(unreachable ? core::Code::kPoseRange : cloud.error().code,
                         cloud.error().what);
@@ -156,7 +156,7 @@ core::Result<void> grid(PoseSession& session, const FeaturePlan& feature, bool a
   return finish(session, feature);
 }
 
-/// One cloud in the start pose: a circle, or the cloud that is turned in software afterwards.
+/// Measures one cloud in the start pose: a circle, or the cloud that is later turned in software.
 core::Result<void> single(PoseSession& session, const FeaturePlan& feature) {
   const auto cloud = session.measure(start_pose(session, feature));
   if (!cloud) return core::fail(cloud.error());
@@ -164,7 +164,8 @@ core::Result<void> single(PoseSession& session, const FeaturePlan& feature) {
   return finish(session, feature);
 }
 
-/// What can be reached in each of the plan's poses, with its repeats; together one cloud.
+/// Measures the reachable targets in each of the plan's poses, with its repeats; together they are
+/// one cloud.
 core::Result<void> merged(PoseSession& session, const FeaturePlan& feature) {
   const int targets = feature.sampling.layers * feature.sampling.points_per_layer;
   for (const MeasuringPosePlan& at : feature.pose_search.poses) {
@@ -186,7 +187,7 @@ core::Result<void> merged(PoseSession& session, const FeaturePlan& feature) {
 core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature) {
   const std::string& strategy = feature.pose_search.strategy;
   core::Pose pose = start_pose(session, feature);
-  // No pose of a part that is reached in several shows enough of it to locate it.
+  // A part that needs several poses shows too little in one of them to be located.
   if (session.must_locate() && strategy != "merged") {
     const auto axis = session.locate(pose);
     if (!axis) return core::fail(axis.error());
