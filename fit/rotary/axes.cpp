@@ -101,7 +101,7 @@ core::Result<PublishedSetups> published_setups(const RotaryMeasurement& m,
   out.h2_mm = c_axis ? p[1].y() : 0.5 * (p[1].y() + p[2].y());
   const auto expected = c_axis ? out.of_c() : out.of_a();
   for (std::size_t i = 0; i < 3; ++i) {
-    constexpr double kTolerance = 1.0;  // mm: what a lever of that error costs is below 1 %
+    constexpr double kTolerance = 1.0;  // mm: a lever with this error changes results by below 1 %
     if ((p[i] - expected[i]).norm() <= kTolerance) continue;
     return core::fail(
         Code::kBadOption,
@@ -144,8 +144,8 @@ core::Result<std::vector<RotaryStation>> solve_stations(const RotaryMeasurement&
   return out;
 }
 
-/// What the noise of the reference does to the errors, seen in the reference pose: a station there
-/// with the mean uncertainty of all stations.
+/// Covariance that the noise of the reference adds to the errors, in the reference pose: that of a
+/// station there with the mean uncertainty of all stations.
 Matrix6 reference_covariance(const RotaryMeasurement& m, std::span<const BallCentre> reference) {
   std::vector<StationBall> balls;
   for (const BallCentre& known : reference) {
@@ -167,7 +167,7 @@ Matrix6 reference_covariance(const RotaryMeasurement& m, std::span<const BallCen
   return there.errors.covariance - there.measured_covariance;
 }
 
-/// s0 of all stations; states max(1, s0) in their covariances.
+/// Computes s0 of all stations and scales their covariances by max(1, s0)^2.
 void scale_uncertainties(RotaryStudy& study) {
   double chi2 = 0.0;
   for (const RotaryStation& station : study.stations) {
@@ -184,7 +184,7 @@ void scale_uncertainties(RotaryStudy& study) {
   study.table.reference_covariance *= factor;
 }
 
-/// Whether the stations go all round: the gap that is left is no wider than others.
+/// Whether the stations cover the full circle: the remaining gap is no wider than others.
 bool goes_round(const std::vector<double>& ascending_rad) {
   const double span = ascending_rad.back() - ascending_rad.front();
   if (span > core::kTwoPi - 1e-9) return true;
@@ -195,7 +195,7 @@ bool goes_round(const std::vector<double>& ascending_rad) {
   return left <= 1.5 * widest && left <= 120.0 * core::kDegree + 1e-9;
 }
 
-/// Stations of one angle: both directions, and those a turn apart.
+/// Combines the stations of one angle: both directions, and those a turn apart.
 RotaryTableRow row_of(const std::vector<const RotaryStation*>& group, double angle_rad) {
   RotaryTableRow out;
   out.angle_rad = angle_rad;
@@ -220,7 +220,7 @@ RotaryTableRow row_of(const std::vector<const RotaryStation*>& group, double ang
   return out;
 }
 
-/// Root mean square of the half differences, less what noise alone makes of them.
+/// Root mean square of the half differences, minus the contribution of noise alone.
 Vector6 hysteresis_of(const std::vector<RotaryTableRow>& rows) {
   Vector6 squares = Vector6::Zero();
   double n = 0.0;
@@ -316,7 +316,7 @@ void warn_of_study(const RotaryMeasurement& m, RotaryStudy& study) {
                      std::abs(least_redundancy)),
          {}});
   }
-  // The greatest of all shifts: of some dozens of normal numbers.
+  // The limit is for the greatest of all shifts, some dozens of normal numbers.
   const double limit = 4.0 * std::sqrt(2.0) * largest_reference_u(m) * std::sqrt(2.0);
   if (m.references.size() > 1 && study.drift_mm > limit && limit > 0.0) {
     study.warnings.push_back(
@@ -337,7 +337,7 @@ void warn_of_study(const RotaryMeasurement& m, RotaryStudy& study) {
   }
 }
 
-/// What follows from the stations.
+/// Computes the results that follow from the stations.
 core::Result<void> conclude(const RotaryMeasurement& m, const RotaryOptions& options,
                             RotaryStudy& study) {
   const bool none = std::all_of(study.stations.begin(), study.stations.end(),

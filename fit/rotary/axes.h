@@ -9,8 +9,8 @@
 #include "fit/rotary/errors.h"
 #include "fit/rotary/model.h"
 
-// Six position-dependent errors of a rotary axis from balls measured at several angles. Start here:
-// identify_rotary_axis(). Formulas and figures: docs/rotary-axes.md.
+// Identifies the six position-dependent errors of a rotary axis from balls measured at several
+// angles; start with identify_rotary_axis(). Formulas and figures: docs/rotary-axes.md.
 
 namespace rondure::fit {
 
@@ -22,7 +22,7 @@ struct BallCentre {
       Eigen::Vector3d::Constant(1e-3);  ///< Standard uncertainty of x, y, z; > 0.
 };
 
-/// Which way the angle was approached from.
+/// Direction from which the angle was approached.
 enum class Approach { kUnknown, kForward, kBackward };
 
 /// All balls at one angle, approached once.
@@ -32,14 +32,14 @@ struct RotaryPose {
   std::vector<BallCentre> balls;
 };
 
-/// A measured axis. The order of stations and references is the order of measurement.
+/// Measurement of an axis. Stations and references are in the order of measurement.
 struct RotaryMeasurement {
   RotaryAxis axis;
   double lowest_rad = -1e9;  ///< Range of the axis; a station outside is refused.
   double highest_rad = 1e9;
   double reference_rad = 0.0;  ///< Angle of the reference pose.
-  /// The reference pose, measured several times (start, middle, end) and averaged. u_mm = 0 says
-  /// that the places are exact.
+  /// The reference pose, measured several times (start, middle, end) and averaged. u_mm = 0 states
+  /// that the positions are exact.
   std::vector<std::vector<BallCentre>> references;
   std::vector<RotaryPose> stations;
 };
@@ -49,19 +49,19 @@ struct RotaryOptions {
   enum class Solver {
     kExact,        ///< Rigid registration; Gauss-Newton on exp([w]x) for unequal weights.
     kLinear,       ///< One linear step of dp = t + w x p: wrong by |w|^2 |p| / 2.
-    kAsPublished,  ///< kLinear with the matrices printed in the source: published_axes.h.
+    kAsPublished,  ///< kLinear with the matrices printed in the source.
   };
   Solver solver = Solver::kExact;
   RotaryCurve curve = RotaryCurve::kSpline;
   bool remove_outliers = true;
-  double outlier_probability = 0.999;  ///< Of the global test; 0.5 .. 1, exclusive.
+  double outlier_probability = 0.999;  ///< Probability of the global test; 0.5 .. 1, exclusive.
 };
 
 /// Errors found at one station.
 struct RotaryStation {
   double angle_rad = 0.0;
   Approach approach = Approach::kUnknown;
-  /// No solution (too few balls here): errors and covariance mean nothing.
+  /// No solution (too few balls here): errors and covariance are invalid.
   bool undetermined = false;
   bool flagged = false;              ///< The global test fails and no single ball explains it.
   std::vector<std::string> removed;  ///< Balls left out as outliers.
@@ -71,22 +71,22 @@ struct RotaryStation {
   int dof = 0;        ///< 3n - 6.
   double chi2_limit = 0.0;
   double condition = 0.0;                     ///< BallSetup::condition of the balls used.
-  std::vector<std::string> balls;             ///< Those used.
-  std::vector<Eigen::Vector3d> residuals_mm;  ///< Measured minus adjusted, of those.
-  std::vector<Eigen::Vector3d> redundancy;    ///< Of each coordinate; near 0: errors go unseen.
+  std::vector<std::string> balls;             ///< Balls used.
+  std::vector<Eigen::Vector3d> residuals_mm;  ///< Measured minus adjusted, of the balls used.
+  std::vector<Eigen::Vector3d> redundancy;    ///< Per coordinate; near 0: errors are not detected.
 };
 
-/// All that is found of one axis.
+/// Results for one axis.
 struct RotaryStudy {
   double reference_rad = 0.0;
   std::vector<BallCentre> reference;    ///< Averaged.
   double drift_mm = 0.0;                ///< Greatest shift of a ball between two references.
   std::vector<RotaryStation> stations;  ///< As measured.
   double s0 = 1.0;  ///< A-posteriori factor of all stations; covariances hold max(1, s0)^2.
-  int dof = 0;      ///< Behind s0.
+  int dof = 0;      ///< Degrees of freedom of s0.
   RotaryTable table;
   std::optional<AxisOffset> offset;  ///< Absent below 45 deg of arc; a warning says so.
-  /// 0 and 360 deg agree: only with stations a full turn apart.
+  /// Whether 0 and 360 deg were compared, which needs stations a full turn apart.
   bool periodicity_checked = false;
   std::vector<core::Error> warnings;
 };
@@ -94,8 +94,8 @@ struct RotaryStudy {
 /// Identifies the six errors at each station, then axis location and orientation, then the table of
 /// the smooth model (RotaryModel::of(study.table)).
 ///
-/// Errors are relative to the reference pose, where they are zero by definition. A ball missing at
-/// a station is done without; balls that a reference does not know are refused.
+/// Errors are relative to the reference pose, where they are zero by definition. A ball may be
+/// missing at a station; balls that are not in the reference are refused.
 ///
 /// @return kMissingKey (no reference), kUnknownKey (ball), kRepeatedKey (station, ball), kBadOption
 ///         (axis not a unit vector, u not positive), kNotFinite, kPoseRange, kTooFewPoints and

@@ -8,23 +8,23 @@
 
 namespace rondure::fit {
 
-/// The centre of a ball whose radius is known.
+/// The centre of a ball of known radius.
 struct BallCenter {
   Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
-  /// Covariance of the centre for touches that scatter by 1 along their direction; multiply by the
-  /// variance of a touch.
+  /// Covariance of the centre for touches with standard deviation 1 along their direction; multiply
+  /// by the variance of a touch.
   Eigen::Matrix3d cofactor = Eigen::Matrix3d::Zero();
-  double sum_squares_mm2 = 0.0;  ///< Of the radial residuals.
+  double sum_squares_mm2 = 0.0;  ///< Sum of squares of the radial residuals.
   double deviation_mm = 0.0;     ///< Radial peak to valley about the centre [mm].
 };
 
-/// Least-squares sphere of given radius: minimises sum (|p - c| - r)^2 by Gauss-Newton from the
-/// free sphere. Holding the radius halves the uncertainty along the axis of a half sphere of
-/// touches: 25 points give 0.34, 0.35, 0.35 s in place of 0.34, 0.35, 0.69 s.
+/// Fits the least-squares sphere of given radius: minimises sum (|p - c| - r)^2 by Gauss-Newton
+/// from the sphere of free radius. A fixed radius halves the uncertainty along the axis of a half
+/// sphere of touches: 25 points give 0.34, 0.35, 0.35 s instead of 0.34, 0.35, 0.69 s.
 ///
 /// @param points_mm  n >= 4, not in one plane [mm].
-/// @param radius_mm  Of the sphere that the points lie on, > 0 [mm].
-/// @return kBadOption, kNotConverged, and the errors of ls_sphere(). O(n) a step.
+/// @param radius_mm  Radius of the sphere on which the points lie, > 0 [mm].
+/// @return kBadOption, kNotConverged, and the errors of ls_sphere(). O(n) per step.
 /// Source: methods, rotary axes section 3.
 [[nodiscard]] core::Result<BallCenter> ball_center(std::span<const Eigen::Vector3d> points_mm,
                                                    double radius_mm);

@@ -39,12 +39,12 @@ Spread spread_of(std::span<const Vector3d> p) {
   return out;
 }
 
-/// Singular values of the centred balls: second over first.
+/// Second singular value of the centred balls divided by the first.
 double flatness(const Spread& s) {
   return s.eigenvalues(2) > 0.0 ? std::sqrt(s.eigenvalues(1) / s.eigenvalues(2)) : 0.0;
 }
 
-/// At the centroid translations and rotations do not mix: n I and M / l^2.
+/// Condition at the centroid, where translations and rotations decouple: n I and M / l^2.
 double condition_of(const Spread& s, double n) {
   const double l2 = s.squares / n;
   if (!(l2 > 0.0)) return kInfinity;
@@ -76,8 +76,8 @@ std::pair<std::size_t, std::size_t> farthest(std::span<const Vector3d> p) {
   return out;
 }
 
-/// How far from the line through the balls another one must be for a good condition, rounded up to
-/// two digits; the ball stands beside their centroid.
+/// Distance from the line through the balls that a further ball beside their centroid needs for a
+/// good condition, rounded up to two digits.
 double distance_that_cures(std::span<const Vector3d> p, const Vector3d& along) {
   std::vector<Vector3d> with(p.begin(), p.end());
   const Vector3d foot = spread_of(p).centroid;

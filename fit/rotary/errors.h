@@ -8,10 +8,10 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
-/// A rotary axis as it is meant to be: its line in the frame of the measuring machine.
+/// The nominal line of a rotary axis, in the frame of the measuring machine.
 struct RotaryAxis {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< Unit vector; turns right-handed.
-  Eigen::Vector3d origin_mm = Eigen::Vector3d::Zero();   ///< Where translations are stated.
+  Eigen::Vector3d origin_mm = Eigen::Vector3d::Zero();   ///< Point to which translations refer.
 
   /// The nominal rotation about the direction.
   [[nodiscard]] Eigen::Matrix3d turn(double angle_rad) const {
@@ -19,8 +19,8 @@ struct RotaryAxis {
   }
 };
 
-/// The six errors of a rotary axis at one angle: a body that should have turned by the angle has
-/// besides been moved by t and turned by w, seen from the origin of the axis.
+/// The six errors of a rotary axis at one angle. A body that should only have turned by the angle
+/// has also been shifted by t and turned by w about the origin of the axis:
 ///   p_actual = exp([w]x) R(angle) p0 + t,    p relative to the origin of the axis.
 struct RotaryErrors {
   Eigen::Vector3d t_mm = Eigen::Vector3d::Zero();   ///< Along x, y, z (EX, EY, EZ) [mm].
@@ -41,9 +41,10 @@ struct RotaryErrors {
 [[nodiscard]] Eigen::Isometry3d error_motion(const Eigen::Vector3d& t_mm,
                                              const Eigen::Vector3d& w_rad);
 
-/// Where a turn of `angle_rad` (counted from the reference pose) with these errors really takes the
-/// body, in the frame of the machine: a point of the body that stands at x_mm in the reference pose
-/// stands at rotary_motion(...) * x_mm. Its inverse takes points measured at the angle back.
+/// The true motion of the body for a turn of `angle_rad` (counted from the reference pose) with
+/// these errors, in the frame of the machine: a point of the body at x_mm in the reference pose
+/// moves to rotary_motion(...) * x_mm. The inverse maps points measured at the angle back to the
+/// reference pose.
 [[nodiscard]] Eigen::Isometry3d rotary_motion(const RotaryAxis& axis, double angle_rad,
                                               const RotaryErrors& errors);
 
@@ -53,8 +54,8 @@ struct RotaryErrors {
 /// Matrix [v]x of the cross product: [v]x u = v x u.
 [[nodiscard]] Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
 
-/// What errors of this covariance do to a point: the covariance of t + w x p [mm^2].
-/// @param p_mm  The point at the angle in question, relative to the origin of the axis.
+/// Covariance of the displacement t + w x p of a point by errors of the given covariance [mm^2].
+/// @param p_mm  The point at the angle of the errors, relative to the origin of the axis.
 [[nodiscard]] Eigen::Matrix3d point_covariance_mm2(const Matrix6& covariance,
                                                    const Eigen::Vector3d& p_mm);
 

@@ -9,7 +9,7 @@
 
 namespace rondure::fit {
 
-/// The errors at one angle, both directions of approach averaged.
+/// The errors at one angle, averaged over both directions of approach.
 struct RotaryTableRow {
   double angle_rad = 0.0;
   Vector6 errors = Vector6::Zero();      ///< (t; w) [mm, rad].
@@ -18,23 +18,23 @@ struct RotaryTableRow {
   bool both_directions = false;
 };
 
-/// How the errors between the stations are found.
+/// Method for the errors between the stations.
 enum class RotaryCurve {
   kSpline,      ///< Cubic spline through the stations: periodic on a full circle, else not-a-knot.
   kFourier,     ///< Full circle: series up to order floor(stations / 3), least squares.
   kPolynomial,  ///< Arc: 1, cos, sin and powers up to min(4, (stations - 1) / 3), least squares.
 };
 
-/// Everything a smooth model is made from, plain: this is what a calibration file keeps.
+/// The data from which a smooth model is made, as stored in a calibration file.
 struct RotaryTable {
   RotaryAxis axis;
-  double reference_rad = 0.0;  ///< Of the pose in which t = 0 and w = 0 by definition.
+  double reference_rad = 0.0;  ///< Angle of the pose in which t = 0 and w = 0 by definition.
   bool full_circle = false;
   RotaryCurve curve = RotaryCurve::kSpline;
   std::vector<RotaryTableRow> rows;  ///< Angles strictly ascending, on a circle within one turn.
-  std::vector<double> missing_rad;   ///< Stations without a solution: bridged.
-  /// What the noise of the reference pose does at the reference angle; it turns with the body and
-  /// is the same for all stations.
+  std::vector<double> missing_rad;   ///< Stations without a solution, across which is interpolated.
+  /// Covariance from the noise of the reference pose, at the reference angle; it turns with the
+  /// body and is common to all stations.
   Matrix6 reference_covariance = Matrix6::Zero();
   Vector6 hysteresis_rms = Vector6::Zero();  ///< Standard uncertainty from direction of approach.
 };
@@ -47,13 +47,13 @@ class RotaryModel {
   ///         kTable (angles not strictly ascending, or over more than one turn).
   [[nodiscard]] static core::Result<RotaryModel> of(RotaryTable table);
 
-  /// Errors with their covariance: the band of an error curve is sigma() of it.
-  /// On a full circle any angle is brought into the turn of the stations.
+  /// Errors with their covariance, whose sigma() is the band of an error curve. On a full circle
+  /// any angle is first reduced to the turn of the stations.
   /// @return kOutOfRange outside the stations of an arc (nothing is extrapolated), kNotFinite.
   ///         O(stations).
   [[nodiscard]] core::Result<RotaryErrors> at(double angle_rad) const;
 
-  /// rotary_motion() at a commanded angle with the errors found there.
+  /// rotary_motion() at a commanded angle, with the errors at that angle. Errors as at().
   [[nodiscard]] core::Result<Eigen::Isometry3d> motion(double angle_rad) const;
 
   [[nodiscard]] const RotaryTable& table() const { return table_; }
@@ -61,7 +61,7 @@ class RotaryModel {
   [[nodiscard]] double highest_rad() const { return table_.rows.back().angle_rad; }
 
  private:
-  /// errors(angle) = sum over rows of weight(row) * errors(row), a column an error.
+  /// errors(angle) = sum over rows of weight(row) * errors(row), one column per error.
   using Weights = Eigen::Matrix<double, Eigen::Dynamic, 6>;
   [[nodiscard]] Weights weights_at(double angle_rad) const;
   [[nodiscard]] bool bridged_at(double angle_rad) const;

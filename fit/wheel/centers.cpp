@@ -14,8 +14,8 @@ namespace {
 
 using FourRows = std::array<std::size_t, 4>;
 
-/// Draws per accepted quadruple wanted before giving up: points that refuse nine hundred and
-/// ninety-nine of a thousand are no circle worth measuring.
+/// Most draws per quadruple to be accepted. Points of which 999 of 1000 quadruples are refused do
+/// not form a measurable circle.
 constexpr std::size_t kDrawsPerCenter = 1000;
 
 enum class Refusal { kNone, kShortChord, kParallel, kIllConditioned };
@@ -26,7 +26,7 @@ FourRows paired(const FourRows& r, int pairing) {
   return r;
 }
 
-/// A whole number below `end`; the bias of the remainder is below 1e-15 for any set of points.
+/// Draws an integer below `end`; the bias of the remainder is below 1e-15 for any set of points.
 std::size_t draw(std::uint64_t& state, std::size_t end) {
   return static_cast<std::size_t>(core::splitmix64(state) % end);
 }
@@ -166,7 +166,7 @@ FourPointCenter four_point_center(std::span<const Eigen::Vector2d> points_mm, co
                                   double radius_mm) {
   FourPointCenter out;
   out.rows = rows;
-  // Relative to A: |B|^2 - |A|^2 of points far from the origin would cancel.
+  // Relative to A, as |B|^2 - |A|^2 would lose digits for points far from the origin.
   const Eigen::Vector2d origin = points_mm[rows[0]];
   const Eigen::Vector2d a = points_mm[rows[1]] - origin;
   const Eigen::Vector2d c0 = points_mm[rows[2]] - origin;

@@ -15,36 +15,36 @@
 
 namespace rondure::fit {
 
-/// The centre that four points of a circle give: where the perpendicular bisectors of the chords AB
-/// and CD meet.
+/// The centre of a circle from four points: the intersection of the perpendicular bisectors of the
+/// chords AB and CD.
 struct FourPointCenter {
   std::array<std::size_t, 4> rows{};  ///< A, B, C, D.
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();
   double psi_rad = 0.0;          ///< Angle between the chords, 0 to pi/2.
   double first_chord_mm = 0.0;   ///< |AB|
   double second_chord_mm = 0.0;  ///< |CD|
-  /// Scatter of the centre per scatter of a point along its radius, >= 1 on a circle; infinite for
-  /// parallel chords, whose centre stays zero.
+  /// Scatter of the centre relative to the scatter of a point along its radius, >= 1 on a circle;
+  /// infinite for parallel chords, for which the centre stays zero.
   double kappa = 0.0;
 };
 
-/// Centre and conditioning of one pairing of four points. Exact when the four are on one circle.
+/// Computes centre and conditioning of one pairing of four points. Exact if they are on one circle.
 ///
 /// kappa = sqrt(2) R sqrt(1/|AB|^2 + 1/|CD|^2) / sin psi.
 ///
-/// @param points_mm  All points; `rows` are valid places in it [mm].
-/// @param radius_mm  Radius of the circle, for kappa alone.
+/// @param points_mm  All points; `rows` are valid indices into it [mm].
+/// @param radius_mm  Radius of the circle, used only for kappa.
 /// Source: methods, wheel section 3 (patent CN103029041A, step one c).
 [[nodiscard]] FourPointCenter four_point_center(std::span<const Eigen::Vector2d> points_mm,
                                                 const std::array<std::size_t, 4>& rows,
                                                 double radius_mm);
 
-/// Of the three pairings of four points the one with the least kappa (the first of equals).
+/// Returns the one of the three pairings of four points with the least kappa (the first of equals).
 [[nodiscard]] FourPointCenter best_pairing(std::span<const Eigen::Vector2d> points_mm,
                                            const std::array<std::size_t, 4>& rows,
                                            double radius_mm);
 
-/// Which quadruples of points are used.
+/// Choice of the quadruples of points to use.
 enum class QuadrupleChoice {
   kAll,     ///< Every subset in its best pairing; 5000 drawn ones when there are more.
   kBest,    ///< The `count` best conditioned of kAll.
@@ -56,8 +56,8 @@ enum class QuadrupleChoice {
 /// Limits and choice of select_centers().
 struct QuadrupleOptions {
   QuadrupleChoice choice = QuadrupleChoice::kAll;
-  std::size_t count = 6;                         ///< Of kBest and kRandom, 6 to 5000.
-  std::uint64_t seed = 1;                        ///< Of drawn subsets.
+  std::size_t count = 6;                         ///< Number for kBest and kRandom, 6 to 5000.
+  std::uint64_t seed = 1;                        ///< Seed of the random subsets.
   double least_chord_mm = 1e-3;                  ///< A shorter chord has no direction, > 0.
   double least_chord_per_radius = 0.05;          ///< The same as a share of the radius, 0 to 1.
   double least_angle_rad = 5.0 * core::kDegree;  ///< Chords closer to parallel are refused.
@@ -65,7 +65,7 @@ struct QuadrupleOptions {
   std::optional<double> kappa_limit;
 };
 
-/// Centres of the accepted quadruples, and why the others were refused.
+/// Centres of the accepted quadruples, and counts of the refused ones by reason.
 struct WheelCenters {
   std::vector<FourPointCenter> accepted;
   std::size_t short_chord = 0;      ///< Refused: a chord below its least length.
@@ -78,15 +78,15 @@ struct WheelCenters {
   [[nodiscard]] double rms_kappa() const;
 };
 
-/// The least number of centres a wheel centre is combined from.
+/// The least number of centres from which a wheel centre is combined.
 inline constexpr std::size_t kLeastCenters = 6;
-/// Subsets looked at when there are more.
+/// The greatest number of subsets used.
 inline constexpr std::size_t kMostQuadruples = 5000;
 
-/// Centres of well conditioned quadruples.
+/// Selects well conditioned quadruples and computes their centres.
 ///
 /// @param points_mm  n >= 4 points [mm].
-/// @param radius_mm  Of the least-squares circle of the points, for kappa and chord lengths.
+/// @param radius_mm  Radius of the least-squares circle, for kappa and chord lengths.
 /// @return kBadOption; kTooFewCenters (fewer than 6 accepted; `what` holds the counts of all
 ///         reasons). Same input, same bits. At most 5000 subsets, some 0.5 ms.
 /// Source: methods, wheel section 4.

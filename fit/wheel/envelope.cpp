@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "core/units.h"
-#include "fit/profiles/internal/dft.h"
 #include "fit/contour/ground_contour.h"
+#include "fit/profiles/internal/dft.h"
 
 namespace rondure::fit {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 /// The Fourier series of a periodic series at `times` as many places.
 std::vector<double> refined_series(std::span<const double> series, std::size_t times) {
   auto half = spectrum(series);
-  if (series.size() % 2 == 0 && times > 1) half.back() *= 0.5;  // one of two alike from here on
+  if (series.size() % 2 == 0 && times > 1) half.back() *= 0.5;  // now one of two equal terms
   half.resize(series.size() * times / 2 + 1);
   auto out = series_of(half, series.size() * times);
   for (double& v : out) v *= static_cast<double>(times);
@@ -22,13 +22,13 @@ std::vector<double> refined_series(std::span<const double> series, std::size_t t
 
 /// Wheel positions by their polar angle about the pin centre.
 struct Positions {
-  std::vector<double> theta;  ///< In [0, 2 pi), ascending but for the ripple of the C axis.
+  std::vector<double> theta;  ///< In [0, 2 pi), ascending except for C axis ripple.
   std::vector<double> rho;
   double least_rho = std::numeric_limits<double>::infinity();
   double wheel = 0.0;
 
-  /// Distance from the pin centre to a wheel circle in a direction D off its centre; infinite where
-  /// the ray passes it.
+  /// Distance from the pin centre to a wheel circle along a ray at an angle D from the wheel
+  /// centre; infinite if the ray misses it.
   [[nodiscard]] static double reach(double rho, double wheel, double off) {
     const double across = rho * std::sin(off);
     const double along = rho * std::cos(off);
@@ -55,7 +55,7 @@ Positions positions_of(const GrindingPath& path, double wheel, std::size_t overs
   return out;
 }
 
-/// Least value of the parabola through three neighbours, the middle one the least.
+/// Least value of the parabola through three neighbours, of which the middle one is the least.
 double parabola_least(double before, double middle, double after) {
   const double bend = before - 2.0 * middle + after;
   const double slope = 0.5 * (after - before);
@@ -63,14 +63,14 @@ double parabola_least(double before, double middle, double after) {
   return middle - 0.5 * slope * slope / bend;
 }
 
-/// Looks for the least reach in one direction after the other.
+/// Finds the least reach in one direction after the other.
 class Search {
  public:
   explicit Search(const Positions& at) : at_(at) {
     for (std::size_t i = 0; i < at.rho.size(); ++i) slack_ = std::max(slack_, step_after(i));
   }
 
-  /// @param beta  Not far behind the one asked for before.
+  /// @param beta  Not far after the previous one.
   double least(double beta) {
     const std::size_t n = at_.rho.size();
     for (std::size_t step = 0; step < n && off(at_.after(nearest_), beta) < off(nearest_, beta);
@@ -93,9 +93,9 @@ class Search {
     return std::abs(std::remainder(beta - at_.theta[i], core::kTwoPi));
   }
 
-  /// Goes away from the nearest position as long as a wheel there could reach deeper: at the angle
-  /// D off the direction none reaches deeper than one at the least distance, which loses with D.
-  /// The greatest step is the reserve for positions that are not in order of angle.
+  /// Moves away from the nearest position as long as a wheel there could reach deeper. At the angle
+  /// D from the direction, none reaches deeper than one at the least distance, whose reach shrinks
+  /// with D. The greatest step is the margin for positions that are not in order of angle.
   template <class Next>
   void look(double beta, const Next& next) {
     std::size_t i = nearest_;

@@ -21,7 +21,7 @@ core::Result<ResidualForm> residual_form(const WheelSurface& surface, double use
         core::Code::kBadOption,
         fmt::format("the radius of the path is {} mm; above 0 is needed", used_radius_mm));
   }
-  // With a cusp there is no step in the options; the residual is smooth, any fine step will do.
+  // With a cusp the options have no step; the residual is smooth, so any fine step will do.
   const auto load = wheel_load(surface, true_radius_mm, options);
   if (!load) return core::fail(load.error());
   const auto origin = surface.at(touch_off_mm);

@@ -8,14 +8,14 @@
 
 namespace rondure::fit {
 
-/// Form error at one place of a ground surface; above 0: material left on, below 0: overcut.
+/// Form error at one place of a ground surface; > 0: material remains, < 0: overcut.
 struct ResidualRow {
   double x_mm = 0.0;
   double vertical_mm = 0.0;  ///< e_z = delta q.
-  double touched_mm = 0.0;   ///< delta (q - q(x0)): what the touch-off at x0 leaves.
+  double touched_mm = 0.0;   ///< delta (q - q(x0)): remaining after touch-off at x0.
 };
 
-/// What a path for one radius leaves when the wheel has another.
+/// Form error left by a path that was computed for another radius than that of the wheel.
 struct ResidualForm {
   double used_radius_mm = 0.0;
   double true_radius_mm = 0.0;
@@ -25,9 +25,9 @@ struct ResidualForm {
   double deviation_mm = 0.0;  ///< Peak to valley after touch-off.
 };
 
-/// Residual form over the places of a path's range: its step, 1000 places at most.
+/// Computes the residual form over the range of a path, at its step, with at most 1000 places.
 ///
-/// e_z = delta q + O(delta^2 k_s). Only where the true wheel does not gouge.
+/// e_z = delta q + O(delta^2 k_s). Valid only if the true wheel does not gouge.
 /// @return as wheel_load() of the true radius; kBadOption for radii not above 0.
 /// Source: methods, wheel section 9.
 [[nodiscard]] core::Result<ResidualForm> residual_form(const WheelSurface& surface,
@@ -35,12 +35,12 @@ struct ResidualForm {
                                                        double touch_off_mm,
                                                        const WheelPathOptions& options);
 
-/// What is known of a wheel when its path is computed.
+/// Data of a wheel that are known when its path is computed.
 struct ForecastInput {
-  double radius_mm = 0.0;                   ///< Of the path, taken for true.
-  double radius_uncertainty_mm = 0.0;       ///< Standard.
-  std::optional<double> nominal_radius_mm;  ///< What an uncompensated path would take.
-  double repeatability_mm = 0.0;            ///< Of the machine: no compensation is better.
+  double radius_mm = 0.0;                   ///< Radius of the path, taken as true.
+  double radius_uncertainty_mm = 0.0;       ///< Its standard uncertainty.
+  std::optional<double> nominal_radius_mm;  ///< Radius that an uncompensated path would use.
+  double repeatability_mm = 0.0;            ///< Of the machine: the limit of any compensation.
   double touch_off_mm = 0.0;                ///< x0
 };
 
@@ -49,9 +49,10 @@ struct WheelForecast {
   std::optional<ResidualForm> nominal;  ///< Path for the nominal radius.
   ResidualForm measured;                ///< Path for the measured one, 2 u(R) off.
   std::optional<double> improvement;    ///< |delta_nominal| / max(2 u(R), repeatability).
-  bool capped = false;                  ///< The machine's repeatability limits it.
+  bool capped = false;                  ///< The repeatability of the machine limits it.
 };
 
+/// Computes the residual form without and with compensation.
 /// @return as residual_form().
 [[nodiscard]] core::Result<WheelForecast> forecast(const WheelSurface& surface,
                                                    const ForecastInput& input,

@@ -14,7 +14,7 @@ namespace rondure::fit {
 namespace {
 
 constexpr std::size_t kLeastLeft = 8;
-constexpr std::size_t kFormRun = 3;    ///< So many flagged neighbours are form.
+constexpr std::size_t kFormRun = 3;    ///< This many flagged neighbours are form.
 constexpr std::size_t kRunBridge = 2;  ///< Points between two flagged ones of a run.
 
 /// Places in angular order, run by run.

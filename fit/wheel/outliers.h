@@ -14,7 +14,7 @@ namespace rondure::fit {
 
 /// Limits of find_outliers().
 struct OutlierOptions {
-  double scales = 5.0;  ///< A point is flagged beyond so many scales, >= 5: lobes are form.
+  double scales = 5.0;  ///< Points beyond this many scales are flagged; >= 5, as lobes are form.
   double least_scale_mm = 1e-4;  ///< Floor of the scale [mm], > 0.
 };
 
@@ -24,20 +24,20 @@ struct DroppedPoint {
   double deviation_mm = 0.0;  ///< From the median radius about the median centre.
 };
 
-/// Points of a wheel that are not its surface.
+/// Points that are not on the surface of the wheel.
 struct Outliers {
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  ///< Component-wise median of the centres.
-  std::vector<double> deviations_mm;                    ///< Of every point, from the median radius.
+  std::vector<double> deviations_mm;                    ///< Of all points, from the median radius.
   double scale_mm = 0.0;                                ///< 1.4826 median |deviation|.
   std::vector<DroppedPoint> dropped;                    ///< By row.
   std::vector<core::Error> warnings;                    ///< kOutliers, kLocalForm.
 };
 
 /// Finds isolated points far from the circle. Flagged points with at most two others between them
-/// are a run; three or more of a run are form (wear, a flat) and stay.
+/// form a run; a run of three or more is form (wear, a flat) and is kept.
 ///
-/// @return kBadOption; kOutliers when more than a quarter of the points, or so many that fewer
-///         than 8 stay, would be dropped.
+/// @return kBadOption; kOutliers if more than a quarter of the points, or so many that fewer than 8
+///         remain, would be dropped.
 /// Source: methods, wheel section 7.
 [[nodiscard]] core::Result<Outliers> find_outliers(std::span<const Eigen::Vector2d> points_mm,
                                                    std::span<const FourPointCenter> centers,

@@ -60,7 +60,7 @@ WheelLoad load_of(const SurfaceSamples& samples, double radius_mm) {
   return out;
 }
 
-/// A place for a sentence: no "-0", no digits of round-off.
+/// Rounds x for a message: no "-0", no digits of round-off.
 double shown(double x_mm) { return std::round(x_mm * 1e4) / 1e4 + 0.0; }
 
 core::Result<void> check_load(const WheelLoad& load, double radius_mm,
@@ -127,7 +127,7 @@ core::Result<void> check_clearance(const SurfaceSamples& samples, const WheelPat
 core::Result<void> fill_rows(const WheelSurface& surface, const WheelPathOptions& options,
                              WheelPath& path) {
   const double length = options.to_mm - options.from_mm;
-  // The slack keeps a whole number of steps from gaining one by round-off.
+  // The slack prevents round-off from adding a step to a whole number of them.
   const double steps = std::max(1.0, std::ceil(length / path.step_mm * (1.0 - 1e-12)));
   if (steps > kMostSteps) {
     return core::fail(

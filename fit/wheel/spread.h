@@ -14,27 +14,29 @@ struct AngularOrder {
   std::vector<double> angles_rad;  ///< Of those rows, rising, over less than one turn.
   double largest_gap_rad = 0.0;
 
-  /// The part of the circle that holds points [rad].
+  /// The arc of the circle that holds points [rad].
   [[nodiscard]] double coverage_rad() const;
   /// Whether the last point is a neighbour of the first: no gap above 90 deg.
   [[nodiscard]] bool closed() const;
 };
+/// Sorts points by their angle about a centre.
 [[nodiscard]] AngularOrder angular_order(std::span<const Eigen::Vector2d> points_mm,
                                          const Eigen::Vector2d& center_mm);
 
-/// Scatter of a least-squares circle per scatter of a point, from the places of the points.
+/// Scatter of a least-squares circle relative to the scatter of a point, from the angles.
 struct CircleFactors {
   double center = 0.0;  ///< sigma_S: root of the summed variances of both coordinates.
   double radius = 0.0;  ///< a_R
 };
-/// Rows (cos, sin, 1) of the normal equations; both infinite when they are singular.
+/// Computes the factors from the normal equations with rows (cos, sin, 1); both are infinite if
+/// these are singular.
 [[nodiscard]] CircleFactors circle_factors(std::span<const double> angles_rad);
 
-/// How many neighbouring residuals count as one: tau = max(1, 1 + 2 (rho_1 + rho_2 + ...)) with the
-/// autocorrelation in angular order, summed up to the first that is not positive. White noise: 1.0
-/// to 1.1.
+/// Number of neighbouring residuals that count as one: tau = max(1, 1 + 2 (rho_1 + rho_2 + ...)),
+/// with the autocorrelation in angular order, summed up to the first value that is not positive.
+/// White noise gives 1.0 to 1.1.
 /// @param residuals  In angular order, about their mean.
-/// @param closed  Whether the last is a neighbour of the first.
+/// @param closed  Whether the last residual is a neighbour of the first.
 [[nodiscard]] double correlation_time(std::span<const double> residuals, bool closed);
 
 }  // namespace rondure::fit

@@ -11,9 +11,9 @@ namespace rondure::fit {
 namespace {
 
 constexpr std::size_t kLeastRows = 5;
-/// Ends of ranges are met within this [mm]: a path of equal steps ends a rounding beside them.
+/// Tolerance at the ends of ranges [mm]: a path of equal steps ends there only to round-off.
 constexpr double kEndSlack = 1e-9;
-/// Splines through rows of zero depth swing so far below it [mm].
+/// Splines through rows of zero depth may be this far below zero [mm].
 constexpr double kDepthSlack = 1e-6;
 
 core::Result<SurfacePoint> place_on(const Polynomial& form, double x) {

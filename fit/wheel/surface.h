@@ -18,13 +18,13 @@ struct SurfacePoint {
 
   /// q = sqrt(1 + f'^2): length of the surface per length of x.
   [[nodiscard]] double stretch() const;
-  /// k_s = f''/q^3 [1/mm], above 0 where the surface is hollow.
+  /// k_s = f''/q^3 [1/mm], > 0 where the surface is concave.
   [[nodiscard]] double curvature_per_mm() const;
 };
 
 /// f = c x^2 / (1 + sqrt(1 - (1 + K) c^2 x^2)) + A2 x^2 + A4 x^4 + ...
 struct Asphere {
-  double curvature_per_mm = 0.0;   ///< c; above 0: hollow.
+  double curvature_per_mm = 0.0;   ///< c; > 0: concave.
   double conic = 0.0;              ///< K: 0 a sphere, -1 a paraboloid.
   std::vector<double> even_terms;  ///< A2, A4, A6, ... [mm^(1-2j)].
 };
@@ -34,29 +34,30 @@ struct Polynomial {
   std::vector<double> coefficients;
 };
 
-/// A surface to be ground, z = f(x): material below, wheel above. A removal, if any, is taken off:
-/// f = f0 - h.
+/// A surface to be ground, z = f(x), with the material below and the wheel above. A removal depth,
+/// if any, is subtracted: f = f0 - h.
 class WheelSurface {
  public:
   /// @return kBadOption for coefficients that are not finite, or none.
   static core::Result<WheelSurface> polynomial(Polynomial polynomial);
   static core::Result<WheelSurface> asphere(Asphere asphere);
-  /// Cubic spline through a table (x, z); five points per shortest wavelength are needed.
+  /// Cubic spline through a table (x, z), which needs five points per shortest wavelength.
   /// @return kTable: fewer than 5 rows, or x not strictly ascending; kNotFinite.
   static core::Result<WheelSurface> table(std::vector<double> x_mm, std::vector<double> z_mm);
 
-  /// This surface less the depth h(x) >= 0 of a table.
+  /// This surface minus the depth h(x) >= 0 of a table.
   /// @return as table(), and kSurface for a negative depth.
   [[nodiscard]] core::Result<WheelSurface> less(std::vector<double> x_mm,
                                                 std::vector<double> depth_mm) const;
 
-  /// @return kSurface with x: beyond the conic's edge, outside the table, or a removal below 0
-  ///         between its rows.
+  /// Height, slope and second derivative at x.
+  /// @return kSurface with x: beyond the edge of the conic, outside the table, or where the removal
+  ///         is below 0 between its rows.
   [[nodiscard]] core::Result<SurfacePoint> at(double x_mm) const;
 
-  /// Where the tables have rows: their x, ascending; empty for formulas.
+  /// x of the rows of the tables, ascending; empty for formulas.
   [[nodiscard]] std::vector<double> rows_mm() const;
-  /// The range of x that the tables leave [mm]; none for formulas.
+  /// The range of x that all tables cover [mm]; none for formulas.
   [[nodiscard]] std::optional<std::pair<double, double>> range_mm() const;
 
  private:

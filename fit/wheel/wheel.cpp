@@ -89,7 +89,7 @@ core::Result<void> check_arc(const Points& points, const LsCircle& circle,
                       : "they do not determine the centre"));
 }
 
-/// Everything that can be said before quadruples are chosen.
+/// Makes the checks that are possible before quadruples are chosen.
 core::Result<LsCircle> check_and_start(std::span<const Eigen::Vector2d> points_mm,
                                        const WheelOptions& options) {
   if (auto checked = check_options(options); !checked) return core::fail(checked.error());
@@ -113,7 +113,7 @@ core::Result<LsCircle> check_and_start(std::span<const Eigen::Vector2d> points_m
 }
 
 Eigen::Vector2d combined(const WheelCenters& centers, WheelMean mean) {
-  // Relative to the first centre: sums of points far from the origin would lose digits.
+  // Relative to the first centre, as sums of points far from the origin would lose digits.
   const Eigen::Vector2d origin = centers.accepted.front().center_mm;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double weights = 0.0;
@@ -125,9 +125,9 @@ Eigen::Vector2d combined(const WheelCenters& centers, WheelMean mean) {
   return origin + sum / weights;
 }
 
-/// What a unit of noise along the radius of every point does to the mean of the quadruples' centres
-/// and to the mean distance from it, weights held. A point B of the chord AB moves its bisector by
-/// the radius, A by as much the other way: a . dS = +-R.
+/// Effect of unit noise along the radius of every point on the mean of the centres of quadruples
+/// and on the mean distance from it, with fixed weights. A point B of the chord AB moves its
+/// bisector by the radius, A by the same amount in the opposite direction: a . dS = +-R.
 CircleFactors quadruple_factors(const Points& used, const WheelMeasurement& m) {
   std::vector<Eigen::Vector2d> moves(used.size(), Eigen::Vector2d::Zero());
   double weights = 0.0;
@@ -156,7 +156,7 @@ CircleFactors quadruple_factors(const Points& used, const WheelMeasurement& m) {
   return {std::sqrt(center), std::sqrt(radius)};
 }
 
-/// Centre, radius and everything about them, from the points that are used.
+/// Fills in centre, radius and related values from the points used.
 void fill_circle(const Points& used, WheelMeasurement& out) {
   const bool least_squares = out.mean == WheelMean::kLeastSquares;
   out.quadruple_center_mm = combined(out.centers, out.mean);
@@ -277,7 +277,7 @@ void warn(WheelMeasurement& out) {
 core::Result<Outliers> outliers_of(const OutlierOptions& options,
                                    const QuadrupleOptions& quadruples, const Points& used,
                                    const WheelMeasurement& out) {
-  // A chip spoils two or three of six centres and their median with them: all are asked.
+  // A chip spoils two or three of six centres, and so their median; all quadruples are used.
   QuadrupleOptions every = quadruples;
   every.choice = QuadrupleChoice::kAll;
   const auto all = select_centers(used, out.check.radius_mm, every);
@@ -285,7 +285,7 @@ core::Result<Outliers> outliers_of(const OutlierOptions& options,
   return find_outliers(used, all->accepted, options);
 }
 
-/// Says which points the robust variant would drop; they stay.
+/// Adds a warning that names the points that the robust variant would drop; they are kept.
 void name_outliers(const OutlierOptions& options, const QuadrupleOptions& quadruples,
                    const Points& used, WheelMeasurement& out) {
   constexpr std::size_t kNamed = 5;
@@ -314,7 +314,7 @@ void name_outliers(const OutlierOptions& options, const QuadrupleOptions& quadru
        {}});
 }
 
-/// Drops outliers from `rows` and `used`, and chooses the quadruples again where there were any.
+/// Drops outliers from `rows` and `used`, and selects the quadruples again if there were any.
 core::Result<void> make_robust(const OutlierOptions& options, const QuadrupleOptions& quadruples,
                                std::vector<std::size_t>& rows, Points& used,
                                WheelMeasurement& out) {

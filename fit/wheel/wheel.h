@@ -19,7 +19,7 @@
 
 namespace rondure::fit {
 
-/// How edge points of a wheel were taken; it decides what they are.
+/// How the edge points of a wheel were taken, which determines what they represent.
 enum class WheelMode {
   kIndexed,   ///< Wheel at known angles: points of its body; the centre is that of its profile.
   kEnvelope,  ///< Wheel at speed, long exposure: points of the circle it sweeps about its axis.
@@ -27,7 +27,7 @@ enum class WheelMode {
 /// "indexed", "envelope".
 [[nodiscard]] std::string_view name_of(WheelMode mode);
 
-/// Where the centre comes from.
+/// Method for the centre.
 enum class WheelMean {
   kLeastSquares,  ///< Geometric least squares of all points.
   kAsPublished,   ///< Mean of the centres of quadruples: the "direct least squares" of the patent.
@@ -46,20 +46,20 @@ struct WheelOptions {
   std::optional<Eigen::Vector2d> axis_mm;   ///< Spindle axis, from calibration or kEnvelope [mm].
   std::optional<double> nominal_radius_mm;  ///< R must be within 5 % of it.
   bool allow_short_arc = false;             ///< Also evaluate less than 20 deg of the circle.
-  bool minimum_zone = true;                 ///< Compute the minimum-zone roundness, too.
+  bool minimum_zone = true;                 ///< Also compute the minimum-zone roundness.
 };
 
-/// Radial run-out and what follows from it: known with the spindle axis only.
+/// Radial run-out and derived values; known only with the spindle axis.
 struct WheelRunout {
   Eigen::Vector2d axis_mm = Eigen::Vector2d::Zero();
   double fim_mm = 0.0;               ///< Full indicator movement: max - min distance from the axis.
-  double eccentricity_mm = 0.0;      ///< Distance of the profile's centre from the axis.
-  double effective_radius_mm = 0.0;  ///< Largest distance from the axis: what cuts.
-  /// The same two with the points that were dropped: a proud point is run-out, and cuts.
+  double eccentricity_mm = 0.0;      ///< Distance of the centre of the profile from the axis.
+  double effective_radius_mm = 0.0;  ///< Largest distance from the axis: the radius that cuts.
+  /// FIM and effective radius including dropped points: a protruding point is run-out, and cuts.
   double fim_with_dropped_mm = 0.0;
   double effective_radius_with_dropped_mm = 0.0;
-  /// Why `fim_mm` and `effective_radius_mm` are no more than lower bounds: points that see too
-  /// little of the turn, or a dropped one that adds to them. Empty when they are values.
+  /// Why `fim_mm` and `effective_radius_mm` are only lower bounds: points that cover too little of
+  /// the turn, or a dropped point that adds to them. Empty if they are values.
   std::string bound_because;
 };
 
@@ -67,24 +67,24 @@ struct WheelRunout {
 struct WheelMeasurement {
   WheelMode mode = WheelMode::kIndexed;
   WheelMean mean = WheelMean::kLeastSquares;
-  std::size_t points = 0;  ///< Given, with those dropped.
+  std::size_t points = 0;  ///< Number given, including those dropped.
   std::vector<DroppedPoint> dropped;
-  double outlier_scale_mm = 0.0;                        ///< Of the robust variant; 0 without it.
+  double outlier_scale_mm = 0.0;                        ///< Scale of the robust variant, else 0.
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  ///< S
   double radius_mm = 0.0;                               ///< R, mean distance of the points from S.
   double center_uncertainty_mm = 0.0;  ///< u(S), both coordinates: s_r factors.center sqrt(tau).
   double radius_uncertainty_mm = 0.0;  ///< u(R), standard: s_r factors.radius sqrt(tau).
   double spread_mm = 0.0;              ///< s_r, standard deviation of the distances, n - 3.
   double deviation_mm = 0.0;           ///< PV of the distances: roundness about S, not run-out.
-  std::vector<double> deviations_mm;   ///< Distance from S minus R, of every given point.
+  std::vector<double> deviations_mm;   ///< Distance from S minus R, for every given point.
   AngularOrder order;                  ///< Of the points used, about S; rows of the given points.
-  CircleFactors factors;               ///< Of the centre and radius that are given.
+  CircleFactors factors;               ///< Of the centre and radius reported.
   double correlation = 1.0;            ///< tau
   WheelCenters centers;                ///< Rows of the given points.
   /// Mean of their centres: plain with kAsPublished, else weighted.
   Eigen::Vector2d quadruple_center_mm = Eigen::Vector2d::Zero();
   double center_scatter_mm = 0.0;     ///< s_c about that mean; an indicator only.
-  double expected_scatter_mm = 0.0;   ///< s_r rms(kappa): what noise alone gives.
+  double expected_scatter_mm = 0.0;   ///< s_r rms(kappa): expected from noise alone.
   double farthest_center_mm = 0.0;    ///< Of a quadruple centre from their mean.
   LsCircle check;                     ///< Geometric least squares of the same points.
   std::optional<MinZoneCircle> zone;  ///< Minimum-zone roundness.
@@ -92,17 +92,17 @@ struct WheelMeasurement {
   std::string_view runout_absent;     ///< Why there is none; empty when there is.
   std::vector<core::Error> warnings;
 
-  /// Whether neighbouring points are close enough all round to see run-out and roundness: no gap
-  /// above 60 deg. A wider one can hide more than 7 % of what an eccentricity makes.
+  /// Whether points are close enough all round to show run-out and roundness: no gap above 60 deg.
+  /// A wider gap can hide more than 7 % of the run-out by an eccentricity.
   [[nodiscard]] bool sees_whole_turn() const;
-  /// The radius that cuts: farthest from the axis (kIndexed with axis; nothing where that is a
-  /// bound), or R itself (kEnvelope).
+  /// The radius that cuts: the farthest from the axis (kIndexed with axis; nothing if that is only
+  /// a bound), or R itself (kEnvelope).
   [[nodiscard]] std::optional<double> effective_radius_mm() const;
 };
 
-/// Measures a wheel from points of its edge: centre by least squares, or by perpendicular bisectors
-/// of quadruples, mean distance, spread, and run-out where the spindle axis is known. Without
-/// `robust` points beyond 5 scales count, and a warning names them.
+/// Measures a wheel from points of its edge: centre by least squares or by perpendicular bisectors
+/// of quadruples, mean radius, spread, and run-out if the spindle axis is known. Without `robust`,
+/// points beyond 5 scales are used, and a warning names them.
 ///
 /// @param points_mm  n >= 8 points (x, z) of the wheel's plane [mm].
 /// @return kNotFinite (row), kTooFewPoints (fewer than 8 that are more than 1 um apart),

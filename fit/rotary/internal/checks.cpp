@@ -29,7 +29,7 @@ const BallCentre* find_ball(std::span<const BallCentre> balls, const std::string
   return at == balls.end() ? nullptr : &*at;
 }
 
-/// @param exact_allowed  u = 0, for a reference.
+/// @param exact_allowed  Whether u = 0 is allowed, as for a reference.
 core::Result<void> check_balls(std::span<const BallCentre> balls, const std::string& place,
                                bool exact_allowed) {
   std::set<std::string> seen;
@@ -113,7 +113,7 @@ core::Result<void> check_station(const RotaryMeasurement& m, std::size_t index,
   return {};
 }
 
-/// What the ratio of two lengths that should be alike looks like.
+/// The mistake in units that the ratio of two lengths suggests, which should be equal.
 std::string_view unit_hint(double ratio) {
   struct Unit {
     double factor;
@@ -131,17 +131,17 @@ std::string_view unit_hint(double ratio) {
 }
 
 constexpr double kRotationLimit = 0.1;    // rad
-constexpr double kNeighbourLimit = 1e-3;  // rad: no axis that is measured does so at one station
+constexpr double kNeighbourLimit = 1e-3;  // rad: more than any axis has at a single station
 constexpr double kNeighbourDoubt = 1e-4;  // rad: a wrong label, or a local error of the axis
 
-/// What a station turned from the reference.
+/// Measured turn of a station from the reference.
 struct MeasuredTurn {
   double angle_rad = 0.0;
   Approach approach = Approach::kUnknown;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
 };
 
-/// Rotation left when the true angle of each station is hypothesis(angle from the reference).
+/// Remaining rotation if the true angle of each station is hypothesis(angle from the reference).
 template <class Hypothesis>
 double rotation_left(const std::vector<MeasuredTurn>& turns, const RotaryMeasurement& m,
                      const Hypothesis& hypothesis) {
@@ -178,9 +178,9 @@ struct OwnTurn {
   bool reference = false;
 };
 
-/// How far a station lies off the line through its neighbours, `skipped` not counted; at an end off
-/// the nearest one or the line through two, whichever is less.
-/// @param turns  By angle.
+/// Deviation of a station from the line through its neighbours, without `skipped`; at an end, from
+/// the nearest neighbour or the line through two, whichever is less.
+/// @param turns  In order of angle.
 double departure(const std::vector<OwnTurn>& turns, std::size_t i, std::size_t skipped) {
   std::vector<const OwnTurn*> below;
   std::vector<const OwnTurn*> above;
@@ -205,7 +205,7 @@ double departure(const std::vector<OwnTurn>& turns, std::size_t i, std::size_t s
   return std::abs(line) < std::abs(step) ? line : step;
 }
 
-/// Departures of all but `skipped`.
+/// Deviations of all stations except `skipped`.
 std::vector<double> departures(const std::vector<OwnTurn>& turns, std::size_t skipped) {
   std::vector<double> out;
   for (std::size_t i = 0; i < turns.size(); ++i) {
@@ -214,7 +214,7 @@ std::vector<double> departures(const std::vector<OwnTurn>& turns, std::size_t sk
   return out;
 }
 
-/// The station beyond a limit without which the others fit each other best.
+/// The station above a limit without which the others agree best.
 std::optional<std::size_t> worst_fit(const std::vector<OwnTurn>& turns, double limit_rad) {
   std::optional<std::size_t> out;
   double least = std::numeric_limits<double>::infinity();
@@ -233,13 +233,13 @@ std::optional<std::size_t> worst_fit(const std::vector<OwnTurn>& turns, double l
 struct Misfit {
   OwnTurn turn;
   double off_rad = 0.0;
-  double others_rad = 0.0;  ///< Greatest departure of those that fit.
+  double others_rad = 0.0;  ///< Greatest deviation of the stations that fit.
   double limit_rad = 0.0;
 };
 
-/// All stations, at most a third, that do not fit the others of their direction of approach: they
-/// are off by more than `least_rad` and five times the others, as coarse stations of an axis with
-/// large errors depart from each other, too.
+/// The stations, at most a third, that do not fit the others of their direction of approach: they
+/// deviate by more than `least_rad` and by five times the others, because coarsely spaced stations
+/// of an axis with large errors also deviate from each other.
 std::vector<Misfit> misfits(const std::vector<OwnTurn>& all, double reference_rad,
                             double least_rad) {
   const auto by_angle = [](const OwnTurn& a, const OwnTurn& b) {
@@ -292,17 +292,17 @@ core::Error misfit_error(const std::vector<Misfit>& found, double reference_rad)
   return {Code::kInconsistent, what + ". Correct the angle, or measure there again", {}};
 }
 
-/// Changes of one distance against the reference, in the order of measurement.
+/// Changes of one distance relative to the reference, in the order of measurement.
 struct DistanceChanges {
   std::vector<double> change_mm;
-  double u_mm = 0.0;  ///< Of a distance at a station, rms.
+  double u_mm = 0.0;  ///< Standard uncertainty of a distance at a station, rms.
   double reference_u_mm = 0.0;
 };
 
 DistanceChanges changes_of(const RotaryMeasurement& m, const BallCentre& a, const BallCentre& b) {
   DistanceChanges out;
   const Vector3d along = a.centre_mm - b.centre_mm;
-  // Of the mean direction: the body turns, u is taken as alike in all directions.
+  // Mean over all directions, because the body turns.
   out.reference_u_mm = std::sqrt((a.u_mm.squaredNorm() + b.u_mm.squaredNorm()) / 3.0);
   double squares = 0.0;
   for (const RotaryPose& station : m.stations) {
@@ -390,7 +390,7 @@ core::Result<void> check_sense(const RotaryMeasurement& measurement,
   const double from_degrees = left([](double a) { return a * core::kDegree; });
   const double from_radians = left([](double a) { return a / core::kDegree; });
   // Over a few degrees a wrong sense or unit leaves less than the limit, but far more than the
-  // right one.
+  // right sense and unit.
   const double best = std::min({opposite, from_degrees, from_radians});
   const bool other_fits = stated > kNeighbourLimit && 10.0 * best < stated;
   if (stated <= kRotationLimit && !other_fits) return {};

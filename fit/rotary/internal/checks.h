@@ -4,39 +4,41 @@
 
 #include "fit/rotary/axes.h"
 
-// What identify_rotary_axis() asks of its input before and after solving. Each function gives the
-// first thing that is wrong; codes as there.
+// Checks of identify_rotary_axis() on its input, before and after solving. Each function returns
+// the first error that it finds, with the codes of identify_rotary_axis().
 
 namespace rondure::fit {
 
-/// Axis, numbers, names, angles.
+/// Checks axis, numbers, names and angles.
 [[nodiscard]] core::Result<void> check_measurement(const RotaryMeasurement& measurement);
 
-/// Sizes of one unit, balls not confused: no distance between two balls changes by more than a
-/// tenth of it.
+/// Checks that units agree and balls are not confused: no distance between two balls may change by
+/// more than a tenth.
 [[nodiscard]] core::Result<void> check_sizes(const RotaryMeasurement& measurement,
                                              std::span<const BallCentre> reference);
 
-/// The body turned as stated: at most 0.1 rad of rotation are left at any station, and neither the
-/// opposite sense nor degrees for radians leave ten times less. If not, names the stations whose
-/// label is wrong where the others fit each other, or says what the other hypotheses leave.
+/// Checks that the body turned as stated: at most 0.1 rad of rotation remain at any station, and
+/// neither the opposite sense nor degrees for radians leave ten times less. The error names the
+/// stations with a wrong label if the others agree with each other, or the rotation that the other
+/// hypotheses leave.
 [[nodiscard]] core::Result<void> check_sense(const RotaryMeasurement& measurement,
                                              std::span<const BallCentre> reference);
 
-/// Distances between balls neither drift over the stations nor differ from the reference by more
-/// than 4 standard uncertainties of a distance. Medians: a single wrong ball is an outlier and no
-/// drift.
+/// Checks that distances between balls neither drift over the stations nor differ from the
+/// reference by more than 4 standard uncertainties of a distance. Uses medians, so that a single
+/// wrong ball counts as an outlier and not as drift.
 [[nodiscard]] core::Result<void> check_distances(const RotaryMeasurement& measurement,
                                                  std::span<const BallCentre> reference);
 
-/// No station lies more than 1 mrad about the axis, and five times what the others do, off the line
-/// through its neighbours; the reference pose is one of them. If one does, says which angle it
-/// should have been labelled with.
+/// Checks that no station, nor the reference pose, deviates about the axis from the line through
+/// its neighbours by more than 1 mrad and five times the deviation of the others. The error states
+/// the angle with which the station should have been labelled.
 /// @return A warning for stations beyond 0.1 mrad.
 [[nodiscard]] core::Result<std::vector<core::Error>> check_neighbours(
     std::span<const RotaryStation> stations, const RotaryAxis& axis, double reference_rad);
 
-/// Stations whole turns apart, approached alike, agree within 4 standard uncertainties.
+/// Checks that stations whole turns apart, with the same direction of approach, agree within 4
+/// standard uncertainties.
 /// @return Whether there were any.
 [[nodiscard]] core::Result<bool> check_periodicity(std::span<const RotaryStation> stations);
 

@@ -23,12 +23,12 @@ using Eigen::Vector3d;
 struct Equations {
   Vector3d centroid = Vector3d::Zero();
   double length = 1.0;
-  std::vector<Matrix36> rows;     ///< One a ball.
+  std::vector<Matrix36> rows;     ///< One per ball.
   std::vector<Matrix3d> weights;  ///< Inverse covariances.
   Matrix6 inverse = Matrix6::Zero();
   Matrix6 back = Matrix6::Identity();  ///< From the unknowns to (t; w) at the origin.
 
-  /// What the unknowns gain from a discrepancy of ball i.
+  /// Change of the unknowns per discrepancy of ball i.
   [[nodiscard]] Eigen::Matrix<double, 6, 3> gain(std::size_t i) const {
     return inverse * rows[i].transpose() * weights[i];
   }
@@ -88,7 +88,7 @@ Eigen::Isometry3d refined_motion(Eigen::Isometry3d motion, std::span<const Stati
   return motion;
 }
 
-/// The motion that takes the nominal balls to the measured ones.
+/// The motion that maps the nominal balls to the measured ones.
 core::Result<Eigen::Isometry3d> exact_motion(std::span<const StationBall> balls) {
   std::vector<Vector3d> measured;
   std::vector<double> weights;
@@ -131,7 +131,7 @@ void state_covariance(const Equations& at, std::span<const StationBall> balls, R
   out.measured_covariance = at.back * measured * at.back.transpose();
 }
 
-/// Residuals, chi square and redundancy of a solution.
+/// Fills in residuals, chi-square and redundancy of a solution.
 void state_fit(const Equations& at, std::span<const StationBall> balls, bool linear,
                RotaryStation& out) {
   const Eigen::Isometry3d motion = error_motion(out.errors.t_mm, out.errors.w_rad);
@@ -151,8 +151,8 @@ void state_fit(const Equations& at, std::span<const StationBall> balls, bool lin
   }
 }
 
-/// By how much chi square falls when ball i is left out: v^T Q^-1 v, Q the covariance of its
-/// residual; directions in which the residual cannot move do not count.
+/// Decrease of chi-square if ball i is left out: v^T Q^-1 v, where Q is the covariance of its
+/// residual. Directions in which the residual cannot vary do not count.
 double normalised_residual(const Equations& at, const RotaryStation& station, std::size_t i) {
   const Matrix3d root = at.weights[i].llt().matrixL();  // weights = root root^T
   const Vector3d v = root.transpose() * station.residuals_mm[i];
@@ -173,7 +173,8 @@ bool determined(std::span<const StationBall> balls) {
   return check_setup(nominal_places(balls), names).has_value();
 }
 
-/// One solution with the balls given; false when there is none. `at` receives its equations.
+/// Solves once with the balls given. `at` receives the equations.
+/// @return Whether there is a solution.
 bool solve_once(std::span<const StationBall> balls, const RotaryOptions& options,
                 const std::optional<PublishedMatrix>& printed, Equations& at, RotaryStation& out) {
   if (!determined(balls)) return false;

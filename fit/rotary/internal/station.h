@@ -7,7 +7,7 @@
 #include "fit/published/internal/axes.h"
 #include "fit/rotary/axes.h"
 
-// One station of a rotary axis: from balls to six errors. Used by identify_rotary_axis().
+// Solves one station of a rotary axis: from balls to six errors. Used by identify_rotary_axis().
 
 namespace rondure::fit {
 
@@ -17,13 +17,13 @@ struct StationBall {
   Eigen::Vector3d nominal_mm = Eigen::Vector3d::Zero();  ///< R(angle) p0.
   Eigen::Vector3d measured_mm = Eigen::Vector3d::Zero();
   Eigen::Matrix3d measured_mm2 =
-      Eigen::Matrix3d::Identity();                        ///< Covariance of the measured place,
+      Eigen::Matrix3d::Identity();                        ///< Covariance of the measured position,
   Eigen::Matrix3d nominal_mm2 = Eigen::Matrix3d::Zero();  ///< and of the turned reference.
 };
 
-/// Solves a station, leaving out balls while the global test fails and a better set remains.
+/// Solves a station. Leaves out balls as long as the global test fails and a better set remains.
 /// @param printed  For Solver::kAsPublished: its matrix, for exactly the three balls given.
-/// @return Never an error: `undetermined` when the balls do not determine six errors.
+/// @return Always a station; `undetermined` is set if the balls do not determine six errors.
 [[nodiscard]] RotaryStation solve_station(std::vector<StationBall> balls,
                                           const RotaryOptions& options,
                                           const std::optional<PublishedMatrix>& printed = {});
