@@ -72,7 +72,7 @@ Oriented oriented(const AxisTrace& trace, const AxisTraceOptions& options) {
   for (double& x : out.x_error_mm) x *= sign;
   for (std::size_t i = 1; i < out.c_rad.size(); ++i) {
     const double step = out.c_rad[i] - out.c_rad[i - 1];
-    // Only what jumps by half a turn was wrapped: larger true steps would be no trace.
+    // A jump by more than half a turn means wrapping, as no trace has true steps of that size.
     if (std::abs(step) > 0.5 * core::kTwoPi) {
       out.c_rad[i] = out.c_rad[i - 1] + std::remainder(step, core::kTwoPi);
     }
@@ -86,7 +86,7 @@ Oriented oriented(const AxisTrace& trace, const AxisTraceOptions& options) {
   return {std::move(out), reversed};
 }
 
-/// @param reversed  Rows of the caller run the other way.
+/// @param reversed  The rows of the caller are in the opposite order.
 core::Result<void> check_steps(const std::vector<double>& alpha, bool reversed) {
   const std::size_t n = alpha.size();
   const auto row = [&](std::size_t i) { return reversed ? n - 1 - i : i; };
@@ -112,7 +112,7 @@ core::Result<void> check_steps(const std::vector<double>& alpha, bool reversed) 
   return {};
 }
 
-/// Rows [first, end) of one turn, and whether rows beside it are used, too.
+/// Rows [first, end) of one turn, and whether rows on both sides of it are included.
 struct Cut {
   double start_rad = 0.0;
   std::size_t first = 0;
@@ -139,7 +139,7 @@ core::Result<Cut> cut_of(const std::vector<double>& alpha, bool reversed) {
                         : ""));
   }
   Cut cut;
-  // A turn is whole when the sample after the last one recorded would close it.
+  // A turn is whole if the sample after the last recorded one would close it.
   const double lowest = alpha.front() - core::kSameAngle - (reversed ? step : 0.0);
   const double highest = alpha.back() + core::kSameAngle + (reversed ? 0.0 : step);
   cut.start_rad = reversed ? core::kTwoPi * std::ceil(lowest / core::kTwoPi)
@@ -155,15 +155,15 @@ core::Result<Cut> cut_of(const std::vector<double>& alpha, bool reversed) {
                         : alpha[std::min(first_at(alpha, start - 0.5 * step), alpha.size() - 1)];
   }
   const double reserve = cut.margins ? kMargin : 0.0;
-  // Of both ends of the turn the row recorded first counts.
+  // Where both ends of the turn have a row, the row recorded first counts.
   const double open = reversed && cut.start_rad < alpha.front() ? 2.0 * core::kSameAngle : 0.0;
   cut.first = first_at(alpha, cut.start_rad - reserve + open);
   cut.end = first_at(alpha, cut.start_rad + core::kTwoPi + reserve + open);
   return cut;
 }
 
-/// Values of a turn at uniform command angles. With margins the rows overlap by twice the margin:
-/// there the spline of period one turn longer than that is used, whose seam lies outside the turn.
+/// Values of a turn at uniform command angles. With margins the rows extend beyond one turn; the
+/// spline then has the longer period, so that its seam lies outside the turn.
 std::vector<double> on_uniform(const std::vector<double>& alpha, const std::vector<double>& values,
                                const Cut& cut, std::size_t samples) {
   const double period = core::kTwoPi + (cut.margins ? 2.0 * kMargin + 0.05 : 0.0);

@@ -9,16 +9,16 @@
 
 namespace rondure::fit {
 
-/// What the control recorded of both axes, sample by sample on one time base.
+/// Recording of both axes by the control, sample by sample on one time base.
 struct AxisTrace {
   std::vector<double> c_rad;        ///< Commanded C position; wrapped or not, any number of turns.
-  std::vector<double> c_error_rad;  ///< Of C.
-  std::vector<double> x_error_mm;   ///< Of X.
-  /// Commanded X position, to hold against the geometry; empty where it was not recorded.
+  std::vector<double> c_error_rad;  ///< Error of C.
+  std::vector<double> x_error_mm;   ///< Error of X.
+  /// Commanded X position, to be checked against the geometry; empty if it was not recorded.
   std::vector<double> x_mm;
 };
 
-/// How a trace is to be read.
+/// Conventions of a trace, and the number of samples of the result.
 struct AxisTraceOptions {
   int error_sign = 1;          ///< 1: errors are actual minus command; -1: command minus actual.
   int c_direction = 1;         ///< 1: C is the polar angle of the wheel; -1: it turns against it.
@@ -28,19 +28,19 @@ struct AxisTraceOptions {
 /// One turn of a trace on uniform command angles.
 struct AxisTurn {
   AxisErrors errors;
-  std::vector<double> x_mm;       ///< Commanded X positions on the same angles; or empty.
-  double samples_per_turn = 0.0;  ///< Of the control.
-  double turns = 0.0;             ///< Recorded.
+  std::vector<double> x_mm;       ///< Commanded X positions at the same angles, or empty.
+  double samples_per_turn = 0.0;  ///< Samples per turn of the recording.
+  double turns = 0.0;             ///< Turns recorded.
   std::vector<core::Error> warnings;
 };
 
-/// Takes the last whole turn recorded, from alpha = 0 on, out of a trace and brings it to uniform
-/// command angles by a cubic spline over alpha.
+/// Extracts the last whole turn of a trace, from alpha = 0 on, and resamples it to uniform command
+/// angles by a cubic spline over alpha.
 ///
-/// With 0.2 rad recorded on both sides of that turn the spline runs through those samples, too;
-/// otherwise the turn is taken as closed; one that ends within a step of alpha = 0 is whole. A
-/// trace that holds no turn from 0 to 0 but 360 deg altogether, such as 300 samples of 1.2 deg, is
-/// closed as well.
+/// If 0.2 rad are recorded on both sides of that turn, the spline includes those samples; otherwise
+/// the turn is treated as closed. A turn that ends within a step of alpha = 0 is whole. A trace
+/// without a turn from 0 to 0 but with 360 deg in total, such as 300 samples of 1.2 deg, is also
+/// treated as closed.
 ///
 /// @return kMeaning (different lengths, c_direction or error_sign not +-1), kTooFewPoints (fewer
 ///         than 16 samples), kNotFinite (row), kAngleOrder where C goes back (row), kSampling for a

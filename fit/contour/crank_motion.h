@@ -7,9 +7,9 @@
 
 namespace rondure::fit {
 
-/// A crank pin in follow grinding: the crankshaft turns about O, the wheel head keeps the wheel
-/// tangent to the pin, whose centre runs about O at the crank radius R. Seen from the crankshaft
-/// (x axis from O to the pin centre Op) the wheel centre runs about both.
+/// A crank pin in follow grinding. The crankshaft turns about O, and the wheel head keeps the wheel
+/// tangent to the pin, whose centre moves about O at the crank radius R. In the frame of the
+/// crankshaft (x axis from O to the pin centre Op) the wheel centre moves about both.
 struct CrankGeometry {
   double crank_radius_mm = 49.0;    ///< R, distance of the pin centre from O.
   double wheel_radius_mm = 299.88;  ///< Rgw.
@@ -23,8 +23,8 @@ struct CrankGeometry {
 ///         wheel cannot follow the pin all round.
 [[nodiscard]] core::Result<void> check_geometry(const CrankGeometry& geometry);
 
-// The functions below need a geometry that check_geometry() accepts. Angles may run over any number
-// of turns; the result then does, too.
+// Precondition of the functions below: check_geometry() accepts the geometry. Angles may span any
+// number of turns; the resulting angles then do so as well.
 
 /// X position d of the wheel centre, its distance from O, at the C position alpha [mm]:
 /// d = R cos(alpha) + sqrt(Lc^2 - R^2 sin^2(alpha)).
@@ -39,7 +39,7 @@ struct CrankGeometry {
 /// Pressure angle eta = beta - alpha: between the X axis and the contact normal.
 [[nodiscard]] double pressure_angle_rad(const CrankGeometry& geometry, double beta_rad);
 
-/// What axis errors do to the contour, to first order: dr = x dd + c_mm dalpha.
+/// Effect of axis errors on the contour, to first order: dr = x dd + c_mm dalpha.
 struct ContourSensitivity {
   double x = 1.0;     ///< cos(eta), per mm of X.
   double c_mm = 0.0;  ///< R sin(beta), per rad of C [mm].
@@ -47,11 +47,11 @@ struct ContourSensitivity {
 [[nodiscard]] ContourSensitivity contour_sensitivity(const CrankGeometry& geometry,
                                                      double beta_rad);
 
-/// Correction of the X command that takes a contour error away, to first order:
+/// Correction of the X command that removes a contour error, to first order:
 /// dd(alpha) = -f(beta(alpha)) / cos(eta).
 ///
 /// @param error_mm  f at the angles 360 m / M deg, M >= 3.
-/// @param count     Values wanted, at the C positions 360 i / count deg.
+/// @param count     Number of values to return, at the C positions 360 i / count deg.
 [[nodiscard]] std::vector<double> x_compensation_mm(const CrankGeometry& geometry,
                                                     std::span<const double> error_mm,
                                                     std::size_t count);

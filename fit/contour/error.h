@@ -12,9 +12,9 @@
 
 namespace rondure::fit {
 
-inline constexpr std::size_t kLeastContourPoints = 16;  ///< M of a contour.
+inline constexpr std::size_t kLeastContourPoints = 16;  ///< Least M of a contour.
 
-/// How the base circle of a contour is taken away.
+/// Base circle that is removed from a contour.
 enum class BaseCircle {
   kLimacon,    ///< Mean, cos and sin of the deviations; e^2/(2 r) off for an eccentricity e.
   kGeometric,  ///< Least-squares circle of the points; deviations about its own centre.
@@ -24,7 +24,7 @@ enum class BaseCircle {
 struct ContourErrorOptions {
   FilterOptions filter;  ///< Gaussian low pass, 50 UPR.
   BaseCircle base = BaseCircle::kLimacon;
-  bool filtered_already = false;  ///< The values come from a filter: take the circle away only.
+  bool filtered_already = false;  ///< The values are already filtered: only remove the circle.
 };
 
 /// A contour error: deviations from the base circle at the angles 2 pi m / M, mean 0.
@@ -43,11 +43,12 @@ struct ContourError {
 /// Peak to valley of a curve; 0 for an empty one.
 [[nodiscard]] double peak_to_valley(std::span<const double> curve);
 
-/// Takes base circle and filter off a contour.
+/// Filters a contour and removes its base circle.
 ///
-/// @param deviation_mm  Radius less nominal at 2 pi m / M, M >= 16 [mm].
-/// @param nominal_mm    Radius the deviations count from, > 0.
-/// @return kTooFewPoints, kNotFinite (row), check_sampling()'s errors for M points; ls_circle()'s.
+/// @param deviation_mm  Radius minus nominal at 2 pi m / M, M >= 16 [mm].
+/// @param nominal_mm    Radius from which the deviations count, > 0 [mm].
+/// @return kTooFewPoints, kNotFinite (row), the errors of check_sampling() for M points and of
+///         ls_circle().
 /// Source: methods, contour section 4; roundness B.2.
 [[nodiscard]] core::Result<ContourError> contour_error(std::span<const double> deviation_mm,
                                                        double nominal_mm,

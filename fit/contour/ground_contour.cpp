@@ -9,14 +9,14 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/profiles/internal/dft.h"
 #include "fit/geometry/periodic_spline.h"
+#include "fit/profiles/internal/dft.h"
 #include "fit/profiles/profile_filter.h"
 
 namespace rondure::fit {
 namespace {
 
-/// First and second derivative by the parameter of a periodic series over one turn.
+/// First and second derivative of a periodic series over one turn, with respect to its parameter.
 struct Derivatives {
   std::vector<double> first;
   std::vector<double> second;
@@ -45,7 +45,7 @@ std::vector<double> differences(const std::vector<double>& series) {
   return out;
 }
 
-/// Adds the angle nearest to the last one.
+/// Appends an angle, shifted by whole turns to be nearest to the last one.
 void push_continuous(std::vector<double>& angles, double angle) {
   if (!angles.empty()) {
     angle = angles.back() + std::remainder(angle - angles.back(), core::kTwoPi);
@@ -96,7 +96,7 @@ std::vector<double> resampled_radii(const ParallelCurve& curve, std::size_t samp
     const double turned = beta - core::kTwoPi * std::floor(beta / core::kTwoPi);
     rows.emplace_back(turned < core::kTwoPi ? turned : 0.0, curve.r_mm[i]);
   }
-  // Beta increases: what passed the end of the turn stands behind the greatest one.
+  // Beta increases, so angles wrapped at the end of the turn follow the greatest one.
   const auto first = std::min_element(rows.begin(), rows.end());
   std::rotate(rows.begin(), first, rows.end());
   std::vector<double> beta;

@@ -8,9 +8,9 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
+#include "fit/geometry/periodic_spline.h"
 #include "fit/profiles/closed_profile.h"
 #include "fit/profiles/internal/dft.h"
-#include "fit/geometry/periodic_spline.h"
 
 namespace rondure::fit {
 namespace {
@@ -51,7 +51,7 @@ core::Result<void> check(std::span<const double> angle, std::span<const double> 
   return {};
 }
 
-/// The first row whose step runs against the first step.
+/// Refuses angles with a step against the first step, and names the row.
 core::Result<void> check_order(std::span<const double> angle) {
   const double sense = std::remainder(angle[1] - angle[0], core::kTwoPi);
   for (std::size_t i = 1; i < angle.size(); ++i) {
@@ -78,9 +78,9 @@ core::Result<void> check_contour_gap(const AngularProfile& profile, std::size_t 
                       : ""));
 }
 
-/// log2 of the amplitudes against k^2 from half the cut-off to three times it, or to where they end
-/// in round-off: a Gaussian filter makes the slope -1/fc^2. Nothing where a line does not explain
-/// most of it.
+/// Fits a line to log2 of the amplitudes over k^2, from half the cut-off to three times it, or to
+/// where round-off begins; for a Gaussian filter its slope is -1/fc^2. Returns nothing if the line
+/// does not explain most of the fall.
 std::optional<double> fitted_cutoff(const std::vector<double>& amplitude, double cutoff) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   const auto last = std::min(amplitude.size() - 1, static_cast<std::size_t>(3.0 * cutoff));
@@ -101,7 +101,7 @@ std::optional<double> fitted_cutoff(const std::vector<double>& amplitude, double
   const double syy = yy - y * y / n;
   if (!(sxx > 0.0) || !(sxy < 0.0) || sxy * sxy < 0.5 * sxx * syy) return std::nullopt;
   const double found = cutoff * std::sqrt(-sxx / sxy);
-  // Outside of this the harmonics looked at carry too little of the fall, or are lines of the form.
+  // Outside this range the harmonics show too little of the fall, or are lines of the form.
   if (found < 0.5 * cutoff || found > 2.0 * cutoff) return std::nullopt;
   return found;
 }
@@ -133,7 +133,7 @@ void warn_of_filter(MeasuredContour& out, const MeasuredContourOptions& options)
   }
 }
 
-/// Without a filter the samples are one: what they do not carry is missing.
+/// Warns of content lost by sampling: without a filter, the samples themselves act as one.
 void warn_of_loss(MeasuredContour& out, std::span<const double> all_rows,
                   const MeasuredContourOptions& options) {
   if (options.error.filter.filter != ProfileFilter::kNone && !options.error.filtered_already)
@@ -214,7 +214,7 @@ core::Result<MeasuredContour> measured_contour(std::span<const double> angle_rad
   out.contour = *std::move(contour);
   out.rows = angle_rad.size();
   out.largest_gap_rad = profile->largest_gap_rad;
-  // A filter of the gauge shows on all rows; fewer samples would hide what is up there.
+  // A filter of the gauge shows in all rows; fewer samples would hide the upper harmonics.
   const std::vector<double> all_rows = even_samples(
       profile->theta_rad, profile->r_mm, std::max(options.samples, profile->r_mm.size()));
   out.filter =

@@ -11,25 +11,25 @@
 
 namespace rondure::fit {
 
-/// How the rows of a roundness gauge are to be read.
+/// Conventions of the rows of a roundness gauge, and settings of the evaluation.
 struct MeasuredContourOptions {
   /// Gauge angle of the direction from O to the pin centre, known from the set-up.
   double phase_offset_rad = 0.0;
-  int direction = 1;           ///< 1: gauge angles run as beta; -1: against it.
+  int direction = 1;           ///< 1: gauge angles increase with beta; -1: against it.
   std::size_t samples = 1440;  ///< M of the result.
   double nominal_mm = 24.56;   ///< Radius of the journal.
   ContourErrorOptions error;   ///< Base circle, filter, and whether the gauge has filtered.
 };
 
-/// What the upper end of a spectrum tells of a filter the gauge has applied.
+/// Signs, at the upper end of a spectrum, of a filter that the gauge has applied.
 struct FilterTrace {
-  double upper_rms_mm = 0.0;  ///< Above 3 times the cut-off.
-  /// Cut-off of a Gaussian filter that fits the fall of the amplitudes, where one does.
+  double upper_rms_mm = 0.0;  ///< rms above 3 times the cut-off.
+  /// Cut-off of a Gaussian filter that fits the fall of the amplitudes, if there is one.
   std::optional<double> cutoff_upr;
-  bool filtered = false;  ///< Hardly anything is left up there: no bare surface looks like that.
+  bool filtered = false;  ///< Less is left there than an unfiltered surface would have.
 };
 
-/// A contour of a gauge as contour error on the angles 2 pi m / M.
+/// A contour from a gauge as a contour error at the angles 2 pi m / M.
 struct MeasuredContour {
   ContourError contour;
   std::size_t rows = 0;
@@ -38,18 +38,18 @@ struct MeasuredContour {
   std::vector<core::Error> warnings;
 };
 
-/// What is left above the cut-off in a contour on uniform angles: less than 0.01 um and 1 % of its
-/// form is the mark of a filter; a ground surface keeps more.
+/// Examines the content of a contour at uniform angles above the cut-off. Less than 0.01 um and 1 %
+/// of its form indicates a filter; a ground surface has more.
 ///
-/// @param resolved_upr  Undulations the rows of the gauge resolve, half their number; below 4 times
-///                      the cut-off nothing can be said.
+/// @param resolved_upr  Undulations that the rows of the gauge resolve, half their number; below 4
+///                      times the cut-off no statement is possible.
 [[nodiscard]] FilterTrace filter_trace(std::span<const double> deviation_mm, double cutoff_upr,
                                        double resolved_upr);
 
-/// Brings a contour to the zero, the sense and the points of the method, then takes circle and
-/// filter off.
+/// Converts a contour to the zero angle, direction and sampling of the method, then filters it and
+/// removes the base circle.
 ///
-/// @param angle_rad     Gauge angles, one way round, one turn, n >= 16.
+/// @param angle_rad     Gauge angles, in one direction, one turn, n >= 16.
 /// @param deviation_mm  Radii or their deviations from any constant.
 /// @return kMeaning (different lengths, direction not +-1), kTooFewPoints, kNotFinite (row),
 ///         kAngleOrder (row) where the angle goes back, kNotFullSection for a gap above 1 deg;

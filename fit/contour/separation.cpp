@@ -9,8 +9,8 @@
 
 #include "core/units.h"
 #include "fit/contour/error.h"
-#include "fit/profiles/internal/dft.h"
 #include "fit/geometry/periodic_spline.h"
+#include "fit/profiles/internal/dft.h"
 
 namespace rondure::fit {
 namespace {
@@ -41,7 +41,7 @@ class CrossCorrelation {
     norm_following_ += mean_product(pair.following_mm, pair.following_mm);
   }
 
-  /// Drops the terms that cannot be seen, from the highest on.
+  /// Drops negligible terms, from the highest on.
   void shorten() {
     double greatest = 0.0;
     for (const Complex& term : terms_) greatest = std::max(greatest, std::abs(term));
@@ -68,9 +68,9 @@ class CrossCorrelation {
     return out;
   }
 
-  /// The rest n = t - f(turned) puts k |n_k conj(f_k)| into the slope at harmonic k, in a phase
-  /// that nobody knows; f alone bends the correlation by the sum of k^2 |f_k|^2. What all parts
-  /// have in common adds up before it is squared.
+  /// Uncertainty of the offset. The rest n = t - f(turned) adds k |n_k conj(f_k)| to the slope at
+  /// harmonic k, in an unknown phase; the curvature of the correlation by f alone is the sum of
+  /// k^2 |f_k|^2. Contributions common to all parts are added before they are squared.
   [[nodiscard]] double uncertainty(double angle) const {
     double variance = 0.0;
     double bend = 0.0;

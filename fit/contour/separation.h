@@ -31,24 +31,24 @@ struct ContourSeparation {
 /// Correlation of two curves, in [-1, 1]; 0 where one of them is zero.
 [[nodiscard]] double correlation_of(std::span<const double> a, std::span<const double> b);
 
-/// What a main journal tells of the rest of the neighbouring pin.
-/// @param map  Carry it to the pin as n(alpha(beta)) cos(eta), as run-out of wheel and workhead
-///             would act; otherwise the curve is taken as it is.
+/// Estimates the rest of a pin from the neighbouring main journal.
+/// @param map  Map the curve to the pin as n(alpha(beta)) cos(eta), as run-out of wheel and
+///             workhead would act; otherwise it is used unchanged.
 [[nodiscard]] std::vector<double> rest_from_main(std::span<const double> main_mm,
                                                  const CrankGeometry& geometry, bool map);
 
-/// Angle by which a curve must be turned onto another for the greatest circular cross-correlation,
-/// as a diagnosis: it explains the rest away by turning f, up to some degrees of a correct
-/// alignment.
+/// Angle by which a curve must be turned onto another for the greatest circular cross-correlation.
+/// For diagnosis only: turning f absorbs part of the rest, which amounts to some degrees even for a
+/// correct alignment.
 struct CorrelationOffset {
   double angle_rad = 0.0;
-  /// Standard uncertainty of the angle by the rest: what its amplitudes make of it in any phase.
+  /// Standard uncertainty of the angle from the amplitudes of the rest, whose phases are unknown.
   double u_rad = 0.0;
-  double correlation = 0.0;  ///< There, of all pairs together.
+  double correlation = 0.0;  ///< Correlation at this angle, of all pairs together.
   bool at_edge = false;      ///< The greatest value lies at the end of the window.
 
-  /// A rest of any phase would not turn the curve so far: 3 standard uncertainties, and more than
-  /// 2 deg.
+  /// Whether the angle is larger than a rest of any phase explains: more than 3 standard
+  /// uncertainties, and more than 2 deg.
   [[nodiscard]] bool alignment_suspect() const;
 };
 
@@ -58,20 +58,20 @@ struct CurvePair {
   std::span<const double> following_mm;
 };
 
-/// One offset from the sum of the correlations of all pairs: search on 16 places a sample, then
-/// Newton.
-/// @param window_rad  Searched to both sides of 0.
+/// Finds one offset from the sum of the correlations of all pairs: by a search at 16 places per
+/// sample, then Newton's method.
+/// @param window_rad  Range of the search to both sides of 0.
 [[nodiscard]] CorrelationOffset correlation_offset(std::span<const CurvePair> pairs,
                                                    double window_rad = 8.0 * core::kDegree);
 
 /// Evidence that the axis traces have the wrong sign or the wrong sense.
 struct SenseEvidence {
   double as_given = 0.0;           ///< Correlation of t with f, all parts together.
-  double mirrored = 0.0;           ///< With f(-beta): what the other sense of C would give.
+  double mirrored = 0.0;           ///< With f(-beta), as for the opposite sense of C.
   double rms_difference_mm = 0.0;  ///< rms(t - f) over all parts.
-  double rms_sum_mm = 0.0;         ///< rms(t + f): the rest, were the sign the other one.
+  double rms_sum_mm = 0.0;         ///< rms(t + f): the rest for the opposite sign.
 
-  /// t and f oppose each other: the errors are rather command minus actual.
+  /// t and f oppose each other: the errors are probably command minus actual.
   [[nodiscard]] bool sign_suspect() const { return as_given < -0.5; }
   /// t fits the mirrored f far better.
   [[nodiscard]] bool sense_suspect() const { return mirrored > 0.7 && mirrored > as_given + 0.3; }

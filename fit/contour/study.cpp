@@ -63,7 +63,7 @@ void warn_of_undercut(ContourPartResult& part) {
        {}});
 }
 
-/// Holds the positions of X that were recorded against those the geometry asks for.
+/// Compares the recorded positions of X with those of the geometry.
 core::Result<void> check_positions(const AxisTurn& axes, const CrankGeometry& geometry) {
   const std::size_t n = axes.x_mm.size();
   if (n == 0) return {};
@@ -80,8 +80,8 @@ core::Result<void> check_positions(const AxisTurn& axes, const CrankGeometry& ge
   for (std::size_t i = 0; i < n; ++i) ideal[i] = axes.x_mm[i] - ideal[i] - mean;
   const double off = core::root_mean_square(ideal);
   if (std::abs(stroke - expected) <= kStrokeLimit && off <= kPositionLimit) return {};
-  // d = R cos(alpha) + Lc - R^2/(4 Lc) (1 - cos(2 alpha)) ...: the first harmonic holds crank
-  // radius and zero, the second one R^2/Lc.
+  // d = R cos(alpha) + Lc - R^2/(4 Lc) (1 - cos(2 alpha)) ...: the first harmonic gives crank
+  // radius and zero, the second R^2/Lc.
   const auto f = spectrum(axes.x_mm);
   const double radius = 2.0 * std::abs(f[1]) / static_cast<double>(n);
   const double length = geometry.center_distance_mm() * std::abs(stated[2]) /
@@ -202,7 +202,7 @@ void collect_warnings(ContourStudy& study) {
   }
 }
 
-/// What the data say against the settings, all parts together.
+/// Adds warnings for settings that the data of all parts contradict.
 void diagnose(ContourStudy& study, const ContourStudyOptions& options) {
   std::vector<CurvePair> pairs;
   for (const ContourPartResult& part : study.parts) {

@@ -11,14 +11,14 @@
 #include "core/units.h"
 #include "fit/contour/axis_trace.h"
 #include "fit/contour/error.h"
-#include "fit/contour/separation.h"
 #include "fit/contour/ground_contour.h"
 #include "fit/contour/measured_contour.h"
+#include "fit/contour/separation.h"
 #include "fit/poses/repeatability.h"
 
 namespace rondure::fit {
 
-/// How the curves of the two machines are brought together.
+/// Method that aligns the curves of the two machines.
 enum class ContourMethod {
   kCorrected,  ///< Known offset of the gauge; correlation is a diagnosis only. The default.
   /// A reading of the source, whose equations are lost: parallel curve by central
@@ -46,27 +46,27 @@ struct ContourStudyOptions {
   StabilityLimits limits;
 };
 
-/// A contour as the gauge gave it.
+/// A contour as recorded by the gauge.
 struct GaugeRows {
   std::vector<double> angle_rad;
   std::vector<double> deviation_mm;
 };
 
-/// One ground part: what the control recorded and what the gauge found.
+/// One ground part: the recording of the control, and the contours from the gauge.
 struct ContourPart {
   AxisTrace trace;
   GaugeRows pin;
   std::optional<GaugeRows> main;  ///< The neighbouring main journal.
 };
 
-/// The indirect way: a main journal stands for the rest.
+/// Indirect separation: a main journal represents the rest.
 struct IndirectSeparation {
-  std::vector<double> following_mm;  ///< t less the main journal.
+  std::vector<double> following_mm;  ///< t minus the main journal.
   double correlation = 0.0;          ///< With the direct following part.
   double rms_difference_mm = 0.0;    ///< From the direct following part.
 };
 
-/// One part, taken apart.
+/// The separated contour of one part.
 struct ContourPartResult {
   AxisTurn axes;
   GroundContour ground;
@@ -75,10 +75,10 @@ struct ContourPartResult {
   std::optional<MeasuredContour> main;
   ContourSeparation direct;
   std::optional<IndirectSeparation> indirect;
-  CorrelationOffset offset;  ///< What correlation would turn f by, a diagnosis.
+  CorrelationOffset offset;  ///< Angle by which correlation would turn f; diagnosis.
 };
 
-/// All parts side by side. The comparisons need two parts; without them they are absent.
+/// All parts side by side. The comparisons need two parts and are absent otherwise.
 struct ContourStudy {
   std::vector<ContourPartResult> parts;
   std::optional<Repeatability> total;
@@ -93,17 +93,17 @@ struct ContourStudy {
   std::vector<core::Error> warnings;  ///< `where` "parts/i/..." for those of one part.
 };
 
-/// Takes one part apart. See contour_study() for the errors.
+/// Separates the contour of one part. See contour_study() for the errors.
 [[nodiscard]] core::Result<ContourPartResult> contour_part(const ContourPart& part,
                                                            const ContourStudyOptions& options);
 
-/// Takes all parts apart and compares them.
+/// Separates the contours of all parts and compares them.
 ///
-/// @return kNoPoints without parts; last_turn()'s, ground_contour()'s, contour_error()'s and
-///         measured_contour()'s errors, with `where` "parts/i/axes|pin|main"; kSampling where the
-///         control has no two samples an undulation at the cut-off; kInconsistent where recorded
+/// @return kNoPoints without parts; the errors of last_turn(), ground_contour(), contour_error()
+///         and measured_contour(), with `where` "parts/i/axes|pin|main"; kSampling if the control
+///         has fewer than two samples per undulation at the cut-off; kInconsistent if recorded
 ///         positions of X contradict crank, wheel or the zero of C (stroke 0.05 mm, 0.02 mm rms).
-///         Warnings besides theirs: kUndersampled below 6 samples an undulation, kUndercut,
+///         Further warnings: kUndersampled below 6 samples per undulation, kUndercut,
 ///         kAlignment for a correlation offset that the rest does not explain, kSense for axis
 ///         errors that oppose the contour.
 /// Source: methods, contour sections 6 to 9.
