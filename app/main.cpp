@@ -47,7 +47,7 @@ void add_language(CLI::App& verb, std::string& language) {
       ->type_name("LANG");
 }
 
-/// Whole numbers that every reader of JSON keeps, as in a plan.
+/// Accepts integers that every JSON reader keeps exactly, as in a plan.
 std::string check_seed(const std::string& text) {
   const bool digits = !text.empty() && text.size() <= 16 &&
                       text.find_first_not_of("0123456789") == std::string::npos;
@@ -97,7 +97,7 @@ void add_plan(CLI::App& app, PlanArguments& arguments) {
       "would\nhelp; then the exit status is 2. More: docs/planning.md");
 }
 
-/// A port, or nothing said: any free one.
+/// Accepts a port, or an empty text: any free one.
 std::string check_port(const std::string& text) {
   const auto port = core::parse_number(text);
   const bool whole = port && *port >= 1.0 && *port <= 65535.0 && *port == std::floor(*port);
@@ -461,7 +461,7 @@ void add_record(CLI::App& app, RecordArguments& arguments) {
       "it.\nWiring, kinds: docs/indicators.md");
 }
 
-/// A limit of time that a person waits for.
+/// Accepts a waiting time in range.
 std::string check_patience(const std::string& text) {
   const auto limit_s = core::parse_number(text);
   if (limit_s && *limit_s >= 0.1 && *limit_s <= 600.0) return {};
@@ -511,7 +511,7 @@ void add_manual(CLI::App& app) {
       ->footer("\nExample: rondure manual | man -l -");
 }
 
-/// Help and version go to standard output, everything else is a mistake in the arguments.
+/// Prints help and version on standard output; any other case is a mistake in the arguments.
 int explain(const CLI::App& app, const CLI::ParseError& error,
             const std::vector<std::string>& words) {
   if (error.get_exit_code() == 0) {
@@ -541,7 +541,7 @@ int explain(const CLI::App& app, const CLI::ParseError& error,
   return kBadInput;
 }
 
-/// Numbers on the command line have the limit of those in files; "nan" and "inf" are none.
+/// Limits numbers on the command line as in files; "nan" and "inf" are refused.
 void limit_numbers(CLI::App& app) {
   constexpr std::array<std::string_view, 7> kNumbers = {"FLOAT", "LO,HI", "X,Y,Z", "N[,N]",
                                                         "X,Z",   "X0,X1", "A,B"};

@@ -35,8 +35,8 @@ int exit_status(bool failed, reports::Verdict verdict) {
   return well ? kAllWell : kNotConforming;
 }
 
-/// Formats to write: those asked for, and those that an interrupted beginning left, which would
-/// tell of another state than the run's.
+/// Formats to write: those requested, and those left by an interrupted attempt, which would show
+/// another state of the run.
 std::vector<std::string> with_those_there(std::vector<std::string> asked,
                                           const fs::path& directory) {
   for (const reports::Export& e : reports::exports()) {
@@ -51,7 +51,7 @@ reports::Language language_of(const RunArguments& arguments) {
   return reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
 }
 
-/// A run as its directory tells it.
+/// A run as read from its directory.
 struct Told {
   record::RunRecord record;
   reports::Evaluation evaluation;
@@ -76,8 +76,8 @@ core::Result<Told> read_and_evaluate(const fs::path& directory) {
   return Told{std::move(read->record), std::move(*evaluation)};
 }
 
-/// What a run that died right behind its seal left to do on its journal. A damaged one stays as it
-/// is: it must not look like a sound one.
+/// Completes the journal of a run that died just after its seal. A damaged one is not changed: it
+/// must not look sound.
 core::Result<void> close_sealed(const fs::path& directory) {
   const auto read = record::read_journal(directory);
   if (!read) return core::fail(read.error());
@@ -101,7 +101,7 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
   return exit_status(false, told.evaluation.verdict);
 }
 
-/// To the terminal, and to the page, which would wait for a verdict that never comes.
+/// Reports a failure on the terminal, and to the page, which would otherwise wait for a verdict.
 void tell_failure(const core::Error& error, reports::LiveView* live) {
   complain(error);
   if (live != nullptr) live->show_failure(core::to_line(error));

@@ -10,23 +10,23 @@
 
 namespace rondure::app {
 
-/// A run in its directory, and what its end needs.
+/// A run in its directory, with the data that its end needs.
 struct RunToFinish {
   const RunArguments& arguments;
   const plans::Plan& plan;
   const record::ArchivePlace& archive;
   std::filesystem::path directory;
-  reports::LiveView* live = nullptr;  ///< Who watches is shown the result; or none.
+  reports::LiveView* live = nullptr;  ///< Shows the result to watchers; may be null.
 };
 
-/// Evaluates what is on disk, not what is in memory; seals a finished run; writes the reports;
+/// Evaluates the journal on disk, not the data in memory; seals a finished run; writes the reports;
 /// archives a finished run.
-/// @param run  None for a run that was sealed before.
+/// @param run  Null for a run that was sealed before.
 /// @return  Exit status of the program.
 [[nodiscard]] int conclude(const RunToFinish& ending, plans::Run* run);
 
-/// A sealed run has nothing to measure; it may have died before its reports were written or its
-/// results archived.
+/// Completes a sealed run, which may have died before its reports were written or its results
+/// archived. Measures nothing.
 /// @return  Exit status of the program.
 [[nodiscard]] int finish_sealed(const RunToFinish& ending);
 

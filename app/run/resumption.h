@@ -9,7 +9,7 @@
 
 namespace rondure::app {
 
-/// What `rondure run ... --resume` has before it.
+/// The run that `rondure run ... --resume` finds.
 struct Resumption {
   enum class State {
     kNothingThere,  ///< No touch and no journal yet: begin.
@@ -18,20 +18,20 @@ struct Resumption {
   };
   State state = State::kNothingThere;
   std::filesystem::path directory;
-  std::string plan_text;  ///< Of the journal; empty when there is none.
-  std::string plan_file;  ///< Its name then.
+  std::string plan_text;  ///< From the journal; empty when there is none.
+  std::string plan_file;  ///< Name of the plan file in that run.
 };
 
-/// Looks at the run that `--resume` means: `--out`, or a run directory in place of the plan.
-/// kBadOption when neither is given.
+/// Examines the run for `--resume`: `--out`, or a run directory in place of the plan. kBadOption
+/// when neither is given.
 [[nodiscard]] core::Result<Resumption> find_resumption(const RunArguments& arguments);
 
-/// The plan to go on with: the file named in the arguments, or else the one in the journal; kFile
+/// The plan to resume with: the file named in the arguments, or else the one in the journal; kFile
 /// when that one needs files beside it.
 [[nodiscard]] plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run);
 
-/// The command that goes on with a run, as a shell reads it: with the plan where files stand beside
-/// it, and with the archive that was named (without its password).
+/// The shell command that resumes a run: with the plan if it needs files beside it, and with the
+/// named archive (without its password).
 [[nodiscard]] std::string resume_command(const RunToFinish& run);
 
 }  // namespace rondure::app

@@ -8,11 +8,12 @@
 
 namespace rondure::app {
 
-/// A length with its unit, as "1um", "0.5 um", "2e-3mm", "800nm", in mm.
-/// @return  kBadOption: no unit, another unit, no number, or not above 0; says what to write.
+/// Parses a length with its unit, as "1um", "0.5 um", "2e-3mm", "800nm", to mm.
+/// @return  kBadOption: no unit, an unknown unit, no number, or not above 0; names the expected
+///          form.
 [[nodiscard]] core::Result<double> length_from(std::string_view word);
 
-/// Lengths in um and angles in degrees, as tables and JSON give them.
+/// Lengths in um and angles in degrees, for tables and JSON.
 [[nodiscard]] inline double um(double mm) { return mm / core::kMicrometre; }
 [[nodiscard]] inline double deg(double rad) { return rad / core::kDegree; }
 

@@ -10,7 +10,7 @@
 
 namespace rondure::app {
 
-/// A three-probe separation as JSON (docs/spindle.md), and for a person.
+/// A three-probe separation as JSON (docs/spindle.md), and as a table.
 [[nodiscard]] nlohmann::ordered_json spindle_json(const reports::SpindleFacts& facts);
 [[nodiscard]] std::string spindle_table(const reports::SpindleFacts& facts);
 

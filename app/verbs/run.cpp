@@ -45,7 +45,7 @@ std::string last_folder(const fs::path& directory) {
   return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 
-/// Where the run stands on disk, and what has to be said about it.
+/// The place of the run on disk, and the options that the record needs.
 plans::RunOptions options_of(const RunArguments& arguments) {
   plans::RunOptions options;
   options.started_utc = utc_now();
@@ -66,7 +66,7 @@ plans::RunOptions options_of(const RunArguments& arguments) {
   return options;
 }
 
-/// Measures, from the beginning or from the last touch on.
+/// Measures, from the start or after the last recorded touch.
 plans::RunOrRefusals measure(const plans::Plan& plan, plans::RunOptions options, bool resume,
                              const RunArguments& arguments) {
   ProgressLine line(arguments.quiet || arguments.step);
@@ -92,14 +92,14 @@ void tell_how_to_go_on(const plans::Run& run, const RunToFinish& ending) {
   tell(fmt::format("rondure: to go on behind the last touch: {}\n", resume_command(ending)));
 }
 
-/// A run directory that is not empty may hold a run to go on with.
+/// Points out that a non-empty run directory may hold a run to resume.
 void tell_about_resume(const RunToFinish& ending) {
   std::error_code ignored;
   if (!fs::exists(ending.directory / record::kJournalName, ignored)) return;
   tell(fmt::format("rondure: to go on with the run that lies there: {}\n", resume_command(ending)));
 }
 
-/// Says why nothing is measured: a fault, or all that changed since the run began.
+/// Prints why nothing is measured: a fault, or all changes since the run began.
 void refuse(const std::vector<core::Error>& reasons, bool resume, const fs::path& directory) {
   if (!resume || reasons.front().code != core::Code::kMeaning) return complain(reasons.front());
   tell(
@@ -109,12 +109,12 @@ void refuse(const std::vector<core::Error>& reasons, bool resume, const fs::path
   complain(reasons);
 }
 
-/// A machine that does not answer or has a fault is no mistake in the input.
+/// A machine that does not answer or has a fault is not a mistake in the input.
 int status_of(const std::vector<core::Error>& reasons) {
   return reasons.front().code == core::Code::kMachine ? kRunFailed : kBadInput;
 }
 
-/// A fixture in front of a real machine that a hand must set needs somebody to ask.
+/// Checks that there is a terminal to ask for a fixture set by hand with a real machine.
 core::Result<void> check_hand(const plans::Plan& plan) {
   const bool by_hand = plan.fixture && plan.fixture->driver == "manual" && plan.machine &&
                        plan.machine->driver != "simulated";
@@ -139,7 +139,7 @@ core::Result<void> check_names(const RunArguments& arguments) {
   return {};
 }
 
-/// Measures, and what follows.
+/// Measures, then concludes the run.
 int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& options, bool resume) {
   auto run = measure(ending.plan, options, resume, ending.arguments);
   if (!run) {
@@ -154,8 +154,8 @@ int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& opt
   return status;
 }
 
-/// A finished run ends with its verdict only when it is the run that was asked for: of another part
-/// or plan its verdict says nothing.
+/// Reports the verdict of a finished run only if it is the requested run: the verdict on another
+/// part or plan says nothing.
 int conclude_finished(const RunToFinish& ending, const plans::RunOptions& options) {
   const auto differences = plans::differences_from_run(ending.plan, options);
   if (differences.empty()) return finish_sealed(ending);
@@ -169,7 +169,7 @@ int conclude_finished(const RunToFinish& ending, const plans::RunOptions& option
   return kBadInput;
 }
 
-/// The state of the run that is resumed; a run that is not resumed begins.
+/// The state of the run to resume; a run without --resume starts anew.
 core::Result<Resumption> look(const RunArguments& arguments) {
   return arguments.resume ? find_resumption(arguments) : Resumption{};
 }

@@ -27,10 +27,10 @@ struct ForecastStage {
   enum class Kind { kQualification, kBase, kRing, kLocation, kCloud };
   Kind kind = Kind::kCloud;
   int feature = -1;          ///< Index; -1 for spheres.
-  core::Pose pose;  ///< As the fixture would read it.
+  core::Pose pose;           ///< As the fixture would read it.
   bool final_cloud = false;  ///< Its touches would be evaluated.
-  int times = 1;  ///< Number of times that the cloud is touched.
-  int touches = 0;  ///< Per time.
+  int times = 1;             ///< Number of times that the cloud is touched.
+  int touches = 0;           ///< Per time.
   /// Of all times: moves, and the strokes of the touches in both directions.
   double path_mm = 0.0;
   double time_s = 0.0;       ///< Of all times.
