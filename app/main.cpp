@@ -55,14 +55,14 @@ std::string check_seed(const std::string& text) {
   return fmt::format("{} is not a whole number from 0 to {:.0f}", text, plans::kMaxSeed);
 }
 
-/// How many times faster than a real machine.
-/// A number in range; NaN is in none.
+/// Accepts a number in range; NaN is outside every range.
 std::string check_factor(const std::string& text) {
   const auto factor = core::parse_number(text);
   if (factor && *factor >= 1e-3 && *factor <= 1e6) return {};
   return fmt::format("{} is no number from 0.001 to 1000000", text);
 }
 
+/// Accepts how many times faster than a real machine a simulation runs; "inf": without waiting.
 std::string check_speed(const std::string& text) {
   return text == "inf" ? std::string() : check_factor(text);
 }
@@ -97,7 +97,7 @@ void add_plan(CLI::App& app, PlanArguments& arguments) {
       "would\nhelp; then the exit status is 2. More: docs/planning.md");
 }
 
-/// Accepts a port, or an empty text: any free one.
+/// Accepts a port, or "auto": any free one.
 std::string check_port(const std::string& text) {
   const auto port = core::parse_number(text);
   const bool whole = port && *port >= 1.0 && *port <= 65535.0 && *port == std::floor(*port);
