@@ -8,12 +8,11 @@ class App;
 
 namespace rondure::app {
 
-/// The manual page of the program in roff (macros of man), made from the table that parses the
-/// command line and prints
-/// --help. `man -l` shows it.
+/// The manual page of the program in roff (man macros), made from the table that parses the command
+/// line and prints --help. `man -l` shows it.
 [[nodiscard]] std::string manual_page(const CLI::App& program);
 
-/// Completion of verbs, options, listed words and file names, from the same table.
+/// A completion script for verbs, options, listed words and file names, from the same table.
 /// @param shell  "bash", "zsh" or "fish".
 [[nodiscard]] std::string completion_script(const CLI::App& program, const std::string& shell);
 

@@ -67,14 +67,14 @@ std::string check_seed(const std::string& text) {
   return fmt::format("{} is not a whole number from 0 to {:.0f}", text, plans::kMaxSeed);
 }
 
-/// How many times faster than a real machine.
-/// A number in range; NaN is in none.
+/// Accepts a number in range; NaN is outside every range.
 std::string check_factor(const std::string& text) {
   const auto factor = core::parse_number(text);
   if (factor && *factor >= 1e-3 && *factor <= 1e6) return {};
   return fmt::format("{} is no number from 0.001 to 1000000", text);
 }
 
+/// Accepts how many times faster than a real machine a simulation runs; "inf": without waiting.
 std::string check_speed(const std::string& text) {
   return text == "inf" ? std::string() : check_factor(text);
 }
@@ -109,7 +109,7 @@ void add_plan(CLI::App& app, PlanArguments& arguments) {
       "would\nhelp; then the exit status is 2. More: docs/planning.md");
 }
 
-/// A port, or nothing said: any free one.
+/// Accepts a port, or "auto": any free one.
 std::string check_port(const std::string& text) {
   const auto port = core::parse_number(text);
   const bool whole = port && *port >= 1.0 && *port <= 65535.0 && *port == std::floor(*port);
@@ -468,7 +468,7 @@ void add_record(CLI::App& app, RecordArguments& arguments) {
       "it.\nWiring, kinds: docs/indicators.md");
 }
 
-/// A limit of time that a person waits for.
+/// Accepts a waiting time in range.
 std::string check_patience(const std::string& text) {
   const auto limit_s = core::parse_number(text);
   if (limit_s && *limit_s >= 0.1 && *limit_s <= 600.0) return {};
@@ -518,7 +518,7 @@ void add_manual(CLI::App& app) {
       ->footer("\nExample: rondure manual | man -l -");
 }
 
-/// Help and version go to standard output, everything else is a mistake in the arguments.
+/// Prints help and version on standard output; any other case is a mistake in the arguments.
 int explain(const CLI::App& app, const CLI::ParseError& error,
             const std::vector<std::string>& words) {
   if (error.get_exit_code() == 0) {
@@ -548,7 +548,7 @@ int explain(const CLI::App& app, const CLI::ParseError& error,
   return kBadInput;
 }
 
-/// Numbers on the command line have the limit of those in files; "nan" and "inf" are none.
+/// Limits numbers on the command line as in files; "nan" and "inf" are refused.
 void limit_numbers(CLI::App& app) {
   constexpr std::array<std::string_view, 7> kNumbers = {"FLOAT", "LO,HI", "X,Y,Z", "N[,N]",
                                                         "X,Z",   "X0,X1", "A,B"};

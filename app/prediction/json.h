@@ -9,8 +9,8 @@
 
 namespace rondure::app {
 
-/// What prediction_text.h says, as JSON: a list of characteristics, a list of features. Keys with
-/// their units: docs/planning.md.
+/// The predictions of text/prediction.h as JSON: a list of characteristics, a list of features.
+/// Keys with their units: docs/planning.md.
 [[nodiscard]] nlohmann::ordered_json prediction_json(
     const plans::Plan& plan, const std::vector<PredictedCharacteristic>& predicted);
 [[nodiscard]] nlohmann::ordered_json search_json(const plans::Plan& plan,

@@ -9,18 +9,18 @@
 
 namespace rondure::app {
 
-/// What a run would say about a characteristic of a plan.
+/// The predicted result for one characteristic of a plan.
 struct PredictedCharacteristic {
   std::size_t feature = 0;  ///< Index into the plan.
   record::Characteristic characteristic;
   evaluation::Prediction prediction;
 };
 
-/// Of every characteristic of a plan, in its order.
+/// Predicts all characteristics of a plan, in its order.
 [[nodiscard]] core::Result<std::vector<PredictedCharacteristic>> predict_plan(
     const plans::Plan& plan, const plans::Forecast& forecast);
 
-/// What is said about the largest influences: "probe-repeatability 61 %, machine-squareness 20 %".
+/// The largest influences in words: "probe-repeatability 61 %, machine-squareness 20 %".
 /// @param measurand  The sampling is an influence of the whole surface only.
 [[nodiscard]] std::string largest_influences(const evaluation::Prediction& prediction,
                                              evaluation::Measurand measurand);

@@ -9,7 +9,7 @@ namespace rondure::app {
 
 using evaluation::Measurand;
 
-/// A run finds the repeatability by its repeats, where the plan does not declare it.
+/// A run derives the repeatability from its repeats, unless the plan declares it.
 int least_repeats(const plans::Plan& plan) {
   if (!plan.uncertainty || !plan.uncertainty->probe) return 1;
   const auto& probe = *plan.uncertainty->probe;
@@ -73,14 +73,14 @@ core::Result<evaluation::Prediction> SamplingLayout::predict(
   return worst;
 }
 
-/// The forecast with another number of repeats: the same way, so often.
+/// The forecast with another number of repeats: the same path, more often.
 plans::Forecast SamplingLayout::repeated(int repeats) const {
   plans::Forecast out = *forecast_;
   for (plans::ForecastStage& stage : out.stages) {
     if (!stage.final_cloud || stage.feature != static_cast<int>(feature_)) continue;
     const int more = repeats - stage.times;
     out.touches += more * stage.touches;
-    // The first time comes from the park place or the last cloud, the others all alike.
+    // The first time starts at the park position or the last cloud; all others are the same.
     out.time_s += more * again_s_;
     stage.time_s += more * again_s_;
     stage.times = repeats;

@@ -24,28 +24,28 @@ struct SamplingCandidate {
   int touches = 0;                       ///< Of the whole run.
   double time_s = 0.0;                   ///< Of the whole run, as forecast() predicts it.
   double expanded_mm = 0.0;              ///< Predicted U, the largest of its characteristics.
-  double nine_of_ten_expanded_mm = 0.0;  ///< U that nine of ten parts stay below.
-  bool meets = false;                    ///< That U is not above the target.
+  double nine_of_ten_expanded_mm = 0.0;  ///< U that nine of ten parts do not exceed.
+  bool meets = false;                    ///< Whether that U is not above the target.
   bool confirmed = false;                ///< Predicted with the full number of simulated parts.
   int stated = 0;                        ///< Characteristics whose interval is predicted.
-  std::string missing;                   ///< Why another has none; empty when each has one.
+  std::string missing;                   ///< Why another has none; empty: each has one.
   std::string out_of_reach;  ///< Not empty: why it cannot be touched, or loses an interval that the
                              ///< plan has; no numbers then.
 };
 
-/// The fewest repeats that may be proposed: 2 where the run finds the repeatability by them.
+/// The smallest number of repeats to propose: 2 if the run derives the repeatability from them.
 [[nodiscard]] int least_repeats(const plans::Plan& plan);
 
-/// One layout of one feature: its way is laid once, its repeats are varied.
+/// One layout of one feature: its path is planned once, its repeats are varied.
 class SamplingLayout {
  public:
-  /// @param sampling  Its repeats are not looked at.
+  /// @param sampling  Its repeats are ignored.
   SamplingLayout(plans::Plan plan, std::size_t feature, const Sampling& sampling);
 
-  /// With the fewest repeats; or why it cannot be touched.
+  /// The forecast with the fewest repeats, or why the layout cannot be touched.
   [[nodiscard]] const core::Result<plans::Forecast>& forecast() const { return forecast_; }
 
-  /// A candidate without its U.
+  /// A candidate, without its U.
   [[nodiscard]] SamplingCandidate candidate(int repeats) const;
 
   /// Predicts the U of a candidate of this layout.
@@ -61,7 +61,7 @@ class SamplingLayout {
   std::size_t feature_;
   Sampling sampling_;
   core::Result<plans::Forecast> forecast_;
-  double again_s_ = 0.0;  ///< Time of the final cloud once more.
+  double again_s_ = 0.0;  ///< Time of one more final cloud.
 };
 
 }  // namespace rondure::app

@@ -88,7 +88,7 @@ class Search {
   }
 
  private:
-  /// The plan as it stands: the first candidate, or why there is none.
+  /// Evaluates the unchanged plan: the first candidate, or why there is none.
   core::Result<void> look_at_plan(const SamplingLayout& planned) {
     SamplingCandidate as_planned = planned.candidate(out_.planned.repeats);
     const auto found = planned.predict(out_.measurand, all_parts(), as_planned);
@@ -100,7 +100,8 @@ class Search {
       return {};
     }
     stated_ = as_planned.stated;
-    // With one touch a point and no declared repeatability U would be small for want of noise.
+    // With one touch per point and no declared repeatability, U would be too small: noise is
+    // missing.
     if (out_.planned.repeats >= least_repeats(plan_)) keep(as_planned, *found, true);
     return {};
   }
@@ -127,7 +128,7 @@ class Search {
     return meets;
   }
 
-  /// Whether a candidate that takes so long could still be the cheapest.
+  /// Whether a candidate of this time could still be the cheapest.
   [[nodiscard]] bool worth_trying(double time_s) const {
     return std::none_of(out_.candidates.begin(), out_.candidates.end(),
                         [&](const SamplingCandidate& c) { return c.meets && c.time_s <= time_s; });
@@ -140,7 +141,7 @@ class Search {
     return keep(std::move(candidate), *found, false);
   }
 
-  /// The fewest repeats of a layout that meet the target, among those that are worth trying.
+  /// Finds the fewest repeats of a layout that meet the target, among those worth trying.
   core::Result<void> try_layout(const SamplingLayout& layout) {
     if (!layout.forecast()) {
       out_.candidates.push_back(layout.candidate(least_repeats(plan_)));
@@ -166,7 +167,7 @@ class Search {
     return {};
   }
 
-  /// Predicts the cheapest that meets the target with all parts, until one stands.
+  /// Predicts the cheapest candidate that meets the target with all parts, until one is confirmed.
   core::Result<void> confirm_cheapest() {
     for (;;) {
       const SamplingCandidate* cheapest = cheapest_that_meets();
@@ -184,7 +185,7 @@ class Search {
     return confirm_smallest();
   }
 
-  /// Where nothing meets the target: the smallest U, with what limits it.
+  /// If no candidate meets the target: predicts the smallest U, with its main influences.
   core::Result<void> confirm_smallest() {
     if (cheapest_that_meets() != nullptr) return {};
     const SamplingCandidate* smallest = nullptr;

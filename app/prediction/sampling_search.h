@@ -11,7 +11,7 @@
 
 namespace rondure::app {
 
-/// What was found for one feature.
+/// Result of the search for one feature.
 struct SamplingSearch {
   std::size_t feature = 0;  ///< Index into the plan.
   evaluation::Measurand measurand =
@@ -19,30 +19,30 @@ struct SamplingSearch {
   Sampling planned;
   std::vector<SamplingCandidate> candidates;  ///< By time.
   std::optional<std::size_t> best;            ///< The cheapest that meets the target.
-  std::string limit;  ///< Without a best one: the largest influences of the smallest U.
+  std::string limit;  ///< Without a best one: main influences on the smallest U.
   std::string why;    ///< Not empty: why nothing was tried.
 };
 
 /// A key of the plan with another value.
 struct SamplingChange {
-  std::string object;  ///< JSON pointer of the object it stands in: "/features/0/sampling".
+  std::string object;  ///< JSON pointer of its object: "/features/0/sampling".
   std::string key;
   int value = 0;
 };
 
-/// What to change in the plan for the best sampling; nothing where it has that already.
+/// The changes of the plan for the best sampling; empty if the plan has it already.
 [[nodiscard]] std::vector<SamplingChange> changes_of(const SamplingSearch& search);
 
-/// Looks for the sampling with the least time whose U meets a target, for each touched feature.
+/// For each touched feature, finds the sampling of least time whose U meets a target.
 ///
-/// Knobs: layers, points of a layer, repeats. Where the decision rule is about the sampled points,
-/// fewer points than the plan's are not tried: they would ask another, easier question; and only
-/// few layouts with more. The
-/// smallest number of repeats that meets the target is found for each layout by bisection, with few
-/// simulated parts; the cheapest is then predicted again as `rondure plan` would, and passed over
-/// if that does not confirm it. A scan keeps its points: more of them take no time.
+/// Varied: layers, points per layer, repeats. If the decision rule concerns the sampled points,
+/// fewer points than the plan's are not tried, because they would make the measurand easier, and
+/// only a few layouts with more. For each layout, bisection with few simulated parts finds the
+/// smallest number of repeats that meets the target. The cheapest layout is then predicted as by
+/// `rondure plan`, and skipped if that does not confirm it. A scan keeps its points: more of them
+/// take no time.
 /// @param target_mm  > 0.
-/// @return  The errors of forecast() and predict() for the plan as it stands.
+/// @return  The errors of forecast() and predict() for the unchanged plan.
 [[nodiscard]] core::Result<std::vector<SamplingSearch>> search_samplings(const plans::Plan& plan,
                                                                          double target_mm);
 

@@ -11,26 +11,27 @@
 
 namespace rondure::app {
 
-/// Where the results of a run go: `argument` (--archive), else what the plan says, else archive.db
-/// beside the run directory. kBadOption as parse_archive_place().
+/// The archive for the results of a run: `argument` (--archive), else that of the plan, else
+/// archive.db beside the run directory. kBadOption as parse_archive_place().
 [[nodiscard]] core::Result<record::ArchivePlace> archive_of(const std::string& argument,
                                                             const plans::Plan& plan,
                                                             const std::filesystem::path& directory);
 
-/// A sealed run as the archive keeps it; kFile when its journal cannot be read.
+/// Converts a sealed run for the archive; kFile when its journal cannot be read.
 [[nodiscard]] core::Result<record::ArchiveRun> entry_of(const std::filesystem::path& directory,
                                                         const record::RunRecord& record,
                                                         const evaluation::Evaluation& evaluation);
 
-/// Keeps the earlier results of a run's part in its directory (earlier.json), for the run charts of
-/// its page: once, before its reports are first written. Without an archive, or where it cannot be
-/// read, the page has no run chart; pushing the run says what is wrong with the archive.
+/// Stores the earlier results of a run's part in its directory (earlier.json), for the run charts
+/// of its page: once, before its reports are first written. Without a readable archive the page has
+/// no run chart; pushing the run reports the problem.
 void keep_earlier_results(const record::ArchivePlace& place, const std::filesystem::path& directory,
                           const record::RunRecord& record);
 
-/// Pushes a sealed run whose reports are written. What cannot be pushed waits in the queue beside
-/// the run directory; a message says so. Never changes how the run ends.
-/// @return  Whether there was anything to do: false when the archive held it, or none is wanted.
+/// Pushes a sealed run whose reports are written. A run that cannot be pushed is queued beside the
+/// run directory, with a message. Does not change the exit status of the run.
+/// @return  Whether there was anything to do: false when the archive held it, or there is no
+///          archive.
 bool archive_run(const record::ArchivePlace& place, const std::filesystem::path& directory,
                  const record::RunRecord& record, const evaluation::Evaluation& evaluation);
 

@@ -35,8 +35,8 @@ int exit_status(bool failed, evaluation::Verdict verdict) {
   return well ? kAllWell : kNotConforming;
 }
 
-/// Formats to write: those asked for, and those that an interrupted beginning left, which would
-/// tell of another state than the run's.
+/// Formats to write: those requested, and those left by an interrupted attempt, which would show
+/// another state of the run.
 std::vector<std::string> with_those_there(std::vector<std::string> asked,
                                           const fs::path& directory) {
   for (const reports::Export& e : reports::exports()) {
@@ -109,8 +109,8 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
   return exit_status(false, evaluated.evaluation.verdict);
 }
 
-/// To the terminal, and to the page, which would wait for a verdict that never comes.
-void tell_failure(const core::Error& error, web::LiveView* live) {
+/// Reports a failure on the terminal, and to the page, which would otherwise wait for a verdict.
+void tell_failure(const core::Error& error, reports::LiveView* live) {
   print_error(error);
   if (live != nullptr) live->show_failure(core::to_line(error));
 }

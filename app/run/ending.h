@@ -11,13 +11,13 @@
 
 namespace rondure::app {
 
-/// A run in its directory, and what its end needs.
+/// A run in its directory, with the data that its end needs.
 struct RunToFinish {
   const RunArguments& arguments;
   const plans::Plan& plan;
   const record::ArchivePlace& archive;
   std::filesystem::path directory;
-  web::LiveView* live = nullptr;  ///< Who watches is shown the result; or none.
+  reports::LiveView* live = nullptr;  ///< Shows the result to watchers; may be null.
 };
 
 /// The formats that a run is to write: of the command line, else of the plan.
@@ -29,9 +29,8 @@ struct RunToFinish {
 /// @return  Exit status of the program.
 [[nodiscard]] int conclude(const RunToFinish& ending, plans::Run& run);
 
-/// A sealed run has nothing to measure; it may have died before its reports were written or its
-/// results archived.
-/// @param held  Its journal.
+/// Completes a sealed run, which may have died before its reports were written or its results
+/// archived. Measures nothing.
 /// @return  Exit status of the program.
 [[nodiscard]] int finish_sealed(const RunToFinish& ending, record::HeldJournal held);
 

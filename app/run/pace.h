@@ -5,15 +5,14 @@
 
 namespace rondure::app {
 
-/// Lets a simulated run take time, so that somebody can watch it. The record knows nothing of it.
+/// Slows a simulated run down for observers. The record is not affected.
 class Pace {
  public:
-  /// @param speed           Seconds of the simulated machine in one of the wall; > 0.
+  /// @param speed           Simulated seconds per second of real time; > 0.
   /// @param stop_requested  Ends the waiting.
   Pace(double speed, std::function<bool()> stop_requested);
 
-  /// Waits until the wall clock is as far as the machine's. What the machine's clock shows first is
-  /// the beginning.
+  /// Waits until the wall clock has reached the machine's. The first call sets the start of both.
   void keep(double machine_time_s);
 
  private:

@@ -31,7 +31,7 @@ bool archives_beside(const plans::Plan& plan) {
          fs::path(place->address).is_relative();
 }
 
-/// Whether a plan goes on only from its folder, where its files stand.
+/// Whether a plan can be resumed only from its folder, which holds its files.
 bool needs_folder(const plans::Plan& plan, const RunArguments& arguments) {
   if (arguments.archive.empty() && archives_beside(plan)) return true;
   return std::any_of(plan.features.begin(), plan.features.end(), [](const auto& feature) {

@@ -11,7 +11,7 @@
 
 namespace rondure::app {
 
-/// The run that `rondure run ... --resume` goes on with.
+/// The run that `rondure run ... --resume` finds.
 struct Resumption {
   std::filesystem::path directory;
   /// Its journal, read once and locked from then on; none: no touch and no journal yet, the run
@@ -19,16 +19,16 @@ struct Resumption {
   std::optional<record::HeldJournal> held;
 };
 
-/// Looks at the run that `--resume` means: `--out`, or a run directory in place of the plan.
-/// kBadOption when neither is given.
+/// Examines the run for `--resume`: `--out`, or a run directory in place of the plan. kBadOption
+/// when neither is given.
 [[nodiscard]] core::Result<Resumption> find_resumption(const RunArguments& arguments);
 
-/// The plan to go on with: the file named in the arguments, or else the one in the journal; kFile
+/// The plan to resume with: the file named in the arguments, or else the one in the journal; kFile
 /// when that one needs files beside it.
 [[nodiscard]] plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run);
 
-/// The command that goes on with a run, as a shell reads it: with the plan where files stand beside
-/// it, and with the archive that was named (without its password).
+/// The shell command that resumes a run: with the plan if it needs files beside it, and with the
+/// named archive (without its password).
 [[nodiscard]] std::string resume_command(const RunToFinish& run);
 
 }  // namespace rondure::app

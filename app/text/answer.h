@@ -13,8 +13,7 @@ namespace rondure::app {
 ///         it as null, a table as nan), or nothing.
 [[nodiscard]] core::Result<void> check_finite(const nlohmann::ordered_json& found);
 
-/// Prints what was found, as JSON or as the table for a person. With a number that is not finite
-/// nothing is printed but the error.
+/// Prints a result, as JSON or as a table. If a number is not finite, only the error is printed.
 /// @return The exit status of the verb.
 [[nodiscard]] int answer(const nlohmann::ordered_json& found, bool as_json,
                          const std::function<std::string()>& table);

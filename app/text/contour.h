@@ -10,11 +10,11 @@
 namespace rondure::app {
 
 /// A study of crank pins as JSON (docs/contour.md).
-/// @param names  One a part.
+/// @param names  One per part.
 [[nodiscard]] nlohmann::ordered_json contour_json(const fit::ContourStudy& study,
                                                   const fit::ContourStudyOptions& options,
                                                   std::span<const std::string> names);
-/// The same for a person.
+/// A study of crank pins as a table.
 [[nodiscard]] std::string contour_table(const fit::ContourStudy& study,
                                         const fit::ContourStudyOptions& options,
                                         std::span<const std::string> names);

@@ -8,19 +8,19 @@
 
 namespace rondure::app {
 
-/// A device that was found, as it is shown.
+/// A found device, as it is displayed.
 struct FoundDevice {
   std::string role;    ///< "fixture", "indicator", "serial".
   std::string what;    ///< E.g. "Zaber controller X-MCC2".
   std::string id;      ///< "2939:49c2".
-  std::string serial;  ///< "" when it cannot be asked.
+  std::string serial;  ///< "" when it cannot be read.
   std::string place;   ///< "bus 1, address 2" or "/dev/ttyUSB0".
-  std::string driver;  ///< How plans and commands call its driver; "" for a serial line.
+  std::string driver;  ///< Name of its driver in plans and commands; "" for a serial line.
   std::string state;   ///< "usable", "permission-denied", "busy", "fault".
-  std::string note;    ///< What to do about the state, or what else there is to know.
+  std::string note;    ///< The remedy for the state, or further information.
 };
 
-/// The known ones among what is plugged in: fixtures and indicators, then serial lines.
+/// The known devices that are plugged in: fixtures and indicators, then serial lines.
 [[nodiscard]] std::vector<FoundDevice> found_devices(
     const std::vector<wire::UsbDeviceInfo>& devices,
     const std::vector<wire::SerialPortInfo>& ports);

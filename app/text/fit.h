@@ -11,9 +11,9 @@
 
 #include "core/error.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/deviation_range.h"
 #include "fit/proof/certificate.h"
 #include "fit/zone/contacts.h"
-#include "fit/geometry/deviation_range.h"
 
 namespace rondure::app {
 
@@ -24,7 +24,7 @@ struct FitPlace {
   int coordinates = 3;  ///< Of the centre: 2 for a circle.
 };
 
-/// What one reference says, whatever the shape.
+/// The result of one reference, for any shape.
 struct FitReference {
   FitPlace place;
   std::optional<double> radius_mm;        ///< Least squares, circumscribed, inscribed.
@@ -36,30 +36,30 @@ struct FitReference {
   std::vector<fit::Contact> outer;
   std::vector<fit::Contact> inner;
   std::optional<fit::Certificate> certificate;  ///< All but least squares.
-  std::optional<fit::DeviationRange> range;     ///< Of an inscribed circle that is not unique.
+  std::optional<fit::DeviationRange> range;     ///< For an inscribed circle that is not unique.
 };
 
-/// What `rondure fit` found of one set of points.
+/// Results of `rondure fit` for one set of points.
 struct FitOutcome {
   struct Entry {
     std::string name;                   ///< "ls", "mz", "mc", "mi".
     std::string title;                  ///< "LSCI", "MZCY", ...
-    std::optional<FitReference> found;  ///< Nothing: it does not exist for these data.
+    std::optional<FitReference> found;  ///< Empty: it does not exist for these data.
   };
   std::string shape;
   std::size_t points = 0;
-  std::vector<Entry> references;  ///< Those asked for, in the order of the names above.
+  std::vector<Entry> references;  ///< Those requested, in the order of the names above.
   std::vector<core::Error> warnings;
 };
 
 /// A certificate as JSON, and as "certificate global, all centres, gap 1.0e-15 mm; reason". Without
-/// a proof there is no gap: null, and nothing.
+/// a proof the gap is null, and missing in the text.
 [[nodiscard]] nlohmann::ordered_json certificate_json(const fit::Certificate& certificate);
 [[nodiscard]] std::string certificate_text(const fit::Certificate& certificate);
 
 /// The JSON contract of DESIGN.md ("JSON of fit").
 [[nodiscard]] nlohmann::ordered_json fit_json(const FitOutcome& outcome);
-/// The same for a person.
+/// The outcome as a table.
 [[nodiscard]] std::string fit_table(const FitOutcome& outcome);
 
 }  // namespace rondure::app

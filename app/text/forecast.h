@@ -13,9 +13,9 @@ namespace rondure::app {
 /// "4:07" or "1:02:10".
 [[nodiscard]] std::string clock_text(double time_s);
 
-/// A forecast for a person: one line a stage, at most 80 columns.
+/// A forecast as a table: one line per stage, at most 80 columns.
 [[nodiscard]] std::string forecast_table(const plans::Plan& plan, const plans::Forecast& forecast);
-/// The same as JSON (keys with their units), to be completed by what else is foretold.
+/// A forecast as JSON (keys with their units), to which the predictions are added.
 [[nodiscard]] nlohmann::ordered_json forecast_json(const plans::Plan& plan,
                                                    const plans::Forecast& forecast);
 /// Why there is no forecast, as JSON: {"problems": [{"code", "where", "what"}]}.

@@ -9,17 +9,17 @@
 
 namespace rondure::app {
 
-/// Where a server was reached.
+/// Address of a server.
 struct ServerPlace {
   std::string host;
   std::uint16_t port = 0;
 };
 
-/// What was found at a server, what it lacks and what that means for a plan, and the keys of
-/// `machine` that follow, which a plan takes as they are.
+/// The survey of a server as JSON: what it offers, what it lacks and the consequences for a plan,
+/// and the resulting keys of `machine`, ready for a plan.
 [[nodiscard]] nlohmann::ordered_json survey_json(const cmm::ipp::client::Survey& survey,
                                                  const ServerPlace& place);
-/// The same for a person, in lines of at most 80 characters as far as the server's own words allow.
+/// The survey as text, in lines of at most 80 characters unless a text of the server is longer.
 [[nodiscard]] std::string survey_text(const nlohmann::ordered_json& found);
 
 }  // namespace rondure::app

@@ -8,10 +8,10 @@
 
 namespace rondure::app {
 
-/// Predicted intervals for a person, at most 80 columns.
+/// Predicted intervals as a table, at most 80 columns.
 [[nodiscard]] std::string prediction_table(const plans::Plan& plan,
                                            const std::vector<PredictedCharacteristic>& predicted);
-/// The samplings that were tried for a target U, and what to change in the plan.
+/// The samplings tried for a target U, and the changes for the plan.
 [[nodiscard]] std::string search_table(const plans::Plan& plan,
                                        const std::vector<SamplingSearch>& searches,
                                        double target_mm);

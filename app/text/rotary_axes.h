@@ -11,16 +11,16 @@
 
 namespace rondure::app {
 
-/// What `rondure fit rotary-axes` found of one axis.
+/// Results of `rondure fit rotary-axes` for one axis.
 struct RotaryFacts {
   std::string name;
   std::string method;
   fit::RotaryStudy study;
   std::optional<fit::RotaryModel> model;  ///< Absent with too few stations; a warning says so.
-  Eigen::Vector3d place_mm = Eigen::Vector3d::Zero();  ///< Whose point uncertainty is stated.
+  Eigen::Vector3d place_mm = Eigen::Vector3d::Zero();  ///< Point whose uncertainty is stated.
 };
 
-/// As JSON (docs/rotary-axes.md), and for a person within 80 columns.
+/// As JSON (docs/rotary-axes.md), and as a table within 80 columns.
 [[nodiscard]] nlohmann::ordered_json rotary_axes_json(std::span<const RotaryFacts> axes);
 [[nodiscard]] std::string rotary_axes_table(std::span<const RotaryFacts> axes);
 

@@ -12,7 +12,7 @@ namespace rondure::app {
 /// @param polar  The input was theta_deg,r_um: centres are offsets, radii a level.
 [[nodiscard]] nlohmann::ordered_json roundness_json(const fit::RoundnessEvaluation& evaluation,
                                                     bool polar);
-/// The same for a person.
+/// A roundness evaluation as a table.
 [[nodiscard]] std::string roundness_table(const fit::RoundnessEvaluation& evaluation, bool polar);
 
 }  // namespace rondure::app

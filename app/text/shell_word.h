@@ -4,7 +4,7 @@
 
 namespace rondure::app {
 
-/// A word of a command line, quoted for a shell where it must be.
+/// A word of a command line, quoted for a shell if necessary.
 [[nodiscard]] std::string quoted(const std::string& word);
 
 }  // namespace rondure::app

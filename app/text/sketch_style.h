@@ -4,8 +4,8 @@
 
 namespace rondure::app {
 
-/// How standard output can draw: braille on a terminal whose locale is UTF-8 (LC_ALL, LC_CTYPE,
-/// LANG, the first that is set), letters on another terminal, not at all in a file or a pipe.
+/// The style of drawings on standard output: braille on a terminal whose locale is UTF-8 (the first
+/// of LC_ALL, LC_CTYPE, LANG that is set), letters on another terminal, none in a file or a pipe.
 [[nodiscard]] reports::SketchStyle sketch_style();
 
 }  // namespace rondure::app

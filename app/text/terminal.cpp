@@ -49,8 +49,8 @@ std::string line_of(const plans::Progress& progress, double elapsed_s) {
   return out;
 }
 
-/// Text without control characters, but for line breaks, tabs and the colours of our own charts: a
-/// name that came with an escape sequence must not rule the terminal.
+/// Text without control characters, except line breaks, tabs and the colours of our own charts: an
+/// escape sequence in a name must not reach the terminal.
 std::string without_controls(std::string_view text) {
   constexpr std::array<std::string_view, 2> kColours = {"\x1b[31m", "\x1b[0m"};
   std::string out;
@@ -113,7 +113,7 @@ void tell(std::string_view line) {
 }
 
 void print_error(const core::Error& error) {
-  // A file's name stands in the sentence already.
+  // The sentence may contain the file name already.
   const bool named = error.what.find(error.where) != std::string::npos;
   tell(fmt::format("rondure: {}\n", core::to_line(named ? error.at({}) : error)));
 }

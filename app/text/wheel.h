@@ -6,7 +6,7 @@
 
 namespace rondure::app {
 
-/// A wheel evaluation for a person.
+/// A wheel evaluation as a table.
 [[nodiscard]] std::string wheel_table(const fit::WheelEvaluation& evaluation,
                                       const fit::WheelTask& task);
 

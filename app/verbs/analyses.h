@@ -6,7 +6,7 @@ namespace CLI {
 class App;
 }
 
-// The command line of the sister analyses: one function a verb, called by main.cpp.
+// The command line of the sister analyses: one function per verb, called by main.cpp.
 
 namespace rondure::app {
 

@@ -8,25 +8,24 @@
 
 namespace rondure::app {
 
-/// What the files of a control or a gauge call a quantity, in which unit, with which sign.
+/// Name, unit and sign of a quantity in the files of a controller or a gauge.
 struct ContourColumn {
-  std::string quantity;  ///< One of those below.
-  std::string column;    ///< As the header line spells it.
-  std::string unit;      ///< Empty: that of the quantity without a mapping.
+  std::string quantity;  ///< One of the quantities below.
+  std::string column;    ///< As in the header line.
+  std::string unit;      ///< Empty: the unit of the quantity without a mapping.
   double sign = 1.0;     ///< 1 or -1.
 };
 
-/// A quantity of `fit contour`, with the column it has without a mapping; the name of that column
-/// carries its unit.
+/// A quantity of `fit contour`, with its default column; the name of that column carries its unit.
 struct ContourQuantity {
   std::string_view name;
   std::string_view column;
 };
-/// c, c_error, x_error (or alpha_cmd, alpha_act, d_cmd, d_act) of the control; angle, deviation,
+/// c, c_error, x_error (or alpha_cmd, alpha_act, d_cmd, d_act) of the controller; angle, deviation,
 /// main_angle, main_deviation of the gauge.
 [[nodiscard]] const ContourQuantity& contour_quantity(std::string_view name);
 
-/// How a quantity is read from a file.
+/// Column of a quantity in a file, and its conversion.
 struct ContourReading {
   std::string column;
   double factor = 1.0;  ///< To rad or mm, with the sign.

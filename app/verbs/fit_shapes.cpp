@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/line.h"
@@ -17,7 +18,6 @@
 #include "fit/references/min_zone_sphere.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
-#include "fit/geometry/points.h"
 
 namespace rondure::app {
 namespace {
@@ -111,7 +111,8 @@ core::Result<FitReference> as_reference(const core::Result<Fit>& fit, const Conv
   return convert(*fit);
 }
 
-/// Says that what is not seen can only add: of points seen along the axis, about their centre.
+/// Warns about an arc, seen along the axis about the centre: the unseen part can only add to the
+/// deviation.
 void warn_of_arc(Plane points, const Eigen::Vector2d& center_mm, Collector& collector) {
   const double gap_rad = fit::largest_gap_rad(points, center_mm);
   const double step_rad = core::kTwoPi / static_cast<double>(points.size());

@@ -10,8 +10,8 @@
 
 namespace rondure::app {
 
-/// Fits the references of a shape that were asked for. A reference that does not exist for the
-/// points is empty in the outcome, with a warning that says why.
+/// Fits the requested references of a shape. A reference that does not exist for the points is
+/// empty in the outcome, with a warning that gives the reason.
 ///
 /// @param shape      "circle" (z is not used), "cylinder", "sphere", "line".
 /// @param reference  "ls", "mz", "mc", "mi" or "all"; a line has "ls" and "mz".

@@ -25,7 +25,7 @@ using record::ArchivedResult;
 
 constexpr std::size_t kListed = 50;
 constexpr std::size_t kCharted = 1000;
-constexpr std::size_t kPage = 5000;  ///< Rows of one question: short locks, little memory.
+constexpr std::size_t kPage = 5000;  ///< Rows per query: short locks, little memory.
 
 tl::unexpected<core::Error> bad(std::string what) {
   return core::fail(core::Code::kBadOption, std::move(what));

@@ -9,7 +9,7 @@ class App;
 
 namespace rondure::app {
 
-/// What `rondure fit rotary-axes` was told.
+/// Arguments of `rondure fit rotary-axes`.
 struct RotaryAxesArguments {
   std::vector<std::string> files;
   std::string axis;               ///< x, y, z or a,b,c; empty: by the name of the axis.
@@ -18,14 +18,14 @@ struct RotaryAxesArguments {
   std::vector<double> range_deg;  ///< Of the axis; empty: any.
   std::string method = "exact";
   std::string curve = "spline";
-  std::vector<double> place_mm;  ///< Whose uncertainty is stated; empty: the origin.
+  std::vector<double> place_mm;  ///< Place whose uncertainty is stated; empty: the origin.
   bool keep_outliers = false;
   bool json = false;
 };
 
-/// Adds the verb below `fit`.
+/// Adds the verb to `fit`.
 void add_rotary_axes(CLI::App& fit_verb, RotaryAxesArguments& arguments);
-/// Runs it; the exit status.
+/// Runs the verb. Returns the exit status.
 [[nodiscard]] int rotary_axes(const RotaryAxesArguments& arguments);
 
 }  // namespace rondure::app

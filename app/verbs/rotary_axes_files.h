@@ -16,9 +16,9 @@ struct NamedAxis {
 };
 
 /// Reads the files and sorts their rows by axis and station, in the order of measurement. A ball
-/// that stands again in the reference pose begins its next measurement.
-/// @return What parse_ball_csv() refuses; kBadOption where the direction of an axis is not known,
-///         is not three numbers, or is given for several axes.
+/// that recurs in the reference pose starts its next measurement.
+/// @return The errors of parse_ball_csv(); kBadOption when the direction of an axis is unknown, is
+/// not three numbers, or is given for several axes.
 [[nodiscard]] core::Result<std::vector<NamedAxis>> read_rotary_axes(
     const RotaryAxesArguments& arguments);
 

@@ -47,7 +47,7 @@ std::string last_folder(const fs::path& directory) {
   return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 
-/// Where the run stands on disk, and what has to be said about it.
+/// The place of the run on disk, and the options that the record needs.
 plans::RunOptions options_of(const RunArguments& arguments) {
   plans::RunOptions options;
   options.started_utc = utc_now();
@@ -96,14 +96,14 @@ void tell_how_to_go_on(const plans::Run& run, const RunToFinish& ending) {
   tell(fmt::format("rondure: to go on behind the last touch: {}\n", resume_command(ending)));
 }
 
-/// A run directory that is not empty may hold a run to go on with.
+/// Points out that a non-empty run directory may hold a run to resume.
 void tell_about_resume(const RunToFinish& ending) {
   std::error_code ignored;
   if (!fs::exists(ending.directory / record::kJournalName, ignored)) return;
   tell(fmt::format("rondure: to go on with the run that lies there: {}\n", resume_command(ending)));
 }
 
-/// Says why nothing is measured: a fault, or all that changed since the run began.
+/// Prints why nothing is measured: a fault, or all changes since the run began.
 void refuse(const std::vector<core::Error>& reasons, bool resume, const fs::path& directory) {
   if (!resume || reasons.front().code != core::Code::kMeaning) return print_error(reasons.front());
   tell(
@@ -113,12 +113,12 @@ void refuse(const std::vector<core::Error>& reasons, bool resume, const fs::path
   print_error(reasons);
 }
 
-/// A machine that does not answer or has a fault is no mistake in the input.
+/// A machine that does not answer or has a fault is not a mistake in the input.
 int status_of(const std::vector<core::Error>& reasons) {
   return reasons.front().code == core::Code::kMachine ? kRunFailed : kBadInput;
 }
 
-/// A fixture in front of a real machine that a hand must set needs somebody to ask.
+/// Checks that there is a terminal to ask for a fixture set by hand with a real machine.
 core::Result<void> check_hand(const plans::Plan& plan) {
   const bool by_hand = plan.fixture && plan.fixture->driver == "manual" && plan.machine &&
                        plan.machine->driver != "simulated";
@@ -184,7 +184,7 @@ int conclude_finished(const RunToFinish& ending, const plans::RunOptions& option
   return kBadInput;
 }
 
-/// The run that is resumed; nothing to resume where a run begins.
+/// The state of the run to resume; a run without --resume starts anew.
 core::Result<Resumption> look(const RunArguments& arguments) {
   return arguments.resume ? find_resumption(arguments) : Resumption{};
 }

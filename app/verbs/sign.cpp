@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the run verifies: nobody should put a name to anything else.
+/// Whether the run verifies: nothing else should be signed.
 bool verifies(const fs::path& directory) {
   reports::VerifyOptions options;
   options.processor = processor();

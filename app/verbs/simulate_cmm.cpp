@@ -21,7 +21,7 @@ bool is_loopback(std::string_view address) {
   return address.starts_with("127.") || address == "::1" || address == "localhost";
 }
 
-/// What a person who starts a client next wants to know.
+/// The information needed to start a client.
 std::string greeting(const SimulateCmmArguments& arguments, plans::ServedCell& cell,
                      std::uint16_t port) {
   const std::string pace =
@@ -85,7 +85,7 @@ int simulate_cmm(const SimulateCmmArguments& arguments) {
     print_error(servable.error().at(arguments.plan));
     return kBadInput;
   }
-  // Said now, not when the first client comes.
+  // Checked now, not when the first client connects.
   if (!arguments.wire_log.empty() && !std::ofstream(arguments.wire_log, std::ios::app)) {
     print_error(
         {core::Code::kFile, "cannot be written; choose another --wire-log", arguments.wire_log});

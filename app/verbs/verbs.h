@@ -17,7 +17,7 @@ enum Exit : int {
   kNotConforming =
       1,  ///< Finished, but something does not conform, is undecided or void; verify: not equal.
   kBadInput = 2,   ///< Plan, file or arguments; verify: unreadable.
-  kRunFailed = 3,  ///< Machine, fixture or run failed; what was measured is kept.
+  kRunFailed = 3,  ///< Machine, fixture or run failed; recorded data are kept.
 };
 
 struct ValidateArguments {
@@ -29,8 +29,8 @@ struct PlanArguments {
   std::string plan;
   bool json = false;
   std::string svg;                             ///< File for a picture; empty: none.
-  std::string feature;                         ///< To draw; empty: the first.
-  std::optional<std::string> target_expanded;  ///< Length with unit that U shall not be above.
+  std::string feature;                         ///< Feature to draw; empty: the first.
+  std::optional<std::string> target_expanded;  ///< Length with unit, the largest U allowed.
 };
 [[nodiscard]] int plan(const PlanArguments& arguments);
 
@@ -211,7 +211,7 @@ struct ServerDeviceArguments {
   double limit_s = 5.0;  ///< For the connection and for each answer.
   bool json = false;
 };
-/// A short conversation with a server of I++ DME in which nothing moves.
+/// Surveys an I++ DME server; nothing moves.
 [[nodiscard]] int server_device(const ServerDeviceArguments& arguments);
 
 }  // namespace rondure::app

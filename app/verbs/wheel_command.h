@@ -11,7 +11,7 @@ class App;
 
 namespace rondure::app {
 
-/// What `rondure fit wheel` was told.
+/// Arguments of `rondure fit wheel`.
 struct WheelArguments {
   std::string file;
   std::string mode;
@@ -42,9 +42,9 @@ struct WheelArguments {
   bool json = false;
 };
 
-/// Adds the verb below `fit`.
+/// Adds the verb to `fit`.
 void add_wheel(CLI::App& fit_verb, WheelArguments& arguments);
-/// Runs it; the exit status.
+/// Runs the verb. Returns the exit status.
 [[nodiscard]] int wheel(const WheelArguments& arguments);
 
 }  // namespace rondure::app
