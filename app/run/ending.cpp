@@ -110,7 +110,7 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
 }
 
 /// Reports a failure on the terminal, and to the page, which would otherwise wait for a verdict.
-void tell_failure(const core::Error& error, reports::LiveView* live) {
+void tell_failure(const core::Error& error, web::LiveView* live) {
   print_error(error);
   if (live != nullptr) live->show_failure(core::to_line(error));
 }

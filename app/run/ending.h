@@ -17,7 +17,7 @@ struct RunToFinish {
   const plans::Plan& plan;
   const record::ArchivePlace& archive;
   std::filesystem::path directory;
-  reports::LiveView* live = nullptr;  ///< Shows the result to watchers; may be null.
+  web::LiveView* live = nullptr;  ///< Shows the result to watchers; may be null.
 };
 
 /// The formats that a run is to write: of the command line, else of the plan.
