@@ -4,7 +4,8 @@
 # alignment and sizes of objects are left to the address sanitizer: checked twice they cost a third of
 # the build.)
 #   ./test.sh               the tests every change must pass
-#   ./test.sh --full        with the full counts behind the figures in docs/ (release preset only)
+#   ./test.sh --full        with the full counts behind the figures in docs/ (release preset), then the record that
+#                           a run and its live page share under the thread sanitizer
 #   ./test.sh --sanitizers  all rooms under the sanitizers, but for the oracles of the fits
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -34,7 +35,10 @@ fi
 (ensure_packages $rondure_browser_packages) || echo "Without these packages the browser tests are skipped." >&2
 build release ON all
 ctest --preset release
-if [ -z "${RONDURE_FULL:-}" ]; then
+if [ -n "${RONDURE_FULL:-}" ]; then
+  build tsan ON record_tests
+  env -u RONDURE_FULL ctest --preset tsan -R "^record\.GrowingRecord"
+else
   build asan ON $(printf '%s_tests ' $sanitized)
   echo "Not run under the sanitizers (figures of many trials, and long runs of the program):" \
     "${unsanitized//\\/}"

@@ -112,6 +112,15 @@ core::Result<void> check_steps(const std::vector<double>& alpha, bool reversed) 
   return {};
 }
 
+/// The step between two rows as they were recorded; one that begins again at zero is no step.
+double recorded_step(const std::vector<double>& c_rad) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < c_rad.size(); ++i) {
+    steps.push_back(std::abs(c_rad[i] - c_rad[i - 1]));
+  }
+  return core::upper_median(std::move(steps));
+}
+
 /// Rows [first, end) of one turn, and whether rows on both sides of it are included.
 struct Cut {
   double start_rad = 0.0;
@@ -242,7 +251,8 @@ core::Result<AxisTurn> last_turn(const AxisTrace& trace, const AxisTraceOptions&
     return core::fail(core::Code::kSampling,
                       fmt::format("C steps by {:.4g} deg: the last turn has {} samples; at least "
                                   "{} are needed; C is in degrees",
-                                  step / core::kDegree, cut->end - cut->first, kLeastTurnSamples));
+                                  recorded_step(trace.c_rad) / core::kDegree, cut->end - cut->first,
+                                  kLeastTurnSamples));
   }
   out.samples_per_turn = core::kTwoPi / step;
   out.turns = (span + step) / core::kTwoPi;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
 #include "fit/geometry/periodic_spline.h"
 #include "fit/profiles/internal/dft.h"
@@ -119,6 +120,25 @@ core::Result<AxisErrors> filtered(const AxisErrors& errors, double cutoff_upr) {
   return AxisErrors{std::move(c->r_mm), std::move(x->r_mm)};
 }
 
+/// Positions farther apart than the wheel is wide leave angles that no position reaches.
+core::Result<void> check_radii(const std::vector<double>& r_mm, const AxisErrors& errors,
+                               double wheel_mm) {
+  const auto none = std::find_if_not(r_mm.begin(), r_mm.end(), core::is_measurable);
+  if (none == r_mm.end()) return {};
+  const auto greatest = [](const std::vector<double>& values) {
+    double out = 0.0;
+    for (const double v : values) out = std::max(out, std::abs(v));
+    return out;
+  };
+  return core::fail(
+      core::Code::kOutOfRange,
+      fmt::format(
+          "the pin has no radius at {:.4g} deg: errors of X reach {:.4g} mm and those of C "
+          "{:.4g} deg, too much for a wheel of {:.4g} mm radius; are they in mm and deg?",
+          360.0 * static_cast<double>(none - r_mm.begin()) / static_cast<double>(r_mm.size()),
+          greatest(errors.x_mm), greatest(errors.c_rad) / core::kDegree, wheel_mm));
+}
+
 }  // namespace
 
 core::Result<GrindingPath> wheel_path(const CrankGeometry& geometry, const AxisErrors& errors) {
@@ -217,6 +237,9 @@ core::Result<GroundContour> ground_contour(const CrankGeometry& geometry, const 
   }
   out.r_mm = out.from_envelope ? envelope_radii_mm(smooth ? *smooth : *path, wheel, options.samples)
                                : resampled_radii(curve, options.samples);
+  if (auto checked = check_radii(out.r_mm, errors, wheel); !checked) {
+    return core::fail(checked.error());
+  }
   return out;
 }
 

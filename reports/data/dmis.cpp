@@ -68,8 +68,9 @@ const char* tolerance_word(const record::Characteristic& asked) {
 std::string characteristic_block(const evaluation::CharacteristicResult& result,
                                  const std::string& feature, const std::string& label) {
   const record::Characteristic& asked = result.characteristic;
-  std::string text = comment(label, fmt::format("{}; {} {}; {}", asked.id, symbol_of(asked),
-                                                reference_of(asked), name_of(result.verdict)));
+  std::string text =
+      comment(label, fmt::format("{}; {} {}; {}", asked.id, evaluation::symbol_of(asked),
+                                 evaluation::reference_of(asked), name_of(result.verdict)));
   const char* word = tolerance_word(asked);
   const bool decided = result.verdict == evaluation::Verdict::kConforms ||
                        result.verdict == evaluation::Verdict::kDoesNotConform;
@@ -105,7 +106,7 @@ std::string feature_block(const evaluation::FeatureResult& feature, std::size_t 
       continue;
     }
     text += comment(tolerance, fmt::format("{}; {}; {}; {}", result.characteristic.id,
-                                           symbol_of(result.characteristic),
+                                           evaluation::symbol_of(result.characteristic),
                                            name_of(result.verdict), result.reason));
   }
   return text;

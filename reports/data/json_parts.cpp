@@ -16,8 +16,8 @@ Json characteristic_json(const evaluation::CharacteristicResult& result) {
   const record::Characteristic& asked = result.characteristic;
   return {{"id", asked.id},
           {"form", record::name_of(asked.form)},
-          {"symbol", symbol_of(asked)},
-          {"reference", reference_of(asked)},
+          {"symbol", evaluation::symbol_of(asked)},
+          {"reference", evaluation::reference_of(asked)},
           {"value_um", optional_um(result.value_mm())},
           {"quoted_um", result.value ? Json(in_um(result.value->quoted_mm())) : Json(nullptr)},
           {"tolerance_um", optional_um(asked.tolerance_mm)},

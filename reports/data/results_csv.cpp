@@ -38,9 +38,10 @@ std::string write_results_csv(const record::RunRecord& record,
                                                           um_field(known->low_mm) + "," +
                                                           um_field(known->high_mm);
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", head, csv_field(feature.feature.id),
-                          csv_field(asked.id), symbol_of(asked), reference_of(asked),
-                          um_field(result.value_mm()), um_field(asked.tolerance_mm),
-                          name_of(result.verdict), csv_field(result.reason),
+                          csv_field(asked.id), evaluation::symbol_of(asked),
+                          evaluation::reference_of(asked), um_field(result.value_mm()),
+                          um_field(asked.tolerance_mm), name_of(result.verdict),
+                          csv_field(result.reason),
                           csv_field(result.value ? result.value->operator_text() : ""), interval);
     }
   }

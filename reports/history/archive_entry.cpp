@@ -76,8 +76,8 @@ record::ArchiveResult result_of(const evaluation::FeatureResult& feature,
   record::ArchiveResult out;
   out.feature = well_formed(feature.feature.id);
   out.characteristic = well_formed(asked.id);
-  out.symbol = symbol_of(asked);
-  out.reference = reference_of(asked);
+  out.symbol = evaluation::symbol_of(asked);
+  out.reference = evaluation::reference_of(asked);
   out.filter = feature.analysis ? filter_text(*feature.analysis) : "unfiltered";
   out.sampling = feature.analysis ? sampling_text(*feature.analysis) : sampling_of(feature, asked);
   if (found.value) out.value = found.value->quoted_mm();

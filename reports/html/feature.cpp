@@ -32,8 +32,8 @@ std::string one_sided_entry(const evaluation::FeatureResult& feature, record::Re
       trf("as read; radius {} mm, {}, certificate {}", fixed(found->radius_mm, 4),
           count(found->contacts.size(), "contact", "contacts"), tr(fit::name_of(certificate.kind)));
   if (!certificate.reason.empty()) note += tr("; ") + in_sentence(certificate.reason);
-  return entry(fmt::format("{} ({})", capitalised(tr(words_of(reference, shape))),
-                           reference_of(reference, shape)),
+  return entry(fmt::format("{} ({})", capitalised(tr(evaluation::words_of(reference, shape))),
+                           evaluation::reference_of(reference, shape)),
                with_note(um(found->deviation_mm) + " µm", note));
 }
 
@@ -171,7 +171,7 @@ std::string truth_box(const record::SimulationTruth* truth,
                       const std::optional<evaluation::Zone>& zone, record::Shape shape) {
   if (truth == nullptr) return {};
   std::string text = fmt::format("<b>{}</b> {} {} µm", tr("Hidden truth of the simulation:"),
-                                 symbol_of(shape), um(truth->cylt_mm));
+                                 evaluation::symbol_of(shape), um(truth->cylt_mm));
   if (zone) text += trf("; difference {} µm", signed_um(zone->deviation_mm - truth->cylt_mm));
   return R"(<div class="truth">)" + text +
          tr(". This is not part of the measurement: evaluation never reads it.") + "</div>";
@@ -233,7 +233,7 @@ std::string feature_section(const record::RunRecord& record, std::size_t index,
               : trf("pose search: {}", tr(record::name_of(asked.strategy)))));
   html += messages(feature);
   html += key_numbers(feature, zone);
-  html += truth_box(truth_of(record, index), zone, feature.feature.shape);
+  html += truth_box(evaluation::truth_of(record, index), zone, feature.feature.shape);
   html += uncertainty_section(feature);
   if (zone)
     html +=

@@ -6,10 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "core/utf8.h"
 #include "record/external_program.h"
 #include "record/files.h"
 #include "record/sha256.h"
-
+#include "reports/html/report.h"
+#include "reports/terminal/columns.h"
 
 namespace rondure::reports {
 namespace {
@@ -78,7 +80,7 @@ std::string css_string(std::string_view text) {
 std::string sheet_style(const record::Header& header, Paper paper) {
   const auto field = [](std::string_view place, std::string_view name, std::string_view value) {
     constexpr std::size_t kMost = 44;  // columns: a third of a line, and a little more
-    const std::string text = value.empty() ? "\u2013" : shortened(printable(value), kMost);
+    const std::string text = value.empty() ? "\u2013" : shortened(core::printable(value), kMost);
     return fmt::format(
         "@top-{}{{content:{};font:8pt system-ui,sans-serif;color:#55616d;white-space:nowrap}}",
         place, css_string(fmt::format("{} {}", name, text)));
@@ -180,7 +182,7 @@ core::Result<std::string> print_pdf(const record::Header& header, std::string_vi
   }
   const auto ran = record::run_program(
       {*browser, print_arguments(folder), print_environment(folder), folder / "said", time_limit});
-  if (!ran) return not_printed(printable(ran.error().what));
+  if (!ran) return not_printed(core::printable(ran.error().what));
   auto bytes = record::read_file(folder / "report.pdf");
   const std::size_t end = bytes ? bytes->rfind("startxref") : std::string::npos;
   if (end == std::string::npos || !bytes->starts_with("%PDF-") ||

@@ -38,7 +38,7 @@ std::string statements(const evaluation::DecisionRule& rule) {
 
 std::string statement_entry(const std::string& name, const evaluation::UncertaintyStatement& s,
                             double coverage_1) {
-  const int decimals = decimals_for(s.expanded_mm());
+  const int decimals = evaluation::decimals_for(s.expanded_mm());
   const auto number = [&](double mm) { return fixed(mm * 1e3, decimals); };
   return entry(name,
                with_note(fmt::format("{} µm [{}, {}]", number(s.estimate_mm), number(s.low_mm),

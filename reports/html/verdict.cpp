@@ -45,7 +45,7 @@ std::string sentence(const evaluation::Evaluation& evaluation) {
   }
   const std::string limit = um(*only->characteristic.tolerance_mm);
   if (!only->value) return trf("There is no value to hold against {} µm.", limit);
-  return trf("{} {}, limit {} µm.", tr(symbol_of(only->characteristic)),
+  return trf("{} {}, limit {} µm.", tr(evaluation::symbol_of(only->characteristic)),
              in_sentence(only->value->value_text()), limit);
 }
 
@@ -134,8 +134,8 @@ std::string row(const evaluation::FeatureResult& feature,
   std::string html =
       fmt::format(R"(<tr><td>{}<span class="id">{}</span><div class="note">{}</div></td>)",
                   tolerance_frame(asked), isolated(asked.id),
-                  trf("{} {} · feature {}", tr(symbol_of(asked)), reference_of(asked),
-                      isolated(feature.feature.id)));
+                  trf("{} {} · feature {}", tr(evaluation::symbol_of(asked)),
+                      evaluation::reference_of(asked), isolated(feature.feature.id)));
   html += fmt::format(R"(<td class="n" data-l="{}">{}</td>)", tr("Value"),
                       result.value ? value_cell(*result.value) : tr("none"));
   html += fmt::format(R"(<td class="n" data-l="{}">{}</td>)", tr("Limit"),

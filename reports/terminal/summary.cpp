@@ -86,7 +86,9 @@ void add_head(std::string& out, const record::RunRecord& record,
 void add_uncertainty(std::string& out, const evaluation::StatedValue& value) {
   const evaluation::UncertaintyResult& u = *value.uncertainty().result();
   const auto line = [&](const std::string& name, const evaluation::UncertaintyStatement& s) {
-    const auto number = [&](double mm) { return fixed(1e3 * mm, decimals_for(s.expanded_mm())); };
+    const auto number = [&](double mm) {
+      return fixed(1e3 * mm, evaluation::decimals_for(s.expanded_mm()));
+    };
     add_wrapped(out, name,
                 trf("{} um, {:g} % within [{}, {}] um {}", number(s.estimate_mm),
                     100.0 * value.uncertainty().coverage_1(), number(s.low_mm), number(s.high_mm),
@@ -114,9 +116,9 @@ void add_characteristic(std::string& out, const evaluation::CharacteristicResult
       result.value ? result.value->in_digits(result.value->quoted_mm()) + " um" : tr("no value");
   const std::string limit =
       asked.tolerance_mm ? trf("limit {} um", um(*asked.tolerance_mm)) : tr("no limit");
-  std::string line =
-      fmt::format("  {} {}{:>14}   {} {}  ", tr(symbol_of(asked)), reference_of(asked), value,
-                  padded(limit, 19), padded(tr(name_of(result.verdict)), 16));
+  std::string line = fmt::format("  {} {}{:>14}   {} {}  ", tr(evaluation::symbol_of(asked)),
+                                 evaluation::reference_of(asked), value, padded(limit, 19),
+                                 padded(tr(name_of(result.verdict)), 16));
   line += shortened(printable(asked.id), kTerminalColumns - columns(line));
   out += line + "\n";
   const bool simple = result.value && !result.value->uncertainty().result();
@@ -175,8 +177,8 @@ void add_one_sided(std::string& out, const evaluation::FeatureResult& feature) {
     const auto found = one_sided_of(feature, reference);
     if (!found) continue;
     if (!text.empty()) text += tr("; ");
-    text += trf("{} radius {} mm, {} {} um", reference_of(reference, shape),
-                fixed(found->radius_mm, 4), symbol_of(shape), um(found->deviation_mm));
+    text += trf("{} radius {} mm, {} {} um", evaluation::reference_of(reference, shape),
+                fixed(found->radius_mm, 4), evaluation::symbol_of(shape), um(found->deviation_mm));
     if (found->certificate.kind != fit::Certificate::Kind::kGlobal) {
       text += tr(", ") + tr("certificate") + " " + tr(fit::name_of(found->certificate.kind));
     }
@@ -187,7 +189,8 @@ void add_one_sided(std::string& out, const evaluation::FeatureResult& feature) {
 void add_truth(std::string& out, const record::SimulationTruth* truth,
                const evaluation::FeatureResult& feature) {
   if (truth == nullptr) return;
-  std::string text = fmt::format("{} {} um", symbol_of(feature.feature.shape), um(truth->cylt_mm));
+  std::string text =
+      fmt::format("{} {} um", evaluation::symbol_of(feature.feature.shape), um(truth->cylt_mm));
   if (const auto zone = zone_of(feature)) {
     text += trf(", difference {} um", signed_um(zone->deviation_mm - truth->cylt_mm));
   }
@@ -241,7 +244,7 @@ std::string write_summary(const record::RunRecord& record, const evaluation::Eva
     add_analysis(out, record, i, feature);
     add_zone(out, feature);
     add_one_sided(out, feature);
-    add_truth(out, truth_of(record, i), feature);
+    add_truth(out, evaluation::truth_of(record, i), feature);
     for (const core::Error& warning : feature.warnings) {
       add_wrapped(out, "  " + tr("warning"), line_of(warning));
     }

@@ -243,7 +243,7 @@ core::Result<Verification> verify_run(const fs::path& directory, const VerifyOpt
     out.differences.push_back(checked.error().what);
     return out;
   }
-  const auto evaluation = evaluate(record);
+  const auto evaluation = evaluation::evaluate(record);
   if (!evaluation) {
     if (out.differences.empty()) return core::fail(evaluation.error());
     out.differences.push_back(

@@ -50,11 +50,13 @@ const char* status_of(evaluation::Verdict verdict) {
 
 /// "RONt about LSCI", "dR".
 std::string symbol_words(const record::Characteristic& asked) {
-  const std::string reference = reference_of(asked);
-  return symbol_of(asked) + (reference.empty() ? "" : " about " + reference);
+  const std::string reference = evaluation::reference_of(asked);
+  return evaluation::symbol_of(asked) + (reference.empty() ? "" : " about " + reference);
 }
 
-bool has_reference(const record::Characteristic& asked) { return !reference_of(asked).empty(); }
+bool has_reference(const record::Characteristic& asked) {
+  return !evaluation::reference_of(asked).empty();
+}
 
 /// One characteristic on its way through the document.
 struct PlacedResult {

@@ -129,10 +129,11 @@ void add_measurement(QifDraft& draft, QifShape& shape, const Associated& found,
   const int id = draft.ids.next();
   shape.measured[static_cast<std::size_t>(found.reference)] = id;
   node.append_attribute("id").set_value(id);
-  add_attributes(node, {{"frame", draft.frame},
-                        {"reference",
-                         reference_of(found.reference, shape.circle ? record::Shape::kCircle
-                                                                    : record::Shape::kCylinder)}});
+  add_attributes(
+      node, {{"frame", draft.frame},
+             {"reference",
+              evaluation::reference_of(found.reference, shape.circle ? record::Shape::kCircle
+                                                                     : record::Shape::kCylinder)}});
   add(node, "FeatureItemId", shape.item);
   if (draft.device) add_references(node, "MeasurementDeviceIds", {*draft.device});
   add_point_list(node, points);
