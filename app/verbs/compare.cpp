@@ -46,8 +46,8 @@ int compare(const CompareArguments& arguments) {
     return kBadInput;
   }
   const std::string& id = read->record.header.run_id;
-  say(arguments.json ? evaluation::comparison_json(id, *comparison)
-                     : evaluation::comparison_text(id, *comparison, arguments.all));
+  say(arguments.json ? reports::comparison_json(id, *comparison)
+                     : reports::comparison_text(id, *comparison, arguments.all));
   return kAllWell;
 }
 

@@ -51,8 +51,8 @@ std::string try_run(const std::filesystem::path& directory, unsigned seed) {
   }
   const auto compared = evaluation::compare_run(checked.evaluation);
   if (!compared) return {};
-  return wrong_with_text(evaluation::comparison_text("run", *compared, true) +
-                         evaluation::comparison_json("run", *compared));
+  return wrong_with_text(reports::comparison_text("run", *compared, true) +
+                         reports::comparison_json("run", *compared));
 }
 
 TEST(JournalFuzz, NoResealedJournalUpsetsTheEvaluation) {

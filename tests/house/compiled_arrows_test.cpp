@@ -112,7 +112,9 @@ TEST(CompiledArrows, AWrongIncludeDoesNotCompile) {
     std::ofstream(file) << "#include \"" << header << "\"\n";
     int status = 0;
     const std::string text = said(compiler_of(room) + "-fsyntax-only " + file.string(), status);
-    if (status != 0) EXPECT_THAT(text, testing::HasSubstr(header + ": No such file or directory"));
+    if (status != 0) {
+      EXPECT_THAT(text, testing::HasSubstr(header + ": No such file or directory"));
+    }
     return status == 0;
   };
   EXPECT_TRUE(compiled("fit", "core/result.h"));

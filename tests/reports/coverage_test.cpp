@@ -19,6 +19,8 @@
 #include "fit/zone/fit.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using Eigen::Vector3d;

@@ -9,6 +9,8 @@
 #include "tests/reports/page_text.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 /// Splits one record of RFC 4180; quoted fields may hold commas and doubled quotes.

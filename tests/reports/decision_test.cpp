@@ -13,6 +13,8 @@
 #include "reports/words/decision.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using ::testing::HasSubstr;
@@ -61,7 +63,7 @@ evaluation::Verdict verdict(const evaluation::DecisionRule& rule,
 const std::vector<Kind> kAllRules = {Kind::kSimpleAcceptance, Kind::kIso14253, Kind::kJcgm106,
                                      Kind::kNToOne, Kind::kGuardBand};
 
-TEST(evaluation::DecisionRule, FarFromTheToleranceAllRulesAgree) {
+TEST(DecisionRule, FarFromTheToleranceAllRulesAgree) {
   const auto errors = error_sample();
   for (const Kind kind : kAllRules) {
     SCOPED_TRACE(std::string(name_of(kind)));
@@ -71,7 +73,7 @@ TEST(evaluation::DecisionRule, FarFromTheToleranceAllRulesAgree) {
   }
 }
 
-TEST(evaluation::DecisionRule, AGreaterValueIsNeverJudgedBetter) {
+TEST(DecisionRule, AGreaterValueIsNeverJudgedBetter) {
   const auto errors = error_sample(400);
   const auto rank = [](evaluation::Verdict v) {
     return v == evaluation::Verdict::kConforms ? 0 : v == evaluation::Verdict::kUndecided ? 1 : 2;
@@ -91,7 +93,7 @@ TEST(evaluation::DecisionRule, AGreaterValueIsNeverJudgedBetter) {
   }
 }
 
-TEST(evaluation::DecisionRule, TheVerdictChangesAtTheLimitsThatAreStated) {
+TEST(DecisionRule, TheVerdictChangesAtTheLimitsThatAreStated) {
   const auto errors = error_sample(400);
   for (const Kind kind : kAllRules) {
     SCOPED_TRACE(std::string(name_of(kind)));
@@ -116,8 +118,7 @@ TEST(evaluation::DecisionRule, TheVerdictChangesAtTheLimitsThatAreStated) {
 }
 
 // 10.2 um were read, 8 um are left of them after a correction for noise that the supplier declared.
-TEST(evaluation::DecisionRule,
-     AValueReadAboveTheToleranceConformsOnlyWhereCorrectedValuesAreAgreedUpon) {
+TEST(DecisionRule, AValueReadAboveTheToleranceConformsOnlyWhereCorrectedValuesAreAgreedUpon) {
   const auto errors = error_sample(400);
   for (const Kind kind : kAllRules) {
     if (kind == Kind::kSimpleAcceptance) continue;
@@ -139,7 +140,7 @@ TEST(evaluation::DecisionRule,
   }
 }
 
-TEST(evaluation::DecisionRule, Iso14253TakesTheGuardBandFromTheSideOfTheIntervalThatMatters) {
+TEST(DecisionRule, Iso14253TakesTheGuardBandFromTheSideOfTheIntervalThatMatters) {
   evaluation::KnownValue value{9.4e-3, evaluation::UncertaintyStatement{}};
   value.statement->estimate_mm = 9.0e-3;
   value.statement->low_mm = 8.0e-3;
@@ -160,7 +161,7 @@ TEST(evaluation::DecisionRule, Iso14253TakesTheGuardBandFromTheSideOfTheInterval
   EXPECT_FALSE(outcome->specific_risk_1());
 }
 
-TEST(evaluation::DecisionRule, SimpleAcceptanceComparesTheMeasuredValueAndNeedsNoInterval) {
+TEST(DecisionRule, SimpleAcceptanceComparesTheMeasuredValueAndNeedsNoInterval) {
   const evaluation::DecisionRule rule;
   EXPECT_EQ(verdict(rule, {kT, {}}), evaluation::Verdict::kConforms);
   EXPECT_EQ(verdict(rule, {std::nextafter(kT, 1.0), {}}), evaluation::Verdict::kDoesNotConform);
@@ -170,7 +171,7 @@ TEST(evaluation::DecisionRule, SimpleAcceptanceComparesTheMeasuredValueAndNeedsN
   EXPECT_FALSE(apply_rule(rule, {kT, {}}, kT)->conformance_1);
 }
 
-TEST(evaluation::DecisionRule, WithoutAnIntervalEveryOtherRuleIsVoid) {
+TEST(DecisionRule, WithoutAnIntervalEveryOtherRuleIsVoid) {
   for (const Kind kind : kAllRules) {
     if (kind == Kind::kSimpleAcceptance) continue;
     const auto outcome = apply_rule(rule_named(kind), {5e-3, {}}, kT);
@@ -179,7 +180,7 @@ TEST(evaluation::DecisionRule, WithoutAnIntervalEveryOtherRuleIsVoid) {
   }
 }
 
-TEST(evaluation::DecisionRule, NToOneIsVoidWhereTheIntervalIsTooWide) {
+TEST(DecisionRule, NToOneIsVoidWhereTheIntervalIsTooWide) {
   const auto errors = error_sample();  // the interval is some 1.95 um wide: 5.1 : 1
   evaluation::DecisionRule rule = rule_named(Kind::kNToOne);
   EXPECT_EQ(verdict(rule, known(9.6e-3, errors)), evaluation::Verdict::kConforms);
@@ -189,7 +190,7 @@ TEST(evaluation::DecisionRule, NToOneIsVoidWhereTheIntervalIsTooWide) {
   EXPECT_THAT(outcome.error().what, HasSubstr("the rule 10:1 does not apply"));
 }
 
-TEST(evaluation::DecisionRule, APriorThatContradictsTheMeasurementIsVoid) {
+TEST(DecisionRule, APriorThatContradictsTheMeasurementIsVoid) {
   const auto errors = error_sample();
   evaluation::DecisionRule rule = rule_named(Kind::kJcgm106);
   rule.prior = evaluation::Prior{evaluation::Prior::Kind::kNormal, 1e-3, 0.02e-3};
@@ -198,7 +199,7 @@ TEST(evaluation::DecisionRule, APriorThatContradictsTheMeasurementIsVoid) {
   EXPECT_THAT(outcome.error().what, HasSubstr("prior leaves the measured value no weight"));
 }
 
-TEST(evaluation::Prior, HasTheMeanAndSpreadItStates) {
+TEST(Prior, HasTheMeanAndSpreadItStates) {
   for (const evaluation::Prior& prior :
        {evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 2e-3},
         evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 6e-3},
@@ -340,7 +341,7 @@ TEST(DecisionRisks, APartAtTheToleranceIsAcceptedNoMoreOftenThanTheRuleSays) {
   }
 }
 
-TEST(evaluation::DecisionRule, IsReadFromTheSettingsOfTheRun) {
+TEST(DecisionRule, IsReadFromTheSettingsOfTheRun) {
   record::RunRecord record;
   EXPECT_EQ(rule_of(record)->kind, Kind::kSimpleAcceptance);
   record.header.decision_rule = "jcgm-106";

@@ -9,6 +9,8 @@
 #include "tests/reports/page_text.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using ::testing::HasSubstr;

@@ -15,6 +15,8 @@
 #include "synthetic.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using core::decimal;

@@ -28,6 +28,8 @@
 #include "tests/reports/points_run.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using record::Form;
@@ -108,7 +110,7 @@ std::vector<double> circle_fits(const std::vector<Eigen::Vector2d>& points) {
           fit::max_inscribed_circle(points)->deviation_mm};
 }
 
-TEST(evaluation::FactorStudy, CellsOfACylinderAreFitsOfTheSubsetsMadeByHand) {
+TEST(FactorStudy, CellsOfACylinderAreFitsOfTheSubsetsMadeByHand) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     SCOPED_TRACE(seed);
     const Points points = rough_part(seed, 4, 15, core::kTwoPi);
@@ -128,7 +130,7 @@ TEST(evaluation::FactorStudy, CellsOfACylinderAreFitsOfTheSubsetsMadeByHand) {
   }
 }
 
-TEST(evaluation::FactorStudy, CellsOfSectionsAreTheWorstOfTheLayersMadeByHand) {
+TEST(FactorStudy, CellsOfSectionsAreTheWorstOfTheLayersMadeByHand) {
   const Points points = rough_part(7, 4, 15, core::kTwoPi);
   const evaluation::FactorStudy study = study_of(points, 4, "roundness mz");
   const fit::Axis axis = evaluated(points_run(points, 4)).features.at(0).mz_cylinder.value().axis;
@@ -154,7 +156,7 @@ TEST(evaluation::FactorStudy, CellsOfSectionsAreTheWorstOfTheLayersMadeByHand) {
   }
 }
 
-TEST(evaluation::FactorStudy, OutlierRulesLeaveOutThePlantedPointsAndNoOthers) {
+TEST(FactorStudy, OutlierRulesLeaveOutThePlantedPointsAndNoOthers) {
   Points points = rough_part(11, 4, 24, core::kTwoPi);
   const Eigen::Vector3d axis_at = Eigen::Vector3d(10.0, -4.0, 0.0);
   for (const std::size_t row : {5U, 60U}) {
@@ -179,7 +181,7 @@ TEST(evaluation::FactorStudy, OutlierRulesLeaveOutThePlantedPointsAndNoOthers) {
   }
 }
 
-TEST(evaluation::FactorStudy, TheThreeSigmaRuleCountsWithTheFreedomsOfTheFit) {
+TEST(FactorStudy, TheThreeSigmaRuleCountsWithTheFreedomsOfTheFit) {
   // One bad point of a circle of n others at +-1 um: on either side of its own limit.
   for (const double spike_mm : {6e-3, 30e-3}) {
     SCOPED_TRACE(spike_mm);
@@ -202,7 +204,7 @@ TEST(evaluation::FactorStudy, TheThreeSigmaRuleCountsWithTheFreedomsOfTheFit) {
   }
 }
 
-TEST(evaluation::FactorStudy, FilteredSectionsAreThoseOfTheRoundnessEvaluation) {
+TEST(FactorStudy, FilteredSectionsAreThoseOfTheRoundnessEvaluation) {
   core::KeyedNoise noise(5, {1});
   const Points points = part(1, 400, [&](double t, int, int) {
     return 4e-3 * std::cos(2.0 * t) + 2e-3 * std::cos(30.0 * t) + 1e-3 * noise.normal();
@@ -230,7 +232,7 @@ TEST(evaluation::FactorStudy, FilteredSectionsAreThoseOfTheRoundnessEvaluation) 
   EXPECT_EQ(refused.why, "needs 1050 points a layer, has 400");
 }
 
-TEST(evaluation::FactorStudy, AFilteredCylinderKeepsWhatTheFilterPasses) {
+TEST(FactorStudy, AFilteredCylinderKeepsWhatTheFilterPasses) {
   const double lobes_mm = 4e-3;
   const Points points = part(3, 400, [&](double t, int, int) {
     return lobes_mm * std::cos(5.0 * t) + 3e-3 * std::cos(40.0 * t);
@@ -255,7 +257,7 @@ TEST(evaluation::FactorStudy, AFilteredCylinderKeepsWhatTheFilterPasses) {
   }
 }
 
-TEST(evaluation::FactorStudy, TheReportedCombinationCarriesTheReportedValueOfEveryCharacteristic) {
+TEST(FactorStudy, TheReportedCombinationCarriesTheReportedValueOfEveryCharacteristic) {
   const auto run = points_run(rough_part(3, 4, 15, core::kTwoPi), 4);
   const evaluation::Evaluation evaluation = evaluated(run);
   const auto comparison = compare_run(evaluation);
@@ -293,7 +295,7 @@ std::pair<evaluation::Factor, double> greatest(const evaluation::FactorStudy& st
   return {static_cast<evaluation::Factor>(at - shares.begin()), *at};
 }
 
-TEST(evaluation::FactorStudy, ASpikeMakesTheOutliersTheGreatestShare) {
+TEST(FactorStudy, ASpikeMakesTheOutliersTheGreatestShare) {
   const evaluation::FactorStudy study =
       study_of(part(4, 16,
                     [](double t, int layer, int i) {
@@ -308,7 +310,7 @@ TEST(evaluation::FactorStudy, ASpikeMakesTheOutliersTheGreatestShare) {
   EXPECT_EQ(study.effects[2].greatest_change_mm, 0.0);
 }
 
-TEST(evaluation::FactorStudy, FineWavinessMakesTheFilterTheGreatestShare) {
+TEST(FactorStudy, FineWavinessMakesTheFilterTheGreatestShare) {
   const evaluation::FactorStudy study = study_of(
       part(3, 420,
            [](double t, int, int) { return 1e-3 * std::cos(2.0 * t) + 6e-3 * std::cos(97.0 * t); }),
@@ -319,7 +321,7 @@ TEST(evaluation::FactorStudy, FineWavinessMakesTheFilterTheGreatestShare) {
   EXPECT_LT(study.effects[1].least_change_mm, -9e-3);
 }
 
-TEST(evaluation::FactorStudy, TooFewPointsMakeTheSamplingTheGreatestShare) {
+TEST(FactorStudy, TooFewPointsMakeTheSamplingTheGreatestShare) {
   // Four lobes seen by eight points: every second of them sees crests or troughs only.
   const evaluation::FactorStudy study =
       study_of(part(4, 8, [](double t, int, int) { return 5e-3 * std::cos(4.0 * t); }), 4);
@@ -329,14 +331,14 @@ TEST(evaluation::FactorStudy, TooFewPointsMakeTheSamplingTheGreatestShare) {
   EXPECT_NEAR(study.effects[3].least_change_mm, -10e-3, 1e-6);
 }
 
-TEST(evaluation::FactorStudy, APerfectPartHasNoDifferencesToShare) {
+TEST(FactorStudy, APerfectPartHasNoDifferencesToShare) {
   const evaluation::FactorStudy study =
       study_of(part(4, 8, [](double, int, int) { return 0.0; }), 4);
   EXPECT_FALSE(study.shares);
   EXPECT_THAT(comparison_text("r", {{study}, {}}, false), HasSubstr("No combination"));
 }
 
-TEST(evaluation::FactorStudy, PointsOfUnknownLayersAreNeitherFilteredNorCutByLayer) {
+TEST(FactorStudy, PointsOfUnknownLayersAreNeitherFilteredNorCutByLayer) {
   auto run = points_run(rough_part(2, 4, 30, core::kTwoPi), 4);
   run.features[0].layers = 0;
   std::erase_if(run.features[0].characteristics, [](const record::Characteristic& c) {
@@ -352,7 +354,7 @@ TEST(evaluation::FactorStudy, PointsOfUnknownLayersAreNeitherFilteredNorCutByLay
   EXPECT_EQ(comparison->without[0].where, "land / roundness mz");
 }
 
-TEST(evaluation::FactorStudy, CombinationsThatCannotBeEvaluatedSayWhy) {
+TEST(FactorStudy, CombinationsThatCannotBeEvaluatedSayWhy) {
   const evaluation::FactorStudy few =
       study_of(part(2, 6, [](double t, int, int) { return 1e-3 * std::cos(2.0 * t); }), 2);
   EXPECT_FALSE(few.changed(evaluation::Factor::kSampling, 3).value_mm) << "one layer shows no tilt";
@@ -363,7 +365,7 @@ TEST(evaluation::FactorStudy, CombinationsThatCannotBeEvaluatedSayWhy) {
             "3 points a layer prove nothing: any 3 lie on a circle");
 }
 
-TEST(evaluation::FactorStudy, AmplitudesOfHarmonicsAreNotCompared) {
+TEST(FactorStudy, AmplitudesOfHarmonicsAreNotCompared) {
   auto run =
       points_run(part(3, 50, [](double t, int, int) { return 1e-3 * std::cos(3.0 * t); }), 3);
   run.features[0].characteristics.resize(2);
@@ -376,7 +378,7 @@ TEST(evaluation::FactorStudy, AmplitudesOfHarmonicsAreNotCompared) {
   EXPECT_THAT(comparison->without[0].what, HasSubstr("has no reference to exchange"));
 }
 
-TEST(evaluation::FactorStudy, ARunWithoutAValueIsRefusedWithTheReason) {
+TEST(FactorStudy, ARunWithoutAValueIsRefusedWithTheReason) {
   auto run = points_run(rough_part(2, 4, 7, core::kTwoPi), 4);
   run.poses[0].final_cloud = false;
   run.ending = "stopped";
@@ -388,7 +390,7 @@ TEST(evaluation::FactorStudy, ARunWithoutAValueIsRefusedWithTheReason) {
   EXPECT_TRUE(compare_run(evaluated(run)));
 }
 
-TEST(evaluation::FactorStudy, TextKeepsToEightyColumnsAndOpensWithTheAnswer) {
+TEST(FactorStudy, TextKeepsToEightyColumnsAndOpensWithTheAnswer) {
   const auto comparison = compare_run(evaluated(points_run(rough_part(4, 4, 15, core::kTwoPi), 4)));
   ASSERT_TRUE(comparison);
   const std::string text = comparison_text("run 7", *comparison, true);
@@ -402,7 +404,7 @@ TEST(evaluation::FactorStudy, TextKeepsToEightyColumnsAndOpensWithTheAnswer) {
   if (const char* folder = std::getenv("RONDURE_KEEP")) fmt::print("{} {}\n", folder, text);
 }
 
-TEST(evaluation::FactorStudy, AHundredThousandPointsTakeBoundedTime) {
+TEST(FactorStudy, AHundredThousandPointsTakeBoundedTime) {
   const bool full = std::getenv("RONDURE_FULL") != nullptr;
   const int of_layer = full ? 10'000 : 1'100;
   core::KeyedNoise noise(9, {2});
@@ -452,7 +454,7 @@ double share_by_definition(const evaluation::FactorTable& table,
   return variance(means) / variance(all);
 }
 
-TEST(evaluation::FactorShares, OfAdditiveAndOfJointEffectsAreKnown) {
+TEST(FactorShares, OfAdditiveAndOfJointEffectsAreKnown) {
   const std::vector<std::size_t> reported = {0, 0};
   const auto additive = factor_shares({{2, 2}, {0.0, 1.0, 2.0, 3.0}}, reported);
   ASSERT_TRUE(additive);
@@ -465,7 +467,7 @@ TEST(evaluation::FactorShares, OfAdditiveAndOfJointEffectsAreKnown) {
   EXPECT_FALSE(factor_shares({{2, 2}, {7.0, 7.0, 7.0, 7.0}}, reported));
 }
 
-TEST(evaluation::FactorShares, SumToOneOverAFullBlockThatHoldsTheReportedOne) {
+TEST(FactorShares, SumToOneOverAFullBlockThatHoldsTheReportedOne) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     core::KeyedNoise noise(seed, {3});

@@ -11,8 +11,8 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "fit/rotary/ball_center.h"
 #include "fit/rotary/axes.h"
+#include "fit/rotary/ball_center.h"
 #include "fixture/drawn_motion.h"
 #include "fixture/error_model.h"
 

@@ -17,6 +17,8 @@
 #include "evaluation/uncertainty/uncertainty.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 constexpr double kUm = 1e-3;  // in mm
@@ -58,7 +60,7 @@ evaluation::Influences noise_of(double sigma_mm) {
   return out;
 }
 
-TEST(evaluation::FormModel, HasTheWidthsAndEnergiesOfTheWorkedCloud) {
+TEST(FormModel, HasTheWidthsAndEnergiesOfTheWorkedCloud) {
   const WorkedCloud worked;
   EXPECT_NEAR(worked.width_um(worked.form), 3.335968898, 1e-6);
   EXPECT_NEAR(worked.width_um(worked.errors), 0.811193771, 1e-6);
@@ -101,7 +103,7 @@ evaluation::FormCloud even_layers(int layers, int points) {
   return cloud;
 }
 
-TEST(evaluation::FormModel, HasAsManyColumnsAsThePointsTellApartAndTheyAreOrthogonal) {
+TEST(FormModel, HasAsManyColumnsAsThePointsTellApartAndTheyAreOrthogonal) {
   for (const auto& [layers, points, count] :
        {std::tuple(5, 96, 383), std::tuple(4, 360, 1204), std::tuple(10, 500, 1222)}) {
     const evaluation::FormCloud cloud = even_layers(layers, points);
@@ -121,7 +123,7 @@ TEST(evaluation::FormModel, HasAsManyColumnsAsThePointsTellApartAndTheyAreOrthog
   EXPECT_LT((columns.rigid().transpose() * x).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(evaluation::FormModel, HasTheValuesOfItsColumnsOnAGrid) {
+TEST(FormModel, HasTheValuesOfItsColumnsOnAGrid) {
   const evaluation::FormCloud cloud = even_layers(4, 28);
   const evaluation::FormColumns columns(cloud, Eigen::VectorXd::Ones(112));
   std::vector<std::size_t> all(columns.groups().size());
@@ -138,7 +140,7 @@ TEST(evaluation::FormModel, HasTheValuesOfItsColumnsOnAGrid) {
   }
 }
 
-TEST(evaluation::FormModel, APassOfAScanThatLostPointsIsStillAFullSection) {
+TEST(FormModel, APassOfAScanThatLostPointsIsStillAFullSection) {
   core::KeyedNoise random(7, {});
   for (const int passes : {1, 5}) {
     evaluation::FormCloud cloud;
@@ -163,7 +165,7 @@ TEST(evaluation::FormModel, APassOfAScanThatLostPointsIsStillAFullSection) {
   }
 }
 
-TEST(evaluation::FormModel, WeighsGroupsSpotsAndVariancesAsWorked) {
+TEST(FormModel, WeighsGroupsSpotsAndVariancesAsWorked) {
   // A group of two columns, G = n = 1440, w = 0.09, v = 0.01, pi = 0.2, least squares 0.03, -0.02.
   double odds = std::log(0.2 / 0.8);
   for (const double c : {0.03, -0.02}) odds += column_evidence(1440.0 * c, 1440.0, 0.09, 0.01);
@@ -209,7 +211,7 @@ evaluation::UncertaintyOptions some(int trials) {
 }
 
 // A real spot of 10 um on 1440 points of 0.2 um noise was taken for noise: [5.74, 6.40] was stated.
-TEST(evaluation::FormModel, NeverShrinksASpot) {
+TEST(FormModel, NeverShrinksASpot) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     evaluation::FormCloud cloud = dense(0.2 * kUm, seed, 288);
     evaluation::FormCloud without = cloud;
@@ -224,7 +226,7 @@ TEST(evaluation::FormModel, NeverShrinksASpot) {
   }
 }
 
-TEST(evaluation::FormModel, LearnsASmoothFormAndLeavesTheNoiseOut) {
+TEST(FormModel, LearnsASmoothFormAndLeavesTheNoiseOut) {
   const auto result = measurement_uncertainty(dense(0.3 * kUm, 4, 288), noise_of(0.3 * kUm),
                                               std::nullopt, some(400));
   ASSERT_TRUE(result) << result.error().what;
@@ -233,7 +235,7 @@ TEST(evaluation::FormModel, LearnsASmoothFormAndLeavesTheNoiseOut) {
   EXPECT_LT(result->finding.unresolved_mm, 0.05 * kUm);
 }
 
-TEST(evaluation::FormModel, QuotesAnEstimateInsideItsInterval) {
+TEST(FormModel, QuotesAnEstimateInsideItsInterval) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
     const auto result = measurement_uncertainty(dense(1.0 * kUm, seed, 12), noise_of(1.0 * kUm),
                                                 std::nullopt, some(200));
@@ -243,7 +245,7 @@ TEST(evaluation::FormModel, QuotesAnEstimateInsideItsInterval) {
   }
 }
 
-TEST(evaluation::FormModel, VoidsANoiseDeclaredTooLarge) {
+TEST(FormModel, VoidsANoiseDeclaredTooLarge) {
   const auto result = measurement_uncertainty(dense(0.15 * kUm, 1, 288), noise_of(0.3 * kUm),
                                               std::nullopt, some(200));
   ASSERT_FALSE(result);
@@ -252,7 +254,7 @@ TEST(evaluation::FormModel, VoidsANoiseDeclaredTooLarge) {
       << result.error().what;
 }
 
-TEST(evaluation::FormModel, VoidsPointsWithoutASmoothForm) {
+TEST(FormModel, VoidsPointsWithoutASmoothForm) {
   evaluation::FormCloud cloud = dense(0.1 * kUm, 1);
   core::KeyedNoise noise(7, {2});
   for (evaluation::FormPoint& p : cloud.points) {
@@ -264,7 +266,7 @@ TEST(evaluation::FormModel, VoidsPointsWithoutASmoothForm) {
 }
 
 // Half of the real noise, from five touches: taken as known, the other half counts as form.
-TEST(evaluation::FormModel, TakesNoiseOfFewRepeatsForLessWellKnown) {
+TEST(FormModel, TakesNoiseOfFewRepeatsForLessWellKnown) {
   const evaluation::FormCloud cloud = dense(0.3 * kUm, 1);
   evaluation::Influences few = noise_of(0.15 * kUm);
   few.probe->degrees_of_freedom = 4.0;
@@ -282,7 +284,7 @@ TEST(evaluation::FormModel, TakesNoiseOfFewRepeatsForLessWellKnown) {
   EXPECT_GT(guessed->sampled.high_mm, truth_mm);
 }
 
-TEST(evaluation::FormModel, TheWholeSurfaceIsNeverBetterThanItsPoints) {
+TEST(FormModel, TheWholeSurfaceIsNeverBetterThanItsPoints) {
   for (const int points : {14, 24, 96}) {
     for (const double sigma_mm : {0.1 * kUm, 0.5 * kUm}) {
       const auto result = measurement_uncertainty(dense(sigma_mm, 1, points), noise_of(sigma_mm),
@@ -295,7 +297,7 @@ TEST(evaluation::FormModel, TheWholeSurfaceIsNeverBetterThanItsPoints) {
   }
 }
 
-TEST(evaluation::FormModel, StaysTheSameWhenThePartIsShiftedAndTurned) {
+TEST(FormModel, StaysTheSameWhenThePartIsShiftedAndTurned) {
   const evaluation::FormCloud cloud = dense(0.3 * kUm, 2, 24);
   evaluation::FormCloud moved = cloud;
   for (evaluation::FormPoint& p : moved.points) {

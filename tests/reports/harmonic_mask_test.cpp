@@ -8,6 +8,8 @@
 #include "synthetic.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using ::testing::HasSubstr;

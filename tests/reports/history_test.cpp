@@ -22,6 +22,8 @@
 #include "tests/reports/synthetic.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using core::printable;

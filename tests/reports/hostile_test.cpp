@@ -26,6 +26,8 @@
 #include "tests/reports/qif_schema.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using core::well_formed;

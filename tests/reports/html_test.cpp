@@ -18,6 +18,8 @@
 #include "tests/reports/page_text.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using testing::first_unbalanced_tag;

@@ -9,6 +9,8 @@
 #include "synthetic.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using nlohmann::ordered_json;

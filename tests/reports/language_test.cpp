@@ -29,6 +29,8 @@
 #include "tests/reports/page_text.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 namespace fs = std::filesystem;

@@ -23,6 +23,8 @@
 #include "synthetic.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 namespace fs = std::filesystem;

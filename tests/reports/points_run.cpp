@@ -9,6 +9,8 @@
 
 namespace rondure::reports {
 
+using namespace evaluation;
+
 using record::Form;
 using record::Reference;
 

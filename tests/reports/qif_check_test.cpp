@@ -17,6 +17,8 @@
 #include "tests/reports/qif_schema.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using ::testing::ElementsAre;

@@ -20,6 +20,8 @@
 #include "tests/reports/points_run.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using nlohmann::json;

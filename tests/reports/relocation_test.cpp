@@ -12,6 +12,8 @@
 #include "web/cloud.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using record::Touch;
@@ -68,10 +70,10 @@ TEST(Relocation, ACircleLiesAcrossTheAxisOfItsOwnPlacement) {
   ASSERT_FALSE(circle.failure) << circle.failure->what;
   // Seen along the first placement it is an ellipse, 25 mm * (1 - cos 1 deg) = 3.8 um out of round.
   EXPECT_LT(circle.layers[0].mz->width_mm(), 1e-9);
-  const auto live = evaluate_so_far(run, run.poses.back());
+  const auto live = web::evaluate_so_far(run, run.poses.back());
   ASSERT_TRUE(live) << live.error().what;
   EXPECT_LT(live->result.layers[0].mz->width_mm(), 1e-9);
-  const auto first = evaluate_so_far(run, run.poses[1]);
+  const auto first = web::evaluate_so_far(run, run.poses[1]);
   ASSERT_TRUE(first) << first.error().what;
   EXPECT_LT(first->result.layers[0].mz->width_mm(), 1e-9) << "of the first placement as well";
 }

@@ -10,6 +10,8 @@
 #include "synthetic.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 SolidScene scene_of(const Case& made) {

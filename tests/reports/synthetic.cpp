@@ -11,6 +11,8 @@
 #include "reports/html/report.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 constexpr double kTip = 1.4986;

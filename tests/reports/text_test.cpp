@@ -6,9 +6,9 @@
 #include "core/numbers.h"
 #include "core/round_values.h"
 #include "core/utf8.h"
-#include "reports/terminal/columns.h"
 #include "reports/escaping.h"
 #include "reports/html/svg.h"
+#include "reports/terminal/columns.h"
 
 namespace rondure::reports {
 namespace {

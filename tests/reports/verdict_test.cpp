@@ -23,6 +23,8 @@
 #include "tests/reports/points_run.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using core::printable;
@@ -95,7 +97,7 @@ evaluation::CharacteristicResult result_of(const RunRecord& run) {
   return evaluation->features[0].characteristics[0];
 }
 
-TEST(evaluation::Verdict, OfASoundRunFollowsTheRuleAndTheValueCarriesItsInterval) {
+TEST(Verdict, OfASoundRunFollowsTheRuleAndTheValueCarriesItsInterval) {
   for (const char* rule :
        {"simple-acceptance", "iso-14253-1", "jcgm-106", "n-to-1", "guard-band"}) {
     SCOPED_TRACE(rule);
@@ -117,7 +119,7 @@ TEST(evaluation::Verdict, OfASoundRunFollowsTheRuleAndTheValueCarriesItsInterval
 }
 
 // What the points do not see can only add: a partial arc conforms to nothing.
-TEST(evaluation::Verdict, OfAPartialArcIsVoidUnlessItFailsAlready) {
+TEST(Verdict, OfAPartialArcIsVoidUnlessItFailsAlready) {
   for (const auto form : {record::Form::kCylindricity, record::Form::kRoundness}) {
     for (const double arc_deg : {60.0, 180.0, 260.0, 360.0}) {
       SCOPED_TRACE(arc_deg);
@@ -139,7 +141,7 @@ TEST(evaluation::Verdict, OfAPartialArcIsVoidUnlessItFailsAlready) {
   }
 }
 
-TEST(evaluation::Verdict, PrintsADeclaredTemperatureAsDeclared) {
+TEST(Verdict, PrintsADeclaredTemperatureAsDeclared) {
   RunRecord run = touched_run("iso-14253-1");
   forget_temperatures(run);
   run.settings.push_back({"environment/assumed_degC", 20.5, ""});
@@ -153,7 +155,7 @@ TEST(evaluation::Verdict, PrintsADeclaredTemperatureAsDeclared) {
   EXPECT_THAT(read.value->sentence(), HasSubstr("20.5 degC declared, not measured"));
 }
 
-TEST(evaluation::Verdict, EveryReferenceHasItsInterval) {
+TEST(Verdict, EveryReferenceHasItsInterval) {
   for (const auto form : {record::Form::kCylindricity, record::Form::kRoundness}) {
     for (const auto reference :
          {record::Reference::kLeastSquares, record::Reference::kMinimumCircumscribed,
@@ -381,7 +383,7 @@ std::vector<VoidPath> void_paths() {
   };
 }
 
-TEST(evaluation::Verdict, IsVoidWithItsReasonOnEveryPath) {
+TEST(Verdict, IsVoidWithItsReasonOnEveryPath) {
   for (const VoidPath& path : void_paths()) {
     SCOPED_TRACE(path.name);
     RunRecord run = touched_run("iso-14253-1");
@@ -394,8 +396,7 @@ TEST(evaluation::Verdict, IsVoidWithItsReasonOnEveryPath) {
   }
 }
 
-TEST(evaluation::Verdict,
-     ACalibrationThatHoldsVoidsNothingAndOneThatDoesNotLeavesPointsOfFilesAlone) {
+TEST(Verdict, ACalibrationThatHoldsVoidsNothingAndOneThatDoesNotLeavesPointsOfFilesAlone) {
   RunRecord run = touched_run("iso-14253-1");
   add_calibration(run, [](auto&) {});
   EXPECT_EQ(result_of(run).verdict, evaluation::Verdict::kConforms) << result_of(run).reason;
@@ -406,7 +407,7 @@ TEST(evaluation::Verdict,
 }
 
 // No data bring this about: the check is told to find it.
-TEST(evaluation::Verdict, OfAFeatureThatBreaksAnInvariantIsVoidWithoutAValueAndTheOthersStay) {
+TEST(Verdict, OfAFeatureThatBreaksAnInvariantIsVoidWithoutAValueAndTheOthersStay) {
   RunRecord run = touched_run("iso-14253-1");
   run.features.push_back(run.features[0]);
   run.features[1].id = "sound";
@@ -446,7 +447,7 @@ TEST(evaluation::Verdict, OfAFeatureThatBreaksAnInvariantIsVoidWithoutAValueAndT
     EXPECT_THAT(stored.name, ::testing::Not(HasSubstr("/features/0/mz"))) << "no value is kept";
 }
 
-TEST(evaluation::Verdict, OfARunIsVoidWhenAFeatureFailedThatHasNoTolerance) {
+TEST(Verdict, OfARunIsVoidWhenAFeatureFailedThatHasNoTolerance) {
   evaluation::FeatureResult failed;
   failed.failure = core::Error{core::Code::kNoPoints, "nothing was touched", {}};
   EXPECT_EQ(overall({failed}), evaluation::Verdict::kVoid);
@@ -454,8 +455,7 @@ TEST(evaluation::Verdict, OfARunIsVoidWhenAFeatureFailedThatHasNoTolerance) {
 }
 
 // What data alone do not bring about: the parts of an evaluation are taken away.
-TEST(evaluation::Verdict,
-     IsVoidWithoutCertificateOrTemperatureOrWithoutTheIntervalOfWhatWasEvaluated) {
+TEST(Verdict, IsVoidWithoutCertificateOrTemperatureOrWithoutTheIntervalOfWhatWasEvaluated) {
   const RunRecord run = touched_run("iso-14253-1");
   const auto sound = evaluate(run);
   ASSERT_TRUE(sound);
@@ -500,7 +500,7 @@ TEST(evaluation::Verdict,
   }
 }
 
-TEST(evaluation::StatedValue, SaysWhatItIsAboutWithTheDigitsThatItsIntervalAllows) {
+TEST(StatedValue, SaysWhatItIsAboutWithTheDigitsThatItsIntervalAllows) {
   const evaluation::ValueOperator how(
       evaluation::ReferenceTerm("MZCY"), evaluation::FilterTerm("unfiltered"),
       evaluation::SamplingTerm("4 x 7 layers"), evaluation::TipTerm("r_tip 1.998"),
@@ -529,7 +529,7 @@ TEST(evaluation::StatedValue, SaysWhatItIsAboutWithTheDigitsThatItsIntervalAllow
   EXPECT_EQ(evaluation::TipTerm("").words(), "not known");
 }
 
-TEST(evaluation::Declared, InfluencesComeFromThePlanAndFromTheRunItself) {
+TEST(Declared, InfluencesComeFromThePlanAndFromTheRunItself) {
   RunRecord run = touched_run("simple-acceptance");
   std::erase_if(run.settings, [](const record::Setting& s) {
     return s.name == "uncertainty/probe/repeatability_um";

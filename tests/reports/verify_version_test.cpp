@@ -16,6 +16,8 @@
 #include "tests/record/sample_run.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 namespace fs = std::filesystem;

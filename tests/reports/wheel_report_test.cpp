@@ -21,6 +21,8 @@
 #include "tests/reports/page_text.h"
 
 namespace rondure::reports {
+
+using namespace evaluation;
 namespace {
 
 using core::printable;
