@@ -149,13 +149,17 @@ bool logs_change(const fs::path& file, std::int64_t version) {
   return !alone || looked_up(file, Logs::kWith, contents) != alone;
 }
 
-/// Whether a file begins as SQLite begins a log; what does not is no run's.
+/// Whether a file begins as SQLite begins a log, or is one that a killed program had only begun: it
+/// is empty, or zeros stand where the beginning is written last.
 bool begins_as_log(const fs::path& file) {
   constexpr std::array<std::string_view, 3> kBeginnings = {"\x37\x7f\x06\x82", "\x37\x7f\x06\x83",
                                                            "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7"};
+  constexpr std::size_t kMagic = 8;
   const auto bytes = read_file(file);
-  return bytes && std::any_of(kBeginnings.begin(), kBeginnings.end(),
-                              [&](std::string_view start) { return bytes->starts_with(start); });
+  if (!bytes) return false;
+  if (bytes->find_first_not_of('\0') >= std::min(bytes->size(), kMagic)) return true;
+  return std::any_of(kBeginnings.begin(), kBeginnings.end(),
+                     [&](std::string_view start) { return bytes->starts_with(start); });
 }
 
 }  // namespace

@@ -68,6 +68,18 @@ TEST_F(ClosedJournal, IsReadAloneBesideAFileThatIsNoLog) {
   expect_read_alone("journal.db-wal");
 }
 
+TEST_F(ClosedJournal, HasNothingBesideItWhenAKilledProgramHadOnlyBegunALog) {
+  // The head of a rollback journal is zeros until its pages are on disk.
+  fs::remove(scratch / "run/SHA256SUMS");
+  lay_beside("-journal", std::string(512, '\0') + "pages");
+  const auto read = read_journal(scratch / "run");
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_THAT(faults_of(*read), IsEmpty());
+  EXPECT_EQ(every_bit(read->record), every_bit(run));
+  ASSERT_TRUE(Journal::finish_seal(scratch / "run"));
+  EXPECT_THAT(faults_of(*read_journal(scratch / "run")), IsEmpty());
+}
+
 TEST_F(ClosedJournal, IsReadWithoutALogThatIsALink) {
   lay_beside("-elsewhere", log_that_replaces(file, scratch / "other/journal.db"));
   fs::create_symlink("journal.db-elsewhere", file.string() + "-wal");
