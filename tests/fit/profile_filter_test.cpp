@@ -356,7 +356,7 @@ std::complex<double> harmonic_of(const Profile& r, std::size_t n) {
   std::complex<double> sum = 0.0;
   for (std::size_t i = 0; i < r.size(); ++i) {
     const auto place = static_cast<double>(i * n % r.size()) / static_cast<double>(r.size());
-    sum += std::polar(r[i], -core::kTwoPi * place);
+    sum += r[i] * std::polar(1.0, -core::kTwoPi * place);  // polar() takes no negative modulus
   }
   return sum;
 }
