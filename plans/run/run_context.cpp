@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp_client/touch_check.h"
+#include "cmm/touch_check.h"
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
 #include "plans/cell/internal/reached_pose.h"

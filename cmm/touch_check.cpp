@@ -1,4 +1,4 @@
-#include "cmm/ipp_client/touch_check.h"
+#include "cmm/touch_check.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "cmm/internal/clearance.h"
+#include "cmm/simulated/internal/clearance.h"
 
 #include <algorithm>
 #include <cmath>
