@@ -6,7 +6,7 @@
 #include "core/result.h"
 #include "evaluation/decision/decision.h"
 #include "evaluation/stated_value.h"
-#include "fit/geometry/probe_tip.h"
+#include "fit/least_squares/probe_tip.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {

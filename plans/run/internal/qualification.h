@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "fit/geometry/probe_tip.h"
+#include "fit/least_squares/probe_tip.h"
 #include "plans/run/internal/inspection.h"
 
 namespace rondure::plans {

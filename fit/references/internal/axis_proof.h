@@ -6,9 +6,9 @@
 #include <Eigen/Core>
 
 #include "fit/geometry/axis.h"
-#include "fit/geometry/axis_scope.h"
 #include "fit/proof/certificate.h"
-#include "fit/proof/internal/zone_proof.h"
+#include "fit/references/internal/zone_proof.h"
+#include "fit/zone/axis_scope.h"
 #include "fit/zone/fit.h"
 
 namespace rondure::fit {

@@ -1,4 +1,4 @@
-#include "fit/zone/internal/cylinder_start.h"
+#include "fit/least_squares/internal/cylinder_start.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fit/proof/internal/zone_proof.h"
+#include "fit/references/internal/zone_proof.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fit/published/internal/axes.h"
+#include "fit/rotary/internal/published_axes.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "fit/geometry/surface_samples.h"
+#include "fit/wheel/surface_samples.h"
 
 #include <algorithm>
 #include <cmath>

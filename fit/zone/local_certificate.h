@@ -6,20 +6,12 @@
 
 #include <Eigen/Core>
 
+#include "fit/geometry/contacts.h"
+#include "fit/geometry/zone_rows.h"
 #include "fit/proof/certificate.h"
-#include "fit/zone/contacts.h"
 #include "fit/zone/simplex.h"
 
 namespace rondure::fit {
-
-/// Exact distance of a contact from the reported centre or axis, with first and second derivative.
-template <int K>
-struct ContactRow {
-  std::size_t index = 0;
-  double distance = 0.0;
-  Eigen::Matrix<double, K, 1> gradient = Eigen::Matrix<double, K, 1>::Zero();
-  Eigen::Matrix<double, K, K> hessian = Eigen::Matrix<double, K, K>::Zero();
-};
 
 /// Evidence that a zone is a local minimum.
 template <int K>

@@ -1,11 +1,11 @@
-#include "fit/geometry/probe_tip.h"
+#include "fit/least_squares/probe_tip.h"
 
 #include <cmath>
 
 #include <Eigen/Dense>
 
-#include "fit/least_squares/sphere.h"
 #include "fit/geometry/points.h"
+#include "fit/least_squares/sphere.h"
 
 namespace rondure::fit {
 namespace {

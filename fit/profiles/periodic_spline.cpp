@@ -1,4 +1,4 @@
-#include "fit/geometry/periodic_spline.h"
+#include "fit/profiles/periodic_spline.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "fit/proof/internal/axis_proof.h"
+#include "fit/references/internal/axis_proof.h"
 
 #include <algorithm>
 #include <cmath>

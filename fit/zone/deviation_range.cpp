@@ -1,4 +1,4 @@
-#include "fit/geometry/deviation_range.h"
+#include "fit/zone/deviation_range.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "fit/geometry/points.h"
-#include "fit/proof/internal/zone_box.h"
 #include "fit/zone/internal/center_region.h"
 #include "fit/zone/internal/search_points.h"
+#include "fit/zone/internal/zone_box.h"
 
 namespace rondure::fit {
 namespace {

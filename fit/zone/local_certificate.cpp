@@ -1,4 +1,4 @@
-#include "fit/proof/local_certificate.h"
+#include "fit/zone/local_certificate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fit/poses/repeatability.h"
+#include "fit/contour/repeatability.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fit/geometry/axis_offset.h"
+#include "fit/rotary/axis_offset.h"
 
 #include <cmath>
 #include <complex>

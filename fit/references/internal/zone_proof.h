@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "fit/proof/local_certificate.h"
 #include "fit/zone/descent.h"
+#include "fit/zone/local_certificate.h"
 
 namespace rondure::fit {
 

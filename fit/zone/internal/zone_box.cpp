@@ -1,4 +1,4 @@
-#include "fit/proof/internal/zone_box.h"
+#include "fit/zone/internal/zone_box.h"
 
 #include <algorithm>
 #include <cmath>
