@@ -8,7 +8,7 @@
 #include "cmm/touch_check.h"
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
-#include "plans/cell/internal/reached_pose.h"
+#include "plans/run/internal/reached_pose.h"
 
 namespace rondure::plans {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/result.h"
 #include "fit/least_squares/probe_tip.h"
-#include "plans/run/internal/inspection.h"
+#include "plans/run/internal/run_context.h"
 
 namespace rondure::plans {
 

@@ -1,4 +1,4 @@
-#include "plans/cell/internal/reached_pose.h"
+#include "plans/run/internal/reached_pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include "core/decompositions.h"
 #include "core/units.h"
 #include "fixture/alignment.h"
-#include "plans/cell/scene.h"
-#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/internal/pose_grid.h"
+#include "plans/path/scene.h"
 #include "plans/run/internal/qualification.h"
 
 namespace rondure::plans {

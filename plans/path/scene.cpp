@@ -1,4 +1,4 @@
-#include "plans/cell/scene.h"
+#include "plans/path/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "cmm/simulated/part_surface.h"
-#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
 namespace {

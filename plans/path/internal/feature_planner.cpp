@@ -1,11 +1,11 @@
-#include "plans/forecast/internal/feature_planner.h"
+#include "plans/path/internal/feature_planner.h"
 
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
 

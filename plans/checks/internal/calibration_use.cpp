@@ -1,11 +1,11 @@
-#include "plans/run/internal/calibration_use.h"
+#include "plans/checks/internal/calibration_use.h"
 
 #include <algorithm>
 
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/internal/series_file.h"
-#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
 namespace {

@@ -1,4 +1,4 @@
-#include "plans/path/internal/merged_reach.h"
+#include "plans/checks/internal/merged_reach.h"
 
 #include <algorithm>
 #include <vector>
@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "plans/checks/internal/plan_reach.h"
 #include "plans/checks/internal/reach_advice.h"
-#include "plans/forecast/internal/feature_planner.h"
+#include "plans/path/internal/feature_planner.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/sampling.h"
 
 namespace rondure::plans {

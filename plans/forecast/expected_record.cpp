@@ -1,4 +1,4 @@
-#include "plans/run/expected_record.h"
+#include "plans/forecast/expected_record.h"
 
 #include "plans/run/run_head.h"
 

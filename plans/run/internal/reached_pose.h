@@ -6,7 +6,7 @@
 #include "core/pose.h"
 #include "core/result.h"
 #include "fixture/kinematics.h"
-#include "plans/run/internal/inspection.h"
+#include "plans/run/internal/run_context.h"
 
 // Measures the pose of a fixture without encoders: reference spheres that turn with the part show
 // the angles set by hand (`fixture.reached_pose` of the plan).
