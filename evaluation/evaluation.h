@@ -10,7 +10,6 @@
 #include "core/error.h"
 #include "core/pose.h"
 #include "core/result.h"
-#include "evaluation/analysis.h"
 #include "evaluation/decision/decision.h"
 #include "evaluation/merged_poses.h"
 #include "evaluation/stated_value.h"
@@ -28,6 +27,8 @@
 #include "record/run_record.h"
 
 namespace rondure::evaluation {
+
+struct AnalysisResult;  // analysis_result.h
 
 /// One point of the cloud that is evaluated: the mean of its repeated touches, or, where those do
 /// not meet at one place (scans), one of them.

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
+#include "evaluation/analysis.h"
 #include "evaluation/conformance.h"
 #include "evaluation/defect.h"
 #include "evaluation/fixture_use.h"
