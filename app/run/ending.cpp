@@ -18,7 +18,7 @@
 #include "plans/checks/record.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
-#include "reports/exports.h"
+#include "reports/formats/exports.h"
 #include "reports/terminal/summary.h"
 #include "reports/verify/stored_results.h"
 #include "reports/words/language.h"

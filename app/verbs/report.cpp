@@ -16,7 +16,7 @@
 #include "record/files.h"
 #include "record/journal/journal.h"
 #include "record/signature.h"
-#include "reports/exports.h"
+#include "reports/formats/exports.h"
 #include "reports/terminal/summary.h"
 #include "reports/words/language.h"
 

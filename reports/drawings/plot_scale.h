@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "reports/html/svg.h"
+#include "reports/drawings/svg.h"
 
 namespace rondure::reports {
 

@@ -1,4 +1,4 @@
-#include "reports/exports.h"
+#include "reports/formats/exports.h"
 
 #include <algorithm>
 #include <utility>
@@ -14,8 +14,8 @@
 #include "reports/data/json.h"
 #include "reports/data/qif/check.h"
 #include "reports/data/qif/report.h"
-#include "reports/html/report.h"
 #include "reports/html/pdf.h"
+#include "reports/html/report.h"
 
 namespace rondure::reports {
 

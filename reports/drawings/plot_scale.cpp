@@ -1,4 +1,4 @@
-#include "reports/html/plot_scale.h"
+#include "reports/drawings/plot_scale.h"
 
 #include <fmt/format.h>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "reports/html/svg.h"
+#include "reports/drawings/svg.h"
 
 #include <algorithm>
 #include <array>
