@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "app/processor.h"
+#include "app/run/processor.h"
 #include "app/text/sketch_style.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"

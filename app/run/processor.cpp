@@ -1,4 +1,4 @@
-#include "app/processor.h"
+#include "app/run/processor.h"
 
 #include <ctime>
 
