@@ -19,7 +19,7 @@
 #include "core/numbers.h"
 #include "core/version.h"
 #include "plans/schema/simulation_table.h"
-#include "reports/exports.h"
+#include "reports/formats/exports.h"
 #include "reports/words/language.h"
 
 namespace rondure::app {

@@ -5,7 +5,7 @@
 
 #include "core/result.h"
 #include "evaluation/evaluation.h"
-#include "fit/geometry/deviation_range.h"
+#include "fit/zone/deviation_range.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {

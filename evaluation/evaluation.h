@@ -10,16 +10,15 @@
 #include "core/error.h"
 #include "core/pose.h"
 #include "core/result.h"
-#include "evaluation/analysis.h"
 #include "evaluation/decision/decision.h"
 #include "evaluation/merged_poses.h"
 #include "evaluation/stated_value.h"
 #include "evaluation/thermal.h"
 #include "evaluation/verdict.h"
 #include "fit/geometry/axis.h"
-#include "fit/geometry/probe_tip.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
+#include "fit/least_squares/probe_tip.h"
 #include "fit/profiles/roundness_evaluation.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
@@ -28,6 +27,8 @@
 #include "record/run_record.h"
 
 namespace rondure::evaluation {
+
+struct AnalysisResult;  // analysis_result.h
 
 /// One point of the cloud that is evaluated: the mean of its repeated touches, or, where those do
 /// not meet at one place (scans), one of them.

@@ -6,7 +6,7 @@
 #include "core/result.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/merged_poses.h"
-#include "fit/geometry/probe_tip.h"
+#include "fit/least_squares/probe_tip.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {

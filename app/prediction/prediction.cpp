@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "plans/run/expected_record.h"
+#include "plans/forecast/expected_record.h"
 
 namespace rondure::app {
 

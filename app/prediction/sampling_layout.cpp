@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "plans/run/expected_record.h"
+#include "plans/forecast/expected_record.h"
 
 namespace rondure::app {
 

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "app/processor.h"
 #include "app/run/archive_step.h"
-#include "app/run/resumption.h"
+#include "app/run/processor.h"
+#include "app/text/exit_status.h"
 #include "app/text/shell_word.h"
 #include "app/text/sketch_style.h"
 #include "app/text/terminal.h"
@@ -18,7 +18,7 @@
 #include "plans/checks/record.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
-#include "reports/exports.h"
+#include "reports/formats/exports.h"
 #include "reports/terminal/summary.h"
 #include "reports/verify/stored_results.h"
 #include "reports/words/language.h"

@@ -1,24 +1,15 @@
 #pragma once
 
-#include <filesystem>
+#include <string>
+#include <vector>
 
-#include "app/verbs/verbs.h"
+#include "app/run/arguments.h"
+#include "app/run/resumption.h"
 #include "plans/plan.h"
 #include "plans/run/runner.h"
-#include "record/archive/archive.h"
 #include "record/journal/journal.h"
-#include "web/view.h"
 
 namespace rondure::app {
-
-/// A run in its directory, with the data that its end needs.
-struct RunToFinish {
-  const RunArguments& arguments;
-  const plans::Plan& plan;
-  const record::ArchivePlace& archive;
-  std::filesystem::path directory;
-  web::LiveView* live = nullptr;  ///< Shows the result to watchers; may be null.
-};
 
 /// The formats that a run is to write: of the command line, else of the plan.
 [[nodiscard]] const std::vector<std::string>& formats_of(const RunArguments& arguments,

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "app/verbs/verbs.h"
+#include "app/run/arguments.h"
 #include "core/result.h"
 #include "plans/plan.h"
 #include "plans/run/runner.h"

@@ -4,10 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "app/run/ending.h"
-#include "app/verbs/verbs.h"
-#include "plans/run/runner.h"
+#include "app/run/arguments.h"
+#include "plans/plan.h"
+#include "record/archive/place.h"
 #include "record/journal/journal.h"
+#include "web/view.h"
 
 namespace rondure::app {
 
@@ -26,6 +27,15 @@ struct Resumption {
 /// The plan to resume with: the file named in the arguments, or else the one in the journal; kFile
 /// when that one needs files beside it.
 [[nodiscard]] plans::PlanOrProblems plan_of(const RunArguments& arguments, const Resumption& run);
+
+/// A run in its directory, with the data that its end needs.
+struct RunToFinish {
+  const RunArguments& arguments;
+  const plans::Plan& plan;
+  const record::ArchivePlace& archive;
+  std::filesystem::path directory;
+  web::LiveView* live = nullptr;  ///< Shows the result to watchers; may be null.
+};
 
 /// The shell command that resumes a run: with the plan if it needs files beside it, and with the
 /// named archive (without its password).

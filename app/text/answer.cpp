@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/text/exit_status.h"
 #include "app/text/terminal.h"
-#include "app/verbs/verbs.h"
 
 namespace rondure::app {
 namespace {

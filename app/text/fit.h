@@ -11,9 +11,9 @@
 
 #include "core/error.h"
 #include "fit/geometry/axis.h"
-#include "fit/geometry/deviation_range.h"
+#include "fit/geometry/contacts.h"
 #include "fit/proof/certificate.h"
-#include "fit/zone/contacts.h"
+#include "fit/zone/deviation_range.h"
 
 namespace rondure::app {
 

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "record/files.h"
 #include "record/csv/series.h"
+#include "record/files.h"
 
 namespace rondure::app {
 namespace {

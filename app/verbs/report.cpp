@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "app/processor.h"
+#include "app/run/processor.h"
 #include "app/text/sketch_style.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
@@ -16,7 +16,7 @@
 #include "record/files.h"
 #include "record/journal/journal.h"
 #include "record/signature.h"
-#include "reports/exports.h"
+#include "reports/formats/exports.h"
 #include "reports/terminal/summary.h"
 #include "reports/words/language.h"
 

@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "app/processor.h"
 #include "app/run/archive_step.h"
 #include "app/run/ending.h"
 #include "app/run/live_run.h"
 #include "app/run/pace.h"
+#include "app/run/processor.h"
 #include "app/run/resumption.h"
 #include "app/run/step_prompt.h"
 #include "app/text/terminal.h"

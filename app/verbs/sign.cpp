@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/processor.h"
+#include "app/run/processor.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "plans/checks/record.h"

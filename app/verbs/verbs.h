@@ -6,19 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "app/run/arguments.h"
+#include "app/text/exit_status.h"
 #include "fit/spindle/probe_layout.h"
 #include "record/archive/archive.h"
 
 namespace rondure::app {
-
-/// Exit status of the program (DESIGN, command line).
-enum Exit : int {
-  kAllWell = 0,  ///< Done; for run and report: everything conforms or is not toleranced.
-  kNotConforming =
-      1,  ///< Finished, but something does not conform, is undecided or void; verify: not equal.
-  kBadInput = 2,   ///< Plan, file or arguments; verify: unreadable.
-  kRunFailed = 3,  ///< Machine, fixture or run failed; recorded data are kept.
-};
 
 struct ValidateArguments {
   std::string plan;
@@ -34,25 +27,6 @@ struct PlanArguments {
 };
 [[nodiscard]] int plan(const PlanArguments& arguments);
 
-struct RunArguments {
-  std::string plan;  ///< With `resume` also a run directory.
-  std::string out;   ///< Empty: runs/<plan>-<UTC>.
-  bool resume = false;
-  bool relocate = false;  ///< With `resume`: a part that has moved is located again.
-  std::string serial;
-  std::string operator_name;
-  std::optional<std::uint64_t> seed;
-  std::vector<std::string> formats;  ///< Empty: as the plan says.
-  std::string language = "en";       ///< Of page and summary: "en" or "zh".
-  std::string paper;                 ///< Of report.pdf, "a4" or "letter"; empty: as the plan says.
-  std::string archive;               ///< Empty: as the plan says.
-  std::string wire_log;              ///< Empty: none.
-  bool quiet = false;
-  bool step = false;            ///< Each move confirmed on the terminal, at reduced speed.
-  std::string watch;            ///< Port of the live page; "auto": any free one; empty: no page.
-  bool control = false;         ///< With `watch`: a button that stops the run.
-  std::optional<double> speed;  ///< Simulated seconds in a second; none: no waiting.
-};
 [[nodiscard]] int run(const RunArguments& arguments);
 
 struct SimulateCmmArguments {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
-#include "cmm/ipp_client/touch_check.h"
+#include "cmm/touch_check.h"
 
 // The point that PtMeas means: as stated in the plan, and as shown by the first touch of a
 // connection.

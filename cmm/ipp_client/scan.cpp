@@ -8,8 +8,8 @@
 
 #include "cmm/grid.h"
 #include "cmm/internal/place_text.h"
-#include "cmm/ipp_client/touch_check.h"
 #include "cmm/scan_path.h"
+#include "cmm/touch_check.h"
 #include "core/numbers.h"
 #include "core/units.h"
 

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/internal/arguments.h"
 #include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp_server/internal/arguments.h"
 #include "cmm/ipp_server/server.h"
 
 // Commands that the server answers itself: session, errors, daemons, abort.

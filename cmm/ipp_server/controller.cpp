@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/internal/arguments.h"
 #include "cmm/ipp/internal/errors.h"
+#include "cmm/ipp_server/internal/arguments.h"
 
 namespace rondure::cmm::ipp {
 namespace {

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
-#include "cmm/ipp/internal/arguments.h"
 #include "cmm/ipp/internal/errors.h"
 #include "cmm/ipp_server/controller.h"
+#include "cmm/ipp_server/internal/arguments.h"
 #include "cmm/scan_path.h"
 #include "core/units.h"
 

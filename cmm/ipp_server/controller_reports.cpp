@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp/internal/arguments.h"
 #include "cmm/ipp/internal/errors.h"
 #include "cmm/ipp_server/controller.h"
+#include "cmm/ipp_server/internal/arguments.h"
 #include "core/units.h"
 
 // Reports: positions, points, scans, temperatures.

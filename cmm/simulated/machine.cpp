@@ -8,10 +8,10 @@
 
 #include "cmm/grid.h"
 #include "cmm/internal/place_text.h"
-#include "cmm/ipp_client/touch_check.h"
 #include "cmm/scan_path.h"
 #include "cmm/simulated/internal/contact.h"
 #include "cmm/simulated/internal/machine_map.h"
+#include "cmm/touch_check.h"
 #include "core/noise.h"
 #include "core/units.h"
 

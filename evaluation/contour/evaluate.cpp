@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "evaluation/analysis.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluation.h"
 

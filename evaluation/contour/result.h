@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/analysis.h"
+#include "evaluation/analysis_value.h"
 #include "fit/contour/study.h"
 
 namespace rondure::evaluation {

@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "core/utc.h"
+#include "evaluation/analysis.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluation.h"
 #include "fit/geometry/registration.h"

@@ -5,7 +5,7 @@
 
 #include "evaluation/evaluation.h"
 #include "evaluation/uncertainty/uncertainty.h"
-#include "fit/geometry/probe_tip.h"
+#include "fit/least_squares/probe_tip.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {

@@ -5,6 +5,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
+#include "evaluation/analysis.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/feature_values.h"

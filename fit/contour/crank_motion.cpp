@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/geometry/periodic_spline.h"
+#include "fit/profiles/periodic_spline.h"
 
 namespace rondure::fit {
 

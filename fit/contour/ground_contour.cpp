@@ -10,8 +10,8 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "fit/geometry/periodic_spline.h"
 #include "fit/profiles/internal/dft.h"
+#include "fit/profiles/periodic_spline.h"
 #include "fit/profiles/profile_filter.h"
 
 namespace rondure::fit {

@@ -9,8 +9,8 @@
 
 #include "core/units.h"
 #include "fit/contour/error.h"
-#include "fit/geometry/periodic_spline.h"
 #include "fit/profiles/internal/dft.h"
+#include "fit/profiles/periodic_spline.h"
 
 namespace rondure::fit {
 namespace {

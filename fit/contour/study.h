@@ -13,8 +13,8 @@
 #include "fit/contour/error.h"
 #include "fit/contour/ground_contour.h"
 #include "fit/contour/measured_contour.h"
+#include "fit/contour/repeatability.h"
 #include "fit/contour/separation.h"
-#include "fit/poses/repeatability.h"
 
 namespace rondure::fit {
 

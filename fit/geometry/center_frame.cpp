@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fit/zone/column_extremes.h"
+#include "fit/geometry/column_extremes.h"
 
 namespace rondure::fit {
 

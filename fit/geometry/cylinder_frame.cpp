@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/units.h"
-#include "fit/zone/column_extremes.h"
+#include "fit/geometry/column_extremes.h"
 
 namespace rondure::fit {
 namespace {

@@ -6,9 +6,8 @@
 #include <Eigen/Core>
 
 #include "fit/geometry/axis.h"
-#include "fit/proof/local_certificate.h"
-#include "fit/zone/simplex.h"
-#include "fit/zone/working_points.h"
+#include "fit/geometry/working_points.h"
+#include "fit/geometry/zone_rows.h"
 
 namespace rondure::fit {
 

@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "fit/zone/column_extremes.h"
-#include "fit/zone/contacts.h"
-#include "fit/zone/working_points.h"
+#include "fit/geometry/column_extremes.h"
+#include "fit/geometry/contacts.h"
+#include "fit/geometry/working_points.h"
 
 namespace rondure::fit {
 

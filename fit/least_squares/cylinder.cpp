@@ -14,9 +14,9 @@
 #include "core/decompositions.h"
 #include "fit/geometry/cylinder_frame.h"
 #include "fit/geometry/points.h"
+#include "fit/least_squares/internal/cylinder_start.h"
 #include "fit/least_squares/internal/gauss_newton.h"
 #include "fit/least_squares/internal/sums.h"
-#include "fit/zone/internal/cylinder_start.h"
 
 namespace rondure::fit {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "fit/geometry/periodic_spline.h"
+#include "fit/profiles/periodic_spline.h"
 
 namespace rondure::fit {
 namespace {

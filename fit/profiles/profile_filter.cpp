@@ -154,11 +154,6 @@ core::Result<Sampling> check_sampling(std::size_t points, const FilterOptions& o
   return sampling;
 }
 
-double gaussian_transmission(double harmonic, double cutoff_upr) {
-  const double ratio = harmonic / cutoff_upr;
-  return std::exp2(-ratio * ratio);
-}
-
 Complex transmission(const FilterOptions& options, double harmonic, std::size_t samples) {
   const auto n = static_cast<double>(samples);
   if (options.filter == ProfileFilter::kNone) return 1.0;

@@ -67,9 +67,6 @@ struct FilteredProfile {
   bool scale_floored = false;  ///< Robust filter only: see RobustMeanLine.
 };
 
-/// Transmission of the Gaussian low pass at harmonic n: 2^-(n/fc)^2 = exp(-ln 2 (n/fc)^2).
-[[nodiscard]] double gaussian_transmission(double harmonic, double cutoff_upr);
-
 /// Complex transmission of a linear filter at harmonic n: the output is the input times its
 /// magnitude, turned by its argument (0 for all but 2RC). kRobustGaussian has none; the function
 /// returns that of the Gaussian filter, which it equals without outliers.

@@ -9,9 +9,9 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
-#include "fit/geometry/deviation_range.h"
 #include "fit/profiles/form_parameters.h"
 #include "fit/proof/certificate.h"
+#include "fit/zone/deviation_range.h"
 
 namespace rondure::fit {
 

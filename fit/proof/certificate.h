@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "fit/zone/contacts.h"
+#include "fit/geometry/contacts.h"
 
 namespace rondure::fit {
 

@@ -7,7 +7,7 @@
 #include "fit/geometry/internal/bisectors.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
-#include "fit/proof/internal/zone_proof.h"
+#include "fit/references/internal/zone_proof.h"
 #include "fit/zone/fit.h"
 
 namespace rondure::fit {

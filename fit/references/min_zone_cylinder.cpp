@@ -1,7 +1,7 @@
 #include "fit/references/min_zone_cylinder.h"
 
 #include "fit/geometry/points.h"
-#include "fit/proof/internal/axis_proof.h"
+#include "fit/references/internal/axis_proof.h"
 
 namespace rondure::fit {
 

@@ -8,8 +8,8 @@
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
-#include "fit/geometry/axis_scope.h"
 #include "fit/proof/certificate.h"
+#include "fit/zone/axis_scope.h"
 #include "fit/zone/ending.h"
 
 namespace rondure::fit {

@@ -7,8 +7,8 @@
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/contacts.h"
 #include "fit/proof/certificate.h"
-#include "fit/zone/contacts.h"
 
 namespace rondure::fit {
 

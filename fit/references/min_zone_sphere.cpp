@@ -1,7 +1,7 @@
 #include "fit/references/min_zone_sphere.h"
 
+#include "fit/references/internal/zone_proof.h"
 #include "fit/zone/fit.h"
-#include "fit/proof/internal/zone_proof.h"
 
 namespace rondure::fit {
 

@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "fit/geometry/contacts.h"
 #include "fit/proof/certificate.h"
-#include "fit/zone/contacts.h"
 
 namespace rondure::fit {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "fit/geometry/points.h"
-#include "fit/proof/internal/zone_proof.h"
+#include "fit/references/internal/zone_proof.h"
 #include "fit/zone/fit.h"
 
 namespace rondure::fit {

@@ -7,9 +7,9 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
-#include "fit/geometry/deviation_range.h"
+#include "fit/geometry/contacts.h"
 #include "fit/proof/certificate.h"
-#include "fit/zone/contacts.h"
+#include "fit/zone/deviation_range.h"
 #include "fit/zone/global_search.h"
 
 namespace rondure::fit {

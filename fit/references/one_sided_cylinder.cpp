@@ -8,7 +8,7 @@
 
 #include "fit/geometry/points.h"
 #include "fit/least_squares/line.h"
-#include "fit/proof/internal/axis_proof.h"
+#include "fit/references/internal/axis_proof.h"
 #include "fit/references/min_zone_line.h"
 
 namespace rondure::fit {

@@ -8,9 +8,9 @@
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
-#include "fit/geometry/axis_scope.h"
+#include "fit/geometry/contacts.h"
 #include "fit/proof/certificate.h"
-#include "fit/zone/contacts.h"
+#include "fit/zone/axis_scope.h"
 
 namespace rondure::fit {
 

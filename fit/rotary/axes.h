@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "fit/geometry/axis_offset.h"
+#include "fit/rotary/axis_offset.h"
 #include "fit/rotary/errors.h"
 #include "fit/rotary/model.h"
 

@@ -4,7 +4,7 @@
 
 #include "core/open_spline.h"
 #include "core/result.h"
-#include "fit/geometry/periodic_spline.h"
+#include "fit/profiles/periodic_spline.h"
 #include "fit/rotary/errors.h"
 
 namespace rondure::fit {

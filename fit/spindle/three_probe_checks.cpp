@@ -11,8 +11,8 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
-#include "fit/geometry/periodic_spline.h"
 #include "fit/profiles/internal/dft.h"
+#include "fit/profiles/periodic_spline.h"
 #include "fit/spindle/internal/three_probe_parts.h"
 
 namespace rondure::fit {

@@ -6,7 +6,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "fit/geometry/periodic_spline.h"
+#include "fit/profiles/periodic_spline.h"
 #include "fit/spindle/internal/three_probe_parts.h"
 
 namespace rondure::fit {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "fit/geometry/surface_samples.h"
+#include "fit/wheel/surface_samples.h"
 
 namespace rondure::fit {
 namespace {

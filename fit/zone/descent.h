@@ -8,14 +8,14 @@
 #include <Eigen/Core>
 
 #include "fit/geometry/center_frame.h"
+#include "fit/geometry/contacts.h"
 #include "fit/geometry/cylinder_frame.h"
 #include "fit/geometry/enclosing_ball.h"
 #include "fit/geometry/scan.h"
-#include "fit/proof/local_certificate.h"
-#include "fit/zone/contacts.h"
+#include "fit/geometry/working_points.h"
 #include "fit/zone/ending.h"
+#include "fit/zone/local_certificate.h"
 #include "fit/zone/simplex.h"
-#include "fit/zone/working_points.h"
 
 namespace rondure::fit {
 

@@ -9,11 +9,11 @@
 #include <Eigen/LU>
 
 #include "core/units.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/sphere.h"
-#include "fit/zone/column_extremes.h"
 
 namespace rondure::fit {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/contacts.h"
 #include "fit/least_squares/cylinder.h"
-#include "fit/zone/contacts.h"
 #include "fit/zone/descent.h"
 
 namespace rondure::fit {

@@ -7,10 +7,10 @@
 #include <Eigen/Geometry>
 
 #include "fit/geometry/points.h"
-#include "fit/proof/internal/zone_box.h"
 #include "fit/zone/global_search.h"
 #include "fit/zone/internal/center_region.h"
 #include "fit/zone/internal/search_points.h"
+#include "fit/zone/internal/zone_box.h"
 
 namespace rondure::fit {
 namespace {

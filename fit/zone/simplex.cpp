@@ -6,7 +6,7 @@
 
 #include <Eigen/LU>
 
-#include "fit/zone/column_extremes.h"
+#include "fit/geometry/column_extremes.h"
 
 namespace rondure::fit {
 namespace {

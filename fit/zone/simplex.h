@@ -6,7 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "fit/zone/contacts.h"
+#include "fit/geometry/contacts.h"
+#include "fit/geometry/zone_rows.h"
 
 namespace rondure::fit {
 
@@ -18,41 +19,6 @@ struct ZoneWeights {
 inline constexpr ZoneWeights kMinimumZone{1.0, 1.0};
 inline constexpr ZoneWeights kMinimumCircumscribed{1.0, 0.0};
 inline constexpr ZoneWeights kMaximumInscribed{0.0, 1.0};
-
-/// The linearised points of a zone: distance of each point, and its gradient with respect to the K
-/// unknowns of the place (2 circle, 3 sphere, 4 cylinder), all in mm. Stored column by column, so
-/// that pricing can use vector instructions. clear() keeps the memory.
-template <int K>
-class ZoneRows {
- public:
-  using Gradient = Eigen::Matrix<double, K, 1>;
-
-  [[nodiscard]] std::size_t size() const { return columns_[0].size(); }
-  void resize(std::size_t count) {
-    for (auto& column : columns_) column.resize(count);
-  }
-  void clear() { resize(0); }
-  void push_back(double distance, const Gradient& gradient) {
-    columns_[0].push_back(distance);
-    for (int k = 0; k < K; ++k) gradients(k).push_back(gradient(k));
-  }
-  [[nodiscard]] const std::vector<double>& distances() const { return columns_[0]; }
-  [[nodiscard]] std::vector<double>& distances() { return columns_[0]; }
-  [[nodiscard]] const std::vector<double>& gradients(int k) const {
-    return columns_[static_cast<std::size_t>(k) + 1];
-  }
-  [[nodiscard]] std::vector<double>& gradients(int k) {
-    return columns_[static_cast<std::size_t>(k) + 1];
-  }
-  [[nodiscard]] Gradient gradient(std::size_t i) const {
-    Gradient out;
-    for (int k = 0; k < K; ++k) out(k) = gradients(k)[i];
-    return out;
-  }
-
- private:
-  std::array<std::vector<double>, K + 1> columns_;
-};
 
 /// Solution of the linearised zone.
 template <int K>

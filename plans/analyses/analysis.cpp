@@ -8,7 +8,6 @@
 
 #include "core/units.h"
 #include "plans/analyses/internal/series_file.h"
-#include "plans/checks/internal/plan_checks.h"
 #include "plans/schema/json_text.h"
 #include "record/sha256.h"
 

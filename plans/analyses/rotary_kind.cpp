@@ -9,7 +9,6 @@
 
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/rotary_table.h"
-#include "plans/checks/internal/plan_checks.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/json_text.h"
 

@@ -7,7 +7,7 @@
 #include "core/units.h"
 #include "fixture/alignment.h"
 #include "fixture/kinematics.h"
-#include "plans/run/run_head.h"
+#include "plans/features.h"
 
 namespace rondure::plans {
 

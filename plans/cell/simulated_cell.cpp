@@ -8,7 +8,7 @@
 #include "fixture/pose_range.h"
 #include "plans/cell/internal/fixture_driver.h"
 #include "plans/cell/internal/hidden_errors.h"
-#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/internal/pose_grid.h"
 
 namespace rondure::plans {

@@ -8,15 +8,15 @@
 #include "fixture/simulated.h"
 #include "plans/analyses/analysis.h"
 #include "plans/analyses/internal/rotary_poses.h"
-#include "plans/cell/internal/reached_pose.h"
-#include "plans/checks/internal/plan_reach.h"
-#include "plans/forecast/internal/feature_planner.h"
-#include "plans/path/internal/merged_reach.h"
+#include "plans/checks/internal/merged_reach.h"
+#include "plans/features.h"
+#include "plans/path/internal/feature_planner.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "plans/run/internal/fixture_calibration.h"
 #include "plans/run/internal/fixture_datum.h"
 #include "plans/run/internal/pose_search.h"
 #include "plans/run/internal/qualification.h"
-#include "plans/run/run_head.h"
+#include "plans/run/internal/reached_pose.h"
 
 namespace rondure::plans {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "core/pose.h"
 #include "core/result.h"
-#include "plans/cell/scene.h"
 #include "plans/path/sampling.h"
+#include "plans/path/scene.h"
 #include "plans/path/travel.h"
 #include "plans/plan.h"
 

@@ -10,7 +10,7 @@
 #include "cmm/simulated/part_surface.h"
 #include "core/round_values.h"
 #include "core/units.h"
-#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/units.h"
 #include "fit/references/min_zone_cylinder.h"
-#include "plans/path/internal/merged_reach.h"
+#include "plans/checks/internal/merged_reach.h"
 #include "plans/run/internal/inspection.h"
 
 namespace rondure::plans {

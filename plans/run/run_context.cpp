@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "cmm/ipp_client/touch_check.h"
+#include "cmm/touch_check.h"
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
-#include "plans/cell/internal/reached_pose.h"
+#include "plans/run/internal/reached_pose.h"
 
 namespace rondure::plans {
 namespace {

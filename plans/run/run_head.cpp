@@ -7,6 +7,7 @@
 #include "core/version.h"
 #include "fit/poses/walk.h"
 #include "plans/analyses/analysis.h"
+#include "plans/features.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/internal/uncertainty_table.h"
 #include "record/sha256.h"
@@ -57,31 +58,6 @@ void add_merged_settings(const FixturePlan& fixture, const FeaturePlan& feature,
 }
 
 }  // namespace
-
-bool is_touched(const FeaturePlan& feature) {
-  return !feature.source && analysis_kind(feature.type) == nullptr;
-}
-
-bool needs_machine(const FeaturePlan& feature) {
-  return is_touched(feature) || measures_by_touch(feature);
-}
-
-bool touches_anything(const Plan& plan) {
-  return std::any_of(plan.features.begin(), plan.features.end(), needs_machine);
-}
-
-bool simulates_anything(const Plan& plan) {
-  return std::any_of(plan.features.begin(), plan.features.end(), [](const FeaturePlan& feature) {
-    return !feature.source && !has_files(feature);
-  });
-}
-
-bool simulates_analysis(const Plan& plan) {
-  return std::any_of(plan.features.begin(), plan.features.end(), [](const FeaturePlan& feature) {
-    return analysis_kind(feature.type) != nullptr && !has_files(feature) &&
-           !measures_by_touch(feature);
-  });
-}
 
 record::Strategy strategy_of(const FeaturePlan& feature) {
   if (measures_by_touch(feature)) return record::Strategy::kStations;

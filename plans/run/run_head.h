@@ -3,24 +3,12 @@
 #include <cstdint>
 
 #include "plans/plan.h"
-#include "plans/run/runner.h"
+#include "plans/run/run_options.h"
 #include "record/run_record.h"
 
 // Converts a plan into the head of the journal, which is written before the first touch.
 
 namespace rondure::plans {
-
-/// Whether a feature is a surface that is touched by a machine: neither points from a file nor an
-/// analysis.
-[[nodiscard]] bool is_touched(const FeaturePlan& feature);
-/// Whether anything of a plan is simulated.
-[[nodiscard]] bool simulates_anything(const Plan& plan);
-/// Whether the series of a feature are simulated, which is possible with a real machine, too.
-[[nodiscard]] bool simulates_analysis(const Plan& plan);
-/// Whether a feature needs the machine: a surface that is touched, or balls.
-[[nodiscard]] bool needs_machine(const FeaturePlan& feature);
-/// Whether a plan needs a machine.
-[[nodiscard]] bool touches_anything(const Plan& plan);
 
 [[nodiscard]] record::Strategy strategy_of(const FeaturePlan& feature);
 /// Converts a feature, without the digest of its points file, which is not read here.

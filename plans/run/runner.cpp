@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include "plans/analyses/analysis.h"
+#include "plans/cell/open_cell.h"
+#include "plans/checks/internal/calibration_use.h"
 #include "plans/checks/internal/plan_reach.h"
-#include "plans/run/internal/calibration_use.h"
+#include "plans/features.h"
 #include "plans/run/internal/fixture_calibration.h"
 #include "plans/run/internal/fixture_datum.h"
 #include "plans/run/internal/inspection.h"

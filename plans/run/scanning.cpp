@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
-#include "cmm/ipp_client/touch_check.h"
 #include "cmm/scan_path.h"
+#include "cmm/touch_check.h"
 #include "core/units.h"
 #include "plans/run/internal/inspection.h"
 

@@ -294,4 +294,6 @@ std::string item_pointer(std::string_view pointer, std::size_t index) {
   return fmt::format("{}/{}", pointer, index);
 }
 
+std::string feature_pointer(std::size_t index) { return item_pointer("/features", index); }
+
 }  // namespace rondure::plans

@@ -57,4 +57,7 @@ inline constexpr std::size_t kMaxValues = 100'000;
 [[nodiscard]] std::string member_pointer(std::string_view pointer, std::string_view key);
 [[nodiscard]] std::string item_pointer(std::string_view pointer, std::size_t index);
 
+/// The pointer of a feature: "/features/2".
+[[nodiscard]] std::string feature_pointer(std::size_t index);
+
 }  // namespace rondure::plans

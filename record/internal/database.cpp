@@ -7,7 +7,6 @@
 #include <soci/sqlite3/soci-sqlite3.h>
 
 #include "record/files.h"
-#include "record/journal/internal/canonical.h"
 
 namespace rondure::record {
 namespace {
@@ -63,6 +62,10 @@ core::Result<std::string> connection_string(const std::filesystem::path& file) {
         file.string());
   }
   return fmt::format("dbname=\"{}\" timeout=5", file.string());
+}
+
+sqlite_api::sqlite3* handle_of(soci::session& session) {
+  return static_cast<soci::sqlite3_session_backend*>(session.get_backend())->conn_;
 }
 
 void distrust(soci::session& sql) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <soci/soci.h>
+#include <soci/sqlite3/soci-sqlite3.h>
 
 #include "core/result.h"
 
@@ -14,6 +15,9 @@ namespace rondure::record {
 /// The connection string with which SOCI opens an SQLite file; kFile when the path contains a
 /// double quote, which cannot be expressed in it.
 [[nodiscard]] core::Result<std::string> connection_string(const std::filesystem::path& file);
+
+/// SQLite's own handle of a session.
+[[nodiscard]] sqlite_api::sqlite3* handle_of(soci::session& session);
 
 /// Stops SQLite from running anything stored in the file itself (triggers, views, functions in its
 /// schema), and makes it report damaged cells as they are read. For every file that somebody else

@@ -4,6 +4,7 @@
 #include "record/files.h"
 #include "record/journal/internal/impl.h"
 #include "record/journal/internal/place.h"
+#include "record/journal/internal/reader.h"
 #include "record/journal/internal/schema.h"
 
 namespace rondure::record {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/utf8.h"
+#include "evaluation/analysis.h"
 #include "evaluation/feature_values.h"
 #include "reports/words/facts.h"
 

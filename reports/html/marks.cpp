@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "reports/drawings/svg.h"
 #include "reports/html/plots.h"
-#include "reports/html/svg.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -7,9 +7,9 @@
 
 #include "core/round_values.h"
 #include "core/units.h"
+#include "reports/drawings/plot_scale.h"
+#include "reports/drawings/svg.h"
 #include "reports/escaping.h"
-#include "reports/html/plot_scale.h"
-#include "reports/html/svg.h"
 
 namespace rondure::reports {
 namespace {

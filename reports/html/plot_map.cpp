@@ -10,9 +10,9 @@
 #include "core/round_values.h"
 #include "core/units.h"
 #include "evaluation/section.h"
-#include "reports/html/plot_scale.h"
+#include "reports/drawings/plot_scale.h"
+#include "reports/drawings/svg.h"
 #include "reports/html/plots.h"
-#include "reports/html/svg.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

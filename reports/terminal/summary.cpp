@@ -6,6 +6,7 @@
 
 #include "core/numbers.h"
 #include "core/utf8.h"
+#include "evaluation/analysis.h"
 #include "evaluation/feature_values.h"
 #include "reports/escaping.h"
 #include "reports/terminal/analysis.h"

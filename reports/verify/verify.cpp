@@ -12,7 +12,7 @@
 #include "record/journal/journal.h"
 #include "record/sha256.h"
 #include "record/signature.h"
-#include "reports/exports.h"
+#include "reports/formats/exports.h"
 #include "reports/history/earlier_results.h"
 #include "reports/verify/compare_text.h"
 #include "reports/verify/compare_values.h"

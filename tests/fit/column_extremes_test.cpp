@@ -1,4 +1,4 @@
-#include "fit/zone/column_extremes.h"
+#include "fit/geometry/column_extremes.h"
 
 #include <algorithm>
 #include <array>

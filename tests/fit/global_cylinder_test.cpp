@@ -12,10 +12,10 @@
 
 #include "core/noise.h"
 #include "fit/proof/axis_cover.h"
-#include "fit/zone/internal/center_region.h"
 #include "fit/proof/certificate_check.h"
 #include "fit/references/min_zone_cylinder.h"
-#include "fit/proof/internal/zone_box.h"
+#include "fit/zone/internal/center_region.h"
+#include "fit/zone/internal/zone_box.h"
 #include "tests/fit/oracles/dial.h"
 #include "tests/fit/spec_cases.h"
 

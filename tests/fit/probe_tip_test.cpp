@@ -1,4 +1,4 @@
-#include "fit/geometry/probe_tip.h"
+#include "fit/least_squares/probe_tip.h"
 
 #include <cmath>
 #include <vector>

@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include "core/units.h"
+#include "fit/profiles/internal/dft.h"
 #include "tests/fit/profile_cases.h"
 
 namespace rondure::fit {

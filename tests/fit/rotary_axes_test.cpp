@@ -16,8 +16,8 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
-#include "fit/published/internal/axes.h"
 #include "fit/rotary/ball_setup.h"
+#include "fit/rotary/internal/published_axes.h"
 #include "tests/fit/oracles/dial.h"
 #include "tests/fit/rotary_cases.h"
 #include "tests/fit/spec_cases.h"

@@ -12,7 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fit/geometry/periodic_spline.h"
+#include "fit/profiles/periodic_spline.h"
 #include "tests/fit/oracles/dial.h"
 #include "tests/fit/three_probe_cases.h"
 

@@ -1,7 +1,7 @@
 // Wheel-centre path: worked examples 3 and 4, a brute-force envelope, gouging, residual form.
 
-#include "fit/geometry/surface_samples.h"
 #include "fit/wheel/path.h"
+#include "fit/wheel/surface_samples.h"
 
 #include <algorithm>
 #include <array>

@@ -12,7 +12,7 @@
 #include "plans/checks/record.h"
 #include "record/journal/journal.h"
 #include "reports/data/factors.h"
-#include "reports/exports.h"
+#include "reports/formats/exports.h"
 #include "reports/terminal/factors.h"
 #include "reports/terminal/summary.h"
 #include "tests/fuzz/cases.h"

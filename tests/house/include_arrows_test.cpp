@@ -1,10 +1,14 @@
 // The rooms and who may include whom: the table of DESIGN.md, held against every #include.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -77,6 +81,64 @@ TEST(IncludeArrows, PointOneWay) {
     }
   }
   EXPECT_GT(checked, 100U);  // the rooms were found
+}
+
+using Arrows = std::map<std::string, std::set<std::string>>;
+
+/// One circle of the arrows, "a -> b -> a"; "" when there is none.
+std::string circle_of(Arrows arrows) {
+  const auto leads_on = [&](const std::string& name) { return arrows.count(name) == 1; };
+  for (auto place = arrows.begin(); place != arrows.end();) {
+    const bool dead_end = std::none_of(place->second.begin(), place->second.end(), leads_on);
+    if (dead_end) arrows.erase(place);  // it is part of no circle; nor may those be that led to it
+    place = dead_end ? arrows.begin() : std::next(place);
+  }
+  if (arrows.empty()) return "";
+  std::vector<std::string> path = {arrows.begin()->first};
+  while (true) {
+    const std::set<std::string>& next = arrows.at(path.back());
+    path.push_back(*std::find_if(next.begin(), next.end(), leads_on));
+    const auto first = std::find(path.begin(), path.end(), path.back());
+    if (first == path.end() - 1) continue;
+    std::string circle = *first;
+    for (auto place = first + 1; place != path.end(); ++place) circle += " -> " + *place;
+    return circle;
+  }
+}
+
+/// The includes within a room as arrows between the places of the files.
+Arrows arrows_within(const std::string& room,
+                     const std::function<std::string(const fs::path&)>& place_of) {
+  Arrows arrows;
+  for (const Include& include : includes_of(room)) {
+    const std::string from = place_of(fs::relative(include.file, RONDURE_SOURCE_DIR));
+    const std::string to = place_of(include.header);
+    if (include.header.rfind(room + "/", 0) == 0 && from != to) arrows[from].insert(to);
+  }
+  return arrows;
+}
+
+TEST(IncludeArrows, FormNoCircleOfFiles) {
+  EXPECT_EQ(circle_of({{"a", {"b"}}, {"b", {"c", "d"}}, {"d", {"b"}}}), "b -> d -> b");
+  EXPECT_EQ(circle_of({{"a", {"b"}}, {"b", {"c"}}}), "");
+  // A header and the source beside it are one: what a source includes, its header stands upon.
+  const auto stem = [](fs::path file) { return file.replace_extension().generic_string(); };
+  for (const auto& [room, allowed] : kMayInclude) {
+    EXPECT_EQ(circle_of(arrows_within(room, stem)), "") << room;
+  }
+}
+
+TEST(IncludeArrows, FormNoCircleOfFolders) {
+  // `internal` counts with its folder. In these two, files of the root stand below and above.
+  const std::set<std::string> with_circles = {"evaluation", "plans"};
+  const auto folder = [](const fs::path& file) {
+    const fs::path parent = file.parent_path();
+    return (parent.filename() == "internal" ? parent.parent_path() : parent).generic_string();
+  };
+  for (const auto& [room, allowed] : kMayInclude) {
+    if (with_circles.count(room) == 1) continue;
+    EXPECT_EQ(circle_of(arrows_within(room, folder)), "") << room;
+  }
 }
 
 TEST(IncludeArrows, KeepsEveryTopLevelFolderARoomOfTheDesign) {

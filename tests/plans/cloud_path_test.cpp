@@ -12,9 +12,10 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "plans/forecast/internal/feature_planner.h"
 #include "plans/checks/internal/plan_reach.h"
 #include "plans/checks/internal/reach_advice.h"
+#include "plans/path/internal/feature_planner.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "tests/plans/random_inspection.h"
 
 namespace rondure::plans {

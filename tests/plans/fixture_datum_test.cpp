@@ -7,8 +7,8 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "plans/checks/internal/plan_reach.h"
 #include "plans/forecast/forecast.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "tests/plans/files.h"

@@ -14,8 +14,8 @@
 
 #include "core/noise.h"
 #include "core/units.h"
+#include "plans/forecast/expected_record.h"
 #include "plans/forecast/forecast.h"
-#include "plans/run/expected_record.h"
 #include "random_inspection.h"
 #include "tests/plans/files.h"
 

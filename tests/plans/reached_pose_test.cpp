@@ -1,4 +1,4 @@
-#include "plans/cell/internal/reached_pose.h"
+#include "plans/run/internal/reached_pose.h"
 
 #include <stdexcept>
 
@@ -7,7 +7,7 @@
 
 #include "core/units.h"
 #include "fixture/simulated.h"
-#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/internal/pose_grid.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"

@@ -21,7 +21,7 @@
 #include "evaluation/evaluation.h"
 #include "evaluation/uncertainty/declared.h"
 #include "fit/references/min_zone_cylinder.h"
-#include "plans/cell/cell.h"
+#include "plans/cell/open_cell.h"
 #include "plans/cell/served_cell.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"

@@ -1,4 +1,4 @@
-#include "reports/exports.h"
+#include "reports/formats/exports.h"
 
 #include <algorithm>
 #include <sstream>

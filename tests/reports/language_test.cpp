@@ -18,7 +18,7 @@
 #include <gtest/gtest.h>
 
 #include "reports/escaping.h"
-#include "reports/exports.h"
+#include "reports/formats/exports.h"
 #include "reports/html/report.h"
 #include "reports/terminal/columns.h"
 #include "reports/terminal/summary.h"

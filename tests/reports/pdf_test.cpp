@@ -17,7 +17,7 @@
 #include <pugixml.hpp>
 
 #include "record/files.h"
-#include "reports/exports.h"
+#include "reports/formats/exports.h"
 #include "reports/html/pdf.h"
 #include "reports/html/report.h"
 #include "synthetic.h"

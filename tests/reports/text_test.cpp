@@ -6,8 +6,8 @@
 #include "core/numbers.h"
 #include "core/round_values.h"
 #include "core/utf8.h"
+#include "reports/drawings/svg.h"
 #include "reports/escaping.h"
-#include "reports/html/svg.h"
 #include "reports/terminal/columns.h"
 
 namespace rondure::reports {

@@ -10,7 +10,7 @@
 #include "record/files.h"
 #include "record/journal/journal.h"
 #include "record/sha256.h"
-#include "reports/exports.h"
+#include "reports/formats/exports.h"
 #include "reports/verify/stored_results.h"
 #include "reports/verify/verify.h"
 #include "tests/record/sample_run.h"

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "cmm/internal/clearance.h"
+#include "cmm/simulated/internal/clearance.h"
 #include "cmm/simulated/internal/side_contact.h"
 #include "cmm/simulated/internal/surface_shape.h"
 

@@ -82,4 +82,9 @@ std::vector<double> decimated(std::span<const double> series, std::size_t count,
   return series_of(f, count);
 }
 
+double gaussian_transmission(double harmonic, double cutoff_upr) {
+  const double ratio = harmonic / cutoff_upr;
+  return std::exp2(-ratio * ratio);
+}
+
 }  // namespace rondure::fit

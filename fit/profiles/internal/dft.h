@@ -32,4 +32,7 @@ using Spectrum = std::vector<Complex>;
 /// The highest undulation that decimated() leaves unchanged.
 [[nodiscard]] double last_untouched(std::size_t count, double kept);
 
+/// Transmission of the Gaussian low pass at harmonic n: 2^-(n/fc)^2 = exp(-ln 2 (n/fc)^2).
+[[nodiscard]] double gaussian_transmission(double harmonic, double cutoff_upr);
+
 }  // namespace rondure::fit

@@ -10,7 +10,6 @@
 
 #include "core/statistics.h"
 #include "fit/profiles/internal/dft.h"
-#include "fit/profiles/profile_filter.h"
 
 namespace rondure::fit {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "fit/published/internal/axes.h"
 #include "fit/rotary/axes.h"
+#include "fit/rotary/internal/published_axes.h"
 
 // Solves one station of a rotary axis: from balls to six errors. Used by identify_rotary_axis().
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fit/geometry/points.h"
-#include "fit/proof/local_certificate.h"
+#include "fit/zone/local_certificate.h"
 #include "fit/zone/simplex.h"
 
 namespace rondure::fit {

@@ -7,7 +7,7 @@
 
 #include "core/units.h"
 #include "fit/rotary/ball_setup.h"
-#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
 namespace {

@@ -8,8 +8,8 @@
 #include "core/units.h"
 #include "fixture/zaber.h"
 #include "fixture/zaber_connection.h"
-#include "plans/checks/internal/plan_reach.h"
 #include "plans/cell/internal/thorlabs_driver.h"
+#include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
 namespace {

@@ -11,7 +11,7 @@
 #include "fixture/kinematics.h"
 #include "fixture/pose_range.h"
 #include "plans/cell/served_cell.h"
-#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/internal/pose_grid.h"
 #include "wire/tcp_line.h"
 #include "wire/wire_log.h"

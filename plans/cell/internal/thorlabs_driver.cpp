@@ -5,7 +5,7 @@
 
 #include "core/units.h"
 #include "fixture/thorlabs.h"
-#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "wire/ftdi_stream.h"
 #include "wire/usb.h"
 

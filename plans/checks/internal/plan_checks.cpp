@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "plans/analyses/analysis.h"
-#include "plans/run/internal/calibration_use.h"
+#include "plans/checks/internal/calibration_use.h"
 #include "plans/schema/json_text.h"
 #include "record/archive/place.h"
 
@@ -363,8 +363,6 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
 }
 
 }  // namespace
-
-std::string feature_pointer(std::size_t index) { return item_pointer("/features", index); }
 
 bool is_touched(const Plan& plan, std::size_t index, const Findings& findings) {
   return !findings.is_given(feature_pointer(index) + "/source") &&

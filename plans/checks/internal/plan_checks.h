@@ -31,9 +31,6 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings);
 /// Parameters and statements of the decision rule, and whether the uncertainty provides its inputs.
 void check_uncertainty(const Plan& plan, Findings& findings);
 
-/// The pointer of a feature: "/features/2".
-[[nodiscard]] std::string feature_pointer(std::size_t index);
-
 /// Whether a feature is touched by the machine: not read from a file, and no analysis of series.
 [[nodiscard]] bool is_touched(const Plan& plan, std::size_t index, const Findings& findings);
 

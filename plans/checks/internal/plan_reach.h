@@ -1,57 +1,13 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-
-#include "core/pose.h"
 #include "core/result.h"
-#include "fixture/fixture.h"
-#include "fixture/kinematics.h"
 #include "plans/path/sampling.h"
-#include "plans/path/travel.h"
 #include "plans/plan.h"
 
 namespace rondure::plans {
-
-/// Three numbers of the plan as a vector.
-[[nodiscard]] inline Eigen::Vector3d vector3(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
-
-/// The axes of the fixture as stated in the plan.
-[[nodiscard]] fixture::Kinematics nominal_kinematics(const FixturePlan& fixture);
-
-/// The position of the part in the clamping ring as stated in the plan: X_BP.
-[[nodiscard]] Eigen::Isometry3d nominal_seat(const FixturePlan& fixture);
-
-[[nodiscard]] fixture::FixtureLimits limits_of(const FixturePlan& fixture);
-
-/// The pose in which the measurement of a feature starts.
-[[nodiscard]] core::Pose start_pose(const FeaturePlan& feature);
-
-/// A pose for messages: "(12.3400, 0.0000) deg".
-[[nodiscard]] std::string in_degrees(const core::Pose& pose, int decimals = 4);
-
-/// The part beside a feature: the sections of the plan, and the other touched outside surfaces
-/// above or below it (not for a bore, whose block hides them).
-[[nodiscard]] std::vector<SectionPlan> part_sections(const Plan& plan, const FeaturePlan& feature);
-
-/// The path geometry of a feature. Shoulders, and a ring of known size, above the lower end of a
-/// shaft increase the radius of the path around it. `location_mm` is added to approach and
-/// clearance while the part is not located.
-[[nodiscard]] PathGeometry path_geometry(const Plan& plan, const FeaturePlan& feature,
-                                         double location_mm);
-
-/// Checks that no target on a shaft lies in or below the clamped band of a ring of unknown size:
-/// the tip comes from above and cannot pass it.
-/// @return kUnreachable with layer and point (from 1), height and limit.
-[[nodiscard]] core::Result<void> check_clamp(const std::vector<Target>& targets,
-                                             const PathGeometry& geometry,
-                                             const FixturePlan& fixture);
 
 /// The targets of a touched feature, if the tool can reach all of them in the start pose, with the
 /// part where the plan says it is.

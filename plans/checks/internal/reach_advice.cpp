@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "plans/cell/scene.h"
 #include "plans/path/internal/tour.h"
+#include "plans/path/scene.h"
 
 namespace rondure::plans {
 

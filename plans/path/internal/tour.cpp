@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "plans/cell/scene.h"
+#include "plans/path/scene.h"
 
 namespace rondure::plans {
 namespace {

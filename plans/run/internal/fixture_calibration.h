@@ -6,14 +6,14 @@
 #include <Eigen/Geometry>
 
 #include "core/result.h"
-#include "plans/run/internal/inspection.h"
+#include "plans/run/internal/run_context.h"
 
 namespace rondure::plans {
 
 /// Measures a feature of the type "rotary_axes": turns the fixture through rotary_visits() and
 /// touches the balls in each pose. Everything is journalled before the next step. A touch of ball i
 /// has the layer i. After the last touch the hidden truth of a simulated fixture is stored as
-/// curves. Evaluation: reports/rotary_result.h.
+/// curves. Evaluation: evaluation/rotary/result.h.
 [[nodiscard]] core::Result<void> calibrate_fixture(RunContext& context, int feature_index);
 
 /// Steps that touch one ball in a pose, from park height and up again; see sphere_steps().

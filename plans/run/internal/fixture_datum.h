@@ -5,7 +5,7 @@
 
 #include "core/result.h"
 #include "fit/geometry/registration.h"
-#include "plans/run/internal/inspection.h"
+#include "plans/run/internal/run_context.h"
 
 namespace rondure::plans {
 

@@ -9,7 +9,7 @@
 #include "fit/poses/walk.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "fit/zone/center_search.h"
-#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/nominal_geometry.h"
 
 namespace rondure::plans {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/result.h"
-#include "fit/geometry/probe_tip.h"
-#include "plans/run/internal/inspection.h"
+#include "fit/least_squares/probe_tip.h"
+#include "plans/run/internal/run_context.h"
 
 namespace rondure::plans {
 

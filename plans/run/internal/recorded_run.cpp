@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/nominal_geometry.h"
 #include "record/journal/message_text.h"
 
 namespace rondure::plans {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "record/internal/database.h"
 #include "record/sha256.h"
 
 namespace rondure::record {
@@ -60,10 +61,6 @@ Statement prepared(soci::session& session, const std::string& query) {
 }
 
 }  // namespace
-
-sqlite_api::sqlite3* handle_of(soci::session& session) {
-  return static_cast<soci::sqlite3_session_backend*>(session.get_backend())->conn_;
-}
 
 void append_integer(std::string& bytes, std::int64_t number) {
   bytes += 'i';

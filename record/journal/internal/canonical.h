@@ -8,15 +8,11 @@
 #include <type_traits>
 
 #include <soci/soci.h>
-#include <soci/sqlite3/soci-sqlite3.h>
 
 // Private to the room: the bytes over which digests are computed (docs/journal.md, "Bytes of a
 // value"), and the rows of a table as such bytes. Functions that read throw soci::soci_error.
 
 namespace rondure::record {
-
-/// SQLite's own handle of a session.
-[[nodiscard]] sqlite_api::sqlite3* handle_of(soci::session& session);
 
 /// Appends one value as canonical bytes.
 void append_integer(std::string& bytes, std::int64_t number);

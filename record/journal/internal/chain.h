@@ -7,6 +7,7 @@
 
 #include <soci/soci.h>
 
+#include "record/internal/database.h"
 #include "record/journal/internal/canonical.h"
 #include "record/journal/journal.h"
 

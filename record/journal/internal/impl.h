@@ -15,15 +15,15 @@
 
 #include "record/internal/database.h"
 #include "record/journal/internal/chain.h"
+#include "record/journal/internal/contradiction.h"
 #include "record/journal/internal/log.h"
-#include "record/journal/internal/reader.h"
 #include "record/journal/internal/rows.h"
 #include "record/journal/internal/schema.h"
 #include "record/journal/journal.h"
 #include "record/journal/message_text.h"
 #include "record/run_lock.h"
 
-// Private to the room: the open journal. open.cpp creates it, journal.cpp writes rows, close.cpp
+// Private to the room: the open journal. open.cpp creates it, write.cpp writes rows, close.cpp
 // seals it.
 
 namespace rondure::record {

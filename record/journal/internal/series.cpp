@@ -11,8 +11,9 @@
 
 #include "core/numbers.h"
 #include "record/csv/internal/lines.h"
+#include "record/internal/database.h"
 #include "record/journal/internal/canonical.h"
-#include "record/journal/internal/reader.h"
+#include "record/journal/internal/contradiction.h"
 #include "record/journal/internal/schema.h"
 
 namespace rondure::record {

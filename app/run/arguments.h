@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rondure::app {
+
+struct RunArguments {
+  std::string plan;  ///< With `resume` also a run directory.
+  std::string out;   ///< Empty: runs/<plan>-<UTC>.
+  bool resume = false;
+  bool relocate = false;  ///< With `resume`: a part that has moved is located again.
+  std::string serial;
+  std::string operator_name;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> formats;  ///< Empty: as the plan says.
+  std::string language = "en";       ///< Of page and summary: "en" or "zh".
+  std::string paper;                 ///< Of report.pdf, "a4" or "letter"; empty: as the plan says.
+  std::string archive;               ///< Empty: as the plan says.
+  std::string wire_log;              ///< Empty: none.
+  bool quiet = false;
+  bool step = false;            ///< Each move confirmed on the terminal, at reduced speed.
+  std::string watch;            ///< Port of the live page; "auto": any free one; empty: no page.
+  bool control = false;         ///< With `watch`: a button that stops the run.
+  std::optional<double> speed;  ///< Simulated seconds in a second; none: no waiting.
+};
+
+}  // namespace rondure::app

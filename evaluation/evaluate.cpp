@@ -1,0 +1,409 @@
+#include "evaluation/evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "core/units.h"
+#include "evaluation/analysis.h"
+#include "evaluation/conformance.h"
+#include "evaluation/defect.h"
+#include "evaluation/fixture_use.h"
+#include "evaluation/invariants.h"
+#include "evaluation/measured_cloud.h"
+#include "evaluation/merged.h"
+#include "evaluation/warnings.h"
+#include "fit/poses/walk.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using record::RunRecord;
+using record::Touch;
+
+std::optional<fit::ProbeTip> evaluate_probe(const RunRecord& record) {
+  std::vector<Eigen::Vector3d> tips;
+  for (const Touch& touch : record.touches) {
+    if (touch.purpose == Touch::Purpose::kQualification) tips.push_back(touch.tip_mm);
+  }
+  if (tips.empty()) return std::nullopt;
+  const auto tip = fit::qualify_tip(tips, record.artefact.radius_mm);
+  if (!tip) return std::nullopt;
+  return *tip;
+}
+
+/// f of every pose that was measured, from its own touches.
+void evaluate_poses(const RunRecord& record, int index, FeatureResult& result) {
+  if (result.feature.strategy == record::Strategy::kPointsFile) return;
+  for (const record::PoseVisit& visit : record.poses) {
+    if (visit.feature != index) continue;
+    const auto value = value_of_pose(record, visit, result.feature.strategy);
+    if (value) result.poses.push_back(*value);
+  }
+}
+
+/// The software search of the strategy `virtual`: one cloud, turned.
+void search_virtual_poses(const record::PoseVisit& visit, FeatureResult& result) {
+  const Eigen::Matrix3d back = rotation(visit.reached).transpose();
+  const auto tips = tips_of(result.cloud);
+  std::vector<PoseValue> values;
+  const auto f = [&](const core::Pose& pose) -> core::Result<double> {
+    PoseValue value = pose_value(projected(tips, rotation(pose) * back), result.feature.strategy);
+    if (!value.valid) return core::fail(core::Code::kPoseRange, value.ending);
+    value.pose = pose;
+    value.physical = false;
+    values.push_back(value);
+    return value.f_mm;
+  };
+  const auto walk = fit::walk_poses(f, visit.reached, result.feature.search_steps_deg);
+  if (!walk) {
+    result.warnings.push_back(walk.error());
+    return;
+  }
+  for (PoseValue& value : values) {
+    value.final_pose = value.pose == walk->visited[walk->best].pose;
+  }
+  for (PoseValue& value : result.poses) value.final_pose = false;
+  result.poses.insert(result.poses.end(), values.begin(), values.end());
+}
+
+/// Angle, height and deviation of every point about an axis.
+void place_points(const fit::Axis& axis, double middle_radius_mm, const Eigen::Vector3d& mean,
+                  std::vector<CloudPoint>& cloud) {
+  const Eigen::Vector3d z =
+      axis.direction.z() < 0.0 ? Eigen::Vector3d(-axis.direction) : axis.direction;
+  // Angle 0 looks along machine x as far as the axis allows (along y for an axis near x).
+  Eigen::Vector3d x = Eigen::Vector3d::UnitX() - z * z.x();
+  if (x.norm() < 0.1) x = Eigen::Vector3d::UnitY() - z * z.y();
+  x.normalize();
+  const Eigen::Vector3d y = z.cross(x);
+  for (CloudPoint& point : cloud) {
+    const Eigen::Vector3d v = point.tip_mm - axis.point_mm;
+    const double u = v.dot(x);
+    const double w = v.dot(y);
+    point.angle_rad = std::atan2(w, u);
+    if (point.angle_rad < 0.0) point.angle_rad += core::kTwoPi;
+    point.height_mm = (point.tip_mm - mean).dot(z);
+    point.deviation_mm = std::hypot(u, w) - middle_radius_mm;
+  }
+}
+
+void mark_contacts(const std::vector<fit::Contact>& outer, const std::vector<fit::Contact>& inner,
+                   const std::vector<std::size_t>& rows, std::vector<CloudPoint>& cloud) {
+  for (const fit::Contact& c : outer) cloud[rows[c.index]].outer_contact = true;
+  for (const fit::Contact& c : inner) cloud[rows[c.index]].inner_contact = true;
+}
+
+/// Points of a section; of several passes over it only the first: near points of two passes differ
+/// by their noise, which a curve through both would blow up.
+std::vector<Eigen::Vector2d> first_pass(const std::vector<CloudPoint>& cloud,
+                                        const std::vector<std::size_t>& rows,
+                                        const std::vector<Eigen::Vector2d>& points) {
+  std::vector<Eigen::Vector2d> out;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (cloud[rows[i]].pass == cloud[rows.front()].pass) out.push_back(points[i]);
+  }
+  return out;
+}
+
+/// The filtered section of a dense layer; the verdict stays with the points as measured.
+std::optional<fit::RoundnessEvaluation> dense_section(const std::vector<Eigen::Vector2d>& points) {
+  constexpr std::size_t kDense = 7 * 50;   // points at the cut-off of 50 UPR
+  constexpr std::size_t kAtMost = 10'000;  // a file may hold far more; this is only shown
+  if (points.size() < kDense || points.size() > kAtMost) return std::nullopt;
+  auto section = fit::evaluate_section(points, {});
+  if (!section) return std::nullopt;  // an arc, or gaps: there is no filtered profile
+  return *std::move(section);
+}
+
+/// Sections normal to an axis, by layer.
+std::vector<LayerResult> sections(const fit::Axis& axis, const std::vector<CloudPoint>& cloud) {
+  std::map<int, std::vector<std::size_t>> layers;
+  for (std::size_t i = 0; i < cloud.size(); ++i) layers[cloud[i].layer].push_back(i);
+  const auto frame = fit::across(axis.direction);
+  std::vector<LayerResult> out;
+  for (const auto& [layer, rows] : layers) {
+    std::vector<Eigen::Vector2d> section;
+    double height = 0.0;
+    for (const std::size_t i : rows) {
+      section.emplace_back(frame.transpose() * (cloud[i].tip_mm - axis.point_mm));
+      height += cloud[i].height_mm / static_cast<double>(rows.size());
+    }
+    LayerResult result{layer, height, rows, fit::min_zone_circle(section), fit::ls_circle(section)};
+    result.mc = fit::min_circumscribed_circle(section);
+    result.mi = fit::max_inscribed_circle(section);
+    result.filtered = dense_section(first_pass(cloud, rows, section));
+    result.points_mm = std::move(section);
+    out.push_back(std::move(result));
+  }
+  return out;
+}
+
+Eigen::Vector3d mean_of(const std::vector<CloudPoint>& cloud) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const CloudPoint& point : cloud) sum += point.tip_mm - cloud.front().tip_mm;
+  return cloud.front().tip_mm + sum / static_cast<double>(cloud.size());
+}
+
+/// Where the axis of a feature points, machine frame. A touched part stands along the ring's z, or
+/// as it was located; points of a file may lie any way, a circle of a file lies across z.
+std::optional<Eigen::Vector3d> expected_axis(const RunRecord& record,
+                                             const record::Feature& feature,
+                                             const record::PoseVisit& visit) {
+  const bool circle = feature.shape == record::Shape::kCircle;
+  if (feature.strategy == record::Strategy::kPointsFile) {
+    return circle ? std::optional<Eigen::Vector3d>(Eigen::Vector3d::UnitZ()) : std::nullopt;
+  }
+  const Eigen::Matrix3d turn = rotation(visit.reached);
+  const Eigen::Vector3d nominal = turn * Eigen::Vector3d::UnitZ();
+  if (!circle) return nominal;
+  // One section shows no tilt; the touches that located the part do: the last ones before the
+  // section, since the part may have been located again.
+  for (auto other_at = record.poses.rbegin(); other_at != record.poses.rend(); ++other_at) {
+    const record::PoseVisit& other = *other_at;
+    if (other.feature != visit.feature || other.id > visit.id) continue;
+    std::vector<Eigen::Vector3d> tips;
+    for (const Touch& touch : record.touches) {
+      if (touch.purpose == Touch::Purpose::kLocate && touch.pose == other.id)
+        tips.push_back(touch.tip_mm);
+    }
+    if (tips.empty()) continue;
+    const Eigen::Matrix3d back = rotation(other.reached);
+    const auto located = fit::ls_cylinder(tips, back * Eigen::Vector3d::UnitZ());
+    if (located) return turn * back.transpose() * located->axis.direction;
+  }
+  return nominal;
+}
+
+/// Directions a reported zone is compared with: about the expected axis for what was touched, or,
+/// where the part lies outside that cone, about its least-squares axis; of a points file nothing is
+/// known, so all, or, where that takes too long, those about its least-squares axis.
+std::vector<fit::AxisScope> certificate_scopes(const std::optional<Eigen::Vector3d>& direction,
+                                               const fit::LsCylinder& ls) {
+  const fit::AxisScope found{fit::AxisScope::Kind::kCone, ls.axis.direction};
+  if (direction) return {fit::AxisScope{fit::AxisScope::Kind::kCone, *direction}, found};
+  return {fit::AxisScope{fit::AxisScope::Kind::kHalfSphere}, found};
+}
+
+void evaluate_cylinder(const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
+  const auto tips = tips_of(result.cloud);
+  auto ls = fit::ls_cylinder(tips, direction);
+  if (!ls) {
+    result.failure = ls.error();
+    return;
+  }
+  const fit::CylinderProofOptions proof{.scopes = certificate_scopes(direction, *ls), .search = {}};
+  auto mz = fit::min_zone_cylinder(tips, direction, proof);
+  if (!mz) {
+    result.failure = mz.error();
+    return;
+  }
+  result.ls_cylinder = *ls;
+  result.mz_cylinder = *mz;
+  result.mc_cylinder = fit::min_circumscribed_cylinder(tips, ls->axis.direction, proof);
+  result.mi_cylinder = fit::max_inscribed_cylinder(tips, ls->axis.direction, proof);
+  place_points(mz->axis, 0.5 * (mz->inner_radius_mm + mz->outer_radius_mm), mean_of(result.cloud),
+               result.cloud);
+  std::vector<std::size_t> rows(result.cloud.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
+  mark_contacts(mz->outer, mz->inner, rows, result.cloud);
+  const bool has_layers = result.feature.layers > 1;
+  if (has_layers) result.layers = sections(mz->axis, result.cloud);
+}
+
+void evaluate_circle(const Eigen::Vector3d& direction, FeatureResult& result) {
+  const fit::Axis up{mean_of(result.cloud), direction};
+  result.section_axis = up;
+  result.layers = sections(up, result.cloud);
+  LayerResult& section = result.layers.front();
+  if (!section.mz || !section.ls) {
+    result.failure = !section.mz ? section.mz.error() : section.ls.error();
+    return;
+  }
+  const fit::MinZoneCircle& zone = *section.mz;
+  const auto frame = fit::across(up.direction);
+  const fit::Axis axis{up.point_mm + frame * zone.center_mm, up.direction};
+  place_points(axis, 0.5 * (zone.inner_radius_mm + zone.outer_radius_mm), up.point_mm,
+               result.cloud);
+  mark_contacts(zone.outer, zone.inner, section.rows, result.cloud);
+}
+
+/// What the repeats of the final cloud say: scatter of a touch, and of the zone of a single cloud.
+void evaluate_repeats(const std::vector<const Touch*>& touches,
+                      const std::optional<Eigen::Vector3d>& direction, FeatureResult& result) {
+  const RepeatNoise noise = repeat_noise(touches, result.cloud);
+  if (noise.freedom > 0) {
+    result.repeat_sigma_mm = noise.sigma_mm;
+    result.repeat_freedom = noise.freedom;
+  }
+  std::map<int, std::vector<Eigen::Vector3d>> clouds;
+  std::size_t most = 0;
+  for (const Touch* touch : touches) {
+    auto& pass = clouds[touch->repeat];
+    pass.push_back(touch->tip_mm);
+    most = std::max(most, pass.size());
+  }
+  std::vector<double> zones;
+  for (const auto& [repeat, points] : clouds) {
+    // An interrupted pass is no cloud; those of scans need not have the same number of points.
+    const bool whole = result.cloud.front().pass ? 10 * points.size() > 9 * most
+                                                 : points.size() == result.cloud.size();
+    if (!whole || !result.mz_cylinder) continue;
+    const auto zone = fit::min_zone_cylinder(points, direction);
+    if (zone) zones.push_back(zone->width_mm());
+  }
+  if (zones.size() < 2) return;
+  double mean = 0.0;
+  for (const double zone : zones) mean += zone / static_cast<double>(zones.size());
+  double variance = 0.0;
+  for (const double zone : zones)
+    variance += std::pow(zone - mean, 2) / static_cast<double>(zones.size() - 1);
+  result.repeat_zone_mean_mm = mean;
+  result.repeat_zone_sd_mm = std::sqrt(variance);
+}
+
+/// The pose that would turn the found axis to machine z, from the pose in which it was found.
+core::Pose levelling(const fixture::Kinematics& kinematics, const core::Pose& reached,
+                     const Eigen::Vector3d& direction_W) {
+  Eigen::Vector3d t =
+      fixture::body_to_machine(kinematics, reached).linear().transpose() * direction_W;
+  if (t.z() < 0.0) t = -t;
+  return fixture::levelling_pose(kinematics, t);
+}
+
+/// A cylinder that several poses show: in the body frame, whose z its axis is near.
+void evaluate_merged(const RunRecord& record, int index, const std::optional<fit::ProbeTip>& probe,
+                     FeatureResult& result) {
+  auto cloud = merged_cloud(record, index, probe);
+  if (!cloud) {
+    result.failure = cloud.error();
+    return;
+  }
+  result.cloud = std::move(cloud->points);
+  result.repeat_sigma_mm = cloud->sigma_mm;
+  result.temperatures = cloud->temperatures;
+  result.merged = std::make_shared<const MergedPoses>(std::move(cloud->merged));
+  if (result.merged->refusal) result.warnings.push_back(*result.merged->refusal);
+  if (const auto& solved = result.merged->solved; solved && solved->chi2 > solved->chi2_limit) {
+    result.warnings.push_back(
+        {core::Code::kInconsistent,
+         fmt::format(
+             "the errors of the poses are larger than the fixture states: chi2 {:.1f}, limit "
+             "{:.1f}; calibrate it again or state more",
+             solved->chi2, solved->chi2_limit),
+         {}});
+  }
+  evaluate_cylinder(Eigen::Vector3d::UnitZ(), result);
+  if (!result.failure) warn(result);
+}
+
+FeatureResult evaluate_feature(const RunRecord& record, int index,
+                               const std::optional<fit::ProbeTip>& probe,
+                               const fixture::Kinematics& kinematics) {
+  FeatureResult result;
+  result.feature = record.features[static_cast<std::size_t>(index)];
+  if (result.feature.strategy == record::Strategy::kPointsFile) {
+    if (result.feature.tip_radius_mm) result.tip_radius_mm = result.feature.tip_radius_mm;
+  } else if (probe) {
+    result.tip_radius_mm = probe->radius_mm;
+  }
+  if (result.feature.strategy == record::Strategy::kMerged) {
+    evaluate_merged(record, index, probe, result);
+    return result;
+  }
+  const auto last =
+      std::find_if(record.poses.begin(), record.poses.end(), [&](const record::PoseVisit& visit) {
+        return visit.feature == index && is_final(record, visit);
+      });
+  evaluate_poses(record, index, result);
+  if (last == record.poses.end()) {
+    result.failure =
+        core::Error{core::Code::kNoPoints,
+                    record.failure ? "not measured to its end: " + record.failure->what
+                                   : "the run ended before the final cloud was measured",
+                    {}};
+    return result;
+  }
+  const auto touches = touches_of(record, last->id);
+  result.cloud = measured_cloud(touches);
+  if (result.cloud.empty()) {
+    result.failure = core::Error{core::Code::kNoPoints, "the final cloud holds no touches", {}};
+    return result;
+  }
+  const bool touched = result.feature.strategy != record::Strategy::kPointsFile;
+  result.temperatures = temperatures_of(record, touched ? touches : decltype(touches){});
+  result.thermal = thermal_correction(record, index, last->id);
+  if (result.thermal && result.tip_radius_mm) {
+    const ThermalCorrection& c = *result.thermal;
+    *result.tip_radius_mm /= 1.0 + c.part_expansion_1_K * (c.part_degC - 20.0);
+  }
+  const auto direction = expected_axis(record, result.feature, *last);
+  if (result.feature.shape == record::Shape::kCylinder) {
+    evaluate_cylinder(direction, result);
+  } else {
+    evaluate_circle(*direction, result);
+  }
+  if (result.failure) return result;
+  evaluate_repeats(touches, direction, result);
+  if (result.mz_cylinder && touched) {
+    result.levelling_pose =
+        levelling(kinematics, last->reached, result.mz_cylinder->axis.direction);
+  }
+  if (result.feature.strategy == record::Strategy::kVirtual) search_virtual_poses(*last, result);
+  warn(result);
+  return result;
+}
+
+/// What is left of a feature whose result broke an invariant: what was asked and how it was
+/// measured. None of its numbers can be trusted.
+FeatureResult without_values(const Defect& defect) {
+  FeatureResult out;
+  out.feature = defect.result.feature;
+  out.tip_radius_mm = defect.result.tip_radius_mm;
+  out.temperatures = defect.result.temperatures;
+  out.thermal = defect.result.thermal;
+  out.failure = error_of(defect);
+  return out;
+}
+
+}  // namespace
+
+CheckedEvaluation evaluate_checked(const RunRecord& measured, const InvariantCheck& check) {
+  const std::optional<RunRecord> at_20 = compensated(measured);
+  const RunRecord& record = at_20 ? *at_20 : measured;
+  CheckedEvaluation checked;
+  Evaluation& out = checked.evaluation;
+  out.rule = rule_of(record);
+  out.probe = evaluate_probe(record);
+  const FixtureFacts facts = fixture_facts(record);
+  out.fixture = facts.use;
+  for (std::size_t i = 0; i < record.features.size(); ++i) {
+    if (record::is_analysis(record.features[i].shape)) {
+      auto feature = evaluate_analysis(record, static_cast<int>(i), out.probe);
+      decide_analysis(record, out.rule, feature);
+      out.features.push_back(std::move(feature));
+      continue;
+    }
+    auto feature = evaluate_feature(record, static_cast<int>(i), out.probe, facts.kinematics);
+    if (auto broken = check(feature)) {
+      checked.defects.push_back({*std::move(broken), std::move(feature)});
+      feature = without_values(checked.defects.back());
+    }
+    decide(record, out.rule, out.probe, feature);
+    apply_calibration(out.fixture, feature);
+    out.features.push_back(std::move(feature));
+  }
+  out.verdict = overall(out.features);
+  return checked;
+}
+
+core::Result<Evaluation> evaluate(const RunRecord& record) {
+  return evaluate_checked(record).evaluation;
+}
+
+}  // namespace rondure::evaluation

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "plans/plan.h"
+
+// What the features of a plan need.
+
+namespace rondure::plans {
+
+/// Whether a feature is a surface that is touched by a machine: neither points from a file nor an
+/// analysis.
+[[nodiscard]] bool is_touched(const FeaturePlan& feature);
+/// Whether anything of a plan is simulated.
+[[nodiscard]] bool simulates_anything(const Plan& plan);
+/// Whether the series of a feature are simulated, which is possible with a real machine, too.
+[[nodiscard]] bool simulates_analysis(const Plan& plan);
+/// Whether a feature needs the machine: a surface that is touched, or balls.
+[[nodiscard]] bool needs_machine(const FeaturePlan& feature);
+/// Whether a plan needs a machine.
+[[nodiscard]] bool touches_anything(const Plan& plan);
+
+}  // namespace rondure::plans

@@ -1,0 +1,212 @@
+#include "plans/path/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cmm/simulated/part_surface.h"
+#include "plans/path/internal/nominal_geometry.h"
+
+namespace rondure::plans {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kWide_mm = 1e5;      // radius of a disc without a way around it
+constexpr double kDeep_mm = 1e4;      // thickness of a body without a way below it
+constexpr double kHolder_mm = 300.0;  // length of the holder above the stylus
+
+const char* name_of(Body body) {
+  switch (body) {
+    case Body::kFeature:
+    case Body::kSection:
+      return "the part";
+    case Body::kShoulder:
+      return "a shoulder of the part";
+    case Body::kRing:
+      return "the clamping ring";
+    case Body::kRim:
+      return "the rim of the bowl";
+    case Body::kTable:
+      return "the table";
+    case Body::kSphere:
+      return "a reference sphere";
+    case Body::kStem:
+      return "the stem of the reference sphere";
+    case Body::kVolume:
+      return "the end of the machine's travel";
+  }
+  return "";
+}
+
+const char* name_of(Limb limb) {
+  switch (limb) {
+    case Limb::kBall:
+      return "the ball of the stylus";
+    case Limb::kShaft:
+      return "the shaft of the stylus";
+    case Limb::kHolder:
+      return "the holder of the stylus";
+  }
+  return "";
+}
+
+bool is_part(Body body) {
+  return body == Body::kFeature || body == Body::kSection || body == Body::kShoulder;
+}
+
+double limb_radius(const Tool& tool, Limb limb) {
+  if (limb == Limb::kBall) return tool.tip_radius_mm;
+  return limb == Limb::kShaft ? tool.shaft_radius_mm : tool.holder_radius_mm;
+}
+
+bool has(const Tool& tool, Limb limb) {
+  if (limb == Limb::kBall) return true;
+  if (tool.shaft_length_mm <= 0.0) return false;
+  return limb_radius(tool, limb) > 0.0;
+}
+
+/// The volume that a limb sweeps while the tip moves from a to b, machine frame.
+Sweep sweep_of(const Tool& tool, Limb limb, const Vector3d& a, const Vector3d& b) {
+  const Vector3d shaft = tool.shaft_length_mm * Vector3d::UnitZ();
+  if (limb == Limb::kBall) return {a, b - a, Vector3d::Zero()};
+  if (limb == Limb::kShaft) return {a, b - a, shaft};
+  return {a + shaft, b - a, kHolder_mm * Vector3d::UnitZ()};
+}
+
+Sweep moved(const Sweep& sweep, const Eigen::Isometry3d& X, const Vector3d& origin_mm) {
+  return {X * sweep.start_mm - origin_mm, X.linear() * sweep.along_mm, X.linear() * sweep.up_mm};
+}
+
+}  // namespace
+
+double length_mm(const Polyline& path) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += (path[i] - path[i - 1]).norm();
+  return sum;
+}
+
+std::string in_words(const Hit& hit) {
+  const Vector3d& p = hit.tip_W_mm;
+  const std::string where =
+      fmt::format("on the way to machine ({:.3f}, {:.3f}, {:.3f}) mm", p.x(), p.y(), p.z());
+  if (hit.body == Body::kVolume) {
+    return fmt::format("the tip would leave the volume of the machine {}", where);
+  }
+  return fmt::format("{} would come nearer than {:.7g} mm to {} {}", name_of(hit.limb), hit.room_mm,
+                     name_of(hit.body), where);
+}
+
+Tool tool_of(const Plan& plan) {
+  const ProbePlan& probe = *plan.probe;
+  return {0.5 * probe.tip_diameter_mm, probe.stylus_length_mm, 0.5 * probe.stylus_diameter_mm,
+          0.5 * probe.holder_diameter_mm};
+}
+
+Scene::Scene(const Plan& plan, const FeaturePlan& feature)
+    : tool_(tool_of(plan)),
+      volume_min_mm_(vector3(plan.machine->volume_min_mm)),
+      volume_max_mm_(vector3(plan.machine->volume_max_mm)) {
+  add_part(plan, feature);
+  add_cell(plan, feature);
+}
+
+void Scene::add(Body body, Frame frame, const Vector3d& origin_mm, const Revolved& shape) {
+  solids_.push_back({body, frame, origin_mm, shape});
+}
+
+void Scene::add_part(const Plan& plan, const FeaturePlan& feature) {
+  const NominalPlan& n = feature.nominal;
+  const double radius_mm = 0.5 * n.diameter_mm;
+  const bool bore = feature.side == "inside";
+  const double wall_mm = bore ? radius_mm + cmm::kBlockWall_mm : radius_mm;
+  add(Body::kFeature, Frame::kPart, Vector3d::Zero(),
+      {bore ? radius_mm : 0.0, wall_mm, n.from_mm, n.to_mm});
+  for (const SectionPlan& s : part_sections(plan, feature)) {
+    const bool flush = bore ? s.bore_diameter_mm >= n.diameter_mm : s.diameter_mm <= n.diameter_mm;
+    add(flush ? Body::kSection : Body::kShoulder, Frame::kPart, Vector3d::Zero(),
+        {0.5 * s.bore_diameter_mm, 0.5 * s.diameter_mm, s.from_mm, s.to_mm});
+  }
+}
+
+void Scene::add_cell(const Plan& plan, const FeaturePlan& feature) {
+  const FixturePlan& fixture = *plan.fixture;
+  if (fixture.ring_diameter_mm > 0.0 && fixture.clamp_from_mm < fixture.clamp_to_mm) {
+    // A bore stays open above and below its ring.
+    const double hole_mm = feature.side == "inside" ? 0.5 * feature.nominal.diameter_mm : 0.0;
+    add(Body::kRing, Frame::kSeat, Vector3d::Zero(),
+        {hole_mm, 0.5 * fixture.ring_diameter_mm, fixture.clamp_from_mm, fixture.clamp_to_mm});
+  }
+  const Vector3d axis = vector3(fixture.axis_point_mm);
+  const double rim_mm = fixture.rim_diameter_mm > 0.0 ? 0.5 * fixture.rim_diameter_mm : kWide_mm;
+  add(Body::kRim, Frame::kMachine, {axis.x(), axis.y(), 0.0},
+      {0.0, rim_mm, std::min(fixture.table_height_mm, fixture.rim_height_mm) - kDeep_mm,
+       fixture.rim_height_mm});
+  add(Body::kTable, Frame::kMachine, {axis.x(), axis.y(), 0.0},
+      {0.0, kWide_mm, fixture.table_height_mm - kDeep_mm, fixture.table_height_mm});
+  const QualificationPlan& q = plan.probe->qualification;
+  const double sphere_mm = 0.5 * q.sphere_diameter_mm;
+  const double stem_mm = q.stem_diameter_mm > 0.0 ? 0.5 * q.stem_diameter_mm : sphere_mm / 3.0;
+  const Vector3d center = vector3(q.sphere_center_mm);
+  add(Body::kSphere, Frame::kMachine, center, {0.0, sphere_mm, 0.0, 0.0, true});
+  add(Body::kStem, Frame::kMachine, center, {0.0, stem_mm, -kDeep_mm, 0.0});
+  if (!fixture.datum) return;
+  for (const DatumSpherePlan& sphere : fixture.datum->spheres) {
+    add(Body::kSphere, Frame::kMachine, vector3(sphere.center_mm),
+        {0.0, 0.5 * fixture.datum->sphere_diameter_mm, 0.0, 0.0, true});
+  }
+}
+
+std::optional<double> Scene::room_mm(Body body, Limb limb, Phase phase,
+                                     const PathGeometry& geometry) const {
+  const double radius_mm = limb_radius(tool_, limb);
+  const double near_mm = std::min(geometry.approach_mm, geometry.clearance_mm);
+  if (!is_part(body) || phase == Phase::kTravel) return radius_mm + geometry.clearance_mm;
+  if (phase == Phase::kNear) return radius_mm + near_mm;
+  if (limb == Limb::kShaft) return radius_mm + kTouchGap_mm;
+  if (limb == Limb::kBall && body != Body::kShoulder) return std::nullopt;
+  return radius_mm + near_mm;
+}
+
+const Obstacle& Scene::grown(Solid& solid, double by_mm) {
+  for (const Obstacle& known : solid.grown) {
+    if (known.grown_mm() == by_mm) return known;
+  }
+  return solid.grown.emplace_back(solid.shape, by_mm);
+}
+
+bool Scene::inside_volume(const Vector3d& tip_W_mm) const {
+  return (tip_W_mm.array() >= volume_min_mm_.array()).all() &&
+         (tip_W_mm.array() <= volume_max_mm_.array()).all();
+}
+
+std::optional<Hit> Scene::first_hit(const Way& way, const Placement& placement,
+                                    const PathGeometry& geometry) const {
+  const Eigen::Isometry3d X_PW = placement.X_WP.inverse();
+  const Eigen::Isometry3d X_NW = placement.X_WN.inverse();
+  const Eigen::Isometry3d X_WW = Eigen::Isometry3d::Identity();
+  for (std::size_t i = 1; i < way.corners.size(); ++i) {
+    const Vector3d& a = way.corners[i - 1];
+    const Vector3d& b = way.corners[i];
+    if (!inside_volume(b)) return Hit{Body::kVolume, Limb::kBall, 0.0, b};
+    for (const Limb limb : {Limb::kBall, Limb::kShaft, Limb::kHolder}) {
+      if (!has(tool_, limb)) continue;
+      const Sweep sweep = sweep_of(tool_, limb, a, b);
+      for (Solid& solid : solids_) {
+        const auto room = room_mm(solid.body, limb, way.phases[i - 1], geometry);
+        if (!room) continue;
+        const Eigen::Isometry3d& X = solid.frame == Frame::kPart   ? X_PW
+                                     : solid.frame == Frame::kSeat ? X_NW
+                                                                   : X_WW;
+        if (grown(solid, *room).meets(moved(sweep, X, solid.origin_mm))) {
+          return Hit{solid.body, limb, *room, b};
+        }
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace rondure::plans

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "cmm/machine.h"
+#include "core/message.h"
+#include "core/result.h"
+#include "plans/cell/cell.h"
+#include "plans/path/travel.h"
+#include "plans/plan.h"
+#include "plans/run/internal/recorded_run.h"
+#include "plans/run/run_options.h"
+#include "record/journal/journal.h"
+
+namespace rondure::plans {
+
+/// One touch to make and the paths to it, in the machine frame.
+struct TouchStep {
+  cmm::TouchCommand command;  ///< Its number is set later.
+  record::Touch row;          ///< Its purpose; number, reading and direction are set later.
+  Polyline entry_W;           ///< From park height to its pre-touch point.
+  Polyline way_W;             ///< From the position of the tip to its pre-touch point.
+  Polyline aside_W = {};      ///< From there to a start of the touch at another place.
+  /// For the first point of a scan: that scan, and its last reading.
+  std::optional<cmm::ScanCircleCommand> scan = {};
+  cmm::TouchReading scan_end = {};
+};
+
+/// One circle to scan and the paths to it.
+struct ScanStep {
+  cmm::ScanCircleCommand command;  ///< Its number is set later.
+  record::Touch row;               ///< Of its points; values that differ among them are set later.
+  Polyline entry_W;                ///< As for a touch at its first point.
+  Polyline way_W;
+};
+
+/// State shared by all features of a run: cell, journal, the numbers of touches and poses,
+/// observers, and the data from before an interruption.
+struct RunContext {
+  const Plan& plan;
+  const RunOptions& options;
+  Cell* cell;  ///< Null when every feature comes from a file.
+  record::Journal& journal;
+  std::int64_t next_touch = 0;
+  int next_pose = 0;
+  Progress progress = {};
+  RecordedRun recorded = {};
+  std::vector<TouchStep> last_steps = {};  ///< The last replayed touches of the present cloud.
+  bool retreating = false;      ///< The operator refused a motion: back and up without asking.
+  std::string doing = {};       ///< What the next motions are for, in words.
+  bool relocation_due = false;  ///< The part has moved: locate it, measure the cloud anew.
+  bool lost_place = false;  ///< An interruption was not overcome: only a person may move the tip.
+
+  /// While touches come from the journal nothing moves.
+  [[nodiscard]] bool replaying() const { return recorded.replaying(next_touch); }
+  /// kStopped when the operator asked for it.
+  [[nodiscard]] core::Result<void> check_stop() const;
+  void show() const;
+  /// Makes and journals a touch at the position of the tip, or takes it from the journal. After the
+  /// last recorded touch the machine returns to its position (come_back()). A touch that fails is
+  /// not journalled.
+  [[nodiscard]] core::Result<record::Touch> touch(TouchStep step);
+  /// As touch(), for a whole scan: all its points are journalled in one transaction before the next
+  /// command. When a run is resumed after it, its first point is touched for comparison.
+  [[nodiscard]] core::Result<std::vector<record::Touch>> scan(ScanStep step);
+  /// Homes machine and fixture, goes to the last recorded touches and repeats them: kLocation, with
+  /// difference and limit, when one has moved; kMachine when the fixture does not read the recorded
+  /// pose. Then the tip is at the last of them.
+  [[nodiscard]] core::Result<void> come_back();
+  /// kStopped when the operator refuses the motion in a run of single steps.
+  [[nodiscard]] core::Result<void> ask_for_homing();
+  /// Moves the tip through the corners of a path. When the operator refuses one of the moves, the
+  /// tip goes back to the start of the path.
+  [[nodiscard]] core::Result<void> follow(const Polyline& path_W);
+  /// Straight up to the park height, from above the part or from the reference sphere.
+  [[nodiscard]] core::Result<void> rise();
+  /// Turns the fixture and journals the pose it reached, or takes both from the journal. kMachine
+  /// when it is turned to a recorded pose and does not read the recorded angles.
+  [[nodiscard]] core::Result<record::PoseVisit> turn(int feature, const core::Pose& commanded);
+  [[nodiscard]] core::Result<void> note(int feature, const core::Message& message);
+
+ private:
+  [[nodiscard]] core::Result<void> ask(const NextMove& move);
+  [[nodiscard]] core::Result<record::Touch> replay(TouchStep step, const record::Touch& known);
+  /// What follows when the part is not where it was: kLocation, with relocation_due set if the part
+  /// may be located again. The tip is at park height.
+  [[nodiscard]] tl::unexpected<core::Error> part_has_moved(const core::Error& error);
+  [[nodiscard]] core::Result<std::vector<record::Touch>> replay_scan(ScanStep step);
+  /// A step that came from the journal is among those that are checked before the run goes on, and
+  /// behind the last of them it does.
+  [[nodiscard]] core::Result<void> keep_replayed(TouchStep step);
+  /// The simulation takes the state behind a replayed step.
+  [[nodiscard]] core::Result<void> replay_state(const TouchStep& step);
+  /// Of the fixture: how far two readings of one pose may differ.
+  [[nodiscard]] double resolution_rad() const;
+  /// Repeats a touch. Returns the difference from the recorded one [mm].
+  [[nodiscard]] core::Result<double> repeat_touch(const TouchStep& step, std::int64_t check_id);
+};
+
+/// A path in another frame (X_WX maps it to the machine).
+[[nodiscard]] Polyline in_machine_frame(const Polyline& path, const Eigen::Isometry3d& X_WX);
+
+}  // namespace rondure::plans

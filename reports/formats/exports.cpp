@@ -1,0 +1,173 @@
+#include "reports/formats/exports.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "evaluation/analysis_result.h"
+#include "record/checksums.h"
+#include "record/files.h"
+#include "record/sha256.h"
+#include "reports/data/csv_files.h"
+#include "reports/data/dmis.h"
+#include "reports/data/json.h"
+#include "reports/data/qif/check.h"
+#include "reports/data/qif/report.h"
+#include "reports/html/pdf.h"
+#include "reports/html/report.h"
+
+namespace rondure::reports {
+
+namespace {
+
+constexpr const char* kSeriesFile = "series.csv";
+constexpr const char* kCalibrationFile = "fixture-calibration.json";
+
+/// The calibration of the fixture. Where it failed: a text that no run takes for one.
+std::string calibration_of(const evaluation::Evaluation& evaluation) {
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    if (!feature.analysis) continue;
+    const auto* const found = std::get_if<evaluation::RotaryResult>(&feature.analysis->found);
+    if (found != nullptr) return fixture::calibration_text(found->calibration);
+  }
+  return "{\"format\": \"none\", \"note\": \"the fixture was not calibrated, see report.json\"}\n";
+}
+
+constexpr const char* kResultsFile = "results.csv";
+
+/// "html, json and csv".
+std::string enumerated(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
+  }
+  return text;
+}
+
+/// Before it is written: a QIF file whose references dangle would be refused somewhere else, weeks
+/// later.
+core::Result<void> look_through(const Export& what, const std::string& bytes) {
+  if (what.format != "qif") return {};
+  const auto faults = check_qif(bytes);
+  if (faults.empty()) return {};
+  return core::fail(core::Code::kInternal,
+                    fmt::format("{} would not be sound: {}", what.file, faults.front()), what.file);
+}
+
+/// Writes one export whole, when it is sound; gives its digest.
+core::Result<record::Checksum> write_one(const Export& what, const std::filesystem::path& path,
+                                         const record::Header& header, std::string bytes,
+                                         Paper paper) {
+  if (what.format == "pdf") {
+    auto printed = print_pdf(header, bytes, paper);
+    if (!printed) return core::fail(printed.error());
+    bytes = std::move(*printed);
+  }
+  if (auto sound = look_through(what, bytes); !sound) return core::fail(sound.error());
+  if (auto done = record::write_file(path, bytes); !done) return core::fail(done.error());
+  return record::Checksum{what.file, record::sha256_hex(bytes)};
+}
+
+}  // namespace
+
+const std::vector<Export>& exports() {
+  static const std::vector<Export> all = {
+      {"html", "report.html"}, {"json", "report.json"},    {"csv", "touches.csv"},
+      {"csv", kSeriesFile},    {"csv", kResultsFile},      {"qif", "report.qif"},
+      {"dmis", "report.dmo"},  {"json", kCalibrationFile}, {"pdf", "report.pdf"}};
+  return all;
+}
+
+std::vector<std::string> all_formats() {
+  std::vector<std::string> out;
+  for (const Export& e : exports()) {
+    if (std::find(out.begin(), out.end(), e.format) == out.end()) out.push_back(e.format);
+  }
+  return out;
+}
+
+bool applies(const Export& what, const record::RunRecord& record) {
+  if (what.file == kSeriesFile) {
+    return std::any_of(record.series.begin(), record.series.end(), [](const auto& series) {
+      return series.role == record::Series::Role::kData;
+    });
+  }
+  if (what.file != kCalibrationFile) return true;
+  return record.ending == "finished" &&
+         std::any_of(record.features.begin(), record.features.end(), [](const auto& feature) {
+           return feature.shape == record::Shape::kRotaryAxes;
+         });
+}
+
+std::string render(const Export& what, const record::RunRecord& record,
+                   const evaluation::Evaluation& evaluation, Language language,
+                   const EarlierResults& earlier) {
+  if (what.file == kCalibrationFile) return calibration_of(evaluation);
+  if (what.format == "html" || what.format == "pdf") {
+    return write_html(record, evaluation, language, earlier);
+  }
+  if (what.format == "json") return write_json(record, evaluation);
+  if (what.format == "qif") return write_qif(record, evaluation);
+  if (what.format == "dmis") return write_dmis(record, evaluation);
+  if (what.file == kSeriesFile) return write_series_csv(record);
+  if (what.file == kResultsFile) return write_results_csv(record, evaluation);
+  return write_touches_csv(record);
+}
+
+Language language_of(const Export& what, std::string_view bytes) {
+  if (what.format == "pdf") return language_of_pdf(bytes);
+  return what.format == "html" ? language_of_page(bytes) : Language::kEnglish;
+}
+
+bool exports_are_current(const std::filesystem::path& directory,
+                         const std::vector<std::string>& formats, const record::RunRecord& record,
+                         const evaluation::Evaluation& evaluation, Language language, Paper paper) {
+  const auto earlier = read_earlier(directory);
+  if (!earlier) return false;
+  return std::all_of(exports().begin(), exports().end(), [&](const Export& e) {
+    if (!applies(e, record)) return true;
+    if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) return true;
+    const auto bytes = record::read_file(directory / e.file);
+    const std::string made = render(e, record, evaluation, language, *earlier);
+    return bytes && (e.format == "pdf" ? is_printed_from(made, *bytes, paper) : *bytes == made);
+  });
+}
+
+core::Result<std::vector<std::filesystem::path>> write_exports(
+    const std::filesystem::path& directory, const std::vector<std::string>& formats,
+    const record::RunRecord& record, const evaluation::Evaluation& evaluation, Language language,
+    Paper paper) {
+  for (const std::string& format : formats) {
+    const auto known = all_formats();
+    if (std::find(known.begin(), known.end(), format) == known.end()) {
+      return core::fail(
+          core::Code::kBadOption,
+          fmt::format("format '{}' is unknown; {} can be written", format, enumerated(known)));
+    }
+  }
+  const auto earlier = read_earlier(directory);
+  if (!earlier) return core::fail(earlier.error());
+  std::vector<std::filesystem::path> written;
+  std::vector<record::Checksum> sums;
+  core::Result<void> done;
+  for (const Export& e : exports()) {
+    if (!applies(e, record)) continue;
+    if (std::find(formats.begin(), formats.end(), e.format) == formats.end()) continue;
+    auto sum = write_one(e, directory / e.file, record.header,
+                         render(e, record, evaluation, language, *earlier), paper);
+    if (!sum) {
+      done = core::fail(sum.error());
+      break;
+    }
+    written.push_back(directory / e.file);
+    sums.push_back(std::move(*sum));
+  }
+  // Also of those written before one failed: a list with an old digest would call them changed.
+  const auto listed = record::update_checksums(directory, sums);
+  if (!done) return core::fail(done.error());
+  if (!listed) return core::fail(listed.error());
+  return written;
+}
+
+}  // namespace rondure::reports
