@@ -10,7 +10,6 @@
 #include "app/run/archive_step.h"
 #include "app/run/resumption.h"
 #include "app/text/shell_word.h"
-#include "app/text/sketch_style.h"
 #include "app/text/terminal.h"
 #include "evaluation/defect.h"
 #include "evaluation/evaluation.h"

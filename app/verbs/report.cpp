@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "app/processor.h"
-#include "app/text/sketch_style.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "evaluation/defect.h"
