@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
-#include "cmm/internal/place_text.h"
 #include "cmm/ipp_client/touch_check.h"
 #include "cmm/scan_path.h"
 #include "core/numbers.h"
