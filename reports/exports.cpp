@@ -9,13 +9,13 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
-#include "reports/data/csv_files.h"
+#include "reports/data/csv.h"
 #include "reports/data/dmis.h"
 #include "reports/data/json.h"
 #include "reports/data/qif/check.h"
 #include "reports/data/qif/report.h"
-#include "reports/html/report.h"
 #include "reports/html/pdf.h"
+#include "reports/html/report.h"
 
 namespace rondure::reports {
 
