@@ -190,4 +190,20 @@ int finish_sealed(const RunToFinish& ending, record::HeldJournal held) {
   return conclude_evaluated(ending, *evaluated, nullptr);
 }
 
+std::optional<record::RunRecord> read_sound_record(const std::string& directory) {
+  auto read = record::read_journal(directory);
+  if (!read) {
+    print_error(read.error());
+    return std::nullopt;
+  }
+  const std::vector<std::string> faults = record::faults_of(*read);
+  for (const std::string& fault : faults) tell(fmt::format("rondure: {}: {}\n", directory, fault));
+  if (!faults.empty()) return std::nullopt;
+  if (const auto checked = plans::check_record(read->record); !checked) {
+    print_error(checked.error().at(directory));
+    return std::nullopt;
+  }
+  return std::move(read->record);
+}
+
 }  // namespace rondure::app

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "app/verbs/verbs.h"
 #include "plans/plan.h"
@@ -33,5 +35,9 @@ struct RunToFinish {
 /// archived. Measures nothing.
 /// @return  Exit status of the program.
 [[nodiscard]] int finish_sealed(const RunToFinish& ending, record::HeldJournal held);
+
+/// The record of a run that can be evaluated; nothing, after a message for every fault, when its
+/// journal cannot be read or is damaged.
+[[nodiscard]] std::optional<record::RunRecord> read_sound_record(const std::string& directory);
 
 }  // namespace rondure::app
