@@ -69,7 +69,7 @@ core::Result<std::unique_ptr<web::LiveView>> open_live(const RunArguments& argum
 }
 
 /// kBadOption for --speed with a machine that is not simulated here and has its own speed.
-core::Result<void> check_speed(const RunArguments& arguments, const plans::Plan& plan) {
+core::Result<void> check_machine_speed(const RunArguments& arguments, const plans::Plan& plan) {
   if (!arguments.speed || !plan.machine || plan.machine->driver == "simulated") return {};
   return core::fail(core::Code::kBadOption,
                     fmt::format("--speed is for a machine that is simulated here, this one is "
@@ -301,7 +301,7 @@ int run(const RunArguments& arguments) {
     print_error(plan.error());
     return kBadInput;
   }
-  for (const auto& allowed : {check_hand(*plan), check_speed(arguments, *plan)}) {
+  for (const auto& allowed : {check_hand(*plan), check_machine_speed(arguments, *plan)}) {
     if (allowed) continue;
     print_error(allowed.error());
     return kBadInput;
