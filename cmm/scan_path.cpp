@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "core/units.h"
 
@@ -81,6 +80,10 @@ double scan_angle(const ScanCircleCommand& command, const Vector3d& p_W_mm) {
 
 double scan_length_mm(const ScanCircleCommand& command) {
   return radius_of(command).norm() * std::abs(command.sweep_rad);
+}
+
+std::string in_words(const Eigen::Vector3d& p_mm) {
+  return fmt::format("({:.3f}, {:.3f}, {:.3f}) mm", p_mm.x(), p_mm.y(), p_mm.z());
 }
 
 }  // namespace rondure::cmm

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <string>
+
+#include <Eigen/Core>
+
 #include "cmm/machine.h"
 #include "core/result.h"
 
@@ -22,5 +26,8 @@ namespace rondure::cmm {
 
 /// Length of the expected path of the tip centre [mm].
 [[nodiscard]] double scan_length_mm(const ScanCircleCommand& command);
+
+/// "(1.000, -2.500, 30.000) mm", for messages.
+[[nodiscard]] std::string in_words(const Eigen::Vector3d& p_mm);
 
 }  // namespace rondure::cmm

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "cmm/internal/place_text.h"
 #include "cmm/scan_path.h"
 #include "core/units.h"
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -25,10 +24,6 @@ struct MergedPoses {
   std::optional<fit::PoseJoint> solved;
   std::optional<core::Error> refusal;
 };
-
-/// The six errors of a pose as reports name them.
-inline constexpr std::array<const char*, 6> kPoseErrorNames = {
-    "shift x", "shift y", "shift along axis", "tilt x", "tilt y", "turn about axis"};
 
 /// One sentence: what the fixture adds to CYLt.
 [[nodiscard]] std::string share_in_words(const MergedPoses& merged);

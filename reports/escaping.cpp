@@ -1,5 +1,7 @@
 #include "reports/escaping.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "core/utf8.h"
@@ -21,27 +23,18 @@ std::string clean(std::string_view text) {
 }
 
 std::string escaped(std::string_view text) {
+  constexpr std::string_view kMarkup = "&<>\"'";
+  constexpr std::array<std::string_view, 5> kEntities = {"&amp;", "&lt;", "&gt;", "&quot;",
+                                                         "&#39;"};
   std::string result;
   result.reserve(text.size() + text.size() / 8);
-  while (!text.empty()) {
-    const core::Utf8Character c = core::next_character(text);
-    if (!c.valid || core::is_noncharacter(c.code) ||
-        (core::is_control(c.code) && c.code != '\n' && c.code != '\t')) {
-      result += core::kReplacement;
-    } else if (c.code == '&') {
-      result += "&amp;";
-    } else if (c.code == '<') {
-      result += "&lt;";
-    } else if (c.code == '>') {
-      result += "&gt;";
-    } else if (c.code == '"') {
-      result += "&quot;";
-    } else if (c.code == '\'') {
-      result += "&#39;";
+  for (const char c : clean(text)) {
+    const std::size_t at = kMarkup.find(c);
+    if (at == std::string_view::npos) {
+      result += c;
     } else {
-      result += text.substr(0, c.bytes);
+      result += kEntities[at];
     }
-    text.remove_prefix(c.bytes);
   }
   return result;
 }

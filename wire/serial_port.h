@@ -1,13 +1,25 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
 
 #include "wire/byte_stream.h"
-#include "wire/serial_settings.h"
 
 namespace rondure::wire {
+
+/// Settings of a serial line, over a tty or over a USB bridge.
+struct SerialSettings {
+  enum class Parity { kNone, kOdd, kEven };
+
+  int baud = 115'200;
+  int data_bits = 8;  ///< 7 or 8.
+  Parity parity = Parity::kNone;
+  int stop_bits = 1;                            ///< 1 or 2.
+  bool rts_cts = false;                         ///< Flow control by the RTS and CTS lines.
+  std::chrono::milliseconds write_limit{1000};  ///< Time for the device to take what is sent.
+};
 
 /// Opens a serial device of the system, e.g. /dev/ttyACM0 or /dev/ttyUSB0, in raw mode and for this
 /// program alone. Bytes received before the opening are discarded.

@@ -10,7 +10,6 @@
 #include "app/run/processor.h"
 #include "app/text/exit_status.h"
 #include "app/text/shell_word.h"
-#include "app/text/sketch_style.h"
 #include "app/text/terminal.h"
 #include "evaluation/defect.h"
 #include "evaluation/evaluation.h"
@@ -189,6 +188,22 @@ int finish_sealed(const RunToFinish& ending, record::HeldJournal held) {
   tell(fmt::format("rondure: the run in {} is finished and sealed; only its reports are written\n",
                    directory.string()));
   return conclude_evaluated(ending, *evaluated, nullptr);
+}
+
+std::optional<record::RunRecord> read_sound_record(const std::string& directory) {
+  auto read = record::read_journal(directory);
+  if (!read) {
+    print_error(read.error());
+    return std::nullopt;
+  }
+  const std::vector<std::string> faults = record::faults_of(*read);
+  for (const std::string& fault : faults) tell(fmt::format("rondure: {}: {}\n", directory, fault));
+  if (!faults.empty()) return std::nullopt;
+  if (const auto checked = plans::check_record(read->record); !checked) {
+    print_error(checked.error().at(directory));
+    return std::nullopt;
+  }
+  return std::move(read->record);
 }
 
 }  // namespace rondure::app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,5 +25,9 @@ namespace rondure::app {
 /// archived. Measures nothing.
 /// @return  Exit status of the program.
 [[nodiscard]] int finish_sealed(const RunToFinish& ending, record::HeldJournal held);
+
+/// The record of a run that can be evaluated; nothing, after a message for every fault, when its
+/// journal cannot be read or is damaged.
+[[nodiscard]] std::optional<record::RunRecord> read_sound_record(const std::string& directory);
 
 }  // namespace rondure::app

@@ -34,6 +34,22 @@ core::Result<void> check_finite(const Json& found) {
                                 pointer));
 }
 
+Json warnings_json(const std::vector<core::Error>& warnings) {
+  Json out = Json::array();
+  for (const core::Error& w : warnings) {
+    out.push_back({{"code", core::code_name(w.code)}, {"what", w.what}});
+  }
+  return out;
+}
+
+std::string warnings_text(const std::vector<core::Error>& warnings) {
+  std::string out;
+  for (const core::Error& w : warnings) {
+    out += fmt::format("  warning: {} [{}]\n", w.what, core::code_name(w.code));
+  }
+  return out;
+}
+
 int answer(const Json& found, bool as_json, const std::function<std::string()>& table) {
   if (const auto finite = check_finite(found); !finite) {
     print_error(finite.error());

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/text/answer.h"
 #include "core/units.h"
 
 namespace rondure::app {
@@ -120,19 +121,14 @@ nlohmann::ordered_json fit_json(const FitOutcome& outcome) {
   for (const FitOutcome::Entry& entry : outcome.references) {
     out[entry.name] = entry.found ? reference_json(*entry.found) : Json(nullptr);
   }
-  out["warnings"] = Json::array();
-  for (const core::Error& w : outcome.warnings) {
-    out["warnings"].push_back({{"code", core::code_name(w.code)}, {"what", w.what}});
-  }
+  out["warnings"] = warnings_json(outcome.warnings);
   return out;
 }
 
 std::string fit_table(const FitOutcome& outcome) {
   std::string out = fmt::format("{}, {} points\n", outcome.shape, outcome.points);
   for (const FitOutcome::Entry& entry : outcome.references) out += reference_lines(entry);
-  for (const core::Error& w : outcome.warnings)
-    out += fmt::format("  warning: {} [{}]\n", w.what, core::code_name(w.code));
-  return out;
+  return out + warnings_text(outcome.warnings);
 }
 
 }  // namespace rondure::app

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/text/answer.h"
 #include "core/units.h"
 
 namespace rondure::app {
@@ -143,9 +144,7 @@ Json axis_json(const RotaryFacts& facts) {
   out["place_mm"] = list(facts.place_mm);
   out["curve"] = name_of(study.table.curve);
   out["curve_points"] = facts.model ? curve_json(facts) : Json::array();
-  out["warnings"] = Json::array();
-  for (const core::Error& w : study.warnings)
-    out["warnings"].push_back({{"code", core::code_name(w.code)}, {"what", w.what}});
+  out["warnings"] = warnings_json(study.warnings);
   return out;
 }
 

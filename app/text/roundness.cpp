@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/text/answer.h"
 #include "app/text/fit.h"
 #include "core/units.h"
 
@@ -169,10 +170,7 @@ nlohmann::ordered_json roundness_json(const fit::RoundnessEvaluation& evaluation
     out[std::string(fit::name_of(reference))] = nullptr;
   }
   out["harmonics"] = harmonics_json(evaluation.harmonics);
-  out["warnings"] = Json::array();
-  for (const core::Error& w : evaluation.warnings) {
-    out["warnings"].push_back({{"code", core::code_name(w.code)}, {"what", w.what}});
-  }
+  out["warnings"] = warnings_json(evaluation.warnings);
   return out;
 }
 
@@ -181,11 +179,7 @@ std::string roundness_table(const fit::RoundnessEvaluation& evaluation, bool pol
       fmt::format("roundness, {} points\n", evaluation.points) + filter_line(evaluation);
   for (const fit::Roundness& value : evaluation.values)
     out += value_lines(evaluation, value, polar);
-  out += harmonic_lines(evaluation.harmonics);
-  for (const core::Error& w : evaluation.warnings) {
-    out += fmt::format("  warning: {} [{}]\n", w.what, core::code_name(w.code));
-  }
-  return out;
+  return out + harmonic_lines(evaluation.harmonics) + warnings_text(evaluation.warnings);
 }
 
 }  // namespace rondure::app

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/text/answer.h"
 #include "core/units.h"
 #include "reports/data/spindle.h"
 
@@ -88,13 +89,8 @@ std::string layout_line(const std::string& name, const fit::ProbeLayout& layout,
 
 nlohmann::ordered_json spindle_json(const evaluation::SpindleResult& facts) {
   Json out = reports::separation_json(facts);
-  out["warnings"] = Json::array();
-  const auto add = [&](const std::vector<core::Error>& warnings) {
-    for (const core::Error& w : warnings)
-      out["warnings"].push_back({{"code", core::code_name(w.code)}, {"what", w.what}});
-  };
-  add(facts.separation.warnings);
-  add(facts.roundness.warnings);
+  out["warnings"] = warnings_json(facts.separation.warnings);
+  for (Json& w : warnings_json(facts.roundness.warnings)) out["warnings"].push_back(std::move(w));
   return out;
 }
 

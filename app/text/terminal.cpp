@@ -9,7 +9,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -76,6 +78,20 @@ std::string without_controls(std::string_view text) {
 }
 
 void write_to_terminal(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
+/// The locale's name of its character set, as POSIX looks for it.
+std::string locale_name() {
+  for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* value = std::getenv(variable);
+    if (value != nullptr && *value != '\0') return value;
+  }
+  return "C";
+}
+
+bool is_utf8(std::string name) {
+  for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return name.find("UTF-8") != std::string::npos || name.find("UTF8") != std::string::npos;
+}
 
 }  // namespace
 
@@ -153,5 +169,10 @@ void listen_for_stop() {
 bool stop_requested() { return g_stop != 0; }
 
 void request_stop() { g_stop = 1; }
+
+reports::SketchStyle sketch_style() {
+  if (isatty(STDOUT_FILENO) != 1) return reports::SketchStyle::kNone;
+  return is_utf8(locale_name()) ? reports::SketchStyle::kBraille : reports::SketchStyle::kAscii;
+}
 
 }  // namespace rondure::app

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "plans/run/runner.h"
+#include "reports/terminal/polar_sketch.h"
 
 namespace rondure::app {
 
@@ -56,5 +57,9 @@ void listen_for_stop();
 [[nodiscard]] bool stop_requested();
 /// Requests the same stop from within the program, in any thread.
 void request_stop();
+
+/// The style of drawings on standard output: braille on a terminal whose locale is UTF-8 (the first
+/// of LC_ALL, LC_CTYPE, LANG that is set), letters on another terminal, none in a file or a pipe.
+[[nodiscard]] reports::SketchStyle sketch_style();
 
 }  // namespace rondure::app

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/text/answer.h"
 #include "core/units.h"
 
 namespace rondure::app {
@@ -117,10 +118,6 @@ std::string forecast_lines(const fit::WheelForecast& f) {
   return out;
 }
 
-std::string warning_line(const core::Error& w) {
-  return fmt::format("  warning: {} [{}]\n", w.what, core::code_name(w.code));
-}
-
 }  // namespace
 
 std::string wheel_table(const fit::WheelEvaluation& evaluation, const fit::WheelTask& task) {
@@ -132,10 +129,8 @@ std::string wheel_table(const fit::WheelEvaluation& evaluation, const fit::Wheel
   }
   if (evaluation.path) out += path_lines(evaluation) + overcut_line(evaluation);
   if (evaluation.forecast) out += forecast_lines(*evaluation.forecast);
-  for (const core::Error& w : m.warnings) out += warning_line(w);
-  if (evaluation.path) {
-    for (const core::Error& w : evaluation.path->warnings) out += warning_line(w);
-  }
+  out += warnings_text(m.warnings);
+  if (evaluation.path) out += warnings_text(evaluation.path->warnings);
   return out;
 }
 

@@ -9,7 +9,6 @@
 #include "app/text/contour.h"
 #include "app/text/terminal.h"
 #include "app/verbs/contour_files.h"
-#include "app/verbs/contour_mapping.h"
 #include "app/verbs/verbs.h"
 #include "core/units.h"
 #include "fit/contour/study.h"

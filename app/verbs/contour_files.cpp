@@ -1,6 +1,8 @@
 #include "app/verbs/contour_files.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <filesystem>
 #include <initializer_list>
@@ -9,7 +11,9 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/units.h"
+#include "plans/schema/json_text.h"
 #include "record/csv/series.h"
 #include "record/files.h"
 
@@ -110,6 +114,119 @@ core::Result<fit::GaugeRows> read_gauge(const std::string& file, bool main,
   return fit::GaugeRows{*std::move((*columns)[0]), *std::move((*columns)[1])};
 }
 
+/// A unit by its name: how many rad or mm one is.
+struct Unit {
+  std::string_view name;
+  bool angle;
+  double size;
+};
+constexpr std::array kUnits = {Unit{"deg", true, core::kDegree},
+                               Unit{"mdeg", true, 1e-3 * core::kDegree},
+                               Unit{"arcsec", true, core::kDegree / 3600},
+                               Unit{"rad", true, 1.0},
+                               Unit{"mrad", true, 1e-3},
+                               Unit{"mm", false, 1.0},
+                               Unit{"um", false, core::kMicrometre},
+                               Unit{"nm", false, 1e-6}};
+
+constexpr std::array kQuantities = {
+    ContourQuantity{"c", "c_deg"},
+    ContourQuantity{"c_error", "c_error_deg"},
+    ContourQuantity{"x_error", "x_error_mm"},
+    ContourQuantity{"alpha_cmd", "alpha_cmd_deg"},
+    ContourQuantity{"alpha_act", "alpha_act_deg"},
+    ContourQuantity{"d_cmd", "d_cmd_mm"},
+    ContourQuantity{"d_act", "d_act_mm"},
+    ContourQuantity{"angle", "angle_deg"},
+    ContourQuantity{"deviation", "deviation_um"},
+    ContourQuantity{"main_angle", "angle_deg"},
+    ContourQuantity{"main_deviation", "deviation_um"},
+};
+
+const Unit* unit_named(std::string_view name) {
+  const auto found = std::find_if(kUnits.begin(), kUnits.end(),
+                                  [&](const Unit& unit) { return unit.name == name; });
+  return found == kUnits.end() ? nullptr : &*found;
+}
+
+const ContourQuantity* quantity_named(std::string_view name) {
+  const auto found = std::find_if(kQuantities.begin(), kQuantities.end(),
+                                  [&](const ContourQuantity& q) { return q.name == name; });
+  return found == kQuantities.end() ? nullptr : &*found;
+}
+
+/// The unit that a quantity has without a mapping: the end of its column's name.
+const Unit& unit_of(const ContourQuantity& quantity) {
+  const Unit* const found = unit_named(quantity.column.substr(quantity.column.rfind('_') + 1));
+  assert(found != nullptr);
+  return *found;
+}
+
+template <class List>
+std::string names_of(const List& list) {
+  std::string out;
+  for (const auto& one : list) out += fmt::format("{}{}", out.empty() ? "" : ", ", one.name);
+  return out;
+}
+
+/// Checks that quantity, unit and sign exist and fit each other.
+core::Result<void> check(const ContourColumn& column) {
+  const ContourQuantity* const quantity = quantity_named(column.quantity);
+  if (quantity == nullptr) {
+    return core::fail(Code::kBadOption, fmt::format("there is no quantity \"{}\"; they are {}",
+                                                    column.quantity, names_of(kQuantities)));
+  }
+  if (column.column.empty()) {
+    return core::fail(Code::kBadOption,
+                      fmt::format("the column of {} has no name", column.quantity));
+  }
+  if (column.sign != 1.0 && column.sign != -1.0) {
+    return core::fail(Code::kBadOption, fmt::format("the sign of {} is {}; it is 1 or -1",
+                                                    column.quantity, column.sign));
+  }
+  if (column.unit.empty()) return {};
+  const Unit* const unit = unit_named(column.unit);
+  if (unit != nullptr && unit->angle == unit_of(*quantity).angle) return {};
+  return core::fail(
+      Code::kBadOption,
+      fmt::format("{} has the unit \"{}\"; it is {} (of {})", column.quantity, column.unit,
+                  unit == nullptr ? "none that is known"
+                                  : (unit->angle ? "one of angles" : "one of lengths"),
+                  names_of(kUnits)));
+}
+
+core::Result<ContourColumn> column_of(const plans::JsonMember& member, const std::string& file) {
+  const std::string place =
+      fmt::format("{}#{}", file, plans::member_pointer("/columns", member.key));
+  ContourColumn out;
+  out.quantity = member.key;
+  if (member.value.kind != plans::JsonValue::Kind::kObject) {
+    return core::fail(Code::kWrongType,
+                      fmt::format("found {}; an object with column, unit and sign is expected",
+                                  plans::found(member.value)),
+                      place);
+  }
+  for (const plans::JsonMember& entry : member.value.members) {
+    using Kind = plans::JsonValue::Kind;
+    const bool text = entry.key == "column" || entry.key == "unit";
+    if (!text && entry.key != "sign") {
+      return core::fail(Code::kUnknownKey, "the keys are column, unit and sign",
+                        place + "/" + entry.key);
+    }
+    if (entry.value.kind != (text ? Kind::kText : Kind::kNumber)) {
+      return core::fail(Code::kWrongType,
+                        fmt::format("found {}; {} is expected", plans::found(entry.value),
+                                    text ? "a text" : "1 or -1"),
+                        place + "/" + entry.key);
+    }
+    if (entry.key == "column") out.column = entry.value.text;
+    if (entry.key == "unit") out.unit = entry.value.text;
+    if (entry.key == "sign") out.sign = entry.value.number;
+  }
+  if (auto checked = check(out); !checked) return core::fail(checked.error().at(place));
+  return out;
+}
+
 }  // namespace
 
 core::Result<ContourImport> read_contour_part(const ContourFiles& files,
@@ -123,6 +240,71 @@ core::Result<ContourImport> read_contour_part(const ContourFiles& files,
   auto main = read_gauge(files.main, true, mapping);
   if (!main) return core::fail(main.error());
   out.part.main = *std::move(main);
+  return out;
+}
+
+ContourReading reading_of(const ContourQuantity& quantity,
+                          const std::vector<ContourColumn>& mapping) {
+  ContourReading out{std::string(quantity.column), unit_of(quantity).size};
+  for (const ContourColumn& column : mapping) {
+    if (column.quantity != quantity.name) continue;
+    out.column = column.column;
+    out.factor =
+        column.sign * (column.unit.empty() ? unit_of(quantity) : *unit_named(column.unit)).size;
+  }
+  return out;
+}
+
+const ContourQuantity& contour_quantity(std::string_view name) {
+  const ContourQuantity* const found = quantity_named(name);
+  assert(found != nullptr);
+  return *found;
+}
+
+core::Result<ContourColumn> parse_contour_column(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) {
+    return core::fail(Code::kBadOption,
+                      fmt::format("--column {}: quantity=column[:unit[:sign]] is expected, e.g. "
+                                  "x_error=X_FOLLOW:um:-1",
+                                  text));
+  }
+  ContourColumn out;
+  out.quantity = text.substr(0, equals);
+  std::string_view rest = text.substr(equals + 1);
+  const auto next = [&] {
+    const std::size_t colon = std::min(rest.find(':'), rest.size());
+    const std::string_view field = rest.substr(0, colon);
+    rest.remove_prefix(std::min(colon + 1, rest.size()));
+    return std::string(field);
+  };
+  out.column = next();
+  out.unit = next();
+  if (!rest.empty()) out.sign = core::parse_number(next()).value_or(0.0);
+  if (auto checked = check(out); !checked) {
+    return core::fail(checked.error().at(fmt::format("--column {}", text)));
+  }
+  return out;
+}
+
+core::Result<std::vector<ContourColumn>> read_contour_mapping(const std::string& file) {
+  const auto bytes = record::read_file(file);
+  if (!bytes) return core::fail(bytes.error());
+  const std::string name = std::filesystem::path(file).filename().string();
+  const auto json = plans::parse_json(*bytes, name);
+  if (!json) return core::fail(json.error());
+  const plans::JsonValue* const columns = json->find("columns");
+  if (columns == nullptr || columns->kind != plans::JsonValue::Kind::kObject ||
+      json->members.size() != 1) {
+    return core::fail(Code::kMissingKey,
+                      "one key \"columns\" is expected, an object with an entry a quantity", name);
+  }
+  std::vector<ContourColumn> out;
+  for (const plans::JsonMember& member : columns->members) {
+    auto column = column_of(member, name);
+    if (!column) return core::fail(column.error());
+    out.push_back(*std::move(column));
+  }
   return out;
 }
 

@@ -4,17 +4,15 @@
 
 #include <fmt/format.h>
 
+#include "app/run/ending.h"
 #include "app/run/processor.h"
-#include "app/text/sketch_style.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "evaluation/defect.h"
 #include "evaluation/evaluation.h"
-#include "plans/checks/record.h"
 #include "plans/plan.h"
 #include "record/checksums.h"
 #include "record/files.h"
-#include "record/journal/journal.h"
 #include "record/signature.h"
 #include "reports/formats/exports.h"
 #include "reports/terminal/summary.h"
@@ -43,21 +41,9 @@ std::vector<std::string> formats_of(const ReportArguments& arguments) {
 }  // namespace
 
 int report(const ReportArguments& arguments) {
-  const auto read = record::read_journal(arguments.directory);
-  if (!read) {
-    print_error(read.error());
-    return kBadInput;
-  }
-  const std::vector<std::string> faults = record::faults_of(*read);
-  for (const std::string& fault : faults) {
-    tell(fmt::format("rondure: {}: {}\n", arguments.directory, fault));
-  }
-  if (!faults.empty()) return kBadInput;
-  if (const auto checked = plans::check_record(read->record); !checked) {
-    print_error(checked.error().at(arguments.directory));
-    return kBadInput;
-  }
-  const auto evaluation = evaluation::evaluate_run(read->record, arguments.directory, processor());
+  const auto record = read_sound_record(arguments.directory);
+  if (!record) return kBadInput;
+  const auto evaluation = evaluation::evaluate_run(*record, arguments.directory, processor());
   if (!evaluation) {
     print_error(evaluation.error());
     return kBadInput;
@@ -65,11 +51,10 @@ int report(const ReportArguments& arguments) {
   const std::string signed_sums = signed_checksums(arguments.directory);
   const auto language =
       reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
-  const auto paper = reports::paper_named(arguments.paper.empty()
-                                              ? plans::recorded_paper(read->record.header.plan_text)
-                                              : arguments.paper);
+  const auto paper = reports::paper_named(
+      arguments.paper.empty() ? plans::recorded_paper(record->header.plan_text) : arguments.paper);
   const auto written =
-      reports::write_exports(arguments.directory, formats_of(arguments), read->record, *evaluation,
+      reports::write_exports(arguments.directory, formats_of(arguments), *record, *evaluation,
                              language, paper.value_or(reports::Paper::kA4));
   if (!written) {
     print_error(written.error());
@@ -78,7 +63,7 @@ int report(const ReportArguments& arguments) {
   if (signed_sums != signed_checksums(arguments.directory)) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }
-  say(reports::write_summary(read->record, *evaluation, sketch_style(), language));
+  say(reports::write_summary(*record, *evaluation, sketch_style(), language));
   for (const auto& file : *written) say_line(file.string());
   const bool well = evaluation->verdict == evaluation::Verdict::kConforms ||
                     evaluation->verdict == evaluation::Verdict::kNotToleranced;

@@ -1,30 +1,119 @@
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "app/run/archive_step.h"
 #include "app/run/ending.h"
-#include "app/run/live_run.h"
-#include "app/run/pace.h"
 #include "app/run/processor.h"
 #include "app/run/resumption.h"
 #include "app/run/step_prompt.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
+#include "core/numbers.h"
+#include "core/result.h"
+#include "plans/forecast/forecast.h"
 #include "plans/plan.h"
 #include "plans/run/runner.h"
 #include "plans/schema/json_text.h"
 #include "plans/schema/utf8.h"
 #include "record/journal/journal.h"
 #include "reports/html/pdf.h"
+#include "reports/words/language.h"
+#include "web/view.h"
 
 namespace rondure::app {
 namespace {
+
+/// The predicted times of a plan, stage by stage; empty when it has no forecast.
+std::vector<web::PredictedStage> predicted_stages(const plans::Plan& plan) {
+  std::vector<web::PredictedStage> out;
+  const auto forecast = plans::forecast(plan);
+  if (!forecast) return out;  // the run says why
+  for (const plans::ForecastStage& stage : forecast->stages) {
+    out.push_back({stage.touches * stage.times, stage.time_s});
+  }
+  return out;
+}
+
+/// Opens the live page of a run (--watch), prints its address, and connects it to the run through
+/// `options`. The stop button acts as Ctrl-C.
+/// @return  Null when no page is requested; kFile when its port is not available.
+core::Result<std::unique_ptr<web::LiveView>> open_live(const RunArguments& arguments,
+                                                       const plans::Plan& plan,
+                                                       plans::RunOptions& options) {
+  if (arguments.watch.empty()) return std::unique_ptr<web::LiveView>();
+  web::LiveOptions live;
+  if (arguments.watch != "auto")
+    live.port = static_cast<std::uint16_t>(core::parse_number(arguments.watch).value_or(0.0));
+  live.control = arguments.control;
+  live.stages = predicted_stages(plan);
+  live.stop = request_stop;
+  live.language = reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
+  auto record = std::make_shared<record::GrowingRecord>();
+  auto view = web::LiveView::start(std::move(live), record);
+  if (!view) return core::fail(view.error());
+  options.followed_by = std::move(record);
+  tell(fmt::format("rondure: live page at {} ({})\n", (*view)->url(),
+                   arguments.control ? "with a stop button; keep the address to yourself"
+                                     : "read-only; --control adds a stop button"));
+  return std::move(*view);
+}
+
+/// kBadOption for --speed with a machine that is not simulated here and has its own speed.
+core::Result<void> check_machine_speed(const RunArguments& arguments, const plans::Plan& plan) {
+  if (!arguments.speed || !plan.machine || plan.machine->driver == "simulated") return {};
+  return core::fail(core::Code::kBadOption,
+                    fmt::format("--speed is for a machine that is simulated here, this one is "
+                                "\"{}\" and has its own",
+                                plan.machine->driver),
+                    "/machine/driver");
+}
+
+/// Slows a simulated run down for observers. The record is not affected.
+class Pace {
+ public:
+  /// @param speed           Simulated seconds per second of real time; > 0.
+  /// @param stop_requested  Ends the waiting.
+  Pace(double speed, std::function<bool()> stop_requested);
+
+  /// Waits until the wall clock has reached the machine's. The first call sets the start of both.
+  void keep(double machine_time_s);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double speed_;
+  std::function<bool()> stop_requested_;
+  bool begun_ = false;
+  double first_s_ = 0.0;
+  Clock::time_point start_;
+};
+
+Pace::Pace(double speed, std::function<bool()> stop_requested)
+    : speed_(speed), stop_requested_(std::move(stop_requested)), start_(Clock::now()) {}
+
+void Pace::keep(double machine_time_s) {
+  constexpr auto kLook = std::chrono::milliseconds(20);  // how soon a stop is seen
+  if (!begun_) {
+    begun_ = true;
+    first_s_ = machine_time_s;
+    start_ = Clock::now();
+  }
+  const std::chrono::duration<double> due((machine_time_s - first_s_) / speed_);
+  while (!stop_requested_()) {
+    const std::chrono::duration<double> left = due - (Clock::now() - start_);
+    if (left.count() <= 0.0) return;
+    std::this_thread::sleep_for(std::min<std::chrono::duration<double>>(left, kLook));
+  }
+}
 
 namespace fs = std::filesystem;
 
@@ -212,7 +301,7 @@ int run(const RunArguments& arguments) {
     print_error(plan.error());
     return kBadInput;
   }
-  for (const auto& allowed : {check_hand(*plan), check_speed(arguments, *plan)}) {
+  for (const auto& allowed : {check_hand(*plan), check_machine_speed(arguments, *plan)}) {
     if (allowed) continue;
     print_error(allowed.error());
     return kBadInput;

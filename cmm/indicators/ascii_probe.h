@@ -9,7 +9,7 @@
 #include "cmm/indicators/displacement_probe.h"
 #include "wire/byte_stream.h"
 #include "wire/clock.h"
-#include "wire/serial_settings.h"
+#include "wire/serial_port.h"
 
 namespace rondure::cmm {
 

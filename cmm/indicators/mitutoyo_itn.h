@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 
 #include "cmm/indicators/displacement_probe.h"
+#include "core/result.h"
 #include "wire/clock.h"
 #include "wire/usb.h"
 
@@ -26,5 +28,10 @@ struct MitutoyoItnOptions {
 [[nodiscard]] core::Result<std::unique_ptr<DisplacementProbe>> open_mitutoyo_itn(
     std::unique_ptr<wire::UsbDevice> device, const MitutoyoItnOptions& options = {},
     wire::Clock* clock = nullptr);
+
+/// Parses the message of a Digimatic gauge at a Mitutoyo interface, without its CR: "01A+0000.123"
+/// gives 0.123, in the unit that the gauge shows. kMachine for a status message ("911": no gauge,
+/// or no data) and for anything else that is not a reading.
+[[nodiscard]] core::Result<double> digimatic_reading(std::string_view message);
 
 }  // namespace rondure::cmm

@@ -17,4 +17,9 @@ struct CsyTransformation {
 /// of the command in 1.4.3 has x_csy = R x_machine + x0, and servers follow either.
 [[nodiscard]] Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation);
 
+/// The point meant by the coordinates in PtMeas and the start in ScanOnCircle. The specification
+/// means the surface (6.3.2.13: the approach includes the tool radius); some servers take the
+/// centre of the tip. The reported point is the centre of the tip in both cases.
+enum class NamedPoint { kSurface, kCenter };
+
 }  // namespace rondure::cmm::ipp

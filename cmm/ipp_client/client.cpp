@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
-#include "cmm/internal/place_text.h"
 #include "cmm/ipp_client/internal/failure.h"
 #include "cmm/scan_path.h"
 #include "cmm/touch_check.h"

@@ -243,7 +243,7 @@ core::Result<void> Dialogue::choose_reports(Identity& identity) {
     if (!taken) return core::fail(taken.error());
     chosen = taken->has_value();
     if (!chosen) continue;
-    identity.tells_time = identity.tells_temperature = length > 4;
+    identity.tells_time = length > 4;
     break;
   }
   if (!chosen) return core::machine_fault("the machine cannot report X, Y and Z of a probed point");

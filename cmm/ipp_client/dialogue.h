@@ -28,8 +28,7 @@ struct Identity {
   bool scans = false;              ///< It takes a scan report.
   std::string no_scans;            ///< Why not.
   bool has_temperatures = false;   ///< It may report those of part and scales.
-  bool tells_temperature = false;  ///< Points are reported with the temperature of the part,
-  bool tells_time = false;         ///< and with the time of the machine's clock [s].
+  bool tells_time = false;         ///< Points are reported with temperature and machine time.
   bool simulated = false;          ///< It is rondure simulate-cmm.
 };
 

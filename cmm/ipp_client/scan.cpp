@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "cmm/grid.h"
-#include "cmm/internal/place_text.h"
+
 #include "cmm/scan_path.h"
 #include "cmm/touch_check.h"
 #include "core/numbers.h"

@@ -12,7 +12,6 @@
 
 #include "cmm/ipp/frames.h"
 #include "cmm/ipp/grammar.h"
-#include "cmm/ipp/named_point.h"
 #include "cmm/ipp_server/backend.h"
 #include "cmm/ipp_server/outcome.h"
 #include "cmm/ipp_server/parameters.h"

@@ -36,7 +36,6 @@ struct ZoneFit {
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
 };
 using CircleZone = ZoneFit<Eigen::Vector2d>;
-using SphereZone = ZoneFit<Eigen::Vector3d>;
 using CylinderZone = ZoneFit<Axis>;
 
 /// Centre and radius at which the search for a centre starts.

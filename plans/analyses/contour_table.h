@@ -42,9 +42,6 @@ void describe_crank(Visitor& v, ContourPlan& p) {
 
 template <class Visitor>
 void describe_senses(Visitor& v, ContourPlan& p) {
-  const auto angle = [](std::string_view meaning) {
-    return NumberSpec{.at_least = -360.0, .at_most = 360.0, .meaning = meaning};
-  };
   v.text("error", p.error,
          {.one_of = {"actual-minus-command", "command-minus-actual"},
           .meaning = "Sign of the axis errors; most controls record command minus actual as "
@@ -56,88 +53,74 @@ void describe_senses(Visitor& v, ContourPlan& p) {
   v.text("gauge", p.gauge,
          {.one_of = {"counter-clockwise", "clockwise"},
           .meaning = "Sense of the gauge's angles, seen as C."});
-  v.number("phase_offset_deg", p.phase_offset_deg,
-           angle("Gauge angle of the direction from the crankshaft's axis to the pin's: pins."));
-  v.number("main_phase_offset_deg", p.main_phase_offset_deg, angle("The same: main journals."));
+  v.number(
+      "phase_offset_deg", p.phase_offset_deg,
+      within(360.0, "Gauge angle of the direction from the crankshaft's axis to the pin's: pins."));
+  v.number("main_phase_offset_deg", p.main_phase_offset_deg,
+           within(360.0, "The same: main journals."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, ContourPlan& p) {
-  const auto count = [](std::string_view meaning) {
-    return NumberSpec{.at_least = 16, .at_most = 100'000, .meaning = meaning};
-  };
-  const auto share = [](std::string_view meaning) {
-    return NumberSpec{.at_least = 0.0, .at_most = 1.0, .meaning = meaning};
-  };
   describe_crank(v, p);
   v.text("method", p.method,
          {.one_of = {"corrected", "as-published"},
           .meaning = "as-published: each following part is turned onto its total by correlation; "
                      "for comparison only."});
   describe_senses(v, p);
-  v.whole("samples", p.samples, count("Points of a contour."));
-  v.whole("path_samples", p.path_samples, count("C positions the traces are brought to."));
+  v.whole("samples", p.samples, range(16, 100'000, "Points of a contour."));
+  v.whole("path_samples", p.path_samples,
+          range(16, 100'000, "C positions the traces are brought to."));
   v.text(
       "filter", p.filter,
       {.one_of = {"gaussian", "none", "done-by-gauge"},
        .meaning = "Low pass of all contours; done-by-gauge: pins and mains are filtered already, "
                   "the following part is filtered alike."});
-  v.number("cutoff_upr", p.cutoff_upr,
-           {.at_least = 1.0, .at_most = 10'000.0, .meaning = "Cut-off of that filter."});
+  v.number("cutoff_upr", p.cutoff_upr, range(1.0, 10'000.0, "Cut-off of that filter."));
   v.number("pre_filter_upr", p.pre_filter_upr,
-           {.at_least = 0.0,
-            .at_most = 10'000.0,
-            .meaning = "Gaussian low pass of the axis errors first; 0: none."});
+           range(0.0, 10'000.0, "Gaussian low pass of the axis errors first; 0: none."));
   v.text("base_circle", p.base_circle,
          {.one_of = {"limacon", "geometric"}, .meaning = "How the base circle is taken away."});
   v.text("main_journal", p.main_journal,
          {.one_of = {"as-is", "mapped"},
           .meaning = "mapped: carried to the pin as n(alpha(beta)) cos(eta)."});
-  v.number("stable_from", p.stable_from, share("Stability index from which on it is stable."));
-  v.number("partly_from", p.partly_from, share("Stability index from which on it is partly."));
+  v.number("stable_from", p.stable_from,
+           range(0.0, 1.0, "Stability index from which on it is stable."));
+  v.number("partly_from", p.partly_from,
+           range(0.0, 1.0, "Stability index from which on it is partly."));
   v.list("parts", p.parts, {.meaning = "The ground parts; left out: simulated."});
 }
 
 template <class Visitor>
 void describe(Visitor& v, AngleHarmonicPlan& p) {
-  v.whole("order", p.order,
-          {.at_least = 0, .at_most = 10'000, .required = true, .meaning = "Cycles a turn."});
-  v.number("amplitude_mdeg", p.amplitude_mdeg,
-           {.at_least = 0.0, .at_most = 1000.0, .meaning = "Half of peak to valley."});
-  v.number(
-      "phase_deg", p.phase_deg,
-      {.at_least = -360.0, .at_most = 360.0, .meaning = "Phase: amplitude cos(order x - it)."});
+  v.whole("order", p.order, required(range(0, 10'000, "Cycles a turn.")));
+  v.number("amplitude_mdeg", p.amplitude_mdeg, range(0.0, 1000.0, "Half of peak to valley."));
+  v.number("phase_deg", p.phase_deg, within(360.0, "Phase: amplitude cos(order x - it)."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, SimulatedContourPlan& p) {
-  const auto noise = [](std::string_view meaning) {
-    return NumberSpec{.at_least = 0.0, .at_most = 1000.0, .meaning = meaning};
-  };
-  v.whole("parts", p.parts, {.at_least = 1, .at_most = 100, .meaning = "Parts ground."});
-  v.number("speed_rpm", p.speed_rpm,
-           {.at_least = 0.0, .at_most = 1000.0, .above = true, .meaning = "Turns of C a minute."});
+  v.whole("parts", p.parts, range(1, 100, "Parts ground."));
+  v.number("speed_rpm", p.speed_rpm, above(0.0, 1000.0, "Turns of C a minute."));
   v.number("sampling_ms", p.sampling_ms,
-           {.at_least = 0.0,
-            .at_most = 1000.0,
-            .above = true,
-            .meaning = "From sample to sample of the control."});
-  v.number("turns", p.turns, {.at_least = 1.0, .at_most = 100.0, .meaning = "Turns recorded."});
+           above(0.0, 1000.0, "From sample to sample of the control."));
+  v.number("turns", p.turns, range(1.0, 100.0, "Turns recorded."));
   v.list("c_error", p.c_error, {.meaning = "Error of C over the command angle."});
   v.list("x_error", p.x_error, {.meaning = "Error of X over the command angle."});
-  v.number("c_error_spread", p.c_error_spread,
-           {.at_least = 0.0,
-            .at_most = 1.0,
-            .meaning = "Standard deviation of the relative size of C errors from part to part."});
+  v.number(
+      "c_error_spread", p.c_error_spread,
+      range(0.0, 1.0, "Standard deviation of the relative size of C errors from part to part."));
   v.list("rest", p.rest, {.meaning = "Non-following part of every pin, over the angle beta."});
   v.number("rest_spread_um", p.rest_spread_um,
-           noise("Standard deviation of the amplitudes of orders 2 to 6 that differ from part to "
+           range(0.0, 1000.0,
+                 "Standard deviation of the amplitudes of orders 2 to 6 that differ from part to "
                  "part."));
-  v.number("c_noise_mdeg", p.c_noise_mdeg, noise("Standard deviation of one C sample."));
-  v.number("x_noise_um", p.x_noise_um, noise("Standard deviation of one X sample."));
-  v.number("roughness_um", p.roughness_um, noise("Standard deviation of one gauge value."));
-  v.whole("gauge_points", p.gauge_points,
-          {.at_least = 360, .at_most = 100'000, .meaning = "Values of one gauge contour."});
+  v.number("c_noise_mdeg", p.c_noise_mdeg,
+           range(0.0, 1000.0, "Standard deviation of one C sample."));
+  v.number("x_noise_um", p.x_noise_um, range(0.0, 1000.0, "Standard deviation of one X sample."));
+  v.number("roughness_um", p.roughness_um,
+           range(0.0, 1000.0, "Standard deviation of one gauge value."));
+  v.whole("gauge_points", p.gauge_points, range(360, 100'000, "Values of one gauge contour."));
 }
 
 }  // namespace rondure::plans

@@ -16,9 +16,7 @@ void describe(Visitor& v, BallPlan& p) {
           .empty_allowed = false,
           .meaning = "Name of the ball in the report, unique."});
   v.numbers("center_mm", p.center_mm,
-            {.at_least = -1000.0,
-             .at_most = 1000.0,
-             .meaning = "Nominal centre: x, y, z in the frame of the clamping ring."});
+            within(1000.0, "Nominal centre: x, y, z in the frame of the clamping ring."));
 }
 
 template <class Visitor>
@@ -48,16 +46,12 @@ void describe(Visitor& v, RotaryPlan& p) {
           .empty_allowed = false,
           .meaning = "At least 3, not on one line; better 4 or more, spread around the place where "
                      "parts are measured."});
-  v.number("ball_diameter_mm", p.ball_diameter_mm,
-           {.at_least = 1.0,
-            .at_most = 200.0,
-            .meaning = "Calibrated diameter of the balls; it is held while centres are fitted."});
-  v.whole("points", p.points,
-          {.at_least = 5, .at_most = 100, .meaning = "Touches of each ball in each pose."});
+  v.number(
+      "ball_diameter_mm", p.ball_diameter_mm,
+      range(1.0, 200.0, "Calibrated diameter of the balls; it is held while centres are fitted."));
+  v.whole("points", p.points, range(5, 100, "Touches of each ball in each pose."));
   v.number("uncertainty_mm", p.uncertainty_mm,
-           {.at_least = 0.0,
-            .at_most = 50.0,
-            .meaning = "How far a ball may be from its nominal place."});
+           range(0.0, 50.0, "How far a ball may be from its nominal place."));
   v.numbers("alpha_stations_deg", p.alpha_stations_deg,
             stations("Angles of the base-fixed axis that are measured, the carried one at 0. The "
                      "zero pose is measured besides. Their ends are the range in which the "
@@ -69,15 +63,11 @@ void describe(Visitor& v, RotaryPlan& p) {
           .meaning = "At least 5 poses of both axes that are measured but not used to find the "
                      "errors: what is left there is the figure of the calibration."});
   v.number("machine_uncertainty_um", p.machine_uncertainty_um,
-           {.at_least = 0.0,
-            .at_most = 1000.0,
-            .meaning = "Standard uncertainty of a ball centre from the machine, beside the scatter "
-                       "of the touches."});
+           range(0.0, 1000.0,
+                 "Standard uncertainty of a ball centre from the machine, beside the scatter "
+                 "of the touches."));
   v.number("valid_for_days", p.valid_for_days,
-           {.at_least = 0.0,
-            .at_most = 36'500.0,
-            .above = true,
-            .meaning = "How long other runs may use the calibration."});
+           above(0.0, 36'500.0, "How long other runs may use the calibration."));
 }
 
 template <class Visitor>
@@ -88,31 +78,23 @@ void describe(Visitor& v, CalibrationPlan& p) {
           .meaning = "fixture-calibration.json of a run that calibrated this fixture, relative to "
                      "the plan."});
   v.number("max_age_days", p.max_age_days,
-           {.at_least = 0.0,
-            .at_most = 36'500.0,
-            .meaning = "An older one is refused, whatever it says of itself."});
+           range(0.0, 36'500.0, "An older one is refused, whatever it says of itself."));
   v.number("max_residual_um", p.max_residual_um,
-           {.at_least = 0.0,
-            .at_most = 10'000.0,
-            .above = true,
-            .meaning = "One that left more at a combined pose is refused."});
+           above(0.0, 10'000.0, "One that left more at a combined pose is refused."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, SimulatedMotionPlan& p) {
-  const auto size = [](std::string_view meaning) {
-    return NumberSpec{.at_least = 0.0, .at_most = 10'000.0, .meaning = meaning};
-  };
   v.number("offset_um", p.offset_um,
-           size("How far each axis stands beside its stated place, in a drawn direction."));
-  v.number("tilt_urad", p.tilt_urad, size("How far each axis is tilted."));
+           range(0.0, 10'000.0,
+                 "How far each axis stands beside its stated place, in a drawn direction."));
+  v.number("tilt_urad", p.tilt_urad, range(0.0, 10'000.0, "How far each axis is tilted."));
   v.number("shift_um", p.shift_um,
-           size("Amplitude of the shifts that depend on the angle beyond that."));
-  v.number("turn_urad", p.turn_urad, size("The same of the turns."));
-  v.whole("seed", p.seed,
-          {.at_least = 0,
-           .at_most = 9007199254740991.0,
-           .meaning = "Of the draw: one seed, one fixture. --seed leaves it alone."});
+           range(0.0, 10'000.0, "Amplitude of the shifts that depend on the angle beyond that."));
+  v.number("turn_urad", p.turn_urad, range(0.0, 10'000.0, "The same of the turns."));
+  v.whole(
+      "seed", p.seed,
+      range(0, 9007199254740991.0, "Of the draw: one seed, one fixture. --seed leaves it alone."));
 }
 
 }  // namespace rondure::plans

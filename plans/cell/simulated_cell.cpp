@@ -5,7 +5,7 @@
 
 #include "core/units.h"
 #include "fixture/drawn_motion.h"
-#include "fixture/pose_range.h"
+#include "fixture/fixture.h"
 #include "plans/cell/internal/fixture_driver.h"
 #include "plans/cell/internal/hidden_errors.h"
 #include "plans/path/internal/nominal_geometry.h"

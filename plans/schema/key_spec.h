@@ -22,6 +22,27 @@ struct NumberSpec {
   std::string_view meaning;
 };
 
+/// A number in -limit..limit.
+[[nodiscard]] inline NumberSpec within(double limit, std::string_view meaning) {
+  return {.at_least = -limit, .at_most = limit, .meaning = meaning};
+}
+
+/// A number in least..most.
+[[nodiscard]] inline NumberSpec range(double least, double most, std::string_view meaning) {
+  return {.at_least = least, .at_most = most, .meaning = meaning};
+}
+
+/// A number above `least`, at most `most`.
+[[nodiscard]] inline NumberSpec above(double least, double most, std::string_view meaning) {
+  return {.at_least = least, .at_most = most, .above = true, .meaning = meaning};
+}
+
+/// The same key, which a plan must give.
+[[nodiscard]] inline NumberSpec required(NumberSpec spec) {
+  spec.required = true;
+  return spec;
+}
+
 /// A text, or each text of an array. With `one_of`, only these; otherwise at most kMaxTextBytes.
 struct TextSpec {
   std::vector<std::string_view> one_of = {};

@@ -11,16 +11,6 @@
 
 namespace rondure::plans {
 
-/// A number in -limit..limit.
-[[nodiscard]] inline NumberSpec within(double limit, std::string_view meaning) {
-  return {.at_least = -limit, .at_most = limit, .meaning = meaning};
-}
-
-/// A number in least..most.
-[[nodiscard]] inline NumberSpec range(double least, double most, std::string_view meaning) {
-  return {.at_least = least, .at_most = most, .meaning = meaning};
-}
-
 template <class Visitor>
 void describe(Visitor& v, TranslationErrorPlan& p) {
   v.text("error", p.error,
@@ -51,10 +41,8 @@ template <class Visitor>
 void describe(Visitor& v, PretravelLobePlan& p) {
   v.whole(
       "order", p.order,
-      {.at_least = 1,
-       .at_most = 50,
-       .required = true,
-       .meaning = "Lobes in a turn about the stylus; 3 for a probe that rests on three points."});
+      required(range(
+          1, 50, "Lobes in a turn about the stylus; 3 for a probe that rests on three points.")));
   v.number("amplitude_um", p.amplitude_um, range(0.0, 1000.0, "Half of peak to valley."));
   v.number("phase_deg", p.phase_deg, within(360.0, "Phase for an approach toward +x."));
 }

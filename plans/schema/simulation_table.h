@@ -16,43 +16,32 @@ inline constexpr double kMaxSeed = 9007199254740991.0;  // 2^53 - 1: exact in ev
 
 template <class Visitor>
 void describe(Visitor& v, LobePlan& p) {
-  v.whole(
-      "order", p.order,
-      {.at_least = 2, .at_most = 500, .required = true, .meaning = "Undulations per revolution."});
-  v.number("amplitude_um", p.amplitude_um,
-           {.at_least = 0.0, .at_most = 1000.0, .meaning = "Half of peak to valley."});
-  v.number("phase_deg", p.phase_deg,
-           {.at_least = -360.0, .at_most = 360.0, .meaning = "Phase at mid-length."});
+  v.whole("order", p.order, required(range(2, 500, "Undulations per revolution.")));
+  v.number("amplitude_um", p.amplitude_um, range(0.0, 1000.0, "Half of peak to valley."));
+  v.number("phase_deg", p.phase_deg, within(360.0, "Phase at mid-length."));
   v.number("twist_deg", p.twist_deg,
-           {.at_least = -3600.0,
-            .at_most = 3600.0,
-            .meaning = "Helix: change of phase from mid-length to the upper end."});
+           within(3600.0, "Helix: change of phase from mid-length to the upper end."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, SimulatedPartPlan& p) {
-  const auto form = [](std::string_view meaning) {
-    return NumberSpec{.at_least = -1000.0, .at_most = 1000.0, .meaning = meaning};
-  };
-  v.number("diameter_error_um", p.diameter_error_um, form("Real minus nominal diameter."));
+  v.number("diameter_error_um", p.diameter_error_um,
+           within(1000.0, "Real minus nominal diameter."));
   v.list("lobes", p.lobes, {.meaning = "Lobing of the sections."});
-  v.number("taper_um", p.taper_um, form("Radius at the upper end minus radius at mid-length."));
+  v.number("taper_um", p.taper_um,
+           within(1000.0, "Radius at the upper end minus radius at mid-length."));
   v.number("barrel_um", p.barrel_um,
-           form("Radius at the ends minus radius at mid-length; negative: a barrel."));
-  v.number("bend_um", p.bend_um, form("Shift of the axis at the ends against mid-length."));
-  v.number("bend_phase_deg", p.bend_phase_deg,
-           {.at_least = -360.0, .at_most = 360.0, .meaning = "Direction of the bend."});
-  v.number("tilt_deg", p.tilt_deg,
-           {.at_least = 0.0, .at_most = 45.0, .meaning = "Tilt of the part in the clamping ring."});
+           within(1000.0, "Radius at the ends minus radius at mid-length; negative: a barrel."));
+  v.number("bend_um", p.bend_um,
+           within(1000.0, "Shift of the axis at the ends against mid-length."));
+  v.number("bend_phase_deg", p.bend_phase_deg, within(360.0, "Direction of the bend."));
+  v.number("tilt_deg", p.tilt_deg, range(0.0, 45.0, "Tilt of the part in the clamping ring."));
   v.number("tilt_toward_deg", p.tilt_toward_deg,
-           {.at_least = -360.0,
-            .at_most = 360.0,
-            .meaning = "Direction toward which its upper end leans."});
-  const auto offset = [](std::string_view meaning) {
-    return NumberSpec{.at_least = -100.0, .at_most = 100.0, .meaning = meaning};
-  };
-  v.number("offset_x_mm", p.offset_x_mm, offset("Shift of the part in the clamping ring, x."));
-  v.number("offset_y_mm", p.offset_y_mm, offset("Shift of the part in the clamping ring, y."));
+           within(360.0, "Direction toward which its upper end leans."));
+  v.number("offset_x_mm", p.offset_x_mm,
+           within(100.0, "Shift of the part in the clamping ring, x."));
+  v.number("offset_y_mm", p.offset_y_mm,
+           within(100.0, "Shift of the part in the clamping ring, y."));
   v.number("expansion_per_K", p.expansion_per_K, range(0.0, 1e-4, "Real expansion of the part."));
   v.list("keyways", p.keyways, {.meaning = "Slots along the part."});
   v.list("burrs", p.burrs, {.meaning = "Raised spots."});
@@ -64,32 +53,24 @@ void describe(Visitor& v, SimulatedPartPlan& p) {
 template <class Visitor>
 void describe(Visitor& v, SimulatedProbePlan& p) {
   v.number("repeatability_um", p.repeatability_um,
-           {.at_least = 0.0, .at_most = 1000.0, .meaning = "Standard deviation of one touch."});
-  v.number(
-      "tip_radius_error_um", p.tip_radius_error_um,
-      {.at_least = -1000.0, .at_most = 1000.0, .meaning = "Effective minus nominal tip radius."});
+           range(0.0, 1000.0, "Standard deviation of one touch."));
+  v.number("tip_radius_error_um", p.tip_radius_error_um,
+           within(1000.0, "Effective minus nominal tip radius."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, SimulatedFixturePlan& p) {
   const auto angle = [](double least, std::string_view meaning) {
-    return NumberSpec{.at_least = least, .at_most = 5.0, .meaning = meaning};
-  };
-  const auto shift = [](std::string_view meaning) {
-    return NumberSpec{.at_least = -10'000.0, .at_most = 10'000.0, .meaning = meaning};
+    return range(least, 5.0, meaning);
   };
   v.numbers("axis_point_error_um", p.axis_point_error_um,
-            shift("Real minus stated axis_point_mm."));
+            within(10'000.0, "Real minus stated axis_point_mm."));
   v.numbers("axis_offset_error_um", p.axis_offset_error_um,
-            shift("Real minus stated axis_offset_mm."));
+            within(10'000.0, "Real minus stated axis_offset_mm."));
   v.numbers("base_offset_mm", p.base_offset_mm,
-            {.at_least = -50.0,
-             .at_most = 50.0,
-             .meaning = "Shift of the whole fixture on the table, with its reference spheres."});
+            within(50.0, "Shift of the whole fixture on the table, with its reference spheres."));
   v.numbers("base_rotation_deg", p.base_rotation_deg,
-            {.at_least = -10.0,
-             .at_most = 10.0,
-             .meaning = "Its turn about machine x, then y, then z, through the origin."});
+            within(10.0, "Its turn about machine x, then y, then z, through the origin."));
   v.number("zero_alpha_deg", p.zero_alpha_deg, angle(-5.0, "Real alpha when the fixture reads 0."));
   v.number("zero_beta_deg", p.zero_beta_deg, angle(-5.0, "Real beta when the fixture reads 0."));
   v.number("squareness_deg", p.squareness_deg,
@@ -105,33 +86,25 @@ void describe(Visitor& v, SimulatedFixturePlan& p) {
 template <class Visitor>
 void describe(Visitor& v, SimulatedFaultsPlan& p) {
   v.whole("connection_lost_at_touch", p.connection_lost_at_touch,
-          {.at_least = 0,
-           .at_most = 1'000'000'000,
-           .meaning = "The machine stops answering at this touch, counted from 1; 0: never."});
+          range(0, 1'000'000'000,
+                "The machine stops answering at this touch, counted from 1; 0: never."));
   v.whole("fixture_stalls_at_move", p.fixture_stalls_at_move,
-          {.at_least = 0,
-           .at_most = 1'000'000,
-           .meaning = "The fixture stalls on this move after its homing, counted from 1; 0: "
-                      "never."});
+          range(0, 1'000'000,
+                "The fixture stalls on this move after its homing, counted from 1; 0: "
+                "never."));
   v.number("part_moved_um", p.part_moved_um,
-           {.at_least = -1000.0,
-            .at_most = 1000.0,
-            .meaning = "Shift of the part in the ring, x, while the run is interrupted."});
+           within(1000.0, "Shift of the part in the ring, x, while the run is interrupted."));
   v.number("fixture_off_deg", p.fixture_off_deg,
-           {.at_least = -5.0,
-            .at_most = 5.0,
-            .meaning = "After the interruption the fixture stops so far beside the commanded "
-                       "alpha, and reads so."});
+           within(5.0,
+                  "After the interruption the fixture stops so far beside the commanded "
+                  "alpha, and reads so."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, SimulationPlan& p) {
-  v.whole("seed", p.seed,
-          {.at_least = 0,
-           .at_most = kMaxSeed,
-           .meaning = "Same seed, same noise; --seed overrides it."});
+  v.whole("seed", p.seed, range(0, kMaxSeed, "Same seed, same noise; --seed overrides it."));
   v.number("temperature_degC", p.temperature_degC,
-           {.at_least = 10.0, .at_most = 40.0, .meaning = "Temperature of the simulated part."});
+           range(10.0, 40.0, "Temperature of the simulated part."));
   v.object("part", p.part, {.meaning = "Form of the simulated part and how it sits in the ring."});
   v.object("machine", p.machine, {.meaning = "Errors of the simulated machine."});
   v.object("probe", p.probe, {.meaning = "Errors of the simulated probe."});

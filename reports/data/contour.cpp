@@ -195,11 +195,7 @@ Json contour_document(const fit::ContourStudy& study, const fit::ContourStudyOpt
                       {"correlation_total_following", study.sense.as_given},
                       {"correlation_total_mirrored_following", study.sense.mirrored}};
   out["verdicts"] = contour_verdicts(study, limits);
-  out["warnings"] = Json::array();
-  for (const core::Error& w : study.warnings) {
-    out["warnings"].push_back(
-        {{"code", core::code_name(w.code)}, {"what", w.what}, {"where", w.where}});
-  }
+  out["warnings"] = list_json(study.warnings, error_json);
   return out;
 }
 

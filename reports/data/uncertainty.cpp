@@ -1,5 +1,5 @@
 #include "reports/data/json_parts.h"
-#include "reports/words/decision.h"
+#include "reports/words/facts.h"
 
 namespace rondure::reports {
 namespace {

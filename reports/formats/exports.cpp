@@ -9,7 +9,7 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
-#include "reports/data/csv_files.h"
+#include "reports/data/csv.h"
 #include "reports/data/dmis.h"
 #include "reports/data/json.h"
 #include "reports/data/qif/check.h"

@@ -26,48 +26,34 @@ std::string sampling_of(const evaluation::FeatureResult& feature,
 
 using CertificateKind = fit::Certificate::Kind;
 
-template <class Fit>
-CertificateKind kind_of(const core::Result<Fit>& fit) {
-  return fit ? fit->certificate.kind : CertificateKind::kNone;
-}
-
-/// Of the reference behind a result; "none" for least squares, which proves nothing.
-CertificateKind certificate_of(const evaluation::FeatureResult& feature,
-                               record::Reference reference) {
+/// Of the zone or circle behind a result; "none" for least squares, which proves nothing.
+template <class Zone, class Enclosing>
+CertificateKind certificate_of(record::Reference reference, const Zone& mz, const Enclosing& mc,
+                               const Enclosing& mi) {
   switch (reference) {
     case record::Reference::kLeastSquares:
       return CertificateKind::kNone;
     case record::Reference::kMinimumZone:
-      return feature.mz_cylinder ? feature.mz_cylinder->certificate.kind : CertificateKind::kNone;
+      return mz ? mz->certificate.kind : CertificateKind::kNone;
     case record::Reference::kMinimumCircumscribed:
-      return kind_of(feature.mc_cylinder);
+      return mc ? mc->certificate.kind : CertificateKind::kNone;
     case record::Reference::kMaximumInscribed:
-      return kind_of(feature.mi_cylinder);
-  }
-  return CertificateKind::kNone;
-}
-CertificateKind certificate_of(const evaluation::LayerResult& layer, record::Reference reference) {
-  switch (reference) {
-    case record::Reference::kLeastSquares:
-      return CertificateKind::kNone;
-    case record::Reference::kMinimumZone:
-      return kind_of(layer.mz);
-    case record::Reference::kMinimumCircumscribed:
-      return kind_of(layer.mc);
-    case record::Reference::kMaximumInscribed:
-      return kind_of(layer.mi);
+      return mi ? mi->certificate.kind : CertificateKind::kNone;
   }
   return CertificateKind::kNone;
 }
 
-/// The same; of sections the weakest.
+/// The certificate of a result; of sections the weakest.
 CertificateKind certificate_of(const evaluation::FeatureResult& feature,
                                const record::Characteristic& asked) {
-  if (asked.form == record::Form::kCylindricity) return certificate_of(feature, asked.reference);
+  if (asked.form == record::Form::kCylindricity) {
+    return certificate_of(asked.reference, feature.mz_cylinder, feature.mc_cylinder,
+                          feature.mi_cylinder);
+  }
   CertificateKind weakest =
       feature.layers.empty() ? CertificateKind::kNone : CertificateKind::kGlobal;
   for (const evaluation::LayerResult& layer : feature.layers)
-    weakest = std::min(weakest, certificate_of(layer, asked.reference));
+    weakest = std::min(weakest, certificate_of(asked.reference, layer.mz, layer.mc, layer.mi));
   return weakest;
 }
 

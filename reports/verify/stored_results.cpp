@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "reports/data/json_document.h"
+#include "reports/data/json.h"
 #include "reports/data/json_parts.h"
 
 namespace rondure::reports {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/decision/decision.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/section.h"
 
@@ -25,5 +26,8 @@ namespace rondure::reports {
 [[nodiscard]] std::string rule_in_words(const record::Header& header);
 /// What the verdict follows: the rule with its formula, and what it is about; or why it is unknown.
 [[nodiscard]] std::string rule_sentence(const evaluation::Evaluation& evaluation);
+
+/// The rule in words, with its formula: "ISO 14253-1: conforms where y + 1 (hi - y) <= T, ...".
+[[nodiscard]] std::string in_words(const evaluation::DecisionRule& rule);
 
 }  // namespace rondure::reports

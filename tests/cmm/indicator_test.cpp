@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "cmm/indicators/ascii_probe.h"
-#include "cmm/indicators/internal/digimatic.h"
 #include "cmm/indicators/displacement_probe.h"
 #include "cmm/indicators/mitutoyo_itn.h"
 #include "tests/wire/memory_usb.h"

@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <charconv>
-#include <chrono>
 #include <clocale>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +12,7 @@
 
 #include "core/noise.h"
 #include "core/numbers.h"
+#include "tests/core/processor_time.h"
 
 namespace rondure::record {
 namespace {
@@ -252,7 +252,7 @@ TEST(PointsCsv, NeverCrashesOnRandomText) {
   }
 }
 
-TEST(PointsCsv, ReadsAMillionRowsInATenthOfASecondOrSo) {
+TEST(PointsCsv, ReadsAMillionRowsInATenthOfASecondOrSoOfAProcessor) {
   std::string text = "x,y,z\n";
   core::KeyedNoise noise(1, {});
   for (int i = 0; i < 1'000'000; ++i) {
@@ -261,15 +261,14 @@ TEST(PointsCsv, ReadsAMillionRowsInATenthOfASecondOrSo) {
       text += k < 2 ? ',' : '\n';
     }
   }
-  const auto start = std::chrono::steady_clock::now();
+  const double start_s = test::processor_seconds();
   const PointTable table = points(text);
-  const std::chrono::duration<double, std::milli> time_ms =
-      std::chrono::steady_clock::now() - start;
+  const double time_ms = 1e3 * (test::processor_seconds() - start_s);
   EXPECT_EQ(table.points_mm.size(), 1'000'000U);
-  RecordProperty("milliseconds", std::to_string(time_ms.count()));
-  std::printf("1e6 rows: %.0f ms\n", time_ms.count());
-#ifndef __SANITIZE_THREAD__            // which makes everything some fifteen times slower
-  EXPECT_LT(time_ms.count(), 1000.0);  // 10 times the aim: a busy machine is no defect
+  RecordProperty("milliseconds", std::to_string(time_ms));
+  std::printf("1e6 rows: %.0f ms\n", time_ms);
+#ifndef __SANITIZE_THREAD__    // which makes everything some fifteen times slower
+  EXPECT_LT(time_ms, 1000.0);  // 10 times the aim: processors differ
 #endif
 }
 

@@ -10,7 +10,7 @@
 
 #include "core/noise.h"
 #include "evaluation/decision/decision.h"
-#include "reports/words/decision.h"
+#include "reports/words/facts.h"
 
 namespace rondure::reports {
 

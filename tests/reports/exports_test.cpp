@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/numbers.h"
-#include "reports/data/csv_files.h"
+#include "reports/data/csv.h"
 #include "reports/data/dmis.h"
 #include "reports/terminal/columns.h"
 #include "reports/terminal/polar_sketch.h"

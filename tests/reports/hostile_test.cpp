@@ -11,7 +11,7 @@
 #include <pugixml.hpp>
 
 #include "core/utf8.h"
-#include "reports/data/csv_files.h"
+#include "reports/data/csv.h"
 #include "reports/data/dmis.h"
 #include "reports/data/json.h"
 #include "reports/data/qif/check.h"

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <functional>
 #include <limits>
 
@@ -19,6 +18,7 @@
 #include "fit/least_squares/cylinder.h"
 #include "fit/references/one_sided_cylinder.h"
 #include "fit/zone/fit.h"
+#include "tests/core/processor_time.h"
 
 namespace rondure::reports {
 
@@ -564,13 +564,12 @@ TEST(Uncertainty, DoesTenThousandTrialsOfTwentyEightPointsInASecondOfTwoCores) {
   const auto timed = [&](int threads, const std::optional<evaluation::FormSpectrum>& stated) {
     evaluation::UncertaintyOptions options = trials(full ? 10000 : 1000, full ? 1000 : 100);
     options.threads = threads;
-    const std::clock_t used = std::clock();
+    const double used_s = test::processor_seconds();
     const auto start = std::chrono::steady_clock::now();
     const auto result = found(shaft(4, 7), everything(), options, stated);
     const double took =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const double processor =
-        static_cast<double>(std::clock() - used) / static_cast<double>(CLOCKS_PER_SEC);
+    const double processor = test::processor_seconds() - used_s;
     std::printf("%d trials%s, %d thread(s), budget included: %.3f s, of the processors %.3f s\n",
                 result.trials, stated ? ", whole surface too" : "", threads, took, processor);
     return processor;

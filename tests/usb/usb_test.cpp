@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/usb/usb_testbed.h"
-#include "wire/cdc_acm.h"
+#include "wire/usb_stream.h"
 
 namespace rondure::wire {
 namespace {

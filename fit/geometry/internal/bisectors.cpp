@@ -100,7 +100,6 @@ BisectorSearch search_bisectors(std::span<const Eigen::Vector2d> points_mm,
   out.strip_mm = strip_width(points);
   // Slightly enlarged, so that round-off cannot cut off a candidate on the rim.
   const double radius = 1.000001 * disc_radius(points, out.width_mm, out.strip_mm) + 1e-12;
-  out.radius_searched_mm = radius;
   const auto lines = bisectors(points, radius);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (std::size_t j = i + 1; j < lines.size(); ++j) {

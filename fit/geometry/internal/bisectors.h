@@ -10,9 +10,8 @@ namespace rondure::fit {
 struct BisectorSearch {
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();
   double width_mm = 0.0;
-  double strip_mm = 0.0;            ///< Least width of a strip that holds the points.
-  double radius_searched_mm = 0.0;  ///< Radius of the disc with all centres as good as the start.
-  bool complete = false;            ///< No centre of the whole plane has a narrower zone.
+  double strip_mm = 0.0;  ///< Least width of a strip that holds the points.
+  bool complete = false;  ///< No centre of the whole plane has a narrower zone.
 };
 
 /// Finds the exact global minimum-zone centre of a small set. A minimum lies where two

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "fixture/fixture.h"
 #include "fixture/kinematics.h"
-#include "fixture/pose_range.h"
 #include "plans/cell/served_cell.h"
 #include "plans/path/internal/nominal_geometry.h"
 #include "plans/path/internal/pose_grid.h"

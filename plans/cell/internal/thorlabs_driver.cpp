@@ -6,8 +6,8 @@
 #include "core/units.h"
 #include "fixture/thorlabs.h"
 #include "plans/path/internal/nominal_geometry.h"
-#include "wire/ftdi_stream.h"
 #include "wire/usb.h"
+#include "wire/usb_stream.h"
 
 namespace rondure::plans {
 namespace {

@@ -10,18 +10,15 @@ namespace rondure::plans {
 /// Units of a stage that is not in the table of the driver.
 template <class Visitor>
 void describe_scaling(Visitor& v, ThorlabsAxisPlan& p) {
-  const auto factor = [](std::string_view meaning) {
-    return NumberSpec{.at_least = 0.0, .at_most = 1e9, .above = true, .meaning = meaning};
-  };
   v.text("motor", p.motor,
          {.one_of = {"stepper", "dc-servo"},
           .meaning = "Of the stage \"other\": which status messages its controller answers with."});
   v.number("counts_per_deg", p.counts_per_deg,
-           factor("Counts of a degree, in place of the stage's."));
+           above(0.0, 1e9, "Counts of a degree, in place of the stage's."));
   v.number("velocity_per_deg_s", p.velocity_per_deg_s,
-           factor("Controller units of 1 deg/s, in place of the stage's."));
+           above(0.0, 1e9, "Controller units of 1 deg/s, in place of the stage's."));
   v.number("acceleration_per_deg_s2", p.acceleration_per_deg_s2,
-           factor("Controller units of 1 deg/s^2, in place of the stage's."));
+           above(0.0, 1e9, "Controller units of 1 deg/s^2, in place of the stage's."));
 }
 
 template <class Visitor>
@@ -37,22 +34,17 @@ void describe(Visitor& v, ThorlabsAxisPlan& p) {
                      "and the three factors."});
   describe_scaling(v, p);
   v.number("zero_deg", p.zero_deg,
-           {.at_least = -360.0,
-            .at_most = 360.0,
-            .meaning = "Angle of the stage, from its home, where the fixture reads 0."});
+           within(360.0, "Angle of the stage, from its home, where the fixture reads 0."));
   v.text("sense", p.sense,
          {.one_of = {"as-counted", "reversed"},
           .meaning = "reversed: the stage counts against the angle of the fixture."});
-  v.number("speed_deg_s", p.speed_deg_s,
-           {.at_least = 0.01, .at_most = 25.0, .meaning = "Greatest speed of its moves."});
+  v.number("speed_deg_s", p.speed_deg_s, range(0.01, 25.0, "Greatest speed of its moves."));
   v.number("acceleration_deg_s2", p.acceleration_deg_s2,
-           {.at_least = 0.01, .at_most = 100.0, .meaning = "Acceleration of its moves."});
+           range(0.01, 100.0, "Acceleration of its moves."));
   v.number("tolerance_deg", p.tolerance_deg,
-           {.at_least = 0.0,
-            .at_most = 1.0,
-            .above = true,
-            .meaning = "How far from a commanded angle it may come to rest; beyond it the run "
-                       "ends."});
+           above(0.0, 1.0,
+                 "How far from a commanded angle it may come to rest; beyond it the run "
+                 "ends."));
 }
 
 template <class Visitor>
@@ -64,34 +56,26 @@ void describe(Visitor& v, ThorlabsPlan& p) {
 template <class Visitor>
 void describe(Visitor& v, CarriedSpherePlan& p) {
   v.numbers("center_mm", p.center_mm,
-            {.at_least = -1000.0,
-             .at_most = 1000.0,
-             .required = true,
-             .meaning = "Certified centre, frame of the clamping ring."});
+            required(within(1000.0, "Certified centre, frame of the clamping ring.")));
 }
 
 template <class Visitor>
 void describe(Visitor& v, ReachedPosePlan& p) {
   v.number("sphere_diameter_mm", p.sphere_diameter_mm,
-           {.at_least = 1.0, .at_most = 200.0, .meaning = "Diameter of the spheres."});
+           range(1.0, 200.0, "Diameter of the spheres."));
   v.list("spheres", p.spheres,
          {.required = true,
           .empty_allowed = false,
           .meaning = "Two or more on the clamping ring, free from above in every pose. Three that "
                      "are not on one line tell every pose, two only at different heights."});
-  v.whole("points", p.points,
-          {.at_least = 5, .at_most = 100, .meaning = "Touches of each sphere in each pose."});
+  v.whole("points", p.points, range(5, 100, "Touches of each sphere in each pose."));
   v.number("setting_uncertainty_deg", p.setting_uncertainty_deg,
-           {.at_least = 0.0,
-            .at_most = 5.0,
-            .above = true,
-            .meaning = "How far from the asked angle a hand may set an axis; beyond it the pose is "
-                       "refused."});
+           above(0.0, 5.0,
+                 "How far from the asked angle a hand may set an axis; beyond it the pose is "
+                 "refused."));
   v.number("residual_limit_um", p.residual_limit_um,
-           {.at_least = 0.0,
-            .at_most = 1000.0,
-            .above = true,
-            .meaning = "Largest distance of a sphere from its place in the pose that was found."});
+           above(0.0, 1000.0,
+                 "Largest distance of a sphere from its place in the pose that was found."));
 }
 
 }  // namespace rondure::plans

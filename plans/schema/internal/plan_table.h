@@ -37,21 +37,13 @@ void describe(Visitor& v, PlanHead& p) {
 template <class Visitor>
 void describe(Visitor& v, SectionPlan& p) {
   const auto height = [](std::string_view meaning) {
-    return NumberSpec{.at_least = -kMaxCoordinate_mm,
-                      .at_most = kMaxCoordinate_mm,
-                      .required = true,
-                      .meaning = meaning};
+    return required(within(kMaxCoordinate_mm, meaning));
   };
   v.number("from_mm", p.from_mm, height("Lower end of the section, part z."));
   v.number("to_mm", p.to_mm, height("Upper end of the section, part z."));
   v.number("diameter_mm", p.diameter_mm,
-           {.at_least = 0.0,
-            .at_most = 2000.0,
-            .above = true,
-            .required = true,
-            .meaning = "Outer diameter of the section."});
-  v.number("bore_diameter_mm", p.bore_diameter_mm,
-           {.at_least = 0.0, .at_most = 2000.0, .meaning = "Of its hole; 0: solid."});
+           required(above(0.0, 2000.0, "Outer diameter of the section.")));
+  v.number("bore_diameter_mm", p.bore_diameter_mm, range(0.0, 2000.0, "Of its hole; 0: solid."));
 }
 
 template <class Visitor>
@@ -60,17 +52,15 @@ void describe(Visitor& v, PartPlan& p) {
   v.text("name", p.name, {.meaning = "What the part is called."});
   v.text("drawing", p.drawing, {.meaning = "Drawing number with its issue."});
   v.number("location_uncertainty_mm", p.location_uncertainty_mm,
-           {.at_least = 0.0,
-            .at_most = 100.0,
-            .meaning = "How far the surface may be from its nominal place at the first touch, from "
-                       "a tilted or shifted clamping."});
+           range(0.0, 100.0,
+                 "How far the surface may be from its nominal place at the first touch, from "
+                 "a tilted or shifted clamping."));
   v.number("expansion_per_K", p.expansion_per_K,
-           {.at_least = 0.0,
-            .at_most = 1e-4,
-            .meaning = "Thermal expansion of the material, e.g. 11.5e-6 of steel; sizes and forms "
-                       "are then brought to 20 degC. Left out: they stay as measured."});
+           range(0.0, 1e-4,
+                 "Thermal expansion of the material, e.g. 11.5e-6 of steel; sizes and forms "
+                 "are then brought to 20 degC. Left out: they stay as measured."));
   v.number("expansion_uncertainty_per_K", p.expansion_uncertainty_per_K,
-           {.at_least = 0.0, .at_most = 1e-4, .meaning = "Its standard uncertainty."});
+           range(0.0, 1e-4, "Its standard uncertainty."));
   v.list("sections", p.sections,
          {.meaning = "The part beside the inspected surfaces: shoulders, necks, neighbours. The "
                      "path of the tip keeps clear of them."});
@@ -82,22 +72,19 @@ void describe_server(Visitor& v, MachinePlan& p) {
   v.text("host", p.host,
          {.empty_allowed = false,
           .meaning = "ippdme: name or address of the computer that serves the machine."});
-  v.whole("port", p.port,
-          {.at_least = 1, .at_most = 65'535, .meaning = "ippdme: port of the server."});
+  v.whole("port", p.port, range(1, 65'535, "ippdme: port of the server."));
   v.text(
       "tool", p.tool,
       {.meaning = "ippdme: the tool to take, as the machine calls it. Left out: the tool that is "
                   "active."});
   v.number("answer_limit_s", p.answer_limit_s,
-           {.at_least = 0.1,
-            .at_most = 600.0,
-            .meaning = "ippdme: a command that is not acknowledged, or a question not answered, "
-                       "within this time ends the run."});
+           range(0.1, 600.0,
+                 "ippdme: a command that is not acknowledged, or a question not answered, "
+                 "within this time ends the run."));
   v.number("motion_limit_s", p.motion_limit_s,
-           {.at_least = 1.0,
-            .at_most = 3600.0,
-            .meaning = "ippdme: a motion, a tool change or the homing that takes this much longer "
-                       "than its way explains is stopped."});
+           range(1.0, 3600.0,
+                 "ippdme: a motion, a tool change or the homing that takes this much longer "
+                 "than its way explains is stopped."));
   v.text("abort", p.abort,
          {.one_of = {"works", "broken"},
           .meaning = "ippdme: whether AbortE of the server stops a motion; with \"broken\" a stop "
@@ -125,93 +112,62 @@ void describe(Visitor& v, MachinePlan& p) {
           .meaning = "Which machine measures: a simulation in this program, or a machine behind "
                      "I++ DME (docs/ipp-dme.md)."});
   v.number("approach_mm", p.approach_mm,
-           {.at_least = 0.0,
-            .at_most = 100.0,
-            .above = true,
-            .meaning = "The slow search starts this far before the expected contact."});
+           above(0.0, 100.0, "The slow search starts this far before the expected contact."));
   v.number("search_mm", p.search_mm,
-           {.at_least = 0.0,
-            .at_most = 100.0,
-            .above = true,
-            .meaning = "The slow search gives up this far behind the expected contact."});
+           above(0.0, 100.0, "The slow search gives up this far behind the expected contact."));
   v.number("clearance_mm", p.clearance_mm,
-           {.at_least = 0.0,
-            .at_most = 500.0,
-            .above = true,
-            .meaning = "Distance kept from part, fixture and table while travelling."});
-  v.number(
-      "travel_speed_mm_s", p.travel_speed_mm_s,
-      {.at_least = 0.0, .at_most = 1000.0, .above = true, .meaning = "Speed between touches."});
+           above(0.0, 500.0, "Distance kept from part, fixture and table while travelling."));
+  v.number("travel_speed_mm_s", p.travel_speed_mm_s, above(0.0, 1000.0, "Speed between touches."));
   v.number("touch_speed_mm_s", p.touch_speed_mm_s,
-           {.at_least = 0.0,
-            .at_most = 50.0,
-            .above = true,
-            .meaning = "Speed while searching the surface."});
+           above(0.0, 50.0, "Speed while searching the surface."));
   v.number("scan_speed_mm_s", p.scan_speed_mm_s,
-           {.at_least = 0.0,
-            .at_most = 500.0,
-            .above = true,
-            .meaning = "Speed of the tip along a scanned circle."});
+           above(0.0, 500.0, "Speed of the tip along a scanned circle."));
   v.number("scale_expansion_per_K", p.scale_expansion_per_K,
-           {.at_least = 0.0,
-            .at_most = 1e-4,
-            .meaning = "Expansion of the scales; what they read is then brought to 20 degC with "
-                       "their measured temperature. Left out: the machine does it, or nobody."});
+           range(0.0, 1e-4,
+                 "Expansion of the scales; what they read is then brought to 20 degC with "
+                 "their measured temperature. Left out: the machine does it, or nobody."));
   v.number("scale_expansion_uncertainty_per_K", p.scale_expansion_uncertainty_per_K,
-           {.at_least = 0.0, .at_most = 1e-4, .meaning = "Its standard uncertainty."});
+           range(0.0, 1e-4, "Its standard uncertainty."));
   v.numbers("park_mm", p.park_mm,
-            {.at_least = -kMaxCoordinate_mm,
-             .at_most = kMaxCoordinate_mm,
-             .meaning = "Where the tip waits, above everything: x, y, z in the machine frame."});
-  const auto corner = [](std::string_view meaning) {
-    return NumberSpec{
-        .at_least = -kMaxCoordinate_mm, .at_most = kMaxCoordinate_mm, .meaning = meaning};
-  };
+            within(kMaxCoordinate_mm,
+                   "Where the tip waits, above everything: x, y, z in the machine frame."));
   v.numbers("volume_min_mm", p.volume_min_mm,
-            corner("Lower ends of the travel of the tip: x, y, z in the machine frame."));
+            within(kMaxCoordinate_mm,
+                   "Lower ends of the travel of the tip: x, y, z in the machine frame."));
   v.numbers("volume_max_mm", p.volume_max_mm,
-            corner("Upper ends of the travel of the tip: x, y, z in the machine frame."));
+            within(kMaxCoordinate_mm,
+                   "Upper ends of the travel of the tip: x, y, z in the machine frame."));
   v.number("step_speed_mm_s", p.step_speed_mm_s,
-           {.at_least = 0.0,
-            .at_most = 50.0,
-            .above = true,
-            .meaning = "Speed between touches of a first run in single steps (run --step)."});
+           above(0.0, 50.0, "Speed between touches of a first run in single steps (run --step)."));
   v.number("resume_limit_um", p.resume_limit_um,
-           {.at_least = 0.0,
-            .at_most = 1000.0,
-            .above = true,
-            .meaning = "A resumed run repeats its last touches; when one of them differs by more, "
-                       "part or machine has moved and the run must start again."});
+           above(0.0, 1000.0,
+                 "A resumed run repeats its last touches; when one of them differs by more, "
+                 "part or machine has moved and the run must start again."));
   describe_server(v, p);
 }
 
 template <class Visitor>
 void describe(Visitor& v, DatumSpherePlan& p) {
   v.numbers("center_mm", p.center_mm,
-            {.at_least = -kMaxCoordinate_mm,
-             .at_most = kMaxCoordinate_mm,
-             .meaning = "Nominal centre: x, y, z in the base frame, which is the machine frame "
-                        "when the fixture stands in its nominal place."});
+            within(kMaxCoordinate_mm,
+                   "Nominal centre: x, y, z in the base frame, which is the machine frame "
+                   "when the fixture stands in its nominal place."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, DatumPlan& p) {
   v.number("sphere_diameter_mm", p.sphere_diameter_mm,
-           {.at_least = 1.0, .at_most = 200.0, .meaning = "Diameter of the spheres."});
+           range(1.0, 200.0, "Diameter of the spheres."));
   v.list("spheres", p.spheres,
          {.required = true, .empty_allowed = false, .meaning = "Three or more, not on one line."});
-  v.whole("points", p.points,
-          {.at_least = 5, .at_most = 100, .meaning = "Touches of each sphere."});
+  v.whole("points", p.points, range(5, 100, "Touches of each sphere."));
   v.number("uncertainty_mm", p.uncertainty_mm,
-           {.at_least = 0.0,
-            .at_most = 50.0,
-            .meaning = "How far a sphere may be from its nominal place, from the bolting of the "
-                       "fixture."});
+           range(0.0, 50.0,
+                 "How far a sphere may be from its nominal place, from the bolting of the "
+                 "fixture."));
   v.number("residual_limit_um", p.residual_limit_um,
-           {.at_least = 0.0,
-            .at_most = 1000.0,
-            .above = true,
-            .meaning = "Largest distance of a sphere from its place in the base that was found."});
+           above(0.0, 1000.0,
+                 "Largest distance of a sphere from its place in the base that was found."));
 }
 
 template <class Visitor>
@@ -249,26 +205,22 @@ void describe(Visitor& v, FixturePlan& p) {
            limit("Upper end of travel about the base-fixed axis."));
   v.number("min_beta_deg", p.min_beta_deg, limit("Lower end of travel about the carried axis."));
   v.number("max_beta_deg", p.max_beta_deg, limit("Upper end of travel about the carried axis."));
-  v.number(
-      "resolution_deg", p.resolution_deg,
-      {.at_least = 0.0, .at_most = 5.0, .meaning = "Smallest step the fixture can hold; 0: any."});
+  v.number("resolution_deg", p.resolution_deg,
+           range(0.0, 5.0, "Smallest step the fixture can hold; 0: any."));
   v.number("rim_height_mm", p.rim_height_mm,
            place("Height of the rim of the bowl, machine z: the tip never goes below."));
   v.number("clamp_from_mm", p.clamp_from_mm,
            place("Lower end of the band that the clamping ring covers, part z. No band when it is "
                  "not below clamp_to_mm."));
   v.number("clamp_to_mm", p.clamp_to_mm, place("Upper end of the clamped band, part z."));
-  const auto diameter = [](std::string_view meaning) {
-    return NumberSpec{.at_least = 0.0, .at_most = 5000.0, .meaning = meaning};
-  };
-  v.number(
-      "ring_diameter_mm", p.ring_diameter_mm,
-      diameter("Outer diameter of the clamping ring; 0: unknown, then nothing is touched at or "
-               "below the clamped band."));
-  v.number(
-      "rim_diameter_mm", p.rim_diameter_mm,
-      diameter("Outer diameter of the bowl, about axis_point_mm; 0: unknown, then the tip goes "
-               "nowhere below rim_height_mm."));
+  v.number("ring_diameter_mm", p.ring_diameter_mm,
+           range(0.0, 5000.0,
+                 "Outer diameter of the clamping ring; 0: unknown, then nothing is touched at or "
+                 "below the clamped band."));
+  v.number("rim_diameter_mm", p.rim_diameter_mm,
+           range(0.0, 5000.0,
+                 "Outer diameter of the bowl, about axis_point_mm; 0: unknown, then the tip goes "
+                 "nowhere below rim_height_mm."));
   v.number("table_height_mm", p.table_height_mm, place("Height of the table, machine z."));
   v.object("datum", p.datum,
            {.meaning = "Reference spheres on the base of the fixture, touched before a run: then "
@@ -287,15 +239,11 @@ void describe(Visitor& v, FixturePlan& p) {
 template <class Visitor>
 void describe(Visitor& v, QualificationPlan& p) {
   v.number("sphere_diameter_mm", p.sphere_diameter_mm,
-           {.at_least = 1.0,
-            .at_most = 200.0,
-            .meaning = "Certified diameter of the reference sphere."});
+           range(1.0, 200.0, "Certified diameter of the reference sphere."));
   v.numbers("sphere_center_mm", p.sphere_center_mm,
-            {.at_least = -kMaxCoordinate_mm,
-             .at_most = kMaxCoordinate_mm,
-             .meaning = "Where the reference sphere stands: x, y, z in the machine frame."});
-  v.whole("points", p.points,
-          {.at_least = 5, .at_most = 100, .meaning = "Touches on the reference sphere."});
+            within(kMaxCoordinate_mm,
+                   "Where the reference sphere stands: x, y, z in the machine frame."));
+  v.whole("points", p.points, range(5, 100, "Touches on the reference sphere."));
   v.number(
       "form_limit_um", p.form_limit_um,
       {.at_least = 0.0,
@@ -303,37 +251,26 @@ void describe(Visitor& v, QualificationPlan& p) {
        .above = true,
        .meaning =
            "Largest probing form (spread of the touches about the sphere) of a usable probe."});
-  v.number("radius_tolerance_um", p.radius_tolerance_um,
-           {.at_least = 0.0,
-            .at_most = 1000.0,
-            .above = true,
-            .meaning = "Largest difference between the effective and the nominal tip radius."});
+  v.number(
+      "radius_tolerance_um", p.radius_tolerance_um,
+      above(0.0, 1000.0, "Largest difference between the effective and the nominal tip radius."));
   v.number("stem_diameter_mm", p.stem_diameter_mm,
-           {.at_least = 0.0,
-            .at_most = 200.0,
-            .meaning = "Diameter of the stem below the sphere; 0: a third of the sphere's."});
+           range(0.0, 200.0, "Diameter of the stem below the sphere; 0: a third of the sphere's."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, ProbePlan& p) {
   v.number("tip_diameter_mm", p.tip_diameter_mm,
-           {.at_least = 0.0,
-            .at_most = 50.0,
-            .above = true,
-            .meaning = "Nominal diameter of the ball of the stylus."});
+           above(0.0, 50.0, "Nominal diameter of the ball of the stylus."));
   v.number("stylus_length_mm", p.stylus_length_mm,
-           {.at_least = 0.0,
-            .at_most = 1000.0,
-            .meaning = "From the centre of the ball up to the holder; 0: unknown, then only the "
-                       "ball is kept clear of everything."});
+           range(0.0, 1000.0,
+                 "From the centre of the ball up to the holder; 0: unknown, then only the "
+                 "ball is kept clear of everything."));
   v.number("stylus_diameter_mm", p.stylus_diameter_mm,
-           {.at_least = 0.0,
-            .at_most = 50.0,
-            .meaning = "Diameter of the shaft, less than the ball's. Needed with a length."});
-  v.number("holder_diameter_mm", p.holder_diameter_mm,
-           {.at_least = 0.0,
-            .at_most = 500.0,
-            .meaning = "Diameter of what carries the stylus (extension, probe head); 0: none."});
+           range(0.0, 50.0, "Diameter of the shaft, less than the ball's. Needed with a length."));
+  v.number(
+      "holder_diameter_mm", p.holder_diameter_mm,
+      range(0.0, 500.0, "Diameter of what carries the stylus (extension, probe head); 0: none."));
   v.object(
       "qualification", p.qualification,
       {.meaning = "How the effective tip radius is found on a reference sphere before a run."});
@@ -342,22 +279,15 @@ void describe(Visitor& v, ProbePlan& p) {
 template <class Visitor>
 void describe(Visitor& v, EnvironmentPlan& p) {
   v.number("min_degC", p.min_degC,
-           {.at_least = 10.0,
-            .at_most = 40.0,
-            .meaning = "A part colder than this makes the result void."});
+           range(10.0, 40.0, "A part colder than this makes the result void."));
   v.number("max_degC", p.max_degC,
-           {.at_least = 10.0,
-            .at_most = 40.0,
-            .meaning = "A part warmer than this makes the result void."});
+           range(10.0, 40.0, "A part warmer than this makes the result void."));
   v.number("temperature_uncertainty_K", p.temperature_uncertainty_K,
-           {.at_least = 0.0,
-            .at_most = 5.0,
-            .meaning = "Standard uncertainty of a measured or assumed temperature."});
+           range(0.0, 5.0, "Standard uncertainty of a measured or assumed temperature."));
   v.number("assumed_degC", p.assumed_degC,
-           {.at_least = 10.0,
-            .at_most = 40.0,
-            .meaning = "Temperature of part and scales where no sensor gives one; reports print it "
-                       "as declared. Left out: what nobody measured makes the result void."});
+           range(10.0, 40.0,
+                 "Temperature of part and scales where no sensor gives one; reports print it "
+                 "as declared. Left out: what nobody measured makes the result void."));
 }
 
 template <class Visitor>
@@ -374,10 +304,7 @@ void describe(Visitor& v, NominalPlan& p) {
        .at_most = kMaxCoordinate_mm,
        .meaning =
            "Lower end of the surface, part z. A circle is touched in the middle of its surface."});
-  v.number("to_mm", p.to_mm,
-           {.at_least = -kMaxCoordinate_mm,
-            .at_most = kMaxCoordinate_mm,
-            .meaning = "Upper end of the surface, part z."});
+  v.number("to_mm", p.to_mm, within(kMaxCoordinate_mm, "Upper end of the surface, part z."));
 }
 
 template <class Visitor>
@@ -388,27 +315,20 @@ void describe(Visitor& v, SamplingPlan& p) {
        .meaning = "touch: single touches. scan: every layer in one circle, where the machine can; "
                   "then hundreds of points a layer cost seconds."});
   v.whole("layers", p.layers,
-          {.at_least = 1,
-           .at_most = 1000,
-           .meaning = "Sections along the axis: at least 2 for a cylinder; 1 for a circle, also "
-                      "when left out."});
+          range(1, 1000,
+                "Sections along the axis: at least 2 for a cylinder; 1 for a circle, also "
+                "when left out."));
   v.whole("points_per_layer", p.points_per_layer,
-          {.at_least = 3,
-           .at_most = 100'000,
-           .meaning = "Equispaced points of every section; at least 4 for a circle."});
+          range(3, 100'000, "Equispaced points of every section; at least 4 for a circle."));
   v.number("margin_mm", p.margin_mm,
-           {.at_least = 0.0,
-            .at_most = kMaxCoordinate_mm,
-            .meaning = "Distance of the first and the last layer from the ends of the surface."});
+           range(0.0, kMaxCoordinate_mm,
+                 "Distance of the first and the last layer from the ends of the surface."));
   v.number("start_deg", p.start_deg,
-           {.at_least = -360.0,
-            .at_most = 360.0,
-            .meaning = "Angle of the first point of the lowest layer."});
+           within(360.0, "Angle of the first point of the lowest layer."));
   v.number("stagger", p.stagger,
-           {.at_least = 0.0,
-            .at_most = 1.0,
-            .meaning = "Shift of the angles from layer to layer: 0, every layer starts alike; 1, "
-                       "the layers interleave evenly."});
+           range(0.0, 1.0,
+                 "Shift of the angles from layer to layer: 0, every layer starts alike; 1, "
+                 "the layers interleave evenly."));
 }
 
 template <class Visitor>
@@ -459,28 +379,19 @@ void describe(Visitor& v, PoseSearchPlan& p) {
             .code = core::Code::kStep,
             .meaning = "Step halving ends below this step (refined, virtual)."});
   v.whole("max_poses", p.max_poses,
-          {.at_least = 1,
-           .at_most = 100,
-           .meaning = "Levelling gives up after so many poses (guided)."});
+          range(1, 100, "Levelling gives up after so many poses (guided)."));
   v.whole("repeats", p.repeats,
-          {.at_least = 1,
-           .at_most = 1000,
-           .meaning = "Touches of every point of the final cloud; their mean is evaluated."});
+          range(1, 1000, "Touches of every point of the final cloud; their mean is evaluated."));
 }
 
 template <class Visitor>
 void describe(Visitor& v, HarmonicLimitPlan& p) {
-  const auto order = [](std::string_view meaning) {
-    return NumberSpec{.at_least = 2, .at_most = 10'000, .required = true, .meaning = meaning};
-  };
+  const auto order = [](std::string_view meaning) { return required(range(2, 10'000, meaning)); };
   v.whole("from", p.from, order("First undulation number of this line of the mask."));
   v.whole("to", p.to, order("Last undulation number."));
-  v.number("amplitude_um", p.amplitude_um,
-           {.at_least = 0.0,
-            .at_most = 1000.0,
-            .above = true,
-            .required = true,
-            .meaning = "Largest amplitude (half of peak to valley) of each of them."});
+  v.number(
+      "amplitude_um", p.amplitude_um,
+      required(above(0.0, 1000.0, "Largest amplitude (half of peak to valley) of each of them.")));
 }
 
 template <class Visitor>
@@ -511,12 +422,9 @@ void describe(Visitor& v, CharacteristicPlan& p) {
           .meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
                      "mc, minimum circumscribed (a ring gauge on a shaft); mi, maximum inscribed "
                      "(a plug gauge in a bore). Needed with a tolerance."});
-  v.number(
-      "tolerance_um", p.tolerance_um,
-      {.at_least = 0.0,
-       .at_most = 10'000.0,
-       .above = true,
-       .meaning = "Upper limit on the drawing; without it the value is reported, not judged."});
+  v.number("tolerance_um", p.tolerance_um,
+           above(0.0, 10'000.0,
+                 "Upper limit on the drawing; without it the value is reported, not judged."));
   v.text("drawing_zone", p.drawing_zone,
          {.meaning = "Where it stands on the drawing, e.g. \"C4\"."});
   v.list("harmonic_limits", p.harmonic_limits,

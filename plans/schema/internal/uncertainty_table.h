@@ -13,8 +13,7 @@ namespace rondure::plans {
 template <class Visitor>
 void describe(Visitor& v, PriorPlan& p) {
   const auto size = [](std::string_view meaning) {
-    return NumberSpec{
-        .at_least = 0.0, .at_most = 10'000.0, .above = true, .required = true, .meaning = meaning};
+    return required(above(0.0, 10'000.0, meaning));
   };
   v.text("distribution", p.distribution,
          {.one_of = {"gamma", "normal"},
@@ -55,13 +54,11 @@ void describe(Visitor& v, DecisionRulePlan& p) {
                      "interval count, by agreement of both parties; the report says so."});
   v.number("guard_factor", p.guard_factor,
            range(0.0, 10.0, "iso-14253-1: guard band in parts of the interval beside the value."));
-  const auto risk = [](std::string_view meaning) {
-    return NumberSpec{.at_least = 0.0, .at_most = 50.0, .above = true, .meaning = meaning};
-  };
-  v.number("consumer_risk_percent", p.consumer_risk_percent,
-           risk("jcgm-106: largest probability that an accepted part does not conform."));
+  v.number(
+      "consumer_risk_percent", p.consumer_risk_percent,
+      above(0.0, 50.0, "jcgm-106: largest probability that an accepted part does not conform."));
   v.number("producer_risk_percent", p.producer_risk_percent,
-           risk("jcgm-106: largest probability that a rejected part conforms."));
+           above(0.0, 50.0, "jcgm-106: largest probability that a rejected part conforms."));
   v.object("prior", p.prior,
            {.meaning = "What is known of the parts of this process before the measurement. With it "
                        "the report states the global risks, and jcgm-106 uses it."});
@@ -76,13 +73,9 @@ void describe(Visitor& v, DecisionRulePlan& p) {
 
 template <class Visitor>
 void describe(Visitor& v, LobeInfluencePlan& p) {
-  v.whole("order", p.order,
-          {.at_least = 1, .at_most = 50, .required = true, .meaning = "Lobes in a turn."});
+  v.whole("order", p.order, required(range(1, 50, "Lobes in a turn.")));
   v.number("amplitude_um", p.amplitude_um,
-           {.at_least = 0.0,
-            .at_most = 1000.0,
-            .required = true,
-            .meaning = "Half of peak to valley; its phase is taken as unknown."});
+           required(range(0.0, 1000.0, "Half of peak to valley; its phase is taken as unknown.")));
 }
 
 template <class Visitor>
@@ -153,15 +146,10 @@ void describe(Visitor& v, FixtureInfluencesPlan& p) {
 
 template <class Visitor>
 void describe(Visitor& v, FormTermPlan& p) {
-  v.whole("undulations", p.undulations,
-          {.at_least = 0, .at_most = 200, .required = true, .meaning = "In a turn."});
-  v.whole("degree", p.degree,
-          {.at_least = 0, .at_most = 20, .meaning = "Of the Legendre polynomial along the part."});
+  v.whole("undulations", p.undulations, required(range(0, 200, "In a turn.")));
+  v.whole("degree", p.degree, range(0, 20, "Of the Legendre polynomial along the part."));
   v.number("amplitude_um", p.amplitude_um,
-           {.at_least = 0.0,
-            .at_most = 1000.0,
-            .required = true,
-            .meaning = "Standard deviation of its coefficients."});
+           required(range(0.0, 1000.0, "Standard deviation of its coefficients.")));
 }
 
 template <class Visitor>
@@ -179,26 +167,19 @@ template <class Visitor>
 void describe(Visitor& v, UncertaintyPlan& p) {
   v.number("coverage_percent", p.coverage_percent,
            range(50.0, 99.9, "Probability of the coverage interval."));
-  v.whole("least_trials", p.least_trials,
-          {.at_least = 2000, .at_most = 1'000'000, .meaning = "Trials at least."});
-  v.whole("most_trials", p.most_trials,
-          {.at_least = 2000, .at_most = 1'000'000, .meaning = "Trials at most."});
+  v.whole("least_trials", p.least_trials, range(2000, 1'000'000, "Trials at least."));
+  v.whole("most_trials", p.most_trials, range(2000, 1'000'000, "Trials at most."));
   v.number("tolerance_um", p.tolerance_um,
            range(0.0, 100.0,
                  "Numerical tolerance: trials end when the printed numbers are known this well "
                  "(JCGM 101, 7.9); 0: all trials are done."));
   v.whole("budget_trials", p.budget_trials,
-          {.at_least = 0,
-           .at_most = 1'000'000,
-           .meaning = "Trials of each influence alone; 0: no budget."});
-  v.number(
-      "expected_spots", p.expected_spots,
-      {.at_least = 0.01,
-       .at_most = 10.0,
-       .meaning = "Points that stand out by themselves (burrs, dirt, scratches) and that a part "
-                  "is expected to have: they are form and are never smoothed away."});
-  v.whole("seed", p.seed,
-          {.at_least = 0, .at_most = 9007199254740991.0, .meaning = "Same seed, same numbers."});
+          range(0, 1'000'000, "Trials of each influence alone; 0: no budget."));
+  v.number("expected_spots", p.expected_spots,
+           range(0.01, 10.0,
+                 "Points that stand out by themselves (burrs, dirt, scratches) and that a part "
+                 "is expected to have: they are form and are never smoothed away."));
+  v.whole("seed", p.seed, range(0, 9007199254740991.0, "Same seed, same numbers."));
   v.object("probe", p.probe, {.meaning = "Declared influences of the probe."});
   v.object("machine", p.machine, {.meaning = "Of the geometry of the machine."});
   v.object("thermal", p.thermal,

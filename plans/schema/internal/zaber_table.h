@@ -10,25 +10,18 @@ namespace rondure::plans {
 template <class Visitor>
 void describe(Visitor& v, ZaberAxisPlan& p) {
   v.whole("axis", p.axis,
-          {.at_least = 0.0,
-           .at_most = 9.0,
-           .meaning = "Number of the axis on the controller; 0: 1 for alpha, 2 for beta."});
+          range(0.0, 9.0, "Number of the axis on the controller; 0: 1 for alpha, 2 for beta."));
   v.number("microstep_deg", p.microstep_deg,
-           {.at_least = 0.0,
-            .at_most = 1.0,
-            .meaning = "Angle of one microstep; 0: one turn by the setting limit.cycle.dist of the "
-                       "controller."});
+           range(0.0, 1.0,
+                 "Angle of one microstep; 0: one turn by the setting limit.cycle.dist of the "
+                 "controller."));
   v.text("sense", p.sense,
          {.one_of = {"as-counted", "reversed"},
           .meaning = "Whether the angle grows with the position of the stage."});
   v.number("zero_deg", p.zero_deg,
-           {.at_least = -360.0,
-            .at_most = 360.0,
-            .meaning = "Angle of the fixture where the stage is at position 0 (its reference)."});
+           within(360.0, "Angle of the fixture where the stage is at position 0 (its reference)."));
   v.number("max_speed_deg_s", p.max_speed_deg_s,
-           {.at_least = 0.0,
-            .at_most = 360.0,
-            .meaning = "Greatest speed; 0: as the controller is set."});
+           range(0.0, 360.0, "Greatest speed; 0: as the controller is set."));
 }
 
 template <class Visitor>
@@ -38,27 +31,19 @@ void describe(Visitor& v, ZaberPlan& p) {
           .meaning = "usb: the program opens the USB device itself; serial: a serial device of the "
                      "system."});
   v.text("device", p.device, {.meaning = "serial: its device, e.g. \"/dev/ttyUSB0\"."});
-  v.whole("baud", p.baud,
-          {.at_least = 1200.0,
-           .at_most = 230'400.0,
-           .meaning = "serial: its speed; 9600 on old controllers."});
+  v.whole("baud", p.baud, range(1200.0, 230'400.0, "serial: its speed; 9600 on old controllers."));
   v.text("usb_serial", p.usb_serial,
          {.meaning = "usb: serial number of the device, as rondure devices shows it. Left out: the "
                      "only one that is plugged in."});
-  v.whole("address", p.address,
-          {.at_least = 1.0, .at_most = 99.0, .meaning = "Address of the controller on its line."});
+  v.whole("address", p.address, range(1.0, 99.0, "Address of the controller on its line."));
   v.object("alpha", p.alpha, {.meaning = "The stage of the base-fixed axis."});
   v.object("beta", p.beta, {.meaning = "The stage of the carried axis."});
   v.number("pose_tolerance_deg", p.pose_tolerance_deg,
-           {.at_least = 0.0,
-            .at_most = 1.0,
-            .above = true,
-            .meaning = "Largest distance of a pose that was reached to the commanded one; beyond "
-                       "it the run stops."});
+           above(0.0, 1.0,
+                 "Largest distance of a pose that was reached to the commanded one; beyond "
+                 "it the run stops."));
   v.number("motion_limit_s", p.motion_limit_s,
-           {.at_least = 1.0,
-            .at_most = 3600.0,
-            .meaning = "A turn, or the homing of a stage, that takes longer is stopped."});
+           range(1.0, 3600.0, "A turn, or the homing of a stage, that takes longer is stopped."));
 }
 
 }  // namespace rondure::plans

@@ -4,15 +4,29 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include <pugixml.hpp>
+
 #include "evaluation/evaluation.h"
-#include "reports/data/xml_parts.h"
 
 // Private to the room: what the parts of a QIF document share.
 
 namespace rondure::reports {
+
+/// A new last child. Text passes clean(): XML 1.0 forbids most control characters even as entities,
+/// which pugixml would write.
+pugi::xml_node add(pugi::xml_node parent, const char* name);
+pugi::xml_node add(pugi::xml_node parent, const char* name, std::string_view text);
+pugi::xml_node add(pugi::xml_node parent, const char* name, int number);
+
+/// A new attribute, its text cleaned in the same way.
+void set(pugi::xml_node node, const char* name, std::string_view text);
+
+/// The document as bytes: declaration, UTF-8, two spaces a level, LF.
+[[nodiscard]] std::string bytes_of(const pugi::xml_document& document);
 
 /// Ids of one document: from 1, none twice. The writer's numbers, as QIF wants them (`idMax`).
 class QifIds {

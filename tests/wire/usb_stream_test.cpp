@@ -1,4 +1,4 @@
-#include "wire/ftdi_stream.h"
+#include "wire/usb_stream.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

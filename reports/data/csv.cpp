@@ -1,0 +1,125 @@
+#include "reports/data/csv.h"
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/numbers.h"
+#include "core/units.h"
+#include "core/utf8.h"
+#include "evaluation/feature_values.h"
+#include "reports/escaping.h"
+
+namespace rondure::reports {
+namespace {
+
+using core::printable;
+
+/// A text as a field by RFC 4180: quoted when it holds a comma, a quote or a line break; control
+/// characters are U+FFFD. A text that a spreadsheet would compute (it begins with = + - @ or a tab)
+/// gets an apostrophe in front, which tells spreadsheets that it is text. Not for numbers.
+std::string csv_field(std::string_view text) {
+  std::string plain = clean(text);
+  if (!plain.empty() && std::string_view("=+-@\t").find(plain.front()) != std::string_view::npos) {
+    plain.insert(plain.begin(), '\'');
+  }
+  if (plain.find_first_of(",\"\n") == std::string::npos) return plain;
+  std::string quoted = "\"";
+  for (const char c : plain) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::string um_field(const std::optional<double>& length_mm) {
+  if (!length_mm || !std::isfinite(*length_mm)) return {};
+  return core::shortest(*length_mm / core::kMicrometre);
+}
+
+std::string number(double value) { return std::isfinite(value) ? core::shortest(value) : ""; }
+
+std::string measured(const std::optional<double>& value) { return value ? number(*value) : ""; }
+
+}  // namespace
+
+std::string write_results_csv(const record::RunRecord& record,
+                              const evaluation::Evaluation& evaluation) {
+  const record::Header& header = record.header;
+  const std::string head =
+      fmt::format("{},{},{},{}", csv_field(header.run_id), csv_field(header.started_utc),
+                  csv_field(header.part_id), csv_field(header.serial));
+  std::string text =
+      "run,started_utc,part,serial,feature,characteristic,symbol,reference,value_um,tolerance_um,"
+      "verdict,reason,verification_operator,quoted_um,low_um,high_um\n";
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    for (const evaluation::CharacteristicResult& result : feature.characteristics) {
+      const record::Characteristic& asked = result.characteristic;
+      const evaluation::UncertaintyStatement* known =
+          result.value ? result.value->statement() : nullptr;
+      const std::string interval = known == nullptr ? ",,"
+                                                    : um_field(known->estimate_mm) + "," +
+                                                          um_field(known->low_mm) + "," +
+                                                          um_field(known->high_mm);
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", head, csv_field(feature.feature.id),
+                          csv_field(asked.id), evaluation::symbol_of(asked),
+                          evaluation::reference_of(asked), um_field(result.value_mm()),
+                          um_field(asked.tolerance_mm), name_of(result.verdict),
+                          csv_field(result.reason),
+                          csv_field(result.value ? result.value->operator_text() : ""), interval);
+    }
+  }
+  return text;
+}
+
+std::string write_series_csv(const record::RunRecord& record) {
+  std::string text = fmt::format("# rondure series, run {}\n", printable(record.header.run_id));
+  text += "feature,series,row,column,value\n";
+  for (const record::Series& series : record.series) {
+    if (series.role == record::Series::Role::kTruth) continue;
+    const std::string head =
+        csv_field(record.features[static_cast<std::size_t>(series.feature)].id) + "," +
+        csv_field(series.name);
+    const std::size_t columns = series.columns.size();
+    for (std::size_t i = 0; i < series.values.size(); ++i) {
+      text += fmt::format("{},{},{},{}\n", head, i / columns,
+                          csv_field(series.columns[i % columns].name),
+                          core::shortest(series.values[i]));
+    }
+  }
+  return text;
+}
+
+std::string write_touches_csv(const record::RunRecord& record) {
+  std::map<int, std::string> feature_of_pose;
+  for (const record::PoseVisit& pose : record.poses) {
+    const auto index = static_cast<std::size_t>(pose.feature);
+    if (pose.feature >= 0 && index < record.features.size()) {
+      feature_of_pose[pose.id] = csv_field(record.features[index].id);
+    }
+  }
+  std::string text = fmt::format("# rondure touches, run {}\n", printable(record.header.run_id));
+  text +=
+      "id,purpose,feature,pose,layer,point,repeat,x_mm,y_mm,z_mm,dir_x,dir_y,dir_z,"
+      "temperature_degC,time_s,scale_temperature_degC\n";
+  for (const record::Touch& touch : record.touches) {
+    const auto feature = feature_of_pose.find(touch.pose);
+    text += fmt::format("{},{},{},{},{},{},{}", touch.id, record::name_of(touch.purpose),
+                        feature == feature_of_pose.end() ? "" : feature->second, touch.pose,
+                        touch.layer, touch.point, touch.repeat);
+    for (const double value : {touch.tip_mm.x(), touch.tip_mm.y(), touch.tip_mm.z(),
+                               touch.approach.x(), touch.approach.y(), touch.approach.z()}) {
+      text += ',';
+      text += number(value);
+    }
+    text += fmt::format(",{},{},{}\n", measured(touch.temperature_degC), number(touch.time_s),
+                        measured(touch.scale_temperature_degC));
+  }
+  return text;
+}
+
+}  // namespace rondure::reports
