@@ -18,9 +18,10 @@ namespace {
 using core::Code;
 using core::kDegree;
 
-constexpr std::array<std::string_view, 6> kSpindleForms = {
-    "roundness",    "roundness-rms",      "harmonic-limits",
-    "motion-total", "motion-synchronous", "motion-asynchronous"};
+constexpr std::array kSpindleForms = {
+    record::Form::kRoundness,         record::Form::kRoundnessRms,
+    record::Form::kHarmonicLimits,    record::Form::kMotionTotal,
+    record::Form::kMotionSynchronous, record::Form::kMotionAsynchronous};
 constexpr std::array<record::WantedColumn, 5> kProbeColumns = {
     {{"alpha_deg"}, {"H1_um"}, {"H2_um"}, {"H3_um"}, {"beta_deg", false}}};
 constexpr std::uint64_t kProbeStream = 0x5b1d1eU;

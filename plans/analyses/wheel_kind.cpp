@@ -18,7 +18,8 @@ using core::Code;
 using core::kDegree;
 using core::kMicrometre;
 
-constexpr std::array<std::string_view, 3> kWheelForms = {"radius", "run-out", "roundness"};
+constexpr std::array kWheelForms = {record::Form::kRadius, record::Form::kRunOut,
+                                    record::Form::kRoundness};
 constexpr std::array<record::WantedColumn, 2> kEdgeColumns = {{{"x"}, {"z"}}};
 constexpr std::uint64_t kEdgeStream = 0x3e1eeU;
 constexpr int kBodyPoints = 3600;  ///< Of the noise-free body for the stated truth.
@@ -52,12 +53,12 @@ void check_axis(const FeaturePlan& feature, const Checker& checker) {
                           "indexed");
   }
   for (const CharacteristicPlan& c : feature.characteristics) {
-    if (c.form == "run-out" && envelope) {
+    if (c.form == record::Form::kRunOut && envelope) {
       checker.contradiction("mode", "run-out is asked for, which a turning wheel does not show");
-    } else if (c.form == "run-out" && !plan.axis_x_mm) {
+    } else if (c.form == record::Form::kRunOut && !plan.axis_x_mm) {
       checker.missing("axis_x_mm", "run-out needs the spindle axis");
     }
-    if (c.form == "radius" && !plan.nominal_radius_mm) {
+    if (c.form == record::Form::kRadius && !plan.nominal_radius_mm) {
       checker.missing("nominal_radius_mm", "the radius is judged by its departure from nominal");
     }
   }

@@ -48,6 +48,10 @@ class LimitList {
   void text(std::string_view key, const Text&, const TextSpec& spec) {
     add(key, {.one_of = spec.one_of});
   }
+  template <record::Worded Enum>
+  void text(std::string_view key, const Enum&, const TextSpec& spec) {
+    add(key, {.one_of = spec_of_words<Enum>(spec).one_of});
+  }
   void texts(std::string_view key, const std::vector<std::string>&, const TextSpec& spec) {
     add(key, {.one_of = spec.one_of});
   }
@@ -137,7 +141,7 @@ SettingTable run_table() {
 /// Settings of a surface, as settings_of() writes them.
 SettingTable surface_table() {
   SettingTable out;
-  out["merge"] = {.one_of = {"joint", "kinematics"}};
+  out["merge"] = {.one_of = spec_of_words<record::Merge>({.meaning = {}}).one_of};
   out["merged_poses"] = within_limits(1.0, 1000.0);
   out["merged_poses"].is_whole = true;
   for (const char* place : {"axis_point_mm", "axis_offset_mm"})

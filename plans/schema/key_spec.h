@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "record/words.h"
 
 namespace rondure::plans {
 
@@ -31,6 +32,14 @@ struct TextSpec {
   bool empty_allowed = true;
   std::string_view meaning;
 };
+
+/// The specification of a text that is an enum: all its words, unless `spec` allows only some.
+template <record::Worded Enum>
+[[nodiscard]] TextSpec spec_of_words(TextSpec spec) {
+  if (!spec.one_of.empty()) return spec;
+  for (const auto& word : words_of(Enum{})) spec.one_of.push_back(word.text);
+  return spec;
+}
 
 /// An object, or an array of objects.
 struct GroupSpec {

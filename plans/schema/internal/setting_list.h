@@ -25,6 +25,10 @@ class SettingList {
   void text(std::string_view key, const std::optional<std::string>& value, const TextSpec&) {
     if (value) word(key, *value);
   }
+  template <record::Worded Enum>
+  void text(std::string_view key, Enum value, const TextSpec&) {
+    word(key, std::string(name_of(value)));
+  }
   void texts(std::string_view key, const std::vector<std::string>& values, const TextSpec&) {
     for (const std::string& value : values) word(key, value);
   }
