@@ -18,6 +18,7 @@
 #include "plans/uncertainty_plan.h"
 #include "plans/zaber_plan.h"
 #include "record/run_record.h"
+#include "record/tasks/spindle.h"
 
 namespace rondure::plans {
 
@@ -208,7 +209,8 @@ struct FeaturePlan {
   NominalPlan nominal;
   SamplingPlan sampling;
   PoseSearchPlan pose_search;
-  std::optional<SpindlePlan> spindle;     ///< Needed and accepted only by the type of that name.
+  std::optional<record::SpindleTask>
+      spindle;                            ///< Needed and accepted only by the type of that name.
   std::optional<WheelPlan> wheel;         ///< As spindle.
   std::optional<ContourPlan> contour;     ///< As spindle.
   std::optional<RotaryPlan> rotary_axes;  ///< As spindle.

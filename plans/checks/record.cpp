@@ -202,7 +202,7 @@ Fault check_feature_settings(const record::Feature& feature, bool strict) {
   switch (feature.shape) {
     case Shape::kSpindle:
       if (auto fault = check_needed(feature, {"layout", "samples", "highest_order"})) return fault;
-      return check_settings(feature.settings, table_of<SpindlePlan>(), strict);
+      return check_settings(feature.settings, table_of<record::SpindleTask>(), strict);
     case Shape::kWheel:
       if (auto fault = check_needed(feature, {"mode", "count"})) return fault;
       return check_settings(feature.settings, table_of<WheelPlan>(), strict);

@@ -127,10 +127,7 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
 }
 
 std::vector<record::Setting> settings_of(const Plan& plan) {
-  DecisionRulePlan rule = plan.decision_rule;
-  SettingList list("decision_rule/");
-  describe(list, rule);
-  std::vector<record::Setting> out = list.take();
+  std::vector<record::Setting> out = record::settings_of_task(plan.decision_rule, "decision_rule/");
   if (plan.environment) {
     out.push_back({"environment/declared", std::nullopt, "limits"});
     if (const auto& degC = plan.environment->assumed_degC) {
@@ -138,10 +135,9 @@ std::vector<record::Setting> settings_of(const Plan& plan) {
     }
   }
   if (!plan.uncertainty) return out;
-  UncertaintyPlan uncertainty = *plan.uncertainty;
-  SettingList declared("uncertainty/");
-  describe(declared, uncertainty);
-  for (record::Setting& setting : declared.take()) out.push_back(std::move(setting));
+  const UncertaintyPlan& uncertainty = *plan.uncertainty;
+  auto declared = record::settings_of_task(uncertainty, "uncertainty/");
+  for (record::Setting& setting : declared) out.push_back(std::move(setting));
   if (uncertainty.thermal && plan.part.expansion_per_K) {
     out.push_back({"uncertainty/thermal/expansion_per_K", *plan.part.expansion_per_K, ""});
   }
