@@ -19,6 +19,7 @@
 #include "plans/zaber_plan.h"
 #include "record/run_record.h"
 #include "record/tasks/spindle.h"
+#include "record/tasks/wheel.h"
 
 namespace rondure::plans {
 
@@ -210,10 +211,10 @@ struct FeaturePlan {
   SamplingPlan sampling;
   PoseSearchPlan pose_search;
   std::optional<record::SpindleTask>
-      spindle;                            ///< Needed and accepted only by the type of that name.
-  std::optional<WheelPlan> wheel;         ///< As spindle.
-  std::optional<ContourPlan> contour;     ///< As spindle.
-  std::optional<RotaryPlan> rotary_axes;  ///< As spindle.
+      spindle;                             ///< Needed and accepted only by the type of that name.
+  std::optional<record::WheelTask> wheel;  ///< As spindle.
+  std::optional<ContourPlan> contour;      ///< As spindle.
+  std::optional<RotaryPlan> rotary_axes;   ///< As spindle.
   std::optional<SourcePlan> source;
   std::vector<CharacteristicPlan> characteristics;
 };

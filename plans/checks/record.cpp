@@ -205,7 +205,7 @@ Fault check_feature_settings(const record::Feature& feature, bool strict) {
       return check_settings(feature.settings, table_of<record::SpindleTask>(), strict);
     case Shape::kWheel:
       if (auto fault = check_needed(feature, {"mode", "count"})) return fault;
-      return check_settings(feature.settings, table_of<WheelPlan>(), strict);
+      return check_settings(feature.settings, table_of<record::WheelTask>(), strict);
     case Shape::kContour:
       if (auto fault = check_needed(feature, {"crank_radius_mm", "wheel_radius_mm", "pin_radius_mm",
                                               "samples", "path_samples"})) {

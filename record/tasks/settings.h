@@ -132,7 +132,11 @@ class SettingReader {
     }
   }
   void numbers(std::string_view key, std::vector<double>& values, const NumberSpec&) {
-    if (number_at(key) != nullptr) values = numbers_in(settings_, path_ + std::string(key));
+    const std::string name = path_ + std::string(key);
+    for (const Setting& setting : settings_) {  // no item may be passed over
+      if (setting.name == name && !setting.number) return refuse(name, kNeedsNumber);
+    }
+    if (at(key) != nullptr) values = numbers_in(settings_, name);
   }
   template <class Whole>
   void whole(std::string_view key, Whole& value, const NumberSpec& spec) {
@@ -178,6 +182,8 @@ class SettingReader {
   [[nodiscard]] const std::optional<std::string>& fault() const { return fault_; }
 
  private:
+  static constexpr const char* kNeedsNumber = "is a text, a number is needed";
+
   [[nodiscard]] const Setting* at(std::string_view key) const {
     const std::string name = path_ + std::string(key);
     const auto found = std::find_if(settings_.begin(), settings_.end(),
@@ -193,7 +199,7 @@ class SettingReader {
   const Setting* number_at(std::string_view key) {
     const Setting* const setting = at(key);
     if (setting == nullptr || setting->number) return setting;
-    refuse(setting->name, "is a text, a number is needed");
+    refuse(setting->name, kNeedsNumber);
     return nullptr;
   }
   template <class T>

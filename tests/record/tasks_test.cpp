@@ -9,6 +9,7 @@
 
 #include "record/tasks/settings.h"
 #include "record/tasks/spindle.h"
+#include "record/tasks/wheel.h"
 
 namespace rondure::record {
 namespace {
@@ -77,18 +78,49 @@ SpindleTask full_spindle() {
   return out;
 }
 
+WheelTask full_wheel() {
+  WheelTask out;
+  out.mode = WheelTask::Mode::kEnvelope;
+  out.nominal_radius_mm = kOdd;
+  out.axis_x_mm = -kOdd;
+  out.axis_z_mm = -0.0;
+  out.center = WheelTask::Center::kWeighted;
+  out.quadruples = WheelTask::Quadruples::kRandom;
+  out.count = 5000;
+  out.kappa_limit = kOdd / 7.0;
+  out.robust = Switch::kOn;
+  out.short_arc = WheelTask::ShortArc::kAllowed;
+  GroundSurfaceTask& surface = out.surface.emplace();
+  surface.form = GroundSurfaceTask::Form::kTable;
+  surface.coefficients = {0.0, kOdd, -0.0};
+  surface.vertex_radius_mm = 80.0 * kOdd;
+  surface.table_x_mm = {1.0, kOdd};
+  surface.cusp_um = kOdd;
+  surface.radius = GroundSurfaceTask::Radius::kEffective;
+  surface.touch_off_mm = 0.0;
+  return out;
+}
+
 TEST(Tasks, ComeBackFromTheirSettingsWithTheSameBits) {
   comes_back(SpindleTask());
   comes_back(full_spindle());
+  comes_back(WheelTask());
+  comes_back(full_wheel());
 }
 
 TEST(Tasks, HaveTheirDefaultsWhereAJournalSaysNothing) {
   const auto spindle = task_of<SpindleTask>({});
   ASSERT_TRUE(spindle);
   EXPECT_EQ(lines_of(settings_of_task(*spindle)), lines_of(settings_of_task(SpindleTask())));
+  const auto wheel = task_of<WheelTask>({});
+  ASSERT_TRUE(wheel);
+  EXPECT_EQ(lines_of(settings_of_task(*wheel)), lines_of(settings_of_task(WheelTask())));
 }
 
-TEST(Tasks, RefuseAnUnknownWordByTheNameOfItsSetting) { refuses_other_words(full_spindle()); }
+TEST(Tasks, RefuseAnUnknownWordByTheNameOfItsSetting) {
+  refuses_other_words(full_spindle());
+  refuses_other_words(full_wheel());
+}
 
 TEST(Tasks, RefuseAWholeNumberThatIsNone) {
   for (const double samples : {720.5, 1e300, -1.0}) {
