@@ -130,6 +130,13 @@ core::Result<MergedCloud> merged_cloud(const RunRecord& record, int index,
   for (const record::PoseVisit& visit : record.poses) {
     if (visit.feature == index && visit.final_cloud) visits.push_back(&visit);
   }
+  const auto merge = record::value_named<record::Merge>(
+      feature.word("merge").value_or(std::string(name_of(record::Merge::kJoint))));
+  if (!merge) {
+    return core::fail(
+        core::Code::kMeaning,
+        fmt::format("setting \"merge\" says \"{}\", which is not known", *feature.word("merge")));
+  }
   const auto planned = static_cast<std::size_t>(feature.number("merged_poses").value_or(2.0));
   MergedCloud out;
   const std::vector<fit::JointPose> poses = take_poses(record, feature, visits, out);
@@ -139,7 +146,7 @@ core::Result<MergedCloud> merged_cloud(const RunRecord& record, int index,
                                   record.failure ? ": " + record.failure->what : std::string()));
   }
   out.temperatures = temperatures_of(record, touches_in(record, visits));
-  out.merged.joint = feature.word("merge") != "kinematics";
+  out.merged.joint = *merge == record::Merge::kJoint;
   out.merged.touch_mm = touch_uncertainty_mm(out, probe);
   if (poses.front().prior[0] == 0.0 && poses.front().prior[3] == 0.0) {
     out.merged.refusal = core::Error{core::Code::kMissingKey,

@@ -17,6 +17,9 @@
 #include "plans/machine_errors_plan.h"
 #include "plans/uncertainty_plan.h"
 #include "plans/zaber_plan.h"
+#include "record/run_record.h"
+#include "record/tasks/spindle.h"
+#include "record/tasks/wheel.h"
 
 namespace rondure::plans {
 
@@ -150,8 +153,8 @@ struct SamplingPlan {
   int points_per_layer = 7;
   double margin_mm = 5.0;
   double start_deg = 0.0;
-  double stagger = 1.0;          ///< 0: all layers start at one angle; 1: evenly interleaved.
-  std::string method = "touch";  ///< "touch" or "scan".
+  double stagger = 1.0;  ///< 0: all layers start at one angle; 1: evenly interleaved.
+  record::SamplingMethod method = record::SamplingMethod::kTouch;
 };
 
 /// A pose in which part of a feature is measured.
@@ -161,9 +164,9 @@ struct MeasuringPosePlan {
 };
 
 struct PoseSearchPlan {
-  std::string strategy = "guided";
-  std::vector<MeasuringPosePlan> poses;  ///< For "merged": at least two.
-  std::string merge = "joint";           ///< For "merged"; or "kinematics".
+  record::Strategy strategy = record::Strategy::kGuided;  ///< One of a surface that is touched.
+  std::vector<MeasuringPosePlan> poses;                   ///< For "merged": at least two.
+  record::Merge merge = record::Merge::kJoint;            ///< For "merged".
   double start_alpha_deg = 0.0;
   double start_beta_deg = 0.0;
   std::vector<double> steps_deg = {5.0, 2.0};
@@ -180,8 +183,8 @@ struct HarmonicLimitPlan {
 
 struct CharacteristicPlan {
   std::string id;
-  std::string form = "cylindricity";
-  std::optional<std::string> reference;  ///< "mz", "ls", "mc" or "mi".
+  record::Form form = record::Form::kCylindricity;
+  std::optional<record::Reference> reference;
   std::optional<double> tolerance_um;
   std::string drawing_zone;
   std::vector<HarmonicLimitPlan> harmonic_limits = {};  ///< Of the form "harmonic-limits".
@@ -202,15 +205,16 @@ struct SourcePlan {
 
 struct FeaturePlan {
   std::string id;
-  std::string type = "cylinder";
-  std::string side = "outside";
+  record::Shape type = record::Shape::kCylinder;
+  record::Side side = record::Side::kOutside;
   NominalPlan nominal;
   SamplingPlan sampling;
   PoseSearchPlan pose_search;
-  std::optional<SpindlePlan> spindle;     ///< Needed and accepted only by the type of that name.
-  std::optional<WheelPlan> wheel;         ///< As spindle.
-  std::optional<ContourPlan> contour;     ///< As spindle.
-  std::optional<RotaryPlan> rotary_axes;  ///< As spindle.
+  std::optional<record::SpindleTask>
+      spindle;                             ///< Needed and accepted only by the type of that name.
+  std::optional<record::WheelTask> wheel;  ///< As spindle.
+  std::optional<ContourPlan> contour;      ///< As spindle.
+  std::optional<RotaryPlan> rotary_axes;   ///< As spindle.
   std::optional<SourcePlan> source;
   std::vector<CharacteristicPlan> characteristics;
 };

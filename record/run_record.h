@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 #include "core/error.h"
 #include "core/message.h"
 #include "core/pose.h"
+#include "record/words.h"
 
 namespace rondure::record {
 
@@ -53,12 +55,60 @@ enum class Strategy {
 /// Whether a shape is an analysis, with an evaluation of its own, instead of a surface.
 [[nodiscard]] bool is_analysis(Shape shape);
 
-/// Spelling in plans, journals and JSON: "cylinder", "outside", "cylindricity", "ls", "mz", ...
-[[nodiscard]] std::string_view name_of(Shape shape);
-[[nodiscard]] std::string_view name_of(Side side);
-[[nodiscard]] std::string_view name_of(Form form);
-[[nodiscard]] std::string_view name_of(Reference reference);
-[[nodiscard]] std::string_view name_of(Strategy strategy);
+/// How the poses of Strategy::kMerged come together: solved with the part, or as the fixture says.
+enum class Merge { kJoint, kKinematics };
+enum class SamplingMethod { kTouch, kScan };
+
+/// Spelling in plans, journals and JSON; name_of() and value_named() read these tables.
+constexpr auto words_of(Shape) {
+  return std::to_array<Word<Shape>>({{Shape::kCylinder, "cylinder"},
+                                     {Shape::kCircle, "circle"},
+                                     {Shape::kSpindle, "spindle"},
+                                     {Shape::kWheel, "wheel"},
+                                     {Shape::kContour, "contour"},
+                                     {Shape::kRotaryAxes, "rotary_axes"}});
+}
+constexpr auto words_of(Side) {
+  return std::to_array<Word<Side>>({{Side::kOutside, "outside"}, {Side::kInside, "inside"}});
+}
+constexpr auto words_of(Form) {
+  return std::to_array<Word<Form>>({{Form::kCylindricity, "cylindricity"},
+                                    {Form::kRoundness, "roundness"},
+                                    {Form::kRoundnessRms, "roundness-rms"},
+                                    {Form::kHarmonicLimits, "harmonic-limits"},
+                                    {Form::kMotionTotal, "motion-total"},
+                                    {Form::kMotionSynchronous, "motion-synchronous"},
+                                    {Form::kMotionAsynchronous, "motion-asynchronous"},
+                                    {Form::kRadius, "radius"},
+                                    {Form::kRunOut, "run-out"},
+                                    {Form::kContourDeviation, "contour-deviation"},
+                                    {Form::kContourSpread, "contour-spread"},
+                                    {Form::kFixtureResidual, "fixture-residual"},
+                                    {Form::kFixtureResidualRms, "fixture-residual-rms"}});
+}
+constexpr auto words_of(Reference) {
+  return std::to_array<Word<Reference>>({{Reference::kMinimumZone, "mz"},
+                                         {Reference::kLeastSquares, "ls"},
+                                         {Reference::kMinimumCircumscribed, "mc"},
+                                         {Reference::kMaximumInscribed, "mi"}});
+}
+constexpr auto words_of(Strategy) {
+  return std::to_array<Word<Strategy>>({{Strategy::kGuided, "guided"},
+                                        {Strategy::kRefined, "refined"},
+                                        {Strategy::kAsPublished, "as-published"},
+                                        {Strategy::kVirtual, "virtual"},
+                                        {Strategy::kMerged, "merged"},
+                                        {Strategy::kPointsFile, "points-file"},
+                                        {Strategy::kSeries, "series"},
+                                        {Strategy::kStations, "stations"}});
+}
+constexpr auto words_of(Merge) {
+  return std::to_array<Word<Merge>>({{Merge::kJoint, "joint"}, {Merge::kKinematics, "kinematics"}});
+}
+constexpr auto words_of(SamplingMethod) {
+  return std::to_array<Word<SamplingMethod>>(
+      {{SamplingMethod::kTouch, "touch"}, {SamplingMethod::kScan, "scan"}});
+}
 
 /// Largest amplitude of the harmonics first..last; one line of a harmonic mask.
 struct HarmonicLimit {
@@ -179,8 +229,12 @@ struct Touch {
   std::optional<double> scale_temperature_degC;        ///< Of the scales of the machine.
 };
 
-/// "qualification", "locate", "measure", "check".
-[[nodiscard]] std::string_view name_of(Touch::Purpose purpose);
+constexpr auto words_of(Touch::Purpose) {
+  return std::to_array<Word<Touch::Purpose>>({{Touch::Purpose::kQualification, "qualification"},
+                                              {Touch::Purpose::kLocate, "locate"},
+                                              {Touch::Purpose::kMeasure, "measure"},
+                                              {Touch::Purpose::kCheck, "check"}});
+}
 
 /// A decision of the program during the run, in words, e.g. why the pose search stopped.
 struct Decision {
@@ -213,8 +267,10 @@ struct Series {
   [[nodiscard]] std::optional<std::vector<double>> column(std::string_view wanted) const;
 };
 
-/// "data", "truth".
-[[nodiscard]] std::string_view name_of(Series::Role role);
+constexpr auto words_of(Series::Role) {
+  return std::to_array<Word<Series::Role>>(
+      {{Series::Role::kData, "data"}, {Series::Role::kTruth, "truth"}});
+}
 
 /// A number of the hidden truth of a simulated analysis.
 struct TruthValue {

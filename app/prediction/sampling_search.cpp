@@ -19,7 +19,7 @@ using evaluation::Measurand;
 constexpr std::array kRepeats = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 25, 32, 40, 50};
 
 Sampling sampling_of(const plans::FeaturePlan& feature) {
-  const int layers = feature.type == "circle" ? 1 : feature.sampling.layers;
+  const int layers = feature.type == record::Shape::kCircle ? 1 : feature.sampling.layers;
   return {layers, feature.sampling.points_per_layer, feature.pose_search.repeats};
 }
 
@@ -27,8 +27,8 @@ Sampling sampling_of(const plans::FeaturePlan& feature) {
 std::vector<Sampling> layouts_of(const plans::FeaturePlan& feature, Measurand measurand) {
   const Sampling planned = sampling_of(feature);
   const bool whole = measurand == Measurand::kWholeSurface;
-  const bool section = feature.type == "circle";
-  const bool scan = feature.sampling.method == "scan";
+  const bool section = feature.type == record::Shape::kCircle;
+  const bool scan = feature.sampling.method == record::SamplingMethod::kScan;
   std::set<int> layers = {planned.layers};
   std::set<int> points = {planned.points_per_layer};
   if (whole) {

@@ -52,7 +52,8 @@ struct DecisionRule {
 [[nodiscard]] std::string_view name_of(Prior::Kind kind);
 
 /// The rule of a run, from its settings ("decision_rule/..."); a journal before version 4 says only
-/// its name. kMeaning for a name this program does not know: then every verdict is void.
+/// its name. kMeaning for a rule, measurand, judge or prior this program does not know: then every
+/// verdict is void.
 [[nodiscard]] core::Result<DecisionRule> rule_of(const record::RunRecord& record);
 
 /// What is known of a value.

@@ -6,45 +6,60 @@
 #include "evaluation/analysis.h"
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluation.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/spindle.h"
 
 namespace rondure::evaluation {
 namespace {
 
 using core::kDegree;
 using core::kMicrometre;
+using record::SpindleTask;
 
-core::Result<fit::ProbeLayout> layout_of(const record::Feature& feature) {
-  const std::string name = feature.word("layout").value_or("angles");
-  if (name == "published-a") return fit::published_layout_a();
-  if (name == "published-b") return fit::published_layout_b();
-  if (name == "reference") return fit::reference_layout();
-  const double p2 = feature.number("p1_to_p2_deg").value_or(0.0);
-  const auto between = feature.number("p2_to_p3_deg");
-  const double p3 = between ? *between : feature.number("p1_to_p3_deg").value_or(0.0) - p2;
+core::Result<fit::ProbeLayout> layout_of(const SpindleTask& task) {
+  switch (task.layout) {
+    case SpindleTask::Layout::kPublishedA:
+      return fit::published_layout_a();
+    case SpindleTask::Layout::kPublishedB:
+      return fit::published_layout_b();
+    case SpindleTask::Layout::kReference:
+      return fit::reference_layout();
+    case SpindleTask::Layout::kAngles:
+      break;
+  }
+  const double p2 = task.p1_to_p2_deg.value_or(0.0);
+  const double p3 = task.p2_to_p3_deg.value_or(task.p1_to_p3_deg.value_or(0.0) - p2);
   return fit::ProbeLayout::of(p2 * kDegree, p3 * kDegree);
 }
 
-fit::ThreeProbeOptions separation_options(const record::Feature& feature) {
-  using Options = fit::ThreeProbeOptions;
-  Options out;
-  out.samples = static_cast<int>(feature.number("samples").value_or(out.samples));
-  out.highest = static_cast<int>(feature.number("highest_order").value_or(out.highest));
-  out.greatest_gain = feature.number("greatest_gain").value_or(out.greatest_gain);
-  if (const auto noise_um = feature.number("probe_noise_um"))
-    out.noise_mm = *noise_um * kMicrometre;
-  out.expected_amplitude_mm = feature.number("expected_amplitude_um").value_or(0.1) * kMicrometre;
-  out.resample = feature.word("resampling") != "off";
-  if (feature.word("recovery") == "regularised") out.recovery = Options::Recovery::kTikhonov;
-  if (feature.word("second_order") == "on") out.second_order = Options::SecondOrder::kOn;
-  if (feature.word("second_order") == "off") out.second_order = Options::SecondOrder::kOff;
-  if (feature.word("motion") == "as-published") out.motion = Options::Motion::kAsPublished;
-  return out;
+fit::ThreeProbeOptions::SecondOrder second_order_of(SpindleTask::SecondOrder asked) {
+  using SecondOrder = fit::ThreeProbeOptions::SecondOrder;
+  switch (asked) {
+    case SpindleTask::SecondOrder::kAuto:
+      break;
+    case SpindleTask::SecondOrder::kOn:
+      return SecondOrder::kOn;
+    case SpindleTask::SecondOrder::kOff:
+      return SecondOrder::kOff;
+  }
+  return SecondOrder::kAuto;
 }
 
-fit::SwingArm arm_of(const record::Feature& feature) {
-  return {feature.number("crank_radius_mm").value_or(0.0),
-          feature.number("wheel_radius_mm").value_or(0.0),
-          feature.number("pin_radius_mm").value_or(0.0)};
+fit::ThreeProbeOptions separation_options(const SpindleTask& task) {
+  using Options = fit::ThreeProbeOptions;
+  Options out;
+  out.samples = task.samples;
+  out.highest = task.highest_order;
+  out.greatest_gain = task.greatest_gain;
+  if (task.probe_noise_um) out.noise_mm = *task.probe_noise_um * kMicrometre;
+  out.expected_amplitude_mm = task.expected_amplitude_um * kMicrometre;
+  out.resample = task.resampling == record::Switch::kOn;
+  if (task.recovery == SpindleTask::Recovery::kRegularised) {
+    out.recovery = Options::Recovery::kTikhonov;
+  }
+  out.second_order = second_order_of(task.second_order);
+  if (task.motion == SpindleTask::Motion::kAsPublished) out.motion = Options::Motion::kAsPublished;
+  return out;
 }
 
 std::vector<std::vector<double>> turns_of(const fit::ThreeProbeResult& result,
@@ -96,16 +111,21 @@ core::Result<SpindleResult> spindle_facts(const fit::ProbeReadings& readings,
 
 void evaluate_spindle(const record::RunRecord& record, int index, FeatureResult& result) {
   const record::Feature& feature = result.feature;
-  const auto layout = layout_of(feature);
+  const auto task = record::task_of<SpindleTask>(feature.settings);
+  if (!task) {
+    result.failure = task.error();
+    return;
+  }
+  const auto layout = layout_of(*task);
   if (!layout) {
     result.failure = layout.error();
     return;
   }
-  const double cutoff =
-      feature.word("filter") == "none" ? 0.0 : feature.number("cutoff_upr").value_or(50.0);
+  const double cutoff = task->filter == SpindleTask::Filter::kNone ? 0.0 : task->cutoff_upr;
+  const fit::SwingArm arm{task->crank_radius_mm, task->wheel_radius_mm, task->pin_radius_mm};
   auto facts =
-      spindle_facts(probe_readings(*record.data_of(index, "data")), arm_of(feature), *layout,
-                    separation_options(feature), cutoff, feature.side == record::Side::kInside);
+      spindle_facts(probe_readings(*record.data_of(index, "data")), arm, *layout,
+                    separation_options(*task), cutoff, feature.side == record::Side::kInside);
   if (!facts) {
     result.failure = facts.error();
     return;

@@ -9,6 +9,8 @@
 #include "evaluation/analysis_result.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/feature_values.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/wheel.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -16,64 +18,81 @@ namespace {
 using core::kDegree;
 using core::kMicrometre;
 using core::um;
+using record::GroundSurfaceTask;
+using record::WheelTask;
 
-fit::WheelOptions wheel_options(const record::Feature& feature, std::uint64_t seed) {
+fit::WheelMean wheel_mean(WheelTask::Center center) {
+  switch (center) {
+    case WheelTask::Center::kLeastSquares:
+      break;
+    case WheelTask::Center::kAsPublished:
+      return fit::WheelMean::kAsPublished;
+    case WheelTask::Center::kWeighted:
+      return fit::WheelMean::kWeighted;
+  }
+  return fit::WheelMean::kLeastSquares;
+}
+
+fit::QuadrupleChoice quadruple_choice(WheelTask::Quadruples quadruples) {
+  switch (quadruples) {
+    case WheelTask::Quadruples::kAll:
+      break;
+    case WheelTask::Quadruples::kBest:
+      return fit::QuadrupleChoice::kBest;
+    case WheelTask::Quadruples::kRandom:
+      return fit::QuadrupleChoice::kRandom;
+  }
+  return fit::QuadrupleChoice::kAll;
+}
+
+fit::WheelOptions wheel_options(const WheelTask& task, std::uint64_t seed) {
   fit::WheelOptions out;
-  if (feature.word("mode") == "envelope") out.mode = fit::WheelMode::kEnvelope;
-  for (const auto mean : {fit::WheelMean::kAsPublished, fit::WheelMean::kWeighted}) {
-    if (feature.word("center") == fit::name_of(mean)) out.mean = mean;
-  }
-  if (feature.word("quadruples") == "best") out.quadruples.choice = fit::QuadrupleChoice::kBest;
-  if (feature.word("quadruples") == "random") {
-    out.quadruples.choice = fit::QuadrupleChoice::kRandom;
-  }
-  out.quadruples.count = static_cast<std::size_t>(feature.number("count").value_or(6.0));
+  out.mode = task.mode == WheelTask::Mode::kEnvelope ? fit::WheelMode::kEnvelope
+                                                     : fit::WheelMode::kIndexed;
+  out.mean = wheel_mean(task.center);
+  out.quadruples.choice = quadruple_choice(task.quadruples);
+  out.quadruples.count = static_cast<std::size_t>(task.count);
   out.quadruples.seed = seed;
-  out.quadruples.kappa_limit = feature.number("kappa_limit");
-  out.robust = feature.word("robust") == "on";
-  out.allow_short_arc = feature.word("short_arc") == "allowed";
-  out.nominal_radius_mm = feature.number("nominal_radius_mm");
-  const auto x = feature.number("axis_x_mm");
-  const auto z = feature.number("axis_z_mm");
-  if (x && z) out.axis_mm = Eigen::Vector2d(*x, *z);
+  out.quadruples.kappa_limit = task.kappa_limit;
+  out.robust = task.robust == record::Switch::kOn;
+  out.allow_short_arc = task.short_arc == WheelTask::ShortArc::kAllowed;
+  out.nominal_radius_mm = task.nominal_radius_mm;
+  if (task.axis_x_mm && task.axis_z_mm) {
+    out.axis_mm = Eigen::Vector2d(*task.axis_x_mm, *task.axis_z_mm);
+  }
   return out;
 }
 
-core::Result<fit::WheelSurface> formula_or_table(const record::Feature& feature) {
-  const auto form = feature.word("surface/form");
-  if (form == "table") {
-    return fit::WheelSurface::table(feature.numbers("surface/table_x_mm"),
-                                    feature.numbers("surface/table_z_mm"));
+core::Result<fit::WheelSurface> formula_or_table(const GroundSurfaceTask& task) {
+  switch (task.form) {
+    case GroundSurfaceTask::Form::kTable:
+      return fit::WheelSurface::table(task.table_x_mm, task.table_z_mm);
+    case GroundSurfaceTask::Form::kPolynomial:
+      return fit::WheelSurface::polynomial({task.coefficients});
+    case GroundSurfaceTask::Form::kAsphere:
+      break;
   }
-  if (form == "polynomial") {
-    return fit::WheelSurface::polynomial({feature.numbers("surface/coefficients")});
-  }
-  const auto radius = feature.number("surface/vertex_radius_mm");
-  return fit::WheelSurface::asphere({radius ? 1.0 / *radius : 0.0,
-                                     feature.number("surface/conic").value_or(0.0),
-                                     feature.numbers("surface/even_terms")});
+  const auto& radius = task.vertex_radius_mm;
+  return fit::WheelSurface::asphere({radius ? 1.0 / *radius : 0.0, task.conic, task.even_terms});
 }
 
-core::Result<fit::WheelSurface> surface_of(const record::Feature& feature) {
-  auto out = formula_or_table(feature);
-  std::vector<double> depth = feature.numbers("surface/removal_depth_um");
+core::Result<fit::WheelSurface> surface_of(const GroundSurfaceTask& task) {
+  auto out = formula_or_table(task);
+  std::vector<double> depth = task.removal_depth_um;
   if (!out || depth.empty()) return out;
   for (double& d : depth) d *= kMicrometre;
-  return out->less(feature.numbers("surface/removal_x_mm"), std::move(depth));
+  return out->less(task.removal_x_mm, std::move(depth));
 }
 
-fit::WheelPathOptions path_options(const record::Feature& feature,
+fit::WheelPathOptions path_options(const GroundSurfaceTask& task,
                                    const fit::WheelSurface& surface) {
-  const auto number = [&](std::string_view key, double otherwise) {
-    return feature.number(fmt::format("surface/{}", key)).value_or(otherwise);
-  };
   fit::WheelPathOptions out;
-  out.from_mm = number("from_mm", 0.0);
-  out.to_mm = number("to_mm", 0.0);
-  out.step_mm = number("step_mm", out.step_mm);
-  if (const auto cusp = feature.number("surface/cusp_um")) out.cusp_mm = *cusp * kMicrometre;
-  out.least_contact_rad = number("wheel_arc_from_deg", -90.0) * kDegree;
-  out.greatest_contact_rad = number("wheel_arc_to_deg", 90.0) * kDegree;
+  out.from_mm = task.from_mm;
+  out.to_mm = task.to_mm;
+  out.step_mm = task.step_mm;
+  if (task.cusp_um) out.cusp_mm = *task.cusp_um * kMicrometre;
+  out.least_contact_rad = task.wheel_arc_from_deg * kDegree;
+  out.greatest_contact_rad = task.wheel_arc_to_deg * kDegree;
   if (const auto whole = surface.range_mm()) {
     out.surface_from_mm = whole->first;
     out.surface_to_mm = whole->second;
@@ -81,15 +100,17 @@ fit::WheelPathOptions path_options(const record::Feature& feature,
   return out;
 }
 
-core::Result<std::optional<fit::WheelPathTask>> path_task(const record::Feature& feature) {
-  if (!feature.word("surface/form")) return std::nullopt;
-  auto surface = surface_of(feature);
+core::Result<std::optional<fit::WheelPathTask>> path_task(const WheelTask& wheel) {
+  if (!wheel.surface) return std::nullopt;
+  const GroundSurfaceTask& task = *wheel.surface;
+  auto surface = surface_of(task);
   if (!surface) return core::fail(surface.error());
-  const auto options = path_options(feature, *surface);
+  const auto options = path_options(task, *surface);
   fit::WheelPathTask out{*std::move(surface), options, fit::RadiusChoice::kMean,
-                         feature.number("surface/repeatability_um").value_or(0.0) * kMicrometre,
-                         feature.number("surface/touch_off_mm")};
-  if (feature.word("surface/radius") == "effective") out.radius = fit::RadiusChoice::kEffective;
+                         task.repeatability_um * kMicrometre, task.touch_off_mm};
+  if (task.radius == GroundSurfaceTask::Radius::kEffective) {
+    out.radius = fit::RadiusChoice::kEffective;
+  }
   return out;
 }
 
@@ -210,14 +231,19 @@ std::string sampling_text(const WheelResult& facts) {
 }
 
 void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& result) {
-  auto task = path_task(result.feature);
+  const auto asked = record::task_of<WheelTask>(result.feature.settings);
+  if (!asked) {
+    result.failure = asked.error();
+    return;
+  }
+  auto task = path_task(*asked);
   if (!task) {
     result.failure = task.error();
     return;
   }
   WheelResult facts;
   facts.points_mm = points_of(*record.data_of(index, "data"));
-  facts.task = {wheel_options(result.feature, record.header.seed), *std::move(task)};
+  facts.task = {wheel_options(*asked, record.header.seed), *std::move(task)};
   auto evaluation = fit::evaluate_wheel(facts.points_mm, facts.task);
   if (!evaluation) {
     result.failure = evaluation.error();

@@ -40,11 +40,11 @@ core::Result<AnalysisData> read_files(const Plan& plan, std::size_t index,
 }
 
 /// "roundness, run-out".
-std::string list_of(std::span<const std::string_view> words) {
+std::string list_of(std::span<const record::Form> forms) {
   std::string out;
-  for (const std::string_view word : words) {
+  for (const record::Form form : forms) {
     if (!out.empty()) out += ", ";
-    out += word;
+    out += name_of(form);
   }
   return out;
 }
@@ -53,14 +53,14 @@ void check_forms(const FeaturePlan& feature, const AnalysisKind& kind, const std
                  Findings& findings) {
   for (std::size_t k = 0; k < feature.characteristics.size(); ++k) {
     const std::string place = item_pointer(where + "/characteristics", k) + "/form";
-    const std::string& form = feature.characteristics[k].form;
+    const record::Form form = feature.characteristics[k].form;
     if (!findings.sound(place) ||
         std::find(kind.forms.begin(), kind.forms.end(), form) != kind.forms.end()) {
       continue;
     }
     findings.meaning(
         Code::kMeaning, place,
-        fmt::format("a {} has no {}; ask for {}", kind.type, form, list_of(kind.forms)));
+        fmt::format("a {} has no {}; ask for {}", kind.type, name_of(form), list_of(kind.forms)));
   }
 }
 
@@ -133,9 +133,9 @@ bool measures_by_touch(const FeaturePlan& feature) {
   return kind != nullptr && kind->check_cell != nullptr;
 }
 
-const AnalysisKind* analysis_kind(std::string_view type) {
+const AnalysisKind* analysis_kind(record::Shape shape) {
   for (const AnalysisKind* kind : kinds()) {
-    if (kind->type == type) return kind;
+    if (kind->shape == shape) return kind;
   }
   return nullptr;
 }

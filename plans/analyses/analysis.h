@@ -38,7 +38,7 @@ struct AnalysisData {
 struct AnalysisKind {
   std::string_view type;  ///< Also the key of its section in the feature and in the simulation.
   record::Shape shape;
-  std::span<const std::string_view> forms;  ///< Its possible characteristics.
+  std::span<const record::Form> forms;  ///< Its possible characteristics.
   bool (*is_simulated)(const SimulationPlan& simulation);
   std::vector<record::Setting> (*settings)(const FeaturePlan& feature);
   std::vector<SeriesFile> (*files)(const FeaturePlan& feature);
@@ -68,7 +68,7 @@ template <auto section>
 [[nodiscard]] bool has_files(const FeaturePlan& feature);
 
 /// The kind of a feature's type, or nullptr for a touched surface.
-[[nodiscard]] const AnalysisKind* analysis_kind(std::string_view type);
+[[nodiscard]] const AnalysisKind* analysis_kind(record::Shape shape);
 
 /// Whether a feature is an analysis of touches: it needs the machine, but is not a surface.
 [[nodiscard]] bool measures_by_touch(const FeaturePlan& feature);

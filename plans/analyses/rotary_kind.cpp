@@ -17,8 +17,8 @@ namespace {
 
 using core::Code;
 
-constexpr std::array<std::string_view, 2> kRotaryForms = {"fixture-residual",
-                                                          "fixture-residual-rms"};
+constexpr std::array kRotaryForms = {record::Form::kFixtureResidual,
+                                     record::Form::kFixtureResidualRms};
 constexpr std::size_t kLeastStations = 3;  // with the zero pose four, as a cubic needs
 constexpr std::size_t kLeastPoses = 5;
 

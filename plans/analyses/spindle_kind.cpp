@@ -17,32 +17,41 @@ namespace {
 
 using core::Code;
 using core::kDegree;
+using record::SpindleTask;
 
-constexpr std::array<std::string_view, 6> kSpindleForms = {
-    "roundness",    "roundness-rms",      "harmonic-limits",
-    "motion-total", "motion-synchronous", "motion-asynchronous"};
+constexpr std::array kSpindleForms = {
+    record::Form::kRoundness,         record::Form::kRoundnessRms,
+    record::Form::kHarmonicLimits,    record::Form::kMotionTotal,
+    record::Form::kMotionSynchronous, record::Form::kMotionAsynchronous};
 constexpr std::array<record::WantedColumn, 5> kProbeColumns = {
     {{"alpha_deg"}, {"H1_um"}, {"H2_um"}, {"H3_um"}, {"beta_deg", false}}};
 constexpr std::uint64_t kProbeStream = 0x5b1d1eU;
 constexpr double kDriftCycles = 0.37;  ///< Per turn, so that it never repeats with the work.
 
-fit::SwingArm arm_of(const SpindlePlan& plan) {
+fit::SwingArm arm_of(const SpindleTask& plan) {
   return {plan.crank_radius_mm, plan.wheel_radius_mm, plan.pin_radius_mm};
 }
 
 /// The layout stated in the plan; no value is guessed.
-core::Result<fit::ProbeLayout> layout_of(const SpindlePlan& plan) {
-  if (plan.layout == "published-a") return fit::published_layout_a();
-  if (plan.layout == "published-b") return fit::published_layout_b();
-  if (plan.layout == "reference") return fit::reference_layout();
+core::Result<fit::ProbeLayout> layout_of(const SpindleTask& plan) {
+  switch (plan.layout) {
+    case SpindleTask::Layout::kPublishedA:
+      return fit::published_layout_a();
+    case SpindleTask::Layout::kPublishedB:
+      return fit::published_layout_b();
+    case SpindleTask::Layout::kReference:
+      return fit::reference_layout();
+    case SpindleTask::Layout::kAngles:
+      break;
+  }
   const double p2 = plan.p1_to_p2_deg.value_or(0.0);
   const double between = plan.p2_to_p3_deg.value_or(plan.p1_to_p3_deg.value_or(0.0) - p2);
   return fit::ProbeLayout::of(p2 * kDegree, between * kDegree);
 }
 
 /// Checks that the angles are given once and completely, or not at all.
-bool check_angles(const SpindlePlan& plan, const std::string& where, Findings& findings) {
-  const bool own = plan.layout == "angles";
+bool check_angles(const SpindleTask& plan, const std::string& where, Findings& findings) {
+  const bool own = plan.layout == SpindleTask::Layout::kAngles;
   const auto refuse = [&](Code code, std::string_view key, std::string what) {
     findings.meaning(code, fmt::format("{}/{}", where, key), std::move(what));
     return false;
@@ -54,7 +63,7 @@ bool check_angles(const SpindlePlan& plan, const std::string& where, Findings& f
           Code::kMeaning, key,
           fmt::format("has no effect: the layout is \"{}\"; remove it, or make the layout "
                       "\"angles\"",
-                      plan.layout));
+                      name_of(plan.layout)));
     }
     return true;
   }
@@ -75,7 +84,7 @@ bool check_angles(const SpindlePlan& plan, const std::string& where, Findings& f
 }
 
 void check_spindle(const FeaturePlan& feature, const std::string& where, Findings& findings) {
-  const SpindlePlan& plan = *feature.spindle;
+  const SpindleTask& plan = *feature.spindle;
   if (check_angles(plan, where, findings)) {
     if (const auto layout = layout_of(plan); !layout) {
       findings.meaning(layout.error().code, where, layout.error().what);
@@ -91,7 +100,7 @@ void check_spindle(const FeaturePlan& feature, const std::string& where, Finding
                                  plan.samples, plan.highest_order, 2 * plan.highest_order + 2,
                                  7 * plan.highest_order));
   }
-  if (plan.second_order == "on" && !(plan.pin_radius_mm > 0.0)) {
+  if (plan.second_order == SpindleTask::SecondOrder::kOn && !(plan.pin_radius_mm > 0.0)) {
     findings.meaning(Code::kMissingKey, where + "/pin_radius_mm",
                      "this key is missing: the second order needs the radius of the part");
   }
@@ -160,7 +169,7 @@ record::Series readings(const ProbedWorld& world, int feature, std::uint64_t see
 }
 
 /// Adds the profile over the part and the motion over the work, each at equal angles.
-void add_truth(const ProbedWorld& world, int feature, const SpindlePlan& plan, AnalysisData& out) {
+void add_truth(const ProbedWorld& world, int feature, const SpindleTask& plan, AnalysisData& out) {
   record::Series truth;
   truth.feature = feature;
   truth.name = "truth";
@@ -183,7 +192,7 @@ void add_truth(const ProbedWorld& world, int feature, const SpindlePlan& plan, A
 
 core::Result<AnalysisData> simulate_spindle(const Plan& plan, std::size_t index,
                                             std::uint64_t seed) {
-  const SpindlePlan& asked = *plan.features[index].spindle;
+  const SpindleTask& asked = *plan.features[index].spindle;
   const SimulatedSpindlePlan& hidden = *plan.simulation->spindle;
   const auto layout = layout_of(asked);
   if (!layout) return core::fail(layout.error());

@@ -1,35 +1,12 @@
 #pragma once
 
 #include <array>
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace rondure::plans {
 
-// The keys of a feature of the type "spindle" and of its simulation, as the JSON spells them; see
-// plan.h. Keys and meanings: spindle_table.h.
-
-struct SpindlePlan {
-  std::string layout = "angles";  ///< "angles", "published-a", "published-b", "reference".
-  std::optional<double> p1_to_p2_deg;
-  std::optional<double> p2_to_p3_deg;  ///< One of these two.
-  std::optional<double> p1_to_p3_deg;
-  double crank_radius_mm = 0.0;  ///< 0: an ordinary shaft; else the arm follows a crank pin.
-  double wheel_radius_mm = 0.0;
-  double pin_radius_mm = 0.0;
-  int samples = 1024;
-  int highest_order = 50;
-  double greatest_gain = 100.0;
-  std::string recovery = "threshold";    ///< "threshold", "regularised".
-  double expected_amplitude_um = 0.1;    ///< Of a harmonic, for "regularised".
-  std::optional<double> probe_noise_um;  ///< None: estimated from the readings.
-  std::string resampling = "on";         ///< "on", "off".
-  std::string second_order = "auto";     ///< "auto", "on", "off".
-  std::string motion = "least-squares";  ///< "least-squares", "as-published".
-  std::string filter = "gaussian";       ///< Of the profile: "none", "gaussian".
-  double cutoff_upr = 50.0;
-};
+// The keys of the simulation of a feature of the type "spindle", as the JSON spells them; see
+// plan.h. Keys and meanings: spindle_table.h. Of the feature itself: record/tasks/spindle.h.
 
 struct HarmonicPlan {
   int order = 2;

@@ -17,8 +17,11 @@ namespace {
 using core::Code;
 using core::kDegree;
 using core::kMicrometre;
+using record::GroundSurfaceTask;
+using record::WheelTask;
 
-constexpr std::array<std::string_view, 3> kWheelForms = {"radius", "run-out", "roundness"};
+constexpr std::array kWheelForms = {record::Form::kRadius, record::Form::kRunOut,
+                                    record::Form::kRoundness};
 constexpr std::array<record::WantedColumn, 2> kEdgeColumns = {{{"x"}, {"z"}}};
 constexpr std::uint64_t kEdgeStream = 0x3e1eeU;
 constexpr int kBodyPoints = 3600;  ///< Of the noise-free body for the stated truth.
@@ -41,29 +44,29 @@ struct Checker {
 };
 
 void check_axis(const FeaturePlan& feature, const Checker& checker) {
-  const WheelPlan& plan = *feature.wheel;
+  const WheelTask& plan = *feature.wheel;
   if (plan.axis_x_mm.has_value() != plan.axis_z_mm.has_value()) {
     checker.missing(plan.axis_x_mm ? "axis_z_mm" : "axis_x_mm", "the axis has x and z");
   }
-  const bool envelope = plan.mode == "envelope";
+  const bool envelope = plan.mode == WheelTask::Mode::kEnvelope;
   if (envelope && plan.axis_x_mm) {
     checker.contradiction("axis_x_mm",
                           "run-out cannot be stated in envelope mode; remove the axis, or measure "
                           "indexed");
   }
   for (const CharacteristicPlan& c : feature.characteristics) {
-    if (c.form == "run-out" && envelope) {
+    if (c.form == record::Form::kRunOut && envelope) {
       checker.contradiction("mode", "run-out is asked for, which a turning wheel does not show");
-    } else if (c.form == "run-out" && !plan.axis_x_mm) {
+    } else if (c.form == record::Form::kRunOut && !plan.axis_x_mm) {
       checker.missing("axis_x_mm", "run-out needs the spindle axis");
     }
-    if (c.form == "radius" && !plan.nominal_radius_mm) {
+    if (c.form == record::Form::kRadius && !plan.nominal_radius_mm) {
       checker.missing("nominal_radius_mm", "the radius is judged by its departure from nominal");
     }
   }
 }
 
-void check_tables(const GroundSurfacePlan& s, const Checker& checker) {
+void check_tables(const GroundSurfaceTask& s, const Checker& checker) {
   if (s.table_x_mm.size() != s.table_z_mm.size()) {
     checker.contradiction(
         "surface/table_z_mm",
@@ -76,24 +79,28 @@ void check_tables(const GroundSurfacePlan& s, const Checker& checker) {
   }
 }
 
-void check_surface(const GroundSurfacePlan& s, const Checker& checker) {
+void check_surface(const GroundSurfaceTask& s, const Checker& checker) {
+  using Form = GroundSurfaceTask::Form;
   struct Needed {
-    std::string_view form;
+    Form form;
     std::string_view key;
   };
-  for (const Needed& needed : {Needed{"polynomial", "coefficients"}, Needed{"table", "table_x_mm"},
-                               Needed{"table", "table_z_mm"}}) {
+  for (const Needed& needed :
+       {Needed{Form::kPolynomial, "coefficients"}, Needed{Form::kTable, "table_x_mm"},
+        Needed{Form::kTable, "table_z_mm"}}) {
     const std::string key = fmt::format("surface/{}", needed.key);
     if (s.form == needed.form && !checker.given(key)) {
-      checker.missing(key, fmt::format("a {} is made of it", s.form));
+      checker.missing(key, fmt::format("a {} is made of it", name_of(s.form)));
     } else if (s.form != needed.form && checker.given(key)) {
-      checker.contradiction(key, fmt::format("has no effect: the form is {}; remove it", s.form));
+      checker.contradiction(
+          key, fmt::format("has no effect: the form is {}; remove it", name_of(s.form)));
     }
   }
   for (const std::string_view key : {"vertex_radius_mm", "conic", "even_terms"}) {
     const std::string place = fmt::format("surface/{}", key);
-    if (s.form != "asphere" && checker.given(place)) {
-      checker.contradiction(place, fmt::format("has no effect: the form is {}; remove it", s.form));
+    if (s.form != Form::kAsphere && checker.given(place)) {
+      checker.contradiction(
+          place, fmt::format("has no effect: the form is {}; remove it", name_of(s.form)));
     }
   }
   check_tables(s, checker);
@@ -109,7 +116,8 @@ void check_surface(const GroundSurfacePlan& s, const Checker& checker) {
 void check_wheel(const FeaturePlan& feature, const std::string& where, Findings& findings) {
   const Checker checker{where, findings};
   check_axis(feature, checker);
-  if (feature.wheel->quadruples != "all" && feature.wheel->center == "least-squares") {
+  if (feature.wheel->quadruples != WheelTask::Quadruples::kAll &&
+      feature.wheel->center == WheelTask::Center::kLeastSquares) {
     checker.contradiction("quadruples",
                           "has no effect: the centre is that of least squares; remove it, or say "
                           "center as-published or weighted");
@@ -183,7 +191,7 @@ core::Result<AnalysisData> simulate_wheel(const Plan& plan, std::size_t index, s
   const SimulatedWheel body{*plan.simulation->wheel};
   const Reach reach = reach_of(body);
   const auto feature = static_cast<int>(index);
-  const bool envelope = plan.features[index].wheel->mode == "envelope";
+  const bool envelope = plan.features[index].wheel->mode == WheelTask::Mode::kEnvelope;
   AnalysisData out;
   out.series.push_back(edge_points(body, reach, envelope, feature, seed));
   out.truths = {{feature, "radius_mm", body.hidden.radius_mm},

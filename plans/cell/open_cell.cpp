@@ -15,7 +15,7 @@ core::Result<void> check_abilities(const Plan& plan, const cmm::Capabilities& ma
   if (machine.scans_circles) return {};
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     const FeaturePlan& feature = plan.features[i];
-    if (!is_touched(feature) || feature.sampling.method != "scan") continue;
+    if (!is_touched(feature) || feature.sampling.method != record::SamplingMethod::kScan) continue;
     return core::fail(
         core::Code::kMachine,
         fmt::format("feature {} is to be scanned, and the machine, {}, does not scan circles{}; "

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "plans/schema/json_text.h"
-#include "plans/checks/internal/plan_checks.h"
 #include "plans/analyses/internal/series_file.h"
+#include "plans/checks/internal/plan_checks.h"
+#include "plans/schema/json_text.h"
 #include "record/csv/points.h"
 
 namespace rondure::plans {
@@ -23,7 +23,7 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings) 
     const core::Error& error = table.error();
     return findings.meaning(error.code, error.where.empty() ? where : error.where, error.what);
   }
-  const bool cylinder = feature.type == "cylinder";
+  const bool cylinder = feature.type == record::Shape::kCylinder;
   if (cylinder && table->dimensions != 3) {
     return findings.meaning(
         Code::kMeaning, where,
@@ -31,9 +31,10 @@ void check_points_file(const Plan& plan, std::size_t index, Findings& findings) 
   }
   const std::size_t needed = cylinder ? 6 : 4;
   if (table->points_mm.size() < needed) {
-    findings.meaning(Code::kTooFewPoints, where,
-                     fmt::format("the file {} has {} points; a {} needs at least {}",
-                                 in_quotes(file), table->points_mm.size(), feature.type, needed));
+    findings.meaning(
+        Code::kTooFewPoints, where,
+        fmt::format("the file {} has {} points; a {} needs at least {}", in_quotes(file),
+                    table->points_mm.size(), name_of(feature.type), needed));
   }
 }
 

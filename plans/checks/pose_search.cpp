@@ -40,10 +40,10 @@ void check_merged(const Plan& plan, const FeaturePlan& feature, const std::strin
   const auto refuse = [&](const std::string& place, std::string what) {
     findings.meaning(Code::kMeaning, place, std::move(what));
   };
-  if (feature.type != "cylinder")
+  if (feature.type != record::Shape::kCylinder)
     return refuse(where + "/strategy",
                   "\"merged\" is of a cylinder; a circle is measured in one pose");
-  if (feature.sampling.method == "scan") {
+  if (feature.sampling.method == record::SamplingMethod::kScan) {
     refuse(
         feature_where + "/sampling/method",
         "in several poses points are touched, not scanned: which of them a pose reaches differs");
@@ -62,7 +62,7 @@ void check_merged(const Plan& plan, const FeaturePlan& feature, const std::strin
   const bool stated = plan.uncertainty && plan.uncertainty->fixture &&
                       plan.uncertainty->fixture->position_um > 0.0 &&
                       plan.uncertainty->fixture->angle_deg > 0.0;
-  if (feature.pose_search.merge == "joint" && !stated) {
+  if (feature.pose_search.merge == record::Merge::kJoint && !stated) {
     findings.meaning(Code::kMissingKey, "/uncertainty/fixture",
                      "poses are solved jointly against what the fixture is believed to do: give "
                      "position_um and angle_deg, both above 0, or merge by \"kinematics\"");
@@ -90,7 +90,7 @@ void check_pose_search(const Plan& plan, std::size_t index, Findings& findings) 
               where + "/start_alpha_deg", findings);
   check_start(search.start_beta_deg, fixture.min_beta_deg, fixture.max_beta_deg,
               where + "/start_beta_deg", findings);
-  if (search.strategy == "merged") {
+  if (search.strategy == record::Strategy::kMerged) {
     if (plan.machine) check_merged(plan, feature, feature_pointer(index), findings);
     return;
   }
@@ -98,10 +98,12 @@ void check_pose_search(const Plan& plan, std::size_t index, Findings& findings) 
     findings.meaning(Code::kMeaning, where + "/poses",
                      fmt::format("these poses are of the strategy \"merged\", the strategy is "
                                  "\"{}\"; leave them out or change it",
-                                 search.strategy));
+                                 name_of(search.strategy)));
   }
-  const bool refined = search.strategy == "refined";
-  if (feature.type == "circle" || (!refined && search.strategy != "as-published")) return;
+  const bool refined = search.strategy == record::Strategy::kRefined;
+  if (feature.type == record::Shape::kCircle ||
+      (!refined && search.strategy != record::Strategy::kAsPublished))
+    return;
   for (std::size_t i = 0; i < search.steps_deg.size(); ++i) {
     check_fineness(search.steps_deg[i], fixture.resolution_deg,
                    item_pointer(where + "/steps_deg", i), findings);

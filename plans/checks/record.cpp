@@ -48,6 +48,10 @@ class LimitList {
   void text(std::string_view key, const Text&, const TextSpec& spec) {
     add(key, {.one_of = spec.one_of});
   }
+  template <record::Worded Enum>
+  void text(std::string_view key, const Enum&, const TextSpec& spec) {
+    add(key, {.one_of = spec_of_words<Enum>(spec).one_of});
+  }
   void texts(std::string_view key, const std::vector<std::string>&, const TextSpec& spec) {
     add(key, {.one_of = spec.one_of});
   }
@@ -137,7 +141,7 @@ SettingTable run_table() {
 /// Settings of a surface, as settings_of() writes them.
 SettingTable surface_table() {
   SettingTable out;
-  out["merge"] = {.one_of = {"joint", "kinematics"}};
+  out["merge"] = {.one_of = spec_of_words<record::Merge>({.meaning = {}}).one_of};
   out["merged_poses"] = within_limits(1.0, 1000.0);
   out["merged_poses"].is_whole = true;
   for (const char* place : {"axis_point_mm", "axis_offset_mm"})
@@ -198,10 +202,10 @@ Fault check_feature_settings(const record::Feature& feature, bool strict) {
   switch (feature.shape) {
     case Shape::kSpindle:
       if (auto fault = check_needed(feature, {"layout", "samples", "highest_order"})) return fault;
-      return check_settings(feature.settings, table_of<SpindlePlan>(), strict);
+      return check_settings(feature.settings, table_of<record::SpindleTask>(), strict);
     case Shape::kWheel:
       if (auto fault = check_needed(feature, {"mode", "count"})) return fault;
-      return check_settings(feature.settings, table_of<WheelPlan>(), strict);
+      return check_settings(feature.settings, table_of<record::WheelTask>(), strict);
     case Shape::kContour:
       if (auto fault = check_needed(feature, {"crank_radius_mm", "wheel_radius_mm", "pin_radius_mm",
                                               "samples", "path_samples"})) {

@@ -43,7 +43,7 @@ bool check_extent(const FeaturePlan& feature, const std::string& where, Findings
         fmt::format("the lower end {} is not below the upper end {}; exchange or correct them",
                     mm(nominal.from_mm), mm(nominal.to_mm)));
   }
-  if (feature.type == "circle") return true;  // one section, in the middle
+  if (feature.type == record::Shape::kCircle) return true;  // one section, in the middle
   const double margin_mm = feature.sampling.margin_mm;
   if (2.0 * margin_mm >= length_mm) {
     return refuse(
@@ -57,7 +57,7 @@ bool check_extent(const FeaturePlan& feature, const std::string& where, Findings
 bool check_counts(const FeaturePlan& feature, const std::string& where, Findings& findings) {
   constexpr std::int64_t kMaxPoints = 1'000'000;
   const SamplingPlan& sampling = feature.sampling;
-  const bool circle = feature.type == "circle";
+  const bool circle = feature.type == record::Shape::kCircle;
   const auto refuse = [&](const char* key, std::string what) {
     findings.meaning(Code::kSampling, where + key, std::move(what));
     return false;
@@ -146,7 +146,7 @@ void check_sampling(const Plan& plan, std::size_t index, Findings& findings) {
   const bool known = plan.probe && plan.machine && findings.sound("/probe") &&
                      findings.sound("/machine") && findings.sound("/part") &&
                      findings.sound(where + "/side");
-  if (feature.side == "inside" && known) check_bore(plan, feature, where, findings);
+  if (feature.side == record::Side::kInside && known) check_bore(plan, feature, where, findings);
 }
 
 }  // namespace rondure::plans

@@ -192,7 +192,9 @@ class NominalSession final : public PoseSession {
     return sampling_targets(feature_);
   }
 
-  [[nodiscard]] bool scans() const { return feature_.sampling.method == "scan"; }
+  [[nodiscard]] bool scans() const {
+    return feature_.sampling.method == record::SamplingMethod::kScan;
+  }
 
   /// The places where the tip goes down to the surface: every target, or the start of each scanned
   /// layer.

@@ -136,7 +136,7 @@ std::vector<Shape> shapes_of(const Plan& plan, const ForecastStage& stage) {
   }
   const double radius_mm = 0.5 * feature.nominal.diameter_mm;
   const NominalPlan& n = feature.nominal;
-  if (feature.side == "inside") {
+  if (feature.side == record::Side::kInside) {
     out.push_back(
         {cylinder(X_WP, radius_mm + cmm::kBlockWall_mm, n.from_mm, n.to_mm), "#aebfcc", true});
     out.push_back({cylinder(X_WP, radius_mm, n.from_mm, n.to_mm), "#f4f7f9", true});

@@ -64,7 +64,7 @@ std::vector<int> share_among_rings(int points, int rings) {
 
 core::Result<std::vector<Target>> sampling_targets(const FeaturePlan& feature) {
   const SamplingPlan& sampling = feature.sampling;
-  const int layers = feature.type == "circle" ? 1 : sampling.layers;
+  const int layers = feature.type == record::Shape::kCircle ? 1 : sampling.layers;
   if (auto checked = check_layers(feature, layers); !checked) return core::fail(checked.error());
   const double step_rad = core::kTwoPi / sampling.points_per_layer;
   std::vector<Target> targets;
@@ -83,7 +83,7 @@ core::Result<std::vector<Target>> locating_targets(const FeaturePlan& feature,
                                                    double uncertainty_mm) {
   FeaturePlan locating = feature;
   const double length_mm = feature.nominal.to_mm - feature.nominal.from_mm;
-  locating.type = "cylinder";  // the surface of a circle has an axis, too
+  locating.type = record::Shape::kCylinder;  // the surface of a circle has an axis, too
   locating.sampling.layers = 2;
   locating.sampling.points_per_layer = 3;
   locating.sampling.stagger = 1.0;

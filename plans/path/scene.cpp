@@ -120,7 +120,7 @@ void Scene::add(Body body, Frame frame, const Vector3d& origin_mm, const Revolve
 void Scene::add_part(const Plan& plan, const FeaturePlan& feature) {
   const NominalPlan& n = feature.nominal;
   const double radius_mm = 0.5 * n.diameter_mm;
-  const bool bore = feature.side == "inside";
+  const bool bore = feature.side == record::Side::kInside;
   const double wall_mm = bore ? radius_mm + cmm::kBlockWall_mm : radius_mm;
   add(Body::kFeature, Frame::kPart, Vector3d::Zero(),
       {bore ? radius_mm : 0.0, wall_mm, n.from_mm, n.to_mm});
@@ -135,7 +135,8 @@ void Scene::add_cell(const Plan& plan, const FeaturePlan& feature) {
   const FixturePlan& fixture = *plan.fixture;
   if (fixture.ring_diameter_mm > 0.0 && fixture.clamp_from_mm < fixture.clamp_to_mm) {
     // A bore stays open above and below its ring.
-    const double hole_mm = feature.side == "inside" ? 0.5 * feature.nominal.diameter_mm : 0.0;
+    const double hole_mm =
+        feature.side == record::Side::kInside ? 0.5 * feature.nominal.diameter_mm : 0.0;
     add(Body::kRing, Frame::kSeat, Vector3d::Zero(),
         {hole_mm, 0.5 * fixture.ring_diameter_mm, fixture.clamp_from_mm, fixture.clamp_to_mm});
   }

@@ -15,31 +15,11 @@
 namespace rondure::plans {
 namespace {
 
-record::Reference reference_of(const CharacteristicPlan& plan) {
-  const std::string name = plan.reference.value_or("mz");
-  if (name == "ls") return record::Reference::kLeastSquares;
-  if (name == "mc") return record::Reference::kMinimumCircumscribed;
-  if (name == "mi") return record::Reference::kMaximumInscribed;
-  return record::Reference::kMinimumZone;
-}
-
-record::Form form_of(std::string_view name) {
-  using record::Form;
-  for (const Form form :
-       {Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits, Form::kMotionTotal,
-        Form::kMotionSynchronous, Form::kMotionAsynchronous, Form::kRadius, Form::kRunOut,
-        Form::kContourDeviation, Form::kContourSpread, Form::kFixtureResidual,
-        Form::kFixtureResidualRms}) {
-    if (record::name_of(form) == name) return form;
-  }
-  return Form::kCylindricity;
-}
-
 record::Characteristic characteristic_of(const CharacteristicPlan& plan) {
   record::Characteristic out;
   out.id = plan.id;
-  out.form = form_of(plan.form);
-  out.reference = reference_of(plan);
+  out.form = plan.form;
+  out.reference = plan.reference.value_or(record::Reference::kMinimumZone);
   if (plan.tolerance_um) out.tolerance_mm = *plan.tolerance_um * core::kMicrometre;
   out.drawing_zone = plan.drawing_zone;
   for (const HarmonicLimitPlan& line : plan.harmonic_limits) {
@@ -51,7 +31,7 @@ record::Characteristic characteristic_of(const CharacteristicPlan& plan) {
 /// Adds the settings with which the evaluation merges the clouds of several poses.
 void add_merged_settings(const FixturePlan& fixture, const FeaturePlan& feature,
                          std::vector<record::Setting>& out) {
-  out.push_back({"merge", std::nullopt, feature.pose_search.merge});
+  out.push_back({"merge", std::nullopt, std::string(name_of(feature.pose_search.merge))});
   out.push_back({"merged_poses", static_cast<double>(feature.pose_search.poses.size()), ""});
   for (const double v : fixture.axis_point_mm) out.push_back({"axis_point_mm", v, ""});
   for (const double v : fixture.axis_offset_mm) out.push_back({"axis_offset_mm", v, ""});
@@ -63,27 +43,21 @@ record::Strategy strategy_of(const FeaturePlan& feature) {
   if (measures_by_touch(feature)) return record::Strategy::kStations;
   if (analysis_kind(feature.type) != nullptr) return record::Strategy::kSeries;
   if (feature.source) return record::Strategy::kPointsFile;
-  const std::string& name = feature.pose_search.strategy;
-  if (name == "refined") return record::Strategy::kRefined;
-  if (name == "as-published") return record::Strategy::kAsPublished;
-  if (name == "virtual") return record::Strategy::kVirtual;
-  if (name == "merged") return record::Strategy::kMerged;
-  return record::Strategy::kGuided;
+  return feature.pose_search.strategy;
 }
 
 record::Feature feature_of(const FeaturePlan& plan) {
   record::Feature out;
   out.id = plan.id;
   const AnalysisKind* kind = analysis_kind(plan.type);
-  out.shape = plan.type == "circle" ? record::Shape::kCircle : record::Shape::kCylinder;
+  out.shape = plan.type;
   if (kind != nullptr) {
-    out.shape = kind->shape;
     out.settings = kind->settings(plan);
     for (const SeriesFile& file : kind->files(plan)) {
       out.points_file += (out.points_file.empty() ? "" : ", ") + file.file;
     }
   }
-  out.side = plan.side == "inside" ? record::Side::kInside : record::Side::kOutside;
+  out.side = plan.side;
   out.nominal_diameter_mm = plan.nominal.diameter_mm;
   out.strategy = strategy_of(plan);
   if (is_touched(plan)) {
@@ -108,8 +82,11 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
   const auto add = [&](std::string_view name, double number) {
     out.push_back({std::string(name), number, ""});
   };
-  if (feature.sampling.method == "scan") out.push_back({"sampling_method", std::nullopt, "scan"});
-  if (feature.pose_search.strategy == "merged") add_merged_settings(*plan.fixture, feature, out);
+  if (feature.sampling.method == record::SamplingMethod::kScan) {
+    out.push_back({"sampling_method", std::nullopt, std::string(name_of(feature.sampling.method))});
+  }
+  if (feature.pose_search.strategy == record::Strategy::kMerged)
+    add_merged_settings(*plan.fixture, feature, out);
   if (plan.part.expansion_per_K) {
     add("part_expansion_per_K", *plan.part.expansion_per_K);
     add("part_expansion_uncertainty_per_K", plan.part.expansion_uncertainty_per_K);
@@ -126,10 +103,7 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
 }
 
 std::vector<record::Setting> settings_of(const Plan& plan) {
-  DecisionRulePlan rule = plan.decision_rule;
-  SettingList list("decision_rule/");
-  describe(list, rule);
-  std::vector<record::Setting> out = list.take();
+  std::vector<record::Setting> out = record::settings_of_task(plan.decision_rule, "decision_rule/");
   if (plan.environment) {
     out.push_back({"environment/declared", std::nullopt, "limits"});
     if (const auto& degC = plan.environment->assumed_degC) {
@@ -137,10 +111,9 @@ std::vector<record::Setting> settings_of(const Plan& plan) {
     }
   }
   if (!plan.uncertainty) return out;
-  UncertaintyPlan uncertainty = *plan.uncertainty;
-  SettingList declared("uncertainty/");
-  describe(declared, uncertainty);
-  for (record::Setting& setting : declared.take()) out.push_back(std::move(setting));
+  const UncertaintyPlan& uncertainty = *plan.uncertainty;
+  auto declared = record::settings_of_task(uncertainty, "uncertainty/");
+  for (record::Setting& setting : declared) out.push_back(std::move(setting));
   if (uncertainty.thermal && plan.part.expansion_per_K) {
     out.push_back({"uncertainty/thermal/expansion_per_K", *plan.part.expansion_per_K, ""});
   }

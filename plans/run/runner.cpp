@@ -28,7 +28,7 @@ std::size_t expected_touches(const FeaturePlan& feature, std::size_t targets) {
   const auto repeats = static_cast<std::size_t>(feature.pose_search.repeats);
   switch (strategy_of(feature)) {
     case record::Strategy::kGuided:
-      return targets * (feature.type == "circle" ? repeats : 2 + repeats);
+      return targets * (feature.type == record::Shape::kCircle ? repeats : 2 + repeats);
     case record::Strategy::kMerged:
       return targets * repeats * feature.pose_search.poses.size();
     case record::Strategy::kVirtual:

@@ -123,13 +123,13 @@ core::Result<std::vector<record::Touch>> RunContext::replay_scan(ScanStep step) 
 }
 
 core::Result<std::vector<Eigen::Vector3d>> FeatureSession::measure_cloud() {
-  if (feature_.sampling.method == "scan") return scan_cloud(targets_);
+  if (feature_.sampling.method == record::SamplingMethod::kScan) return scan_cloud(targets_);
   return touch_cloud(targets_, record::Touch::Purpose::kMeasure);
 }
 
 std::vector<Target> FeatureSession::reach_targets() const {
   constexpr int kAround = 24;  // every 15 deg: the shaft of the stylus is wider than that
-  if (feature_.sampling.method != "scan") return targets_;
+  if (feature_.sampling.method != record::SamplingMethod::kScan) return targets_;
   const int step = std::max(1, feature_.sampling.points_per_layer / kAround);
   std::vector<Target> out;
   std::copy_if(targets_.begin(), targets_.end(), std::back_inserter(out),

@@ -30,7 +30,7 @@ tl::unexpected<std::vector<core::Error>> refuse(core::Error problem) {
 void complete_circles(Plan& plan, const Findings& findings) {
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
     FeaturePlan& feature = plan.features[i];
-    if (feature.type != "circle") continue;
+    if (feature.type != record::Shape::kCircle) continue;
     const std::string where = feature_pointer(i);
     if (!findings.is_given(where + "/sampling/layers")) feature.sampling.layers = 1;
   }

@@ -51,6 +51,14 @@ class SchemaWriter {
   void text(std::string_view key, const std::optional<std::string>&, const TextSpec& spec) {
     add(key, text_schema(spec), spec.meaning, spec.required);
   }
+  template <record::Worded Enum>
+  void text(std::string_view key, Enum value, const TextSpec& spec) {
+    text(key, std::string(name_of(value)), spec_of_words<Enum>(spec));
+  }
+  template <record::Worded Enum>
+  void text(std::string_view key, const std::optional<Enum>&, const TextSpec& spec) {
+    text(key, std::optional<std::string>(), spec_of_words<Enum>(spec));
+  }
   void texts(std::string_view key, const std::vector<std::string>& values, const TextSpec& spec) {
     ordered_json out = array_of(text_schema(spec));
     if (!spec.empty_allowed) out["minItems"] = 1;

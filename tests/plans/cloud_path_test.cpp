@@ -44,7 +44,7 @@ Plan plain_plan() {
 Plan random_plan(core::KeyedNoise& random) {
   Plan plan = plain_plan();
   FeaturePlan& f = plan.features.front();
-  f.side = random.uniform() < 0.3 ? "inside" : "outside";
+  f.side = random.uniform() < 0.3 ? record::Side::kInside : record::Side::kOutside;
   f.nominal.diameter_mm = between(random, 24.0, 90.0);
   f.nominal.to_mm = f.nominal.from_mm + between(random, 40.0, 100.0);
   f.sampling.layers = 2 + static_cast<int>(between(random, 0.0, 3.0));
@@ -63,7 +63,7 @@ Plan random_plan(core::KeyedNoise& random) {
     plan.probe->stylus_diameter_mm = between(random, 0.3, 0.7) * plan.probe->tip_diameter_mm;
     plan.probe->holder_diameter_mm = between(random, 8.0, 25.0);
   }
-  if (random.uniform() < 0.3 && f.side == "outside") {
+  if (random.uniform() < 0.3 && f.side == record::Side::kOutside) {
     plan.part.sections.push_back({f.nominal.to_mm, f.nominal.to_mm + between(random, 5.0, 30.0),
                                   between(random, 0.6, 1.05) * f.nominal.diameter_mm, 0.0});
   }
@@ -89,7 +89,7 @@ Distances distances(const Plan& plan, const Placement& placement, const Vector3d
   const FixturePlan& x = *plan.fixture;
   const Vector3d p = placement.X_WP.inverse() * p_W;
   const double radius = 0.5 * f.nominal.diameter_mm;
-  const bool bore = f.side == "inside";
+  const bool bore = f.side == record::Side::kInside;
   Distances out{};
   out.part_mm = from_solid(p, bore ? radius : 0.0, bore ? radius + 20.0 : radius, f.nominal.from_mm,
                            f.nominal.to_mm);
@@ -327,7 +327,7 @@ TEST(Reach, SaysThatNothingHelpsWhenNothingDoes) {
 
 TEST(Bore, IsEnteredAlongItsAxisAndLeftTheSameWay) {
   Plan plan = plain_plan();
-  plan.features.front().side = "inside";
+  plan.features.front().side = record::Side::kInside;
   plan.probe->stylus_length_mm = 120.0;
   plan.probe->stylus_diameter_mm = 2.0;
   const auto targets = *sampling_targets(plan.features.front());

@@ -87,7 +87,7 @@ void expect_same_places(const std::vector<Vector3d>& done, const std::vector<Vec
 double clock_at_end(const Plan& plan, const Followed& run) {
   const FeaturePlan& last = plan.features.back();
   double rest_s = 0.0;  // a scan goes on from its last point to where it began
-  if (last.sampling.method == "scan") {
+  if (last.sampling.method == record::SamplingMethod::kScan) {
     const double radius_mm = 0.5 * (last.nominal.diameter_mm + plan.probe->tip_diameter_mm);
     rest_s =
         core::kTwoPi * radius_mm / last.sampling.points_per_layer / plan.machine->scan_speed_mm_s;

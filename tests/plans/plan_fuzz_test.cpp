@@ -17,7 +17,7 @@ std::string spool() { return testing::bytes_of(testing::example("01_spool_simula
 void expect_measurable(const Plan& plan) {
   ASSERT_FALSE(plan.features.empty());
   for (const FeaturePlan& feature : plan.features) {
-    const bool circle = feature.type == "circle";
+    const bool circle = feature.type == record::Shape::kCircle;
     EXPECT_GE(feature.sampling.layers, circle ? 1 : 2);
     EXPECT_GE(feature.sampling.points_per_layer, 3);
     EXPECT_GE(feature.nominal.diameter_mm, 1.0);

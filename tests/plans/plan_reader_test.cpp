@@ -79,7 +79,7 @@ TEST(PlanReader, TheSpoolIsReadWithEveryValue) {
   EXPECT_EQ(feature.sampling.points_per_layer, 7);
   ASSERT_EQ(feature.characteristics.size(), 3U);
   EXPECT_EQ(feature.characteristics[1].tolerance_um, 8.0);
-  EXPECT_EQ(feature.characteristics[2].reference, "ls");
+  EXPECT_EQ(feature.characteristics[2].reference, record::Reference::kLeastSquares);
   EXPECT_FALSE(feature.characteristics[2].tolerance_um.has_value());
   EXPECT_EQ(result->simulation->seed, 20261121U);
   ASSERT_EQ(result->simulation->part.lobes.size(), 3U);

@@ -1,10 +1,33 @@
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "plans/schema/internal/key_list.h"
+#include "record/tasks/settings.h"
+#include "record/tasks/spindle.h"
 #include "tests/plans/files.h"
 
 namespace rondure::plans {
 namespace {
+
+// What a plan leaves out, and what the journal of an earlier version does not hold.
+TEST(PlanSchema, HasTheDefaultsOfTheTask) {
+  const auto schema = nlohmann::json::parse(plan_schema());
+  const nlohmann::json::json_pointer place(
+      "/properties/features/items/properties/spindle/properties");
+  const auto& keys = schema.at(place);
+  std::size_t found = 0;
+  for (const record::Setting& setting : record::settings_of_task(record::SpindleTask())) {
+    SCOPED_TRACE(setting.name);
+    const auto& fallback = keys.at(setting.name).at("default");
+    if (setting.number) {
+      EXPECT_EQ(fallback.get<double>(), *setting.number);
+    } else {
+      EXPECT_EQ(fallback.get<std::string>(), setting.text);
+    }
+    ++found;
+  }
+  EXPECT_EQ(found + 4, keys.size()) << "four keys have no default: three angles and the noise";
+}
 
 // Both committed texts come from plan_table.h; RONDURE_REWRITE=1 writes them again.
 TEST(PlanSchema, TheCommittedSchemaIsTheOneOfTheTable) {
@@ -17,7 +40,8 @@ TEST(PlanSchema, TheCommittedSchemaIsTheOneOfTheTable) {
 
 TEST(PlanSchema, TheKeysInTheDocumentationAreThoseOfTheTable) {
   const auto path = testing::source_dir() / "docs" / "plan.md";
-  const std::string mark = "<!-- keys: written by the test, from plans/schema/internal/plan_table.h -->\n";
+  const std::string mark =
+      "<!-- keys: written by the test, from plans/schema/internal/plan_table.h -->\n";
   const std::string document = testing::bytes_of(path);
   const std::size_t at = document.find(mark);
   ASSERT_NE(at, std::string::npos);

@@ -79,8 +79,8 @@ Drawn drawn(std::uint64_t seed) {
   FeaturePlan& feature = out.plan.features.front();
   feature.nominal.diameter_mm = 20.0 + 80.0 * noise.uniform();
   const bool section = seed % 5 == 0;
-  if (section) feature.type = "circle";
-  if (section || seed % 5 == 1) feature.characteristics.front().form = "roundness";
+  if (section) feature.type = record::Shape::kCircle;
+  if (section || seed % 5 == 1) feature.characteristics.front().form = record::Form::kRoundness;
   feature.sampling.layers = section ? 1 : 3 + static_cast<int>(5.0 * noise.uniform());
   feature.sampling.points_per_layer = section ? 8 + static_cast<int>(25.0 * noise.uniform())
                                               : 6 + static_cast<int>(11.0 * noise.uniform());
@@ -370,14 +370,16 @@ TEST(Prediction, IsAboutTheReferenceThatIsAskedFor) {
   PredictionOptions options;
   options.least_inspections = options.most_inspections = 8;
   options.whole_surface = false;
-  for (const char* form : {"cylindricity", "roundness"}) {
-    SCOPED_TRACE(form);
+  for (const auto form : {record::Form::kCylindricity, record::Form::kRoundness}) {
+    SCOPED_TRACE(record::name_of(form));
     Plan plan = small(0.5, 2);
     plan.features[0].characteristics[0].form = form;
     const Prediction zone = predicted(plan, options);
     ASSERT_TRUE(zone.sampled);
-    for (const char* reference : {"ls", "mc", "mi"}) {
-      SCOPED_TRACE(reference);
+    for (const auto reference :
+         {record::Reference::kLeastSquares, record::Reference::kMinimumCircumscribed,
+          record::Reference::kMaximumInscribed}) {
+      SCOPED_TRACE(record::name_of(reference));
       plan.features[0].characteristics[0].reference = reference;
       const Prediction other = predicted(plan, options);
       EXPECT_EQ(other.why, "");
@@ -393,7 +395,7 @@ TEST(Prediction, SaysWhyThereIsNone) {
   plan.uncertainty.reset();
   EXPECT_EQ(why(plan), "the plan declares no uncertainty");
   plan = small(0.5, 2);
-  plan.features[0].pose_search.strategy = "merged";
+  plan.features[0].pose_search.strategy = record::Strategy::kMerged;
   plan.features[0].pose_search.poses = {{10.0, 0.0}, {-10.0, 0.0}};
   EXPECT_THAT(why(plan), HasSubstr("merged from several poses"));
   plan = small(0.5, 2);  // its own harmonics: too few points to show any

@@ -67,9 +67,10 @@ plans::Plan random_plan(std::uint64_t seed, const std::string& strategy, double 
   plans::FeaturePlan feature;
   feature.id = "surface";
   feature.nominal = {50.0, -40.0, 40.0};
-  feature.pose_search.strategy = strategy;
+  feature.pose_search.strategy = record::value_named<record::Strategy>(strategy).value();
   feature.pose_search.repeats = 1;
-  feature.characteristics.push_back({"CYLt", "cylindricity", "mz", 25.0, "", {}});
+  feature.characteristics.push_back(
+      {"CYLt", record::Form::kCylindricity, record::Reference::kMinimumZone, 25.0, "", {}});
   plan.features.push_back(feature);
 
   plan.simulation.emplace();

@@ -54,7 +54,7 @@ TEST(SamplingTargets, ASingleLayerAndACircleLieInTheMiddle) {
   feature.nominal.to_mm = 60.0;
   feature.sampling.layers = 1;
   EXPECT_EQ(sampling_targets(feature)->front().z_mm, 10.0);
-  feature.type = "circle";
+  feature.type = record::Shape::kCircle;
   feature.nominal = {50.0, 12.0, 32.0};
   feature.sampling.layers = 4;
   const auto circle = sampling_targets(feature);

@@ -394,11 +394,11 @@ TEST(ScanOverWire, AMachineThatDoesNotScanIsRefusedBeforeItMoves) {
 
 TEST(ScanOverWire, AMachineThatDoesNotScanTouches) {
   Plan plan = shaft();
-  plan.features.front().sampling.method = "touch";
+  plan.features.front().sampling.method = record::SamplingMethod::kTouch;
   cmm::Capabilities machine;
   machine.name = "old machine";
   EXPECT_TRUE(check_abilities(plan, machine));
-  plan.features.front().sampling.method = "scan";
+  plan.features.front().sampling.method = record::SamplingMethod::kScan;
   EXPECT_FALSE(check_abilities(plan, machine));
   machine.scans_circles = true;
   EXPECT_TRUE(check_abilities(plan, machine));

@@ -26,7 +26,8 @@ Plan perfect_plan(const std::string& method) {
   Plan plan = test::random_plan(1, "guided", 0.0);
   plan.simulation->part = {};
   plan.part.location_uncertainty_mm = 2.0;
-  plan.features.front().sampling.method = method;
+  plan.features.front().sampling.method =
+      record::value_named<record::SamplingMethod>(method).value();
   return plan;
 }
 
@@ -55,7 +56,7 @@ TEST(Scanning, GivesTheCloudThatTouchesGive) {
   plan.features.front().sampling.stagger = 0.0;
   plan.features.front().pose_search.max_poses = 1;
   const auto touched = test::inspect(plan);
-  plan.features.front().sampling.method = "scan";
+  plan.features.front().sampling.method = record::SamplingMethod::kScan;
   const auto scanned = test::inspect(plan);
   const auto& a = touched.evaluation.features.front().cloud;
   const auto& b = scanned.evaluation.features.front().cloud;
@@ -77,7 +78,7 @@ TEST(Scanning, ALobeThatFewTouchesMissIsSeen) {
   plan.simulation->part.lobes = {{14, 2.0, 90.0, 0.0}};  // seven touches meet it at its zeros
   plan.features.front().sampling.stagger = 0.0;
   const double touched_mm = zone_mm(test::inspect(plan));
-  plan.features.front().sampling.method = "scan";
+  plan.features.front().sampling.method = record::SamplingMethod::kScan;
   plan.features.front().sampling.points_per_layer = 360;
   EXPECT_LT(touched_mm, 0.1e-3);
   const auto scanned = test::inspect(plan);

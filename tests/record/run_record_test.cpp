@@ -23,5 +23,31 @@ TEST(RunRecord, SpellsWordsAsPlansDo) {
   EXPECT_EQ(name_of(Strategy::kPointsFile), "points-file");
 }
 
+template <Worded Enum>
+void read_back(std::size_t count) {
+  const auto words = words_of(Enum{});
+  ASSERT_EQ(words.size(), count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto value = static_cast<Enum>(i);
+    SCOPED_TRACE(name_of(value));
+    EXPECT_FALSE(name_of(value).empty());
+    EXPECT_EQ(value_named<Enum>(name_of(value)), value);
+  }
+  EXPECT_FALSE(value_named<Enum>("").has_value());
+  EXPECT_FALSE(value_named<Enum>("Mz").has_value());
+}
+
+TEST(RunRecord, ReadsEachWordBackAndNoOther) {
+  read_back<Shape>(6);
+  read_back<Side>(2);
+  read_back<Form>(13);
+  read_back<Reference>(4);
+  read_back<Strategy>(8);
+  read_back<Merge>(2);
+  read_back<SamplingMethod>(2);
+  read_back<Touch::Purpose>(4);
+  read_back<Series::Role>(2);
+}
+
 }  // namespace
 }  // namespace rondure::record

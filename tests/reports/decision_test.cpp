@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -347,6 +349,7 @@ TEST(DecisionRule, IsReadFromTheSettingsOfTheRun) {
   record.header.decision_rule = "jcgm-106";
   record.settings = {{"decision_rule/consumer_risk_percent", 2.0, ""},
                      {"decision_rule/measurand", std::nullopt, "whole-surface"},
+                     {"decision_rule/judge", std::nullopt, "as-read"},
                      {"decision_rule/prior/distribution", std::nullopt, "gamma"},
                      {"decision_rule/prior/mean_um", 6.0, ""},
                      {"decision_rule/prior/standard_deviation_um", 2.0, ""}};
@@ -357,6 +360,15 @@ TEST(DecisionRule, IsReadFromTheSettingsOfTheRun) {
   EXPECT_EQ(rule->prior->mean_mm, 6e-3);
   EXPECT_THAT(in_words(*rule), HasSubstr("P >= 98 %"));
   EXPECT_THAT(in_words(*rule), HasSubstr("prior: gamma with mean 6 um"));
+  for (record::Setting& setting : record.settings) {
+    if (setting.number) continue;
+    SCOPED_TRACE(setting.name);
+    const std::string word = std::exchange(setting.text, "coin");
+    ASSERT_FALSE(rule_of(record)) << "an unknown word is no other word";
+    EXPECT_EQ(rule_of(record).error().code, core::Code::kMeaning);
+    EXPECT_THAT(rule_of(record).error().what, HasSubstr("\"coin\""));
+    setting.text = word;
+  }
   record.header.decision_rule = "coin";
   ASSERT_FALSE(rule_of(record));
   EXPECT_THAT(rule_of(record).error().what, HasSubstr("does not know the decision rule \"coin\""));

@@ -588,5 +588,19 @@ TEST(Declared, InfluencesComeFromThePlanAndFromTheRunItself) {
   EXPECT_FALSE(declared_for(points_run(rough_part(3, 4, 7, 6.0), 4), feature, std::nullopt));
 }
 
+TEST(Verdict, IsVoidWhereAWordOfTheJournalIsUnknown) {
+  RunRecord run = touched_run("simple-acceptance");
+  run.settings.push_back({"decision_rule/measurand", std::nullopt, "every-surface"});
+  evaluation::CharacteristicResult result = result_of(run);
+  EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
+  EXPECT_THAT(result.reason, ::testing::HasSubstr("unknown measurand \"every-surface\""));
+  run.settings.pop_back();
+  run.features[0].strategy = record::Strategy::kMerged;
+  run.features[0].settings.push_back({"merge", std::nullopt, "by-guess"});
+  result = result_of(run);
+  EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
+  EXPECT_THAT(result.reason, ::testing::HasSubstr("\"by-guess\", which is not known"));
+}
+
 }  // namespace
 }  // namespace rondure::reports

@@ -10,16 +10,16 @@
 #include "fit/contour/crank_motion.h"
 #include "fit/profiles/profile_filter.h"
 #include "plans/analyses/contour_table.h"
-#include "plans/schema/json_text.h"
 #include "plans/schema/internal/setting_list.h"
+#include "plans/schema/json_text.h"
 
 namespace rondure::plans {
 namespace {
 
 using core::Code;
 
-constexpr std::array<std::string_view, 3> kContourForms = {"contour-deviation", "contour-spread",
-                                                           "harmonic-limits"};
+constexpr std::array kContourForms = {record::Form::kContourDeviation, record::Form::kContourSpread,
+                                      record::Form::kHarmonicLimits};
 constexpr std::array<record::WantedColumn, 4> kAxes = {
     {{"c_deg"}, {"c_error_deg"}, {"x_error_mm"}, {"d_cmd_mm", false}}};
 constexpr std::array<record::WantedColumn, 2> kGauge = {{{"angle_deg"}, {"deviation_um"}}};

@@ -122,7 +122,7 @@ cmm::PartSurface simulated_surface(const SimulationPlan& simulation, const Featu
   cmm::PartSurface out;
   out.radius_mm = 0.5 * (feature.nominal.diameter_mm + part.diameter_error_um * core::kMicrometre);
   out.half_length_mm = 0.5 * (feature.nominal.to_mm - feature.nominal.from_mm);
-  out.inside = feature.side == "inside";
+  out.inside = feature.side == record::Side::kInside;
   for (const LobePlan& lobe : part.lobes) {
     out.form.lobes.push_back({lobe.order, lobe.amplitude_um * core::kMicrometre,
                               lobe.phase_deg * core::kDegree, lobe.twist_deg * core::kDegree});

@@ -146,7 +146,7 @@ void check_needs(const Plan& plan, std::size_t touched, Findings& findings) {
 
 // Checks the lines of a mask, and that it has an effect.
 void check_mask(const CharacteristicPlan& c, const std::string& where, Findings& findings) {
-  const bool masked = c.form == "harmonic-limits";
+  const bool masked = c.form == record::Form::kHarmonicLimits;
   if (masked && c.harmonic_limits.empty() && !findings.is_given(where + "/harmonic_limits")) {
     findings.meaning(Code::kMissingKey, where + "/harmonic_limits",
                      "this key is missing: the mask, e.g. [{\"from\": 2, \"to\": 50, "
@@ -185,7 +185,7 @@ void check_dense(const FeaturePlan& feature, const CharacteristicPlan& c,
     findings.meaning(Code::kSampling, where + "/form",
                      fmt::format("{} points a layer are too few: harmonics need at least {}",
                                  feature.sampling.points_per_layer, kDense));
-  } else if (feature.type == "cylinder") {
+  } else if (feature.type == record::Shape::kCylinder) {
     findings.meaning(Code::kMeaning, where + "/form",
                      "the points of a file have no layers, so a cylinder from a file has no "
                      "harmonics; give each section as a \"circle\"");
@@ -300,12 +300,12 @@ void check_characteristic(const FeaturePlan& feature, std::size_t index,
                     "another",
                     in_quotes(c.id), *twin + 1));
   }
-  if (c.form == "cylindricity" && feature.type == "circle") {
+  if (c.form == record::Form::kCylindricity && feature.type == record::Shape::kCircle) {
     findings.meaning(Code::kMeaning, where + "/form",
                      "a circle has no cylindricity; ask for \"roundness\", or make the feature a "
                      "\"cylinder\" with at least 2 layers");
   }
-  if (c.form == "roundness" && feature.type == "cylinder") {
+  if (c.form == record::Form::kRoundness && feature.type == record::Shape::kCylinder) {
     if (findings.is_given(feature_where + "/source")) {
       findings.meaning(
           Code::kMeaning, where + "/form",
@@ -319,16 +319,18 @@ void check_characteristic(const FeaturePlan& feature, std::size_t index,
     }
   }
   const bool analysis = analysis_kind(feature.type) != nullptr;
-  const bool masked = c.form == "harmonic-limits";
-  if (!analysis && !masked && c.form != "cylindricity" && c.form != "roundness") {
+  const bool masked = c.form == record::Form::kHarmonicLimits;
+  if (!analysis && !masked && c.form != record::Form::kCylindricity &&
+      c.form != record::Form::kRoundness) {
     findings.meaning(
         Code::kMeaning, where + "/form",
         fmt::format("a {} has no {}; ask for \"roundness\", \"harmonic-limits\" or, of "
                     "a cylinder, for \"cylindricity\"",
-                    feature.type, c.form));
+                    name_of(feature.type), name_of(c.form)));
   }
   if (!analysis && masked) check_dense(feature, c, feature_where, where, findings);
-  const bool has_reference = c.form == "cylindricity" || c.form == "roundness";
+  const bool has_reference =
+      c.form == record::Form::kCylindricity || c.form == record::Form::kRoundness;
   if (has_reference && c.tolerance_um && !c.reference && !findings.is_given(where + "/reference")) {
     findings.meaning(
         Code::kMeaning, where + "/reference",
@@ -355,7 +357,7 @@ void check_without_effect(const FeaturePlan& feature, const std::string& where,
   if (findings.is_given(where + "/source")) {
     refuse("/sampling", "the points come from a file");
     refuse("/pose_search", "the points come from a file");
-  } else if (feature.type == "circle") {
+  } else if (feature.type == record::Shape::kCircle) {
     for (const std::string_view key : {"strategy", "steps_deg", "min_step_deg", "max_poses"}) {
       refuse(fmt::format("/pose_search/{}", key), "a circle is measured in its start pose");
     }

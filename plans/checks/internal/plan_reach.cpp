@@ -48,7 +48,7 @@ core::Result<std::vector<Target>> reachable_targets(const Plan& plan, std::size_
   if (auto clamp = check_clamp(*targets, geometry, *plan.fixture); !clamp) {
     return core::fail(clamp.error().at(where));
   }
-  if (feature.pose_search.strategy == "merged") {
+  if (feature.pose_search.strategy == record::Strategy::kMerged) {
     if (auto reached = check_merged_reach(plan, index); !reached)
       return core::fail(reached.error());
     return targets;

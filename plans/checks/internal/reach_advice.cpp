@@ -62,7 +62,7 @@ std::optional<double> longer_stylus(const Plan& plan, const FeaturePlan& feature
 
 /// The smallest margin, in steps of 1 mm (more on a long surface), that reaches all targets.
 std::optional<double> larger_margin(const Plan& plan, const FeaturePlan& feature) {
-  if (feature.type == "circle") return std::nullopt;
+  if (feature.type == record::Shape::kCircle) return std::nullopt;
   FeaturePlan other = feature;
   const double half_mm = 0.5 * (feature.nominal.to_mm - feature.nominal.from_mm);
   double& margin_mm = other.sampling.margin_mm;
@@ -91,7 +91,7 @@ std::vector<Unreachable> unreachable_targets(const Plan& plan, const FeaturePlan
 }
 
 std::string reach_advice(const Plan& plan, const FeaturePlan& feature) {
-  const int layers = feature.type == "circle" ? 1 : feature.sampling.layers;
+  const int layers = feature.type == record::Shape::kCircle ? 1 : feature.sampling.layers;
   std::vector<std::string> ways;
   if (layers * feature.sampling.points_per_layer <= kMostTried) {
     if (const auto pose = other_pose(plan, feature)) {

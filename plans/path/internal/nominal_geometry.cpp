@@ -41,7 +41,8 @@ std::vector<SectionPlan> part_sections(const Plan& plan, const FeaturePlan& feat
   for (const FeaturePlan& other : plan.features) {
     const NominalPlan& n = other.nominal;
     const bool beside = n.from_mm >= mine.to_mm || n.to_mm <= mine.from_mm;
-    if (!is_touched(other) || other.side == "inside" || feature.side == "inside" || !beside)
+    if (!is_touched(other) || other.side == record::Side::kInside ||
+        feature.side == record::Side::kInside || !beside)
       continue;
     out.push_back({n.from_mm, n.to_mm, n.diameter_mm, 0.0});
   }
@@ -53,7 +54,7 @@ PathGeometry path_geometry(const Plan& plan, const FeaturePlan& feature, double 
   out.radius_mm = 0.5 * feature.nominal.diameter_mm;
   out.from_mm = feature.nominal.from_mm;
   out.to_mm = feature.nominal.to_mm;
-  out.inside = feature.side == "inside";
+  out.inside = feature.side == record::Side::kInside;
   out.tip_radius_mm = 0.5 * plan.probe->tip_diameter_mm;
   out.approach_mm = plan.machine->approach_mm + location_mm;
   out.clearance_mm = plan.machine->clearance_mm + location_mm;

@@ -175,7 +175,7 @@ core::Result<void> FeatureSession::keep_as_final() {
   if (truth_.empty()) return {};
   // Only a comparison for simulations: if it cannot be evaluated, the run continues.
   std::optional<double> zone_mm;
-  if (feature_.type == "circle") {
+  if (feature_.type == record::Shape::kCircle) {
     const auto frame = fit::across(expected_axis());
     std::vector<Eigen::Vector2d> section;
     for (const Eigen::Vector3d& tip : truth_) section.emplace_back(frame.transpose() * tip);

@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "core/units.h"
 #include "fit/poses/walk.h"
 #include "fit/references/min_zone_cylinder.h"
@@ -13,6 +15,8 @@
 
 namespace rondure::plans {
 namespace {
+
+using record::Strategy;
 
 /// Finer than any fixture resolves: at 35 mm this angle moves a point by 1 nm.
 constexpr double kFinestStep = 2e-6 * core::kDegree;
@@ -185,10 +189,10 @@ core::Result<void> merged(PoseSession& session, const FeaturePlan& feature) {
 }  // namespace
 
 core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature) {
-  const std::string& strategy = feature.pose_search.strategy;
+  const Strategy strategy = feature.pose_search.strategy;
   core::Pose pose = start_pose(session, feature);
   // A part that needs several poses shows too little in one of them to be located.
-  if (session.must_locate() && strategy != "merged") {
+  if (session.must_locate() && strategy != Strategy::kMerged) {
     const auto axis = session.locate(pose);
     if (!axis) return core::fail(axis.error());
     const core::Pose level = session.levelling(axis->direction);
@@ -196,13 +200,27 @@ core::Result<void> search_pose(PoseSession& session, const FeaturePlan& feature)
                                          {in_deg(level.alpha_rad), in_deg(level.beta_rad)}));
     if (!noted) return noted;
     // The other strategies start where the plan says: that is what they are compared for.
-    if (feature.type == "cylinder" && strategy == "guided" && within(session.limits(), level))
-      pose = level;
+    const bool guides = feature.type == record::Shape::kCylinder && strategy == Strategy::kGuided;
+    if (guides && within(session.limits(), level)) pose = level;
   }
-  if (feature.type == "circle" || strategy == "virtual") return single(session, feature);
-  if (strategy == "merged") return merged(session, feature);
-  if (strategy == "guided") return guided(session, feature, pose);
-  return grid(session, feature, strategy == "as-published");
+  if (feature.type == record::Shape::kCircle) return single(session, feature);
+  switch (strategy) {
+    case Strategy::kVirtual:
+      return single(session, feature);
+    case Strategy::kMerged:
+      return merged(session, feature);
+    case Strategy::kGuided:
+      return guided(session, feature, pose);
+    case Strategy::kRefined:
+    case Strategy::kAsPublished:
+      return grid(session, feature, strategy == Strategy::kAsPublished);
+    case Strategy::kPointsFile:
+    case Strategy::kSeries:
+    case Strategy::kStations:
+      break;
+  }
+  return core::fail(core::Code::kMeaning, fmt::format("no pose is searched by the strategy {}",
+                                                      record::name_of(strategy)));
 }
 
 }  // namespace rondure::plans

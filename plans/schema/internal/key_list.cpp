@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "plans/schema/json_text.h"
-#include "plans/schema/key_spec.h"
 #include "plans/plan.h"
 #include "plans/schema/internal/plan_table.h"
+#include "plans/schema/json_text.h"
+#include "plans/schema/key_spec.h"
 
 namespace rondure::plans {
 namespace {
@@ -53,6 +53,14 @@ class KeyList {
   }
   void text(std::string_view key, const std::optional<std::string>&, const TextSpec& spec) {
     row(key, spellings(spec), "", spec.required, spec.meaning);
+  }
+  template <record::Worded Enum>
+  void text(std::string_view key, Enum value, const TextSpec& spec) {
+    text(key, std::string(name_of(value)), spec_of_words<Enum>(spec));
+  }
+  template <record::Worded Enum>
+  void text(std::string_view key, const std::optional<Enum>&, const TextSpec& spec) {
+    text(key, std::optional<std::string>(), spec_of_words<Enum>(spec));
   }
   void texts(std::string_view key, const std::vector<std::string>& values, const TextSpec& spec) {
     row(key, "array of " + spellings(spec), code_list(values), spec.required, spec.meaning);

@@ -311,8 +311,7 @@ template <class Visitor>
 void describe(Visitor& v, SamplingPlan& p) {
   v.text(
       "method", p.method,
-      {.one_of = {"touch", "scan"},
-       .meaning = "touch: single touches. scan: every layer in one circle, where the machine can; "
+      {.meaning = "touch: single touches. scan: every layer in one circle, where the machine can; "
                   "then hundreds of points a layer cost seconds."});
   v.whole("layers", p.layers,
           range(1, 1000,
@@ -344,12 +343,15 @@ void describe(Visitor& v, MeasuringPosePlan& p) {
 
 template <class Visitor>
 void describe(Visitor& v, PoseSearchPlan& p) {
+  using record::Strategy;
   const NumberSpec start = {.at_least = -90.0,
                             .at_most = 90.0,
                             .code = core::Code::kPoseRange,
                             .meaning = "Angle of the fixture before the first touch."};
   v.text("strategy", p.strategy,
-         {.one_of = {"guided", "refined", "as-published", "virtual", "merged"},
+         {.one_of = {name_of(Strategy::kGuided), name_of(Strategy::kRefined),
+                     name_of(Strategy::kAsPublished), name_of(Strategy::kVirtual),
+                     name_of(Strategy::kMerged)},
           .meaning = "How the levelling pose is found. guided: solves each cloud and steps to the "
                      "pose it predicts. as-published: grid of steps_deg. refined: that grid, then "
                      "halved steps. virtual: one cloud, turned in software. merged: no search; the "
@@ -359,8 +361,7 @@ void describe(Visitor& v, PoseSearchPlan& p) {
          {.meaning = "merged: the poses, at least two; every target must be reached in one of "
                      "them, and should be in several."});
   v.text("merge", p.merge,
-         {.one_of = {"joint", "kinematics"},
-          .meaning = "merged: how clouds come together. joint: the errors of the poses are solved "
+         {.meaning = "merged: how clouds come together. joint: the errors of the poses are solved "
                      "together with the part. kinematics: the fixture is believed."});
   v.number("start_alpha_deg", p.start_alpha_deg, start);
   v.number("start_beta_deg", p.start_beta_deg, start);
@@ -401,11 +402,7 @@ void describe(Visitor& v, CharacteristicPlan& p) {
           .empty_allowed = false,
           .meaning = "Name in the report, unique within the feature."});
   v.text("form", p.form,
-         {.one_of = {"cylindricity", "roundness", "roundness-rms", "harmonic-limits",
-                     "motion-total", "motion-synchronous", "motion-asynchronous", "radius",
-                     "run-out", "contour-deviation", "contour-spread", "fixture-residual",
-                     "fixture-residual-rms"},
-          .required = true,
+         {.required = true,
           .meaning =
               "cylindricity (CYLt) of a cylinder; roundness (RONt) of a circle, of the worst "
               "layer of a cylinder or of a spindle feature; harmonic-limits, a mask on the "
@@ -418,8 +415,7 @@ void describe(Visitor& v, CharacteristicPlan& p) {
               "rotary_axes: fixture-residual, the largest distance of a ball from where the "
               "calibration has it, and fixture-residual-rms."});
   v.text("reference", p.reference,
-         {.one_of = {"mz", "ls", "mc", "mi"},
-          .meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
+         {.meaning = "Associated feature: mz, minimum zone (the ISO default); ls, least squares; "
                      "mc, minimum circumscribed (a ring gauge on a shaft); mi, maximum inscribed "
                      "(a plug gauge in a bore). Needed with a tolerance."});
   v.number("tolerance_um", p.tolerance_um,
@@ -467,14 +463,12 @@ void describe(Visitor& v, FeaturePlan& p) {
           .empty_allowed = false,
           .meaning = "Name of the feature, unique in the plan."});
   v.text("type", p.type,
-         {.one_of = {"cylinder", "circle", "spindle", "wheel", "contour", "rotary_axes"},
-          .required = true,
+         {.required = true,
           .meaning = "What the surface is; spindle: form of a part and motion of its axis, from "
                      "three probes; wheel: a grinding wheel, from points of its edge; contour: "
                      "crank pins in follow grinding, and what of their error follows the axes; "
                      "rotary_axes: calibration of the fixture with balls that it carries."});
-  v.text("side", p.side,
-         {.one_of = {"outside", "inside"}, .meaning = "outside: a shaft; inside: a bore."});
+  v.text("side", p.side, {.meaning = "outside: a shaft; inside: a bore."});
   v.object("nominal", p.nominal, {.meaning = "The surface on the drawing, part frame: axis z."});
   v.object("sampling", p.sampling, {.meaning = "Where it is touched."});
   v.object("pose_search", p.pose_search, {.meaning = "How the fixture levels it."});

@@ -23,6 +23,18 @@ class TableReader {
 
   void text(std::string_view key, std::string& value, const TextSpec& spec);
   void text(std::string_view key, std::optional<std::string>& value, const TextSpec& spec);
+  template <record::Worded Enum>
+  void text(std::string_view key, Enum& value, const TextSpec& spec) {
+    std::optional<Enum> given;
+    text(key, given, spec);
+    if (given) value = *given;
+  }
+  template <record::Worded Enum>
+  void text(std::string_view key, std::optional<Enum>& value, const TextSpec& spec) {
+    std::optional<std::string> given;
+    text(key, given, spec_of_words<Enum>(spec));
+    if (given) value = record::value_named<Enum>(*given);
+  }
   void texts(std::string_view key, std::vector<std::string>& values, const TextSpec& spec);
   void number(std::string_view key, double& value, const NumberSpec& spec);
   void number(std::string_view key, std::optional<double>& value, const NumberSpec& spec);

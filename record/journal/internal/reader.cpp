@@ -54,12 +54,10 @@ std::int64_t require_journal(soci::session& sql) {
   return version;
 }
 
-/// The enumerator with the name `text`.
-template <class Enum>
-Enum named(std::string_view column, const std::string& text, std::initializer_list<Enum> all) {
-  for (const Enum candidate : all) {
-    if (name_of(candidate) == text) return candidate;
-  }
+/// Reads the word of a column; throws when its enum has no such word.
+template <Worded Enum>
+Enum named(std::string_view column, const std::string& text) {
+  if (const auto value = value_named<Enum>(text)) return *value;
   throw Contradiction(fmt::format("{} holds the unknown word \"{}\"", column, text.substr(0, 40)));
 }
 
@@ -145,14 +143,9 @@ void read_features(soci::session& sql, RunRecord& record) {
     if (id != static_cast<std::int64_t>(record.features.size())) {
       throw Contradiction(fmt::format("feature {} is missing", record.features.size()));
     }
-    row.shape = named("feature.shape", shape,
-                      {Shape::kCylinder, Shape::kCircle, Shape::kSpindle, Shape::kWheel,
-                       Shape::kContour, Shape::kRotaryAxes});
-    row.side = named("feature.side", side, {Side::kOutside, Side::kInside});
-    row.strategy =
-        named("feature.strategy", strategy,
-              {Strategy::kGuided, Strategy::kRefined, Strategy::kAsPublished, Strategy::kVirtual,
-               Strategy::kPointsFile, Strategy::kSeries, Strategy::kMerged, Strategy::kStations});
+    row.shape = named<Shape>("feature.shape", shape);
+    row.side = named<Side>("feature.side", side);
+    row.strategy = named<Strategy>("feature.strategy", strategy);
     row.tip_radius_mm = tip_given == soci::i_ok ? std::optional(tip_radius_mm) : std::nullopt;
     require_number("feature.nominal_diameter_mm", row.nominal_diameter_mm);
     require_number("feature.tip_radius_mm", row.tip_radius_mm.value_or(0.0));
@@ -188,15 +181,8 @@ void read_characteristics(soci::session& sql, RunRecord& record) {
   rows.execute();
   while (rows.fetch()) {
     require_feature(record, feature, 0, "characteristic");
-    row.form =
-        named("characteristic.form", form,
-              {Form::kCylindricity, Form::kRoundness, Form::kRoundnessRms, Form::kHarmonicLimits,
-               Form::kMotionTotal, Form::kMotionSynchronous, Form::kMotionAsynchronous,
-               Form::kRadius, Form::kRunOut, Form::kContourDeviation, Form::kContourSpread,
-               Form::kFixtureResidual, Form::kFixtureResidualRms});
-    row.reference = named("characteristic.reference", reference,
-                          {Reference::kLeastSquares, Reference::kMinimumZone,
-                           Reference::kMinimumCircumscribed, Reference::kMaximumInscribed});
+    row.form = named<Form>("characteristic.form", form);
+    row.reference = named<Reference>("characteristic.reference", reference);
     row.tolerance_mm = given == soci::i_ok ? std::optional(tolerance_mm) : std::nullopt;
     require_number("characteristic.tolerance_mm", row.tolerance_mm.value_or(0.0));
     record.features[static_cast<std::size_t>(feature)].characteristics.push_back(row);
@@ -223,15 +209,6 @@ void read_poses(soci::session& sql, RunRecord& record) {
   }
 }
 
-Touch::Purpose purpose_of(const std::string& word) {
-  for (const auto purpose : {Touch::Purpose::kQualification, Touch::Purpose::kLocate,
-                             Touch::Purpose::kMeasure, Touch::Purpose::kCheck}) {
-    if (word == name_of(purpose)) return purpose;
-  }
-  throw Contradiction(
-      fmt::format("touch.purpose holds the unknown word \"{}\"", word.substr(0, 40)));
-}
-
 void read_touches(soci::session& sql, RunRecord& record, std::int64_t version) {
   Touch row;
   std::string purpose;
@@ -250,7 +227,7 @@ void read_touches(soci::session& sql, RunRecord& record, std::int64_t version) {
        into(scales.value, scales.given));
   rows.execute();
   while (rows.fetch()) {
-    row.purpose = purpose_of(purpose);
+    row.purpose = named<Touch::Purpose>("touch.purpose", purpose);
     row.temperature_degC = temperature.get();
     row.scale_temperature_degC = scales.get();
     require_touch(row);

@@ -193,11 +193,12 @@ StatedSeries read_series_heads(soci::session& sql, RunRecord& record) {
   rows.execute();
   while (rows.fetch()) {
     (void)feature_at(record, row.series.feature, "series");
-    if (role != "data" && role != "truth") {
+    const auto known = value_named<Series::Role>(role);
+    if (!known) {
       throw Contradiction(
           fmt::format("series.role holds the unknown word \"{}\"", role.substr(0, 40)));
     }
-    row.series.role = role == "truth" ? Series::Role::kTruth : Series::Role::kData;
+    row.series.role = *known;
     all[id] = row;
   }
   return all;

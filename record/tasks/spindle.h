@@ -1,0 +1,147 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "record/tasks/key_spec.h"
+#include "record/tasks/switch.h"
+
+namespace rondure::record {
+
+/// How a feature of the type "spindle" is evaluated, as plan and journal spell it: form of a part
+/// and motion of its axis, from three probes. A member initialiser is the default of its key.
+struct SpindleTask {
+  enum class Layout { kAngles, kPublishedA, kPublishedB, kReference };
+  enum class Recovery { kThreshold, kRegularised };
+  enum class SecondOrder { kAuto, kOn, kOff };
+  enum class Motion { kLeastSquares, kAsPublished };
+  enum class Filter { kGaussian, kNone };
+
+  Layout layout = Layout::kAngles;
+  std::optional<double> p1_to_p2_deg;
+  std::optional<double> p2_to_p3_deg;  ///< One of these two.
+  std::optional<double> p1_to_p3_deg;
+  double crank_radius_mm = 0.0;  ///< 0: an ordinary shaft; else the arm follows a crank pin.
+  double wheel_radius_mm = 0.0;
+  double pin_radius_mm = 0.0;
+  int samples = 1024;
+  int highest_order = 50;
+  double greatest_gain = 100.0;
+  Recovery recovery = Recovery::kThreshold;
+  double expected_amplitude_um = 0.1;    ///< Of a harmonic, for kRegularised.
+  std::optional<double> probe_noise_um;  ///< None: estimated from the readings.
+  Switch resampling = Switch::kOn;
+  SecondOrder second_order = SecondOrder::kAuto;
+  Motion motion = Motion::kLeastSquares;
+  Filter filter = Filter::kGaussian;  ///< Of the profile.
+  double cutoff_upr = 50.0;
+};
+
+constexpr auto words_of(SpindleTask::Layout) {
+  using Layout = SpindleTask::Layout;
+  return std::to_array<Word<Layout>>({{Layout::kAngles, "angles"},
+                                      {Layout::kPublishedA, "published-a"},
+                                      {Layout::kPublishedB, "published-b"},
+                                      {Layout::kReference, "reference"}});
+}
+constexpr auto words_of(SpindleTask::Recovery) {
+  using Recovery = SpindleTask::Recovery;
+  return std::to_array<Word<Recovery>>(
+      {{Recovery::kThreshold, "threshold"}, {Recovery::kRegularised, "regularised"}});
+}
+constexpr auto words_of(SpindleTask::SecondOrder) {
+  using SecondOrder = SpindleTask::SecondOrder;
+  return std::to_array<Word<SecondOrder>>(
+      {{SecondOrder::kAuto, "auto"}, {SecondOrder::kOn, "on"}, {SecondOrder::kOff, "off"}});
+}
+constexpr auto words_of(SpindleTask::Motion) {
+  using Motion = SpindleTask::Motion;
+  return std::to_array<Word<Motion>>(
+      {{Motion::kLeastSquares, "least-squares"}, {Motion::kAsPublished, "as-published"}});
+}
+constexpr auto words_of(SpindleTask::Filter) {
+  using Filter = SpindleTask::Filter;
+  return std::to_array<Word<Filter>>({{Filter::kGaussian, "gaussian"}, {Filter::kNone, "none"}});
+}
+
+template <class Visitor>
+void describe_probe_angles(Visitor& v, SpindleTask& p) {
+  v.text(
+      "layout", p.layout,
+      {.meaning = "Where the three probes stand. angles: as p1_to_p2_deg and one of p2_to_p3_deg, "
+                  "p1_to_p3_deg say. published-a, published-b: the layouts of the source; "
+                  "reference: 52.38 and 248.91 deg, the least noise for orders 2 to 50."});
+  v.number(
+      "p1_to_p2_deg", p.p1_to_p2_deg,
+      within(360.0,
+             "From probe 1 to probe 2, against the rotation of the work; negative when counted "
+             "with it."));
+  v.number("p2_to_p3_deg", p.p2_to_p3_deg,
+           within(360.0, "From probe 2 to probe 3 (a difference)."));
+  v.number("p1_to_p3_deg", p.p1_to_p3_deg, within(360.0, "From probe 1 to probe 3 (cumulative)."));
+}
+
+template <class Visitor>
+void describe_swing_arm(Visitor& v, SpindleTask& p) {
+  const auto radius = [](std::string_view meaning) {
+    return NumberSpec{.at_least = 0.0,
+                      .at_most = 2000.0,
+                      .code = core::Code::kUnits,
+                      .hint = "that suggests micrometres, give it in mm",
+                      .meaning = meaning};
+  };
+  v.number(
+      "crank_radius_mm", p.crank_radius_mm,
+      radius("Distance of the pin from the rotation axis when the probes follow a crank pin on "
+             "a swing arm (tracking); 0: an ordinary shaft (static)."));
+  v.number("wheel_radius_mm", p.wheel_radius_mm,
+           radius("Radius of the wheel whose centre is the pivot of the arm."));
+  v.number("pin_radius_mm", p.pin_radius_mm,
+           radius("Radius of the measured pin or shaft; the second-order correction needs it."));
+}
+
+template <class Visitor>
+void describe_recovery(Visitor& v, SpindleTask& p) {
+  v.whole("samples", p.samples,
+          range(8, 1'000'000,
+                "Samples of a revolution, uniform in the angle on the part. More readings are "
+                "low-passed to them: all count, none alias."));
+  v.whole("highest_order", p.highest_order,
+          range(2, 10'000, "Highest undulation number that is recovered; below half the samples."));
+  v.number("greatest_gain", p.greatest_gain,
+           range(1.0, 1e9, "A harmonic with a higher noise gain is not recovered but listed."));
+  v.text(
+      "recovery", p.recovery,
+      {.meaning = "threshold: harmonics are recovered whole or not at all. regularised: weak ones "
+                  "are attenuated, and the report states by how much."});
+  v.number("expected_amplitude_um", p.expected_amplitude_um,
+           above(0.0, 1000.0, "Amplitude expected of a harmonic (recovery regularised)."));
+  v.number("probe_noise_um", p.probe_noise_um,
+           range(0.0, 1000.0,
+                 "Standard deviation of one reading; left out: estimated from the scatter "
+                 "of the revolutions, of one from the harmonics beyond highest_order."));
+}
+
+template <class Visitor>
+void describe(Visitor& v, SpindleTask& p) {
+  describe_probe_angles(v, p);
+  describe_swing_arm(v, p);
+  describe_recovery(v, p);
+  v.text(
+      "resampling", p.resampling,
+      {.one_of = {name_of(Switch::kOn), name_of(Switch::kOff)},
+       .meaning = "off: readings are taken as uniform in the angle on the part, which is a gross "
+                  "error for a crank pin; for comparison only."});
+  v.text(
+      "second_order", p.second_order,
+      {.meaning = "Correction for the sideways shift of the profile under a probe; auto: above 10 "
+                  "um of motion."});
+  v.text("motion", p.motion,
+         {.meaning = "as-published: RY by the printed formula, which is wrong; for comparison "
+                     "only."});
+  v.text("filter", p.filter, {.meaning = "Filter of the profile before its roundness."});
+  v.number("cutoff_upr", p.cutoff_upr, range(1.0, 10'000.0, "Cut-off of that filter."));
+}
+
+}  // namespace rondure::record
