@@ -74,13 +74,13 @@ std::vector<std::string> missing_parts(const record::RunRecord& record,
   return parts;
 }
 
-std::string rule_sentence(const evaluation::Evaluation& evaluation) {
-  if (!evaluation.rule) return evaluation.rule.error().what;
+std::optional<std::string> rule_sentence(const evaluation::Evaluation& evaluation) {
+  if (!evaluation.rule) return told(evaluation.rule.error().what);
   const evaluation::DecisionRule& rule = *evaluation.rule;
   if (!rule.needs_interval()) {
-    return "simple acceptance; no measurement uncertainty taken into account";
+    return tr("simple acceptance; no measurement uncertainty taken into account");
   }
-  return fmt::format("{}; the value {} decides", in_words(rule), name_of(rule.measurand));
+  return trf("{}; the value {} decides", in_words(rule), tr(name_of(rule.measurand)));
 }
 
 std::string rule_in_words(const record::Header& header) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,8 @@ namespace rondure::reports {
 
 /// The name of the decision rule in words: "simple acceptance".
 [[nodiscard]] std::string rule_in_words(const record::Header& header);
-/// What the verdict follows: the rule with its formula, and what it is about; or why it is unknown.
-[[nodiscard]] std::string rule_sentence(const evaluation::Evaluation& evaluation);
+/// The rule that the verdict follows, with its formula and the value that it judges; or why it is
+/// unknown: nothing where that reason is not known in the language of the report.
+[[nodiscard]] std::optional<std::string> rule_sentence(const evaluation::Evaluation& evaluation);
 
 }  // namespace rondure::reports
