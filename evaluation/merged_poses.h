@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/error.h"
@@ -29,8 +28,5 @@ struct MergedPoses {
 /// The six errors of a pose as reports name them.
 inline constexpr std::array<const char*, 6> kPoseErrorNames = {
     "shift x", "shift y", "shift along axis", "tilt x", "tilt y", "turn about axis"};
-
-/// One sentence: what the fixture adds to CYLt.
-[[nodiscard]] std::string share_in_words(const MergedPoses& merged);
 
 }  // namespace rondure::evaluation

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/units.h"
 #include "core/utf8.h"
 #include "evaluation/measured_cloud.h"
 #include "reports/words/decision.h"
@@ -39,6 +40,28 @@ std::string repeats_of(const evaluation::FeatureResult& feature) {
 std::string title_of(const evaluation::Section& section) {
   return section.projected ? tr("All points, seen along the axis")
                            : trf("Layer {}", section.layer + 1);
+}
+
+std::string share_in_words(const evaluation::MergedPoses& merged) {
+  if (!merged.solved) {
+    return fmt::format("what the fixture adds to CYLt is not known: {}",
+                       merged.refusal ? merged.refusal->what : std::string());
+  }
+  const fit::PoseJoint& solved = *merged.solved;
+  if (merged.joint) {
+    return trf(
+        "the fixture by its kinematics alone would have given CYLt {:.3f} um: its errors would "
+        "have added {:.3f} um; they were solved for, and what is left of them is uncertain by "
+        "{:.3f} um (standard uncertainty)",
+        core::micrometres(solved.naive_mm), core::micrometres(solved.share_mm()),
+        core::micrometres(solved.u_joint_mm));
+  }
+  return trf(
+      "the poses were merged by the kinematics alone: their stated uncertainty changes CYLt by "
+      "{:.3f} um (root mean square); solved together with the part it would be {:.3f} um, {:.3f} "
+      "um less",
+      core::micrometres(solved.u_naive_mm), core::micrometres(solved.joint_mm),
+      core::micrometres(solved.share_mm()));
 }
 
 std::string sentence_of(const fit::Certificate& certificate) {
