@@ -3,7 +3,7 @@
 
 # git names the commit in rondure --version. Boost: distributions (headers only), and SOCI's headers
 # include it.
-rondure_build_packages="g++ cmake ninja-build git libeigen3-dev nlohmann-json3-dev libexpected-dev libcli11-dev libfmt-dev
+rondure_build_packages="g++ cmake ninja-build git gettext libeigen3-dev nlohmann-json3-dev libexpected-dev libcli11-dev libfmt-dev
   libasio-dev libsoci-dev libpq-dev libboost-dev libsqlite3-dev libssl-dev libfftw3-dev libcgal-dev
   pkg-config libusb-1.0-0-dev libceres-dev libpugixml-dev libcpp-httplib-dev"
 rondure_test_packages="libgtest-dev libgmock-dev python3-jsonschema postgresql openssl libumockdev-dev umockdev

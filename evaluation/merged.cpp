@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "core/units.h"
 #include "evaluation/fixture_use.h"
 #include "evaluation/uncertainty/declared.h"
 
@@ -170,30 +169,6 @@ core::Result<MergedCloud> merged_cloud(const RunRecord& record, int index,
   }
   out.merged.solved = std::move(*solved);
   return out;
-}
-
-std::string share_in_words(const MergedPoses& merged) {
-  if (!merged.solved) {
-    return fmt::format("what the fixture adds to CYLt is not known: {}",
-                       merged.refusal ? merged.refusal->what : std::string());
-  }
-  const fit::PoseJoint& solved = *merged.solved;
-  if (merged.joint) {
-    return fmt::format(
-        "the fixture by its kinematics alone would have given CYLt {:.3f} um: its errors would "
-        "have "
-        "added {:.3f} um; they were solved for, and what is left of them is uncertain by {:.3f} um "
-        "(standard uncertainty)",
-        core::micrometres(solved.naive_mm), core::micrometres(solved.share_mm()),
-        core::micrometres(solved.u_joint_mm));
-  }
-  return fmt::format(
-      "the poses were merged by the kinematics alone: their stated uncertainty changes CYLt by "
-      "{:.3f} um (root mean square); solved together with the part it would be {:.3f} um, {:.3f} "
-      "um "
-      "less",
-      core::micrometres(solved.u_naive_mm), core::micrometres(solved.joint_mm),
-      core::micrometres(solved.share_mm()));
 }
 
 }  // namespace rondure::evaluation

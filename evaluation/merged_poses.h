@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/error.h"
@@ -24,8 +23,5 @@ struct MergedPoses {
   std::optional<fit::PoseJoint> solved;
   std::optional<core::Error> refusal;
 };
-
-/// One sentence: what the fixture adds to CYLt.
-[[nodiscard]] std::string share_in_words(const MergedPoses& merged);
 
 }  // namespace rondure::evaluation

@@ -7,6 +7,7 @@
 #include "evaluation/analysis.h"
 #include "evaluation/feature_values.h"
 #include "reports/data/json_parts.h"
+#include "reports/words/facts.h"
 #include "reports/words/messages.h"
 
 namespace rondure::reports {

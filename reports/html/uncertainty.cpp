@@ -134,13 +134,15 @@ std::string value_part(const evaluation::CharacteristicResult& result) {
 }  // namespace
 
 std::string rule_section(const evaluation::Evaluation& evaluation) {
+  const std::string sentence =
+      in_sentence(rule_sentence(evaluation),
+                  evaluation.rule ? std::string_view() : evaluation.rule.error().what);
   if (!evaluation.rule || !evaluation.rule->needs_interval()) {
-    return fmt::format(R"(<p class="note">{}</p>)",
-                       trf("Decision rule: {}.", in_sentence(rule_sentence(evaluation))));
+    return fmt::format(R"(<p class="note">{}</p>)", trf("Decision rule: {}.", sentence));
   }
   return fmt::format(R"(<div class="rule"><b>{}</b> {}<div class="note">{}</div>{}</div>)",
-                     tr("Decision rule."), trf("{}.", in_sentence(rule_sentence(evaluation))),
-                     tr(kFormulaLetters), statements(*evaluation.rule));
+                     tr("Decision rule."), trf("{}.", sentence), tr(kFormulaLetters),
+                     statements(*evaluation.rule));
 }
 
 std::string uncertainty_section(const evaluation::FeatureResult& feature) {

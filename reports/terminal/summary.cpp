@@ -158,7 +158,8 @@ void add_head(std::string& out, const record::RunRecord& record,
               const evaluation::Evaluation& evaluation) {
   const record::Header& header = record.header;
   out += upper(tr(name_of(evaluation.verdict))) + "\n";
-  add_wrapped(out, tr("rule"), words(rule_sentence(evaluation)));
+  const auto rule = rule_sentence(evaluation);
+  add_wrapped(out, tr("rule"), rule ? *rule : evaluation.rule.error().what);
   std::string part = header.part_id;
   for (const std::string& more : {header.part_name, header.drawing}) {
     if (!more.empty()) part += ", " + more;

@@ -12,35 +12,27 @@
 namespace rondure::reports {
 namespace {
 
-/// "; prior: gamma with mean 6 um and standard deviation 2 um", or nothing.
-std::string prior_in_words(const evaluation::DecisionRule& rule) {
-  if (!rule.prior) return {};
-  return fmt::format("; prior: {} with mean {:g} um and standard deviation {:g} um",
-                     name_of(rule.prior->kind), rule.prior->mean_mm / core::kMicrometre,
-                     rule.prior->standard_deviation_mm / core::kMicrometre);
-}
-
 std::string formula(const evaluation::DecisionRule& rule) {
   switch (rule.kind) {
     case evaluation::DecisionRule::Kind::kSimpleAcceptance:
-      return "simple acceptance: conforms where the measured value <= T; no guard band";
+      return tr("simple acceptance: conforms where the measured value <= T; no guard band");
     case evaluation::DecisionRule::Kind::kIso14253:
-      return fmt::format(
+      return trf(
           "ISO 14253-1: conforms where y + f (hi - y) <= T, does not conform where y - f (y - lo) "
           "> T, otherwise undecided; f = {:g}",
           rule.guard_factor);
     case evaluation::DecisionRule::Kind::kJcgm106:
-      return fmt::format(
+      return trf(
           "JCGM 106: conforms where the probability of conformance P >= {:g} %, does not conform "
           "where P <= {:g} %, otherwise undecided",
           100.0 * (1.0 - rule.consumer_risk_1), 100.0 * rule.producer_risk_1);
     case evaluation::DecisionRule::Kind::kNToOne:
-      return fmt::format(
+      return trf(
           "{0:g}:1 simple acceptance (ASME B89.7.3.1): where T >= {0:g} (hi - lo), conforms where "
           "y <= T, otherwise does not conform; void where the ratio is not met",
           rule.ratio);
     case evaluation::DecisionRule::Kind::kGuardBand:
-      return fmt::format(
+      return trf(
           "guard bands (ASME B89.7.3.1): conforms where y <= T - a U, does not conform where y > T "
           "+ r U, otherwise undecided; a = {:g} %, r = {:g} %",
           100.0 * rule.acceptance_guard_1, 100.0 * rule.rejection_guard_1);
@@ -80,6 +72,28 @@ std::string title_of(const evaluation::Section& section) {
                            : trf("Layer {}", section.layer + 1);
 }
 
+std::string share_in_words(const evaluation::MergedPoses& merged) {
+  if (!merged.solved) {
+    return fmt::format("what the fixture adds to CYLt is not known: {}",
+                       merged.refusal ? merged.refusal->what : std::string());
+  }
+  const fit::PoseJoint& solved = *merged.solved;
+  if (merged.joint) {
+    return trf(
+        "the fixture by its kinematics alone would have given CYLt {:.3f} um: its errors would "
+        "have added {:.3f} um; they were solved for, and what is left of them is uncertain by "
+        "{:.3f} um (standard uncertainty)",
+        core::micrometres(solved.naive_mm), core::micrometres(solved.share_mm()),
+        core::micrometres(solved.u_joint_mm));
+  }
+  return trf(
+      "the poses were merged by the kinematics alone: their stated uncertainty changes CYLt by "
+      "{:.3f} um (root mean square); solved together with the part it would be {:.3f} um, {:.3f} "
+      "um less",
+      core::micrometres(solved.u_naive_mm), core::micrometres(solved.joint_mm),
+      core::micrometres(solved.share_mm()));
+}
+
 std::string sentence_of(const fit::Certificate& certificate) {
   using Kind = fit::Certificate::Kind;
   switch (certificate.kind) {
@@ -113,13 +127,13 @@ std::vector<std::string> missing_parts(const record::RunRecord& record,
   return parts;
 }
 
-std::string rule_sentence(const evaluation::Evaluation& evaluation) {
-  if (!evaluation.rule) return evaluation.rule.error().what;
+std::optional<std::string> rule_sentence(const evaluation::Evaluation& evaluation) {
+  if (!evaluation.rule) return told(evaluation.rule.error().what);
   const evaluation::DecisionRule& rule = *evaluation.rule;
   if (!rule.needs_interval()) {
-    return "simple acceptance; no measurement uncertainty taken into account";
+    return tr("simple acceptance; no measurement uncertainty taken into account");
   }
-  return fmt::format("{}; the value {} decides", in_words(rule), name_of(rule.measurand));
+  return trf("{}; the value {} decides", in_words(rule), tr(name_of(rule.measurand)));
 }
 
 std::string rule_in_words(const record::Header& header) {
@@ -132,10 +146,13 @@ std::string rule_in_words(const record::Header& header) {
 std::string in_words(const evaluation::DecisionRule& rule) {
   std::string out = formula(rule);
   if (rule.needs_interval()) {
-    out += rule.judge_corrected ? "; corrected values are judged, whatever was read"
-                                : "; a value as read above T never conforms";
+    out = rule.judge_corrected ? trf("{}; corrected values are judged, whatever was read", out)
+                               : trf("{}; a value as read above T never conforms", out);
   }
-  return out + prior_in_words(rule);
+  if (!rule.prior) return out;
+  return trf("{}; prior: {} with mean {:g} um and standard deviation {:g} um", out,
+             tr(name_of(rule.prior->kind)), rule.prior->mean_mm / core::kMicrometre,
+             rule.prior->standard_deviation_mm / core::kMicrometre);
 }
 
 }  // namespace rondure::reports

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace rondure::reports {
 [[nodiscard]] std::string repeats_of(const evaluation::FeatureResult& feature);
 /// "Layer 1"; "All points, seen along the axis".
 [[nodiscard]] std::string title_of(const evaluation::Section& section);
+/// How much the fixture adds to CYLt, in one sentence of the language of the report. Where it is
+/// not known the sentence is English, with the reason.
+[[nodiscard]] std::string share_in_words(const evaluation::MergedPoses& merged);
 /// What the certificate says, in one sentence.
 [[nodiscard]] std::string sentence_of(const fit::Certificate& certificate);
 
@@ -24,8 +28,9 @@ namespace rondure::reports {
 
 /// The name of the decision rule in words: "simple acceptance".
 [[nodiscard]] std::string rule_in_words(const record::Header& header);
-/// What the verdict follows: the rule with its formula, and what it is about; or why it is unknown.
-[[nodiscard]] std::string rule_sentence(const evaluation::Evaluation& evaluation);
+/// The rule that the verdict follows, with its formula and the value that it judges; or why it is
+/// unknown: nothing where that reason is not known in the language of the report.
+[[nodiscard]] std::optional<std::string> rule_sentence(const evaluation::Evaluation& evaluation);
 
 /// The rule in words, with its formula: "ISO 14253-1: conforms where y + 1 (hi - y) <= T, ...".
 [[nodiscard]] std::string in_words(const evaluation::DecisionRule& rule);

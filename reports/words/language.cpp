@@ -16,13 +16,14 @@ thread_local Language the_language = Language::kEnglish;
 
 using Table = std::unordered_map<std::string_view, std::string_view>;
 
-/// The whole table by its English text.
+/// The texts of the catalogue by the English one, but for the titles of codes. Where a text is also
+/// a sentence, that of tr() counts: it may state how its arguments are written.
 const Table& table() {
   static const Table all = [] {
     Table out;
-    for (const auto& part : {chinese_page(), chinese_drawings(), chinese_analyses(),
-                             chinese_sentences(), chinese_summary(), chinese_live()}) {
-      for (const Translation& line : part) out.emplace(line.english, line.chinese);
+    for (const Translation& line : chinese_texts()) {
+      if (line.context.empty()) out.insert_or_assign(line.english, line.chinese);
+      if (line.context == Translation::kSentence) out.emplace(line.english, line.chinese);
     }
     return out;
   }();
@@ -39,7 +40,8 @@ struct TwoFormats {
 const std::vector<TwoFormats>& sentences() {
   static const auto all = [] {
     std::vector<TwoFormats> out;
-    for (const Translation& line : chinese_sentences()) {
+    for (const Translation& line : chinese_texts()) {
+      if (line.context != Translation::kSentence) continue;
       if (line.english.find('{') == std::string_view::npos) continue;
       out.push_back({SentenceFormat(line.english), SentenceFormat(line.chinese)});
     }
@@ -120,7 +122,12 @@ std::optional<std::string> told(std::string_view english) {
 
 std::string title_of(core::Code code) {
   if (the_language == Language::kEnglish) return {};
-  return std::string(chinese_title(code));
+  for (const Translation& line : chinese_texts()) {
+    if (line.context == Translation::kCode && line.english == core::code_name(code)) {
+      return std::string(line.chinese);
+    }
+  }
+  return {};
 }
 
 std::string count(std::size_t number, std::string_view one, std::string_view many) {

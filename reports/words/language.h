@@ -47,7 +47,7 @@ class LanguageScope {
 [[nodiscard]] constexpr const char* translatable(const char* english) { return english; }
 
 /// The text in the language of the report; English where the table has none. The English text is
-/// the key: one table, language_zh.h. A test holds that each literal here has its line there.
+/// the key of the catalogue zh.po. A test holds that each literal here has its line there.
 [[nodiscard]] std::string tr(std::string_view english);
 
 /// The same of a format text, with its arguments. The Chinese text may name them in another order:

@@ -2,27 +2,28 @@
 
 #include <span>
 #include <string_view>
-
-#include "core/error.h"
+#include <vector>
 
 namespace rondure::reports {
 
-/// A text of the reports in both languages. Format texts have the same arguments on both sides.
+/// A text of the catalogue zh.po in both languages. Format texts have the same arguments on both
+/// sides.
 struct Translation {
+  /// Empty: tr() and trf() ask for the text. kSentence: a format, or a part, of the sentences of
+  /// evaluation, which told() recognises. kCode: the English text is the name of a core::Code.
+  std::string_view context;
   std::string_view english;
   std::string_view chinese;
+
+  static constexpr std::string_view kSentence = "sentence";
+  static constexpr std::string_view kCode = "code";
 };
 
-/// The table, by topic; each English text stands in one of them once. docs/chinese.md is its
+/// The whole catalogue by context and English text, each pair once. docs/chinese.md is its
 /// glossary.
-[[nodiscard]] std::span<const Translation> chinese_page();  ///< Page: words, tables, provenance.
-[[nodiscard]] std::span<const Translation> chinese_drawings();   ///< Captions, axes, labels.
-[[nodiscard]] std::span<const Translation> chinese_analyses();   ///< Spindle, wheel, contour, axes.
-[[nodiscard]] std::span<const Translation> chinese_sentences();  ///< Made by evaluation: told().
-[[nodiscard]] std::span<const Translation> chinese_summary();    ///< The terminal.
-[[nodiscard]] std::span<const Translation> chinese_live();       ///< The live page.
+[[nodiscard]] const std::vector<Translation>& chinese_texts();
 
-/// Title of a code.
-[[nodiscard]] std::string_view chinese_title(core::Code code);
+/// zh.po as msgfmt compiled it, little-endian; the build makes this function (words/embed.cmake).
+[[nodiscard]] std::span<const unsigned char> chinese_catalogue();
 
 }  // namespace rondure::reports

@@ -13,6 +13,7 @@
 #include "core/noise.h"
 #include "evaluation/decision/decision.h"
 #include "reports/words/facts.h"
+#include "reports/words/language.h"
 
 namespace rondure::reports {
 
@@ -116,6 +117,22 @@ TEST(DecisionRule, TheVerdictChangesAtTheLimitsThatAreStated) {
               evaluation::Verdict::kDoesNotConform);
     EXPECT_EQ(verdict(rule, known(at->rejection_mm - bias + kStep, errors)),
               evaluation::Verdict::kDoesNotConform);
+  }
+}
+
+// The rule is data: its words are made in the language of the report, not recognised in English.
+TEST(DecisionRule, IsInChineseWithItsNumbers) {
+  evaluation::DecisionRule rule = rule_named(Kind::kIso14253);
+  rule.guard_factor = 0.5;
+  rule.prior = evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 2e-3};
+  const LanguageScope chinese(Language::kChinese);
+  EXPECT_EQ(in_words(rule),
+            "ISO 14253-1 (GB/T 18779.1)：y + f (hi - y) <= T 时合格，y - f (y - lo) > T "
+            "时不合格，否则待定；f = 0.5；测得值超出 T 时不判为合格；先验分布：伽马分布，均值 6 "
+            "um，标准差 2 um");
+  for (const Kind kind : kAllRules) {
+    const std::string words = in_words(rule_named(kind));
+    EXPECT_EQ(words.find("conforms"), std::string::npos) << words;
   }
 }
 

@@ -1,18 +1,19 @@
-// One table of texts: complete, nothing in it unused, both sides of a line alike; and the reports
-// that are written with it.
+// The catalogue of texts: complete, nothing in it unused, both sides of a line alike; and the
+// reports that are written with it.
 
 #include "reports/words/language.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <set>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,6 +26,7 @@
 #include "reports/words/sentence_format.h"
 #include "reports/words/zh.h"
 #include "synthetic.h"
+#include "tests/app/program.h"
 #include "tests/reports/english_left.h"
 #include "tests/reports/page_text.h"
 
@@ -37,171 +39,82 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-std::vector<Translation> whole_table() {
-  std::vector<Translation> out;
-  for (const auto& part : {chinese_page(), chinese_drawings(), chinese_analyses(),
-                           chinese_sentences(), chinese_summary(), chinese_live()}) {
-    out.insert(out.end(), part.begin(), part.end());
-  }
-  return out;
-}
-
 // ---- The sources -------------------------------------------------------------------------------
 
-/// A string of a source, adjacent literals joined.
-struct Literal {
-  std::string text;
-  std::string before;  ///< The last characters of code in front of it, without spaces.
-};
-
-void add_utf8(std::string& out, unsigned code) {
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xC0U | (code >> 6U));
-    out += static_cast<char>(0x80U | (code & 0x3FU));
-  } else {
-    out += static_cast<char>(0xE0U | (code >> 12U));
-    out += static_cast<char>(0x80U | ((code >> 6U) & 0x3FU));
-    out += static_cast<char>(0x80U | (code & 0x3FU));
-  }
-}
-
-/// Reads the strings of C++ text: ordinary and raw ones; comments are left out.
-class SourceReader {
- public:
-  explicit SourceReader(std::string text) : text_(std::move(text)) {}
-
-  std::vector<Literal> literals() {
-    while (at_ < text_.size()) {
-      if (skip_comment() || take_raw() || take_string() || skip_letter()) continue;
-      const char c = text_[at_++];
-      if (std::isspace(static_cast<unsigned char>(c)) != 0) continue;
-      joins_ = false;
-      before_ += c;
-    }
-    return std::move(out_);
-  }
-
- private:
-  bool begins(std::string_view part) const { return text_.compare(at_, part.size(), part) == 0; }
-
-  bool skip_comment() {
-    if (begins("//")) {
-      at_ = std::min(text_.find('\n', at_), text_.size());
-      return true;
-    }
-    if (!begins("/*")) return false;
-    at_ = std::min(text_.find("*/", at_), text_.size() - 2) + 2;
-    return true;
-  }
-
-  bool skip_letter() {
-    if (text_[at_] != '\'' || (at_ > 0 && std::isdigit(static_cast<unsigned char>(text_[at_ - 1]))))
-      return false;
-    at_ += text_[at_ + 1] == '\\' ? 4 : 3;
-    return true;
-  }
-
-  bool take_raw() {
-    if (!begins("R\"")) return false;
-    const std::size_t open = text_.find('(', at_);
-    const std::string close = ")" + text_.substr(at_ + 2, open - at_ - 2) + "\"";
-    const std::size_t end = text_.find(close, open);
-    add(text_.substr(open + 1, end - open - 1));
-    at_ = end + close.size();
-    return true;
-  }
-
-  bool take_string() {
-    if (text_[at_] != '"') return false;
-    std::string piece;
-    for (++at_; text_[at_] != '"'; ++at_) {
-      if (text_[at_] != '\\') {
-        piece += text_[at_];
-        continue;
-      }
-      const char kind = text_[++at_];
-      if (kind == 'u') {
-        add_utf8(piece, static_cast<unsigned>(std::stoul(text_.substr(at_ + 1, 4), nullptr, 16)));
-        at_ += 4;
-      } else {
-        piece += kind == 'n' ? '\n' : kind;
-      }
-    }
-    ++at_;
-    add(piece);
-    return true;
-  }
-
-  void add(const std::string& piece) {
-    if (joins_) {
-      out_.back().text += piece;
-      return;
-    }
-    out_.push_back({piece, before_.substr(before_.size() > 40 ? before_.size() - 40 : 0)});
-    joins_ = true;
-  }
-
-  std::string text_;
-  std::size_t at_ = 0;
-  std::string before_;
-  bool joins_ = false;
-  std::vector<Literal> out_;
-};
-
-std::vector<Literal> literals_of(const fs::path& file) {
+std::string text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
-  return SourceReader(text.str()).literals();
+  return text.str();
 }
 
-/// Strings of the sources of a room, but for the table itself.
-std::vector<Literal> literals_of_room(const std::string& room) {
-  std::vector<Literal> out;
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(RONDURE_SOURCE_DIR) / room)) {
-    const auto extension = entry.path().extension();
-    const bool table = entry.path().string().find("/reports/words/zh") != std::string::npos;
-    if ((extension != ".h" && extension != ".cpp") || table) continue;
-    const auto more = literals_of(entry.path());
-    out.insert(out.end(), more.begin(), more.end());
+/// The sources of rooms, a line each. xgettext ends at a string that is not UTF-8: `left_out`.
+std::string sources_of(const std::vector<std::string>& rooms,
+                       const std::vector<std::string>& left_out = {}) {
+  std::string out;
+  for (const std::string& room : rooms) {
+    const fs::path root = fs::path(RONDURE_SOURCE_DIR) / room;
+    for (const auto& entry : fs::recursive_directory_iterator(root)) {
+      const std::string file = entry.path().string();
+      const bool is_left_out =
+          std::any_of(left_out.begin(), left_out.end(),
+                      [&](const std::string& part) { return file.find(part) != file.npos; });
+      if (!is_left_out && (file.ends_with(".h") || file.ends_with(".cpp"))) out += file + '\n';
+    }
   }
   return out;
 }
 
-TEST(LanguageTable, TheReaderOfSourcesJoinsAndUnescapes) {
-  const auto found =
-      SourceReader("a = tr(\"x \\\"y\\\"\"\n  R\"(z)\" \"\\u00b5m\"); // \"no\"\nb('\"', \"w\")")
-          .literals();
-  ASSERT_EQ(found.size(), 2U);
-  EXPECT_EQ(found[0].text, "x \"y\"z\u00b5m");
-  EXPECT_EQ(found[0].before, "a=tr(");
-  EXPECT_EQ(found[1].text, "w");
+/// Runs a command; its status and what it said.
+std::pair<int, std::string> run(const std::string& command, const fs::path& said) {
+  const int status = std::system((command + " >" + said.string() + " 2>&1").c_str());
+  return {status, text_of(said)};
 }
 
+/// Writes the strings of sources (`how`: which) as a template of a catalogue.
+void extract(const std::string& sources, const std::string& how, const fs::path& to) {
+  const fs::path files = to.string() + ".files";
+  std::ofstream(files) << sources;
+  const auto [status, said] =
+      run("xgettext --language=C++ --from-code=UTF-8 --no-wrap --add-location=file " + how +
+              " --files-from=" + files.string() + " --output=" + to.string(),
+          to.string() + ".said");
+  ASSERT_EQ(status, 0) << said;
+}
+
+constexpr const char* kAsked = "--keyword --keyword=tr --keyword=trf --keyword=translatable";
+const fs::path kCatalogue = fs::path(RONDURE_SOURCE_DIR) / "reports/words/zh.po";
+
 TEST(LanguageTable, HasEveryTextThatTheReportsAskFor) {
-  std::set<std::string_view> known;
-  const auto table = whole_table();
-  for (const Translation& line : table) known.insert(line.english);
-  const auto asks = [](const Literal& literal) {
-    for (const std::string call : {"tr(", "trf(", "translatable("}) {
-      if (!literal.before.ends_with(call)) continue;
-      if (literal.before.size() == call.size()) return true;
-      const char c = literal.before[literal.before.size() - call.size() - 1];
-      return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '.';
-    }
-    return false;
-  };
-  std::size_t asked = 0;
-  for (const char* room : {"reports", "web", "app"}) {
-    for (const Literal& literal : literals_of_room(room)) {
-      if (!asks(literal)) continue;
-      ++asked;
-      EXPECT_EQ(known.count(literal.text), 1U) << "no Chinese for \"" << literal.text << '"';
-    }
+  const app::testing::TemporaryFolder folder;
+  ASSERT_NO_FATAL_FAILURE(extract(sources_of({"reports", "web", "app"}), kAsked, folder / "asked"));
+  const std::string asked = text_of(folder / "asked");
+  EXPECT_GT(std::count(asked.begin(), asked.end(), '\n'), 3 * 300);  // place, text and translation
+  const auto [status, said] =
+      run("msgcmp " + kCatalogue.string() + ' ' + (folder / "asked").string(), folder / "said");
+  // A line of the catalogue that no tr() names is none too many: a variable may.
+  EXPECT_EQ(status, 0) << said;
+}
+
+TEST(LanguageTable, ATextWithoutChineseFailsTheComparison) {
+  const app::testing::TemporaryFolder folder;
+  std::ofstream(folder / "more.cpp") << "auto a = tr(\"nobody translated \" \"this\");\n";
+  ASSERT_NO_FATAL_FAILURE(extract((folder / "more.cpp").string() + '\n', kAsked, folder / "asked"));
+  EXPECT_THAT(text_of(folder / "asked"), HasSubstr("msgid \"nobody translated this\"\n"));
+  const auto [status, said] =
+      run("msgcmp " + kCatalogue.string() + ' ' + (folder / "asked").string(), folder / "said");
+  EXPECT_NE(status, 0);
+  EXPECT_THAT(said, HasSubstr("this message is used but not defined"));
+}
+
+/// A text as a catalogue spells it, without the quotes at its ends.
+std::string escaped_in_catalogue(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
   }
-  EXPECT_GT(asked, 300U);
+  return out;
 }
 
 /// The fixed texts of a format, without the marks at their ends that lists are joined by.
@@ -221,33 +134,38 @@ std::vector<std::string> pieces_of(std::string_view format) {
 }
 
 TEST(LanguageTable, HasNothingThatNoSourceSays) {
-  std::set<std::string> said;
-  std::string all;
-  for (const char* room :
-       {"reports", "web", "evaluation", "record", "fit", "plans", "cmm", "fixture", "core"}) {
-    for (const Literal& literal : literals_of_room(room)) {
-      if (said.insert(literal.text).second) all += literal.text + '\n';
+  const app::testing::TemporaryFolder folder;
+  const std::string sources = sources_of(
+      {"reports", "web", "evaluation", "record", "fit", "plans", "cmm", "fixture", "core"},
+      {"/record/csv/", "/record/journal/"});
+  ASSERT_NO_FATAL_FAILURE(extract(sources, "--extract-all", folder / "all"));
+  const std::string all = text_of(folder / "all");
+  for (const Translation& line : chinese_texts()) {
+    if (line.context == Translation::kCode) continue;
+    if (line.context.empty()) {
+      const std::string message = "msgid \"" + escaped_in_catalogue(line.english) + "\"\n";
+      EXPECT_NE(all.find(message), std::string::npos) << message;
+      continue;
     }
-  }
-  for (const auto& part : {chinese_page(), chinese_drawings(), chinese_analyses(),
-                           chinese_summary(), chinese_live()}) {
-    for (const Translation& line : part) {
-      EXPECT_EQ(said.count(std::string(line.english)), 1U) << '"' << line.english << '"';
-    }
-  }
-  // Evaluation puts some sentences together from parts: every part must be in a source.
-  for (const Translation& line : chinese_sentences()) {
+    // Evaluation puts some sentences together from parts: every part must be in a source.
     for (const std::string& piece : pieces_of(line.english)) {
-      EXPECT_NE(all.find(piece), std::string::npos) << '"' << piece << "\" of " << line.english;
+      EXPECT_NE(all.find(escaped_in_catalogue(piece)), std::string::npos)
+          << '"' << piece << "\" of " << line.english;
     }
   }
 }
 
 // ---- The lines ---------------------------------------------------------------------------------
 
-TEST(LanguageTable, HasEachTextOnce) {
-  std::map<std::string_view, int> seen;
-  for (const Translation& line : whole_table()) EXPECT_EQ(++seen[line.english], 1) << line.english;
+TEST(LanguageTable, IsTheCatalogueInItsWholeLength) {
+  const std::string catalogue = text_of(kCatalogue);
+  std::size_t messages = 0;
+  for (std::size_t at = catalogue.find("\nmsgid "); at != std::string::npos;
+       at = catalogue.find("\nmsgid ", at + 1)) {
+    ++messages;
+  }
+  EXPECT_EQ(chinese_texts().size(), messages - 1);  // one is the head of the catalogue
+  EXPECT_GT(messages, 900U);
 }
 
 /// The places of a format: how often each argument stands there, and as what.
@@ -269,14 +187,12 @@ bool is_chinese(std::string_view text) {
 }
 
 TEST(LanguageTable, HasTheSameArgumentsOnBothSidesOfAFormat) {
-  for (const auto& part : {chinese_page(), chinese_drawings(), chinese_analyses(),
-                           chinese_summary(), chinese_live()}) {
-    for (const Translation& line : part) {
+  for (const Translation& line : chinese_texts()) {
+    if (line.context != Translation::kSentence) {
       EXPECT_EQ(places_of(line.english), places_of(line.chinese)) << line.english;
+      continue;
     }
-  }
-  // Sentences are filled with texts: an argument has no format of its own, but may be a name.
-  for (const Translation& line : chinese_sentences()) {
+    // Sentences are filled with texts: an argument has no format of its own, but may be a name.
     std::set<char> english;
     std::set<char> chinese;
     for (const std::string& place : places_of(line.english)) english.insert(place.front());
@@ -295,20 +211,23 @@ TEST(LanguageTable, SaysItInChinese) {
     }
     return false;
   };
-  for (const Translation& line : whole_table()) {
+  for (const Translation& line : chinese_texts()) {
     if (has_no_words(line.english) || is_name(line.chinese)) continue;
     EXPECT_TRUE(is_chinese(line.chinese)) << line.english;
   }
 }
 
 TEST(LanguageTable, HasATitleOfItsOwnForEveryCode) {
-  std::set<std::string_view> titles;
+  const LanguageScope scope(Language::kChinese);
+  std::set<std::string> titles;
   for (int i = 0; i <= static_cast<int>(core::kLastCode); ++i) {
     const auto code = static_cast<core::Code>(i);
-    EXPECT_TRUE(is_chinese(chinese_title(code))) << core::code_name(code);
-    EXPECT_NE(chinese_title(code), "未知代码") << core::code_name(code);
-    EXPECT_TRUE(titles.insert(chinese_title(code)).second) << core::code_name(code);
+    EXPECT_TRUE(is_chinese(title_of(code))) << core::code_name(code);
+    EXPECT_TRUE(titles.insert(title_of(code)).second) << core::code_name(code);
   }
+  const auto is_title = [](const Translation& line) { return line.context == Translation::kCode; };
+  EXPECT_EQ(std::count_if(chinese_texts().begin(), chinese_texts().end(), is_title),
+            static_cast<long>(titles.size()));
 }
 
 // ---- Scope and sentences -----------------------------------------------------------------------
@@ -374,7 +293,8 @@ TEST(Told, KnowsSentencesByTheirFormatAndTheirParts) {
 
 TEST(Told, EverySentenceOfTheTableIsRecognisedAndLeavesNoArgumentOut) {
   const LanguageScope scope(Language::kChinese);
-  for (const Translation& line : chinese_sentences()) {
+  for (const Translation& line : chinese_texts()) {
+    if (line.context != Translation::kSentence) continue;
     const SentenceFormat english(line.english);
     std::vector<std::string> arguments;
     for (std::size_t i = 0; i < english.arguments(); ++i)
