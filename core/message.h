@@ -12,7 +12,7 @@ namespace rondure::core {
 
 /// The codes of messages that are no errors (those: Code): what the program decided during a run.
 /// JSON spells them in kebab case (message_name()); their sentences are made in
-/// reports/words/messages.h.
+/// reports/words/internal/messages.h.
 enum class MessageCode {
   kSentence,               ///< sentence: of an old journal, in words that no code stands for
   kPartLocated,            ///< part-located: its axis was found, and where it is level

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "evaluation/analysis_result.h"
-#include "evaluation/conformance.h"
 #include "evaluation/evaluation.h"
 #include "evaluation/feature_values.h"
+#include "evaluation/internal/conformance.h"
 
 namespace rondure::evaluation {
 namespace {

@@ -11,13 +11,13 @@
 
 #include "core/units.h"
 #include "evaluation/analysis.h"
-#include "evaluation/conformance.h"
 #include "evaluation/defect.h"
-#include "evaluation/fixture_use.h"
+#include "evaluation/internal/conformance.h"
+#include "evaluation/internal/fixture_use.h"
+#include "evaluation/internal/merged.h"
+#include "evaluation/internal/warnings.h"
 #include "evaluation/invariants.h"
 #include "evaluation/measured_cloud.h"
-#include "evaluation/merged.h"
-#include "evaluation/warnings.h"
 #include "fit/poses/walk.h"
 
 namespace rondure::evaluation {

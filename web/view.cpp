@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
-#include "web/frame.h"
+#include "web/internal/frame.h"
+#include "web/internal/server.h"
 #include "web/page.h"
-#include "web/server.h"
 
 namespace rondure::web {
 namespace {

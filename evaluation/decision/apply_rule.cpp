@@ -7,7 +7,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "evaluation/decision/risks.h"
+#include "evaluation/decision/internal/risks.h"
 #include "evaluation/stated_value.h"
 
 namespace rondure::evaluation {

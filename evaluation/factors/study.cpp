@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "evaluation/factors/outliers.h"
+#include "evaluation/factors/internal/outliers.h"
 #include "evaluation/feature_values.h"
 
 namespace rondure::evaluation {

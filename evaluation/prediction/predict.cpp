@@ -9,7 +9,7 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
-#include "evaluation/prediction/expected_form.h"
+#include "evaluation/prediction/internal/expected_form.h"
 
 namespace rondure::evaluation {
 namespace {

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "evaluation/uncertainty/error_modes.h"
+#include "evaluation/uncertainty/internal/error_modes.h"
 
 namespace rondure::evaluation {
 namespace {

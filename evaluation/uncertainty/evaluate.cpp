@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "evaluation/deviation.h"
+#include "evaluation/internal/deviation.h"
 #include "evaluation/measured_cloud.h"
-#include "evaluation/uncertainty/declared.h"
+#include "evaluation/uncertainty/internal/declared.h"
 
 namespace rondure::evaluation {
 namespace {

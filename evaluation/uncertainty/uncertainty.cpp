@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/statistics.h"
-#include "evaluation/uncertainty/chains.h"
+#include "evaluation/uncertainty/internal/chains.h"
 
 namespace rondure::evaluation {
 namespace {

@@ -21,7 +21,7 @@ namespace rondure::record {
                                                         std::string_view arguments);
 
 /// The sentence that journals before version 6 hold in place of code and arguments. It never
-/// changes; what a person reads is made in reports/words/messages.h.
+/// changes; what a person reads is made in reports/words/internal/messages.h.
 [[nodiscard]] std::string old_sentence(const core::Message& message);
 
 /// The message that such a sentence stands for, its numbers as rounded there; kSentence with the

@@ -1,7 +1,7 @@
 #include "core/units.h"
 #include "evaluation/analysis_result.h"
 #include "reports/data/contour.h"
-#include "reports/data/json_parts.h"
+#include "reports/data/internal/json_parts.h"
 #include "reports/data/spindle.h"
 #include "reports/data/wheel.h"
 

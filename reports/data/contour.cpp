@@ -8,7 +8,7 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
-#include "reports/data/json_parts.h"
+#include "reports/data/internal/json_parts.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -9,7 +9,7 @@
 #include "core/utf8.h"
 #include "evaluation/feature_values.h"
 #include "evaluation/section.h"
-#include "reports/words/facts.h"
+#include "reports/words/internal/facts.h"
 
 namespace rondure::reports {
 namespace {

@@ -1,5 +1,5 @@
 #include "reports/data/factors.h"
-#include "reports/data/json_parts.h"
+#include "reports/data/internal/json_parts.h"
 
 namespace rondure::reports {
 namespace {

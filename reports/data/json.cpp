@@ -6,9 +6,9 @@
 
 #include "evaluation/analysis.h"
 #include "evaluation/feature_values.h"
-#include "reports/data/json_parts.h"
-#include "reports/words/facts.h"
-#include "reports/words/messages.h"
+#include "reports/data/internal/json_parts.h"
+#include "reports/words/internal/facts.h"
+#include "reports/words/internal/messages.h"
 
 namespace rondure::reports {
 namespace {

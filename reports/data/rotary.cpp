@@ -2,7 +2,7 @@
 
 #include "core/units.h"
 #include "evaluation/rotary/result.h"
-#include "reports/data/json_parts.h"
+#include "reports/data/internal/json_parts.h"
 
 namespace rondure::reports {
 namespace {

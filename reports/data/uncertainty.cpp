@@ -1,5 +1,5 @@
-#include "reports/data/json_parts.h"
-#include "reports/words/facts.h"
+#include "reports/data/internal/json_parts.h"
+#include "reports/words/internal/facts.h"
 
 namespace rondure::reports {
 namespace {

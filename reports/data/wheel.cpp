@@ -8,7 +8,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "core/version.h"
-#include "reports/data/json_parts.h"
+#include "reports/data/internal/json_parts.h"
 
 namespace rondure::reports {
 namespace {

@@ -12,7 +12,7 @@
 #include "reports/data/csv.h"
 #include "reports/data/dmis.h"
 #include "reports/data/json.h"
-#include "reports/data/qif/check.h"
+#include "reports/data/qif/internal/check.h"
 #include "reports/data/qif/report.h"
 #include "reports/html/pdf.h"
 #include "reports/html/report.h"

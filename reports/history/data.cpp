@@ -4,8 +4,8 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
+#include "reports/data/internal/json_parts.h"
 #include "reports/history/history.h"
-#include "reports/data/json_parts.h"
 
 namespace rondure::reports {
 namespace {

@@ -9,7 +9,7 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/sha256.h"
-#include "reports/data/json_parts.h"
+#include "reports/data/internal/json_parts.h"
 #include "reports/history/archive_entry.h"
 
 namespace rondure::reports {

@@ -9,7 +9,7 @@
 #include "core/numbers.h"
 #include "core/utf8.h"
 #include "evaluation/evaluation.h"
-#include "reports/terminal/columns.h"
+#include "reports/terminal/internal/columns.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -7,10 +7,10 @@
 #include "core/round_values.h"
 #include "core/units.h"
 #include "core/utf8.h"
-#include "reports/drawings/plot_scale.h"
-#include "reports/drawings/svg.h"
+#include "reports/drawings/internal/plot_scale.h"
+#include "reports/drawings/internal/svg.h"
 #include "reports/history/history.h"
-#include "reports/terminal/columns.h"
+#include "reports/terminal/internal/columns.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

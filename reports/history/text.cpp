@@ -8,9 +8,9 @@
 #include "core/round_values.h"
 #include "core/units.h"
 #include "core/utf8.h"
-#include "reports/drawings/svg.h"
+#include "reports/drawings/internal/svg.h"
 #include "reports/history/history.h"
-#include "reports/terminal/columns.h"
+#include "reports/terminal/internal/columns.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -13,7 +13,7 @@
 #include "evaluation/contour/result.h"
 #include "reports/data/contour.h"
 #include "reports/escaping.h"
-#include "reports/html/plot_curve.h"
+#include "reports/html/internal/plot_curve.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
 

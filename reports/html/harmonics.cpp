@@ -6,7 +6,7 @@
 #include "core/units.h"
 #include "evaluation/harmonic_mask.h"
 #include "reports/escaping.h"
-#include "reports/html/plot_curve.h"
+#include "reports/html/internal/plot_curve.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "reports/drawings/svg.h"
+#include "reports/drawings/internal/svg.h"
 #include "reports/html/plots.h"
 #include "reports/words/language.h"
 

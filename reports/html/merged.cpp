@@ -4,7 +4,7 @@
 #include "core/units.h"
 #include "reports/escaping.h"
 #include "reports/html/sections.h"
-#include "reports/words/facts.h"
+#include "reports/words/internal/facts.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

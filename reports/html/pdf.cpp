@@ -11,7 +11,7 @@
 #include "record/files.h"
 #include "record/sha256.h"
 #include "reports/html/report.h"
-#include "reports/terminal/columns.h"
+#include "reports/terminal/internal/columns.h"
 
 namespace rondure::reports {
 namespace {

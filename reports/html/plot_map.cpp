@@ -10,8 +10,8 @@
 #include "core/round_values.h"
 #include "core/units.h"
 #include "evaluation/section.h"
-#include "reports/drawings/plot_scale.h"
-#include "reports/drawings/svg.h"
+#include "reports/drawings/internal/plot_scale.h"
+#include "reports/drawings/internal/svg.h"
 #include "reports/html/plots.h"
 #include "reports/words/language.h"
 

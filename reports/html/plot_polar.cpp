@@ -7,11 +7,11 @@
 #include "core/round_values.h"
 #include "core/units.h"
 #include "evaluation/section.h"
-#include "reports/drawings/plot_scale.h"
-#include "reports/drawings/svg.h"
+#include "reports/drawings/internal/plot_scale.h"
+#include "reports/drawings/internal/svg.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
-#include "reports/words/facts.h"
+#include "reports/words/internal/facts.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -5,11 +5,11 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "reports/drawings/plot_scale.h"
-#include "reports/drawings/svg.h"
+#include "reports/drawings/internal/plot_scale.h"
+#include "reports/drawings/internal/svg.h"
 #include "reports/escaping.h"
+#include "reports/html/internal/solid_scene.h"
 #include "reports/html/plots.h"
-#include "reports/html/solid_scene.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -5,9 +5,9 @@
 #include "core/numbers.h"
 #include "reports/escaping.h"
 #include "reports/html/sections.h"
-#include "reports/words/facts.h"
+#include "reports/words/internal/facts.h"
+#include "reports/words/internal/messages.h"
 #include "reports/words/language.h"
-#include "reports/words/messages.h"
 
 namespace rondure::reports {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/utf8.h"
 #include "record/sha256.h"
 #include "reports/escaping.h"
-#include "reports/html/script.h"
+#include "reports/html/internal/script.h"
 #include "reports/html/sections.h"
 #include "reports/html/style.h"
 #include "reports/words/language.h"

@@ -8,7 +8,7 @@
 #include "core/units.h"
 #include "evaluation/rotary/result.h"
 #include "reports/escaping.h"
-#include "reports/html/plot_curve.h"
+#include "reports/html/internal/plot_curve.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
 

@@ -5,7 +5,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/spindle/result.h"
-#include "reports/html/plot_curve.h"
+#include "reports/html/internal/plot_curve.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
 

@@ -9,7 +9,7 @@
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"
-#include "reports/words/facts.h"
+#include "reports/words/internal/facts.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -4,8 +4,8 @@
 #include "core/units.h"
 #include "evaluation/wheel/result.h"
 #include "reports/escaping.h"
-#include "reports/html/plot_curve.h"
-#include "reports/html/plot_wheel.h"
+#include "reports/html/internal/plot_curve.h"
+#include "reports/html/internal/plot_wheel.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
 

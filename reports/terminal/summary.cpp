@@ -13,8 +13,8 @@
 #include "evaluation/feature_values.h"
 #include "reports/data/contour.h"
 #include "reports/escaping.h"
-#include "reports/terminal/columns.h"
-#include "reports/words/facts.h"
+#include "reports/terminal/internal/columns.h"
+#include "reports/words/internal/facts.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "reports/data/internal/json_parts.h"
 #include "reports/data/json.h"
-#include "reports/data/json_parts.h"
 
 namespace rondure::reports {
 namespace {

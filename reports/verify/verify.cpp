@@ -14,10 +14,10 @@
 #include "record/signature.h"
 #include "reports/formats/exports.h"
 #include "reports/history/earlier_results.h"
-#include "reports/verify/compare_text.h"
-#include "reports/verify/compare_values.h"
-#include "reports/verify/files.h"
-#include "reports/verify/results.h"
+#include "reports/verify/internal/compare_text.h"
+#include "reports/verify/internal/compare_values.h"
+#include "reports/verify/internal/files.h"
+#include "reports/verify/internal/results.h"
 #include "reports/verify/stored_results.h"
 
 namespace rondure::reports {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "reports/words/sentence_format.h"
-#include "reports/words/zh.h"
+#include "reports/words/internal/sentence_format.h"
+#include "reports/words/internal/zh.h"
 
 namespace rondure::reports {
 namespace {

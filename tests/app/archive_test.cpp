@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/utf8.h"
-#include "reports/terminal/columns.h"
+#include "reports/terminal/internal/columns.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 #include "tests/record/postgres_server.h"

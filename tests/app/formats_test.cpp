@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "record/sha256.h"
-#include "reports/terminal/columns.h"
+#include "reports/terminal/internal/columns.h"
 #include "tests/app/files.h"
 #include "tests/app/on_terminal.h"
 #include "tests/app/program.h"

@@ -230,11 +230,10 @@ std::vector<FaultKind> errors() {
         "Error(2, 0514, \"x\", \"Use ClearAllErrors to continue\")",
         "Error(3, 1000, \"x\", \"Machine in error state\")", "Error(2, 0006, \"x\", \"Aborted\")",
         "Error(3, 0511, \"x\", \"Error processing method\")",
-        "Error(3, 1500, \"x\", \"Failed to re-seat head\")",
-        "Error(3, 2504, \"x\", \"Collision\")", "Error(9, 2503, \"x\", \"Scale read head\")",
-        "Error(3, 1009, \"x\", \"Air pressure\")", "Error(3, 1501, \"x\", \"Probe not armed\")",
-        "Error(3, 8123, \"x\", \"of the maker\")", "Error(3, 500, x, Emergency stop)", "Error()",
-        "Error(3)", "Emergency stop", ""}) {
+        "Error(3, 1500, \"x\", \"Failed to re-seat head\")", "Error(3, 2504, \"x\", \"Collision\")",
+        "Error(9, 2503, \"x\", \"Scale read head\")", "Error(3, 1009, \"x\", \"Air pressure\")",
+        "Error(3, 1501, \"x\", \"Probe not armed\")", "Error(3, 8123, \"x\", \"of the maker\")",
+        "Error(3, 500, x, Emergency stop)", "Error()", "Error(3)", "Emergency stop", ""}) {
     out.push_back(error(text));
   }
   return out;

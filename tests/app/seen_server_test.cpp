@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "plans/plan.h"
 #include "plans/cell/served_cell.h"
+#include "plans/plan.h"
 #include "tests/app/cutting_proxy.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"

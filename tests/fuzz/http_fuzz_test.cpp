@@ -14,8 +14,8 @@
 
 #include "tests/fuzz/cases.h"
 #include "tests/fuzz/mutation.h"
+#include "web/internal/server.h"
 #include "web/page.h"
-#include "web/server.h"
 
 namespace rondure::fuzz {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "plans/schema/key_spec.h"
 #include "plans/schema/internal/near_words.h"
+#include "plans/schema/key_spec.h"
 #include "plans/schema/utf8.h"
 
 namespace rondure::plans {

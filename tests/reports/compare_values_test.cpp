@@ -1,4 +1,4 @@
-#include "reports/verify/compare_values.h"
+#include "reports/verify/internal/compare_values.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

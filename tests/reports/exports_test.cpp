@@ -10,7 +10,7 @@
 #include "core/numbers.h"
 #include "reports/data/csv.h"
 #include "reports/data/dmis.h"
-#include "reports/terminal/columns.h"
+#include "reports/terminal/internal/columns.h"
 #include "reports/terminal/polar_sketch.h"
 #include "synthetic.h"
 

@@ -16,7 +16,7 @@
 #include "record/files.h"
 #include "record/sha256.h"
 #include "reports/history/archive_entry.h"
-#include "reports/terminal/columns.h"
+#include "reports/terminal/internal/columns.h"
 #include "reports/words/language.h"
 #include "tests/reports/page_text.h"
 #include "tests/reports/synthetic.h"

@@ -1,4 +1,4 @@
-#include "reports/words/messages.h"
+#include "reports/words/internal/messages.h"
 
 #include <filesystem>
 
@@ -7,7 +7,7 @@
 
 #include "record/journal/journal.h"
 #include "record/journal/message_text.h"
-#include "reports/words/facts.h"
+#include "reports/words/internal/facts.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -1,4 +1,4 @@
-#include "reports/data/qif/check.h"
+#include "reports/data/qif/internal/check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "core/units.h"
 #include "reports/data/qif/report.h"
 #include "synthetic.h"
-#include "tests/reports/points_run.h"
+#include "tests/evaluation/points_run.h"
 #include "tests/reports/qif_schema.h"
 
 namespace rondure::reports {

@@ -9,7 +9,7 @@
 
 #include "core/units.h"
 #include "evaluation/feature_values.h"
-#include "web/cloud.h"
+#include "web/internal/cloud.h"
 
 namespace rondure::reports {
 

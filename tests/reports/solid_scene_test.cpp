@@ -1,4 +1,4 @@
-#include "reports/html/solid_scene.h"
+#include "reports/html/internal/solid_scene.h"
 
 #include <cmath>
 #include <random>

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/terminal/columns.h"
+#include "reports/terminal/internal/columns.h"
 #include "reports/terminal/summary.h"
 #include "synthetic.h"
 

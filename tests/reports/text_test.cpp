@@ -6,9 +6,9 @@
 #include "core/numbers.h"
 #include "core/round_values.h"
 #include "core/utf8.h"
-#include "reports/drawings/svg.h"
+#include "reports/drawings/internal/svg.h"
 #include "reports/escaping.h"
-#include "reports/terminal/columns.h"
+#include "reports/terminal/internal/columns.h"
 
 namespace rondure::reports {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "evaluation/feature_values.h"
 #include "tests/reports/synthetic.h"
-#include "web/cloud.h"
-#include "web/frame.h"
-#include "web/guard.h"
+#include "web/internal/cloud.h"
+#include "web/internal/frame.h"
+#include "web/internal/guard.h"
 #include "web/page.h"
 #include "web/time.h"
 

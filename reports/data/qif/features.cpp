@@ -5,7 +5,7 @@
 #include "core/numbers.h"
 #include "evaluation/feature_values.h"
 #include "evaluation/section.h"
-#include "reports/data/qif/parts.h"
+#include "reports/data/qif/internal/parts.h"
 
 namespace rondure::reports {
 namespace {

@@ -1,7 +1,7 @@
 #include "core/numbers.h"
 #include "evaluation/measured_cloud.h"
 #include "evaluation/section.h"
-#include "reports/data/qif/parts.h"
+#include "reports/data/qif/internal/parts.h"
 
 namespace rondure::reports {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "core/utc.h"
 #include "record/sha256.h"
-#include "reports/data/qif/parts.h"
-#include "reports/words/facts.h"
+#include "reports/data/qif/internal/parts.h"
+#include "reports/words/internal/facts.h"
 
 namespace rondure::reports {
 namespace {

@@ -1,0 +1,122 @@
+#include "evaluation/factors/internal/outliers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/statistics.h"
+#include "fit/geometry/axis.h"
+#include "fit/least_squares/circle.h"
+#include "fit/least_squares/cylinder.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using record::Form;
+
+constexpr double kSigmas = 3.0;
+constexpr double kMedianScales = 5.0;
+constexpr double kLeastScaleMm = 1e-4;
+
+/// Which of the deviations a rule calls outliers.
+/// @param parameters  Of the least-squares fit they come from.
+std::vector<bool> flagged(const std::vector<double>& deviations, OutlierRule rule,
+                          double parameters) {
+  double middle = 0.0;
+  double limit = 0.0;
+  if (rule == OutlierRule::kThreeSigma) {
+    double squares = 0.0;
+    for (const double d : deviations) squares += d * d;
+    const double freedoms = static_cast<double>(deviations.size()) - parameters;
+    limit = freedoms > 0.0 ? kSigmas * std::sqrt(squares / freedoms) : squares + 1.0;
+  } else {
+    middle = core::median(deviations);
+    std::vector<double> apart;
+    for (const double d : deviations) apart.push_back(std::abs(d - middle));
+    limit =
+        kMedianScales *
+        std::max(core::kSigmaPerMedianDeviation * core::median(std::move(apart)), kLeastScaleMm);
+  }
+  std::vector<bool> out;
+  for (const double d : deviations) out.push_back(std::abs(d - middle) > limit);
+  return out;
+}
+
+core::Result<std::size_t> checked_count(const std::vector<bool>& out) {
+  const auto gone = static_cast<std::size_t>(std::count(out.begin(), out.end(), true));
+  if (4 * gone > out.size()) {
+    return core::fail(core::Code::kOutliers,
+                      fmt::format("{} of {} points would be left out, more than a quarter: that "
+                                  "is form",
+                                  gone, out.size()));
+  }
+  return gone;
+}
+
+/// Distances from the least-squares circle of a section.
+core::Result<std::vector<double>> section_deviations(const Points3& points) {
+  const auto plane = across_axis(points);
+  const auto circle = fit::ls_circle(plane);
+  if (!circle) return core::fail(circle.error());
+  std::vector<double> out;
+  for (const Eigen::Vector2d& p : plane)
+    out.push_back((p - circle->center_mm).norm() - circle->radius_mm);
+  return out;
+}
+
+core::Result<std::vector<double>> cylinder_deviations(const Points3& points) {
+  const auto cylinder = fit::ls_cylinder(points, Eigen::Vector3d::UnitZ());
+  if (!cylinder) return core::fail(cylinder.error());
+  std::vector<double> out;
+  for (const Eigen::Vector3d& p : points)
+    out.push_back(fit::distance_mm(cylinder->axis, p) - cylinder->radius_mm);
+  return out;
+}
+
+/// The flags of every point, layer by layer.
+core::Result<std::vector<bool>> outliers_of(const FactorPoints& points, OutlierRule rule) {
+  if (points.form == Form::kCylindricity) {
+    const auto deviations = cylinder_deviations(points.all_mm());
+    if (!deviations) return core::fail(deviations.error());
+    auto out = flagged(*deviations, rule, 5.0);
+    if (auto checked = checked_count(out); !checked) return core::fail(checked.error());
+    return out;
+  }
+  std::vector<bool> out;
+  for (const Points3& layer : points.layers_mm) {
+    const auto deviations = section_deviations(layer);
+    if (!deviations) return core::fail(deviations.error());
+    const auto of_layer = flagged(*deviations, rule, 3.0);
+    if (auto checked = checked_count(of_layer); !checked) return core::fail(checked.error());
+    out.insert(out.end(), of_layer.begin(), of_layer.end());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string_view name_of(OutlierRule rule) {
+  constexpr std::array<std::string_view, 3> kNames = {"none", "3 sigma", "5 medians"};
+  return kNames[static_cast<std::size_t>(rule)];
+}
+
+core::Result<WithoutOutliers> without_outliers(const FactorPoints& points, OutlierRule rule) {
+  if (rule == OutlierRule::kNone) return WithoutOutliers{points, 0};
+  const auto out_of_all = outliers_of(points, rule);
+  if (!out_of_all) return core::fail(out_of_all.error());
+  WithoutOutliers out{{points.form, points.layers_known, {}}, 0};
+  std::size_t row = 0;
+  for (const Points3& layer : points.layers_mm) {
+    Points3 kept;
+    for (const Eigen::Vector3d& p : layer) {
+      if (!(*out_of_all)[row++]) kept.push_back(p);
+    }
+    out.left_out += layer.size() - kept.size();
+    if (!kept.empty()) out.points.layers_mm.push_back(std::move(kept));
+  }
+  return out;
+}
+
+}  // namespace rondure::evaluation

@@ -1,0 +1,279 @@
+#include "evaluation/internal/conformance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "evaluation/feature_values.h"
+#include "evaluation/harmonic_mask.h"
+#include "evaluation/internal/deviation.h"
+#include "evaluation/measured_cloud.h"
+#include "evaluation/uncertainty/internal/declared.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using core::micrometres;
+
+using record::Form;
+
+/// The value of a characteristic and whether what proves it is there.
+core::Result<Deviation> value_of(const FeatureResult& result,
+                                 const record::Characteristic& characteristic) {
+  if (result.failure) return core::fail(*result.failure);
+  return characteristic.form == Form::kRoundness
+             ? worst_section(result, characteristic.reference)
+             : cylinder_deviation(result, characteristic.reference);
+}
+
+std::string sampling_words(const FeatureResult& result,
+                           const record::Characteristic& characteristic) {
+  const record::Feature& feature = result.feature;
+  std::string text = feature.layers > 0
+                         ? fmt::format("{} x {} points", feature.layers, feature.points_per_layer)
+                         : fmt::format("{} points", result.cloud.size());
+  if (feature.word("sampling_method") == "scan") text += ", scanned";
+  if (result.merged) {
+    text += fmt::format(" in {} poses, merged {}", result.merged->poses.size(),
+                        result.merged->joint ? "with their errors solved for" : "by kinematics");
+  }
+  if (characteristic.form != Form::kCylindricity && result.layers.size() > 1)
+    text += "; worst layer";
+  if (!result.cloud.empty() && result.cloud.front().repeats > 1) {
+    text += fmt::format("; mean of {} touches a point", result.cloud.front().repeats);
+  } else if (const int passes = passes_of(result.cloud); passes > 1) {
+    text += fmt::format("; {} passes at places of their own, not averaged", passes);
+  }
+  return text;
+}
+
+std::string tip_words(const FeatureResult& result) {
+  return result.tip_radius_mm ? fmt::format("r_tip {:.4f} mm", *result.tip_radius_mm)
+                              : "r_tip unknown";
+}
+
+/// "MZCY; unfiltered; 4 x 7 points; mean of 5 touches a point; r_tip 1.9984 mm; 20.0 degC".
+ValueOperator operator_of(const FeatureResult& result,
+                          const record::Characteristic& characteristic) {
+  return {ReferenceTerm(reference_of(characteristic)), FilterTerm("unfiltered"),
+          SamplingTerm(sampling_words(result, characteristic)), TipTerm(tip_words(result)),
+          TemperatureTerm(temperature_words(result))};
+}
+
+/// Why the probe cannot vouch for a touched feature.
+std::optional<std::string> probe_fault(const record::RunRecord& record,
+                                       const std::optional<fit::ProbeTip>& probe) {
+  const record::Artefact& limits = record.artefact;
+  if (!probe) return "the probe was not qualified";
+  if (!(std::abs(probe->radius_mm - limits.nominal_tip_radius_mm) <= limits.radius_tolerance_mm)) {
+    return fmt::format("the effective tip radius {:.6f} mm is not within {:g} um of {:g} mm",
+                       probe->radius_mm, micrometres(limits.radius_tolerance_mm),
+                       limits.nominal_tip_radius_mm);
+  }
+  if (!(probe->form_mm <= limits.form_limit_mm)) {
+    return fmt::format("the probing form {:.3f} um is above its limit of {:g} um",
+                       micrometres(probe->form_mm), micrometres(limits.form_limit_mm));
+  }
+  return std::nullopt;
+}
+
+/// Why a characteristic with a value is void all the same.
+std::optional<std::string> reason_for_void(const record::RunRecord& record,
+                                           const std::optional<fit::ProbeTip>& probe,
+                                           const FeatureResult& result, const Deviation& value,
+                                           const record::Characteristic& characteristic) {
+  if (value.exact_fit) return "a section of three different points has no roundness";
+  if (!value.certified) {
+    return fmt::format("no certificate stands behind the {}",
+                       words_of(characteristic.reference, characteristic.form == Form::kRoundness
+                                                              ? record::Shape::kCircle
+                                                              : record::Shape::kCylinder));
+  }
+  // A zone of some points is never wider than that of all: above the tolerance it proves enough.
+  const bool too_wide = characteristic.reference == record::Reference::kMinimumZone &&
+                        characteristic.tolerance_mm &&
+                        value.value_mm > *characteristic.tolerance_mm;
+  if (value.unseen_rad > 0.0 && !too_wide) {
+    return fmt::format(
+        "the points leave {:.0f} deg of the turn unseen: what is there can only add to the "
+        "deviation; measure the whole turn",
+        value.unseen_rad / core::kDegree);
+  }
+  if (record.ending != "finished") return "the run did not finish";
+  if (result.feature.strategy != record::Strategy::kPointsFile) {
+    if (auto fault = probe_fault(record, probe)) return fault;
+  }
+  return temperature_fault(record, result);
+}
+
+/// What stands behind a verdict besides the feature itself.
+struct Circumstances {
+  const record::RunRecord& record;
+  const core::Result<DecisionRule>& rule;
+  const std::optional<fit::ProbeTip>& probe;
+};
+
+/// Against a mask the harmonic decides that comes nearest to its limit; that limit is the
+/// tolerance. Certificates play no part.
+void judge_harmonics(const Circumstances& by, const FeatureResult& result,
+                     CharacteristicResult& out) {
+  record::Characteristic& asked = out.characteristic;
+  if (!asked.harmonic_limits.empty())
+    asked.tolerance_mm = asked.harmonic_limits.front().amplitude_mm;
+  out.verdict = Verdict::kVoid;
+  const auto nearest = result.failure ? core::Result<MaskedHarmonic>(core::fail(*result.failure))
+                                      : nearest_to_mask(result, asked);
+  if (!nearest) {
+    out.reason = nearest.error().what;
+    return;
+  }
+  asked.tolerance_mm = nearest->limit_mm;
+  const std::string where = fmt::format("harmonic {} of layer {} is nearest to its limit",
+                                        nearest->harmonic.number, nearest->harmonic.layer + 1);
+  ValueOperator how(ReferenceTerm("amplitudes"), FilterTerm("before the filter"),
+                    SamplingTerm(sampling_words(result, asked)), TipTerm(tip_words(result)),
+                    TemperatureTerm(temperature_words(result)));
+  out.value.emplace(symbol_of(asked), nearest->harmonic.amplitude_mm, std::move(how),
+                    UncertaintyStatus::none("intervals are computed of form deviations only"));
+  if (const auto missing = reason_for_void(by.record, by.probe, result, {}, asked)) {
+    out.reason = *missing;
+    return;
+  }
+  apply(by.rule, out);
+  out.reason += fmt::format(" ({})", where);
+}
+
+void judge(const Circumstances& by, const FeatureResult& result, CharacteristicResult& out) {
+  if (out.characteristic.form == Form::kHarmonicLimits) return judge_harmonics(by, result, out);
+  const auto value = value_of(result, out.characteristic);
+  out.verdict = Verdict::kVoid;
+  if (!value) {
+    out.reason = value.error().what;
+    return;
+  }
+  if (!std::isfinite(value->value_mm)) {
+    out.reason = "the computation gave no finite number";
+    return;
+  }
+  const std::optional<double>& limit_mm = out.characteristic.tolerance_mm;
+  out.value.emplace(symbol_of(out.characteristic),
+                    value->range ? deciding_mm(*value->range, limit_mm) : value->value_mm,
+                    operator_of(result, out.characteristic),
+                    uncertainty_of(by.record, result, by.probe, out.characteristic),
+                    by.rule ? by.rule->measurand : Measurand::kSampledPoints);
+  if (const auto missing =
+          reason_for_void(by.record, by.probe, result, *value, out.characteristic)) {
+    out.reason = *missing;
+    return;
+  }
+  if (value->range) {
+    auto ambiguous = undecided_range(*value->range, limit_mm);
+    if (!ambiguous && by.rule && by.rule->needs_interval()) {
+      ambiguous =
+          "the reference circle is not unique, and the interval is that of one of several circles";
+    }
+    if (ambiguous) {
+      out.reason = *ambiguous;
+      return;
+    }
+  }
+  apply(by.rule, out);
+}
+
+}  // namespace
+
+std::string temperature_words(const FeatureResult& result) {
+  if (!result.temperatures) return "temperature not recorded";
+  const double mean_degC = result.temperatures->mean_degC;
+  const std::string text = result.temperatures->declared
+                               ? fmt::format("{:.1f} degC declared, not measured", mean_degC)
+                               : fmt::format("{:.1f} degC", mean_degC);
+  if (!result.thermal) return text;
+  return fmt::format("{} brought to 20 degC, {:.2f} um a metre with U = {:.2f} um (k = 2)", text,
+                     1e6 * (result.thermal->factor - 1.0),
+                     2e6 * result.thermal->factor_uncertainty);
+}
+
+std::optional<std::string> temperature_fault(const record::RunRecord& record,
+                                             const FeatureResult& result) {
+  const record::Header& header = record.header;
+  const bool touched = result.feature.strategy != record::Strategy::kPointsFile &&
+                       result.feature.strategy != record::Strategy::kSeries;
+  if (!touched && !record::word_in(record.settings, "environment/declared")) return std::nullopt;
+  if (!result.temperatures) {
+    return fmt::format(
+        "the temperature was not measured, the limits are {:g}..{:g} degC: use a sensor that the "
+        "machine reports, or declare environment.assumed_degC in the plan",
+        header.temperature_min_degC, header.temperature_max_degC);
+  }
+  for (const double value : {result.temperatures->least_degC, result.temperatures->greatest_degC}) {
+    if (value >= header.temperature_min_degC && value <= header.temperature_max_degC) continue;
+    return fmt::format("temperature {:.2f} degC is outside {:g}..{:g} degC", value,
+                       header.temperature_min_degC, header.temperature_max_degC);
+  }
+  const bool cloud = touched && !result.analysis;
+  if (cloud && asks_for_20_degC(result.feature) && !result.thermal) {
+    return "the temperature of the scales was not measured, so nothing is brought to 20 degC: use "
+           "a sensor that the machine reports, declare environment.assumed_degC, or leave "
+           "scale_expansion_per_K out";
+  }
+  return std::nullopt;
+}
+
+void apply(const core::Result<DecisionRule>& rule, CharacteristicResult& out) {
+  out.verdict = Verdict::kVoid;
+  if (!rule) {
+    out.reason = rule.error().what;
+    return;
+  }
+  if (!out.characteristic.tolerance_mm) {
+    out.verdict = Verdict::kNotToleranced;
+    out.reason = "reported only";
+    return;
+  }
+  const double tolerance_mm = *out.characteristic.tolerance_mm;
+  KnownValue known{out.value->value_mm(), std::nullopt};
+  if (const UncertaintyStatement* statement = out.value->statement()) known.statement = *statement;
+  auto outcome = apply_rule(*rule, known, tolerance_mm);
+  if (!outcome) {
+    const std::string& why = out.value->uncertainty().why();
+    out.reason = outcome.error().what + (why.empty() ? "" : ": " + why);
+    return;
+  }
+  out.verdict = outcome->verdict;
+  out.reason = outcome->sentence;
+  out.risks = global_risks(*rule, known, *outcome, tolerance_mm);
+  out.outcome = *std::move(outcome);
+}
+
+void decide(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
+            const std::optional<fit::ProbeTip>& probe, FeatureResult& result) {
+  for (const record::Characteristic& characteristic : result.feature.characteristics) {
+    CharacteristicResult out;
+    out.characteristic = characteristic;
+    judge({record, rule, probe}, result, out);
+    result.characteristics.push_back(std::move(out));
+  }
+}
+
+Verdict overall(const std::vector<FeatureResult>& features) {
+  // From bad to good; void first, because nothing can be said then.
+  constexpr std::array kOrder = {Verdict::kVoid, Verdict::kDoesNotConform, Verdict::kUndecided,
+                                 Verdict::kConforms};
+  const auto failed = [](const FeatureResult& feature) { return feature.failure.has_value(); };
+  if (std::any_of(features.begin(), features.end(), failed)) return Verdict::kVoid;
+  for (const Verdict verdict : kOrder) {
+    for (const FeatureResult& feature : features) {
+      for (const CharacteristicResult& c : feature.characteristics) {
+        if (c.characteristic.tolerance_mm && c.verdict == verdict) return verdict;
+      }
+    }
+  }
+  return Verdict::kNotToleranced;
+}
+
+}  // namespace rondure::evaluation

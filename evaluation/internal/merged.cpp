@@ -1,0 +1,174 @@
+#include "evaluation/internal/merged.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "evaluation/internal/fixture_use.h"
+#include "evaluation/uncertainty/internal/declared.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using record::RunRecord;
+using record::Touch;
+
+/// The least standard uncertainty of a mean touch that is believed: the resolution of a machine.
+constexpr double kLeastTouch_mm = 0.02e-3;
+/// Peak to valley of some 13 normal values in standard deviations.
+constexpr double kFormPerSigma = 3.3;
+
+Eigen::Vector3d vector_of(const record::Feature& feature, std::string_view name) {
+  const auto numbers = feature.numbers(name);
+  if (numbers.size() != 3) return Eigen::Vector3d::Zero();
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+/// How the fixture moved the part: its nominal axes, with the errors of its calibration.
+fixture::Kinematics kinematics_of(const RunRecord& record, const record::Feature& feature) {
+  fixture::Kinematics out = fixture_facts(record).kinematics;
+  out.axis_point_W_mm = vector_of(feature, "axis_point_mm");
+  out.axis_offset_mm = vector_of(feature, "axis_offset_mm");
+  return out;
+}
+
+/// The mean touches of one pose, with the sum of squares about them along the approach.
+struct PoseMeans {
+  std::map<std::pair<int, int>, CloudPoint> targets;
+  double squares = 0.0;
+  int freedom = 0;
+};
+
+PoseMeans means_of(const RunRecord& record, int visit) {
+  PoseMeans out;
+  std::vector<const Touch*> touches;
+  for (const Touch& touch : record.touches) {
+    if (touch.purpose != Touch::Purpose::kMeasure || touch.pose != visit) continue;
+    touches.push_back(&touch);
+    auto [found, fresh] = out.targets.try_emplace({touch.layer, touch.point});
+    CloudPoint& point = found->second;
+    point.layer = touch.layer;
+    point.point = touch.point;
+    point.repeats = fresh ? 1 : point.repeats + 1;
+    point.tip_mm += (touch.tip_mm - point.tip_mm) / point.repeats;
+  }
+  for (const Touch* touch : touches) {
+    const Eigen::Vector3d apart =
+        touch->tip_mm - out.targets.at({touch->layer, touch->point}).tip_mm;
+    out.squares += std::pow(apart.dot(touch->approach), 2);
+  }
+  out.freedom = static_cast<int>(touches.size()) - static_cast<int>(out.targets.size());
+  return out;
+}
+
+std::vector<const Touch*> touches_in(const RunRecord& record,
+                                     const std::vector<const record::PoseVisit*>& visits) {
+  std::vector<const Touch*> out;
+  for (const Touch& touch : record.touches) {
+    const bool ours = std::any_of(visits.begin(), visits.end(), [&](const auto* visit) {
+      return touch.purpose == Touch::Purpose::kMeasure && touch.pose == visit->id;
+    });
+    if (ours) out.push_back(&touch);
+  }
+  return out;
+}
+
+double touch_uncertainty_mm(const MergedCloud& cloud, const std::optional<fit::ProbeTip>& probe) {
+  int repeats = cloud.points.front().repeats;
+  for (const CloudPoint& point : cloud.points) repeats = std::min(repeats, point.repeats);
+  const double single = cloud.sigma_mm ? *cloud.sigma_mm
+                        : probe        ? probe->form_mm / kFormPerSigma
+                                       : 0.0;
+  return std::max(kLeastTouch_mm, single / std::sqrt(static_cast<double>(repeats)));
+}
+
+/// The poses as pose_joint() wants them, and the points as the kinematics place them.
+std::vector<fit::JointPose> take_poses(const RunRecord& record, const record::Feature& feature,
+                                       const std::vector<const record::PoseVisit*>& visits,
+                                       MergedCloud& out) {
+  const FixtureInfluences stated = fixture_influences(record).value_or(FixtureInfluences{});
+  const double shift_mm = stated.position_mm;
+  const double turn_rad = stated.angle_rad;
+  const fixture::Kinematics kinematics = kinematics_of(record, feature);
+  std::vector<fit::JointPose> poses;
+  double squares = 0.0;
+  int freedom = 0;
+  for (const record::PoseVisit* visit : visits) {
+    const PoseMeans means = means_of(record, visit->id);
+    squares += means.squares;
+    freedom += means.freedom;
+    fit::JointPose pose;
+    pose.X_WB = fixture::body_to_machine(kinematics, visit->reached);
+    pose.prior = {shift_mm, shift_mm, shift_mm, turn_rad, turn_rad, turn_rad};
+    pose.pivot_W_mm = vector_of(feature, "axis_point_mm");
+    for (auto [key, point] : means.targets) {
+      pose.touches.push_back(
+          {point.tip_mm, key.first * std::max(1, feature.points_per_layer) + key.second});
+      point.pose = static_cast<int>(poses.size());
+      point.tip_mm = pose.X_WB.inverse() * point.tip_mm;
+      out.points.push_back(point);
+    }
+    out.merged.poses.push_back(visit->reached);
+    out.merged.points.push_back(means.targets.size());
+    poses.push_back(std::move(pose));
+  }
+  if (freedom > 0) out.sigma_mm = std::sqrt(squares / freedom);
+  return poses;
+}
+
+}  // namespace
+
+core::Result<MergedCloud> merged_cloud(const RunRecord& record, int index,
+                                       const std::optional<fit::ProbeTip>& probe) {
+  const record::Feature& feature = record.features[static_cast<std::size_t>(index)];
+  std::vector<const record::PoseVisit*> visits;
+  for (const record::PoseVisit& visit : record.poses) {
+    if (visit.feature == index && visit.final_cloud) visits.push_back(&visit);
+  }
+  const auto merge = record::value_named<record::Merge>(
+      feature.word("merge").value_or(std::string(name_of(record::Merge::kJoint))));
+  if (!merge) {
+    return core::fail(
+        core::Code::kMeaning,
+        fmt::format("setting \"merge\" says \"{}\", which is not known", *feature.word("merge")));
+  }
+  const auto planned = static_cast<std::size_t>(feature.number("merged_poses").value_or(2.0));
+  MergedCloud out;
+  const std::vector<fit::JointPose> poses = take_poses(record, feature, visits, out);
+  if (visits.size() != planned || out.points.empty()) {
+    return core::fail(core::Code::kNoPoints,
+                      fmt::format("{} of {} poses were measured{}", visits.size(), planned,
+                                  record.failure ? ": " + record.failure->what : std::string()));
+  }
+  out.temperatures = temperatures_of(record, touches_in(record, visits));
+  out.merged.joint = *merge == record::Merge::kJoint;
+  out.merged.touch_mm = touch_uncertainty_mm(out, probe);
+  if (poses.front().prior[0] == 0.0 && poses.front().prior[3] == 0.0) {
+    out.merged.refusal = core::Error{core::Code::kMissingKey,
+                                     "the plan does not state the uncertainty of the fixture "
+                                     "(uncertainty.fixture), so what it adds to CYLt is not known",
+                                     {}};
+    if (out.merged.joint) return core::fail(*out.merged.refusal);
+    return out;
+  }
+  fit::PoseJointOptions options;
+  options.touch_mm = out.merged.touch_mm;
+  auto solved = fit::pose_joint(poses, options);
+  if (!solved) {
+    if (out.merged.joint) return core::fail(solved.error());
+    out.merged.refusal = solved.error();
+    return out;
+  }
+  if (out.merged.joint) {
+    for (std::size_t i = 0; i < out.points.size(); ++i)
+      out.points[i].tip_mm = solved->joint_B_mm[i];
+  }
+  out.merged.solved = std::move(*solved);
+  return out;
+}
+
+}  // namespace rondure::evaluation

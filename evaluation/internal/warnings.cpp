@@ -1,0 +1,186 @@
+#include "evaluation/internal/warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "evaluation/feature_values.h"
+
+namespace rondure::evaluation {
+namespace {
+
+constexpr double kGapLimit =
+    120.0 * core::kDegree;              // beyond it the certificate of a section needs care
+constexpr std::size_t kFewPoints = 21;  // 3 layers of 7
+constexpr double kTold = 1e-6;          // radii nearer than this look alike in every report [mm]
+
+void add_warning(FeatureResult& result, core::Code code, std::string what) {
+  result.warnings.push_back({code, std::move(what), {}});
+}
+
+/// Largest angle about the axis without a point.
+double largest_gap(const std::vector<CloudPoint>& cloud) {
+  std::vector<double> angles;
+  for (const CloudPoint& point : cloud) angles.push_back(point.angle_rad);
+  std::sort(angles.begin(), angles.end());
+  double gap = angles.front() + core::kTwoPi - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);
+  return gap;
+}
+
+void warn_sampling(FeatureResult& result) {
+  const record::Feature& feature = result.feature;
+  const bool cylinder = feature.shape == record::Shape::kCylinder;
+  const bool sparse = feature.layers > 0
+                          ? feature.points_per_layer < 7 || (cylinder && feature.layers < 3)
+                          : result.cloud.size() < (cylinder ? kFewPoints : kFewPoints / 3);
+  if (sparse) {
+    add_warning(
+        result, core::Code::kSparse,
+        fmt::format(
+            "{} points see only part of the form; the deviation of the whole surface is larger",
+            result.cloud.size()));
+  }
+  const double gap = largest_gap(result.cloud);
+  if (gap > kGapLimit) {
+    add_warning(
+        result, core::Code::kNotFullSection,
+        fmt::format(
+            "a gap of {:.0f} deg about the axis holds no point: the deviation is that of an arc, "
+            "and its axis is weakly determined",
+            gap / core::kDegree));
+  }
+}
+
+void warn_exact_fit(FeatureResult& result) {
+  for (const LayerResult& layer : result.layers) {
+    if (!layer.mz || !layer.mz->exact_fit) continue;
+    add_warning(
+        result, core::Code::kExactFit,
+        fmt::format(
+            "layer {} has three different points, which lie on a circle exactly: its roundness "
+            "of 0 says nothing about the part",
+            layer.layer + 1));
+    return;
+  }
+}
+
+/// References that the points do not have: of the feature, or of sections of a cylinder that has
+/// it.
+void warn_absent(FeatureResult& result) {
+  using record::Reference;
+  for (const Reference reference :
+       {Reference::kMinimumCircumscribed, Reference::kMaximumInscribed}) {
+    const auto found = one_sided_of(result, reference);
+    if (!found) {
+      add_warning(
+          result, found.error().code,
+          fmt::format("no {}: {}", words_of(reference, result.feature.shape), found.error().what));
+      continue;
+    }
+    for (const LayerResult& layer : result.layers) {
+      const auto& circle = reference == Reference::kMinimumCircumscribed ? layer.mc : layer.mi;
+      if (circle) continue;
+      add_warning(result, circle.error().code,
+                  fmt::format("layer {} has no {}: {}", layer.layer + 1,
+                              words_of(reference, record::Shape::kCircle), circle.error().what));
+      break;
+    }
+  }
+}
+
+/// A one-sided reference is the optimum next to the least-squares one. Where the place of the
+/// minimum zone serves better, there are several, and a gauge may settle in another.
+template <class Zone, class OneSided>
+void warn_better(const Zone& mz, const core::Result<OneSided>& mc, const core::Result<OneSided>& mi,
+                 record::Shape shape, const std::string& place, FeatureResult& result) {
+  using record::Reference;
+  const auto say = [&](Reference reference, double radius_mm, double better_mm) {
+    add_warning(
+        result, core::Code::kSeveralOptima,
+        fmt::format("{}the {} next to the least-squares one has a radius of {:.7f} mm, about the "
+                    "place of the minimum zone {:.3g} um better: a gauge may settle in either",
+                    place, words_of(reference, shape), radius_mm + surface_offset_mm(result),
+                    better_mm / core::kMicrometre));
+  };
+  if (mc && mc->radius_mm > mz.outer_radius_mm + kTold)
+    say(Reference::kMinimumCircumscribed, mc->radius_mm, mc->radius_mm - mz.outer_radius_mm);
+  if (mi && mi->radius_mm < mz.inner_radius_mm - kTold)
+    say(Reference::kMaximumInscribed, mi->radius_mm, mz.inner_radius_mm - mi->radius_mm);
+}
+
+/// Circles as large as the maximum inscribed one, about which the deviation is another.
+void warn_range(const LayerResult& layer, FeatureResult& result) {
+  if (!layer.mi || !layer.mi->range) return;
+  add_warning(
+      result, core::Code::kSeveralOptima,
+      fmt::format("layer {}: the maximum inscribed circle is not unique: about circles whose "
+                  "radius agrees to 1 nm RONt is anything from {:.3f} to {:.3f} um",
+                  layer.layer + 1, layer.mi->range->low_mm / core::kMicrometre,
+                  layer.mi->range->high_mm / core::kMicrometre));
+}
+
+/// A better cylinder that is not the reference: across a disc, or out of reach.
+void warn_other(FeatureResult& result) {
+  using record::Reference;
+  const auto say = [&](Reference reference, const core::Result<fit::OneSidedCylinder>& fit) {
+    if (!fit || !fit->other) return;
+    add_warning(
+        result, core::Code::kSeveralOptima,
+        fmt::format(
+            "another {} is {:.3g} um better: its axis leans by {:.3g} deg and lies {:.3g} mm "
+            "off that of the reference, which is the one next to the least-squares axis",
+            words_of(reference, record::Shape::kCylinder),
+            std::abs(fit->radius_mm - fit->other->radius_mm) / core::kMicrometre,
+            fit->other->lean_rad / core::kDegree, fit->other->apart_mm));
+  };
+  say(Reference::kMinimumCircumscribed, result.mc_cylinder);
+  say(Reference::kMaximumInscribed, result.mi_cylinder);
+}
+
+void warn_several(FeatureResult& result) {
+  warn_other(result);
+  if (result.mz_cylinder) {
+    warn_better(*result.mz_cylinder, result.mc_cylinder, result.mi_cylinder,
+                record::Shape::kCylinder, "", result);
+  }
+  for (const LayerResult& layer : result.layers) {
+    if (!layer.mz) continue;
+    warn_better(*layer.mz, layer.mc, layer.mi, record::Shape::kCircle,
+                fmt::format("layer {}: ", layer.layer + 1), result);
+    warn_range(layer, result);
+  }
+}
+
+void warn_level(FeatureResult& result) {
+  if (!result.mz_cylinder) return;
+  const double zone = result.mz_cylinder->width_mm();
+  for (const PoseValue& value : result.poses) {
+    if (!value.final_pose || !value.valid || !(value.f_mm > 2.0 * zone)) continue;
+    add_warning(
+        result, core::Code::kNotLevel,
+        fmt::format(
+            "f = {:.3f} um in the final pose is more than twice the zone of {:.3f} um: it "
+            "measures the tilt of the part, not its form; the minimum zone below is free of it",
+            value.f_mm / core::kMicrometre, zone / core::kMicrometre));
+    return;
+  }
+}
+
+}  // namespace
+
+void warn(FeatureResult& result) {
+  warn_sampling(result);
+  warn_exact_fit(result);
+  warn_absent(result);
+  warn_several(result);
+  if (result.mz_cylinder && result.mz_cylinder->certificate.kind == fit::Certificate::Kind::kNone) {
+    add_warning(result, core::Code::kNoCertificate, result.mz_cylinder->certificate.reason);
+  }
+  warn_level(result);
+}
+
+}  // namespace rondure::evaluation

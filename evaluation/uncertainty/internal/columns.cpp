@@ -1,0 +1,436 @@
+#include "evaluation/uncertainty/internal/columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/decompositions.h"
+#include "core/units.h"
+
+namespace rondure::evaluation {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kMostResolved = 150;    // undulations of a closed section
+constexpr int kMostHalfWaves = 300;   // along an arc
+constexpr int kMostAlong = 3;         // degree
+constexpr int kMostAlongLow = 12;     // of 0 and 1 undulations: each layer may have its own size
+constexpr int kMostScattered = 5;     // where there are no layers
+constexpr double kLeastLeft = 1e-3;   // of a column beside place, size and tilt
+constexpr double kLeastOnArc = 0.05;  // cosines of an arc are nearly motions
+
+using Rows = std::vector<std::size_t>;
+
+/// Rows in layers by height; none where the heights show no layers.
+std::vector<Rows> height_layers(const FormCloud& cloud) {
+  Rows order(cloud.points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  if (cloud.kind == FormKind::kRoundness) return {order};
+  const auto height = [&](std::size_t i) { return cloud.points[i].height_mm; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return height(a) < height(b); });
+  double largest = 0.0;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    largest = std::max(largest, height(order[i]) - height(order[i - 1]));
+  }
+  // A part that stands askew spreads the heights of a layer, by less than layers lie apart.
+  std::vector<Rows> layers(1);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i > 0 && height(order[i]) - height(order[i - 1]) > 0.25 * largest) layers.emplace_back();
+    layers.back().push_back(order[i]);
+  }
+  for (const Rows& layer : layers) {
+    const double extent = height(layer.back()) - height(layer.front());
+    if (layer.size() < 3 || extent > 0.5 * largest) return {};
+  }
+  return layers;
+}
+
+std::vector<double> sorted_angles(const FormCloud& cloud, const Rows& rows) {
+  std::vector<double> angles;
+  for (const std::size_t i : rows) {
+    const double turned = std::fmod(cloud.points[i].angle_rad, core::kTwoPi);
+    angles.push_back(turned < 0.0 ? turned + core::kTwoPi : turned);
+  }
+  std::sort(angles.begin(), angles.end());
+  return angles;
+}
+
+/// The largest gap and where it ends, in sorted angles of a turn.
+std::pair<double, double> largest_gap(const std::vector<double>& angles) {
+  double gap = angles.front() + core::kTwoPi - angles.back();
+  double end = angles.front();
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    if (angles[i] - angles[i - 1] <= gap) continue;
+    gap = angles[i] - angles[i - 1];
+    end = angles[i];
+  }
+  return {gap, end};
+}
+
+/// Turns that points make on their way along the axis; 0 where they make no way round.
+double turns_of(const FormCloud& cloud) {
+  Rows order(cloud.points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return cloud.points[a].height_mm < cloud.points[b].height_mm;
+  });
+  double net = 0.0;
+  double way = 0.0;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const double step = std::remainder(
+        cloud.points[order[i]].angle_rad - cloud.points[order[i - 1]].angle_rad, core::kTwoPi);
+    net += step;
+    way += std::abs(step);
+  }
+  return std::abs(net) > 0.8 * way ? std::abs(net) / core::kTwoPi : 0.0;
+}
+
+bool even_steps(const std::vector<double>& angles) {
+  const double step = core::kTwoPi / static_cast<double>(angles.size());
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double apart = angles[i] - angles.front() - static_cast<double>(i) * step;
+    if (std::abs(apart) > 1e-8) return false;
+  }
+  return true;
+}
+
+/// The largest gap that does not open a section: a missing touch between steps that need not be
+/// even, and, of a dense scan, the few that drop out one beside the other.
+double closed_gap(int points_per_layer) {
+  const double step = core::kTwoPi / std::max(1, points_per_layer);
+  return std::max(2.5 * step, std::min(5.5 * step, 10.0 * core::kDegree));
+}
+
+int octave_of(double undulations) {
+  return undulations < 2.0 ? 0 : static_cast<int>(std::floor(std::log2(undulations)));
+}
+
+int class_of(int degree) { return degree == 0 ? 0 : (degree <= 2 ? 1 : 2); }
+
+}  // namespace
+
+FormColumns::FormColumns(const FormCloud& cloud, const VectorXd& root_weights)
+    : root_weight_(root_weights) {
+  lay_out(cloud);
+  make_rigid(cloud, root_weights);
+  const bool section = cloud.kind == FormKind::kRoundness;
+  const bool open = layout_.arc_rad.has_value();
+  const int highest = open ? std::min(kMostHalfWaves, layout_.points_per_layer - 1)
+                           : std::min(kMostResolved, (layout_.points_per_layer - 1) / 2);
+  const auto degrees_of = [&](int harmonic) {
+    if (section) return 0;
+    if (!layout_.layered) return std::min(layout_.layers - 1, kMostScattered);
+    return std::min(layout_.layers - 1, harmonic <= 1 ? kMostAlongLow : kMostAlong);
+  };
+  make_polynomials(heights_1(height_mm_), degrees_of(0));
+  std::vector<Column> wanted;
+  for (int j = 0; j <= highest; ++j) {
+    for (int d = 0; d <= std::min<int>(degrees_of(j), static_cast<int>(along_.cols()) - 1); ++d) {
+      if (!open && (j + d == 0 || (j == 1 && d <= (section ? 0 : 1)))) continue;
+      wanted.push_back({j, d, false, 1.0, {}});
+      if (!open && j > 0) wanted.push_back({j, d, true, 1.0, {}});
+    }
+  }
+  project(std::move(wanted));
+}
+
+FormColumns::FormColumns(const FormCloud& cloud, const VectorXd& root_weights,
+                         const FormSpectrum& spectrum)
+    : root_weight_(root_weights), legendre_(true) {
+  lay_out(cloud);
+  layout_.arc_rad.reset();  // terms of a spectrum are undulations of the full turn
+  layout_.regular = false;
+  make_rigid(cloud, root_weights);
+  middle_mm_ = 0.5 * (spectrum.low_mm + spectrum.high_mm);
+  reach_mm_ = 0.5 * (spectrum.high_mm - spectrum.low_mm);
+  for (Index i = 0; i < angle_.size(); ++i) {
+    angle_[i] = cloud.points[static_cast<std::size_t>(i)].angle_rad;
+  }
+  int degrees = 0;
+  std::vector<FormTerm> terms = spectrum.terms;
+  std::erase_if(terms, [](const FormTerm& term) { return term.amplitude_mm == 0.0; });
+  std::stable_sort(terms.begin(), terms.end(), [](const FormTerm& a, const FormTerm& b) {
+    return a.undulations < b.undulations;
+  });
+  for (const FormTerm& term : terms) degrees = std::max(degrees, term.degree);
+  recurrence_.resize(degrees, 2);
+  along_ = root_weight_.asDiagonal() * polynomials(heights_1(height_mm_));
+  for (const FormTerm& term : terms) {
+    FormGroup group;
+    group.undulations = group.harmonic = term.undulations;
+    group.degree = term.degree;
+    for (const bool sine : {false, true}) {
+      if (sine && term.undulations == 0) continue;
+      group.columns.push_back(count());
+      columns_.push_back({term.undulations, term.degree, sine, term.amplitude_mm, {}});
+    }
+    groups_.push_back(std::move(group));
+    most_undulations_ = std::max(most_undulations_, term.undulations);
+    most_degree_ = std::max(most_degree_, term.degree);
+  }
+}
+
+void FormColumns::lay_out(const FormCloud& cloud) {
+  const Index n = static_cast<Index>(cloud.points.size());
+  const auto layers = height_layers(cloud);
+  Rows all(cloud.points.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  if (!layers.empty()) {
+    layout_.layers = static_cast<int>(layers.size());
+    std::size_t least = layers.front().size();
+    layout_.regular = cloud.passes == 1 && root_weight_.minCoeff() == root_weight_.maxCoeff();
+    for (const Rows& layer : layers) {
+      least = std::min(least, layer.size());
+      const double extent =
+          cloud.points[layer.back()].height_mm - cloud.points[layer.front()].height_mm;
+      layout_.regular = layout_.regular && layer.size() == layers.front().size() &&
+                        (layers.size() == 1 || extent < 1e-9) &&
+                        even_steps(sorted_angles(cloud, layer));
+    }
+    // Passes at places of their own lie in bunches: together they resolve what one of them does.
+    layout_.points_per_layer = std::max(1, static_cast<int>(least) / std::max(1, cloud.passes));
+  } else {
+    layout_.layered = false;
+    const double turns = turns_of(cloud);
+    const double count = static_cast<double>(n);
+    layout_.layers = turns >= 2.0 ? static_cast<int>(turns)
+                                  : std::max(2, static_cast<int>(std::sqrt(count / 4.0)));
+    layout_.points_per_layer = static_cast<int>(n) / layout_.layers;
+  }
+  const auto angles = sorted_angles(cloud, all);
+  const auto [gap, end] = largest_gap(angles);
+  angle_.resize(n);
+  for (Index i = 0; i < n; ++i) angle_[i] = cloud.points[static_cast<std::size_t>(i)].angle_rad;
+  if (gap < closed_gap(layout_.points_per_layer)) return;
+  layout_.regular = false;
+  layout_.arc_rad = core::kTwoPi - gap;
+  for (double& angle : angle_) {
+    double from = std::fmod(angle - end, core::kTwoPi);
+    if (from < -1e-12) from += core::kTwoPi;
+    angle = std::numbers::pi * from / std::max(*layout_.arc_rad, 1e-9);
+  }
+}
+
+void FormColumns::make_rigid(const FormCloud& cloud, const VectorXd& root_weights) {
+  const Index n = static_cast<Index>(cloud.points.size());
+  for (const FormPoint& p : cloud.points) middle_mm_ += p.height_mm / static_cast<double>(n);
+  for (const FormPoint& p : cloud.points) {
+    reach_mm_ = std::max(reach_mm_, std::abs(p.height_mm - middle_mm_));
+  }
+  height_mm_.resize(n);
+  for (Index i = 0; i < n; ++i) {
+    height_mm_[i] = cloud.points[static_cast<std::size_t>(i)].height_mm;
+  }
+  const VectorXd q = heights_1(height_mm_);
+  const Index unknowns = cloud.kind == FormKind::kCylindricity ? 5 : 3;
+  MatrixXd raw(n, unknowns);
+  for (Index i = 0; i < n; ++i) {
+    const FormPoint& p = cloud.points[static_cast<std::size_t>(i)];
+    const double c = std::cos(p.angle_rad);
+    const double s = std::sin(p.angle_rad);
+    raw.row(i).head(3) << 1.0, c, s;
+    if (unknowns == 5) raw.row(i).tail(2) << q[i] * c, q[i] * s;
+  }
+  raw = root_weights.asDiagonal() * raw;
+  const Eigen::HouseholderQR<MatrixXd> qr(raw);
+  const double root_n = std::sqrt(static_cast<double>(n));
+  rigid_ = qr.householderQ() * MatrixXd::Identity(n, unknowns) * root_n;
+  const MatrixXd upper = qr.matrixQR().topRows(unknowns).triangularView<Eigen::Upper>();
+  rigid_map_ = root_n * upper.inverse();
+}
+
+VectorXd FormColumns::heights_1(const VectorXd& heights_mm) const {
+  if (reach_mm_ == 0.0) return VectorXd::Zero(heights_mm.size());
+  return (heights_mm.array() - middle_mm_) / reach_mm_;
+}
+
+/// Polynomials orthonormal over the points (recurrence of Stieltjes): Legendre's are not, at four
+/// heights.
+void FormColumns::make_polynomials(const VectorXd& q, int degrees) {
+  recurrence_ = MatrixXd::Zero(degrees, 2);
+  VectorXd before = VectorXd::Zero(q.size());
+  VectorXd now = VectorXd::Ones(q.size());
+  double scale = 0.0;
+  for (Index d = 0; d < degrees; ++d) {
+    const double shift = q.cwiseProduct(now).dot(now) / now.squaredNorm();
+    VectorXd next = (q.array() - shift).matrix().cwiseProduct(now) - scale * before;
+    const double size = std::sqrt(next.squaredNorm() / static_cast<double>(q.size()));
+    if (size < 1e-6) {  // no more heights than that
+      recurrence_.conservativeResize(d, 2);
+      break;
+    }
+    recurrence_.row(d) << shift, size;
+    before = now;
+    now = next / size;
+    scale = size;
+  }
+  along_ = root_weight_.asDiagonal() * polynomials(q);
+}
+
+MatrixXd FormColumns::polynomials(const VectorXd& q) const {
+  MatrixXd out(q.size(), recurrence_.rows() + 1);
+  out.col(0).setOnes();
+  for (Index d = 0; d < recurrence_.rows(); ++d) {
+    VectorXd next;
+    if (legendre_) {
+      const double k = static_cast<double>(d);
+      next = (2.0 * k + 1.0) / (k + 1.0) * q.cwiseProduct(out.col(d));
+      if (d > 0) next -= k / (k + 1.0) * out.col(d - 1);
+    } else {
+      next = (q.array() - recurrence_(d, 0)).matrix().cwiseProduct(out.col(d));
+      if (d > 0) next -= recurrence_(d - 1, 1) * out.col(d - 1);
+      next /= recurrence_(d, 1);
+    }
+    out.col(d + 1) = next;
+  }
+  return out;
+}
+
+void FormColumns::visit(const std::function<void(std::size_t, const VectorXd&)>& work) const {
+  const VectorXd step_c = angle_.array().cos();
+  const VectorXd step_s = angle_.array().sin();
+  VectorXd c = VectorXd::Ones(angle_.size());
+  VectorXd s = VectorXd::Zero(angle_.size());
+  VectorXd turned(angle_.size());
+  VectorXd column(angle_.size());
+  int harmonic = 0;
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    const Column& wanted = columns_[k];
+    for (; harmonic < wanted.harmonic; ++harmonic) {
+      turned = c.cwiseProduct(step_c) - s.cwiseProduct(step_s);
+      s = s.cwiseProduct(step_c) + c.cwiseProduct(step_s);
+      c = turned;
+    }
+    column = (wanted.sine ? s : c).cwiseProduct(along_.col(wanted.degree));
+    work(k, column);
+  }
+}
+
+/// Makes columns free of place, size and tilt, leaves out those of which nothing remains, and
+/// groups the others.
+void FormColumns::project(std::vector<Column> wanted) {
+  const double n = static_cast<double>(rigid_.rows());
+  const double least = layout_.arc_rad ? kLeastOnArc : kLeastLeft;
+  columns_ = std::move(wanted);
+  std::vector<bool> kept(columns_.size());
+  visit([&](std::size_t k, const VectorXd& raw) {
+    const VectorXd moved = rigid_.transpose() * raw / n;
+    const double all = raw.squaredNorm();
+    const double left = all - n * moved.squaredNorm();
+    kept[k] = left > least * least * all && all > 0.0;
+    if (!kept[k]) return;
+    columns_[k].rigid = moved;
+    columns_[k].scale = std::sqrt(n / left);
+  });
+  std::vector<Column> good;
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    if (!kept[k]) continue;
+    const Column& column = columns_[k];
+    const bool same = !good.empty() && good.back().harmonic == column.harmonic &&
+                      good.back().degree == column.degree;
+    if (!same) {
+      FormGroup group;
+      group.harmonic = column.harmonic;
+      group.degree = column.degree;
+      group.undulations = layout_.arc_rad ? column.harmonic * std::numbers::pi / *layout_.arc_rad
+                                          : static_cast<double>(column.harmonic);
+      group.octave = octave_of(group.undulations);
+      group.degree_class = class_of(column.degree);
+      groups_.push_back(std::move(group));
+    }
+    groups_.back().columns.push_back(static_cast<Index>(good.size()));
+    most_undulations_ = std::max(most_undulations_, column.harmonic);
+    most_degree_ = std::max(most_degree_, column.degree);
+    good.push_back(column);
+  }
+  columns_ = std::move(good);
+}
+
+VectorXd FormColumns::products(const VectorXd& values) const {
+  const VectorXd moved = rigid_.transpose() * values;
+  VectorXd out(count());
+  visit([&](std::size_t k, const VectorXd& raw) {
+    const Column& column = columns_[k];
+    double product = raw.dot(values);
+    if (column.rigid.size() > 0) product -= column.rigid.dot(moved);
+    out[static_cast<Index>(k)] = column.scale * product;
+  });
+  return out;
+}
+
+MatrixXd FormColumns::matrix(std::span<const std::size_t> groups) const {
+  std::vector<Index> place(columns_.size(), -1);
+  Index width = 0;
+  for (const std::size_t g : groups) {
+    for (const Index k : groups_[g].columns) place[static_cast<std::size_t>(k)] = width++;
+  }
+  MatrixXd out(rigid_.rows(), width);
+  const double n = static_cast<double>(rigid_.rows());
+  visit([&](std::size_t k, const VectorXd& raw) {
+    if (place[k] < 0) return;
+    auto column = out.col(place[k]);
+    column = raw;
+    if (columns_[k].rigid.size() > 0) {
+      column -= rigid_ * columns_[k].rigid;
+      column -= rigid_ * (rigid_.transpose() * column / n);
+    }
+    column *= columns_[k].scale;
+  });
+  return out;
+}
+
+FormGrid FormColumns::grid(int undulations, int angles, const VectorXd& heights_mm) const {
+  FormGrid out;
+  out.undulations = undulations;
+  out.angles_rad = VectorXd::LinSpaced(angles + 1, 0.0, core::kTwoPi).head(angles);
+  out.heights_mm = heights_mm;
+  out.heights_1 = heights_1(heights_mm);
+  out.along = polynomials(out.heights_1);
+  out.cosines.resize(angles, std::max(1, undulations) + 1);
+  out.sines = out.cosines;
+  for (Index k = 0; k < out.cosines.cols(); ++k) {
+    const VectorXd turned = static_cast<double>(k) * out.angles_rad;
+    out.cosines.col(k) = turned.array().cos();
+    out.sines.col(k) = turned.array().sin();
+  }
+  return out;
+}
+
+MatrixXd FormColumns::on_grid(const VectorXd& coefficients, const FormGrid& grid) const {
+  // Of each height the cosines and sines; place, size and tilt among those of 0 and 1 undulations.
+  MatrixXd cosines = MatrixXd::Zero(grid.cosines.cols(), grid.heights_mm.size());
+  MatrixXd sines = cosines;
+  VectorXd moved = VectorXd::Zero(rigid_.cols());
+  std::vector<bool> used(static_cast<std::size_t>(cosines.rows()), false);
+  used[0] = used[1] = true;
+  for (Index k = 0; k < count(); ++k) {
+    if (coefficients[k] == 0.0) continue;
+    const Column& column = columns_[static_cast<std::size_t>(k)];
+    const double size = column.scale * coefficients[k];
+    (column.sine ? sines : cosines).row(column.harmonic) +=
+        size * grid.along.col(column.degree).transpose();
+    used[static_cast<std::size_t>(column.harmonic)] = true;
+    if (column.rigid.size() > 0) moved += size * column.rigid;
+  }
+  const VectorXd motion = rigid_map_ * moved;
+  cosines.row(0).array() -= motion[0];
+  cosines.row(1).array() -= motion[1];
+  sines.row(1).array() -= motion[2];
+  if (motion.size() == 5) {
+    cosines.row(1) -= motion[3] * grid.heights_1.transpose();
+    sines.row(1) -= motion[4] * grid.heights_1.transpose();
+  }
+  MatrixXd out = MatrixXd::Zero(grid.angles_rad.size(), grid.heights_mm.size());
+  for (Index k = 0; k < cosines.rows(); ++k) {
+    if (!used[static_cast<std::size_t>(k)]) continue;
+    out.noalias() += grid.cosines.col(k) * cosines.row(k);
+    if (k > 0) out.noalias() += grid.sines.col(k) * sines.row(k);
+  }
+  return out;
+}
+
+}  // namespace rondure::evaluation

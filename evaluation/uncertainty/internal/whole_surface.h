@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/noise.h"
+#include "evaluation/uncertainty/internal/form_value.h"
+#include "evaluation/uncertainty/internal/sampler.h"
+
+namespace rondure::evaluation {
+
+/// The value of a whole surface: of a grid on it, crests between its places found by parabolas,
+/// together with the sampled points. Never below the value of those.
+class WholeSurface {
+ public:
+  /// @param low_mm,high_mm  Ends along the axis, in the heights of the cloud.
+  /// @param declared        The form is a declared spectrum: nothing is finer than its terms.
+  WholeSurface(const FormCloud& cloud, const FormColumns& columns, double low_mm, double high_mm,
+               bool declared);
+
+  /// @param noise  Form that the points do not resolve is drawn from it between them.
+  [[nodiscard]] double of(const FormDraw& draw, core::KeyedNoise& noise);
+
+ private:
+  struct Level {
+    FormGrid grid;
+    std::unique_ptr<FormValue> value;
+  };
+
+  Level& level_for(int undulations);
+  void add_waves(const FormDraw& draw, core::KeyedNoise& noise, const FormGrid& grid,
+                 Eigen::MatrixXd& surface) const;
+
+  const FormCloud& cloud_;
+  const FormColumns& columns_;
+  Eigen::VectorXd heights_mm_;
+  bool declared_;
+  int undulations_ = 1;        ///< The most that any form has.
+  std::vector<Level> levels_;  ///< Each finer than the one before; made when first needed.
+  Eigen::VectorXd all_mm_;
+};
+
+}  // namespace rondure::evaluation

@@ -1,0 +1,158 @@
+#include "reports/words/internal/facts.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/units.h"
+#include "core/utf8.h"
+#include "evaluation/measured_cloud.h"
+#include "reports/words/language.h"
+
+namespace rondure::reports {
+namespace {
+
+std::string formula(const evaluation::DecisionRule& rule) {
+  switch (rule.kind) {
+    case evaluation::DecisionRule::Kind::kSimpleAcceptance:
+      return tr("simple acceptance: conforms where the measured value <= T; no guard band");
+    case evaluation::DecisionRule::Kind::kIso14253:
+      return trf(
+          "ISO 14253-1: conforms where y + f (hi - y) <= T, does not conform where y - f (y - lo) "
+          "> T, otherwise undecided; f = {:g}",
+          rule.guard_factor);
+    case evaluation::DecisionRule::Kind::kJcgm106:
+      return trf(
+          "JCGM 106: conforms where the probability of conformance P >= {:g} %, does not conform "
+          "where P <= {:g} %, otherwise undecided",
+          100.0 * (1.0 - rule.consumer_risk_1), 100.0 * rule.producer_risk_1);
+    case evaluation::DecisionRule::Kind::kNToOne:
+      return trf(
+          "{0:g}:1 simple acceptance (ASME B89.7.3.1): where T >= {0:g} (hi - lo), conforms where "
+          "y <= T, otherwise does not conform; void where the ratio is not met",
+          rule.ratio);
+    case evaluation::DecisionRule::Kind::kGuardBand:
+      return trf(
+          "guard bands (ASME B89.7.3.1): conforms where y <= T - a U, does not conform where y > T "
+          "+ r U, otherwise undecided; a = {:g} %, r = {:g} %",
+          100.0 * rule.acceptance_guard_1, 100.0 * rule.rejection_guard_1);
+  }
+  return {};
+}
+
+}  // namespace
+
+using core::printable;
+
+std::string pattern_of(const evaluation::FeatureResult& feature) {
+  const std::size_t points = feature.cloud.size();
+  const auto layers = static_cast<std::size_t>(std::max(feature.feature.layers, 0));
+  const auto each = static_cast<std::size_t>(std::max(feature.feature.points_per_layer, 0));
+  if (layers > 0 && layers * each == points) return trf("{} x {} points", layers, each);
+  return count(points, "point", "points");
+}
+
+std::string repeats_of(const evaluation::FeatureResult& feature) {
+  if (feature.cloud.empty() || feature.feature.strategy == record::Strategy::kPointsFile) return {};
+  if (const int passes = passes_of(feature.cloud); passes > 1) {
+    return trf("{} passes at places of their own, not averaged", passes);
+  }
+  const auto [least, most] =
+      std::minmax_element(feature.cloud.begin(), feature.cloud.end(),
+                          [](const evaluation::CloudPoint& a, const evaluation::CloudPoint& b) {
+                            return a.repeats < b.repeats;
+                          });
+  const auto high = static_cast<std::size_t>(most->repeats);
+  const std::string text = count(high, "touch a point", "touches a point");
+  return least->repeats == most->repeats ? text : trf("{} to {}", least->repeats, text);
+}
+
+std::string title_of(const evaluation::Section& section) {
+  return section.projected ? tr("All points, seen along the axis")
+                           : trf("Layer {}", section.layer + 1);
+}
+
+std::string share_in_words(const evaluation::MergedPoses& merged) {
+  if (!merged.solved) {
+    return fmt::format("what the fixture adds to CYLt is not known: {}",
+                       merged.refusal ? merged.refusal->what : std::string());
+  }
+  const fit::PoseJoint& solved = *merged.solved;
+  if (merged.joint) {
+    return trf(
+        "the fixture by its kinematics alone would have given CYLt {:.3f} um: its errors would "
+        "have added {:.3f} um; they were solved for, and what is left of them is uncertain by "
+        "{:.3f} um (standard uncertainty)",
+        core::micrometres(solved.naive_mm), core::micrometres(solved.share_mm()),
+        core::micrometres(solved.u_joint_mm));
+  }
+  return trf(
+      "the poses were merged by the kinematics alone: their stated uncertainty changes CYLt by "
+      "{:.3f} um (root mean square); solved together with the part it would be {:.3f} um, {:.3f} "
+      "um less",
+      core::micrometres(solved.u_naive_mm), core::micrometres(solved.joint_mm),
+      core::micrometres(solved.share_mm()));
+}
+
+std::string sentence_of(const fit::Certificate& certificate) {
+  using Kind = fit::Certificate::Kind;
+  switch (certificate.kind) {
+    case Kind::kGlobal:
+      return fmt::format("Global: no narrower zone exists; searched: {}.", certificate.scope);
+    case Kind::kLocal:
+      return fmt::format("Local: no narrower zone exists nearby (scope: {}).", certificate.scope);
+    case Kind::kNone:
+      return "None: the minimum is not proven.";
+  }
+  return {};
+}
+
+std::vector<std::string> missing_parts(const record::RunRecord& record,
+                                       const evaluation::Evaluation& evaluation) {
+  std::vector<std::string> parts;
+  for (const evaluation::FeatureResult& feature : evaluation.features) {
+    const record::Feature& asked = feature.feature;
+    const long planned = static_cast<long>(asked.layers) * asked.points_per_layer;
+    if (feature.failure) {
+      parts.push_back(trf("Feature {} has no result.", printable(asked.id)));
+    } else if (planned > static_cast<long>(feature.cloud.size())) {
+      parts.push_back(trf("Feature {} has {} of {} points.", printable(asked.id),
+                          feature.cloud.size(), planned));
+    }
+  }
+  for (std::size_t i = evaluation.features.size(); i < record.features.size(); ++i) {
+    parts.push_back(trf("Feature {} was not evaluated.", printable(record.features[i].id)));
+  }
+  if (parts.empty()) parts.emplace_back(tr("Steps after the last touch on record were not done."));
+  return parts;
+}
+
+std::optional<std::string> rule_sentence(const evaluation::Evaluation& evaluation) {
+  if (!evaluation.rule) return told(evaluation.rule.error().what);
+  const evaluation::DecisionRule& rule = *evaluation.rule;
+  if (!rule.needs_interval()) {
+    return tr("simple acceptance; no measurement uncertainty taken into account");
+  }
+  return trf("{}; the value {} decides", in_words(rule), tr(name_of(rule.measurand)));
+}
+
+std::string rule_in_words(const record::Header& header) {
+  std::string words = tr(header.decision_rule.empty() ? "simple-acceptance" : header.decision_rule);
+  if (language() != Language::kEnglish) return words;
+  std::replace(words.begin(), words.end(), '-', ' ');
+  return words;
+}
+
+std::string in_words(const evaluation::DecisionRule& rule) {
+  std::string out = formula(rule);
+  if (rule.needs_interval()) {
+    out = rule.judge_corrected ? trf("{}; corrected values are judged, whatever was read", out)
+                               : trf("{}; a value as read above T never conforms", out);
+  }
+  if (!rule.prior) return out;
+  return trf("{}; prior: {} with mean {:g} um and standard deviation {:g} um", out,
+             tr(name_of(rule.prior->kind)), rule.prior->mean_mm / core::kMicrometre,
+             rule.prior->standard_deviation_mm / core::kMicrometre);
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,99 @@
+#include "reports/words/internal/messages.h"
+
+#include <fmt/format.h>
+
+#include "reports/words/language.h"
+
+namespace rondure::reports {
+namespace {
+
+using core::Message;
+using core::MessageCode;
+
+/// A count, which messages hold as a number.
+int count_in(const Message& m, std::size_t i) { return static_cast<int>(m.number(i)); }
+
+/// A decision of the guided search after a cloud.
+std::string step_in_words(const Message& m) {
+  switch (m.code) {
+    case MessageCode::kLevelToResolution:
+      return trf(
+          "as level as the fixture can be set: {:.6f} deg is left, its resolution is {:.6f} deg",
+          m.number(3), m.number(4));
+    case MessageCode::kLevelToScatter:
+      return trf(
+          "as level as probe and fixture scatter: the step of {:.6f} deg is not below half the "
+          "last one",
+          m.number(3));
+    case MessageCode::kLevelPoseBeyondLimits:
+      return trf(
+          "not level: the levelling pose ({:.4f}, {:.4f}) deg is beyond the limits of the fixture",
+          m.number(3), m.number(4));
+    case MessageCode::kNotLevelAfterPoses:
+      return trf("not level after {} poses: a step of {:.4f} deg is left", count_in(m, 3),
+                 m.number(4));
+    default:
+      return trf("turning to ({:.4f}, {:.4f}) deg", m.number(3), m.number(4));
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> in_words(const Message& m) {
+  switch (m.code) {
+    case MessageCode::kSentence:
+      return told(m.text(0));
+    case MessageCode::kPartLocated:
+      return trf(
+          "part located in pose ({:.4f}, {:.4f}) deg: its axis is level at ({:.4f}, {:.4f}) deg",
+          m.number(0), m.number(1), m.number(2), m.number(3));
+    case MessageCode::kLevellingStep:
+    case MessageCode::kLevelToResolution:
+    case MessageCode::kLevelToScatter:
+    case MessageCode::kLevelPoseBeyondLimits:
+    case MessageCode::kNotLevelAfterPoses:
+      return trf("pose ({:.4f}, {:.4f}) deg: zone of the cloud {:.3f} um; {}", m.number(0),
+                 m.number(1), m.number(2), step_in_words(m));
+    case MessageCode::kLevelPoseUnreachable: {
+      const auto reason = told(m.text(0));
+      return reason ? std::optional(trf("not level: {}", *reason)) : std::nullopt;
+    }
+    case MessageCode::kPoseSearchEnded:
+      return trf(
+          "pose search ended at ({:.4f}, {:.4f}) deg after {} poses with f = {:.3f} um, a search "
+          "value; that pose is measured anew",
+          m.number(0), m.number(1), count_in(m, 2), m.number(3));
+    case MessageCode::kTargetsReachable:
+      return trf("pose ({:.4f}, {:.4f}) deg: {} of {} targets can be reached", m.number(0),
+                 m.number(1), count_in(m, 2), count_in(m, 3));
+    case MessageCode::kFixtureBaseFound:
+      return trf(
+          "base of the fixture: shifted by ({:.4f}, {:.4f}, {:.4f}) mm, turned by ({:.5f}, {:.5f}, "
+          "{:.5f}) deg, largest residual {:.3f} um",
+          m.number(0), m.number(1), m.number(2), m.number(3), m.number(4), m.number(5),
+          m.number(6));
+    case MessageCode::kSingleSteps:
+      return trf("single-step mode: travel at {:g} mm/s at most, moves confirmed by the operator",
+                 m.number(0));
+    case MessageCode::kRunResumed:
+      return trf(
+          "resumed on {} after {} touches; the last {} repeated, largest difference {:.3f} um, "
+          "limit {:g} um",
+          m.text(0), count_in(m, 1), count_in(m, 2), m.number(3), m.number(4));
+    case MessageCode::kPartLocatedAgain: {
+      const auto reason = told(m.text(1));
+      return reason ? std::optional(
+                          trf("part located again behind {} touches: {}", count_in(m, 0), *reason))
+                    : std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string english_sentence(const record::Decision& decision) {
+  if (!decision.sentence.empty()) return decision.sentence;
+  const LanguageScope english(Language::kEnglish);
+  return in_words(decision.message).value_or("");
+}
+
+}  // namespace rondure::reports

@@ -1,0 +1,395 @@
+// Decision rules: what each makes of a value, and the risks it says it has.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/noise.h"
+#include "evaluation/decision/decision.h"
+#include "reports/words/internal/facts.h"
+#include "reports/words/language.h"
+
+namespace rondure::reports {
+
+using namespace evaluation;
+namespace {
+
+using ::testing::HasSubstr;
+using Kind = evaluation::DecisionRule::Kind;
+
+constexpr double kT = 10e-3;  // tolerance [mm]
+
+/// Errors of the compared value of one kind of inspection: skew, standard deviation 0.5 um, mean 0.
+std::vector<double> error_sample(int count = 4000) {
+  core::KeyedNoise noise(7, {1});
+  std::vector<double> out;
+  for (int i = 0; i < count; ++i) {
+    const double skew = -std::log(1.0 - noise.uniform()) - 1.0;  // exponential, mean 0
+    out.push_back(0.5e-3 * (0.6 * skew + 0.8 * noise.normal()));
+  }
+  return out;
+}
+
+/// What a measurement says that estimates `estimate_mm` with these errors: the value of the part is
+/// the estimate minus an error. The measured value is inflated by 0.3 um.
+evaluation::KnownValue known(double estimate_mm, const std::vector<double>& errors) {
+  evaluation::UncertaintyStatement s;
+  s.estimate_mm = estimate_mm;
+  for (const double e : errors) s.values_mm.push_back(estimate_mm - e);
+  std::sort(s.values_mm.begin(), s.values_mm.end());
+  const auto at = [&](double p) {
+    return s.values_mm[static_cast<std::size_t>(p * static_cast<double>(s.values_mm.size() - 1))];
+  };
+  s.low_mm = at(0.025);
+  s.high_mm = at(0.975);
+  return {estimate_mm + 0.3e-3, s};
+}
+
+evaluation::DecisionRule rule_named(Kind kind) {
+  evaluation::DecisionRule rule;
+  rule.kind = kind;
+  return rule;
+}
+
+evaluation::Verdict verdict(const evaluation::DecisionRule& rule,
+                            const evaluation::KnownValue& value) {
+  const auto outcome = apply_rule(rule, value, kT);
+  return outcome ? outcome->verdict : evaluation::Verdict::kVoid;
+}
+
+const std::vector<Kind> kAllRules = {Kind::kSimpleAcceptance, Kind::kIso14253, Kind::kJcgm106,
+                                     Kind::kNToOne, Kind::kGuardBand};
+
+TEST(DecisionRule, FarFromTheToleranceAllRulesAgree) {
+  const auto errors = error_sample();
+  for (const Kind kind : kAllRules) {
+    SCOPED_TRACE(std::string(name_of(kind)));
+    EXPECT_EQ(verdict(rule_named(kind), known(5e-3, errors)), evaluation::Verdict::kConforms);
+    EXPECT_EQ(verdict(rule_named(kind), known(15e-3, errors)),
+              evaluation::Verdict::kDoesNotConform);
+  }
+}
+
+TEST(DecisionRule, AGreaterValueIsNeverJudgedBetter) {
+  const auto errors = error_sample(400);
+  const auto rank = [](evaluation::Verdict v) {
+    return v == evaluation::Verdict::kConforms ? 0 : v == evaluation::Verdict::kUndecided ? 1 : 2;
+  };
+  for (const Kind kind : kAllRules) {
+    SCOPED_TRACE(std::string(name_of(kind)));
+    evaluation::DecisionRule rule = rule_named(kind);
+    if (kind == Kind::kJcgm106)
+      rule.prior = evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 2e-3};
+    int last = 0;
+    for (double y = 6e-3; y < 13e-3; y += 0.05e-3) {
+      const int now = rank(verdict(rule, known(y, errors)));
+      EXPECT_GE(now, last) << y;
+      last = now;
+    }
+    EXPECT_EQ(last, 2);
+  }
+}
+
+TEST(DecisionRule, TheVerdictChangesAtTheLimitsThatAreStated) {
+  const auto errors = error_sample(400);
+  for (const Kind kind : kAllRules) {
+    SCOPED_TRACE(std::string(name_of(kind)));
+    evaluation::DecisionRule rule = rule_named(kind);
+    rule.judge_corrected = true;  // else what was read decides as well
+    rule.acceptance_guard_1 = 0.5;
+    if (kind == Kind::kJcgm106)
+      rule.prior = evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 2e-3};
+    const auto at = apply_rule(rule, known(9e-3, errors), kT);
+    ASSERT_TRUE(at);
+    const double bias = kind == Kind::kSimpleAcceptance ? 0.3e-3 : 0.0;
+    constexpr double kStep = 1e-6;
+    EXPECT_EQ(verdict(rule, known(at->acceptance_mm - bias - kStep, errors)),
+              evaluation::Verdict::kConforms);
+    EXPECT_NE(verdict(rule, known(at->acceptance_mm - bias + kStep, errors)),
+              evaluation::Verdict::kConforms);
+    EXPECT_NE(verdict(rule, known(at->rejection_mm - bias - kStep, errors)),
+              evaluation::Verdict::kDoesNotConform);
+    EXPECT_EQ(verdict(rule, known(at->rejection_mm - bias + kStep, errors)),
+              evaluation::Verdict::kDoesNotConform);
+  }
+}
+
+// The rule is data: its words are made in the language of the report, not recognised in English.
+TEST(DecisionRule, IsInChineseWithItsNumbers) {
+  evaluation::DecisionRule rule = rule_named(Kind::kIso14253);
+  rule.guard_factor = 0.5;
+  rule.prior = evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 2e-3};
+  const LanguageScope chinese(Language::kChinese);
+  EXPECT_EQ(in_words(rule),
+            "ISO 14253-1 (GB/T 18779.1)：y + f (hi - y) <= T 时合格，y - f (y - lo) > T "
+            "时不合格，否则待定；f = 0.5；测得值超出 T 时不判为合格；先验分布：伽马分布，均值 6 "
+            "um，标准差 2 um");
+  for (const Kind kind : kAllRules) {
+    const std::string words = in_words(rule_named(kind));
+    EXPECT_EQ(words.find("conforms"), std::string::npos) << words;
+  }
+}
+
+// 10.2 um were read, 8 um are left of them after a correction for noise that the supplier declared.
+TEST(DecisionRule, AValueReadAboveTheToleranceConformsOnlyWhereCorrectedValuesAreAgreedUpon) {
+  const auto errors = error_sample(400);
+  for (const Kind kind : kAllRules) {
+    if (kind == Kind::kSimpleAcceptance) continue;
+    SCOPED_TRACE(std::string(name_of(kind)));
+    evaluation::KnownValue value = known(5e-3, errors);
+    value.measured_mm = 10.2e-3;
+    evaluation::DecisionRule rule = rule_named(kind);
+    const auto by_default = apply_rule(rule, value, kT);
+    ASSERT_TRUE(by_default);
+    EXPECT_EQ(by_default->verdict, evaluation::Verdict::kUndecided);
+    EXPECT_THAT(by_default->sentence, HasSubstr("read above the limit"));
+    EXPECT_THAT(in_words(rule), HasSubstr("a value as read above T never conforms"));
+    rule.judge_corrected = true;
+    const auto agreed = apply_rule(rule, value, kT);
+    ASSERT_TRUE(agreed);
+    EXPECT_EQ(agreed->verdict, evaluation::Verdict::kConforms);
+    EXPECT_THAT(agreed->sentence, HasSubstr("corrected values are judged"));
+    EXPECT_THAT(in_words(rule), HasSubstr("corrected values are judged"));
+  }
+}
+
+TEST(DecisionRule, Iso14253TakesTheGuardBandFromTheSideOfTheIntervalThatMatters) {
+  evaluation::KnownValue value{9.4e-3, evaluation::UncertaintyStatement{}};
+  value.statement->estimate_mm = 9.0e-3;
+  value.statement->low_mm = 8.0e-3;
+  value.statement->high_mm = 9.5e-3;
+  value.statement->values_mm = {8.0e-3, 9.0e-3, 9.5e-3};
+  evaluation::DecisionRule rule = rule_named(Kind::kIso14253);
+  auto outcome = apply_rule(rule, value, kT);
+  ASSERT_TRUE(outcome);
+  EXPECT_NEAR(outcome->acceptance_mm, 9.5e-3, 1e-15);
+  EXPECT_NEAR(outcome->rejection_mm, 11.0e-3, 1e-15);
+  EXPECT_EQ(outcome->verdict, evaluation::Verdict::kConforms);
+  EXPECT_THAT(outcome->sentence, HasSubstr("9.000 um is within the acceptance limit of 9.500 um"));
+  rule.guard_factor = 3.0;
+  outcome = apply_rule(rule, value, kT);
+  EXPECT_NEAR(outcome->acceptance_mm, 8.5e-3, 1e-15);
+  EXPECT_EQ(outcome->verdict, evaluation::Verdict::kUndecided);
+  EXPECT_THAT(outcome->sentence, HasSubstr("neither is proven"));
+  EXPECT_FALSE(outcome->specific_risk_1());
+}
+
+TEST(DecisionRule, SimpleAcceptanceComparesTheMeasuredValueAndNeedsNoInterval) {
+  const evaluation::DecisionRule rule;
+  EXPECT_EQ(verdict(rule, {kT, {}}), evaluation::Verdict::kConforms);
+  EXPECT_EQ(verdict(rule, {std::nextafter(kT, 1.0), {}}), evaluation::Verdict::kDoesNotConform);
+  const auto errors = error_sample();
+  EXPECT_EQ(verdict(rule, known(9.9e-3, errors)), evaluation::Verdict::kDoesNotConform)
+      << "10.2 um measured";
+  EXPECT_FALSE(apply_rule(rule, {kT, {}}, kT)->conformance_1);
+}
+
+TEST(DecisionRule, WithoutAnIntervalEveryOtherRuleIsVoid) {
+  for (const Kind kind : kAllRules) {
+    if (kind == Kind::kSimpleAcceptance) continue;
+    const auto outcome = apply_rule(rule_named(kind), {5e-3, {}}, kT);
+    ASSERT_FALSE(outcome);
+    EXPECT_THAT(outcome.error().what, HasSubstr("needs the interval at the sampled points"));
+  }
+}
+
+TEST(DecisionRule, NToOneIsVoidWhereTheIntervalIsTooWide) {
+  const auto errors = error_sample();  // the interval is some 1.95 um wide: 5.1 : 1
+  evaluation::DecisionRule rule = rule_named(Kind::kNToOne);
+  EXPECT_EQ(verdict(rule, known(9.6e-3, errors)), evaluation::Verdict::kConforms);
+  rule.ratio = 10.0;
+  const auto outcome = apply_rule(rule, known(9.9e-3, errors), kT);
+  ASSERT_FALSE(outcome);
+  EXPECT_THAT(outcome.error().what, HasSubstr("the rule 10:1 does not apply"));
+}
+
+TEST(DecisionRule, APriorThatContradictsTheMeasurementIsVoid) {
+  const auto errors = error_sample();
+  evaluation::DecisionRule rule = rule_named(Kind::kJcgm106);
+  rule.prior = evaluation::Prior{evaluation::Prior::Kind::kNormal, 1e-3, 0.02e-3};
+  const auto outcome = apply_rule(rule, known(9e-3, errors), kT);
+  ASSERT_FALSE(outcome);
+  EXPECT_THAT(outcome.error().what, HasSubstr("prior leaves the measured value no weight"));
+}
+
+TEST(Prior, HasTheMeanAndSpreadItStates) {
+  for (const evaluation::Prior& prior :
+       {evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 2e-3},
+        evaluation::Prior{evaluation::Prior::Kind::kGamma, 6e-3, 6e-3},
+        evaluation::Prior{evaluation::Prior::Kind::kNormal, 6e-3, 1e-3}}) {
+    double sum = 0.0;
+    double first = 0.0;
+    double second = 0.0;
+    for (double x = 0.5e-6; x < 0.2; x += 1e-6) {
+      const double weight = prior.density(x);
+      sum += weight;
+      first += weight * x;
+      second += weight * x * x;
+    }
+    EXPECT_NEAR(first / sum, prior.mean_mm, 1e-5 * prior.mean_mm);
+    EXPECT_NEAR(std::sqrt(second / sum - std::pow(first / sum, 2)), prior.standard_deviation_mm,
+                1e-4 * prior.standard_deviation_mm);
+    EXPECT_EQ(prior.density(-1e-9), 0.0);
+  }
+}
+
+/// A form deviation drawn from a prior, by rejection under its density.
+double drawn_from(const evaluation::Prior& prior, core::KeyedNoise& noise) {
+  const double end = prior.mean_mm + 12.0 * prior.standard_deviation_mm;
+  const double mode =
+      prior.kind == evaluation::Prior::Kind::kNormal
+          ? prior.mean_mm
+          : prior.mean_mm - std::pow(prior.standard_deviation_mm, 2) / prior.mean_mm;
+  const double top = prior.density(mode);
+  while (true) {
+    const double y = end * noise.uniform();
+    if (noise.uniform() * top < prior.density(y)) return y;
+  }
+}
+
+/// What happened to a lot.
+struct Lot {
+  int parts = 0;
+  int accepted = 0;
+  int rejected = 0;
+  int false_accepted = 0;
+  int false_rejected = 0;
+  double stated_false_accepted = 0.0;  ///< Sums of the stated specific risks.
+  double stated_false_rejected = 0.0;
+};
+
+Lot simulate(const evaluation::DecisionRule& rule, const evaluation::Prior& prior,
+             const std::vector<double>& errors, int parts) {
+  Lot lot;
+  lot.parts = parts;
+  for (int i = 0; i < parts; ++i) {
+    core::KeyedNoise noise(11, {static_cast<std::uint64_t>(i)});
+    const double y = drawn_from(prior, noise);
+    const double error =
+        errors[static_cast<std::size_t>(noise.uniform() * static_cast<double>(errors.size()))];
+    const auto outcome = apply_rule(rule, known(y + error, errors), kT);
+    if (!outcome) continue;  // n:1 that does not apply, prior without weight: counted by the caller
+    const bool good = y <= kT;
+    if (outcome->verdict == evaluation::Verdict::kConforms) {
+      ++lot.accepted;
+      if (!good) ++lot.false_accepted;
+      lot.stated_false_accepted += *outcome->specific_risk_1();
+    } else if (outcome->verdict == evaluation::Verdict::kDoesNotConform) {
+      ++lot.rejected;
+      if (good) ++lot.false_rejected;
+      lot.stated_false_rejected += *outcome->specific_risk_1();
+    }
+  }
+  return lot;
+}
+
+/// That a count fits a stated probability: within 3.3 of its binomial standard deviations, one in a
+/// thousand fails by chance. Prints what was compared.
+void expect_rate(const char* what, std::string_view rule, int count, double stated, int parts) {
+  const double expected = stated * parts;
+  const double sd = std::sqrt(std::max(expected * (1.0 - stated), 1.0));
+  fmt::print("{:<18} {:<16} {:5d} of {} ({:.4f} %), stated {:.4f} %, bounds {:.4f} .. {:.4f} %\n",
+             rule, what, count, parts, 100.0 * count / parts, 100.0 * stated,
+             100.0 * std::max(expected - 3.3 * sd, 0.0) / parts,
+             100.0 * (expected + 3.3 * sd) / parts);
+  EXPECT_NEAR(count, expected, 3.3 * sd) << what;
+}
+
+int lot_size() { return std::getenv("RONDURE_FULL") != nullptr ? 50'000 : 1'000; }
+
+// The figure "false acceptance and rejection rates". Error sample, prior and rules as a plan states
+// them; every part has its own true value and its own error.
+TEST(DecisionRisks, RatesOnSimulatedLotsMatchTheStatedGlobalRisks) {
+  const auto errors = error_sample(200);
+  const evaluation::Prior prior{evaluation::Prior::Kind::kGamma, 8e-3, 2.5e-3};
+  for (const Kind kind : kAllRules) {
+    evaluation::DecisionRule rule = rule_named(kind);
+    rule.prior = prior;
+    rule.rejection_guard_1 = -1.0;  // of guard-band: stringent acceptance, relaxed rejection
+    const auto stated = apply_rule(rule, known(8e-3, errors), kT);
+    ASSERT_TRUE(stated) << stated.error().what;
+    const auto global = global_risks(rule, known(8e-3, errors), *stated, kT);
+    ASSERT_TRUE(global);
+    const Lot lot = simulate(rule, prior, errors, lot_size());
+    SCOPED_TRACE(std::string(name_of(kind)));
+    expect_rate("false acceptance", name_of(kind), lot.false_accepted, global->false_acceptance_1,
+                lot.parts);
+    expect_rate("false rejection", name_of(kind), lot.false_rejected, global->false_rejection_1,
+                lot.parts);
+  }
+}
+
+// With the true prior the specific risk of a part is right for the parts of which it is said.
+TEST(DecisionRisks, StatedSpecificRisksAreMetOnAverage) {
+  const auto errors = error_sample(200);
+  for (const evaluation::Prior& prior :
+       {evaluation::Prior{evaluation::Prior::Kind::kGamma, 8e-3, 2.5e-3},
+        evaluation::Prior{evaluation::Prior::Kind::kNormal, 9.5e-3, 0.8e-3}}) {
+    evaluation::DecisionRule rule = rule_named(Kind::kJcgm106);
+    rule.prior = prior;
+    const Lot lot = simulate(rule, prior, errors, lot_size());
+    EXPECT_GT(lot.accepted, lot.parts / 10);
+    EXPECT_GT(lot.rejected, lot.parts / 50);
+    expect_rate("of accepted", name_of(prior.kind), lot.false_accepted,
+                lot.stated_false_accepted / lot.accepted, lot.accepted);
+    expect_rate("of rejected", name_of(prior.kind), lot.false_rejected,
+                lot.stated_false_rejected / lot.rejected, lot.rejected);
+    EXPECT_LE(lot.stated_false_accepted, rule.consumer_risk_1 * lot.accepted);
+    EXPECT_LE(lot.stated_false_rejected, rule.producer_risk_1 * lot.rejected);
+  }
+}
+
+// Without a prior: parts whose true value is the tolerance or worse by nothing, the worst case.
+TEST(DecisionRisks, APartAtTheToleranceIsAcceptedNoMoreOftenThanTheRuleSays) {
+  const auto errors = error_sample();
+  evaluation::DecisionRule iso = rule_named(Kind::kIso14253);
+  evaluation::DecisionRule jcgm = rule_named(Kind::kJcgm106);
+  for (const auto& [rule, stated] : {std::pair(iso, 0.025), std::pair(jcgm, 0.05)}) {
+    int accepted = 0;
+    for (const double error : errors) {
+      if (verdict(rule, known(kT + error, errors)) == evaluation::Verdict::kConforms) ++accepted;
+    }
+    expect_rate("at T accepted", name_of(rule.kind), accepted, stated,
+                static_cast<int>(errors.size()));
+  }
+}
+
+TEST(DecisionRule, IsReadFromTheSettingsOfTheRun) {
+  record::RunRecord record;
+  EXPECT_EQ(rule_of(record)->kind, Kind::kSimpleAcceptance);
+  record.header.decision_rule = "jcgm-106";
+  record.settings = {{"decision_rule/consumer_risk_percent", 2.0, ""},
+                     {"decision_rule/measurand", std::nullopt, "whole-surface"},
+                     {"decision_rule/judge", std::nullopt, "as-read"},
+                     {"decision_rule/prior/distribution", std::nullopt, "gamma"},
+                     {"decision_rule/prior/mean_um", 6.0, ""},
+                     {"decision_rule/prior/standard_deviation_um", 2.0, ""}};
+  const auto rule = rule_of(record);
+  ASSERT_TRUE(rule);
+  EXPECT_EQ(rule->consumer_risk_1, 0.02);
+  EXPECT_EQ(rule->measurand, evaluation::Measurand::kWholeSurface);
+  EXPECT_EQ(rule->prior->mean_mm, 6e-3);
+  EXPECT_THAT(in_words(*rule), HasSubstr("P >= 98 %"));
+  EXPECT_THAT(in_words(*rule), HasSubstr("prior: gamma with mean 6 um"));
+  for (record::Setting& setting : record.settings) {
+    if (setting.number) continue;
+    SCOPED_TRACE(setting.name);
+    const std::string word = std::exchange(setting.text, "coin");
+    ASSERT_FALSE(rule_of(record)) << "an unknown word is no other word";
+    EXPECT_EQ(rule_of(record).error().code, core::Code::kMeaning);
+    EXPECT_THAT(rule_of(record).error().what, HasSubstr("\"coin\""));
+    setting.text = word;
+  }
+  record.header.decision_rule = "coin";
+  ASSERT_FALSE(rule_of(record));
+  EXPECT_THAT(rule_of(record).error().what, HasSubstr("does not know the decision rule \"coin\""));
+}
+
+}  // namespace
+}  // namespace rondure::reports

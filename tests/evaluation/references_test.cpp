@@ -1,0 +1,218 @@
+// Characteristics about all four references, from the record to the reports.
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/units.h"
+#include "evaluation/evaluation.h"
+#include "evaluation/internal/warnings.h"
+#include "fit/references/one_sided_center.h"
+#include "fit/references/one_sided_cylinder.h"
+#include "reports/data/json.h"
+#include "reports/history/archive_entry.h"
+#include "reports/html/report.h"
+#include "reports/terminal/summary.h"
+#include "tests/evaluation/points_run.h"
+
+namespace rondure::reports {
+
+using namespace evaluation;
+namespace {
+
+using nlohmann::json;
+using record::Reference;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+/// The characteristics of a feature by their ids.
+std::map<std::string, evaluation::CharacteristicResult> by_id(
+    const evaluation::FeatureResult& feature) {
+  std::map<std::string, evaluation::CharacteristicResult> out;
+  for (const auto& c : feature.characteristics) out[c.characteristic.id] = c;
+  return out;
+}
+
+TEST(References, ACylinderIsJudgedAboutAllFour) {
+  const auto points = rough_part(1, 4, 15, core::kTwoPi);
+  const auto evaluation = evaluated(points_run(points, 4));
+  const evaluation::FeatureResult& feature = evaluation.features.at(0);
+  auto found = by_id(feature);
+  ASSERT_EQ(found.size(), 8U);
+  const auto axis = feature.ls_cylinder->axis.direction;
+  const auto mc = fit::min_circumscribed_cylinder(points, axis);
+  const auto mi = fit::max_inscribed_cylinder(points, axis);
+  ASSERT_TRUE(mc && mi);
+  EXPECT_EQ(found["cylindricity mc"].value_mm(), mc->deviation_mm);
+  EXPECT_EQ(found["cylindricity mi"].value_mm(), mi->deviation_mm);
+  EXPECT_THAT(found["cylindricity mc"].value->operator_text(),
+              StartsWith("MCCY; unfiltered; 4 x 15"));
+  EXPECT_THAT(found["cylindricity mi"].value->operator_text(),
+              StartsWith("MICY; unfiltered; 4 x 15"));
+  EXPECT_THAT(found["roundness mc"].value->operator_text(), StartsWith("MCCI; "));
+  EXPECT_THAT(found["roundness mi"].value->operator_text(), StartsWith("MICI; "));
+  for (const auto& [id, c] : found) {
+    EXPECT_EQ(c.verdict, evaluation::Verdict::kConforms) << id << ": " << c.reason;
+    EXPECT_LE(*found["cylindricity mz"].value_mm(), id[0] == 'c' ? *c.value_mm() + 1e-12 : 1.0)
+        << id;
+  }
+  double worst_mi = 0.0;
+  for (const evaluation::LayerResult& layer : feature.layers) {
+    const auto circle = fit::max_inscribed_circle(layer.points_mm);
+    ASSERT_TRUE(circle.has_value());
+    worst_mi = std::max(worst_mi, circle->deviation_mm);
+  }
+  EXPECT_EQ(found["roundness mi"].value_mm(), worst_mi);
+}
+
+TEST(References, ReportedRadiiAreThoseOfTheSurface) {
+  const auto points = rough_part(2, 3, 12, core::kTwoPi);
+  for (const record::Side side : {record::Side::kOutside, record::Side::kInside}) {
+    auto run = points_run(points, 3);
+    run.features[0].side = side;
+    const double offset = side == record::Side::kOutside ? -1.5 : 1.5;
+    const auto evaluation = evaluated(run);
+    const evaluation::FeatureResult& feature = evaluation.features.at(0);
+    const json report = json::parse(write_json(run, evaluation));
+    const json& stated = report["features"][0];
+    EXPECT_NEAR(stated["mc"]["radius_mm"], feature.mc_cylinder->radius_mm + offset, 1e-12);
+    EXPECT_NEAR(stated["mi"]["radius_mm"], feature.mi_cylinder->radius_mm + offset, 1e-12);
+    EXPECT_NEAR(stated["layers"][1]["mc"]["radius_mm"], feature.layers[1].mc->radius_mm + offset,
+                1e-12);
+    EXPECT_LE(stated["mc"]["radius_mm"], stated["mz"]["outer_radius_mm"]);
+    EXPECT_GE(stated["mi"]["radius_mm"], stated["mz"]["inner_radius_mm"]);
+    EXPECT_EQ(stated["mc"]["contacts"]["outer"].size(), feature.mc_cylinder->contacts.size());
+    EXPECT_FALSE(stated["mc"]["contacts"].contains("inner"));
+    EXPECT_EQ(stated["mi"]["axis"]["direction"].size(), 3U);
+    EXPECT_EQ(stated["mi"]["certificate"]["kind"], "global");
+  }
+}
+
+TEST(References, ACircleHasItsOwn) {
+  const auto run = points_run(rough_part(3, 1, 30, core::kTwoPi), 1);
+  const auto evaluation = evaluated(run);
+  const json feature = json::parse(write_json(run, evaluation))["features"][0];
+  const evaluation::LayerResult& section = evaluation.features.at(0).layers.at(0);
+  EXPECT_NEAR(feature["mc"]["deviation_um"], 1e3 * section.mc->deviation_mm, 1e-12);
+  EXPECT_EQ(feature["mc"]["certificate"]["kind"], "global");
+  EXPECT_EQ(feature["mi"]["center_mm"].size(), 2U);
+  EXPECT_EQ(feature["mi"]["contacts"]["inner"].size(), section.mi->contacts.size());
+  EXPECT_THAT(write_summary(run, evaluation), HasSubstr("MCCI radius"));
+  EXPECT_THAT(write_html(run, evaluation), HasSubstr("Maximum inscribed circle (MICI)"));
+}
+
+TEST(References, TheArchiveHoldsTheCertificateOfEach) {
+  const auto run = points_run(rough_part(8, 4, 15, core::kTwoPi), 4);
+  const auto entry = archive_entry(run, evaluated(run), "digest");
+  std::map<std::string, std::string> certificates;
+  for (const auto& result : entry.results) certificates[result.reference] = result.certificate;
+  const std::map<std::string, std::string> expected = {
+      {"LSCY", "none"}, {"MZCY", "global"}, {"MCCY", "global"}, {"MICY", "global"},
+      {"LSCI", "none"}, {"MZCI", "global"}, {"MCCI", "global"}, {"MICI", "global"}};
+  EXPECT_EQ(certificates, expected);
+}
+
+TEST(References, OneThatDoesNotExistIsNullWithAWarningAndVoid) {
+  for (const int layers : {1, 4}) {
+    SCOPED_TRACE(layers);
+    const auto run = points_run(rough_part(4, layers, 20, 0.4 * core::kTwoPi), layers);
+    const auto evaluation = evaluated(run);
+    const evaluation::FeatureResult& feature = evaluation.features.at(0);
+    const json stated = json::parse(write_json(run, evaluation))["features"][0];
+    EXPECT_TRUE(stated["mi"].is_null());
+    EXPECT_TRUE(stated["layers"][0]["mi"].is_null());
+    EXPECT_TRUE(stated["mz"].is_object());
+    int warned = 0;
+    for (const core::Error& w : feature.warnings) {
+      if (w.code == core::Code::kReferenceAbsent &&
+          w.what.find("no maximum inscribed") != std::string::npos)
+        ++warned;
+    }
+    EXPECT_EQ(warned, 1);
+    auto found = by_id(feature);
+    const evaluation::CharacteristicResult& round = found["roundness mi"];
+    EXPECT_EQ(round.verdict, evaluation::Verdict::kVoid);
+    EXPECT_FALSE(round.value_mm().has_value());
+    EXPECT_THAT(round.reason, HasSubstr("layer 1: "));
+    EXPECT_EQ(found["roundness mz"].verdict, evaluation::Verdict::kVoid);
+    EXPECT_TRUE(found["roundness mz"].value_mm().has_value()) << "of the part that is seen";
+    EXPECT_EQ(evaluation.verdict, evaluation::Verdict::kVoid);
+    EXPECT_THAT(write_html(run, evaluation), HasSubstr("reference-absent"));
+  }
+}
+
+TEST(References, AWorseOptimumNextToTheLeastSquaresOneIsToldNotHidden) {
+  auto evaluation = evaluated(points_run(rough_part(7, 4, 15, core::kTwoPi), 4));
+  evaluation::FeatureResult& feature = evaluation.features.at(0);
+  const auto told = [&] {
+    feature.warnings.clear();
+    warn(feature);
+    std::vector<std::string> out;
+    for (const core::Error& w : feature.warnings) {
+      if (w.code == core::Code::kSeveralOptima) out.push_back(w.what);
+    }
+    return out;
+  };
+  EXPECT_THAT(told(), ::testing::IsEmpty());
+  feature.mc_cylinder->radius_mm = feature.mz_cylinder->outer_radius_mm + 2e-3;
+  feature.layers[1].mi->radius_mm = feature.layers[1].mz->inner_radius_mm - 3e-3;
+  EXPECT_THAT(told(), ::testing::ElementsAre(
+                          ::testing::AllOf(StartsWith("the minimum circumscribed cylinder"),
+                                           HasSubstr(" 2 um better")),
+                          ::testing::AllOf(StartsWith("layer 2: the maximum inscribed circle"),
+                                           HasSubstr(" 3 um better"))));
+}
+
+// Dents at 0 and 180 deg hold the inscribed circle, which slides across them: RONt is anything from
+// 17.07 to 28 um about circles whose radius agrees to 1 nm.
+TEST(References, AnInscribedCircleThatIsNotUniqueGivesNoVerdictInItsRange) {
+  std::vector<Eigen::Vector3d> points;
+  for (int k = 0; k < 360; ++k) {
+    const double angle = k * core::kDegree;
+    const double r = 25.0 + (k % 180 == 0 ? -0.010 : k == 90 ? 0.008 : 0.0);
+    points.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.0);
+  }
+  const auto judged_at = [&](double limit_mm) {
+    record::RunRecord run = points_run(points, 1);
+    for (record::Feature& feature : run.features) {
+      for (auto& c : feature.characteristics) c.tolerance_mm = limit_mm;
+    }
+    const auto evaluation = evaluated(run);
+    const json stated = json::parse(write_json(run, evaluation))["features"][0];
+    EXPECT_NEAR(stated["mi"]["deviation_range_um"][0], 17.07, 0.3);
+    EXPECT_NEAR(stated["mi"]["deviation_range_um"][1], 28.0, 0.1);
+    EXPECT_TRUE(stated["mc"]["deviation_range_um"].is_null());
+    EXPECT_THAT(write_summary(run, evaluation),
+                ::testing::ContainsRegex("maximum inscribed[ \n]+circle[ \n]+is[ \n]+not"));
+    return by_id(evaluation.features.at(0))["roundness mi"];
+  };
+  const auto above = judged_at(0.030);
+  EXPECT_EQ(above.verdict, evaluation::Verdict::kConforms) << above.reason;
+  EXPECT_NEAR(*above.value_mm(), 0.028, 1e-4);
+  const auto between = judged_at(0.022);
+  EXPECT_EQ(between.verdict, evaluation::Verdict::kVoid);
+  EXPECT_THAT(between.reason, HasSubstr("the limit of 22 um lies between"));
+  const auto below = judged_at(0.015);
+  EXPECT_EQ(below.verdict, evaluation::Verdict::kDoesNotConform) << below.reason;
+  EXPECT_NEAR(*below.value_mm(), 0.01707, 3e-4);
+}
+
+TEST(References, ThreePointsHaveNoRoundnessAboutAny) {
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 3; ++i) {
+    const double t = core::kTwoPi * i / 3.0;
+    points.emplace_back(25.0 * std::cos(t), 25.0 * std::sin(t), 0.0);
+  }
+  const auto evaluation = evaluated(points_run(points, 1));
+  for (const auto& c : evaluation.features.at(0).characteristics) {
+    EXPECT_EQ(c.verdict, evaluation::Verdict::kVoid) << c.characteristic.id;
+    EXPECT_THAT(c.reason, HasSubstr("three different points")) << c.characteristic.id;
+  }
+}
+
+}  // namespace
+}  // namespace rondure::reports

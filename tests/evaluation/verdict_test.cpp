@@ -1,0 +1,606 @@
+// Every path to a void verdict, and what stands with a value.
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <type_traits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+#include "core/utf8.h"
+#include "evaluation/defect.h"
+#include "evaluation/internal/conformance.h"
+#include "evaluation/uncertainty/internal/declared.h"
+#include "fixture/calibration.h"
+#include "reports/escaping.h"
+#include "reports/html/report.h"
+#include "reports/terminal/summary.h"
+#include "reports/verify/stored_results.h"
+#include "reports/words/language.h"
+#include "tests/evaluation/points_run.h"
+#include "tests/reports/page_text.h"
+
+namespace rondure::reports {
+
+using namespace evaluation;
+namespace {
+
+using core::printable;
+
+using record::RunRecord;
+using ::testing::HasSubstr;
+
+// A value cannot be made without its terms, nor with one in the place of another.
+static_assert(!std::is_default_constructible_v<evaluation::StatedValue>);
+static_assert(!std::is_default_constructible_v<evaluation::ValueOperator>);
+static_assert(!std::is_default_constructible_v<evaluation::UncertaintyStatus>);
+static_assert(!std::is_constructible_v<evaluation::StatedValue, std::string, double>);
+static_assert(!std::is_constructible_v<evaluation::StatedValue, std::string, double,
+                                       evaluation::ValueOperator>);
+static_assert(!std::is_constructible_v<evaluation::ValueOperator, evaluation::ReferenceTerm,
+                                       evaluation::FilterTerm, evaluation::SamplingTerm,
+                                       evaluation::TipTerm>);
+static_assert(!std::is_constructible_v<evaluation::ValueOperator, evaluation::FilterTerm,
+                                       evaluation::ReferenceTerm, evaluation::SamplingTerm,
+                                       evaluation::TipTerm, evaluation::TemperatureTerm>);
+static_assert(!std::is_constructible_v<evaluation::ValueOperator, std::string, std::string,
+                                       std::string, std::string, std::string>);
+
+/// 13 touches of a reference sphere of radius 12.5 mm with a tip of 2 mm.
+void add_qualification(RunRecord& run) {
+  run.artefact = {12.5, 2.0, 0.1, 0.005};
+  for (int i = 0; i < 13; ++i) {
+    const double up = i / 12.0;
+    const double turn = 2.4 * i;
+    const double across = std::sqrt(1.0 - up * up);
+    record::Touch touch;
+    touch.id = 1000 + i;
+    touch.purpose = record::Touch::Purpose::kQualification;
+    touch.tip_mm = {300.0 + 14.5 * across * std::cos(turn), 14.5 * across * std::sin(turn),
+                    100.0 + 14.5 * up};
+    run.touches.push_back(touch);
+  }
+}
+
+/// 4 x 7 points of a part of some 10 um, touched at 20 degC, judged by `rule` against 20 um.
+RunRecord touched_run(const std::string& rule) {
+  RunRecord run = points_run(rough_part(3, 4, 7, 2.0 * std::numbers::pi), 4);
+  run.features[0].strategy = record::Strategy::kGuided;
+  run.features[0].characteristics = {
+      {"CYLt", record::Form::kCylindricity, record::Reference::kMinimumZone, 20e-3, ""}};
+  run.header.temperature_min_degC = 18.0;
+  run.header.temperature_max_degC = 22.0;
+  run.header.decision_rule = rule;
+  run.settings = {{"uncertainty/coverage_percent", 95.0, ""},
+                  {"uncertainty/least_trials", 2000.0, ""},
+                  {"uncertainty/most_trials", 2000.0, ""},
+                  {"uncertainty/budget_trials", 100.0, ""},
+                  {"uncertainty/seed", 1.0, ""},
+                  {"uncertainty/probe/repeatability_um", 0.5, ""},
+                  {"uncertainty/declared", std::nullopt, "probe"}};
+  for (record::Touch& touch : run.touches) touch.temperature_degC = 20.0;
+  add_qualification(run);
+  return run;
+}
+
+/// Nobody measured a temperature.
+void forget_temperatures(RunRecord& run) {
+  for (record::Touch& touch : run.touches) touch.temperature_degC.reset();
+}
+
+evaluation::CharacteristicResult result_of(const RunRecord& run) {
+  const auto evaluation = evaluate(run);
+  EXPECT_TRUE(evaluation) << evaluation.error().what;
+  EXPECT_EQ(evaluation->verdict, evaluation->features[0].characteristics[0].verdict);
+  return evaluation->features[0].characteristics[0];
+}
+
+TEST(Verdict, OfASoundRunFollowsTheRuleAndTheValueCarriesItsInterval) {
+  for (const char* rule :
+       {"simple-acceptance", "iso-14253-1", "jcgm-106", "n-to-1", "guard-band"}) {
+    SCOPED_TRACE(rule);
+    const evaluation::CharacteristicResult result = result_of(touched_run(rule));
+    EXPECT_EQ(result.verdict, evaluation::Verdict::kConforms) << result.reason;
+    ASSERT_TRUE(result.value);
+    const evaluation::UncertaintyStatement* known = result.value->statement();
+    ASSERT_NE(known, nullptr);
+    EXPECT_LT(known->low_mm, known->estimate_mm);
+    EXPECT_LT(known->estimate_mm, known->high_mm);
+    EXPECT_LT(known->estimate_mm, result.value->value_mm()) << "noise inflates";
+    EXPECT_NEAR(result.value->uncertainty().result()->uncorrected_mm, result.value->value_mm(),
+                1e-6);
+    ASSERT_TRUE(result.outcome);
+    EXPECT_EQ(*result.outcome->conformance_1, 1.0);
+    EXPECT_THAT(result.value->sentence(), HasSubstr("(MZCY; unfiltered; 4 x 7 points; r_tip 2.0000 "
+                                                    "mm; 20.0 degC; at the sampled points)"));
+  }
+}
+
+// What the points do not see can only add: a partial arc conforms to nothing.
+TEST(Verdict, OfAPartialArcIsVoidUnlessItFailsAlready) {
+  for (const auto form : {record::Form::kCylindricity, record::Form::kRoundness}) {
+    for (const double arc_deg : {60.0, 180.0, 260.0, 360.0}) {
+      SCOPED_TRACE(arc_deg);
+      RunRecord run = points_run(rough_part(3, 4, 40, arc_deg * core::kDegree), 4);
+      run.header.decision_rule = "simple-acceptance";
+      auto& asked = run.features[0].characteristics;
+      asked = {{"form", form, record::Reference::kMinimumZone, 20e-3, ""}};
+      const evaluation::CharacteristicResult result = result_of(run);
+      EXPECT_EQ(result.verdict,
+                arc_deg == 360.0 ? evaluation::Verdict::kConforms : evaluation::Verdict::kVoid);
+      if (arc_deg == 360.0) continue;
+      EXPECT_THAT(result.reason, HasSubstr("deg of the turn unseen"));
+      asked[0].tolerance_mm = 1e-4;
+      EXPECT_EQ(result_of(run).verdict, evaluation::Verdict::kDoesNotConform);
+      asked[0].reference = record::Reference::kLeastSquares;
+      EXPECT_EQ(result_of(run).verdict, evaluation::Verdict::kVoid)
+          << "least squares proves no bound";
+    }
+  }
+}
+
+TEST(Verdict, PrintsADeclaredTemperatureAsDeclared) {
+  RunRecord run = touched_run("iso-14253-1");
+  forget_temperatures(run);
+  run.settings.push_back({"environment/assumed_degC", 20.5, ""});
+  const evaluation::CharacteristicResult touched = result_of(run);
+  EXPECT_EQ(touched.verdict, evaluation::Verdict::kConforms) << touched.reason;
+  EXPECT_THAT(touched.value->sentence(), HasSubstr("20.5 degC declared, not measured"));
+  run.settings.push_back({"environment/declared", std::nullopt, "limits"});
+  run.features[0].strategy = record::Strategy::kPointsFile;
+  const evaluation::CharacteristicResult read = result_of(run);
+  EXPECT_EQ(read.verdict, evaluation::Verdict::kConforms) << read.reason;
+  EXPECT_THAT(read.value->sentence(), HasSubstr("20.5 degC declared, not measured"));
+}
+
+TEST(Verdict, EveryReferenceHasItsInterval) {
+  for (const auto form : {record::Form::kCylindricity, record::Form::kRoundness}) {
+    for (const auto reference :
+         {record::Reference::kLeastSquares, record::Reference::kMinimumCircumscribed,
+          record::Reference::kMaximumInscribed}) {
+      SCOPED_TRACE(static_cast<int>(reference));
+      RunRecord run = touched_run("iso-14253-1");
+      run.features[0].characteristics[0].form = form;
+      run.features[0].characteristics[0].reference = reference;
+      const evaluation::CharacteristicResult result = result_of(run);
+      EXPECT_EQ(result.verdict, evaluation::Verdict::kConforms) << result.reason;
+      ASSERT_TRUE(result.value && result.value->statement());
+      EXPECT_NEAR(result.value->uncertainty().result()->uncorrected_mm, result.value->value_mm(),
+                  1e-6);
+    }
+  }
+}
+
+/// Errors that are zero, at stations that hold for +-90 deg.
+std::shared_ptr<const fixture::StationMotion> stations() {
+  std::vector<fixture::AxisStation> out;
+  for (const double angle : {-1.6, -0.6, 0.6, 1.6})
+    out.push_back({angle, {}, fixture::ErrorCovariance::Zero()});
+  return *fixture::StationMotion::through(std::move(out));
+}
+
+/// The run uses a calibration that holds: its fixture, its time, its travel.
+void add_calibration(RunRecord& run, const std::function<void(fixture::Calibration&)>& change) {
+  run.header.started_utc = "2026-11-21T10:00:00Z";
+  fixture::Calibration calibration;
+  calibration.id = "calibration-1";
+  calibration.fixture_id = "F-01";
+  calibration.measured_utc = "2026-11-01T08:00:00Z";
+  calibration.expires_utc = "2027-11-01T08:00:00Z";
+  calibration.temperature_degC = 20.5;
+  calibration.alpha = stations();
+  calibration.beta = stations();
+  calibration.verification = {6, 30, 0.6e-3, 1.4e-3, 9e-6, 0.5e-3, 42e-3, 90e-3};
+  change(calibration);
+  run.settings.push_back({"fixture/id", std::nullopt, "F-01"});
+  run.settings.push_back({"fixture/max_residual_um", 5.0, ""});
+  run.settings.push_back(
+      {"fixture/calibration", std::nullopt, fixture::calibration_text(calibration)});
+}
+
+/// Every report names the verdict and gives the whole reason.
+void expect_told(const RunRecord& run, const evaluation::Evaluation& evaluation) {
+  const evaluation::CharacteristicResult& result = evaluation.features.at(0).characteristics.at(0);
+  EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
+  EXPECT_FALSE(result.outcome);
+  EXPECT_NE(result.reason, "");
+  const std::string summary = write_summary(run, evaluation);
+  EXPECT_THAT(summary, ::testing::StartsWith("VOID\n"));
+  EXPECT_THAT(testing::one_line(summary), HasSubstr("because " + printable(result.reason)));
+  const std::string page = write_html(run, evaluation);
+  EXPECT_THAT(page, HasSubstr("is-void"));
+  EXPECT_THAT(page, HasSubstr(in_sentence(capitalised(result.reason))));
+}
+
+struct VoidPath {
+  const char* name;
+  std::function<void(RunRecord&)> spoil;
+  const char* reason;
+};
+
+void set_tips(RunRecord& run, double scale_mm) {
+  for (record::Touch& touch : run.touches) {
+    if (touch.purpose != record::Touch::Purpose::kQualification) continue;
+    const Eigen::Vector3d center(300.0, 0.0, 100.0);
+    touch.tip_mm = center + (touch.tip_mm - center).normalized() * (14.5 + scale_mm);
+  }
+}
+
+std::vector<VoidPath> void_paths() {
+  const auto setting = [](const char* name, double number) {
+    return [=](RunRecord& run) { run.settings.push_back({name, number, ""}); };
+  };
+  return {
+      {"not finished", [](RunRecord& r) { r.ending = "stopped"; }, "the run did not finish"},
+      {"no qualification",
+       [](RunRecord& r) {
+         std::erase_if(r.touches, [](const record::Touch& t) { return t.pose < 0; });
+       },
+       "the probe was not qualified"},
+      {"tip radius", [](RunRecord& r) { set_tips(r, 0.2); }, "the effective tip radius 2.2"},
+      {"probing form",
+       [](RunRecord& r) {
+         for (record::Touch& t : r.touches) {
+           if (t.id == 1005) t.tip_mm += Eigen::Vector3d(0.0, 0.0, 0.02);
+         }
+       },
+       "the probing form"},
+      {"too warm",
+       [](RunRecord& r) {
+         for (record::Touch& t : r.touches) t.temperature_degC = 22.5;
+       },
+       "temperature 22.50 degC is outside 18..22 degC"},
+      {"temperature not measured", forget_temperatures,
+       "the temperature was not measured, the limits are 18..22 degC: use a sensor that the "
+       "machine reports, or declare environment.assumed_degC in the plan"},
+      {"one temperature not measured", [](RunRecord& r) { r.touches[3].temperature_degC.reset(); },
+       "the temperature was not measured"},
+      {"temperature of a circle not measured",
+       [](RunRecord& r) {
+         forget_temperatures(r);
+         r.features[0].shape = record::Shape::kCircle;
+         r.features[0].characteristics[0].form = record::Form::kRoundness;
+       },
+       "the temperature was not measured"},
+      {"declared temperature outside",
+       [](RunRecord& r) {
+         forget_temperatures(r);
+         r.settings.push_back({"environment/assumed_degC", 22.5, ""});
+       },
+       "temperature 22.50 degC is outside 18..22 degC"},
+      {"scales not measured",
+       [](RunRecord& r) {
+         r.features[0].settings.push_back({"scale_expansion_per_K", 8e-6, ""});
+       },
+       "the temperature of the scales was not measured"},
+      {"points of a file under limits",
+       [](RunRecord& r) {
+         r.features[0].strategy = record::Strategy::kPointsFile;
+         r.settings.push_back({"environment/declared", std::nullopt, "limits"});
+       },
+       "the temperature was not measured"},
+      {"unknown rule", [](RunRecord& r) { r.header.decision_rule = "coin"; },
+       "does not know the decision rule"},
+      {"no final cloud",
+       [](RunRecord& r) {
+         r.poses[0].final_cloud = false;
+         r.ending = "stopped";
+       },
+       "the run ended before the final cloud was measured"},
+      {"no fit",
+       [](RunRecord& r) {
+         for (record::Touch& t : r.touches) {
+           if (t.pose >= 0) t.tip_mm.z() = 0.0;
+         }
+       },
+       "tilt"},
+      {"no sections",
+       [](RunRecord& r) {
+         r.features[0].layers = 0;
+         r.features[0].characteristics[0].form = record::Form::kRoundness;
+       },
+       "this feature has no sections"},
+      {"three points a section",
+       [](RunRecord& r) {
+         std::erase_if(r.touches,
+                       [](const record::Touch& t) { return t.pose >= 0 && t.point % 2 == 1; });
+         std::erase_if(r.touches, [](const record::Touch& t) { return t.point == 6; });
+         r.features[0].characteristics[0].form = record::Form::kRoundness;
+       },
+       "a section of three different points has no roundness"},
+      {"no harmonics",
+       [](RunRecord& r) {
+         r.features[0].characteristics[0].form = record::Form::kHarmonicLimits;
+         r.features[0].characteristics[0].harmonic_limits = {{2, 5, 1e-3}};
+       },
+       "the mask reaches to harmonic 5"},
+      {"no cylinder reference",
+       [](RunRecord& r) {
+         r.features[0].characteristics[0].reference = record::Reference::kMaximumInscribed;
+         for (record::Touch& t : r.touches) {
+           if (t.pose >= 0) t.tip_mm = rough_part(3, 4, 7, 2.0)[static_cast<std::size_t>(t.id)];
+         }
+       },
+       "there is no"},
+      {"calibration expired",
+       [](RunRecord& r) {
+         add_calibration(r, [](auto& c) { c.expires_utc = "2026-11-20T00:00:00Z"; });
+       },
+       "expired on"},
+      {"calibration of another fixture",
+       [](RunRecord& r) { add_calibration(r, [](auto& c) { c.fixture_id = "F-07"; }); },
+       "that of the fixture \"F-07\""},
+      {"calibration with too much left",
+       [](RunRecord& r) { add_calibration(r, [](auto& c) { c.verification.max_mm = 6e-3; }); },
+       "the plan allows 5 um"},
+      {"calibration made too warm",
+       [](RunRecord& r) { add_calibration(r, [](auto& c) { c.temperature_degC = 35.0; }); },
+       "made at 35.00 degC, the plan allows 18..22 degC"},
+      {"calibration without a temperature",
+       [](RunRecord& r) { add_calibration(r, [](auto& c) { c.temperature_degC.reset(); }); },
+       "the temperature of the calibration was not measured"},
+      {"calibration that cannot be read",
+       [](RunRecord& r) {
+         r.settings.push_back({"fixture/calibration", std::nullopt, "{"});
+       },
+       "the text is no JSON"},
+      {"no interval", [](RunRecord& r) { r.settings.clear(); },
+       "needs the interval at the sampled points, which was not computed: the plan declares no "
+       "uncertainty"},
+      {"interval of the whole surface",
+       [](RunRecord& r) {
+         r.settings.push_back({"decision_rule/measurand", std::nullopt, "whole-surface"});
+       },
+       "needs the interval of the whole surface"},
+      {"interval refused", setting("uncertainty/probe/form_limit_um", -1.0),
+       "which was not computed: "},
+      {"no reference",
+       [](RunRecord& r) {
+         r.header.decision_rule = "simple-acceptance";
+         r.features[0].characteristics[0].form = record::Form::kRoundness;
+         r.features[0].characteristics[0].reference = record::Reference::kMaximumInscribed;
+         for (record::Touch& t : r.touches) {
+           if (t.pose >= 0) t.tip_mm = rough_part(3, 4, 7, 2.0)[static_cast<std::size_t>(t.id)];
+         }
+       },
+       "layer 1: "},
+      {"n:1 does not apply",
+       [](RunRecord& r) {
+         r.header.decision_rule = "n-to-1";
+         r.settings.push_back({"decision_rule/ratio", 90.0, ""});
+       },
+       "the rule 90:1 does not apply"},
+      {"prior of other parts",
+       [](RunRecord& r) {
+         r.header.decision_rule = "jcgm-106";
+         r.settings.push_back({"decision_rule/prior/distribution", std::nullopt, "normal"});
+         r.settings.push_back({"decision_rule/prior/mean_um", 1.0, ""});
+         r.settings.push_back({"decision_rule/prior/standard_deviation_um", 0.01, ""});
+       },
+       "the stated prior leaves the measured value no weight"},
+  };
+}
+
+TEST(Verdict, IsVoidWithItsReasonOnEveryPath) {
+  for (const VoidPath& path : void_paths()) {
+    SCOPED_TRACE(path.name);
+    RunRecord run = touched_run("iso-14253-1");
+    path.spoil(run);
+    const auto evaluation = evaluate(run);
+    ASSERT_TRUE(evaluation);
+    EXPECT_EQ(evaluation->verdict, evaluation::Verdict::kVoid);
+    EXPECT_THAT(evaluation->features[0].characteristics[0].reason, HasSubstr(path.reason));
+    expect_told(run, *evaluation);
+  }
+}
+
+TEST(Verdict, ACalibrationThatHoldsVoidsNothingAndOneThatDoesNotLeavesPointsOfFilesAlone) {
+  RunRecord run = touched_run("iso-14253-1");
+  add_calibration(run, [](auto&) {});
+  EXPECT_EQ(result_of(run).verdict, evaluation::Verdict::kConforms) << result_of(run).reason;
+  run = touched_run("simple-acceptance");
+  add_calibration(run, [](auto& c) { c.fixture_id = "F-07"; });
+  run.features[0].strategy = record::Strategy::kPointsFile;
+  EXPECT_EQ(result_of(run).verdict, evaluation::Verdict::kConforms) << result_of(run).reason;
+}
+
+// No data bring this about: the check is told to find it.
+TEST(Verdict, OfAFeatureThatBreaksAnInvariantIsVoidWithoutAValueAndTheOthersStay) {
+  RunRecord run = touched_run("iso-14253-1");
+  run.features.push_back(run.features[0]);
+  run.features[1].id = "sound";
+  run.poses.push_back({1, 1, {}, {}, true, 0.0});
+  const std::vector<record::Touch> touches = run.touches;
+  for (record::Touch touch : touches) {
+    if (touch.pose < 0) continue;
+    touch.pose = 1;
+    touch.id += 5000;
+    run.touches.push_back(touch);
+  }
+  const auto check =
+      [](const evaluation::FeatureResult& f) -> std::optional<evaluation::BrokenInvariant> {
+    if (f.feature.id == "sound") return std::nullopt;
+    return evaluation::BrokenInvariant{"MZCY <= LSCY", "0.0061 mm > 0.0052 mm"};
+  };
+  const evaluation::CheckedEvaluation checked = evaluate_checked(run, check);
+  const evaluation::FeatureResult& broken = checked.evaluation.features.at(0);
+  ASSERT_EQ(checked.defects.size(), 1U);
+  EXPECT_TRUE(checked.defects[0].result.mz_cylinder) << "the dump needs everything";
+  EXPECT_EQ(checked.evaluation.verdict, evaluation::Verdict::kVoid);
+  EXPECT_FALSE(broken.mz_cylinder || broken.ls_cylinder || broken.mc_cylinder);
+  EXPECT_TRUE(broken.cloud.empty() && broken.layers.empty());
+  ASSERT_EQ(broken.characteristics.size(), 1U);
+  EXPECT_FALSE(broken.characteristics[0].value);
+  EXPECT_THAT(
+      broken.characteristics[0].reason,
+      HasSubstr("invariant \"MZCY <= LSCY\" does not hold for 28 points: 0.0061 mm > 0.0052 "
+                "mm; this is a defect of the program"));
+  expect_told(run, checked.evaluation);
+  EXPECT_THAT(write_summary(run, checked.evaluation), HasSubstr("[internal]"));
+  const evaluation::CharacteristicResult& sound =
+      checked.evaluation.features.at(1).characteristics.at(0);
+  EXPECT_EQ(sound.verdict, evaluation::Verdict::kConforms);
+  EXPECT_EQ(sound.value_mm(), evaluate(run)->features[1].characteristics[0].value_mm());
+  for (const auto& stored : stored_results(checked.evaluation))
+    EXPECT_THAT(stored.name, ::testing::Not(HasSubstr("/features/0/mz"))) << "no value is kept";
+}
+
+TEST(Verdict, OfARunIsVoidWhenAFeatureFailedThatHasNoTolerance) {
+  evaluation::FeatureResult failed;
+  failed.failure = core::Error{core::Code::kNoPoints, "nothing was touched", {}};
+  EXPECT_EQ(overall({failed}), evaluation::Verdict::kVoid);
+  EXPECT_EQ(overall({evaluation::FeatureResult{}}), evaluation::Verdict::kNotToleranced);
+}
+
+// What data alone do not bring about: the parts of an evaluation are taken away.
+TEST(Verdict, IsVoidWithoutCertificateOrTemperatureOrWithoutTheIntervalOfWhatWasEvaluated) {
+  const RunRecord run = touched_run("iso-14253-1");
+  const auto sound = evaluate(run);
+  ASSERT_TRUE(sound);
+  struct Path {
+    const char* reason;
+    std::function<void(evaluation::FeatureResult&)> spoil;
+  };
+  const std::vector<Path> paths = {
+      {"no certificate stands behind the minimum zone",
+       [](evaluation::FeatureResult& f) {
+         f.mz_cylinder->certificate.kind = fit::Certificate::Kind::kNone;
+       }},
+      {"the temperature was not measured",
+       [](evaluation::FeatureResult& f) { f.temperatures.reset(); }},
+      {"nothing was touched",
+       [](evaluation::FeatureResult& f) {
+         f.failure = core::Error{core::Code::kNoPoints, "nothing was touched", {}};
+       }},
+      {"it was not fitted", [](evaluation::FeatureResult& f) { f.ls_cylinder.reset(); }},
+      {"intervals of clouds merged from several poses are not computed",
+       [](evaluation::FeatureResult& f) {
+         f.feature.strategy = record::Strategy::kMerged;
+         f.merged = std::make_shared<const evaluation::MergedPoses>();
+       }},
+      {"20001 points are more than 20000, the limit of the trials",
+       [](evaluation::FeatureResult& f) { f.cloud.resize(20'001, f.cloud.front()); }},
+  };
+  for (const Path& path : paths) {
+    SCOPED_TRACE(path.reason);
+    evaluation::FeatureResult feature = sound->features[0];
+    feature.characteristics.clear();
+    path.spoil(feature);
+    decide(run, sound->rule, sound->probe, feature);
+    const evaluation::CharacteristicResult& result = feature.characteristics.at(0);
+    EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
+    EXPECT_THAT(result.reason, HasSubstr(path.reason));
+    // The reports of the sound feature with this verdict: they print what the evaluation says.
+    evaluation::Evaluation told = *sound;
+    told.features[0].characteristics = feature.characteristics;
+    told.verdict = overall(told.features);
+    expect_told(run, told);
+  }
+}
+
+TEST(StatedValue, SaysWhatItIsAboutWithTheDigitsThatItsIntervalAllows) {
+  const evaluation::ValueOperator how(
+      evaluation::ReferenceTerm("MZCY"), evaluation::FilterTerm("unfiltered"),
+      evaluation::SamplingTerm("4 x 7 layers"), evaluation::TipTerm("r_tip 1.998"),
+      evaluation::TemperatureTerm("20.3 degC"));
+  evaluation::UncertaintyResult result;
+  result.sampled.estimate_mm = 8.1e-3;
+  result.sampled.low_mm = 7.6e-3;
+  result.sampled.high_mm = 9.4e-3;
+  const evaluation::StatedValue value("CYLt", 8.31e-3, how,
+                                      evaluation::UncertaintyStatus::stated(result, 0.95));
+  EXPECT_EQ(value.sentence(),
+            "CYLt = 8.10 um, 95 % [7.60, 9.40]; as read 8.31 um (MZCY; unfiltered; 4 x 7 layers; "
+            "r_tip 1.998; 20.3 degC; at the sampled points)");
+  EXPECT_EQ(value.value_text(), "8.10 um [7.60, 9.40]");
+  result.whole = result.sampled;
+  result.whole->high_mm = 12.0e-3;
+  const evaluation::StatedValue whole("CYLt", 8.31e-3, how,
+                                      evaluation::UncertaintyStatus::stated(result, 0.95),
+                                      evaluation::Measurand::kWholeSurface);
+  EXPECT_THAT(whole.sentence(), HasSubstr("8.1 um, 95 % [7.6, 12.0]; as read 8.3 um"));
+  EXPECT_THAT(whole.sentence(), HasSubstr("; of the whole surface)"));
+  const evaluation::StatedValue bare("CYLt", 8.31e-3, how,
+                                     evaluation::UncertaintyStatus::none("none declared"));
+  EXPECT_THAT(bare.sentence(), HasSubstr("CYLt = 8.310 um (MZCY"));
+  EXPECT_THAT(bare.sentence(), HasSubstr("at the sampled points; no uncertainty stated)"));
+  EXPECT_EQ(evaluation::TipTerm("").words(), "not known");
+}
+
+TEST(Declared, InfluencesComeFromThePlanAndFromTheRunItself) {
+  RunRecord run = touched_run("simple-acceptance");
+  std::erase_if(run.settings, [](const record::Setting& s) {
+    return s.name == "uncertainty/probe/repeatability_um";
+  });
+  for (const auto& [key, number] :
+       std::vector<std::pair<const char*, double>>{{"probe/lobes/order", 3.0},
+                                                   {"probe/lobes/amplitude_um", 0.4},
+                                                   {"machine/length_limit_um", 1.5},
+                                                   {"machine/length_limit_um_m", 3.0},
+                                                   {"machine/squareness_xz_urad", 4.0},
+                                                   {"machine/translations/linear_um_m", 2.0},
+                                                   {"machine/translations/wave_um", 0.3},
+                                                   {"machine/translations/wave_period_mm", 40.0},
+                                                   {"machine/rotations/linear_urad_m", 5.0},
+                                                   {"thermal/drift_K", 0.2},
+                                                   {"fixture/creep_deg", 0.001},
+                                                   {"form_spectrum/terms/undulations", 2.0},
+                                                   {"form_spectrum/terms/degree", 1.0},
+                                                   {"form_spectrum/terms/amplitude_um", 1.25}}) {
+    run.settings.push_back({std::string("uncertainty/") + key, number, ""});
+  }
+  run.settings.push_back({"uncertainty/machine/translations/error", std::nullopt, "EYX"});
+  run.settings.push_back({"uncertainty/machine/rotations/error", std::nullopt, "ECZ"});
+  for (const char* group : {"machine", "thermal", "fixture", "form_spectrum"})
+    run.settings.push_back({"uncertainty/declared", std::nullopt, group});
+  const auto evaluation = evaluate(run);
+  ASSERT_TRUE(evaluation);
+  evaluation::FeatureResult feature = evaluation->features[0];
+  feature.repeat_sigma_mm = 0.7e-3;
+  const auto said = declared_for(run, feature, evaluation->probe);
+  ASSERT_TRUE(said);
+  const evaluation::Influences& in = said->influences;
+  EXPECT_EQ(in.probe->repeatability_mm, 0.7e-3);
+  EXPECT_EQ(in.probe->tip_radius_mm, evaluation->probe->radius_sigma_mm);
+  ASSERT_EQ(in.probe->lobes.size(), 1U);
+  EXPECT_NEAR(in.probe->lobes[0].amplitude_mm, 0.4e-3, 1e-15);
+  EXPECT_NEAR(in.machine->length_limit_mm, 1.5e-3, 1e-15);
+  EXPECT_NEAR(in.machine->length_limit_slope, 3e-6, 1e-18);
+  EXPECT_NEAR(in.machine->terms.squareness_xz_rad, 4e-6, 1e-18);
+  const cmm::ErrorCurve& eyx = in.machine->terms.axes[0].translation[1];
+  EXPECT_NEAR(eyx.linear_1_mm, 2e-6, 1e-18);
+  EXPECT_NEAR(eyx.wave, 0.3e-3, 1e-15);
+  EXPECT_EQ(eyx.period_mm, 40.0);
+  EXPECT_NEAR(in.machine->terms.axes[2].rotation[2].linear_1_mm, 5e-9, 1e-20);
+  EXPECT_EQ(in.thermal->drift_K, 0.2);
+  EXPECT_NEAR(in.fixture->creep_rad, 0.001 * std::numbers::pi / 180.0, 1e-15);
+  ASSERT_TRUE(said->spectrum);
+  ASSERT_EQ(said->spectrum->terms.size(), 1U);
+  EXPECT_EQ(said->spectrum->terms[0].degree, 1);
+  EXPECT_NEAR(said->spectrum->terms[0].amplitude_mm, 1.25e-3, 1e-15);
+  // A limit contains the repeatability that the repeats show.
+  run.settings.push_back({"uncertainty/probe/form_limit_um", 2.0, ""});
+  const auto limited = declared_for(run, feature, evaluation->probe);
+  EXPECT_EQ(limited->influences.probe->repeatability_mm, 0.0);
+  EXPECT_NEAR(limited->influences.probe->form_limit_mm, 2e-3, 1e-15);
+  EXPECT_FALSE(declared_for(points_run(rough_part(3, 4, 7, 6.0), 4), feature, std::nullopt));
+}
+
+TEST(Verdict, IsVoidWhereAWordOfTheJournalIsUnknown) {
+  RunRecord run = touched_run("simple-acceptance");
+  run.settings.push_back({"decision_rule/measurand", std::nullopt, "every-surface"});
+  evaluation::CharacteristicResult result = result_of(run);
+  EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
+  EXPECT_THAT(result.reason, ::testing::HasSubstr("unknown measurand \"every-surface\""));
+  run.settings.pop_back();
+  run.features[0].strategy = record::Strategy::kMerged;
+  run.features[0].settings.push_back({"merge", std::nullopt, "by-guess"});
+  result = result_of(run);
+  EXPECT_EQ(result.verdict, evaluation::Verdict::kVoid);
+  EXPECT_THAT(result.reason, ::testing::HasSubstr("\"by-guess\", which is not known"));
+}
+
+}  // namespace
+}  // namespace rondure::reports

@@ -1,0 +1,218 @@
+#include "web/internal/sections.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/numbers.h"
+#include "evaluation/feature_values.h"
+#include "reports/escaping.h"
+#include "reports/html/plots.h"
+#include "reports/html/sections.h"
+#include "reports/words/language.h"
+
+namespace rondure::web {
+namespace {
+
+using core::deg;
+using core::f_um;
+using core::fixed;
+using core::um;
+
+constexpr std::size_t kTouchRows = 10;
+
+/// "3:07 min", "1:02:09 h".
+std::string clock_text(double time_s) {
+  const auto s = std::lround(std::max(time_s, 0.0));
+  if (s < 3600) return fmt::format("{}:{:02} min", s / 60, s % 60);
+  return fmt::format("{}:{:02}:{:02} h", s / 3600, s / 60 % 60, s % 60);
+}
+
+/// Which pose of its feature a visit is, from 1.
+std::size_t number_of(const record::RunRecord& record, const record::PoseVisit& visit) {
+  std::size_t number = 0;
+  for (const record::PoseVisit& other : record.poses) {
+    if (other.feature == visit.feature) ++number;
+    if (other.id == visit.id) break;
+  }
+  return number;
+}
+
+const std::string& id_of(const record::RunRecord& record, const record::PoseVisit& visit) {
+  return record.features[static_cast<std::size_t>(visit.feature)].id;
+}
+
+std::string angles_of(const core::Pose& pose) {
+  return fmt::format("alpha {}°, beta {}°", deg(pose.alpha_rad), deg(pose.beta_rad));
+}
+
+std::string touches_entry(const record::RunRecord& record, const LiveNow& now) {
+  const std::size_t done = record.touches.size();
+  if (now.expected == 0)
+    return reports::entry(reports::tr("Touches"), std::to_string(done), "lead");
+  const std::size_t all = std::max(now.expected, done);
+  return reports::entry(
+      reports::tr("Touches"),
+      reports::with_note(reports::trf("{} of {}", done, all),
+                         fmt::format(R"(<progress value="{}" max="{}" aria-label="{}"></progress>)",
+                                     done, all, reports::tr("Touches made"))),
+      "lead");
+}
+
+std::string time_entries(const LiveNow& now) {
+  const std::string left = now.left_s ? clock_text(*now.left_s) : "–";
+  return reports::entry(
+             reports::tr("Time left"),
+             reports::with_note(
+                 left, reports::tr("as the plan's time model predicts, at the pace so far")),
+             "lead") +
+         reports::entry(reports::tr("Time so far"), clock_text(now.elapsed_s));
+}
+
+std::string purpose_of(const record::Touch& touch) {
+  switch (touch.purpose) {
+    case record::Touch::Purpose::kQualification:
+      return reports::tr("qualification");
+    case record::Touch::Purpose::kLocate:
+      return reports::tr("location");
+    case record::Touch::Purpose::kMeasure:
+      return reports::tr("measurement");
+    case record::Touch::Purpose::kCheck:
+      return reports::tr("check");
+  }
+  return {};
+}
+
+std::string touch_row(const record::RunRecord& record, const record::Touch& touch) {
+  const bool in_layer = touch.purpose == record::Touch::Purpose::kMeasure;
+  const auto pose = std::find_if(record.poses.rbegin(), record.poses.rend(),
+                                 [&](const auto& visit) { return visit.id == touch.pose; });
+  return fmt::format(
+      R"(<tr><td class="n">{}</td><td>{}</td><td class="n">{}</td><td class="n">{}</td>)"
+      R"(<td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td></tr>)",
+      touch.id, purpose_of(touch),
+      pose == record.poses.rend() ? "–" : std::to_string(number_of(record, *pose)),
+      in_layer ? std::to_string(touch.layer + 1) : "–",
+      in_layer ? std::to_string(touch.point + 1) : "–", fixed(touch.tip_mm.x(), 5),
+      fixed(touch.tip_mm.y(), 5), fixed(touch.tip_mm.z(), 5));
+}
+
+}  // namespace
+
+std::string live_head(const record::RunRecord& record) {
+  const record::Header& header = record.header;
+  std::string html = fmt::format(
+      R"(<header><div class="brand"><span><b>RONDURE</b> {}</span><span>{}</span></div>)",
+      reports::tr("live view"), reports::isolated(header.started_utc));
+  html += fmt::format("<h1>{}", reports::isolated(header.part_id));
+  if (!header.part_name.empty()) html += fmt::format(" {}", reports::isolated(header.part_name));
+  html += R"(</h1><dl class="facts">)";
+  html += reports::fact(reports::tr("Serial"), header.serial) +
+          reports::fact(reports::tr("Drawing"), header.drawing) +
+          reports::fact(reports::tr("Plan"), header.plan_name) +
+          reports::fact(reports::tr("Revision"), header.plan_revision) +
+          reports::fact(reports::tr("Operator"), header.operator_name) +
+          reports::fact(reports::tr("Run"), header.run_id) + "</dl></header>";
+  return html;
+}
+
+std::string live_doing(const record::RunRecord& record, const LiveNow& now) {
+  if (!record.ending.empty()) return reports::tr("All touches are made; evaluating");
+  if (record.header.version.empty()) return reports::tr("Starting");
+  if (now.pose == nullptr) return reports::tr("Qualifying the probe");
+  const bool locating = !record.touches.empty() && record.touches.back().pose == now.pose->id &&
+                        record.touches.back().purpose == record::Touch::Purpose::kLocate;
+  const std::string feature = reports::isolated(id_of(record, *now.pose));
+  const std::size_t number = number_of(record, *now.pose);
+  return locating ? reports::trf("Locating {}, pose {}", feature, number)
+                  : reports::trf("Measuring {}, pose {}", feature, number);
+}
+
+std::string live_numbers(const record::RunRecord& record, const LiveNow& now) {
+  std::string html;
+  if (record.header.simulated) {
+    html += fmt::format(R"(<div class="banner"><b>{}</b> {}</div>)", reports::tr("Simulated:"),
+                        reports::tr("no real part is measured."));
+  }
+  html += fmt::format(R"(<h2 class="doing">{}</h2><dl class="keys">)", live_doing(record, now));
+  html += touches_entry(record, now) + time_entries(now);
+  if (now.pose != nullptr) {
+    html += reports::entry(reports::tr("Pose"),
+                           reports::with_note(std::to_string(number_of(record, *now.pose)),
+                                              angles_of(now.pose->reached)));
+  }
+  if (now.f) {
+    html += reports::entry(
+        reports::tr("f of this pose"),
+        now.f->valid
+            ? reports::with_note(f_um(now.f->f_mm) + " µm", reports::tr("of the touches so far"))
+            : reports::with_note("–", reports::isolated(now.f->ending)));
+  }
+  if (now.zone_mm)
+    html += reports::entry(
+        reports::tr("Minimum zone"),
+        reports::with_note(um(*now.zone_mm) + " µm", reports::tr("of the touches so far")));
+  return html + "</dl>";
+}
+
+std::string live_sentence(const record::RunRecord& record, const LiveNow& now) {
+  return live_doing(record, now) + ".";
+}
+
+std::string live_drawings(const core::Result<LiveCloud>& cloud) {
+  if (!cloud) {
+    return fmt::format(
+        R"(<p class="note">{}</p>)",
+        reports::tr("The drawings begin when the touches of this pose define the feature."));
+  }
+  const auto zone = zone_of(cloud->result);
+  if (!zone) return {};
+  std::string html = fmt::format("<h2>{}</h2>", reports::tr("The present cloud"));
+  html += reports::polar_plots(cloud->result, *zone) + reports::deviation_map(cloud->result, *zone);
+  if (cloud->every > 1) {
+    html +=
+        fmt::format(R"(<p class="note">{}</p>)",
+                    reports::trf("Every {}th point is drawn while the run is at work; the report "
+                                 "has all of them.",
+                                 cloud->every));
+  }
+  return html;
+}
+
+std::string live_touches(const record::RunRecord& record) {
+  if (record.touches.empty()) return {};
+  std::string html = fmt::format(
+      R"(<h2>{}</h2><div class="scroll" tabindex="0" role="region" aria-label="{}"><table>)"
+      R"(<thead><tr><th class="n">{}</th><th>{}</th><th class="n">{}</th><th class="n">{}</th>)"
+      R"(<th class="n">{}</th><th class="n">x / mm</th><th class="n">y / mm</th>)"
+      R"(<th class="n">z / mm</th></tr></thead><tbody>)",
+      reports::tr("Last touches"), reports::tr("Last touches"), reports::tr("Touch"),
+      reports::tr("Purpose"), reports::tr("Pose"), reports::tr("Layer"), reports::tr("Point"));
+  const std::size_t rows = std::min(kTouchRows, record.touches.size());
+  for (std::size_t i = 0; i < rows; ++i) {
+    html += touch_row(record, record.touches[record.touches.size() - 1 - i]);
+  }
+  return html +
+         fmt::format(
+             R"(</tbody></table></div><p class="note">{}</p>)",
+             reports::tr("Centres of the tip in the machine frame, the newest first. Each is on "
+                         "disk before the next is made."));
+}
+
+std::string live_over(const record::RunRecord& record, std::string_view report) {
+  std::string html =
+      fmt::format(R"(<h2 class="doing">{}</h2>)",
+                  record.ending == "finished" ? reports::tr("Run finished")
+                  : record.ending == "stopped"
+                      ? reports::tr("Run stopped; it can go on with rondure run --resume")
+                      : reports::tr("Run ended by a fault"));
+  if (!report.empty()) {
+    html += fmt::format(R"(<p>{} <span class="mono">{}</span></p>)",
+                        reports::tr("The report is in"), reports::isolated(report));
+  }
+  return html + fmt::format(R"(<p class="note">{}</p>)",
+                            reports::tr("The program has ended; this page stays as it is."));
+}
+
+}  // namespace rondure::web
