@@ -3,7 +3,7 @@ file(READ ${CATALOGUE} bytes HEX)
 string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
 string(REGEX REPLACE "(................................................................................)" "\\1\n"
                      bytes "${bytes}")
-file(WRITE ${SOURCE} "#include \"reports/words/zh.h\"
+file(WRITE ${SOURCE} "#include \"reports/words/internal/zh.h\"
 
 namespace rondure::reports {
 namespace {
