@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "evaluation/analysis_result.h"
-#include "evaluation/evaluation.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/results/evaluation.h"
+#include "evaluation/results/feature_values.h"
 #include "evaluation/internal/conformance.h"
 
 namespace rondure::evaluation {

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "core/result.h"
-#include "evaluation/analysis_value.h"
+#include "evaluation/results/analysis_value.h"
 #include "evaluation/decision/decision.h"
-#include "evaluation/stated_value.h"
+#include "evaluation/results/stated_value.h"
 #include "fit/least_squares/probe_tip.h"
 #include "record/run_record.h"
 

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "evaluation/invariants.h"
 
 namespace rondure::evaluation {

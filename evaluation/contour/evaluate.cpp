@@ -10,7 +10,7 @@
 #include "core/units.h"
 #include "evaluation/analysis.h"
 #include "evaluation/analysis_result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 
 namespace rondure::evaluation {
 namespace {

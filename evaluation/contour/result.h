@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/analysis_value.h"
+#include "evaluation/results/analysis_value.h"
 #include "fit/contour/study.h"
 
 namespace rondure::evaluation {

@@ -6,7 +6,7 @@
 
 #include "core/result.h"
 #include "evaluation/uncertainty/uncertainty.h"
-#include "evaluation/verdict.h"
+#include "evaluation/decision/verdict.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {

@@ -9,7 +9,7 @@
 #include "core/utc.h"
 #include "evaluation/analysis.h"
 #include "evaluation/analysis_result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "fit/geometry/registration.h"
 #include "fit/rotary/ball_center.h"
 #include "fit/rotary/ball_setup.h"

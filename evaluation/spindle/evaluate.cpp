@@ -5,7 +5,7 @@
 #include "core/units.h"
 #include "evaluation/analysis.h"
 #include "evaluation/analysis_result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/spindle.h"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "evaluation/analysis_value.h"
+#include "evaluation/results/analysis_value.h"
 #include "fit/profiles/roundness_evaluation.h"
 #include "fit/spindle/axis_motion.h"
 #include "fit/spindle/three_probe.h"

@@ -7,8 +7,8 @@
 #include "core/units.h"
 #include "evaluation/analysis.h"
 #include "evaluation/analysis_result.h"
-#include "evaluation/evaluation.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/results/evaluation.h"
+#include "evaluation/results/feature_values.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/wheel.h"
 

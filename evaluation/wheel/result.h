@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "evaluation/analysis_value.h"
+#include "evaluation/results/analysis_value.h"
 #include "fit/wheel/evaluation.h"
 
 namespace rondure::evaluation {

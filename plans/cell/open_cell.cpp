@@ -7,7 +7,7 @@
 #include "plans/cell/internal/fixture_driver.h"
 #include "plans/cell/internal/ipp_cell.h"
 #include "plans/cell/simulated_cell.h"
-#include "plans/features.h"
+#include "plans/analyses/features.h"
 
 namespace rondure::plans {
 

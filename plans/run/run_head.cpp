@@ -7,7 +7,7 @@
 #include "core/version.h"
 #include "fit/poses/walk.h"
 #include "plans/analyses/analysis.h"
-#include "plans/features.h"
+#include "plans/analyses/features.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/internal/uncertainty_table.h"
 #include "record/sha256.h"

@@ -9,7 +9,7 @@
 #include "plans/cell/open_cell.h"
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/checks/internal/plan_reach.h"
-#include "plans/features.h"
+#include "plans/analyses/features.h"
 #include "plans/run/internal/fixture_calibration.h"
 #include "plans/run/internal/fixture_datum.h"
 #include "plans/run/internal/inspection.h"

@@ -12,7 +12,7 @@
 #include "core/utf8.h"
 #include "evaluation/defect.h"
 #include "evaluation/internal/conformance.h"
-#include "evaluation/uncertainty/internal/declared.h"
+#include "evaluation/interval/internal/declared.h"
 #include "fixture/calibration.h"
 #include "reports/escaping.h"
 #include "reports/html/report.h"

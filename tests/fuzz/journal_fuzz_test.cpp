@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "evaluation/defect.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "evaluation/factors/study.h"
 #include "plans/checks/record.h"
 #include "record/journal/journal.h"

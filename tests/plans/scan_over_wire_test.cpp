@@ -18,8 +18,8 @@
 
 #include "cmm/ipp_server/server.h"
 #include "core/units.h"
-#include "evaluation/evaluation.h"
-#include "evaluation/uncertainty/internal/declared.h"
+#include "evaluation/results/evaluation.h"
+#include "evaluation/interval/internal/declared.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "plans/cell/open_cell.h"
 #include "plans/cell/served_cell.h"

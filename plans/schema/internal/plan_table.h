@@ -1,10 +1,10 @@
 #pragma once
 
 #include "core/error.h"
-#include "plans/analyses/contour_table.h"
-#include "plans/analyses/rotary_table.h"
-#include "plans/analyses/spindle_table.h"
-#include "plans/analyses/wheel_table.h"
+#include "plans/schema/contour_table.h"
+#include "plans/schema/rotary_table.h"
+#include "plans/schema/spindle_table.h"
+#include "plans/schema/wheel_table.h"
 #include "plans/plan.h"
 #include "plans/schema/internal/fixture_drivers_table.h"
 #include "plans/schema/internal/uncertainty_table.h"

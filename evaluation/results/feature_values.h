@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 
 namespace rondure::evaluation {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/result.h"
-#include "evaluation/stated_value.h"
+#include "evaluation/results/stated_value.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {

@@ -1,4 +1,4 @@
-#include "plans/features.h"
+#include "plans/analyses/features.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "evaluation/uncertainty/internal/declared.h"
+#include "evaluation/interval/internal/declared.h"
 
 #include <algorithm>
 #include <string>

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "plans/analyses/spindle_plan.h"
+#include "plans/spindle_plan.h"
 
 namespace rondure::plans {
 

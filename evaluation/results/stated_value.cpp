@@ -1,4 +1,4 @@
-#include "evaluation/stated_value.h"
+#include "evaluation/results/stated_value.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "evaluation/measured_cloud.h"
+#include "evaluation/results/measured_cloud.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/pose.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
 // Private to the room: the touches of a pose as a cloud, and f of it.

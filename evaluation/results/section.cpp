@@ -1,4 +1,4 @@
-#include "evaluation/section.h"
+#include "evaluation/results/section.h"
 
 #include <algorithm>
 #include <cmath>

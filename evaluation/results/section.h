@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "fit/geometry/axis.h"
 
 namespace rondure::evaluation {

@@ -1,4 +1,4 @@
-#include "plans/analyses/internal/rotary_poses.h"
+#include "plans/path/internal/rotary_poses.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "evaluation/feature_values.h"
+#include "evaluation/results/feature_values.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "fit/zone/deviation_range.h"
 #include "record/run_record.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/error.h"
-#include "plans/analyses/rotary_plan.h"
+#include "plans/rotary_plan.h"
 #include "plans/schema/key_spec.h"
 
 // The part of plan_table.h for features of the type "rotary_axes", the simulated errors that they

@@ -1,4 +1,4 @@
-#include "evaluation/verdict.h"
+#include "evaluation/decision/verdict.h"
 
 namespace rondure::evaluation {
 

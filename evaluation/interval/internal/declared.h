@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "evaluation/uncertainty/uncertainty.h"
 #include "fit/least_squares/probe_tip.h"
 #include "record/run_record.h"

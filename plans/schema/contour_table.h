@@ -1,7 +1,7 @@
 #pragma once
 
-#include "plans/analyses/contour_plan.h"
-#include "plans/analyses/spindle_table.h"
+#include "plans/contour_plan.h"
+#include "plans/schema/spindle_table.h"
 #include "plans/schema/key_spec.h"
 
 // The part of plan_table.h for features of the type "contour" and their simulation.

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "evaluation/internal/deviation.h"
-#include "evaluation/measured_cloud.h"
-#include "evaluation/uncertainty/internal/declared.h"
+#include "evaluation/results/internal/deviation.h"
+#include "evaluation/results/measured_cloud.h"
+#include "evaluation/interval/internal/declared.h"
 
 namespace rondure::evaluation {
 namespace {

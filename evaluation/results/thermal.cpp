@@ -1,4 +1,4 @@
-#include "evaluation/thermal.h"
+#include "evaluation/results/thermal.h"
 
 #include <algorithm>
 #include <cmath>

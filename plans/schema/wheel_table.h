@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plans/analyses/wheel_plan.h"
+#include "plans/wheel_plan.h"
 #include "plans/schema/key_spec.h"
 #include "record/tasks/wheel.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plans/analyses/spindle_plan.h"
+#include "plans/spindle_plan.h"
 #include "plans/schema/key_spec.h"
 
 // The part of plan_table.h for features of the type "spindle" and their simulation.

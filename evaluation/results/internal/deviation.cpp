@@ -1,4 +1,4 @@
-#include "evaluation/internal/deviation.h"
+#include "evaluation/results/internal/deviation.h"
 
 #include <algorithm>
 #include <utility>
