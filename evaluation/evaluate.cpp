@@ -1,4 +1,4 @@
-#include "evaluation/results/evaluation.h"
+#include "evaluation/evaluate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "evaluation/results/feature_values.h"
 #include "evaluation/harmonic_mask.h"
+#include "evaluation/interval/internal/form_interval.h"
+#include "evaluation/results/feature_values.h"
 #include "evaluation/results/internal/deviation.h"
 #include "evaluation/results/measured_cloud.h"
-#include "evaluation/interval/internal/declared.h"
 
 namespace rondure::evaluation {
 namespace {

@@ -11,10 +11,10 @@
 #include "core/pose.h"
 #include "core/result.h"
 #include "evaluation/decision/decision.h"
+#include "evaluation/decision/verdict.h"
 #include "evaluation/results/merged_poses.h"
 #include "evaluation/results/stated_value.h"
 #include "evaluation/results/thermal.h"
-#include "evaluation/decision/verdict.h"
 #include "fit/geometry/axis.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
@@ -139,13 +139,5 @@ struct Evaluation {
   std::vector<FeatureResult> features;
   Verdict verdict = Verdict::kVoid;  ///< The worst of all toleranced characteristics.
 };
-
-/// Evaluates a record: averages repeated touches of one place in the final pose, fits, checks the
-/// invariants, decides. No machine, no clock, no files; same record, same bits.
-///
-/// @return Always an evaluation: every fault of the data stands in the feature, and so does a
-///         broken invariant (a defect of the program; no value, all void; evaluate_run() of
-///         defect.h keeps its numbers).
-[[nodiscard]] core::Result<Evaluation> evaluate(const record::RunRecord& record);
 
 }  // namespace rondure::evaluation

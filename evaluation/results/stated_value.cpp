@@ -1,7 +1,5 @@
 #include "evaluation/results/stated_value.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +11,7 @@ namespace rondure::evaluation {
 
 using core::fixed;
 using core::um;
+
 ValueOperator::ValueOperator(ReferenceTerm reference, FilterTerm filter, SamplingTerm sampling,
                              TipTerm tip, TemperatureTerm temperature)
     : words_(fmt::format("{}; {}; {}; {}; {}", reference.words(), filter.words(), sampling.words(),
@@ -74,12 +73,6 @@ std::string StatedValue::sentence() const {
                      in_digits(known->estimate_mm), 100.0 * uncertainty_.coverage_1(),
                      in_digits(known->low_mm), in_digits(known->high_mm), in_digits(value_mm_),
                      operator_text());
-}
-
-int decimals_for(double expanded_mm) {
-  const double u = expanded_mm / core::kMicrometre;
-  if (!(u > 0.0)) return 3;
-  return std::clamp(1 - static_cast<int>(std::floor(std::log10(u))), 1, 4);
 }
 
 }  // namespace rondure::evaluation

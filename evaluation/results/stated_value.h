@@ -97,7 +97,4 @@ class StatedValue {
   Measurand measurand_;
 };
 
-/// Decimals of a length in um whose uncertainty is U: two digits of U, 1 to 4 decimals.
-[[nodiscard]] int decimals_for(double expanded_mm);
-
 }  // namespace rondure::evaluation

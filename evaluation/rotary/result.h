@@ -9,6 +9,8 @@
 
 namespace rondure::evaluation {
 
+struct FeatureResult;  // results/evaluation.h
+
 /// What is left at one combined pose.
 struct CombinedPose {
   core::Pose pose;  ///< As the fixture read it.
@@ -32,6 +34,12 @@ struct RotaryResult {
   std::vector<CombinedPose> combined;
   fixture::Calibration calibration;
 };
+
+/// Evaluates feature `index` of a record.
+/// @param result  With the feature and the tip radius; gets the warnings and the temperatures.
+/// @return  Why there is no result, where there is none.
+[[nodiscard]] core::Result<RotaryResult> evaluate_rotary(const record::RunRecord& record, int index,
+                                                         FeatureResult& result);
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const RotaryResult& result,
                                                    const record::Characteristic& characteristic);

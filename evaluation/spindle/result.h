@@ -9,6 +9,8 @@
 
 namespace rondure::evaluation {
 
+struct FeatureResult;  // results/evaluation.h
+
 /// Everything found of a spindle feature.
 struct SpindleResult {
   fit::SwingArm arm;
@@ -17,6 +19,12 @@ struct SpindleResult {
   fit::AxisMotion x;                   ///< ISO 230-7, fixed directions.
   fit::AxisMotion y;
 };
+
+/// Evaluates feature `index` of a record.
+/// @param result  With the feature; gets the warnings.
+/// @return  Why there is no result, where there is none.
+[[nodiscard]] core::Result<SpindleResult> evaluate_spindle(const record::RunRecord& record,
+                                                           int index, FeatureResult& result);
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const SpindleResult& result,
                                                    const record::Characteristic& characteristic);

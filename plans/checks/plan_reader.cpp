@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "plans/analyses/analysis.h"
-#include "plans/path/internal/rotary_poses.h"
+#include "plans/analyses/features.h"
 #include "plans/checks/internal/plan_checks.h"
 #include "plans/checks/internal/plan_reach.h"
-#include "plans/analyses/features.h"
+#include "plans/path/internal/rotary_poses.h"
 #include "plans/plan.h"
 #include "plans/schema/findings.h"
 #include "plans/schema/internal/plan_table.h"

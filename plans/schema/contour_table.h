@@ -1,8 +1,8 @@
 #pragma once
 
 #include "plans/contour_plan.h"
-#include "plans/schema/spindle_table.h"
 #include "plans/schema/key_spec.h"
+#include "plans/schema/spindle_table.h"
 
 // The part of plan_table.h for features of the type "contour" and their simulation.
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "plans/spindle_plan.h"
 #include "plans/schema/key_spec.h"
+#include "plans/spindle_plan.h"
 
 // The part of plan_table.h for features of the type "spindle" and their simulation.
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "plans/wheel_plan.h"
 #include "plans/schema/key_spec.h"
+#include "plans/wheel_plan.h"
 #include "record/tasks/wheel.h"
 
 // The part of plan_table.h for features of the type "wheel" and their simulation.

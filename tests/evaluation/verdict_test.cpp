@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "core/utf8.h"
 #include "evaluation/defect.h"
+#include "evaluation/evaluate.h"
 #include "evaluation/internal/conformance.h"
 #include "evaluation/interval/internal/declared.h"
 #include "fixture/calibration.h"

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
+#include "evaluation/evaluate.h"
 #include "evaluation/results/feature_values.h"
 #include "web/internal/cloud.h"
 

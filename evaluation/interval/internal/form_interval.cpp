@@ -1,3 +1,5 @@
+#include "evaluation/interval/internal/form_interval.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -6,7 +8,6 @@
 
 #include "evaluation/results/internal/deviation.h"
 #include "evaluation/results/measured_cloud.h"
-#include "evaluation/interval/internal/declared.h"
 
 namespace rondure::evaluation {
 namespace {

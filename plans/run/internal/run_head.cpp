@@ -1,4 +1,4 @@
-#include "plans/run/run_head.h"
+#include "plans/run/internal/run_head.h"
 
 #include <algorithm>
 #include <string>

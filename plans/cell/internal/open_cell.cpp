@@ -1,13 +1,13 @@
-#include "plans/cell/open_cell.h"
+#include "plans/cell/internal/open_cell.h"
 
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "plans/analyses/features.h"
 #include "plans/cell/internal/fixture_driver.h"
 #include "plans/cell/internal/ipp_cell.h"
 #include "plans/cell/simulated_cell.h"
-#include "plans/analyses/features.h"
 
 namespace rondure::plans {
 
