@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "plans/plan.h"
-#include "plans/run/run_options.h"
+#include "plans/run_options.h"
 #include "record/run_record.h"
 
 // Converts a plan into the head of the journal, which is written before the first touch.

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "plans/plan.h"
-#include "plans/run/run_options.h"
+#include "plans/run_options.h"
 #include "record/run_record.h"
 
 namespace rondure::plans {

@@ -1,4 +1,4 @@
-#include "plans/run/internal/recorded_run.h"
+#include "plans/resume/internal/recorded_run.h"
 
 #include <algorithm>
 #include <cmath>
