@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "evaluation/analysis_result.h"
-#include "evaluation/evaluation.h"
-#include "evaluation/feature_values.h"
 #include "evaluation/internal/conformance.h"
+#include "evaluation/results/evaluation.h"
+#include "evaluation/results/feature_values.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -59,6 +61,16 @@ void judge(const record::RunRecord& record, const core::Result<DecisionRule>& ru
   }
 }
 
+/// The result of an analysis, or why there is none.
+template <class Found>
+void keep(core::Result<Found> found, FeatureResult& result) {
+  if (found) {
+    result.analysis = std::make_shared<AnalysisResult>(*std::move(found));
+  } else {
+    result.failure = std::move(found.error());
+  }
+}
+
 }  // namespace
 
 core::Result<AnalysisValue> value_of(const AnalysisResult& result,
@@ -90,7 +102,7 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
   result.temperatures = temperatures_of(record, {});         // series carry none
   if (result.feature.shape == record::Shape::kRotaryAxes) {  // of touches
     if (probe) result.tip_radius_mm = probe->radius_mm;
-    evaluate_rotary(record, index, result);
+    keep(evaluate_rotary(record, index, result), result);
     return result;
   }
   const bool recorded =
@@ -107,13 +119,13 @@ FeatureResult evaluate_analysis(const record::RunRecord& record, int index,
   }
   switch (result.feature.shape) {
     case record::Shape::kSpindle:
-      evaluate_spindle(record, index, result);
+      keep(evaluate_spindle(record, index, result), result);
       break;
     case record::Shape::kWheel:
-      evaluate_wheel(record, index, result);
+      keep(evaluate_wheel(record, index, result), result);
       break;
     case record::Shape::kContour:
-      evaluate_contour(record, index, result);
+      keep(evaluate_contour(record, index, result), result);
       break;
     default:
       result.failure = core::Error{

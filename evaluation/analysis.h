@@ -4,9 +4,9 @@
 #include <string>
 
 #include "core/result.h"
-#include "evaluation/analysis_value.h"
 #include "evaluation/decision/decision.h"
-#include "evaluation/stated_value.h"
+#include "evaluation/results/analysis_value.h"
+#include "evaluation/results/stated_value.h"
 #include "fit/least_squares/probe_tip.h"
 #include "record/run_record.h"
 
@@ -38,11 +38,5 @@ struct AnalysisResult;  // analysis_result.h
 /// finish, or when the rule needs an interval: of series none is computed yet.
 void decide_analysis(const record::RunRecord& record, const core::Result<DecisionRule>& rule,
                      FeatureResult& result);
-
-/// The evaluations themselves, a file each. They set `analysis` and `warnings`, or `failure`.
-void evaluate_spindle(const record::RunRecord& record, int index, FeatureResult& result);
-void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& result);
-void evaluate_contour(const record::RunRecord& record, int index, FeatureResult& result);
-void evaluate_rotary(const record::RunRecord& record, int index, FeatureResult& result);
 
 }  // namespace rondure::evaluation

@@ -8,8 +8,8 @@
 
 #include "core/error.h"
 #include "core/result.h"
-#include "evaluation/evaluation.h"
 #include "evaluation/invariants.h"
+#include "evaluation/results/evaluation.h"
 
 namespace rondure::evaluation {
 

@@ -1,4 +1,4 @@
-#include "evaluation/evaluation.h"
+#include "evaluation/evaluate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@
 #include "evaluation/internal/merged.h"
 #include "evaluation/internal/warnings.h"
 #include "evaluation/invariants.h"
-#include "evaluation/measured_cloud.h"
+#include "evaluation/results/measured_cloud.h"
 #include "fit/poses/walk.h"
 
 namespace rondure::evaluation {

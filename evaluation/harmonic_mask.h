@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 
 namespace rondure::evaluation {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 
 namespace rondure::evaluation {
 

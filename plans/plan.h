@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "core/result.h"
-#include "plans/analyses/contour_plan.h"
-#include "plans/analyses/rotary_plan.h"
-#include "plans/analyses/spindle_plan.h"
-#include "plans/analyses/wheel_plan.h"
+#include "plans/contour_plan.h"
 #include "plans/fixture_drivers_plan.h"
 #include "plans/machine_errors_plan.h"
+#include "plans/rotary_plan.h"
+#include "plans/spindle_plan.h"
 #include "plans/uncertainty_plan.h"
+#include "plans/wheel_plan.h"
 #include "plans/zaber_plan.h"
 #include "record/run_record.h"
 #include "record/tasks/spindle.h"

@@ -9,7 +9,7 @@
 
 #include "app/prediction/prediction.h"
 #include "app/prediction/sampling_layout.h"
-#include "plans/features.h"
+#include "plans/analyses/features.h"
 
 namespace rondure::app {
 namespace {

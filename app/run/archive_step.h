@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "plans/plan.h"
 #include "record/archive/archive.h"
 #include "record/run_record.h"

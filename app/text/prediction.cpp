@@ -7,7 +7,7 @@
 
 #include "app/text/forecast.h"
 #include "core/units.h"
-#include "evaluation/stated_value.h"
+#include "evaluation/results/stated_value.h"
 
 namespace rondure::app {
 namespace {

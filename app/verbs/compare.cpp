@@ -6,7 +6,7 @@
 #include "app/run/ending.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/evaluate.h"
 #include "evaluation/factors/study.h"
 #include "reports/data/factors.h"
 #include "reports/terminal/factors.h"

@@ -10,6 +10,7 @@
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "core/utf8.h"
+#include "evaluation/evaluate.h"
 #include "plans/checks/record.h"
 #include "record/archive/queue.h"
 #include "record/files.h"

@@ -9,7 +9,7 @@
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
 #include "evaluation/defect.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "plans/plan.h"
 #include "record/checksums.h"
 #include "record/files.h"

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,9 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "evaluation/analysis.h"
-#include "evaluation/analysis_result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/contour/result.h"
+#include "evaluation/results/evaluation.h"
 
 namespace rondure::evaluation {
 namespace {
@@ -182,19 +180,17 @@ ValueOperator operator_of(const ContourResult& facts, const record::Characterist
           TipTerm("readings as given"), TemperatureTerm(temperature)};
 }
 
-void evaluate_contour(const record::RunRecord& record, int index, FeatureResult& result) {
+core::Result<ContourResult> evaluate_contour(const record::RunRecord& record, int index,
+                                             FeatureResult& result) {
   ContourResult facts;
   facts.options = contour_options(result.feature);
   const auto parts = parts_of(record, index);
   auto study = fit::contour_study(parts, facts.options);
-  if (!study) {
-    result.failure = study.error();
-    return;
-  }
+  if (!study) return tl::unexpected(study.error());
   facts.study = *std::move(study);
   facts.names = names_of(result.feature, parts.size());
   result.warnings = facts.study.warnings;
-  result.analysis = std::make_shared<AnalysisResult>(std::move(facts));
+  return facts;
 }
 
 }  // namespace rondure::evaluation

@@ -3,10 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/analysis_value.h"
+#include "evaluation/results/analysis_value.h"
 #include "fit/contour/study.h"
 
 namespace rondure::evaluation {
+
+struct FeatureResult;  // results/evaluation.h
 
 /// Everything found of a contour feature.
 struct ContourResult {
@@ -14,6 +16,12 @@ struct ContourResult {
   fit::ContourStudy study;
   std::vector<std::string> names;  ///< One a part.
 };
+
+/// Evaluates feature `index` of a record.
+/// @param result  With the feature; gets the warnings.
+/// @return  Why there is no result, where there is none.
+[[nodiscard]] core::Result<ContourResult> evaluate_contour(const record::RunRecord& record,
+                                                           int index, FeatureResult& result);
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const ContourResult& result,
                                                    const record::Characteristic& characteristic);

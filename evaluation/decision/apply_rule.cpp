@@ -8,7 +8,6 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "evaluation/decision/internal/risks.h"
-#include "evaluation/stated_value.h"
 
 namespace rondure::evaluation {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/result.h"
+#include "evaluation/decision/verdict.h"
 #include "evaluation/uncertainty/uncertainty.h"
-#include "evaluation/verdict.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {

@@ -8,7 +8,7 @@
 
 #include "core/numbers.h"
 #include "evaluation/factors/internal/outliers.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/results/feature_values.h"
 
 namespace rondure::evaluation {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "core/error.h"
 #include "core/result.h"
-#include "evaluation/evaluation.h"
 #include "evaluation/factors/points.h"
 #include "evaluation/factors/shares.h"
+#include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "evaluation/feature_values.h"
 #include "evaluation/harmonic_mask.h"
-#include "evaluation/internal/deviation.h"
-#include "evaluation/measured_cloud.h"
-#include "evaluation/uncertainty/internal/declared.h"
+#include "evaluation/interval/internal/form_interval.h"
+#include "evaluation/results/feature_values.h"
+#include "evaluation/results/internal/deviation.h"
+#include "evaluation/results/measured_cloud.h"
 
 namespace rondure::evaluation {
 namespace {

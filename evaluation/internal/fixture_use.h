@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "fixture/error_model.h"
 
 namespace rondure::evaluation {

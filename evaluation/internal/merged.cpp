@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "evaluation/internal/fixture_use.h"
-#include "evaluation/uncertainty/internal/declared.h"
+#include "evaluation/interval/internal/declared.h"
 
 namespace rondure::evaluation {
 namespace {

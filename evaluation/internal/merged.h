@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/result.h"
-#include "evaluation/evaluation.h"
-#include "evaluation/merged_poses.h"
+#include "evaluation/results/evaluation.h"
+#include "evaluation/results/merged_poses.h"
 #include "fit/least_squares/probe_tip.h"
 #include "record/run_record.h"
 

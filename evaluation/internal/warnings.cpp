@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/results/feature_values.h"
 
 namespace rondure::evaluation {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 
 namespace rondure::evaluation {
 

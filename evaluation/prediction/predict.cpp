@@ -9,6 +9,7 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
+#include "evaluation/interval/internal/form_interval.h"
 #include "evaluation/prediction/internal/expected_form.h"
 
 namespace rondure::evaluation {

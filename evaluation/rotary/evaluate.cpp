@@ -7,9 +7,8 @@
 
 #include "core/units.h"
 #include "core/utc.h"
-#include "evaluation/analysis.h"
-#include "evaluation/analysis_result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
+#include "evaluation/rotary/result.h"
 #include "fit/geometry/registration.h"
 #include "fit/rotary/ball_center.h"
 #include "fit/rotary/ball_setup.h"
@@ -382,30 +381,25 @@ void warn_rotary(const RotaryResult& facts, std::vector<core::Error>& warnings) 
 
 }  // namespace
 
-void evaluate_rotary(const record::RunRecord& record, int index, FeatureResult& result) {
+core::Result<RotaryResult> evaluate_rotary(const record::RunRecord& record, int index,
+                                           FeatureResult& result) {
   result.temperatures = temperatures_of(record, ball_touches(record, index));
   if (record.ending != "finished") {
-    result.failure = core::Error{
-        core::Code::kNoPoints,
-        record.failure ? fmt::format("not measured to its end: {}", record.failure->what)
-                       : "the run ended before all poses were measured",
-        {}};
-    return;
+    return core::fail(core::Code::kNoPoints,
+                      record.failure
+                          ? fmt::format("not measured to its end: {}", record.failure->what)
+                          : "the run ended before all poses were measured");
   }
   if (!result.tip_radius_mm) {
-    result.failure = core::Error{core::Code::kCalibration, "the probe was not qualified", {}};
-    return;
+    return core::fail(core::Code::kCalibration, "the probe was not qualified");
   }
   auto facts = facts_of(record, index, *result.tip_radius_mm);
-  if (!facts) {
-    result.failure = facts.error();
-    return;
-  }
+  if (!facts) return tl::unexpected(facts.error());
   if (result.temperatures && !result.temperatures->declared) {
     facts->calibration.temperature_degC = result.temperatures->mean_degC;
   }
   warn_rotary(*facts, result.warnings);
-  result.analysis = std::make_shared<AnalysisResult>(*std::move(facts));
+  return *std::move(facts);
 }
 
 }  // namespace rondure::evaluation

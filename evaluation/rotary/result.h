@@ -3,11 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/analysis_value.h"
+#include "evaluation/results/analysis_value.h"
 #include "fit/rotary/axes.h"
 #include "fixture/error_model.h"
 
 namespace rondure::evaluation {
+
+struct FeatureResult;  // results/evaluation.h
 
 /// What is left at one combined pose.
 struct CombinedPose {
@@ -32,6 +34,12 @@ struct RotaryResult {
   std::vector<CombinedPose> combined;
   fixture::Calibration calibration;
 };
+
+/// Evaluates feature `index` of a record.
+/// @param result  With the feature and the tip radius; gets the warnings and the temperatures.
+/// @return  Why there is no result, where there is none.
+[[nodiscard]] core::Result<RotaryResult> evaluate_rotary(const record::RunRecord& record, int index,
+                                                         FeatureResult& result);
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const RotaryResult& result,
                                                    const record::Characteristic& characteristic);

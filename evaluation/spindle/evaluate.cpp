@@ -1,11 +1,8 @@
-#include <memory>
-
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "evaluation/analysis.h"
-#include "evaluation/analysis_result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
+#include "evaluation/spindle/result.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/spindle.h"
 
@@ -109,31 +106,23 @@ core::Result<SpindleResult> spindle_facts(const fit::ProbeReadings& readings,
   return SpindleResult{arm, *std::move(separation), *std::move(part), motion_x, motion_y};
 }
 
-void evaluate_spindle(const record::RunRecord& record, int index, FeatureResult& result) {
+core::Result<SpindleResult> evaluate_spindle(const record::RunRecord& record, int index,
+                                             FeatureResult& result) {
   const record::Feature& feature = result.feature;
   const auto task = record::task_of<SpindleTask>(feature.settings);
-  if (!task) {
-    result.failure = task.error();
-    return;
-  }
+  if (!task) return tl::unexpected(task.error());
   const auto layout = layout_of(*task);
-  if (!layout) {
-    result.failure = layout.error();
-    return;
-  }
+  if (!layout) return tl::unexpected(layout.error());
   const double cutoff = task->filter == SpindleTask::Filter::kNone ? 0.0 : task->cutoff_upr;
   const fit::SwingArm arm{task->crank_radius_mm, task->wheel_radius_mm, task->pin_radius_mm};
   auto facts =
       spindle_facts(probe_readings(*record.data_of(index, "data")), arm, *layout,
                     separation_options(*task), cutoff, feature.side == record::Side::kInside);
-  if (!facts) {
-    result.failure = facts.error();
-    return;
-  }
+  if (!facts) return tl::unexpected(facts.error());
   result.warnings = facts->separation.warnings;
   result.warnings.insert(result.warnings.end(), facts->roundness.warnings.begin(),
                          facts->roundness.warnings.end());
-  result.analysis = std::make_shared<AnalysisResult>(*std::move(facts));
+  return *std::move(facts);
 }
 
 }  // namespace rondure::evaluation

@@ -7,8 +7,8 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "evaluation/feature_values.h"
-#include "evaluation/internal/deviation.h"
+#include "evaluation/results/feature_values.h"
+#include "evaluation/results/internal/deviation.h"
 
 namespace rondure::evaluation {
 namespace {

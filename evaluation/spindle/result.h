@@ -2,12 +2,14 @@
 
 #include <string>
 
-#include "evaluation/analysis_value.h"
+#include "evaluation/results/analysis_value.h"
 #include "fit/profiles/roundness_evaluation.h"
 #include "fit/spindle/axis_motion.h"
 #include "fit/spindle/three_probe.h"
 
 namespace rondure::evaluation {
+
+struct FeatureResult;  // results/evaluation.h
 
 /// Everything found of a spindle feature.
 struct SpindleResult {
@@ -17,6 +19,12 @@ struct SpindleResult {
   fit::AxisMotion x;                   ///< ISO 230-7, fixed directions.
   fit::AxisMotion y;
 };
+
+/// Evaluates feature `index` of a record.
+/// @param result  With the feature; gets the warnings.
+/// @return  Why there is no result, where there is none.
+[[nodiscard]] core::Result<SpindleResult> evaluate_spindle(const record::RunRecord& record,
+                                                           int index, FeatureResult& result);
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const SpindleResult& result,
                                                    const record::Characteristic& characteristic);

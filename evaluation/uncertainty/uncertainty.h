@@ -52,6 +52,9 @@ struct UncertaintyStatement {
   [[nodiscard]] double expanded_mm() const { return 0.5 * (high_mm - low_mm); }
 };
 
+/// Decimals of a length in um whose uncertainty is U: two digits of U, 1 to 4 decimals.
+[[nodiscard]] int decimals_for(double expanded_mm);
+
 /// What one influence alone does to the measured value.
 struct BudgetLine {
   std::string name;  ///< As in InfluenceStatement; "sampling" for (b).

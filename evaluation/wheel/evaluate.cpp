@@ -1,14 +1,12 @@
 #include <cmath>
-#include <memory>
 
 #include <fmt/format.h>
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "evaluation/analysis.h"
-#include "evaluation/analysis_result.h"
-#include "evaluation/evaluation.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/results/evaluation.h"
+#include "evaluation/results/feature_values.h"
+#include "evaluation/wheel/result.h"
 #include "record/tasks/settings.h"
 #include "record/tasks/wheel.h"
 
@@ -230,25 +228,17 @@ std::string sampling_text(const WheelResult& facts) {
                      m.order.coverage_rad() / kDegree);
 }
 
-void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& result) {
+core::Result<WheelResult> evaluate_wheel(const record::RunRecord& record, int index,
+                                         FeatureResult& result) {
   const auto asked = record::task_of<WheelTask>(result.feature.settings);
-  if (!asked) {
-    result.failure = asked.error();
-    return;
-  }
+  if (!asked) return tl::unexpected(asked.error());
   auto task = path_task(*asked);
-  if (!task) {
-    result.failure = task.error();
-    return;
-  }
+  if (!task) return tl::unexpected(task.error());
   WheelResult facts;
   facts.points_mm = points_of(*record.data_of(index, "data"));
   facts.task = {wheel_options(*asked, record.header.seed), *std::move(task)};
   auto evaluation = fit::evaluate_wheel(facts.points_mm, facts.task);
-  if (!evaluation) {
-    result.failure = evaluation.error();
-    return;
-  }
+  if (!evaluation) return tl::unexpected(evaluation.error());
   facts.evaluation = *std::move(evaluation);
   result.warnings = facts.evaluation.wheel.warnings;
   if (facts.evaluation.path) {
@@ -256,7 +246,7 @@ void evaluate_wheel(const record::RunRecord& record, int index, FeatureResult& r
     result.warnings.insert(result.warnings.end(), more.begin(), more.end());
   }
   if (facts.evaluation.refused) result.warnings.push_back(*facts.evaluation.refused);
-  result.analysis = std::make_shared<AnalysisResult>(std::move(facts));
+  return facts;
 }
 
 }  // namespace rondure::evaluation

@@ -5,10 +5,12 @@
 
 #include <Eigen/Core>
 
-#include "evaluation/analysis_value.h"
+#include "evaluation/results/analysis_value.h"
 #include "fit/wheel/evaluation.h"
 
 namespace rondure::evaluation {
+
+struct FeatureResult;  // results/evaluation.h
 
 /// Everything found of a wheel feature, with what was asked for.
 struct WheelResult {
@@ -16,6 +18,12 @@ struct WheelResult {
   fit::WheelTask task;
   fit::WheelEvaluation evaluation;
 };
+
+/// Evaluates feature `index` of a record.
+/// @param result  With the feature; gets the warnings.
+/// @return  Why there is no result, where there is none.
+[[nodiscard]] core::Result<WheelResult> evaluate_wheel(const record::RunRecord& record, int index,
+                                                       FeatureResult& result);
 
 [[nodiscard]] core::Result<AnalysisValue> value_of(const WheelResult& result,
                                                    const record::Characteristic& characteristic);

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "plans/analyses/analysis.h"
-#include "plans/analyses/rotary_table.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/json_text.h"
+#include "plans/schema/rotary_table.h"
 
 namespace rondure::plans {
 namespace {

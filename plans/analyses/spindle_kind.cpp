@@ -9,8 +9,8 @@
 #include "fit/geometry/swing_arm.h"
 #include "fit/spindle/probe_layout.h"
 #include "plans/analyses/analysis.h"
-#include "plans/analyses/spindle_table.h"
 #include "plans/schema/internal/setting_list.h"
+#include "plans/schema/spindle_table.h"
 
 namespace rondure::plans {
 namespace {

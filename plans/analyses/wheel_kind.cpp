@@ -8,8 +8,8 @@
 #include "core/noise.h"
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
-#include "plans/analyses/wheel_table.h"
 #include "plans/schema/internal/setting_list.h"
+#include "plans/schema/wheel_table.h"
 
 namespace rondure::plans {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/units.h"
 #include "fixture/alignment.h"
 #include "fixture/kinematics.h"
-#include "plans/features.h"
+#include "plans/analyses/features.h"
 
 namespace rondure::plans {
 

@@ -1,6 +1,6 @@
 #include "plans/forecast/expected_record.h"
 
-#include "plans/run/run_head.h"
+#include "plans/run/internal/run_head.h"
 
 namespace rondure::plans {
 namespace {

@@ -6,16 +6,16 @@
 #include <fmt/format.h>
 
 #include "plans/analyses/analysis.h"
-#include "plans/cell/open_cell.h"
+#include "plans/analyses/features.h"
+#include "plans/cell/internal/open_cell.h"
 #include "plans/checks/internal/calibration_use.h"
 #include "plans/checks/internal/plan_reach.h"
-#include "plans/features.h"
+#include "plans/resume/internal/plan_changes.h"
 #include "plans/run/internal/fixture_calibration.h"
 #include "plans/run/internal/fixture_datum.h"
 #include "plans/run/internal/inspection.h"
-#include "plans/run/internal/plan_changes.h"
 #include "plans/run/internal/qualification.h"
-#include "plans/run/run_head.h"
+#include "plans/run/internal/run_head.h"
 #include "record/csv/points.h"
 #include "record/sha256.h"
 

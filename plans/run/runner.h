@@ -5,7 +5,7 @@
 
 #include "core/result.h"
 #include "plans/plan.h"
-#include "plans/run/run_options.h"
+#include "plans/run_options.h"
 #include "record/journal/journal.h"
 
 namespace rondure::plans {

@@ -11,7 +11,7 @@
 #include "core/numbers.h"
 #include "core/units.h"
 #include "core/utf8.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/results/feature_values.h"
 #include "reports/escaping.h"
 
 namespace rondure::reports {

@@ -7,8 +7,8 @@
 
 #include "core/numbers.h"
 #include "core/utf8.h"
-#include "evaluation/feature_values.h"
-#include "evaluation/section.h"
+#include "evaluation/results/feature_values.h"
+#include "evaluation/results/section.h"
 #include "reports/words/internal/facts.h"
 
 namespace rondure::reports {

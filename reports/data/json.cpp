@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "evaluation/analysis.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/results/feature_values.h"
 #include "reports/data/internal/json_parts.h"
 #include "reports/words/internal/facts.h"
 #include "reports/words/internal/messages.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 #include "reports/history/earlier_results.h"
 #include "reports/html/pdf.h"

@@ -5,7 +5,7 @@
 
 #include "core/utf8.h"
 #include "evaluation/analysis.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/results/feature_values.h"
 #include "reports/words/internal/facts.h"
 
 namespace rondure::reports {

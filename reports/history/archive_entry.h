@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "record/archive/archive.h"
 
 namespace rondure::reports {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "record/archive/archive.h"
 #include "record/run_record.h"
 #include "reports/history/run_chart.h"

@@ -8,7 +8,7 @@
 
 #include "core/numbers.h"
 #include "core/utf8.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "reports/terminal/internal/columns.h"
 #include "reports/words/language.h"
 

@@ -6,7 +6,7 @@
 #include "core/numbers.h"
 #include "core/round_values.h"
 #include "core/units.h"
-#include "evaluation/section.h"
+#include "evaluation/results/section.h"
 #include "reports/drawings/internal/plot_scale.h"
 #include "reports/drawings/internal/svg.h"
 #include "reports/escaping.h"

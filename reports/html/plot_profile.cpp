@@ -4,7 +4,7 @@
 
 #include "core/round_values.h"
 #include "core/units.h"
-#include "evaluation/section.h"
+#include "evaluation/results/section.h"
 #include "reports/drawings/internal/plot_scale.h"
 #include "reports/drawings/internal/svg.h"
 #include "reports/html/plots.h"

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "evaluation/evaluation.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/results/evaluation.h"
+#include "evaluation/results/feature_values.h"
 
 namespace rondure::reports {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 #include "reports/history/earlier_results.h"
 #include "reports/words/language.h"

@@ -5,7 +5,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/results/feature_values.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "evaluation/feature_values.h"
-#include "evaluation/section.h"
+#include "evaluation/results/feature_values.h"
+#include "evaluation/results/section.h"
 #include "reports/words/internal/facts.h"
 
 namespace rondure::reports {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 
 namespace rondure::reports {
 

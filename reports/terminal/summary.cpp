@@ -10,7 +10,7 @@
 #include "core/utf8.h"
 #include "evaluation/analysis.h"
 #include "evaluation/analysis_result.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/results/feature_values.h"
 #include "reports/data/contour.h"
 #include "reports/escaping.h"
 #include "reports/terminal/internal/columns.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 
 namespace rondure::reports {
 

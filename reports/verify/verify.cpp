@@ -6,7 +6,7 @@
 
 #include "core/utf8.h"
 #include "core/version.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/evaluate.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal/journal.h"

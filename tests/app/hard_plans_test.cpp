@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/evaluate.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"
 

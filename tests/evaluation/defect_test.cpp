@@ -16,6 +16,7 @@
 
 #include "core/units.h"
 #include "core/version.h"
+#include "evaluation/evaluate.h"
 #include "record/files.h"
 #include "tests/evaluation/points_run.h"
 

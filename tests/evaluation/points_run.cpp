@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/noise.h"
+#include "evaluation/evaluate.h"
 
 namespace rondure::reports {
 

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
-#include "evaluation/evaluation.h"
 #include "evaluation/internal/warnings.h"
+#include "evaluation/results/evaluation.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
 #include "reports/data/json.h"

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "evaluation/defect.h"
-#include "evaluation/evaluation.h"
 #include "evaluation/factors/study.h"
+#include "evaluation/results/evaluation.h"
 #include "plans/checks/record.h"
 #include "record/journal/journal.h"
 #include "reports/data/factors.h"

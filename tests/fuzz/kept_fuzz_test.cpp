@@ -8,6 +8,7 @@
 
 #include "app/verbs/verbs.h"
 #include "core/utf8.h"
+#include "evaluation/evaluate.h"
 #include "fixture/calibration.h"
 #include "record/archive/archive.h"
 #include "record/checksums.h"

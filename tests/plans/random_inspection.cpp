@@ -10,6 +10,7 @@
 #include "cmm/simulated/part_surface.h"
 #include "core/noise.h"
 #include "core/units.h"
+#include "evaluation/evaluate.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "fit/zone/center_search.h"
 #include "plans/cell/internal/hidden_errors.h"

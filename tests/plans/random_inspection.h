@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/noise.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "plans/plan.h"
 #include "record/run_record.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/noise.h"
 #include "core/version.h"
-#include "plans/run/internal/recorded_run.h"
+#include "plans/resume/internal/recorded_run.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "record/journal/message_text.h"

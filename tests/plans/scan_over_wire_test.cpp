@@ -18,10 +18,10 @@
 
 #include "cmm/ipp_server/server.h"
 #include "core/units.h"
-#include "evaluation/evaluation.h"
-#include "evaluation/uncertainty/internal/declared.h"
+#include "evaluation/evaluate.h"
+#include "evaluation/interval/internal/form_interval.h"
 #include "fit/references/min_zone_cylinder.h"
-#include "plans/cell/open_cell.h"
+#include "plans/cell/internal/open_cell.h"
 #include "plans/cell/served_cell.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"

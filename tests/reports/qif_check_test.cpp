@@ -11,6 +11,7 @@
 #include <pugixml.hpp>
 
 #include "core/units.h"
+#include "evaluation/evaluate.h"
 #include "reports/data/qif/report.h"
 #include "synthetic.h"
 #include "tests/evaluation/points_run.h"

@@ -8,7 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/evaluate.h"
+#include "evaluation/results/feature_values.h"
 #include "web/internal/cloud.h"
 
 namespace rondure::reports {

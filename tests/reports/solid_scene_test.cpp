@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "evaluation/feature_values.h"
+#include "evaluation/results/feature_values.h"
 #include "synthetic.h"
 
 namespace rondure::reports {

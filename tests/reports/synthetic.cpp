@@ -7,7 +7,7 @@
 
 #include "core/noise.h"
 #include "core/units.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/results/feature_values.h"
 #include "reports/html/report.h"
 
 namespace rondure::reports {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
 namespace rondure::reports {

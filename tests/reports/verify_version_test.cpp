@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/version.h"
+#include "evaluation/evaluate.h"
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal/journal.h"

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/utf8.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/evaluate.h"
 #include "record/run_record.h"
 #include "reports/data/json.h"
 #include "reports/escaping.h"

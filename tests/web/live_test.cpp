@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "evaluation/feature_values.h"
+#include "evaluation/results/feature_values.h"
 #include "tests/reports/synthetic.h"
 #include "web/internal/cloud.h"
 #include "web/internal/frame.h"

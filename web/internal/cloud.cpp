@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "evaluation/evaluate.h"
+
 namespace rondure::web {
 namespace {
 

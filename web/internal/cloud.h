@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "core/result.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
 // Private to the room: a cloud while it is being touched.

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/utf8.h"
-#include "evaluation/feature_values.h"
-#include "evaluation/measured_cloud.h"
+#include "evaluation/results/feature_values.h"
+#include "evaluation/results/measured_cloud.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "record/growing_record.h"
 #include "record/run_record.h"
 #include "reports/words/language.h"

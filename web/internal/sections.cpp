@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "evaluation/feature_values.h"
+#include "evaluation/results/feature_values.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"
 #include "reports/html/sections.h"

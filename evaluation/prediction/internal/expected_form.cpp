@@ -9,7 +9,8 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "evaluation/internal/deviation.h"
+#include "evaluation/interval/internal/form_interval.h"
+#include "evaluation/results/internal/deviation.h"
 #include "evaluation/uncertainty/internal/error_modes.h"
 #include "evaluation/uncertainty/internal/form_value.h"
 

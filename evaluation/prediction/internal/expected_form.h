@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "evaluation/uncertainty/internal/declared.h"
+#include "evaluation/interval/internal/declared.h"
 #include "record/run_record.h"
 
 namespace rondure::evaluation {

@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kPointsPerUndulation = 8;  // with parabolas a crest is found within 1 %
+constexpr int kGridPerUndulation = 8;  // with parabolas a crest is found within 1 %
 constexpr int kLeastHeights = 13;
 constexpr int kUnresolvedReach = 3;  // unresolved form ends at this many times what is resolved
 constexpr int kWaves = 32;           // that stand for unresolved form
@@ -54,7 +54,7 @@ WholeSurface::Level& WholeSurface::level_for(int undulations) {
   while (fine < undulations) fine *= 2;
   fine = std::min(fine, std::max(15, undulations_));
   Level level;
-  level.grid = columns_.grid(fine, kPointsPerUndulation * fine, heights_mm_);
+  level.grid = columns_.grid(fine, kGridPerUndulation * fine, heights_mm_);
   std::vector<FormPoint> places;
   for (const double height_mm : heights_mm_) {
     for (const double angle_rad : level.grid.angles_rad) {

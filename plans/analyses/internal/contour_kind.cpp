@@ -9,7 +9,7 @@
 
 #include "fit/contour/crank_motion.h"
 #include "fit/profiles/profile_filter.h"
-#include "plans/analyses/contour_table.h"
+#include "plans/schema/contour_table.h"
 #include "plans/schema/internal/setting_list.h"
 #include "plans/schema/json_text.h"
 

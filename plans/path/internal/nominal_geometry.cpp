@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "plans/features.h"
+#include "plans/analyses/features.h"
 
 namespace rondure::plans {
 

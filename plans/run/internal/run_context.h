@@ -13,8 +13,8 @@
 #include "plans/cell/cell.h"
 #include "plans/path/travel.h"
 #include "plans/plan.h"
-#include "plans/run/internal/recorded_run.h"
-#include "plans/run/run_options.h"
+#include "plans/resume/internal/recorded_run.h"
+#include "plans/run_options.h"
 #include "record/journal/journal.h"
 
 namespace rondure::plans {

@@ -1,16 +1,16 @@
 #pragma once
 
 #include "core/error.h"
-#include "plans/analyses/contour_table.h"
-#include "plans/analyses/rotary_table.h"
-#include "plans/analyses/spindle_table.h"
-#include "plans/analyses/wheel_table.h"
 #include "plans/plan.h"
+#include "plans/schema/contour_table.h"
 #include "plans/schema/internal/fixture_drivers_table.h"
 #include "plans/schema/internal/uncertainty_table.h"
 #include "plans/schema/internal/zaber_table.h"
 #include "plans/schema/key_spec.h"
+#include "plans/schema/rotary_table.h"
 #include "plans/schema/simulation_table.h"
+#include "plans/schema/spindle_table.h"
+#include "plans/schema/wheel_table.h"
 
 // The table of the plan: every key with its unit (the suffix of the key), limits, spellings and
 // meaning, once. Defaults are the member initialisers of plan.h. A visitor walks it: TableReader

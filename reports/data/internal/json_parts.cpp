@@ -1,6 +1,6 @@
 #include "reports/data/internal/json_parts.h"
 
-#include "evaluation/feature_values.h"
+#include "evaluation/results/feature_values.h"
 
 namespace rondure::reports {
 

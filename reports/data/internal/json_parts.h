@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 
 // Private to the room: what report.json spells alike everywhere.
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "evaluation/feature_values.h"
-#include "evaluation/section.h"
+#include "evaluation/results/feature_values.h"
+#include "evaluation/results/section.h"
 #include "reports/data/qif/internal/parts.h"
 
 namespace rondure::reports {

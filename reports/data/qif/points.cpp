@@ -1,6 +1,6 @@
 #include "core/numbers.h"
-#include "evaluation/measured_cloud.h"
-#include "evaluation/section.h"
+#include "evaluation/results/measured_cloud.h"
+#include "evaluation/results/section.h"
 #include "reports/data/qif/internal/parts.h"
 
 namespace rondure::reports {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 #include "record/run_record.h"
 
 namespace rondure::reports {

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "evaluation/evaluation.h"
-#include "evaluation/feature_values.h"
-#include "evaluation/section.h"
+#include "evaluation/results/evaluation.h"
+#include "evaluation/results/feature_values.h"
+#include "evaluation/results/section.h"
 
 namespace rondure::reports {
 

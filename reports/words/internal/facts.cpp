@@ -6,7 +6,7 @@
 
 #include "core/units.h"
 #include "core/utf8.h"
-#include "evaluation/measured_cloud.h"
+#include "evaluation/results/measured_cloud.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "evaluation/decision/decision.h"
-#include "evaluation/evaluation.h"
-#include "evaluation/section.h"
+#include "evaluation/results/evaluation.h"
+#include "evaluation/results/section.h"
 
 namespace rondure::reports {
 

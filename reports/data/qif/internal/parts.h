@@ -10,7 +10,7 @@
 
 #include <pugixml.hpp>
 
-#include "evaluation/evaluation.h"
+#include "evaluation/results/evaluation.h"
 
 // Private to the room: what the parts of a QIF document share.
 

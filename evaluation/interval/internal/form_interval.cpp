@@ -1,0 +1,132 @@
+#include "evaluation/interval/internal/form_interval.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "evaluation/results/internal/deviation.h"
+#include "evaluation/results/measured_cloud.h"
+
+namespace rondure::evaluation {
+namespace {
+
+/// Rows of the cloud behind a characteristic.
+struct Rows {
+  FormKind kind = FormKind::kCylindricity;
+  std::vector<std::size_t> rows;
+};
+
+Rows rows_of(const FeatureResult& result, const record::Characteristic& asked) {
+  Rows out;
+  if (asked.form == record::Form::kRoundness) {
+    out.kind = FormKind::kRoundness;
+    const auto worst = worst_section(result, asked.reference);
+    if (worst) out.rows = worst->layer->rows;
+    return out;
+  }
+  for (std::size_t i = 0; i < result.cloud.size(); ++i) out.rows.push_back(i);
+  return out;
+}
+
+core::Result<FormCloud> cloud_of(const FeatureResult& result, const Rows& rows) {
+  std::vector<Eigen::Vector3d> tips;
+  for (const std::size_t row : rows.rows) tips.push_back(result.cloud[row].tip_mm);
+  std::optional<Eigen::Vector3d> direction;
+  if (result.mz_cylinder) direction = result.mz_cylinder->axis.direction;
+  if (result.feature.shape == record::Shape::kCircle) direction = result.section_axis.direction;
+  auto cloud = form_cloud(rows.kind, tips, direction);
+  if (!cloud) return cloud;
+  cloud->outside = result.feature.side == record::Side::kOutside;
+  cloud->passes = passes_of(result.cloud);
+  const bool touched = result.feature.strategy != record::Strategy::kPointsFile;
+  const auto [first, last] = std::minmax_element(
+      result.cloud.begin(), result.cloud.end(),
+      [](const CloudPoint& a, const CloudPoint& b) { return a.time_s < b.time_s; });
+  const double span_s = last->time_s - first->time_s;
+  for (std::size_t i = 0; i < rows.rows.size(); ++i) {
+    const CloudPoint& point = result.cloud[rows.rows[i]];
+    cloud->points[i].repeats = point.repeats;
+    if (!touched) continue;
+    cloud->points[i].time_1 = span_s > 0.0 ? (point.time_s - first->time_s) / span_s : 0.0;
+  }
+  return cloud;
+}
+
+}  // namespace
+
+core::Result<std::optional<FormSpectrum>> spectrum_on(const FormCloud& cloud,
+                                                      const Declared& declared,
+                                                      const record::Feature& feature) {
+  if (!declared.spectrum) return std::optional<FormSpectrum>();
+  FormSpectrum out = *declared.spectrum;
+  if (out.terms.empty()) return std::optional<FormSpectrum>(std::move(out));
+  if (cloud.kind == FormKind::kRoundness) {
+    std::erase_if(out.terms, [](const FormTerm& term) { return term.degree > 0; });
+    if (out.terms.empty()) return std::optional<FormSpectrum>();
+    return std::optional<FormSpectrum>(std::move(out));
+  }
+  const auto [low, high] = std::minmax_element(
+      cloud.points.begin(), cloud.points.end(),
+      [](const FormPoint& a, const FormPoint& b) { return a.height_mm < b.height_mm; });
+  const double margin_mm = feature.number("margin_mm").value_or(0.0);
+  out.low_mm = low->height_mm - margin_mm;
+  out.high_mm = high->height_mm + margin_mm;
+  return std::optional<FormSpectrum>(std::move(out));
+}
+
+core::Result<FormCloud> surface_cloud(const FeatureResult& result) {
+  Rows all;
+  if (result.feature.shape == record::Shape::kCircle) all.kind = FormKind::kRoundness;
+  for (std::size_t i = 0; i < result.cloud.size(); ++i) all.rows.push_back(i);
+  return cloud_of(result, all);
+}
+
+std::optional<std::string> why_no_interval(const record::RunRecord& record,
+                                           const record::Feature& feature) {
+  if (!record::number_in(record.settings, "uncertainty/coverage_percent")) {
+    return "the plan declares no uncertainty";
+  }
+  // The influences act in the machine frame; a merged cloud stands in the frame of the part.
+  if (feature.strategy == record::Strategy::kMerged) {
+    return "intervals of clouds merged from several poses are not computed; what the fixture "
+           "leaves in the value is told beside it";
+  }
+  return std::nullopt;
+}
+
+tl::expected<UncertaintyQuestion, std::string> uncertainty_question(
+    const record::RunRecord& record, const FeatureResult& result,
+    const std::optional<fit::ProbeTip>& probe, const record::Characteristic& asked) {
+  const auto none = [](std::string why) { return tl::unexpected(std::move(why)); };
+  if (auto why = why_no_interval(record, result.feature)) return none(*std::move(why));
+  const auto declared = declared_for(record, result, probe);
+  const Rows rows = rows_of(result, asked);
+  constexpr std::size_t kMostPoints = 20'000;  // some 10 s of trials; verify does them again
+  if (rows.rows.size() > kMostPoints) {
+    return none(
+        fmt::format("{} points are more than {}, the limit of the trials; give every n-th point",
+                    rows.rows.size(), kMostPoints));
+  }
+  auto cloud = cloud_of(result, rows);
+  if (!cloud) return none(cloud.error().what);
+  cloud->reference = asked.reference;
+  auto spectrum = spectrum_on(*cloud, *declared, result.feature);
+  if (!spectrum) return none(spectrum.error().what);
+  return UncertaintyQuestion{*std::move(cloud), declared->influences, *std::move(spectrum),
+                             declared->options};
+}
+
+UncertaintyStatus uncertainty_of(const record::RunRecord& record, const FeatureResult& result,
+                                 const std::optional<fit::ProbeTip>& probe,
+                                 const record::Characteristic& asked) {
+  const auto question = uncertainty_question(record, result, probe, asked);
+  if (!question) return UncertaintyStatus::none(question.error());
+  auto found = measurement_uncertainty(question->cloud, question->influences, question->spectrum,
+                                       question->options);
+  if (!found) return UncertaintyStatus::none(found.error().what);
+  return UncertaintyStatus::stated(*std::move(found), question->options.coverage);
+}
+
+}  // namespace rondure::evaluation

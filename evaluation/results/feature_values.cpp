@@ -1,0 +1,172 @@
+#include "evaluation/results/feature_values.h"
+
+#include <algorithm>
+
+namespace rondure::evaluation {
+namespace {
+
+std::vector<fit::Contact> in_rows(const std::vector<fit::Contact>& contacts,
+                                  const std::vector<std::size_t>& rows) {
+  std::vector<fit::Contact> result;
+  for (const fit::Contact& contact : contacts) {
+    if (contact.index < rows.size()) result.push_back({rows[contact.index], contact.multiplier});
+  }
+  return result;
+}
+
+/// Zone of a fit that has radii and contacts, whatever its shape.
+template <class Fit>
+Zone zone_from(const Fit& fit, const FeatureResult& feature) {
+  const double offset_mm = surface_offset_mm(feature);
+  Zone zone;
+  zone.deviation_mm = fit.width_mm();
+  zone.inner_radius_mm = fit.inner_radius_mm + offset_mm;
+  zone.outer_radius_mm = fit.outer_radius_mm + offset_mm;
+  zone.mean_radius_mm = 0.5 * (zone.inner_radius_mm + zone.outer_radius_mm);
+  zone.of_surface = feature.tip_radius_mm.has_value();
+  zone.outer = fit.outer;
+  zone.inner = fit.inner;
+  zone.certificate = fit.certificate;
+  return zone;
+}
+
+template <class Fit>
+OneSided one_sided_from(const Fit& fit, const FeatureResult& feature) {
+  return {fit.deviation_mm, fit.radius_mm + surface_offset_mm(feature), fit.contacts,
+          fit.certificate, std::nullopt};
+}
+
+}  // namespace
+
+std::optional<Zone> zone_of(const FeatureResult& feature) {
+  if (feature.mz_cylinder) return zone_from(*feature.mz_cylinder, feature);
+  if (feature.feature.shape != record::Shape::kCircle || feature.layers.empty()) return {};
+  const LayerResult& section = feature.layers.front();
+  if (!section.mz) return {};
+  Zone zone = zone_from(*section.mz, feature);
+  zone.outer = in_rows(zone.outer, section.rows);
+  zone.inner = in_rows(zone.inner, section.rows);
+  return zone;
+}
+
+double surface_offset_mm(const FeatureResult& feature) {
+  if (!feature.tip_radius_mm) return 0.0;
+  const bool outside = feature.feature.side == record::Side::kOutside;
+  return outside ? -*feature.tip_radius_mm : *feature.tip_radius_mm;
+}
+
+std::optional<LeastSquares> least_squares_of(const FeatureResult& feature) {
+  const double offset_mm = surface_offset_mm(feature);
+  if (feature.ls_cylinder) {
+    const fit::LsCylinder& ls = *feature.ls_cylinder;
+    return LeastSquares{ls.deviation_mm, ls.radius_mm + offset_mm, ls.rms_mm};
+  }
+  if (feature.feature.shape != record::Shape::kCircle || feature.layers.empty()) return {};
+  const auto& ls = feature.layers.front().ls;
+  if (!ls) return {};
+  return LeastSquares{ls->deviation_mm, ls->radius_mm + offset_mm, ls->rms_mm};
+}
+
+core::Result<OneSided> one_sided_of(const FeatureResult& feature, record::Reference reference) {
+  const bool outside = reference == record::Reference::kMinimumCircumscribed;
+  if (!outside && reference != record::Reference::kMaximumInscribed) return not_fitted();
+  if (record::is_analysis(feature.feature.shape)) return not_fitted();
+  if (feature.feature.shape != record::Shape::kCircle) {
+    const auto& cylinder = outside ? feature.mc_cylinder : feature.mi_cylinder;
+    if (!cylinder) return core::fail(cylinder.error());
+    return one_sided_from(*cylinder, feature);
+  }
+  if (feature.layers.empty()) return not_fitted();
+  const LayerResult& section = feature.layers.front();
+  const auto& circle = outside ? section.mc : section.mi;
+  if (!circle) return core::fail(circle.error());
+  OneSided out = one_sided_from(*circle, feature);
+  out.range = circle->range;
+  out.contacts = in_rows(out.contacts, section.rows);
+  return out;
+}
+
+const char* words_of(record::Reference reference, record::Shape shape) {
+  const bool circle = shape == record::Shape::kCircle;
+  switch (reference) {
+    case record::Reference::kLeastSquares:
+      return circle ? "least-squares circle" : "least-squares cylinder";
+    case record::Reference::kMinimumZone:
+      return "minimum zone";
+    case record::Reference::kMinimumCircumscribed:
+      return circle ? "minimum circumscribed circle" : "minimum circumscribed cylinder";
+    case record::Reference::kMaximumInscribed:
+      return circle ? "maximum inscribed circle" : "maximum inscribed cylinder";
+  }
+  return "";
+}
+
+std::string_view symbol_of(record::Shape shape) {
+  return shape == record::Shape::kCircle ? "RONt" : "CYLt";
+}
+
+std::string symbol_of(const record::Characteristic& characteristic) {
+  switch (characteristic.form) {
+    case record::Form::kCylindricity:
+      return "CYLt";
+    case record::Form::kRoundness:
+      return "RONt";
+    case record::Form::kRoundnessRms:
+      return "RONq";
+    case record::Form::kHarmonicLimits:
+      return "A(k)";
+    case record::Form::kMotionTotal:
+      return "EM total";
+    case record::Form::kMotionSynchronous:
+      return "EM sync";
+    case record::Form::kMotionAsynchronous:
+      return "EM async";
+    case record::Form::kRadius:
+      return "dR";
+    case record::Form::kRunOut:
+      return "Run-out";
+    case record::Form::kContourDeviation:
+      return "Contour";
+    case record::Form::kContourSpread:
+      return "Spread";
+    case record::Form::kFixtureResidual:
+      return "Left max";
+    case record::Form::kFixtureResidualRms:
+      return "Left rms";
+  }
+  return {};
+}
+
+std::string reference_of(const record::Characteristic& characteristic) {
+  if (characteristic.form == record::Form::kRoundnessRms) return "LSCI";
+  if (characteristic.form != record::Form::kCylindricity &&
+      characteristic.form != record::Form::kRoundness) {
+    return {};
+  }
+  return reference_of(characteristic.reference, characteristic.form == record::Form::kCylindricity
+                                                    ? record::Shape::kCylinder
+                                                    : record::Shape::kCircle);
+}
+
+std::string reference_of(record::Reference reference, record::Shape shape) {
+  std::string symbol;
+  for (const char c : record::name_of(reference)) symbol += static_cast<char>(c - 'a' + 'A');
+  return symbol + (shape == record::Shape::kCylinder ? "CY" : "CI");
+}
+
+const PoseValue* final_pose_of(const FeatureResult& feature) {
+  const auto found = std::find_if(feature.poses.begin(), feature.poses.end(),
+                                  [](const PoseValue& pose) { return pose.final_pose; });
+  return found == feature.poses.end() ? nullptr : &*found;
+}
+
+const record::SimulationTruth* truth_of(const record::RunRecord& record, std::size_t index) {
+  // A part that was located again while its final cloud was repeated has two: the later counts.
+  const record::SimulationTruth* last = nullptr;
+  for (const record::SimulationTruth& truth : record.truths) {
+    if (truth.feature >= 0 && static_cast<std::size_t>(truth.feature) == index) last = &truth;
+  }
+  return last;
+}
+
+}  // namespace rondure::evaluation

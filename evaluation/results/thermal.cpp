@@ -1,0 +1,126 @@
+#include "evaluation/results/thermal.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rondure::evaluation {
+namespace {
+
+using record::RunRecord;
+using record::Touch;
+
+constexpr double kReference_degC = 20.0;
+
+double part_factor(const ThermalCorrection& c) {
+  return 1.0 + c.part_expansion_1_K * (c.part_degC - kReference_degC);
+}
+
+double scale_factor(double expansion_1_K, double degC) {
+  return 1.0 + expansion_1_K * (degC - kReference_degC);
+}
+
+/// Mean temperatures of the touches that measure in a pose, as far as `out` has an expansion for
+/// them.
+/// @return  false: one that is needed is neither measured nor declared.
+bool take_means(const RunRecord& record, int pose, ThermalCorrection& out) {
+  const std::optional<double> assumed = assumed_degC(record);
+  const auto known = [&](const std::optional<double>& measured) {
+    return measured ? measured : assumed;
+  };
+  int count = 0;
+  double part = 0.0;
+  double scale = 0.0;
+  for (const Touch& touch : record.touches) {
+    const bool qualifies = touch.purpose == Touch::Purpose::kQualification;
+    if (touch.pose != pose && !qualifies) continue;
+    const auto part_degC = known(touch.temperature_degC);
+    const auto scale_degC = known(touch.scale_temperature_degC);
+    if (out.scale_expansion_1_K != 0.0 && !scale_degC) return false;
+    if (qualifies) continue;
+    if (out.part_expansion_1_K != 0.0 && !part_degC) return false;
+    part += part_degC.value_or(kReference_degC) - kReference_degC;
+    scale += scale_degC.value_or(kReference_degC) - kReference_degC;
+    ++count;
+  }
+  if (count == 0) return true;
+  out.part_degC = kReference_degC + part / count;
+  out.scale_degC = kReference_degC + scale / count;
+  return true;
+}
+
+double uncertainty(const record::Feature& feature, const ThermalCorrection& c) {
+  const double u_K = feature.number("temperature_uncertainty_K").value_or(0.0);
+  const double u_part = feature.number("part_expansion_uncertainty_per_K").value_or(0.0);
+  const double u_scale = feature.number("scale_expansion_uncertainty_per_K").value_or(0.0);
+  return std::hypot(
+      std::hypot(c.part_expansion_1_K * u_K, (c.part_degC - kReference_degC) * u_part),
+      std::hypot(c.scale_expansion_1_K * u_K, (c.scale_degC - kReference_degC) * u_scale));
+}
+
+}  // namespace
+
+std::optional<double> assumed_degC(const RunRecord& record) {
+  return record::number_in(record.settings, "environment/assumed_degC");
+}
+
+std::optional<Temperatures> temperatures_of(const RunRecord& record,
+                                            const std::vector<const Touch*>& touches) {
+  const std::optional<double> assumed = assumed_degC(record);
+  if (touches.empty()) {
+    if (!assumed) return std::nullopt;
+    return Temperatures{*assumed, *assumed, *assumed, true};
+  }
+  Temperatures out;
+  double count = 0.0;
+  for (const Touch* touch : touches) {
+    const auto degC = touch->temperature_degC ? touch->temperature_degC : assumed;
+    if (!degC) return std::nullopt;
+    out.declared = out.declared || !touch->temperature_degC;
+    out.least_degC = count == 0.0 ? *degC : std::min(out.least_degC, *degC);
+    out.greatest_degC = count == 0.0 ? *degC : std::max(out.greatest_degC, *degC);
+    out.mean_degC += (*degC - out.mean_degC) / ++count;
+  }
+  return out;
+}
+
+bool asks_for_20_degC(const record::Feature& feature) {
+  return feature.number("part_expansion_per_K") || feature.number("scale_expansion_per_K");
+}
+
+std::optional<ThermalCorrection> thermal_correction(const RunRecord& record, int feature,
+                                                    int pose) {
+  const record::Feature& asked = record.features[static_cast<std::size_t>(feature)];
+  if (!asks_for_20_degC(asked)) return std::nullopt;
+  ThermalCorrection out;
+  out.part_expansion_1_K = asked.number("part_expansion_per_K").value_or(0.0);
+  out.scale_expansion_1_K = asked.number("scale_expansion_per_K").value_or(0.0);
+  if (!take_means(record, pose, out)) return std::nullopt;
+  out.factor = scale_factor(out.scale_expansion_1_K, out.scale_degC) / part_factor(out);
+  out.factor_uncertainty = uncertainty(asked, out);
+  return out;
+}
+
+std::optional<RunRecord> compensated(const RunRecord& record) {
+  std::optional<RunRecord> out;
+  const double assumed = assumed_degC(record).value_or(kReference_degC);
+  double scales_1_K = 0.0;  // of the machine: alike for every feature
+  for (const record::PoseVisit& visit : record.poses) {
+    const auto correction = thermal_correction(record, visit.feature, visit.id);
+    if (!correction) continue;
+    if (!out) out = record;
+    scales_1_K = correction->scale_expansion_1_K;
+    for (Touch& touch : out->touches) {
+      if (touch.pose != visit.id || touch.purpose == Touch::Purpose::kQualification) continue;
+      touch.tip_mm *= scale_factor(scales_1_K, touch.scale_temperature_degC.value_or(assumed)) /
+                      part_factor(*correction);
+    }
+  }
+  if (!out) return std::nullopt;
+  for (Touch& touch : out->touches) {
+    if (touch.purpose != Touch::Purpose::kQualification) continue;
+    touch.tip_mm *= scale_factor(scales_1_K, touch.scale_temperature_degC.value_or(assumed));
+  }
+  return out;
+}
+
+}  // namespace rondure::evaluation

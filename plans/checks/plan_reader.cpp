@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "plans/analyses/analysis.h"
+#include "plans/analyses/features.h"
+#include "plans/checks/internal/plan_checks.h"
+#include "plans/checks/internal/plan_reach.h"
+#include "plans/path/internal/rotary_poses.h"
+#include "plans/plan.h"
+#include "plans/schema/findings.h"
+#include "plans/schema/internal/plan_table.h"
+#include "plans/schema/internal/table_reader.h"
+#include "plans/schema/json_text.h"
+#include "record/csv/points.h"
+
+namespace rondure::plans {
+namespace {
+
+using core::Code;
+
+tl::unexpected<std::vector<core::Error>> refuse(core::Error problem) {
+  return tl::unexpected(std::vector<core::Error>{std::move(problem)});
+}
+
+// Sets the single layer of a circle, which a plan may omit.
+void complete_circles(Plan& plan, const Findings& findings) {
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    FeaturePlan& feature = plan.features[i];
+    if (feature.type != record::Shape::kCircle) continue;
+    const std::string where = feature_pointer(i);
+    if (!findings.is_given(where + "/sampling/layers")) feature.sampling.layers = 1;
+  }
+}
+
+}  // namespace
+
+PlanOrProblems parse_plan(std::string_view text, const std::filesystem::path& folder,
+                          std::string_view name, bool recorded) {
+  const auto json = parse_json(text, name);
+  if (!json) return refuse(json.error());
+  Plan plan;
+  plan.folder = folder;
+  plan.text = text;
+  Findings findings;
+  TableReader reader(*json, "", findings);
+  describe(reader, plan);
+  reader.finish();
+  complete_circles(plan, findings);
+  check_plan(plan, findings);
+  std::vector<core::Error> problems = findings.take();
+  if (recorded) {
+    std::erase_if(problems, [](const core::Error& problem) {
+      return problem.where.starts_with("/reports/formats/");
+    });
+  }
+  // Reach can be judged only once every number is sound.
+  if (problems.empty()) {
+    if (touches_anything(plan)) {
+      if (auto free = check_room(plan); !free) problems.push_back(free.error());
+    }
+    // An obstacle of the whole part would be reported again at every feature.
+    const bool room = problems.empty();
+    for (std::size_t i = 0; room && i < plan.features.size(); ++i) {
+      if (measures_by_touch(plan.features[i])) {
+        if (auto visits = rotary_visits(plan, i); !visits) problems.push_back(visits.error());
+      }
+      if (!is_touched(plan, i, findings)) continue;
+      if (auto targets = reachable_targets(plan, i); !targets) problems.push_back(targets.error());
+    }
+  }
+  if (!problems.empty()) return tl::unexpected(std::move(problems));
+  return plan;
+}
+
+std::string recorded_paper(std::string_view text) {
+  const auto json = parse_json(text, "the plan in the journal");
+  const JsonValue* reports = json ? json->find("reports") : nullptr;
+  const JsonValue* paper = reports != nullptr ? reports->find("paper") : nullptr;
+  return paper != nullptr ? paper->text : ReportsPlan{}.paper;
+}
+
+PlanOrProblems read_plan(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  std::error_code reason;
+  const std::filesystem::file_status status = std::filesystem::status(path, reason);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    return refuse(
+        {Code::kFile, "the plan does not exist; check the name and the folder", path.string()});
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    return refuse({Code::kFile, "this is not a file that can be read; give a plan, name.json",
+                   path.string()});
+  }
+  const std::uintmax_t bytes = std::filesystem::file_size(path, reason);
+  if (!reason && bytes > kMaxPlanBytes) {  // checked before reading it into memory
+    return refuse({Code::kSyntax,
+                   fmt::format("the file has {} bytes, the limit is {}; this is not a plan", bytes,
+                               kMaxPlanBytes),
+                   name});
+  }
+  const auto text = record::read_file(path);
+  if (!text) return refuse(text.error().at(path.string()));
+  return parse_plan(*text, path.parent_path(), name);
+}
+
+}  // namespace rondure::plans
