@@ -1,6 +1,5 @@
 #include "fit/contour/crank_motion.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>

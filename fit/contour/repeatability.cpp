@@ -1,6 +1,7 @@
 #include "fit/contour/repeatability.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -84,15 +85,8 @@ void correlate(std::span<const std::vector<double>> curves, Repeatability& out) 
 }  // namespace
 
 std::string_view name_of(StabilityWord word) {
-  switch (word) {
-    case StabilityWord::kStable:
-      return "stable";
-    case StabilityWord::kPartly:
-      return "partly";
-    case StabilityWord::kUnstable:
-      return "unstable";
-  }
-  return "unstable";
+  constexpr std::array<std::string_view, 3> kNames = {"stable", "partly", "unstable"};
+  return kNames[static_cast<std::size_t>(word)];
 }
 
 std::optional<StabilityWord> Repeatability::word(const StabilityLimits& limits) const {

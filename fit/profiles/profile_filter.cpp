@@ -1,6 +1,7 @@
 #include "fit/profiles/profile_filter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -81,31 +82,14 @@ core::Result<FilteredProfile> robust(std::span<const double> r, const FilterOpti
 }  // namespace
 
 std::string_view name_of(ProfileFilter filter) {
-  switch (filter) {
-    case ProfileFilter::kNone:
-      return "none";
-    case ProfileFilter::kGaussian:
-      return "gaussian";
-    case ProfileFilter::kTwoRc:
-      return "2rc";
-    case ProfileFilter::kRobustGaussian:
-      return "robust";
-    case ProfileFilter::kSpline:
-      return "spline";
-  }
-  return "none";
+  constexpr std::array<std::string_view, 5> kNames = {"none", "gaussian", "2rc", "robust",
+                                                      "spline"};
+  return kNames[static_cast<std::size_t>(filter)];
 }
 
 std::string_view name_of(PassBand pass) {
-  switch (pass) {
-    case PassBand::kLow:
-      return "low";
-    case PassBand::kHigh:
-      return "high";
-    case PassBand::kBand:
-      return "band";
-  }
-  return "low";
+  constexpr std::array<std::string_view, 3> kNames = {"low", "high", "band"};
+  return kNames[static_cast<std::size_t>(pass)];
 }
 
 double FilterOptions::highest_cutoff_upr() const {

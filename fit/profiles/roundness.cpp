@@ -1,6 +1,7 @@
 #include "fit/profiles/roundness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -213,17 +214,8 @@ core::Result<Roundness> program_profile(std::span<const double> theta, std::span
 }  // namespace
 
 std::string_view name_of(CircleReference reference) {
-  switch (reference) {
-    case CircleReference::kLs:
-      return "ls";
-    case CircleReference::kMz:
-      return "mz";
-    case CircleReference::kMc:
-      return "mc";
-    case CircleReference::kMi:
-      return "mi";
-  }
-  return "ls";
+  constexpr std::array<std::string_view, 4> kNames = {"ls", "mz", "mc", "mi"};
+  return kNames[static_cast<std::size_t>(reference)];
 }
 
 core::Result<Roundness> roundness_of_points(std::span<const Eigen::Vector2d> points_mm,

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <Eigen/Core>
 

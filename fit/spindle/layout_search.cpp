@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <optional>
 
 #include <fmt/format.h>
 

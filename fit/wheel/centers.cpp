@@ -151,15 +151,8 @@ core::Result<void> check(const QuadrupleOptions& options) {
 }  // namespace
 
 std::string_view name_of(QuadrupleChoice choice) {
-  switch (choice) {
-    case QuadrupleChoice::kAll:
-      return "all";
-    case QuadrupleChoice::kBest:
-      return "best";
-    case QuadrupleChoice::kRandom:
-      return "random";
-  }
-  return "all";
+  constexpr std::array<std::string_view, 3> kNames = {"all", "best", "random"};
+  return kNames[static_cast<std::size_t>(choice)];
 }
 
 FourPointCenter four_point_center(std::span<const Eigen::Vector2d> points_mm, const FourRows& rows,

@@ -1,9 +1,7 @@
 #include "fit/wheel/path.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 #include "fit/wheel/wheel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -344,15 +345,8 @@ std::string_view name_of(WheelMode mode) {
 }
 
 std::string_view name_of(WheelMean mean) {
-  switch (mean) {
-    case WheelMean::kLeastSquares:
-      return "least-squares";
-    case WheelMean::kAsPublished:
-      return "as-published";
-    case WheelMean::kWeighted:
-      return "weighted";
-  }
-  return "least-squares";
+  constexpr std::array<std::string_view, 3> kNames = {"least-squares", "as-published", "weighted"};
+  return kNames[static_cast<std::size_t>(mean)];
 }
 
 bool WheelMeasurement::sees_whole_turn() const {

@@ -1,7 +1,7 @@
 #include "fit/zone/center_search.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
 
 #include "fit/geometry/internal/hull_distance.h"
@@ -62,19 +62,9 @@ std::vector<Eigen::Vector2d> directions(std::span<const Eigen::Vector2d> points_
 }  // namespace
 
 std::string_view name_of(CenterSearch::Ending ending) {
-  switch (ending) {
-    case CenterSearch::Ending::kCross:
-      return "cross";
-    case CenterSearch::Ending::kSpoke:
-      return "spoke";
-    case CenterSearch::Ending::kCoCircular:
-      return "co-circular";
-    case CenterSearch::Ending::kUnbounded:
-      return "unbounded";
-    case CenterSearch::Ending::kMoveLimit:
-      return "move-limit";
-  }
-  return "move-limit";
+  constexpr std::array<std::string_view, 5> kNames = {"cross", "spoke", "co-circular", "unbounded",
+                                                      "move-limit"};
+  return kNames[static_cast<std::size_t>(ending)];
 }
 
 std::vector<ContactCandidate> contact_candidates(std::span<const Eigen::Vector2d> points_mm,
