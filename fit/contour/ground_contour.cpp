@@ -54,34 +54,6 @@ void push_continuous(std::vector<double>& angles, double angle) {
   angles.push_back(angle);
 }
 
-void cartesian(const GrindingPath& path, const Derivatives& x, const Derivatives& y, double wheel,
-               ParallelCurve& out) {
-  for (std::size_t i = 0; i < path.x_mm.size(); ++i) {
-    const double s = std::hypot(x.first[i], y.first[i]);
-    const double xc = path.x_mm[i] - wheel * y.first[i] / s;
-    const double yc = path.y_mm[i] + wheel * x.first[i] / s;
-    push_continuous(out.beta_rad, std::atan2(yc, xc));
-    out.r_mm.push_back(std::hypot(xc, yc));
-  }
-}
-
-void polar(const GrindingPath& path, const Derivatives& x, const Derivatives& y, double wheel,
-           ParallelCurve& out) {
-  for (std::size_t i = 0; i < path.x_mm.size(); ++i) {
-    const double rho = std::hypot(path.x_mm[i], path.y_mm[i]);
-    const double outward = path.x_mm[i] * x.first[i] + path.y_mm[i] * y.first[i];
-    const double around = path.x_mm[i] * y.first[i] - path.y_mm[i] * x.first[i];
-    const double slope = rho * outward / around;
-    const double q = std::hypot(rho, slope);
-    // rho^2 + Rgw^2 - 2 Rgw rho^2 / q without its cancellation.
-    const double square =
-        (rho - wheel) * (rho - wheel) + 2.0 * wheel * rho * slope * slope / (q * (q + rho));
-    out.r_mm.push_back(std::sqrt(square));
-    push_continuous(out.beta_rad, std::atan2(path.y_mm[i], path.x_mm[i]) +
-                                      std::atan2(wheel * slope, rho * (q - wheel)));
-  }
-}
-
 bool increases_all_round(const std::vector<double>& beta) {
   for (std::size_t i = 1; i < beta.size(); ++i) {
     if (beta[i] <= beta[i - 1]) return false;
@@ -187,14 +159,13 @@ ParallelCurve parallel_curve(const GrindingPath& path, double wheel_radius_mm, P
     y.first = differences(path.y_mm);
   }
   ParallelCurve out;
-  if (form == ParallelForm::kPolar) {
-    polar(path, x, y, wheel_radius_mm, out);
-  } else {
-    cartesian(path, x, y, wheel_radius_mm, out);
-  }
   const std::size_t n = path.x_mm.size();
   for (std::size_t i = 0; i < n; ++i) {
     const double s = std::hypot(x.first[i], y.first[i]);
+    const double xc = path.x_mm[i] - wheel_radius_mm * y.first[i] / s;
+    const double yc = path.y_mm[i] + wheel_radius_mm * x.first[i] / s;
+    push_continuous(out.beta_rad, std::atan2(yc, xc));
+    out.r_mm.push_back(std::hypot(xc, yc));
     const double kappa = (x.first[i] * y.second[i] - y.first[i] * x.second[i]) / (s * s * s);
     const double regularity = 1.0 - wheel_radius_mm * kappa;
     if (i > 0 && regularity >= out.regularity) continue;

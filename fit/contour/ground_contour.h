@@ -33,8 +33,7 @@ struct GrindingPath {
 
 /// Method for the parallel curve.
 enum class ParallelForm {
-  kCartesian,    ///< From x', y' by the Fourier transform: the default.
-  kPolar,        ///< From rho(theta), the same derivatives; equal to kCartesian to 1e-9 um.
+  kFourier,      ///< From x', y' by the Fourier transform: the default.
   kDifferences,  ///< From x', y' by central differences: 0.01 um off in r at 300 samples.
 };
 
@@ -48,7 +47,7 @@ struct ParallelCurve {
   bool undercut = false;           ///< Loops: not regular, or beta not strictly increasing.
 };
 [[nodiscard]] ParallelCurve parallel_curve(const GrindingPath& path, double wheel_radius_mm,
-                                           ParallelForm form = ParallelForm::kCartesian);
+                                           ParallelForm form = ParallelForm::kFourier);
 
 /// Computes the ground contour as the envelope of all wheel positions: for every polar angle the
 /// least distance to a wheel circle. Valid also where the parallel curve has loops.
@@ -65,7 +64,7 @@ struct ParallelCurve {
 struct GroundContourOptions {
   std::size_t samples = 1440;   ///< M, points of the contour.
   double pre_filter_upr = 0.0;  ///< Gaussian low pass applied to the axis errors; 0: none.
-  ParallelForm form = ParallelForm::kCartesian;
+  ParallelForm form = ParallelForm::kFourier;
   /// Refine a path of fewer samples than the contour by its Fourier series; otherwise a spline over
   /// beta interpolates (300 samples: 1e-4 um off before the filter, 2e-5 um after it).
   bool refine = true;

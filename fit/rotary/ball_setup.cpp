@@ -53,15 +53,6 @@ double condition_of(const Spread& s, double n) {
   return least > 1e-24 * n ? std::sqrt(std::max(n, m.maxCoeff()) / least) : kInfinity;
 }
 
-double raw_condition_of(std::span<const Vector3d> p, double scale_mm) {
-  Eigen::Matrix<double, Eigen::Dynamic, 6> a = error_matrix(p);
-  a.rightCols<3>() /= scale_mm;
-  const Matrix6 normal = a.transpose() * a;
-  const Vector6 e =
-      Eigen::SelfAdjointEigenSolver<Matrix6>(normal, Eigen::EigenvaluesOnly).eigenvalues();
-  return e(0) > 1e-13 * e(5) ? std::sqrt(e(5) / e(0)) : kInfinity;
-}
-
 /// The two balls farthest apart.
 std::pair<std::size_t, std::size_t> farthest(std::span<const Vector3d> p) {
   std::pair<std::size_t, std::size_t> out = {0, 0};
@@ -112,39 +103,10 @@ core::Error too_few(std::span<const Vector3d> p, std::span<const std::string> na
 
 }  // namespace
 
-Eigen::Matrix<double, Eigen::Dynamic, 6> error_matrix(std::span<const Vector3d> p_mm) {
-  Eigen::Matrix<double, Eigen::Dynamic, 6> out(3 * static_cast<Eigen::Index>(p_mm.size()), 6);
-  for (std::size_t i = 0; i < p_mm.size(); ++i) {
-    out.middleRows<3>(3 * static_cast<Eigen::Index>(i)) << Matrix3d::Identity(),
-        -cross_matrix(p_mm[i]);
-  }
-  return out;
-}
-
-BallSetup judge_setup(std::span<const Vector3d> p_mm, double scale_mm) {
-  BallSetup out;
-  const auto n = static_cast<double>(p_mm.size());
+double setup_condition(std::span<const Vector3d> p_mm) {
   const Spread s = spread_of(p_mm);
-  out.condition = condition_of(s, n);
-  if (!(s.eigenvalues(1) > 1e-12 * s.eigenvalues(2))) {
-    out.rank = s.eigenvalues(2) > 0.0 ? 5 : 3;
-    out.condition = out.raw_condition = kInfinity;
-    out.u_per_u.setConstant(kInfinity);
-    out.covariance_per_u2.setConstant(kInfinity);
-    return out;
-  }
-  out.rank = 6;
-  out.raw_condition = raw_condition_of(p_mm, scale_mm);
-  const Matrix3d inverse = (s.squares * Matrix3d::Identity() - s.products).inverse();
-  const Matrix3d lever = cross_matrix(s.centroid);
-  Matrix6& c = out.covariance_per_u2;
-  c << Matrix3d::Identity() / n - lever * inverse * lever, lever * inverse, -inverse * lever,
-      inverse;
-  out.u_per_u = c.diagonal().cwiseSqrt();
-  for (const Vector3d& one : p_mm) {
-    out.redundancy.emplace_back(Vector3d::Ones() - point_covariance_mm2(c, one).diagonal());
-  }
-  return out;
+  if (!(s.eigenvalues(1) > 1e-12 * s.eigenvalues(2))) return kInfinity;
+  return condition_of(s, static_cast<double>(p_mm.size()));
 }
 
 core::Result<void> check_setup(std::span<const Vector3d> p_mm, std::span<const std::string> names) {

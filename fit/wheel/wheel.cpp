@@ -226,7 +226,6 @@ void fill_runout(std::span<const Eigen::Vector2d> all, const Points& used,
   found.eccentricity_mm = (out.center_mm - *options.axis_mm).norm();
   found.effective_radius_mm = high;
   found.fim_with_dropped_mm = highest - lowest;
-  found.effective_radius_with_dropped_mm = highest;
   if (!out.sees_whole_turn()) {
     found.bound_because = fmt::format(
         "the points leave {:.0f} deg of the turn unseen, more than {:.0f} deg: run-out is at least "

@@ -55,9 +55,7 @@ struct WheelRunout {
   double fim_mm = 0.0;               ///< Full indicator movement: max - min distance from the axis.
   double eccentricity_mm = 0.0;      ///< Distance of the centre of the profile from the axis.
   double effective_radius_mm = 0.0;  ///< Largest distance from the axis: the radius that cuts.
-  /// FIM and effective radius including dropped points: a protruding point is run-out, and cuts.
-  double fim_with_dropped_mm = 0.0;
-  double effective_radius_with_dropped_mm = 0.0;
+  double fim_with_dropped_mm = 0.0;  ///< FIM including dropped points: a protruding one is run-out.
   /// Why `fim_mm` and `effective_radius_mm` are only lower bounds: points that cover too little of
   /// the turn, or a dropped point that adds to them. Empty if they are values.
   std::string bound_because;

@@ -191,7 +191,7 @@ bool solve_once(std::span<const StationBall> balls, const RotaryOptions& options
   }
   state_covariance(at, balls, out);
   state_fit(at, balls, linear, out);
-  out.condition = judge_setup(nominal_places(balls)).condition;
+  out.condition = setup_condition(nominal_places(balls));
   out.dof = 3 * static_cast<int>(balls.size()) - 6;
   out.chi2_limit = core::chi_square_quantile(options.outlier_probability, out.dof);
   return true;
