@@ -9,6 +9,7 @@
 #include "core/numbers.h"
 #include "core/statistics.h"
 #include "core/units.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/profiles/internal/dft.h"
 #include "fit/profiles/periodic_spline.h"
 
@@ -204,13 +205,8 @@ std::vector<double> on_uniform(const std::vector<double>& alpha, const std::vect
 }
 
 void warn_of_units(AxisTurn& turn) {
-  const auto greatest = [](const std::vector<double>& values) {
-    double out = 0.0;
-    for (const double v : values) out = std::max(out, std::abs(v));
-    return out;
-  };
-  const double x = greatest(turn.errors.x_mm);
-  const double c = greatest(turn.errors.c_rad);
+  const double x = largest_magnitude(turn.errors.x_mm);
+  const double c = largest_magnitude(turn.errors.c_rad);
   const double mean = core::mean(turn.errors.x_mm);
   const auto warn = [&](std::string what) {
     turn.warnings.push_back({core::Code::kUnits, std::move(what), {}});

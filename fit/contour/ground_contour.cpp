@@ -10,6 +10,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/profiles/internal/dft.h"
 #include "fit/profiles/periodic_spline.h"
 #include "fit/profiles/profile_filter.h"
@@ -97,18 +98,14 @@ core::Result<void> check_radii(const std::vector<double>& r_mm, const AxisErrors
                                double wheel_mm) {
   const auto none = std::find_if_not(r_mm.begin(), r_mm.end(), core::is_measurable);
   if (none == r_mm.end()) return {};
-  const auto greatest = [](const std::vector<double>& values) {
-    double out = 0.0;
-    for (const double v : values) out = std::max(out, std::abs(v));
-    return out;
-  };
   return core::fail(
       core::Code::kOutOfRange,
       fmt::format(
           "the pin has no radius at {:.4g} deg: errors of X reach {:.4g} mm and those of C "
           "{:.4g} deg, too much for a wheel of {:.4g} mm radius; are they in mm and deg?",
           360.0 * static_cast<double>(none - r_mm.begin()) / static_cast<double>(r_mm.size()),
-          greatest(errors.x_mm), greatest(errors.c_rad) / core::kDegree, wheel_mm));
+          largest_magnitude(errors.x_mm), largest_magnitude(errors.c_rad) / core::kDegree,
+          wheel_mm));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "fit/geometry/column_extremes.h"
 #include "fit/geometry/working_points.h"
 #include "fit/geometry/zone_rows.h"
 

@@ -47,7 +47,7 @@ Ball<D> EnclosingBall<D>::enclose(const WorkingPoints<D>& points, bool again, do
 template <int D>
 void EnclosingBall<D>::start(const WorkingPoints<D>& points, Ball<D>& out) {
   const std::span<const double> places(points.column(0), points.size());
-  const ColumnExtremes ends = column_extremes(places);
+  const Extremes ends = column_extremes(places);
   const std::size_t low = first_row_of(places, ends.low);
   const std::size_t high = first_row_of(places, ends.high);
   count_ = 0;

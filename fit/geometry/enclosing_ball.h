@@ -63,7 +63,7 @@ class EnclosingBall {
   std::array<double, kMost> multipliers_{};
   Point center_ = Point::Zero();
   double square_ = 0.0;         ///< Squared radius.
-  ColumnExtremes squares_;      ///< Extremes of the squared distances of all points.
+  Extremes squares_;            ///< Extremes of the squared distances of all points.
   std::vector<double> column_;  ///< The squared distances.
 };
 

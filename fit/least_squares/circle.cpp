@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -22,16 +21,14 @@ constexpr double kFlat = 3.0;
 
 /// Fills deviation and rms about the centre.
 void fill_residuals(std::span<const Eigen::Vector2d> points_mm, LsCircle& circle) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
+  Extremes range;
   double squares = 0.0;
   for (const Eigen::Vector2d& p : points_mm) {
     const double r = (p - circle.center_mm).norm();
-    low = std::min(low, r);
-    high = std::max(high, r);
+    range.take(r);
     squares += (r - circle.radius_mm) * (r - circle.radius_mm);
   }
-  circle.deviation_mm = high - low;
+  circle.deviation_mm = range.width();
   circle.rms_mm = std::sqrt(squares / static_cast<double>(points_mm.size()));
 }
 
@@ -48,11 +45,11 @@ struct CircleModel {
 };
 
 LsCircle finished(const CircleModel& model, const Eigen::Vector2d& origin, double squares,
-                  const DistanceRange& range, std::size_t n) {
+                  const Extremes& range, std::size_t n) {
   LsCircle out;
   out.center_mm = origin + model.center;
   out.radius_mm = model.radius;
-  out.deviation_mm = range.high_mm - range.low_mm;
+  out.deviation_mm = range.width();
   out.rms_mm = std::sqrt(squares / static_cast<double>(n));
   return out;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -49,8 +48,7 @@ core::Result<CylinderModel> start(SpacePoints points, const Eigen::Vector3d& ori
   const auto frame = across(direction);
   // Plain numbers, because sums in Eigen matrices would pass through memory at every point.
   double uu = 0.0, uv = 0.0, vv = 0.0, uc = 0.0, vc = 0.0;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
+  Extremes heights;
   for (const Eigen::Vector3d& p : points) {
     const Eigen::Vector3d at = p - origin;
     const double u = frame.col(0).dot(at), v = frame.col(1).dot(at), s = direction.dot(at);
@@ -60,8 +58,7 @@ core::Result<CylinderModel> start(SpacePoints points, const Eigen::Vector3d& ori
     vv += v * v;
     uc += u * square;
     vc += v * square;
-    low = std::min(low, s);
-    high = std::max(high, s);
+    heights.take(s);
   }
   const double determinant = uu * vv - uv * uv;
   if (!(determinant > kCollinearShare * (uu + vv) * (uu + vv))) {
@@ -72,19 +69,19 @@ core::Result<CylinderModel> start(SpacePoints points, const Eigen::Vector3d& ori
                                0.5 * (vc * uu - uc * uv) / determinant);
   const double radius =
       std::sqrt(center.squaredNorm() + (uu + vv) / static_cast<double>(points.size()));
-  const double half = 0.5 * (high - low);
+  const double half = 0.5 * heights.width();
   return CylinderModel{CylinderFrame({frame * center, direction}, half > 0.0 ? half : radius),
                        radius};
 }
 
 LsCylinder finished(const Settled& settled, const Eigen::Vector3d& origin,
-                    const Eigen::Vector3d& mean, const DistanceRange& range, std::size_t n) {
+                    const Eigen::Vector3d& mean, const Extremes& range, std::size_t n) {
   LsCylinder out;
   Axis axis = settled.model.frame.axis();
   axis.point_mm += origin;
   out.axis = conventional(axis, mean);
   out.radius_mm = settled.model.radius;
-  out.deviation_mm = range.high_mm - range.low_mm;
+  out.deviation_mm = range.width();
   out.rms_mm = std::sqrt(settled.squares / static_cast<double>(n));
   return out;
 }

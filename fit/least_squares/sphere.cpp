@@ -87,7 +87,7 @@ core::Result<LsSphere> ls_sphere(SpacePoints points_mm) {
   const auto range = distance_range(points_mm.size(), [&](std::size_t i) {
     return ((points_mm[i] - origin) - model->center).norm();
   });
-  return LsSphere{origin + model->center, model->radius, range.high_mm - range.low_mm,
+  return LsSphere{origin + model->center, model->radius, range.width(),
                   std::sqrt(squares / static_cast<double>(points_mm.size()))};
 }
 

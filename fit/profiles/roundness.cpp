@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -189,22 +188,17 @@ core::Result<Roundness> program_profile(std::span<const double> theta, std::span
   const ZoneWeights weights = weights_of(reference);
   const auto step = solved(rows, weights);
   if (!step) return core::fail(no_center(reference));
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double moved = rows.distances()[i] + rows.gradient(i).dot(step->step);
-    low = std::min(low, moved);
-    high = std::max(high, moved);
-  }
+  const Extremes reach = rows.moved(step->step);
   Roundness out;
   out.reference = reference;
   out.center_mm = step->step;
-  out.radius_mm = mean + (zone ? 0.5 * (low + high) : weights.outer * high + weights.inner * low);
-  out.total_mm = high - low;
+  out.radius_mm = mean + (zone ? 0.5 * (reach.low + reach.high)
+                               : weights.outer * reach.high + weights.inner * reach.low);
+  out.total_mm = reach.width();
   out.outer = rows_of(step->outer);
   out.inner = rows_of(step->inner);
   // The dual value of the programme is a lower bound for every centre in the linear model.
-  const double reached = weights.outer * high - weights.inner * low;
+  const double reached = weights.outer * reach.high - weights.inner * reach.low;
   out.certificate = {Certificate::Kind::kGlobal, "all centres, limacon model",
                      std::max(0.0, reached - step->value), ""};
   if (!zone) out.range = deviation_range(rows, step->step, weights);

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "core/decompositions.h"
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/profiles/internal/dft.h"
 #include "fit/spindle/internal/three_probe_parts.h"
 
@@ -147,10 +148,7 @@ void judge_residual(const Spectrum& sum, const Spectrum& part, const ProbeSample
 }
 
 double largest_motion_mm(const CentreMotion& motion) {
-  double largest = 0.0;
-  for (const double x : motion.x_mm) largest = std::max(largest, std::abs(x));
-  for (const double y : motion.y_mm) largest = std::max(largest, std::abs(y));
-  return largest;
+  return std::max(largest_magnitude(motion.x_mm), largest_magnitude(motion.y_mm));
 }
 
 void add(ThreeProbeResult& result, Code code, std::string what) {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/statistics.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/geometry/points.h"
 
 namespace rondure::fit {
@@ -195,19 +195,6 @@ void fill_scatter(WheelMeasurement& out) {
   out.expected_scatter_mm = out.spread_mm * out.centers.rms_kappa();
 }
 
-/// Least and greatest distance from the axis.
-std::pair<double, double> reach_of(std::span<const Eigen::Vector2d> points_mm,
-                                   const Eigen::Vector2d& axis_mm) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
-  for (const Eigen::Vector2d& p : points_mm) {
-    const double distance = (p - axis_mm).norm();
-    low = std::min(low, distance);
-    high = std::max(high, distance);
-  }
-  return {low, high};
-}
-
 void fill_runout(std::span<const Eigen::Vector2d> all, const Points& used,
                  const WheelOptions& options, WheelMeasurement& out) {
   if (out.mode == WheelMode::kEnvelope) {
@@ -218,14 +205,14 @@ void fill_runout(std::span<const Eigen::Vector2d> all, const Points& used,
     out.runout_absent = "the spindle axis is not given: roundness only";
     return;
   }
-  const auto [low, high] = reach_of(used, *options.axis_mm);
-  const auto [lowest, highest] = reach_of(all, *options.axis_mm);
+  const auto distance = [&](const Eigen::Vector2d& p) { return (p - *options.axis_mm).norm(); };
+  const Extremes reach = extremes_of(used, distance);
   WheelRunout& found = out.runout.emplace();
   found.axis_mm = *options.axis_mm;
-  found.fim_mm = high - low;
+  found.fim_mm = reach.width();
   found.eccentricity_mm = (out.center_mm - *options.axis_mm).norm();
-  found.effective_radius_mm = high;
-  found.fim_with_dropped_mm = highest - lowest;
+  found.effective_radius_mm = reach.high;
+  found.fim_with_dropped_mm = extremes_of(all, distance).width();
   if (!out.sees_whole_turn()) {
     found.bound_because = fmt::format(
         "the points leave {:.0f} deg of the turn unseen, more than {:.0f} deg: run-out is at least "

@@ -164,14 +164,9 @@ class InscribedSearcher {
   }
 
   [[nodiscard]] double deviation_at(const Eigen::Vector2d& center) const {
-    double low = std::numeric_limits<double>::infinity();
-    double high = 0.0;
-    for (const Eigen::Vector2d& p : points_) {
-      const double square = (p - center).squaredNorm();
-      low = std::min(low, square);
-      high = std::max(high, square);
-    }
-    return std::sqrt(high) - std::sqrt(low);
+    const Extremes squares =
+        extremes_of(points_, [&](const auto& p) { return (p - center).squaredNorm(); });
+    return std::sqrt(squares.high) - std::sqrt(squares.low);
   }
 
   double least_radius_;
@@ -185,17 +180,7 @@ class InscribedSearcher {
 
 std::optional<DeviationRange> deviation_range(const ZoneRows<2>& rows, const Eigen::Vector2d& step,
                                               const ZoneWeights& weights) {
-  const auto extremes_at = [&](const Eigen::Vector2d& c) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double moved = rows.distances()[i] + rows.gradient(i).dot(c);
-      low = std::min(low, moved);
-      high = std::max(high, moved);
-    }
-    return std::pair{low, high};
-  };
-  const auto [low, high] = extremes_at(step);
+  const auto [low, high] = rows.moved(step);
   Polygon polygon = square_about(step, kWidestSlide * (high - low));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (weights.outer > 0.0) {
@@ -206,12 +191,7 @@ std::optional<DeviationRange> deviation_range(const ZoneRows<2>& rows, const Eig
   }
   DeviationRange range{high - low, high - low};
   widen(
-      polygon,
-      [&](const Eigen::Vector2d& c) {
-        const auto [near, far] = extremes_at(c);
-        return far - near;
-      },
-      range);
+      polygon, [&](const Eigen::Vector2d& c) { return rows.moved(c).width(); }, range);
   return of_interest(range);
 }
 

@@ -84,7 +84,7 @@ void ZoneSimplex<K>::set(const ZoneRows<K>& rows, double box_mm, const ZoneWeigh
 template <int K>
 void ZoneSimplex<K>::start_basis() {
   const std::vector<double>& distances = rows_->distances();
-  const ColumnExtremes extremes = column_extremes(distances);
+  const Extremes extremes = column_extremes(distances);
   // Violations below this are round-off of the distances and do not justify a pivot.
   tolerance_ = 1e-13 * (extremes.high - extremes.low) + 4.0 * kEps * std::abs(extremes.high);
   put(0, {Column::Kind::kOuter, first_row_of(distances, extremes.high)});
@@ -232,7 +232,7 @@ template <int K>
 auto ZoneSimplex<K>::price(bool bland) -> Entering {
   const Unknowns move = -prices_.template tail<K>();
   const std::size_t count = rows_->size();
-  const ColumnExtremes extremes =
+  const Extremes extremes =
       move_column<K>(rows_->distances(), gradients_.data(), move.data(), moved_.data());
   double worst = tolerance_;
   Entering entering;

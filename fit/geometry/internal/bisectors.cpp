@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/units.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/geometry/points.h"
 
 namespace rondure::fit {
@@ -55,13 +56,8 @@ double strip_width(const std::vector<Eigen::Vector2d>& points) {
       const Eigen::Vector2d along = points[j] - points[i];
       if (along.norm() == 0.0) continue;
       const Eigen::Vector2d normal = Eigen::Vector2d(-along.y(), along.x()) / along.norm();
-      double low = std::numeric_limits<double>::infinity();
-      double high = -low;
-      for (const Eigen::Vector2d& p : points) {
-        low = std::min(low, p.dot(normal));
-        high = std::max(high, p.dot(normal));
-      }
-      least = std::min(least, high - low);
+      const auto height = [&](const auto& p) { return p.dot(normal); };
+      least = std::min(least, extremes_of(points, height).width());
     }
   }
   return least;

@@ -42,26 +42,17 @@ class StretchExtremes {
   double highest_mm_ = 0.0;
 };
 
-/// Least and largest distance of n points.
-struct DistanceRange {
-  double low_mm = std::numeric_limits<double>::infinity();
-  double high_mm = 0.0;
-};
 /// Finds the least and largest of `distance_mm(i)` for i < n. With `extremes`, searches only the
 /// stretches that can hold them after distances have changed by `change_mm` at most.
 template <class Distance>
-[[nodiscard]] DistanceRange distance_range(std::size_t n, const Distance& distance_mm,
-                                           const StretchExtremes* extremes = nullptr,
-                                           double change_mm = 0.0) {
-  DistanceRange out;
+[[nodiscard]] Extremes distance_range(std::size_t n, const Distance& distance_mm,
+                                      const StretchExtremes* extremes = nullptr,
+                                      double change_mm = 0.0) {
+  Extremes out;
   const std::size_t size = extremes == nullptr ? n : extremes->size();
   for (std::size_t first = 0; first < n; first += size) {
     if (extremes != nullptr && !extremes->may_hold(first / size, change_mm)) continue;
-    for (std::size_t i = first; i < std::min(n, first + size); ++i) {
-      const double r = distance_mm(i);
-      out.low_mm = std::min(out.low_mm, r);
-      out.high_mm = std::max(out.high_mm, r);
-    }
+    for (std::size_t i = first; i < std::min(n, first + size); ++i) out.take(distance_mm(i));
   }
   return out;
 }

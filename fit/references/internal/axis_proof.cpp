@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,14 +76,11 @@ class ScopeSearcher {
   }
 
  private:
+  [[nodiscard]] Extremes zone_about(const Axis& axis) const {
+    return extremes_of(points_, [&](const auto& p) { return distance_mm(axis, p); });
+  }
   [[nodiscard]] double value_about(const Axis& axis) const {
-    Extremes zone{std::numeric_limits<double>::infinity(), 0.0};
-    for (const Eigen::Vector3d& p : points_) {
-      const double r = distance_mm(axis, p);
-      zone.low = std::min(zone.low, r);
-      zone.high = std::max(zone.high, r);
-    }
-    return minimised(zone, weights_);
+    return minimised(zone_about(axis), weights_);
   }
 
   /// Descends from a better axis to its optimum. With many points the descent begins on a sample,
@@ -96,7 +92,8 @@ class ScopeSearcher {
     Axis place = better;
     for (int pass = 0; pass < kClosePasses; ++pass) {
       std::vector<Eigen::Vector3d> close(points_.begin(), points_.end());
-      const double middle = middle_of(place);
+      const Extremes sides = zone_about(place);
+      const double middle = 0.5 * (sides.low + sides.high);
       const auto depth = [&](const Eigen::Vector3d& p) {
         const double r = distance_mm(place, p);
         if (minimum_zone()) return -std::abs(r - middle);
@@ -121,17 +118,6 @@ class ScopeSearcher {
       place = next.place;
     }
     return out;
-  }
-
-  /// Mean radius of the zone about an axis.
-  [[nodiscard]] double middle_of(const Axis& axis) const {
-    double low = std::numeric_limits<double>::infinity();
-    double high = 0.0;
-    for (const Eigen::Vector3d& p : points_) {
-      low = std::min(low, distance_mm(axis, p));
-      high = std::max(high, distance_mm(axis, p));
-    }
-    return 0.5 * (low + high);
   }
 
   [[nodiscard]] bool minimum_zone() const { return weights_.outer > 0.0 && weights_.inner > 0.0; }
@@ -212,18 +198,15 @@ AxisProof prove_axis(SpacePoints points_mm, const CylinderZone& found, const Zon
   out.ending = found.ending;
   out.linear_programs = found.linear_programs;
   const Eigen::Vector3d& along = out.axis.direction;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
+  Extremes heights;
   double size = 0.0;
   for (const Eigen::Vector3d& p : points_mm) {
-    const double height = (p - out.axis.point_mm).dot(along);
-    low = std::min(low, height);
-    high = std::max(high, height);
+    heights.take((p - out.axis.point_mm).dot(along));
     size = std::max(size, p.cwiseAbs().maxCoeff());
   }
   const double round_off = distance_round_off(size);
-  out.axis.point_mm += 0.5 * (low + high) * along;
-  out.half_length = std::max(0.5 * (high - low), round_off);
+  out.axis.point_mm += 0.5 * (heights.low + heights.high) * along;
+  out.half_length = std::max(0.5 * heights.width(), round_off);
   const CylinderFrame frame({Eigen::Vector3d::Zero(), along}, out.half_length);
   out.proven = prove_zone(points_mm, out.axis.point_mm, frame, weights, round_off);
   const double width = out.proven.zone.width();
