@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -43,29 +42,10 @@ std::vector<Eigen::Vector2d> turned(std::span<const Eigen::Vector2d> points,
   return out;
 }
 
-/// Corners of the convex hull, anticlockwise (monotone chain); 1 or 2 for points of one line.
-std::vector<Eigen::Vector2d> hull_of(std::vector<Eigen::Vector2d> points) {
-  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  std::vector<Eigen::Vector2d> hull;
-  const auto add = [&](const Eigen::Vector2d& p, std::size_t kept) {
-    while (hull.size() > kept && twice_area(hull[hull.size() - 2], hull.back(), p) <= 0.0)
-      hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const Eigen::Vector2d& p : points) add(p, 1);
-  const std::size_t lower = hull.size();
-  for (auto p = points.rbegin() + 1; p < points.rend(); ++p) add(*p, lower);
-  if (hull.size() > 1) hull.pop_back();  // the first corner again
-  return hull;
-}
-
 /// Least distance of two parallels that hold the points between them. One of them passes through an
 /// edge of the hull, the other through the corner farthest from that edge.
-double least_zone(std::vector<Eigen::Vector2d> points) {
-  const auto hull = hull_of(std::move(points));
+double least_zone(std::span<const Eigen::Vector2d> points) {
+  const auto hull = convex_hull(points);
   const std::size_t n = hull.size();
   if (n < 3) return 0.0;
   double least = std::numeric_limits<double>::infinity();
@@ -109,11 +89,11 @@ core::Result<GeneratrixStraightness> generatrix_straightness(std::span<const dou
   if (!slope) return core::fail(no_length());
   GeneratrixStraightness out;
   out.ls_slope = *slope;
-  auto frame = turned(points, mean, *slope);
+  const auto frame = turned(points, mean, *slope);
   std::vector<double> deviations;
   for (const Eigen::Vector2d& p : frame) deviations.push_back(p.y());
   out.ls = form_parameters(deviations);
-  out.zone_mm = least_zone(std::move(frame));
+  out.zone_mm = least_zone(frame);
   return out;
 }
 

@@ -198,7 +198,7 @@ core::Result<Roundness> program_profile(std::span<const double> theta, std::span
   out.outer = rows_of(step->outer);
   out.inner = rows_of(step->inner);
   // The dual value of the programme is a lower bound for every centre in the linear model.
-  const double reached = weights.outer * reach.high - weights.inner * reach.low;
+  const double reached = weights.value(reach);
   out.certificate = {Certificate::Kind::kGlobal, "all centres, limacon model",
                      std::max(0.0, reached - step->value), ""};
   if (!zone) out.range = deviation_range(rows, step->step, weights);

@@ -44,7 +44,6 @@ void search_all_centers(PlanePoints points, const GlobalSearchOptions& options,
     if (out.certificate.kind != Certificate::Kind::kLocal) return;
     const auto search = search_centers(points, out.center_mm,
                                        {out.width_mm(), growth, out.outer, out.inner}, options);
-    out.squares += search.boxes;
     if (search.better) {
       growth = certify(points, fitter.fit_from(points, *search.better).place, out);
       continue;
@@ -62,10 +61,7 @@ void try_all_centers(PlanePoints points, CircleZoneFitter& fitter, MinZoneCircle
   if (all.width_mm < out.width_mm()) {
     MinZoneCircle other;
     certify(points, fitter.fit_from(points, all.center_mm).place, other);
-    if (other.width_mm() < out.width_mm()) {
-      other.squares = out.squares;
-      out = other;
-    }
+    if (other.width_mm() < out.width_mm()) out = other;
   }
   if (out.certificate.kind == Certificate::Kind::kNone) return;
   if (all.complete) {

@@ -19,7 +19,6 @@ struct MinZoneCircle {
   std::vector<Contact> outer;  ///< Points on the outer circle that carry the minimum.
   std::vector<Contact> inner;
   Certificate certificate;
-  int squares = 0;         ///< Squares of centres that the global search bounded.
   bool exact_fit = false;  ///< Three distinct points: the deviation is 0 by construction.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }

@@ -17,7 +17,6 @@ core::Result<MinZoneCylinder> min_zone_cylinder(
   out.axis = conventional(proof.axis, mean_point(points_mm));
   out.inner_radius_mm = proof.proven.zone.low;
   out.outer_radius_mm = proof.proven.zone.high;
-  out.linear_programs = proof.linear_programs;
   out.boxes = proof.boxes;
   out.ending = proof.ending;
   out.certificate = proof.certificate;

@@ -22,8 +22,7 @@ struct MinZoneCylinder {
   std::vector<Contact> outer;  ///< Points on the outer cylinder that carry the minimum.
   std::vector<Contact> inner;
   Certificate certificate;
-  int linear_programs = 0;  ///< linear programs solved, over all starts and restarts.
-  int boxes = 0;            ///< Boxes of directions that the global search bounded.
+  int boxes = 0;                           ///< Boxes of directions that the global search bounded.
   ZoneEnding ending = ZoneEnding::kLimit;  ///< How the descent to the axis ended.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }

@@ -236,7 +236,7 @@ void ZoneDescent<Frame>::settle(Result& state) {
   while (state.linear_programs < limit && box > round_off_) {
     const ZoneStep<K> step = programme(state, box);
     const double base = (weights_.outer - weights_.inner) * state.zone.low;
-    const double promised = value(state.zone) - base - step.value;
+    const double promised = weights_.value(state.zone) - base - step.value;
     if (coarse_ && promised <= kCoarse * state.zone.width()) return;
     if (promised <= 2.0 * round_off_) {
       const bool level_now = step.step.cwiseAbs().maxCoeff() <= round_off_;
@@ -252,7 +252,7 @@ void ZoneDescent<Frame>::settle(Result& state) {
     }
     const Frame next = state.frame.moved(step.step);
     const Extremes zone = linearise(next, trial_rows_);
-    const double gained = value(state.zone) - value(zone);
+    const double gained = weights_.value(state.zone) - weights_.value(zone);
     // Straight steps are short in a curved valley; Newton's follow it to the next contact.
     if (gained < 0.5 * promised && stride(state, std::max(gained, 2.0 * round_off_))) continue;
     rejected = !(gained >= 0.1 * promised);
@@ -277,7 +277,7 @@ template <class Frame>
 bool ZoneDescent<Frame>::level(Result& state, const ZoneStep<K>& step) {
   const Frame next = state.frame.moved(step.step);
   const Extremes zone = linearise(next, trial_rows_);
-  if (value(zone) > value(state.zone) + 2.0 * round_off_) return false;
+  if (weights_.value(zone) > weights_.value(state.zone) + 2.0 * round_off_) return false;
   state.frame = next;
   state.zone = zone;
   std::swap(rows_, trial_rows_);
@@ -312,10 +312,10 @@ template <class Frame>
 bool ZoneDescent<Frame>::stride(Result& state, double least) {
   const Newton next = newton_step(state);
   if (!next.valid || next.move.cwiseAbs().maxCoeff() > 100.0 * state.zone.width()) return false;
-  double best = value(state.zone) - least;
+  double best = weights_.value(state.zone) - least;
   double part = 0.0;
   for (const double t : {1.0, 0.5, 0.25, 0.125, -0.125, -0.5}) {
-    const double reached = value(extremes(state.frame.moved(t * next.move)));
+    const double reached = weights_.value(extremes(state.frame.moved(t * next.move)));
     if (reached >= best) continue;
     best = reached;
     part = t;
@@ -409,7 +409,7 @@ bool ZoneDescent<Frame>::polish(Result& state) {
   }
   if (!settled) return false;
   if (!all_nonnegative(trial.outer) || !all_nonnegative(trial.inner)) return false;
-  if (!(value(trial.zone) <= value(state.zone) + 4.0 * round_off_)) return false;
+  if (!(weights_.value(trial.zone) <= weights_.value(state.zone) + 4.0 * round_off_)) return false;
   if (!contacts_hold(trial)) return false;
   state = trial;
   return true;
@@ -464,7 +464,7 @@ void ZoneDescent<Frame>::slip(Result& state) {
   const double width = here.zone.width();
   const auto level_at = [&](double size) {
     const Extremes zone = extremes(here.frame.moved(size * valley));
-    return value(zone) <= value(here.zone) + kWeak * std::abs(size);
+    return weights_.value(zone) <= weights_.value(here.zone) + kWeak * std::abs(size);
   };
   for (const double side : {1.0, -1.0}) {
     double size = 2.0 * side * width;
@@ -476,7 +476,8 @@ void ZoneDescent<Frame>::slip(Result& state) {
     Result end = here;
     end.frame = here.frame.moved(size * valley);
     settle(end);
-    if (vertex_ && value(end.zone) < value(state.zone) - 2.0 * round_off_) state = end;
+    if (vertex_ && weights_.value(end.zone) < weights_.value(state.zone) - 2.0 * round_off_)
+      state = end;
   }
 }
 
@@ -514,12 +515,12 @@ bool ZoneDescent<Frame>::leave_saddle(Result& state) {
     for (const double sign : {1.0, -1.0}) {
       const Frame next = saddle.frame.moved(sign * size * descent);
       const Extremes zone = extremes(next);
-      if (value(zone) >= value(state.zone)) continue;
+      if (weights_.value(zone) >= weights_.value(state.zone)) continue;
       state.frame = next;
       state.zone = zone;
     }
   }
-  return value(state.zone) < value(saddle.zone) - 2.0 * round_off_;
+  return weights_.value(state.zone) < weights_.value(saddle.zone) - 2.0 * round_off_;
 }
 
 template class ZoneDescent<CenterFrame<2>>;

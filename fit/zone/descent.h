@@ -76,9 +76,6 @@ class ZoneDescent {
  private:
   struct Newton;
 
-  [[nodiscard]] double value(const Extremes& zone) const {
-    return weights_.outer * zone.high - weights_.inner * zone.low;
-  }
   void take(Points points, const Point& origin, std::size_t row);
   void minimise_large(Points points, const Point& origin, const Frame& start, double limit_mm,
                       Result& state);

@@ -55,7 +55,6 @@ ZoneFit<Place> zone_of(const Descent<Frame>& descent, const Place& place) {
   out.outer = descent.outer;
   out.inner = descent.inner;
   out.passes = descent.passes;
-  out.linear_programs = descent.linear_programs;
   out.pivots = descent.pivots;
   out.ending = descent.ending;
   return out;
@@ -154,10 +153,6 @@ Tilts other_tilts(std::span<const Eigen::Vector3d> points, const LsCylinder& sta
   return {{0.5 * core::kDegree, 2.0 * core::kDegree, 6.0 * core::kDegree}, 3};
 }
 
-double value_of(const CylinderZone& zone, const ZoneWeights& weights) {
-  return weights.outer * zone.outer_radius_mm - weights.inner * zone.inner_radius_mm;
-}
-
 }  // namespace
 
 template <int D>
@@ -223,7 +218,6 @@ CylinderZone CylinderZoneFitter::fit_best(std::span<const Eigen::Vector3d> point
   const Axis& axis = start.axis;
   const double limit = limit_of(weights, start.radius_mm);
   CylinderZone best = fit_from(points_mm, axis, weights, limit);
-  int linear_programs = best.linear_programs;
   int pivots = best.pivots;
   const auto side = across(axis.direction);
   for (const double tilt : other_tilts(points_mm, start, weights)) {
@@ -233,13 +227,13 @@ CylinderZone CylinderZoneFitter::fit_best(std::span<const Eigen::Vector3d> point
       const Eigen::Vector3d direction = axis.direction + std::tan(tilt) * (side * lean);
       const CylinderZone zone =
           fit_from(points_mm, {axis.point_mm, direction.normalized()}, weights, limit);
-      linear_programs += zone.linear_programs;
       pivots += zone.pivots;
       const bool found = zone.ending == ZoneEnding::kConverged;
-      if (found && value_of(zone, weights) < value_of(best, weights)) best = zone;
+      if (found && weights.value({zone.inner_radius_mm, zone.outer_radius_mm}) <
+                       weights.value({best.inner_radius_mm, best.outer_radius_mm}))
+        best = zone;
     }
   }
-  best.linear_programs = linear_programs;
   best.pivots = pivots;
   return best;
 }

@@ -29,8 +29,7 @@ struct ZoneFit {
   Contacts outer;  ///< Rows in contact, with multipliers >= 0 that sum to 1.
   Contacts inner;
   int passes = 0;                          ///< Passes over all points; 0 if no sample was needed.
-  int linear_programs = 0;                 ///< linear programs solved, over all starts.
-  int pivots = 0;                          ///< Pivots of these linear programs.
+  int pivots = 0;                          ///< Pivots of all linear programs.
   ZoneEnding ending = ZoneEnding::kLimit;  ///< Why the descent ended.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }

@@ -177,22 +177,17 @@ Certificate certify_local(const LocalProof<K>& proof, double width_mm, double ro
   return out;
 }
 
-template struct LocalProof<2>;
 template double first_order_growth<2>(ContactRows<2>, ContactRows<2>, const ZoneWeights&);
 template Eigen::Matrix<double, 2, 1> curvature_descent<2>(std::span<const Contact>,
                                                           std::span<const Contact>, ContactRows<2>,
                                                           ContactRows<2>, const ZoneWeights&);
 template LocalProof<2> prove_local<2>(ContactRows<2>, ContactRows<2>, double, const ZoneWeights&);
 template Certificate certify_local<2>(const LocalProof<2>&, double, double, std::string);
-template struct LocalProof<3>;
-template double first_order_growth<3>(ContactRows<3>, ContactRows<3>, const ZoneWeights&);
 template Eigen::Matrix<double, 3, 1> curvature_descent<3>(std::span<const Contact>,
                                                           std::span<const Contact>, ContactRows<3>,
                                                           ContactRows<3>, const ZoneWeights&);
 template LocalProof<3> prove_local<3>(ContactRows<3>, ContactRows<3>, double, const ZoneWeights&);
 template Certificate certify_local<3>(const LocalProof<3>&, double, double, std::string);
-template struct LocalProof<4>;
-template double first_order_growth<4>(ContactRows<4>, ContactRows<4>, const ZoneWeights&);
 template Eigen::Matrix<double, 4, 1> curvature_descent<4>(std::span<const Contact>,
                                                           std::span<const Contact>, ContactRows<4>,
                                                           ContactRows<4>, const ZoneWeights&);

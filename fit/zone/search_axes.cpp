@@ -112,10 +112,6 @@ class AxisSearcher {
                             Eigen::Vector2d::Zero(), limit);
   }
 
-  [[nodiscard]] double value_of(double low, double high) const {
-    return claim_.weights.outer * high - claim_.weights.inner * low;
-  }
-
   [[nodiscard]] ZoneBoxBound bound(const View& view, const ZoneBox& square) const {
     if (claim_.weights.outer > 0.0 && claim_.weights.inner > 0.0) {
       return bound_zone_box<4>(view.points, square, claim_.value_mm, options_.tolerance_mm, slack_);
@@ -172,7 +168,7 @@ class AxisSearcher {
     const ZoneBoxBound& found = *open;
     const Axis candidate = axis_of(view, found);
     if (zone_of(chosen_, candidate).value >= claim_.value_mm) return split(box);
-    const Zone zone = zone_of(points_, candidate);
+    const ExtremeRows zone = zone_of(points_, candidate);
     if (zone.value < claim_.value_mm - slack_) {
       out_.better = Axis{candidate.point_mm + axis_.point_mm, candidate.direction};
       return;
@@ -231,30 +227,12 @@ class AxisSearcher {
     return out;
   }
 
-  struct Zone {
-    std::size_t far = 0;
-    std::size_t near = 0;
-    double value = 0.0;
-  };
-
-  [[nodiscard]] Zone zone_of(SpacePoints points, const Axis& axis) const {
-    Zone out;
-    double low = std::numeric_limits<double>::infinity();
-    double high = 0.0;
+  [[nodiscard]] ExtremeRows zone_of(SpacePoints points, const Axis& axis) const {
     const Eigen::Matrix<double, 3, 2> frame = across(axis.direction);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double square = (frame.transpose() * (points[i] - axis.point_mm)).squaredNorm();
-      if (square > high) {
-        high = square;
-        out.far = i;
-      }
-      if (square < low) {
-        low = square;
-        out.near = i;
-      }
-    }
-    out.value = value_of(std::sqrt(low), std::sqrt(high));
-    return out;
+    const auto square = [&](const auto& p) {
+      return (frame.transpose() * (p - axis.point_mm)).squaredNorm();
+    };
+    return extreme_rows(points, square, claim_.weights);
   }
 
   [[nodiscard]] double least_bound(const DirectionBox& box, const View& view) const {

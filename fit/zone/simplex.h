@@ -15,6 +15,10 @@ namespace rondure::fit {
 struct ZoneWeights {
   double outer = 1.0;
   double inner = 1.0;
+
+  [[nodiscard]] double value(const Extremes& zone) const {
+    return outer * zone.high - inner * zone.low;
+  }
 };
 inline constexpr ZoneWeights kMinimumZone{1.0, 1.0};
 inline constexpr ZoneWeights kMinimumCircumscribed{1.0, 0.0};

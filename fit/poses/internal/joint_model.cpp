@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "fit/rotary/errors.h"
+
 namespace rondure::fit {
 namespace {
 
@@ -13,12 +15,6 @@ namespace {
 constexpr double kLobeShare = 0.75;
 constexpr double kLengthShare = 0.20;
 constexpr double kSpotShare = 0.05;
-
-Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
 
 Eigen::Matrix3d rotation(const Eigen::Vector3d& w) {
   const double angle = w.norm();
@@ -29,7 +25,7 @@ Eigen::Matrix3d rotation(const Eigen::Vector3d& w) {
 /// J of exp(w + dw) = exp(w) exp(J dw). The angles here are far below 0.01 rad, so that the series
 /// is exact to the last bit.
 Eigen::Matrix3d right_jacobian(const Eigen::Vector3d& w) {
-  const Eigen::Matrix3d m = cross(w);
+  const Eigen::Matrix3d m = cross_matrix(w);
   const double square = w.squaredNorm();
   return Eigen::Matrix3d::Identity() - (0.5 - square / 24.0) * m +
          (1.0 / 6.0 - square / 120.0) * m * m;
@@ -205,7 +201,7 @@ void JointModel::evaluate(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> 
     const Eigen::RowVector3d out_W = at.out_P.transpose() * at.turn_PW;
     row.segment<3>(pose_column(k)) = -out_W.cwiseProduct(u.head<3>().transpose());
     row.segment<3>(pose_column(k) + 3) =
-        (out_W * cross(at.arm_W) * right_jacobian(-w)).cwiseProduct(u.tail<3>().transpose());
+        (out_W * cross_matrix(at.arm_W) * right_jacobian(-w)).cwiseProduct(u.tail<3>().transpose());
   }
   whiten(residuals, derivatives);
   const int priors = unknowns() - kCylinder;
@@ -239,7 +235,7 @@ Eigen::Matrix<double, 6, 6> JointModel::error_of_unknowns(int pose) const {
   const Eigen::Matrix3d turn_PW = X_WP.linear().transpose();
   Eigen::Matrix<double, 6, 6> map = Eigen::Matrix<double, 6, 6>::Zero();
   map.topLeftCorner<3, 3>() = turn_PW;
-  map.topRightCorner<3, 3>() = -turn_PW * cross(X_WP.translation() - at.pivot_W_mm);
+  map.topRightCorner<3, 3>() = -turn_PW * cross_matrix(X_WP.translation() - at.pivot_W_mm);
   map.bottomRightCorner<3, 3>() = turn_PW;
   const Eigen::Map<const Eigen::Matrix<double, 6, 1>> u(at.prior.data());
   return map * u.asDiagonal();

@@ -20,10 +20,6 @@ namespace {
 /// Most descents on the points nearest to the sides of a zone; each starts at the last result.
 constexpr int kClosePasses = 10;
 
-double minimised(const Extremes& zone, const ZoneWeights& weights) {
-  return weights.outer * zone.high - weights.inner * zone.low;
-}
-
 /// Angle between two lines [rad].
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::asin(std::min(1.0, a.cross(b).norm()));
@@ -47,7 +43,7 @@ class ScopeSearcher {
         return false;
       }
       const LocalProof<4>& local = proof.proven.proof;
-      const double value = minimised(proof.proven.zone, weights_);
+      const double value = weights_.value(proof.proven.zone);
       const auto search = search_axes(
           points_, proof.axis, proof.half_length,
           {value, local.growth, local.outer, local.inner, weights_, reach_}, directions, options_);
@@ -61,8 +57,7 @@ class ScopeSearcher {
         return true;
       }
       AxisProof next = prove_axis(points_, descended(*search.better, value), weights_);
-      if (!(minimised(next.proven.zone, weights_) < value)) {
-        proof.linear_programs += next.linear_programs;
+      if (!(weights_.value(next.proven.zone) < value)) {
         proof.certificate.reason = fmt::format(
             "a better axis was met, its optimum was not reached; better by {:.3g} mm at least",
             value - value_about(*search.better));
@@ -80,7 +75,7 @@ class ScopeSearcher {
     return extremes_of(points_, [&](const auto& p) { return distance_mm(axis, p); });
   }
   [[nodiscard]] double value_about(const Axis& axis) const {
-    return minimised(zone_about(axis), weights_);
+    return weights_.value(zone_about(axis));
   }
 
   /// Descends from a better axis to its optimum. With many points the descent begins on a sample,
@@ -103,14 +98,12 @@ class ScopeSearcher {
                        close.end(),
                        [&](const auto& a, const auto& b) { return depth(a) < depth(b); });
       close.resize(kAllWorked);
-      CylinderZone next = fitter_.fit_from(close, place, weights_);
-      next.linear_programs += out.linear_programs;
-      out.linear_programs = next.linear_programs;
+      const CylinderZone next = fitter_.fit_from(close, place, weights_);
       const double reached = value_about(next.place);
       if (!(reached < value)) return out;
       out = next;
       // If the zone of some points holds all points, their optimum is that of all.
-      if (reached <= minimised({next.inner_radius_mm, next.outer_radius_mm}, weights_) +
+      if (reached <= weights_.value({next.inner_radius_mm, next.outer_radius_mm}) +
                          1e-12 * next.outer_radius_mm) {
         return out;
       }
@@ -170,13 +163,11 @@ class ScopeSearcher {
   /// Takes over the next axis of the search.
   /// @return false if the reference may not lie there.
   [[nodiscard]] bool take(AxisProof next, AxisProof& proof) const {
-    proof.linear_programs += next.linear_programs;
     if (!minimum_zone() && !within_reach(next)) {
       proof.other = next.axis;
       proof.certificate.reason = "a better axis lies outside the reach of the reference";
       return false;
     }
-    next.linear_programs = proof.linear_programs;
     next.boxes = proof.boxes;
     next.other = proof.other;
     proof = std::move(next);
@@ -196,7 +187,6 @@ AxisProof prove_axis(SpacePoints points_mm, const CylinderZone& found, const Zon
   AxisProof out;
   out.axis = found.place;
   out.ending = found.ending;
-  out.linear_programs = found.linear_programs;
   const Eigen::Vector3d& along = out.axis.direction;
   Extremes heights;
   double size = 0.0;

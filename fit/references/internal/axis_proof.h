@@ -20,8 +20,7 @@ struct AxisProof {
   ProvenZone<CylinderFrame> proven;
   Certificate certificate;
   ZoneEnding ending = ZoneEnding::kLimit;
-  int linear_programs = 0;  ///< linear programs of all descents.
-  int boxes = 0;            ///< Boxes bounded by all searches.
+  int boxes = 0;  ///< Boxes bounded by all searches.
   /// A better axis that was found but not taken, because it lies outside the reach.
   std::optional<Axis> other;
 };

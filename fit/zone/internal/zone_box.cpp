@@ -171,8 +171,7 @@ ZoneBoxBound bound_zone_box(SpacePoints points_mm, const ZoneBox& box, double wi
 
   ZoneBoxBound out = preferred(box, step);
   const BoxProof proof(points_mm, box, radius, step.outer, step.inner);
-  out.excluded = proof.proves(width_mm, slack_mm);
-  if (out.excluded) {
+  if (proof.proves(width_mm, slack_mm)) {
     out.lower_mm = width_mm;
     return out;
   }

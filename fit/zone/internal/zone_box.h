@@ -28,7 +28,6 @@ struct ZoneBox {
 /// Lower bound that a linear programme gives for the zones of all axes of a box.
 struct ZoneBoxBound {
   double lower_mm = 0.0;  ///< No axis of the box has a narrower zone than this [mm].
-  bool excluded = false;  ///< lower_mm is above the stated width; not set for one side.
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  ///< The most promising axis of the box
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< crosses z = 0 here, direction (tilt, 1).
 };
