@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <span>
 
@@ -19,11 +20,11 @@ struct Extremes {
   [[nodiscard]] double width() const { return high - low; }
 };
 
-/// Finds the extremes of a measure over the elements of a range.
+/// Finds the extremes of a measure, a function or a member, over the elements of a range.
 template <class Range, class Measure>
 [[nodiscard]] Extremes extremes_of(const Range& range, const Measure& measure) {
   Extremes out;
-  for (const auto& element : range) out.take(measure(element));
+  for (const auto& element : range) out.take(std::invoke(measure, element));
   return out;
 }
 

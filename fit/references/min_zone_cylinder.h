@@ -9,8 +9,8 @@
 #include "core/result.h"
 #include "fit/geometry/axis.h"
 #include "fit/proof/certificate.h"
-#include "fit/zone/axis_scope.h"
 #include "fit/zone/ending.h"
+#include "fit/zone/global_search.h"
 
 namespace rondure::fit {
 

@@ -10,7 +10,7 @@
 #include "fit/geometry/axis.h"
 #include "fit/geometry/contacts.h"
 #include "fit/proof/certificate.h"
-#include "fit/zone/axis_scope.h"
+#include "fit/zone/global_search.h"
 
 namespace rondure::fit {
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/noise.h"
+#include "fit/geometry/column_extremes.h"
 
 namespace rondure::fit {
 namespace {
@@ -67,6 +68,17 @@ std::vector<FourRows> subsets(std::size_t n, std::uint64_t seed) {
     if (seen.insert(rows).second) out.push_back(rows);
   }
   return out;
+}
+
+/// The one of the three pairings of four points with the least kappa (the first of equals).
+FourPointCenter best_pairing(std::span<const Eigen::Vector2d> points_mm, const FourRows& rows,
+                             double radius_mm) {
+  FourPointCenter best = four_point_center(points_mm, rows, radius_mm);
+  for (const int pairing : {1, 2}) {
+    const FourPointCenter other = four_point_center(points_mm, paired(rows, pairing), radius_mm);
+    if (other.kappa < best.kappa) best = other;
+  }
+  return best;
 }
 
 Refusal refusal_of(const FourPointCenter& center, double radius_mm, double kappa_limit,
@@ -183,26 +195,12 @@ FourPointCenter four_point_center(std::span<const Eigen::Vector2d> points_mm, co
   return out;
 }
 
-FourPointCenter best_pairing(std::span<const Eigen::Vector2d> points_mm, const FourRows& rows,
-                             double radius_mm) {
-  FourPointCenter best = four_point_center(points_mm, rows, radius_mm);
-  for (const int pairing : {1, 2}) {
-    const FourPointCenter other = four_point_center(points_mm, paired(rows, pairing), radius_mm);
-    if (other.kappa < best.kappa) best = other;
-  }
-  return best;
-}
-
 double WheelCenters::best_kappa() const {
-  double best = std::numeric_limits<double>::infinity();
-  for (const FourPointCenter& c : accepted) best = std::min(best, c.kappa);
-  return best;
+  return extremes_of(accepted, &FourPointCenter::kappa).low;
 }
 
 double WheelCenters::worst_kappa() const {
-  double worst = 0.0;
-  for (const FourPointCenter& c : accepted) worst = std::max(worst, c.kappa);
-  return worst;
+  return extremes_of(accepted, &FourPointCenter::kappa).high;
 }
 
 double WheelCenters::rms_kappa() const {

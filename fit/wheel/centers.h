@@ -39,11 +39,6 @@ struct FourPointCenter {
                                                 const std::array<std::size_t, 4>& rows,
                                                 double radius_mm);
 
-/// Returns the one of the three pairings of four points with the least kappa (the first of equals).
-[[nodiscard]] FourPointCenter best_pairing(std::span<const Eigen::Vector2d> points_mm,
-                                           const std::array<std::size_t, 4>& rows,
-                                           double radius_mm);
-
 /// Choice of the quadruples of points to use.
 enum class QuadrupleChoice {
   kAll,     ///< Every subset in its best pairing; 5000 drawn ones when there are more.

@@ -74,7 +74,8 @@ auto ZoneDescent<Frame>::run(Points points, const Point& origin, const Frame& st
   if (points.size() > kAllWorked) {
     working_.clear();
     for (std::size_t k = 0; k < sample_size<K>(points.size()); ++k) {
-      take(points, origin, spread_row(k, points.size()));
+      const std::size_t row = spread_row(k, points.size());
+      working_.add(row, points[row] - origin);
     }
     minimise_large(points, origin, start, limit_mm, state);
   } else {
@@ -84,11 +85,6 @@ auto ZoneDescent<Frame>::run(Points points, const Point& origin, const Frame& st
   name_rows(state.outer);
   name_rows(state.inner);
   return state;
-}
-
-template <class Frame>
-void ZoneDescent<Frame>::take(Points points, const Point& origin, std::size_t row) {
-  working_.add(row, points[row] - origin);
 }
 
 /// Replaces the working points of contacts by rows of the data, in the order of the rows.
@@ -121,26 +117,21 @@ void ZoneDescent<Frame>::minimise_large(Points points, const Point& origin, cons
       state.ending = ZoneEnding::kNotFinite;
       return;
     }
-    if (!add_violators(points, origin, state) && !coarse_) break;
+    std::size_t added = add_worst(points, origin, state, true);
+    added += add_worst(points, origin, state, false);
+    if (added == 0 && !coarse_) break;
     state.ending = ZoneEnding::kLimit;
   }
   state.zone = {std::sqrt(blocks_.all.low), std::sqrt(blocks_.all.high)};
 }
 
-/// Adds points that lie outside the zone of the working points.
-/// @return Whether there are any.
-template <class Frame>
-bool ZoneDescent<Frame>::add_violators(Points points, const Point& origin, const Result& state) {
-  std::size_t added = 0;
-  if (weights_.outer > 0.0) added += add_worst(points, origin, state, true);
-  if (weights_.inner > 0.0) added += add_worst(points, origin, state, false);
-  return added > 0;
-}
-
-/// Adds the extreme point of each of the blocks that stick out farthest on one side.
+/// Adds the extreme point of each of the blocks that stick out of the zone of the working points
+/// farthest on one side.
+/// @return How many.
 template <class Frame>
 std::size_t ZoneDescent<Frame>::add_worst(Points points, const Point& origin, const Result& state,
                                           bool high) {
+  if ((high ? weights_.outer : weights_.inner) == 0.0) return 0;
   const double slack = 4.0 * round_off_;
   const double limit = high ? state.zone.high + slack : std::max(state.zone.low - slack, 0.0);
   const std::vector<double>& extreme = high ? blocks_.high : blocks_.low;
@@ -159,7 +150,8 @@ std::size_t ZoneDescent<Frame>::add_worst(Points points, const Point& origin, co
   for (std::size_t k = 0; k < most; ++k) {
     const std::size_t begin = order_[k] * blocks_.block;
     const auto block = points.subspan(begin, std::min(blocks_.block, points.size() - begin));
-    take(points, origin, begin + find_square(block, place, extreme[order_[k]]));
+    const std::size_t row = begin + find_square(block, place, extreme[order_[k]]);
+    working_.add(row, points[row] - origin);
   }
   return most;
 }

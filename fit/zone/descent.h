@@ -76,10 +76,8 @@ class ZoneDescent {
  private:
   struct Newton;
 
-  void take(Points points, const Point& origin, std::size_t row);
   void minimise_large(Points points, const Point& origin, const Frame& start, double limit_mm,
                       Result& state);
-  bool add_violators(Points points, const Point& origin, const Result& state);
   std::size_t add_worst(Points points, const Point& origin, const Result& state, bool high);
   void minimise(Result& state, const Frame& start, double limit_mm);
   void enclose(Result& state);

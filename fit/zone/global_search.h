@@ -3,9 +3,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
+#include "core/units.h"
 #include "fit/geometry/axis.h"
 #include "fit/proof/axis_cover.h"
 #include "fit/proof/certificate.h"
@@ -18,6 +20,22 @@ struct GlobalSearchOptions {
   int max_boxes = 20000;       ///< Boxes bounded before the search gives up; >= 1.
   double tolerance_mm = 1e-9;  ///< Boxes are closed this far below the zone, or 4e-12 of the
                                ///< coordinate range if that is more; it adds to the gap.
+};
+
+/// Directions that are searched for a better axis.
+struct AxisScope {
+  enum class Kind { kCone, kHalfSphere };
+  Kind kind = Kind::kHalfSphere;
+  Eigen::Vector3d nominal = Eigen::Vector3d::UnitZ();  ///< Middle of the cone.
+  double cone_rad = 10.0 * core::kDegree;              ///< Half angle of the cone, below 80 deg.
+};
+
+/// Extent of the proof of a minimum-zone, circumscribed or inscribed cylinder.
+struct CylinderProofOptions {
+  /// Scopes to try in order until one is proven. Empty: local proof only, as is enough inside
+  /// loops.
+  std::vector<AxisScope> scopes;
+  GlobalSearchOptions search;
 };
 
 /// Most searches of one proof. Each but the first starts at the better place found by the last one.

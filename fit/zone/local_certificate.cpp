@@ -133,16 +133,9 @@ LocalProof<K> prove_local(ContactRows<K> outer, ContactRows<K> inner, double rea
   }
   if (!sides_kept) return proof;
   double claimed = 0.0;
-  if (!outer.empty()) {
-    double high = -std::numeric_limits<double>::infinity();
-    for (const auto& c : outer) high = std::max(high, c.distance - base);
-    claimed += weights.outer * high;
-  }
-  if (!inner.empty()) {
-    double low = std::numeric_limits<double>::infinity();
-    for (const auto& c : inner) low = std::min(low, c.distance - base);
-    claimed -= weights.inner * low;
-  }
+  const auto distance = [&](const ContactRow<K>& c) { return c.distance - base; };
+  if (!outer.empty()) claimed += weights.outer * extremes_of(outer, distance).high;
+  if (!inner.empty()) claimed -= weights.inner * extremes_of(inner, distance).low;
   proof.gap_mm = claimed - supported + imbalance.template lpNorm<1>() * reach_mm;
   proof.growth = first_order_growth<K>(outer, inner, weights);
   proof.strict = proof.growth > kGrowthNoise;

@@ -8,8 +8,8 @@
 #include "fit/geometry/axis.h"
 #include "fit/proof/certificate.h"
 #include "fit/references/internal/zone_proof.h"
-#include "fit/zone/axis_scope.h"
 #include "fit/zone/fit.h"
+#include "fit/zone/global_search.h"
 
 namespace rondure::fit {
 
