@@ -107,7 +107,7 @@ Extremes CylinderFrame::linearise(const WorkingPoints<3>& points, ZoneRows<4>& r
   return column_extremes(rows.distances());
 }
 
-double half_extent(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& direction) {
+double half_extent(SpacePoints points, const Eigen::Vector3d& direction) {
   return 0.5 * extremes_of(points, [&](const auto& p) { return p.dot(direction); }).width();
 }
 

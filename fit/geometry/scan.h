@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 
@@ -24,11 +24,9 @@ struct ScanExtremes {
 /// keep their digits. Processes four points at a time if the processor has AVX2, which is checked
 /// at run time. Each point undergoes the same operations in the same order, so the result has the
 /// same bits on every processor. Reads memory once and allocates nothing.
-[[nodiscard]] ScanExtremes scan(std::span<const Eigen::Vector3d> points_mm, const Axis& axis);
-[[nodiscard]] ScanExtremes scan(std::span<const Eigen::Vector3d> points_mm,
-                                const Eigen::Vector3d& center_mm);
-[[nodiscard]] ScanExtremes scan(std::span<const Eigen::Vector2d> points_mm,
-                                const Eigen::Vector2d& center_mm);
+[[nodiscard]] ScanExtremes scan(SpacePoints points_mm, const Axis& axis);
+[[nodiscard]] ScanExtremes scan(SpacePoints points_mm, const Eigen::Vector3d& center_mm);
+[[nodiscard]] ScanExtremes scan(PlanePoints points_mm, const Eigen::Vector2d& center_mm);
 
 /// The extreme squared distances of consecutive blocks of points [mm^2].
 struct BlockScan {
@@ -40,19 +38,16 @@ struct BlockScan {
 
 /// Runs scan() block by block.
 /// @param out  `block` is read, the rest is written.
-void scan_blocks(std::span<const Eigen::Vector3d> points_mm, const Axis& axis, BlockScan& out);
-void scan_blocks(std::span<const Eigen::Vector3d> points_mm, const Eigen::Vector3d& center_mm,
-                 BlockScan& out);
-void scan_blocks(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
-                 BlockScan& out);
+void scan_blocks(SpacePoints points_mm, const Axis& axis, BlockScan& out);
+void scan_blocks(SpacePoints points_mm, const Eigen::Vector3d& center_mm, BlockScan& out);
+void scan_blocks(PlanePoints points_mm, const Eigen::Vector2d& center_mm, BlockScan& out);
 
 /// Returns the first point whose squared distance is exactly `square_mm2`, as scan_blocks() found
 /// it, or the number of points if there is none.
-[[nodiscard]] std::size_t find_square(std::span<const Eigen::Vector3d> points_mm, const Axis& axis,
+[[nodiscard]] std::size_t find_square(SpacePoints points_mm, const Axis& axis, double square_mm2);
+[[nodiscard]] std::size_t find_square(SpacePoints points_mm, const Eigen::Vector3d& center_mm,
                                       double square_mm2);
-[[nodiscard]] std::size_t find_square(std::span<const Eigen::Vector3d> points_mm,
-                                      const Eigen::Vector3d& center_mm, double square_mm2);
-[[nodiscard]] std::size_t find_square(std::span<const Eigen::Vector2d> points_mm,
-                                      const Eigen::Vector2d& center_mm, double square_mm2);
+[[nodiscard]] std::size_t find_square(PlanePoints points_mm, const Eigen::Vector2d& center_mm,
+                                      double square_mm2);
 
 }  // namespace rondure::fit

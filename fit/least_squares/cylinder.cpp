@@ -13,7 +13,6 @@
 #include "core/decompositions.h"
 #include "core/units.h"
 #include "fit/geometry/cylinder_frame.h"
-#include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/internal/gauss_newton.h"
 #include "fit/least_squares/internal/sums.h"
@@ -127,7 +126,7 @@ struct Scored {
 };
 
 /// Evenly spread directions of the half sphere (Fibonacci spiral) and the three principal axes.
-std::vector<Eigen::Vector3d> spread(std::span<const Eigen::Vector3d> sample) {
+std::vector<Eigen::Vector3d> spread(SpacePoints sample) {
   std::vector<Eigen::Vector3d> out;
   const double golden = core::kTwoPi * (2.0 - (1.0 + std::sqrt(5.0)) / 2.0);
   for (int i = 0; i < kDirections; ++i) {
@@ -146,7 +145,7 @@ std::vector<Eigen::Vector3d> spread(std::span<const Eigen::Vector3d> sample) {
 /// circle of the projected points and returns the directions with the least residuals, at least 12
 /// deg apart, best first. Cost: some 250 directions.
 /// @param points  Relative to their mean; a strided sample is used.
-std::vector<Eigen::Vector3d> start_directions(std::span<const Eigen::Vector3d> points) {
+std::vector<Eigen::Vector3d> start_directions(SpacePoints points) {
   std::vector<Eigen::Vector3d> sample;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / kLookedAt);
   for (std::size_t i = 0; i < points.size(); i += stride) sample.push_back(points[i]);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/decompositions.h"
-#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 namespace {

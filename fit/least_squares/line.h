@@ -1,11 +1,10 @@
 #pragma once
 
-#include <span>
-
 #include <Eigen/Core>
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 
@@ -26,6 +25,6 @@ struct LsLine {
 /// @return kNoPoints, kNotFinite (row), kTooFewPoints (fewer than 2 different points), kRank (no
 ///         direction has the largest extent). Two passes.
 /// Source: K. Pearson, Philosophical Magazine 2 (1901) 559-572.
-[[nodiscard]] core::Result<LsLine> ls_line(std::span<const Eigen::Vector3d> points_mm);
+[[nodiscard]] core::Result<LsLine> ls_line(SpacePoints points_mm);
 
 }  // namespace rondure::fit

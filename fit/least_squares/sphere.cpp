@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/decompositions.h"
-#include "fit/geometry/points.h"
 #include "fit/least_squares/internal/gauss_newton.h"
 #include "fit/least_squares/internal/sums.h"
 

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <span>
-
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 
@@ -24,6 +23,6 @@ struct LsSphere {
 /// @return kNoPoints, kNotFinite (row), kTooFewPoints, kRank (one plane: the height of the centre
 ///         is undetermined), kNotConverged. O(n) per step.
 /// Source: methods, cylindricity section 2.1.
-[[nodiscard]] core::Result<LsSphere> ls_sphere(std::span<const Eigen::Vector3d> points_mm);
+[[nodiscard]] core::Result<LsSphere> ls_sphere(SpacePoints points_mm);
 
 }  // namespace rondure::fit

@@ -8,14 +8,12 @@
 #include <fmt/format.h>
 
 #include "fit/geometry/internal/hull_distance.h"
-#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 namespace {
 
 /// Slope of the least-squares line r = mean + slope (z - mean z); nothing if all z are equal.
-std::optional<double> ls_slope(std::span<const Eigen::Vector2d> points,
-                               const Eigen::Vector2d& mean) {
+std::optional<double> ls_slope(PlanePoints points, const Eigen::Vector2d& mean) {
   double zz = 0.0;
   double zr = 0.0;
   double size = 0.0;
@@ -30,8 +28,7 @@ std::optional<double> ls_slope(std::span<const Eigen::Vector2d> points,
 }
 
 /// The points about `mean` in a frame whose first axis has the given slope.
-std::vector<Eigen::Vector2d> turned(std::span<const Eigen::Vector2d> points,
-                                    const Eigen::Vector2d& mean, double slope) {
+std::vector<Eigen::Vector2d> turned(PlanePoints points, const Eigen::Vector2d& mean, double slope) {
   const double scale = 1.0 / std::hypot(1.0, slope);
   std::vector<Eigen::Vector2d> out;
   out.reserve(points.size());
@@ -44,7 +41,7 @@ std::vector<Eigen::Vector2d> turned(std::span<const Eigen::Vector2d> points,
 
 /// Least distance of two parallels that hold the points between them. One of them passes through an
 /// edge of the hull, the other through the corner farthest from that edge.
-double least_zone(std::span<const Eigen::Vector2d> points) {
+double least_zone(PlanePoints points) {
   const auto hull = convex_hull(points);
   const std::size_t n = hull.size();
   if (n < 3) return 0.0;
@@ -97,7 +94,7 @@ core::Result<GeneratrixStraightness> generatrix_straightness(std::span<const dou
   return out;
 }
 
-core::Result<Taper> taper(std::span<const Eigen::Vector3d> points_mm, const Axis& axis) {
+core::Result<Taper> taper(SpacePoints points_mm, const Axis& axis) {
   if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
   std::vector<Eigen::Vector2d> points;
   for (const Eigen::Vector3d& p : points_mm) {

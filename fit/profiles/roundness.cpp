@@ -39,8 +39,7 @@ std::vector<std::size_t> rows_of(std::span<const Contact> contacts) {
   return rows;
 }
 
-core::Result<Roundness> ls_points(std::span<const Eigen::Vector2d> points,
-                                  const RoundnessSide& side) {
+core::Result<Roundness> ls_points(PlanePoints points, const RoundnessSide& side) {
   const auto circle = ls_circle(points);
   if (!circle) return core::fail(circle.error());
   Roundness out;
@@ -54,7 +53,7 @@ core::Result<Roundness> ls_points(std::span<const Eigen::Vector2d> points,
   return out;
 }
 
-core::Result<Roundness> mz_points(std::span<const Eigen::Vector2d> points) {
+core::Result<Roundness> mz_points(PlanePoints points) {
   const auto zone = min_zone_circle(points);
   if (!zone) return core::fail(zone.error());
   Roundness out;
@@ -68,8 +67,7 @@ core::Result<Roundness> mz_points(std::span<const Eigen::Vector2d> points) {
   return out;
 }
 
-core::Result<Roundness> one_sided_points(std::span<const Eigen::Vector2d> points,
-                                         CircleReference reference) {
+core::Result<Roundness> one_sided_points(PlanePoints points, CircleReference reference) {
   const bool outside = reference == CircleReference::kMc;
   const auto circle = outside ? min_circumscribed_circle(points) : max_inscribed_circle(points);
   if (!circle) return core::fail(circle.error());
@@ -212,8 +210,8 @@ std::string_view name_of(CircleReference reference) {
   return kNames[static_cast<std::size_t>(reference)];
 }
 
-core::Result<Roundness> roundness_of_points(std::span<const Eigen::Vector2d> points_mm,
-                                            CircleReference reference, const RoundnessSide& side) {
+core::Result<Roundness> roundness_of_points(PlanePoints points_mm, CircleReference reference,
+                                            const RoundnessSide& side) {
   switch (reference) {
     case CircleReference::kLs:
       return ls_points(points_mm, side);

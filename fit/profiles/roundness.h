@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "fit/geometry/points.h"
 #include "fit/profiles/form_parameters.h"
 #include "fit/proof/certificate.h"
 #include "fit/zone/deviation_range.h"
@@ -55,9 +56,9 @@ struct RoundnessSide {
 /// Computes the roundness of points of a plane section about a circle fitted by ls_circle(),
 /// min_zone_circle(), min_circumscribed_circle() or max_inscribed_circle().
 /// @return the errors of these functions.
-[[nodiscard]] core::Result<Roundness> roundness_of_points(
-    std::span<const Eigen::Vector2d> points_mm, CircleReference reference,
-    const RoundnessSide& side = {});
+[[nodiscard]] core::Result<Roundness> roundness_of_points(PlanePoints points_mm,
+                                                          CircleReference reference,
+                                                          const RoundnessSide& side = {});
 
 /// Computes the roundness of a profile whose nominal radius is unknown or irrelevant: small
 /// deviations from a circle, r = r0 + a cos(theta) + b sin(theta) + form (limacon). The references

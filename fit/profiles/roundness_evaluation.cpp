@@ -217,7 +217,7 @@ core::Result<RoundnessEvaluation> evaluate_profile(std::span<const double> theta
   return out;
 }
 
-core::Result<RoundnessEvaluation> evaluate_section(std::span<const Eigen::Vector2d> points_mm,
+core::Result<RoundnessEvaluation> evaluate_section(PlanePoints points_mm,
                                                    const RoundnessOptions& options) {
   const auto circle = ls_circle(points_mm);
   if (!circle) return core::fail(circle.error());

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
 #include "fit/proof/certificate.h"
 
 namespace rondure::fit {
@@ -42,10 +43,9 @@ struct ZoneCheck {
 ///                      sensible. The other tolerances are fixed: 1e-9 for multipliers, 1e-6 for
 ///                      the imbalance.
 /// @return `fault` is empty if the zone passes.
-[[nodiscard]] ZoneCheck check_zone(std::span<const Eigen::Vector3d> points_mm, const Axis& axis,
-                                   const StatedZone& zone, double tolerance_mm = 1e-9);
-[[nodiscard]] ZoneCheck check_zone(std::span<const Eigen::Vector2d> points_mm,
-                                   const Eigen::Vector2d& center_mm, const StatedZone& zone,
+[[nodiscard]] ZoneCheck check_zone(SpacePoints points_mm, const Axis& axis, const StatedZone& zone,
                                    double tolerance_mm = 1e-9);
+[[nodiscard]] ZoneCheck check_zone(PlanePoints points_mm, const Eigen::Vector2d& center_mm,
+                                   const StatedZone& zone, double tolerance_mm = 1e-9);
 
 }  // namespace rondure::fit

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "fit/geometry/internal/bisectors.h"
-#include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
 #include "fit/references/internal/zone_proof.h"
 #include "fit/zone/fit.h"

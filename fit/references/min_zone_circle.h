@@ -1,11 +1,11 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "fit/geometry/points.h"
 #include "fit/proof/certificate.h"
 #include "fit/zone/global_search.h"
 
@@ -45,7 +45,7 @@ struct MinZoneCircleOptions {
 ///         the certificate is local and gives the reason. Cost: as ZoneDescent, and some 100 us of
 ///         proof.
 /// Sources: ISO 12181-1 (definition); methods, cylindricity section 9, certificates section 2.
-[[nodiscard]] core::Result<MinZoneCircle> min_zone_circle(
-    std::span<const Eigen::Vector2d> points_mm, const MinZoneCircleOptions& options = {});
+[[nodiscard]] core::Result<MinZoneCircle> min_zone_circle(PlanePoints points_mm,
+                                                          const MinZoneCircleOptions& options = {});
 
 }  // namespace rondure::fit

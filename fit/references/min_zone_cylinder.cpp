@@ -1,6 +1,5 @@
 #include "fit/references/min_zone_cylinder.h"
 
-#include "fit/geometry/points.h"
 #include "fit/references/internal/axis_proof.h"
 
 namespace rondure::fit {

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
 #include "fit/proof/certificate.h"
 #include "fit/zone/ending.h"
 #include "fit/zone/global_search.h"
@@ -44,8 +44,7 @@ struct MinZoneCylinder {
 ///         same bits. O(n) per pivot, some ten pivots per programme.
 /// Sources: ISO 1101, ISO 12180-1; methods, cylindricity section 11, certificates section 1.
 [[nodiscard]] core::Result<MinZoneCylinder> min_zone_cylinder(
-    std::span<const Eigen::Vector3d> points_mm,
-    const std::optional<Eigen::Vector3d>& near_direction = std::nullopt,
+    SpacePoints points_mm, const std::optional<Eigen::Vector3d>& near_direction = std::nullopt,
     const CylinderProofOptions& options = {});
 
 }  // namespace rondure::fit

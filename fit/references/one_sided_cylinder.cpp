@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "fit/geometry/points.h"
 #include "fit/least_squares/line.h"
 #include "fit/references/internal/axis_proof.h"
 #include "fit/references/min_zone_line.h"

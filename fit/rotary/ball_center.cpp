@@ -11,7 +11,7 @@
 
 namespace rondure::fit {
 
-core::Result<BallCenter> ball_center(std::span<const Eigen::Vector3d> points_mm, double radius_mm) {
+core::Result<BallCenter> ball_center(SpacePoints points_mm, double radius_mm) {
   if (!std::isfinite(radius_mm) || radius_mm <= 0.0) {
     return core::fail(core::Code::kBadOption,
                       fmt::format("a ball of radius {:g} mm has no surface", radius_mm));

@@ -28,7 +28,7 @@ struct Spread {
   Vector3d eigenvalues = Vector3d::Zero();  ///< Of the products, ascending.
 };
 
-Spread spread_of(std::span<const Vector3d> p) {
+Spread spread_of(SpacePoints p) {
   Spread out;
   const auto n = static_cast<double>(p.size());
   for (const Vector3d& one : p) out.centroid += one / n;
@@ -58,7 +58,7 @@ double condition_of(const Spread& s, double n) {
 }
 
 /// The two balls farthest apart.
-std::pair<std::size_t, std::size_t> farthest(std::span<const Vector3d> p) {
+std::pair<std::size_t, std::size_t> farthest(SpacePoints p) {
   std::pair<std::size_t, std::size_t> out = {0, 0};
   double best = -1.0;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -73,7 +73,7 @@ std::pair<std::size_t, std::size_t> farthest(std::span<const Vector3d> p) {
 
 /// Distance from the line through the balls that a further ball beside their centroid needs for a
 /// good condition, rounded up to two digits.
-double distance_that_cures(std::span<const Vector3d> p, const Vector3d& along) {
+double distance_that_cures(SpacePoints p, const Vector3d& along) {
   std::vector<Vector3d> with(p.begin(), p.end());
   const Vector3d foot = spread_of(p).centroid;
   const Vector3d beside = along.unitOrthogonal();
@@ -88,7 +88,7 @@ double distance_that_cures(std::span<const Vector3d> p, const Vector3d& along) {
   return std::ceil(high / step) * step;
 }
 
-core::Error too_few(std::span<const Vector3d> p, std::span<const std::string> names) {
+core::Error too_few(SpacePoints p, std::span<const std::string> names) {
   const auto [i, j] = farthest(p);
   if (p.size() == 2 && (p[i] - p[j]).norm() > 0.0) {
     return {core::Code::kTooFewPoints,
@@ -107,13 +107,13 @@ core::Error too_few(std::span<const Vector3d> p, std::span<const std::string> na
 
 }  // namespace
 
-double setup_condition(std::span<const Vector3d> p_mm) {
+double setup_condition(SpacePoints p_mm) {
   const Spread s = spread_of(p_mm);
   if (!(s.eigenvalues(1) > 1e-12 * s.eigenvalues(2))) return kInfinity;
   return condition_of(s, static_cast<double>(p_mm.size()));
 }
 
-core::Result<void> check_setup(std::span<const Vector3d> p_mm, std::span<const std::string> names) {
+core::Result<void> check_setup(SpacePoints p_mm, std::span<const std::string> names) {
   if (p_mm.size() < 3) return core::fail(too_few(p_mm, names));
   const Spread s = spread_of(p_mm);
   const double ratio = flatness(s);

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 
@@ -13,7 +14,7 @@ namespace rondure::fit {
 /// well: origin at the centroid, unit the rms distance from it; >= 1.
 /// @param p_mm  n >= 1 balls relative to the origin of the axis [mm], finite.
 /// @return Infinity if the balls do not determine all six errors. O(n).
-[[nodiscard]] double setup_condition(std::span<const Eigen::Vector3d> p_mm);
+[[nodiscard]] double setup_condition(SpacePoints p_mm);
 
 /// A condition above kConditionWarning causes a warning; above kConditionLimit the balls are nearly
 /// on a line.
@@ -25,7 +26,6 @@ inline constexpr double kConditionLimit = 100.0;
 /// @return kTooFewPoints (fewer than 3), kCollinear (second singular value of the centred balls
 ///         below 1e-3 of the first, or condition above kConditionLimit): `what` states the distance
 ///         of a further ball from the named line for a condition of at most kConditionWarning.
-[[nodiscard]] core::Result<void> check_setup(std::span<const Eigen::Vector3d> p_mm,
-                                             std::span<const std::string> names);
+[[nodiscard]] core::Result<void> check_setup(SpacePoints p_mm, std::span<const std::string> names);
 
 }  // namespace rondure::fit

@@ -71,8 +71,7 @@ std::vector<FourRows> subsets(std::size_t n, std::uint64_t seed) {
 }
 
 /// The one of the three pairings of four points with the least kappa (the first of equals).
-FourPointCenter best_pairing(std::span<const Eigen::Vector2d> points_mm, const FourRows& rows,
-                             double radius_mm) {
+FourPointCenter best_pairing(PlanePoints points_mm, const FourRows& rows, double radius_mm) {
   FourPointCenter best = four_point_center(points_mm, rows, radius_mm);
   for (const int pairing : {1, 2}) {
     const FourPointCenter other = four_point_center(points_mm, paired(rows, pairing), radius_mm);
@@ -98,7 +97,7 @@ void sort_in(const FourPointCenter& center, Refusal refusal, WheelCenters& out) 
   if (refusal == Refusal::kNone) out.accepted.push_back(center);
 }
 
-WheelCenters select_systematic(std::span<const Eigen::Vector2d> points_mm, double radius_mm,
+WheelCenters select_systematic(PlanePoints points_mm, double radius_mm,
                                const QuadrupleOptions& options) {
   std::vector<FourPointCenter> found;
   double best = std::numeric_limits<double>::infinity();
@@ -119,7 +118,7 @@ WheelCenters select_systematic(std::span<const Eigen::Vector2d> points_mm, doubl
   return out;
 }
 
-WheelCenters select_random(std::span<const Eigen::Vector2d> points_mm, double radius_mm,
+WheelCenters select_random(PlanePoints points_mm, double radius_mm,
                            const QuadrupleOptions& options) {
   WheelCenters out;
   out.kappa_limit = options.kappa_limit.value_or(std::numeric_limits<double>::infinity());
@@ -167,8 +166,7 @@ std::string_view name_of(QuadrupleChoice choice) {
   return kNames[static_cast<std::size_t>(choice)];
 }
 
-FourPointCenter four_point_center(std::span<const Eigen::Vector2d> points_mm, const FourRows& rows,
-                                  double radius_mm) {
+FourPointCenter four_point_center(PlanePoints points_mm, const FourRows& rows, double radius_mm) {
   FourPointCenter out;
   out.rows = rows;
   // Relative to A, as |B|^2 - |A|^2 would lose digits for points far from the origin.
@@ -209,8 +207,8 @@ double WheelCenters::rms_kappa() const {
   return std::sqrt(sum / static_cast<double>(accepted.size()));
 }
 
-core::Result<WheelCenters> select_centers(std::span<const Eigen::Vector2d> points_mm,
-                                          double radius_mm, const QuadrupleOptions& options) {
+core::Result<WheelCenters> select_centers(PlanePoints points_mm, double radius_mm,
+                                          const QuadrupleOptions& options) {
   if (auto checked = check(options); !checked) return core::fail(checked.error());
   const bool random = options.choice == QuadrupleChoice::kRandom;
   WheelCenters out = random ? select_random(points_mm, radius_mm, options)

@@ -51,8 +51,7 @@ core::Error local_form(const std::vector<std::size_t>& run, const AngularOrder& 
           {}};
 }
 
-void fill_deviations(std::span<const Eigen::Vector2d> points_mm, const OutlierOptions& options,
-                     Outliers& out) {
+void fill_deviations(PlanePoints points_mm, const OutlierOptions& options, Outliers& out) {
   for (const Eigen::Vector2d& p : points_mm)
     out.deviations_mm.push_back((p - out.center_mm).norm());
   const double middle = core::median(out.deviations_mm);
@@ -77,7 +76,7 @@ core::Result<void> check_count(const Outliers& out, std::size_t n) {
 
 }  // namespace
 
-core::Result<Outliers> find_outliers(std::span<const Eigen::Vector2d> points_mm,
+core::Result<Outliers> find_outliers(PlanePoints points_mm,
                                      std::span<const FourPointCenter> centers,
                                      const OutlierOptions& options) {
   if (!(options.scales >= 5.0) || !(options.least_scale_mm > 0.0)) {

@@ -15,8 +15,7 @@ double AngularOrder::coverage_rad() const { return core::kTwoPi - largest_gap_ra
 
 bool AngularOrder::closed() const { return largest_gap_rad <= 90.0 * core::kDegree * (1 + 1e-9); }
 
-AngularOrder angular_order(std::span<const Eigen::Vector2d> points_mm,
-                           const Eigen::Vector2d& center_mm) {
+AngularOrder angular_order(PlanePoints points_mm, const Eigen::Vector2d& center_mm) {
   const std::size_t n = points_mm.size();
   std::vector<double> angles(n);
   for (std::size_t i = 0; i < n; ++i) {

@@ -10,7 +10,6 @@
 
 #include "core/statistics.h"
 #include "fit/geometry/column_extremes.h"
-#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 namespace {
@@ -27,7 +26,7 @@ constexpr double kUnseen = 60.0 * core::kDegree;
 constexpr double kNominalShare = 0.05;
 constexpr double kCorrelationLimit = 2.0;
 
-core::Result<void> check_distinct(std::span<const Eigen::Vector2d> points_mm) {
+core::Result<void> check_distinct(PlanePoints points_mm) {
   Points found;
   for (const Eigen::Vector2d& p : points_mm) {
     const bool seen = std::any_of(found.begin(), found.end(),
@@ -91,8 +90,7 @@ core::Result<void> check_arc(const Points& points, const LsCircle& circle,
 }
 
 /// Makes the checks that are possible before quadruples are chosen.
-core::Result<LsCircle> check_and_start(std::span<const Eigen::Vector2d> points_mm,
-                                       const WheelOptions& options) {
+core::Result<LsCircle> check_and_start(PlanePoints points_mm, const WheelOptions& options) {
   if (auto checked = check_options(options); !checked) return core::fail(checked.error());
   if (points_mm.size() < kLeastPoints) {
     return core::fail(core::Code::kTooFewPoints,
@@ -195,8 +193,8 @@ void fill_scatter(WheelMeasurement& out) {
   out.expected_scatter_mm = out.spread_mm * out.centers.rms_kappa();
 }
 
-void fill_runout(std::span<const Eigen::Vector2d> all, const Points& used,
-                 const WheelOptions& options, WheelMeasurement& out) {
+void fill_runout(PlanePoints all, const Points& used, const WheelOptions& options,
+                 WheelMeasurement& out) {
   if (out.mode == WheelMode::kEnvelope) {
     out.runout_absent = "envelope mode: the points lie on the circle swept about the axis";
     return;
@@ -345,8 +343,7 @@ std::optional<double> WheelMeasurement::effective_radius_mm() const {
   return std::nullopt;
 }
 
-core::Result<WheelMeasurement> measure_wheel(std::span<const Eigen::Vector2d> points_mm,
-                                             const WheelOptions& options) {
+core::Result<WheelMeasurement> measure_wheel(PlanePoints points_mm, const WheelOptions& options) {
   const auto start = check_and_start(points_mm, options);
   if (!start) return core::fail(start.error());
   WheelMeasurement out;

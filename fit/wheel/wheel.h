@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +10,7 @@
 
 #include "core/result.h"
 #include "core/units.h"
+#include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/wheel/centers.h"
@@ -110,7 +110,7 @@ struct WheelMeasurement {
 ///         kShortArc (below 90 deg), kCenterDisagrees, kNoAxis, kOutliers, kLocalForm,
 ///         kCorrelated. Some 1 ms.
 /// Source: methods, wheel sections 2 to 7; patent CN103029041A, step one.
-[[nodiscard]] core::Result<WheelMeasurement> measure_wheel(
-    std::span<const Eigen::Vector2d> points_mm, const WheelOptions& options = {});
+[[nodiscard]] core::Result<WheelMeasurement> measure_wheel(PlanePoints points_mm,
+                                                           const WheelOptions& options = {});
 
 }  // namespace rondure::fit

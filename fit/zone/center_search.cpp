@@ -22,7 +22,7 @@ struct ContactSets {
 };
 
 /// Returns tau_c, raised if the coordinates are so large that 1e-9 mm is round-off.
-double contact_tolerance(std::span<const Eigen::Vector2d> points_mm) {
+double contact_tolerance(PlanePoints points_mm) {
   Eigen::Vector2d low = points_mm.front();
   Eigen::Vector2d high = points_mm.front();
   for (const Eigen::Vector2d& p : points_mm) {
@@ -35,8 +35,7 @@ double contact_tolerance(std::span<const Eigen::Vector2d> points_mm) {
       {kContactTolerance, 1e-13 * range, 16.0 * std::numeric_limits<double>::epsilon() * size});
 }
 
-ContactSets contacts_at(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center,
-                        double tolerance) {
+ContactSets contacts_at(PlanePoints points_mm, const Eigen::Vector2d& center, double tolerance) {
   ContactSets out;
   std::vector<double> r(points_mm.size());
   std::transform(points_mm.begin(), points_mm.end(), r.begin(),
@@ -51,8 +50,7 @@ ContactSets contacts_at(std::span<const Eigen::Vector2d> points_mm, const Eigen:
   return out;
 }
 
-std::vector<Eigen::Vector2d> directions(std::span<const Eigen::Vector2d> points_mm,
-                                        const Eigen::Vector2d& center,
+std::vector<Eigen::Vector2d> directions(PlanePoints points_mm, const Eigen::Vector2d& center,
                                         std::span<const std::size_t> rows) {
   std::vector<Eigen::Vector2d> out;
   for (const std::size_t i : rows) out.emplace_back((points_mm[i] - center).normalized());
@@ -67,7 +65,7 @@ std::string_view name_of(CenterSearch::Ending ending) {
   return kNames[static_cast<std::size_t>(ending)];
 }
 
-std::vector<ContactCandidate> contact_candidates(std::span<const Eigen::Vector2d> points_mm,
+std::vector<ContactCandidate> contact_candidates(PlanePoints points_mm,
                                                  const Eigen::Vector2d& center_mm,
                                                  const Eigen::Vector2d& direction,
                                                  std::span<const std::size_t> outer,
@@ -103,7 +101,7 @@ std::vector<ContactCandidate> contact_candidates(std::span<const Eigen::Vector2d
   return out;
 }
 
-core::Result<CenterSearch> center_search(std::span<const Eigen::Vector2d> points_mm) {
+core::Result<CenterSearch> center_search(PlanePoints points_mm) {
   const auto start = algebraic_circle(points_mm);
   if (!start) return core::fail(start.error());
   const double tolerance = contact_tolerance(points_mm);

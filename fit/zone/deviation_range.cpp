@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "fit/geometry/points.h"
 #include "fit/zone/internal/center_region.h"
 #include "fit/zone/internal/search_points.h"
 #include "fit/zone/internal/zone_box.h"

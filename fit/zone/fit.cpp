@@ -10,7 +10,6 @@
 
 #include "core/units.h"
 #include "fit/geometry/column_extremes.h"
-#include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/sphere.h"
@@ -88,12 +87,12 @@ core::Result<ZoneFit<Place>> judged(ZoneFit<Place> zone, std::span<const Point> 
   return zone;
 }
 
-core::Result<CenterStart<2>> start_fit(std::span<const Eigen::Vector2d> points) {
+core::Result<CenterStart<2>> start_fit(PlanePoints points) {
   const auto circle = algebraic_start(points);
   if (!circle) return core::fail(circle.error());
   return CenterStart<2>{circle->center_mm, circle->radius_mm};
 }
-core::Result<CenterStart<3>> start_fit(std::span<const Eigen::Vector3d> points) {
+core::Result<CenterStart<3>> start_fit(SpacePoints points) {
   const auto sphere = ls_sphere(points);
   if (!sphere) return core::fail(sphere.error());
   return CenterStart<3>{sphere->center_mm, sphere->radius_mm};
@@ -115,8 +114,7 @@ bool spans_space(std::span<const Point> points, const ZoneFit<Point>& ball) {
 }
 
 /// The axis as a frame, with the extent of the points along it as the scale of its tilts.
-CylinderFrame frame_of(std::span<const Eigen::Vector3d> sample, const Axis& axis,
-                       double round_off) {
+CylinderFrame frame_of(SpacePoints sample, const Axis& axis, double round_off) {
   const double half = half_extent(sample, axis.direction);
   return {Axis{Eigen::Vector3d::Zero(), axis.direction}, std::max(half, round_off)};
 }
@@ -133,8 +131,7 @@ struct Tilts {
 /// Tilts of further starts where there may be several minima. Minimum zones of few points, or of
 /// part of the circumference, may have distant ones; circumscribed and inscribed cylinders of few
 /// points have close ones.
-Tilts other_tilts(std::span<const Eigen::Vector3d> points, const LsCylinder& start,
-                  const ZoneWeights& weights) {
+Tilts other_tilts(SpacePoints points, const LsCylinder& start, const ZoneWeights& weights) {
   if (weights.outer == 0.0 || weights.inner == 0.0) {
     if (points.size() > kSmall) return {};
     const double form = std::atan(start.deviation_mm / half_extent(points, start.axis.direction));
@@ -202,9 +199,8 @@ auto CenterZoneFitter<D>::fit(std::span<const Point> points_mm, const ZoneWeight
 template class CenterZoneFitter<2>;
 template class CenterZoneFitter<3>;
 
-CylinderZone CylinderZoneFitter::fit_from(std::span<const Eigen::Vector3d> points_mm,
-                                          const Axis& axis, const ZoneWeights& weights,
-                                          double limit_mm) {
+CylinderZone CylinderZoneFitter::fit_from(SpacePoints points_mm, const Axis& axis,
+                                          const ZoneWeights& weights, double limit_mm) {
   const auto sample = spread(points_mm, kCylinderSample, sample_);
   const double round_off = round_off_of(sample);
   const auto found = descent_.run(points_mm, axis.point_mm, frame_of(sample, axis, round_off),
@@ -213,8 +209,8 @@ CylinderZone CylinderZoneFitter::fit_from(std::span<const Eigen::Vector3d> point
 }
 
 /// The best of several starts about the least-squares axis.
-CylinderZone CylinderZoneFitter::fit_best(std::span<const Eigen::Vector3d> points_mm,
-                                          const LsCylinder& start, const ZoneWeights& weights) {
+CylinderZone CylinderZoneFitter::fit_best(SpacePoints points_mm, const LsCylinder& start,
+                                          const ZoneWeights& weights) {
   const Axis& axis = start.axis;
   const double limit = limit_of(weights, start.radius_mm);
   CylinderZone best = fit_from(points_mm, axis, weights, limit);
@@ -239,8 +235,8 @@ CylinderZone CylinderZoneFitter::fit_best(std::span<const Eigen::Vector3d> point
 }
 
 core::Result<CylinderZone> CylinderZoneFitter::fit(
-    std::span<const Eigen::Vector3d> points_mm,
-    const std::optional<Eigen::Vector3d>& near_direction, const ZoneWeights& weights) {
+    SpacePoints points_mm, const std::optional<Eigen::Vector3d>& near_direction,
+    const ZoneWeights& weights) {
   if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
   auto start = ls_cylinder(spread(points_mm, kCylinderSample, sample_), near_direction);
   // A sample may miss a second layer of the data, or the row that is not finite.

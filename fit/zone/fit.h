@@ -10,6 +10,7 @@
 #include "core/result.h"
 #include "fit/geometry/axis.h"
 #include "fit/geometry/contacts.h"
+#include "fit/geometry/points.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/zone/descent.h"
 
@@ -85,11 +86,11 @@ class CylinderZoneFitter {
  public:
   /// @param near_direction  Start direction; without it the half sphere is searched for starts.
   /// @return As CenterZoneFitter::fit().
-  core::Result<CylinderZone> fit(std::span<const Eigen::Vector3d> points_mm,
+  core::Result<CylinderZone> fit(SpacePoints points_mm,
                                  const std::optional<Eigen::Vector3d>& near_direction,
                                  const ZoneWeights& weights = kMinimumZone);
   /// Fits from a given axis, as CenterZoneFitter::fit_from().
-  CylinderZone fit_from(std::span<const Eigen::Vector3d> points_mm, const Axis& axis,
+  CylinderZone fit_from(SpacePoints points_mm, const Axis& axis,
                         const ZoneWeights& weights = kMinimumZone,
                         double limit_mm = std::numeric_limits<double>::infinity());
   /// The least-squares cylinder from which the last fit() started; that of a sample if there are
@@ -97,8 +98,7 @@ class CylinderZoneFitter {
   [[nodiscard]] const LsCylinder& start() const { return start_; }
 
  private:
-  CylinderZone fit_best(std::span<const Eigen::Vector3d> points_mm, const LsCylinder& start,
-                        const ZoneWeights& weights);
+  CylinderZone fit_best(SpacePoints points_mm, const LsCylinder& start, const ZoneWeights& weights);
 
   LsCylinder start_;
   std::vector<Eigen::Vector3d> sample_;

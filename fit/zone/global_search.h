@@ -9,6 +9,7 @@
 
 #include "core/units.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
 #include "fit/proof/axis_cover.h"
 #include "fit/proof/certificate.h"
 #include "fit/zone/simplex.h"
@@ -81,9 +82,10 @@ struct GlobalSearch {
 /// @param center_mm  Centre of the claim.
 /// @return How the search ended: `proven`, or with a `better` centre, or with a `reason`.
 /// Source: methods, certificates section 2.
-[[nodiscard]] GlobalSearch<Eigen::Vector2d> search_centers(
-    std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
-    const ZoneClaim& claim, const GlobalSearchOptions& options = {});
+[[nodiscard]] GlobalSearch<Eigen::Vector2d> search_centers(PlanePoints points_mm,
+                                                           const Eigen::Vector2d& center_mm,
+                                                           const ZoneClaim& claim,
+                                                           const GlobalSearchOptions& options = {});
 
 /// Proves that no axis whose direction is in one of `directions` has a lower value than the claim,
 /// or finds one that has. For maximum inscribed cylinders only axes within the reach of the claim
@@ -100,9 +102,8 @@ struct GlobalSearch {
 /// @param half_length_mm  Scale of the tilts in claim.growth.
 /// @return How the search ended, as search_centers().
 /// Source: methods, certificates section 3.
-[[nodiscard]] GlobalSearch<Axis> search_axes(std::span<const Eigen::Vector3d> points_mm,
-                                             const Axis& axis, double half_length_mm,
-                                             const ZoneClaim& claim,
+[[nodiscard]] GlobalSearch<Axis> search_axes(SpacePoints points_mm, const Axis& axis,
+                                             double half_length_mm, const ZoneClaim& claim,
                                              std::span<const DirectionBox> directions,
                                              const GlobalSearchOptions& options = {});
 

@@ -92,8 +92,7 @@ class AxisSearcher {
   }
 
   /// Region of the centres whose value is not above the claim if distances change by up to `move`.
-  [[nodiscard]] CenterRegion region_of(const View& view, std::span<const Eigen::Vector2d> flat,
-                                       double move) const {
+  [[nodiscard]] CenterRegion region_of(const View& view, PlanePoints flat, double move) const {
     const ZoneWeights& weights = claim_.weights;
     if (weights.outer > 0.0 && weights.inner > 0.0)
       return center_region(flat, claim_.value_mm + 2.0 * move);

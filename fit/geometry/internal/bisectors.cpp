@@ -7,7 +7,6 @@
 
 #include "core/units.h"
 #include "fit/geometry/column_extremes.h"
-#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 namespace {
@@ -75,7 +74,7 @@ double disc_radius(const std::vector<Eigen::Vector2d>& points, double width, dou
     return 2.0 * nearest * (c - std::sqrt(c * c - width / nearest));
   }
   if (!(strip > width)) return std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d mean = mean_point(std::span<const Eigen::Vector2d>(points));
+  const Eigen::Vector2d mean = mean_point(PlanePoints(points));
   double reach = 0.0;
   for (const Eigen::Vector2d& p : points) reach = std::max(reach, (p - mean).norm());
   const double half_side = reach + reach * reach / (2.0 * (strip - width));
@@ -84,8 +83,7 @@ double disc_radius(const std::vector<Eigen::Vector2d>& points, double width, dou
 
 }  // namespace
 
-BisectorSearch search_bisectors(std::span<const Eigen::Vector2d> points_mm,
-                                const Eigen::Vector2d& start_mm) {
+BisectorSearch search_bisectors(PlanePoints points_mm, const Eigen::Vector2d& start_mm) {
   std::vector<Eigen::Vector2d> points;
   for (const Eigen::Vector2d& p : points_mm) points.emplace_back(p - start_mm);
   const Eigen::Vector2d origin = Eigen::Vector2d::Zero();

@@ -4,11 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <span>
 
 #include <Eigen/Core>
 
 #include "fit/geometry/cylinder_frame.h"
+#include "fit/geometry/points.h"
 #include "fit/least_squares/internal/gauss_newton.h"
 
 namespace rondure::fit {
@@ -83,15 +83,13 @@ struct PassOptions {
 /// that is not finite makes `squares` not finite; a radius that is not positive makes it infinite.
 ///
 /// @param origin_mm  Origin to which `frame` is relative.
-[[nodiscard]] PassSums<5> cylinder_sums(std::span<const Eigen::Vector3d> points_mm,
-                                        const Eigen::Vector3d& origin_mm,
+[[nodiscard]] PassSums<5> cylinder_sums(SpacePoints points_mm, const Eigen::Vector3d& origin_mm,
                                         const CylinderFrame& frame, double radius_mm,
                                         const PassOptions& options = {});
 
 /// The same sums about a circle, in the unknowns centre and radius. The centre is relative to the
 /// origin.
-[[nodiscard]] PassSums<3> circle_sums(std::span<const Eigen::Vector2d> points_mm,
-                                      const Eigen::Vector2d& origin_mm,
+[[nodiscard]] PassSums<3> circle_sums(PlanePoints points_mm, const Eigen::Vector2d& origin_mm,
                                       const Eigen::Vector2d& center_mm, double radius_mm,
                                       const PassOptions& options = {});
 

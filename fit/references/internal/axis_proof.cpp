@@ -11,7 +11,6 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "fit/geometry/points.h"
 #include "fit/proof/axis_cover.h"
 
 namespace rondure::fit {

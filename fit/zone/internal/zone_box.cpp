@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "fit/geometry/points.h"
 #include "fit/zone/simplex.h"
 
 namespace rondure::fit {

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <span>
 
 #include <Eigen/Core>
 
+#include "fit/geometry/points.h"
 #include "fit/proof/certificate.h"
 #include "fit/zone/simplex.h"
 
@@ -48,16 +48,14 @@ struct ZoneBoxBound {
 /// @param slack_mm   Margin with which the proof must hold, for outward rounding.
 /// K = 2: centres only (lean must be 0); K = 4: axes.
 template <int K>
-[[nodiscard]] ZoneBoxBound bound_zone_box(std::span<const Eigen::Vector3d> points_mm,
-                                          const ZoneBox& box, double width_mm, double tolerance_mm,
-                                          double slack_mm);
+[[nodiscard]] ZoneBoxBound bound_zone_box(SpacePoints points_mm, const ZoneBox& box,
+                                          double width_mm, double tolerance_mm, double slack_mm);
 
 /// The same for one side: a lower bound of  outer weight * max r - inner weight * min r  over all
 /// axes of a box, where one of the weights is 0: of the circumscribed radius, or of the negative
 /// inscribed radius. Also by weak duality in r^2, but without a width.
 template <int K>
-[[nodiscard]] ZoneBoxBound bound_one_sided_box(std::span<const Eigen::Vector3d> points_mm,
-                                               const ZoneBox& box, const ZoneWeights& weights,
-                                               double slack_mm);
+[[nodiscard]] ZoneBoxBound bound_one_sided_box(SpacePoints points_mm, const ZoneBox& box,
+                                               const ZoneWeights& weights, double slack_mm);
 
 }  // namespace rondure::fit
