@@ -209,7 +209,7 @@ void warn_of_units(AxisTurn& turn) {
   const double c = largest_magnitude(turn.errors.c_rad);
   const double mean = core::mean(turn.errors.x_mm);
   const auto warn = [&](std::string what) {
-    turn.warnings.push_back({core::Code::kUnits, std::move(what), {}});
+    turn.warnings.push_back({core::Code::kUnits, std::move(what)});
   };
   if (x > kLargeX) {
     warn(fmt::format("errors of X reach {:.4g} mm, above {} mm: is the unit right?", x, kLargeX));

@@ -130,7 +130,7 @@ FilterTrace filter_trace(std::span<const double> deviation_mm, double cutoff_upr
 }
 
 void warn(MeasuredContour& out, core::Code code, std::string what) {
-  out.warnings.push_back({code, std::move(what), {}});
+  out.warnings.push_back({code, std::move(what)});
 }
 
 void warn_of_filter(MeasuredContour& out, const MeasuredContourOptions& options) {

@@ -60,8 +60,7 @@ double least_zone(PlanePoints points) {
 core::Error no_length() {
   return {core::Code::kRank,
           "all points stand at one position along the axis; straightness and "
-          "taper need at least two sections",
-          {}};
+          "taper need at least two sections"};
 }
 
 }  // namespace

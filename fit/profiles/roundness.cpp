@@ -165,15 +165,13 @@ core::Error no_center(CircleReference reference) {
   if (reference == CircleReference::kMz) {
     return {core::Code::kNotConverged,
             "the minimum zone of the profile has no centre within reach; the arc is too short for "
-            "it",
-            {}};
+            "it"};
   }
   return {core::Code::kReferenceAbsent,
           fmt::format(
               "the {} circle of the profile does not exist: its values leave a gap of 180 "
               "deg or more, into which the centre runs away",
-              reference == CircleReference::kMc ? "minimum circumscribed" : "maximum inscribed"),
-          {}};
+              reference == CircleReference::kMc ? "minimum circumscribed" : "maximum inscribed")};
 }
 
 core::Result<Roundness> program_profile(std::span<const double> theta, std::span<const double> r,

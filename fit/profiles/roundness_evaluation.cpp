@@ -18,7 +18,7 @@ constexpr double kFullCircleGapDeg = 90.0;
 constexpr std::size_t kSparsePoints = 7;
 
 void warn(RoundnessEvaluation& out, core::Code code, std::string what) {
-  out.warnings.push_back({code, std::move(what), {}});
+  out.warnings.push_back({code, std::move(what)});
 }
 
 void warn_of_order(RoundnessEvaluation& out) {

@@ -95,14 +95,12 @@ core::Error too_few(SpacePoints p, std::span<const std::string> names) {
             fmt::format("2 balls leave the turn about the line through them undetermined, at least "
                         "3 are needed: add a ball off the line through {} and {}, at least {:g} mm "
                         "from it",
-                        names[i], names[j], distance_that_cures(p, p[j] - p[i])),
-            {}};
+                        names[i], names[j], distance_that_cures(p, p[j] - p[i]))};
   }
   return {core::Code::kTooFewPoints,
           fmt::format("{} ball{}, at least 3 not on one line are needed; 4 to 6 round the part are "
                       "better, because a wrong one can then be found",
-                      p.size(), p.size() == 1 ? "" : "s"),
-          {}};
+                      p.size(), p.size() == 1 ? "" : "s")};
 }
 
 }  // namespace

@@ -269,26 +269,29 @@ void fill_table(RotaryStudy& study) {
   table.hysteresis_rms = hysteresis_of(table.rows);
 }
 
+void warn(RotaryStudy& study, Code code, std::string what) {
+  study.warnings.push_back({code, std::move(what)});
+}
+
 void warn_of_stations(RotaryStudy& study) {
   for (const RotaryStation& s : study.stations) {
     const double angle = s.angle_rad / core::kDegree;
-    const auto add = [&](Code code, std::string what) {
-      study.warnings.push_back({code, std::move(what), {}});
-    };
     if (s.undetermined) {
-      add(Code::kRank, fmt::format("station {:g} deg is undetermined: the balls measured there do "
-                                   "not give six errors; neighbours bridge it",
-                                   angle));
+      warn(study, Code::kRank,
+           fmt::format("station {:g} deg is undetermined: the balls measured there do "
+                       "not give six errors; neighbours bridge it",
+                       angle));
       continue;
     }
     for (const std::string& ball : s.removed) {
-      add(Code::kOutliers, fmt::format("ball {} at {:g} deg left out as an outlier", ball, angle));
+      warn(study, Code::kOutliers,
+           fmt::format("ball {} at {:g} deg left out as an outlier", ball, angle));
     }
     if (!s.flagged) continue;
-    add(Code::kInconsistent,
-        fmt::format("station {:g} deg: chi2 {:.1f} of {} degrees of freedom, limit {:.1f}; the "
-                    "wrong ball cannot be told with {} balls",
-                    angle, s.chi2, s.dof, s.chi2_limit, s.balls.size()));
+    warn(study, Code::kInconsistent,
+         fmt::format("station {:g} deg: chi2 {:.1f} of {} degrees of freedom, limit {:.1f}; the "
+                     "wrong ball cannot be told with {} balls",
+                     angle, s.chi2, s.dof, s.chi2_limit, s.balls.size()));
   }
 }
 
@@ -302,38 +305,30 @@ void warn_of_study(const RotaryMeasurement& m, RotaryStudy& study) {
       least_redundancy = std::min(least_redundancy, r.minCoeff());
   }
   if (condition > kConditionWarning) {
-    study.warnings.push_back(
-        {Code::kRank,
+    warn(study, Code::kRank,
          fmt::format("condition {:.1f} (limit for good work {:g}): the balls lie nearly on a line",
-                     condition, kConditionWarning),
-         {}});
+                     condition, kConditionWarning));
   }
   if (least_redundancy < 0.05) {
-    study.warnings.push_back(
-        {Code::kRank,
+    warn(study, Code::kRank,
          fmt::format("least redundancy {:.2f}: there is a coordinate whose error no other ball "
                      "would show; use 4 balls or more",
-                     std::abs(least_redundancy)),
-         {}});
+                     std::abs(least_redundancy)));
   }
   // The limit is for the greatest of all shifts, some dozens of normal numbers.
   const double limit = 4.0 * std::sqrt(2.0) * largest_reference_u(m) * std::sqrt(2.0);
   if (m.references.size() > 1 && study.drift_mm > limit && limit > 0.0) {
-    study.warnings.push_back(
-        {Code::kInconsistent,
-         fmt::format(
-             "the reference pose drifts by {:.2f} um between its measurements (limit {:.2f} "
-             "um)",
-             study.drift_mm / core::kMicrometre, limit / core::kMicrometre),
-         {}});
+    warn(
+        study, Code::kInconsistent,
+        fmt::format("the reference pose drifts by {:.2f} um between its measurements (limit {:.2f} "
+                    "um)",
+                    study.drift_mm / core::kMicrometre, limit / core::kMicrometre));
   }
   if (m.references.size() < 3 && largest_reference_u(m) > 0.0) {
-    study.warnings.push_back(
-        {Code::kSparse,
+    warn(study, Code::kSparse,
          fmt::format("the reference pose was measured {} time{}; its noise is in every station: "
                      "measure it at start, middle and end",
-                     m.references.size(), m.references.size() == 1 ? "" : "s"),
-         {}});
+                     m.references.size(), m.references.size() == 1 ? "" : "s"));
   }
 }
 

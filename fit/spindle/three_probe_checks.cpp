@@ -167,8 +167,8 @@ std::vector<LoneReading> gross_readings(const ProbeReadings& readings, const Pro
 }
 
 void contradict(ThreeProbeResult& result, Code code, std::string what) {
-  result.contradictions.push_back({code, what, {}});
-  result.warnings.push_back({code, std::move(what), {}});
+  result.contradictions.push_back({code, what});
+  result.warnings.push_back({code, std::move(what)});
 }
 
 void name_gross_readings(const std::vector<LoneReading>& gross, ThreeProbeResult& result) {
@@ -204,8 +204,7 @@ void check_stated_noise(const ProbeSamples& samples, const ThreeProbeOptions& op
       {Code::kInconsistent,
        fmt::format("the revolutions scatter as with {:.3g} um a reading, {:.3g} um are stated: "
                    "every uncertainty is too small by that ratio",
-                   found / core::kMicrometre, *options.noise_mm / core::kMicrometre),
-       {}});
+                   found / core::kMicrometre, *options.noise_mm / core::kMicrometre)});
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ double largest_motion_mm(const CentreMotion& motion) {
 }
 
 void add(ThreeProbeResult& result, Code code, std::string what) {
-  result.warnings.push_back({code, std::move(what), {}});
+  result.warnings.push_back({code, std::move(what)});
 }
 
 std::string orders_in_words(const std::vector<int>& orders) {

@@ -47,8 +47,7 @@ core::Error local_form(const std::vector<std::size_t>& run, const AngularOrder& 
           fmt::format(
               "{} neighbouring points from {:.1f} to {:.1f} deg differ by up to {:+.2f} um: "
               "form (wear, a flat), kept",
-              run.size(), degrees(run.front()), degrees(run.back()), deepest / core::kMicrometre),
-          {}};
+              run.size(), degrees(run.front()), degrees(run.back()), deepest / core::kMicrometre)};
 }
 
 void fill_deviations(PlanePoints points_mm, const OutlierOptions& options, Outliers& out) {
@@ -115,12 +114,11 @@ core::Result<Outliers> find_outliers(PlanePoints points_mm,
     return core::fail(checked.error());
   }
   for (const DroppedPoint& point : out.dropped) {
-    out.warnings.push_back({core::Code::kOutliers,
-                            fmt::format("point {} (counted from 0) is {:+.2f} um off, {:.1f} "
-                                        "scales: dropped",
-                                        point.row, point.deviation_mm / core::kMicrometre,
-                                        std::abs(point.deviation_mm) / out.scale_mm),
-                            {}});
+    out.warnings.push_back(
+        {core::Code::kOutliers, fmt::format("point {} (counted from 0) is {:+.2f} um off, {:.1f} "
+                                            "scales: dropped",
+                                            point.row, point.deviation_mm / core::kMicrometre,
+                                            std::abs(point.deviation_mm) / out.scale_mm)});
   }
   return out;
 }

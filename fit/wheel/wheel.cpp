@@ -227,7 +227,7 @@ void fill_runout(PlanePoints all, const Points& used, const WheelOptions& option
 
 void warn(WheelMeasurement& out) {
   const auto add = [&](core::Code code, std::string what) {
-    out.warnings.push_back({code, std::move(what), {}});
+    out.warnings.push_back({code, std::move(what)});
   };
   const double coverage = out.order.coverage_rad();
   if (coverage < kShortArc) {
@@ -295,8 +295,7 @@ void name_outliers(const OutlierOptions& options, const QuadrupleOptions& quadru
        fmt::format("{} of {} points lie more than {:g} scales of {:.2f} um off and count in centre "
                    "and radius: {}, counted from 0; look at them, or take the robust variant",
                    gross.size(), used.size(), options.scales,
-                   outliers->scale_mm / core::kMicrometre, names),
-       {}});
+                   outliers->scale_mm / core::kMicrometre, names)});
 }
 
 /// Drops outliers from `rows` and `used`, and selects the quadruples again if there were any.

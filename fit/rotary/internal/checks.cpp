@@ -289,7 +289,7 @@ core::Error misfit_error(const std::vector<Misfit>& found, double reference_rad)
         name, one.off_rad * 1e6, one.others_rad * 1e6, one.limit_rad * 1e6,
         core::degrees(one.turn.angle_rad + one.off_rad));
   }
-  return {Code::kInconsistent, what + ". Correct the angle, or measure there again", {}};
+  return {Code::kInconsistent, what + ". Correct the angle, or measure there again"};
 }
 
 /// Changes of one distance relative to the reference, in the order of measurement.
