@@ -17,13 +17,10 @@ struct ScanExtremes {
   bool finite = true;  ///< false: a coordinate is not finite, and `low` and `high` are invalid.
 };
 
-/// Finds the extreme squared distances of all points from an axis or a centre in one pass. This is
-/// S1, the unit in which the speed of the fits is stated.
-///
-/// Points are taken relative to the axis point (the centre) first, so that sets far from the origin
-/// keep their digits. Processes four points at a time if the processor has AVX2, which is checked
-/// at run time. Each point undergoes the same operations in the same order, so the result has the
-/// same bits on every processor. Reads memory once and allocates nothing.
+/// Finds the extreme squared distances of all points from an axis or a centre in one pass: S1, the
+/// unit in which the speed of the fits is stated. Points are taken relative to the axis point or
+/// centre first, so that sets far from the origin keep their digits. Four points at a time with
+/// AVX2, else one; same bits on every processor. Allocates nothing.
 [[nodiscard]] ScanExtremes scan(SpacePoints points_mm, const Axis& axis);
 [[nodiscard]] ScanExtremes scan(SpacePoints points_mm, const Eigen::Vector3d& center_mm);
 [[nodiscard]] ScanExtremes scan(PlanePoints points_mm, const Eigen::Vector2d& center_mm);

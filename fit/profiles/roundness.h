@@ -42,9 +42,6 @@ struct Roundness {
   /// Range of RONt, for kMc and kMi, if several circles are equally good and RONt differs between
   /// them; `total_mm` belongs to one of them.
   std::optional<DeviationRange> range;
-
-  /// Distance of the centre from the origin of the profile [mm].
-  [[nodiscard]] double eccentricity_mm() const { return center_mm.norm(); }
 };
 
 /// Data that the parameters of roundness need in addition to the points.

@@ -33,11 +33,10 @@ struct MinZoneCircleOptions {
 
 /// Finds the minimum-zone circle of one plane section.
 ///
-/// Minimises  f(c) = max |p_i - c| - min |p_i - c|  by ZoneDescent (fit/zone/descent.h) from the
-/// algebraic circle. Then searches all centres for a narrower zone: by branch and bound
-/// (search_centers()), or, for up to 40 points whose zone is too wide for that, by enumeration of
-/// all bisector crossings. A better centre becomes the new start, so the proof also serves as the
-/// global search.
+/// Minimises  f(c) = max |p_i - c| - min |p_i - c|  by ZoneDescent from the algebraic circle. Then
+/// searches all centres for a narrower zone: by search_centers(), or, for up to 40 points whose
+/// zone is too wide for that, by enumeration of all bisector crossings. A better centre becomes the
+/// new start, so the proof also serves as the global search.
 ///
 /// @param points_mm  n >= 3 distinct points, any order [mm].
 /// @return kNoPoints, kNotFinite (row), kTooFewPoints (fewer than 3 distinct), kCollinear. Same

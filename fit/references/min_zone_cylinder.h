@@ -30,13 +30,10 @@ struct MinZoneCylinder {
 
 /// Finds the minimum-zone cylinder: the least cylindricity deviation CYLt of the points (ISO 1101).
 ///
-/// Starts at the least-squares cylinder. Repeatedly linearises the zone about the current axis (two
-/// shifts, two tilts), solves the linear programme inside a trust region, and moves the axis.
-/// Finishes with Newton's method on the stationarity equations of the contacts, so that it reaches
-/// optima with five contacts, which curvature determines, as well as those with six. Checks the
-/// local certificate at the end. Then searches the scopes of the options for a narrower zone
-/// (search_axes()); a better axis becomes the new start, so the proof also serves as the global
-/// search.
+/// Descends (ZoneDescent) from the least-squares cylinder, to optima with six contacts and to those
+/// with five, which curvature determines. Then searches the scopes of the options for a narrower
+/// zone (search_axes()); a better axis becomes the new start, so the proof also serves as the
+/// global search.
 ///
 /// @param points_mm       n >= 5 points that surround the axis in at least two sections [mm].
 /// @param near_direction  Start direction; without it the half sphere is searched for starts.

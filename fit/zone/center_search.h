@@ -20,12 +20,10 @@ struct ContactCandidate {
 };
 
 /// Returns all candidates of a move from `center_mm` along the unit vector `direction`, in order of
-/// their steps.
-///
-/// The difference of two squared distances is a linear function of the move, so each step is exact.
-/// The contacts in `outer` and `inner` are left out; in each set, the one that stays extreme is the
-/// reference. Source: methods, cylindricity section 6, formulas 6.2 and 6.3.
-///
+/// their steps. The steps are exact, as the difference of two squared distances is a linear
+/// function of the move. The contacts in `outer` and `inner` are left out; of each set, the one
+/// that stays extreme is the reference. Source: methods, cylindricity section 6, formulas 6.2
+/// and 6.3.
 /// @pre `outer` and `inner` are not empty and hold valid rows of `points_mm`.
 [[nodiscard]] std::vector<ContactCandidate> contact_candidates(PlanePoints points_mm,
                                                                const Eigen::Vector2d& center_mm,

@@ -45,13 +45,12 @@ struct CenterStart {
   double radius_mm = 0.0;
 };
 
-/// Fits zones of circles (D = 2) or spheres (D = 3). An object keeps its memory: after the first
-/// fit, sets of the same size need no more. The same input gives the same bits, whatever was fitted
-/// before.
+/// Fits zones of circles (D = 2) or spheres (D = 3). The search starts at the least-squares circle
+/// (algebraic) or sphere of some points spread over the data; see ZoneDescent for the rest and the
+/// cost. Circumscribed circles and spheres are convex and start anywhere.
 ///
-/// The search starts at the least-squares circle (algebraic) or sphere of at most some hundred
-/// points spread over the data; see ZoneDescent for the rest and the cost. Circumscribed circles
-/// and spheres are convex and start anywhere.
+/// An object keeps its memory: after the first fit, sets of the same size need no more. The same
+/// input gives the same bits, whatever was fitted before.
 template <int D>
 class CenterZoneFitter {
  public:

@@ -74,12 +74,11 @@ struct GlobalSearch {
 /// Proves that no centre of the plane has a lower value than the claim, or finds one that has. For
 /// minimum zones, and for maximum inscribed circles with centres inside the hull of the points.
 ///
-/// The centres that can be better lie in one square (zone/internal/center_region.h), which is
-/// searched by branch and bound (proof/internal/zone_box.h). Around the optimum, first-order
-/// growth, less the curvature K e^2 that could oppose it, closes a square of its own.
+/// Branch and bound (zone/internal/zone_box.h) in the square that holds every better centre
+/// (zone/internal/center_region.h). Around the optimum, first-order growth, less the curvature
+/// K e^2 that could oppose it, closes a square of its own.
 ///
-/// @param points_mm  The data of the claim.
-/// @param center_mm  Centre of the claim.
+/// @param points_mm, center_mm  Data and centre of the claim.
 /// @return How the search ended: `proven`, or with a `better` centre, or with a `reason`.
 /// Source: methods, certificates section 2.
 [[nodiscard]] GlobalSearch<Eigen::Vector2d> search_centers(PlanePoints points_mm,
@@ -87,16 +86,14 @@ struct GlobalSearch {
                                                            const ZoneClaim& claim,
                                                            const GlobalSearchOptions& options = {});
 
-/// Proves that no axis whose direction is in one of `directions` has a lower value than the claim,
-/// or finds one that has. For maximum inscribed cylinders only axes within the reach of the claim
-/// are considered.
+/// The same for axes whose direction is in one of `directions`; for maximum inscribed cylinders
+/// only within the reach of the claim.
 ///
 /// Branch and bound over directions. Turning a direction of a box to its middle moves a point by at
 /// most |z| sin + rho (1 - cos) of the opening of the box, so the projected points restrict the
-/// centres to one square (zone/internal/center_region.h). The remaining set of axes, with four
-/// parameters, is bounded by one linear programme (proof/internal/zone_box.h). Around the optimum,
-/// first-order growth, less the curvature K e^2, closes a ball; where growth is of second order
-/// (five contacts), boxes are closed `tolerance_mm` below the zone.
+/// centres to one square; one linear programme bounds the axes that remain, with four parameters.
+/// Around the optimum growth closes a ball; where growth is of second order (five contacts), boxes
+/// are closed `tolerance_mm` below the zone.
 ///
 /// @param axis        Axis of the claim, among the directions; its point midway between the ends.
 /// @param half_length_mm  Scale of the tilts in claim.growth.

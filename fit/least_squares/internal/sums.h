@@ -77,10 +77,10 @@ struct PassOptions {
 /// Gauss-Newton sums of the radial distances about a cylinder, in the unknowns of CylinderFrame and
 /// the radius: gradient (frame.row(p), -1).
 ///
-/// One pass without a copy. Points within 0.2 % of the radius need no square root or division: the
-/// binomial series takes their place, and the matrix, but not the right side, uses the position of
-/// a point in radii for its unit vector. Blocks of 1024 points are summed pairwise. A coordinate
-/// that is not finite makes `squares` not finite; a radius that is not positive makes it infinite.
+/// Points within 0.2 % of the radius need no square root or division: the binomial series takes
+/// their place, and the matrix, but not the right side, uses the position of a point in radii for
+/// its unit vector. Blocks of 1024 points are summed pairwise. A coordinate that is not finite
+/// makes `squares` not finite; a radius that is not positive makes it infinite.
 ///
 /// @param origin_mm  Origin to which `frame` is relative.
 [[nodiscard]] PassSums<5> cylinder_sums(SpacePoints points_mm, const Eigen::Vector3d& origin_mm,
