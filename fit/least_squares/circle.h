@@ -7,13 +7,16 @@
 
 namespace rondure::fit {
 
-/// A least-squares circle.
-struct LsCircle {
-  Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();
+/// A least-squares circle (D = 2) or sphere (D = 3).
+template <int D>
+struct LsCenter {
+  Eigen::Matrix<double, D, 1> center_mm = Eigen::Matrix<double, D, 1>::Zero();
   double radius_mm = 0.0;
   double deviation_mm = 0.0;  ///< Radial peak to valley about the centre [mm].
   double rms_mm = 0.0;        ///< Root mean square of the radial residuals [mm].
 };
+using LsCircle = LsCenter<2>;
+using LsSphere = LsCenter<3>;
 
 /// Fits the algebraic circle (Kasa): minimises the sum of (|p - c|^2 - R^2)^2 in closed form. Exact
 /// for points of one circle. All circle searches start from it.

@@ -263,16 +263,10 @@ core::Result<Sampling> check_sampling(std::size_t points, const FilterOptions& o
 Complex transmission(const FilterOptions& options, double harmonic, std::size_t samples) {
   const auto n = static_cast<double>(samples);
   if (options.filter == ProfileFilter::kNone) return 1.0;
-  switch (options.pass) {
-    case PassBand::kLow:
-      return low_pass(options.filter, harmonic, options.cutoff_upr, n);
-    case PassBand::kHigh:
-      return high_pass(options.filter, harmonic, options.cutoff_upr, n);
-    case PassBand::kBand:
-      break;
-  }
-  return low_pass(options.filter, harmonic, options.upper_cutoff_upr, n) *
-         high_pass(options.filter, harmonic, options.cutoff_upr, n);
+  const auto high = [&] { return high_pass(options.filter, harmonic, options.cutoff_upr, n); };
+  if (options.pass == PassBand::kHigh) return high();
+  const Complex low = low_pass(options.filter, harmonic, options.highest_cutoff_upr(), n);
+  return options.pass == PassBand::kLow ? low : low * high();
 }
 
 core::Result<FilteredProfile> filter_closed(std::span<const double> r_mm,

@@ -210,30 +210,16 @@ std::string_view name_of(CircleReference reference) {
 
 core::Result<Roundness> roundness_of_points(PlanePoints points_mm, CircleReference reference,
                                             const RoundnessSide& side) {
-  switch (reference) {
-    case CircleReference::kLs:
-      return ls_points(points_mm, side);
-    case CircleReference::kMz:
-      return mz_points(points_mm);
-    case CircleReference::kMc:
-    case CircleReference::kMi:
-      return one_sided_points(points_mm, reference);
-  }
-  return core::fail(core::Code::kInternal, "there is no such reference circle");
+  if (reference == CircleReference::kLs) return ls_points(points_mm, side);
+  if (reference == CircleReference::kMz) return mz_points(points_mm);
+  return one_sided_points(points_mm, reference);
 }
 
 core::Result<Roundness> roundness_of_profile(std::span<const double> theta_rad,
                                              std::span<const double> r_mm,
                                              CircleReference reference, const RoundnessSide& side) {
-  switch (reference) {
-    case CircleReference::kLs:
-      return ls_profile(theta_rad, r_mm, side);
-    case CircleReference::kMz:
-    case CircleReference::kMc:
-    case CircleReference::kMi:
-      return program_profile(theta_rad, r_mm, reference);
-  }
-  return core::fail(core::Code::kInternal, "there is no such reference circle");
+  if (reference == CircleReference::kLs) return ls_profile(theta_rad, r_mm, side);
+  return program_profile(theta_rad, r_mm, reference);
 }
 
 }  // namespace rondure::fit

@@ -10,8 +10,6 @@
 
 #include "core/units.h"
 #include "fit/geometry/column_extremes.h"
-#include "fit/least_squares/circle.h"
-#include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/sphere.h"
 
 namespace rondure::fit {
@@ -87,16 +85,8 @@ core::Result<ZoneFit<Place>> judged(ZoneFit<Place> zone, std::span<const Point> 
   return zone;
 }
 
-core::Result<CenterStart<2>> start_fit(PlanePoints points) {
-  const auto circle = algebraic_start(points);
-  if (!circle) return core::fail(circle.error());
-  return CenterStart<2>{circle->center_mm, circle->radius_mm};
-}
-core::Result<CenterStart<3>> start_fit(SpacePoints points) {
-  const auto sphere = ls_sphere(points);
-  if (!sphere) return core::fail(sphere.error());
-  return CenterStart<3>{sphere->center_mm, sphere->radius_mm};
-}
+core::Result<LsCircle> start_fit(PlanePoints points) { return algebraic_start(points); }
+core::Result<LsSphere> start_fit(SpacePoints points) { return ls_sphere(points); }
 
 /// Whether the contacts of a ball alone prove that the points are not on one line (in one plane):
 /// they span a triangle (tetrahedron) that is not small compared with the ball.
@@ -171,8 +161,7 @@ auto CenterZoneFitter<D>::fit_from(std::span<const Point> points_mm, const Point
 
 /// Finds the start from a sample, or from all points if the sample does not determine it.
 template <int D>
-auto CenterZoneFitter<D>::start_of(std::span<const Point> points_mm)
-    -> core::Result<CenterStart<D>> {
+auto CenterZoneFitter<D>::start_of(std::span<const Point> points_mm) -> core::Result<LsCenter<D>> {
   if (auto start = start_fit(spread(points_mm, kCenterSample, sample_))) return start;
   return start_fit(points_mm);
 }

@@ -11,6 +11,7 @@
 #include "fit/geometry/axis.h"
 #include "fit/geometry/contacts.h"
 #include "fit/geometry/points.h"
+#include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/zone/descent.h"
 
@@ -38,13 +39,6 @@ struct ZoneFit {
 using CircleZone = ZoneFit<Eigen::Vector2d>;
 using CylinderZone = ZoneFit<Axis>;
 
-/// Centre and radius at which the search for a centre starts.
-template <int D>
-struct CenterStart {
-  Eigen::Matrix<double, D, 1> center_mm = Eigen::Matrix<double, D, 1>::Zero();
-  double radius_mm = 0.0;
-};
-
 /// Fits zones of circles (D = 2) or spheres (D = 3). The search starts at the least-squares circle
 /// (algebraic) or sphere of some points spread over the data; see ZoneDescent for the rest and the
 /// cost. Circumscribed circles and spheres are convex and start anywhere.
@@ -70,7 +64,7 @@ class CenterZoneFitter {
                           double limit_mm = std::numeric_limits<double>::infinity());
 
  private:
-  core::Result<CenterStart<D>> start_of(std::span<const Point> points_mm);
+  core::Result<LsCenter<D>> start_of(std::span<const Point> points_mm);
 
   std::vector<Point> sample_;
   ZoneDescent<CenterFrame<D>> descent_;
