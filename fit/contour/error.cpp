@@ -11,6 +11,7 @@
 #include "core/numbers.h"
 #include "core/statistics.h"
 #include "core/units.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/circle.h"
 #include "fit/profiles/closed_profile.h"
 #include "fit/profiles/internal/dft.h"
@@ -89,9 +90,7 @@ double ContourError::valley_rad() const {
 }
 
 double peak_to_valley(std::span<const double> curve) {
-  if (curve.empty()) return 0.0;
-  const auto [low, high] = std::minmax_element(curve.begin(), curve.end());
-  return *high - *low;
+  return curve.empty() ? 0.0 : column_extremes(curve).width();
 }
 
 core::Result<ContourError> contour_error(std::span<const double> deviation_mm, double nominal_mm,

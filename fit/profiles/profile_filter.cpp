@@ -11,6 +11,7 @@
 
 #include "core/numbers.h"
 #include "core/statistics.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/profiles/internal/dft.h"
 
 namespace rondure::fit {
@@ -125,8 +126,8 @@ double greatest_step(std::span<const double> a, std::span<const double> b) {
 core::Result<RobustMeanLine> settled_line(const std::vector<double>& r, double cutoff_upr,
                                           Scale scale) {
   RobustMeanLine out{gaussian_mean(r, cutoff_upr), 0, scale == Scale::kFloored};
-  const auto [low, high] = std::minmax_element(r.begin(), r.end());
-  const double round_off = 64.0 * std::numeric_limits<double>::epsilon() * (*high - *low);
+  const double round_off =
+      64.0 * std::numeric_limits<double>::epsilon() * column_extremes(r).width();
   std::vector<double> weighted(r.size());
   while (out.iterations < kIterationLimit) {
     ++out.iterations;

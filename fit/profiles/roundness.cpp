@@ -147,8 +147,7 @@ ZoneRows<2> zone_rows(std::span<const double> theta, std::span<const double> r, 
 
 /// Solves the programme in a box that its optimum does not touch, if there is such a box.
 std::optional<ZoneStep<2>> solved(const ZoneRows<2>& rows, const ZoneWeights& weights) {
-  const auto [low, high] = std::minmax_element(rows.distances().begin(), rows.distances().end());
-  double box = std::max(kFirstBox * (*high - *low), 1e-12);
+  double box = std::max(kFirstBox * column_extremes(rows.distances()).width(), 1e-12);
   for (int k = 0; k < kBoxes; ++k, box *= kBoxGrowth) {
     auto step = solve_zone_program<2>(rows, box, weights);
     if (step.solved && step.inside_box) return step;

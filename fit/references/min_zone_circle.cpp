@@ -86,7 +86,7 @@ MinZoneCircle exact_fit(const LsCircle& circle) {
 }  // namespace
 
 core::Result<MinZoneCircle> min_zone_circle(PlanePoints points_mm,
-                                            const MinZoneCircleOptions& options) {
+                                            const CenterProofOptions& options) {
   CircleZoneFitter fitter;
   const auto zone = fitter.fit(points_mm);
   if (!zone) return core::fail(zone.error());

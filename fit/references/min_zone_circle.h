@@ -24,13 +24,6 @@ struct MinZoneCircle {
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
 };
 
-/// Extent of the proof of a minimum-zone circle.
-struct MinZoneCircleOptions {
-  /// Search all centres, as for a reported value; false: local proof only, as inside loops.
-  bool global = true;
-  GlobalSearchOptions search;
-};
-
 /// Finds the minimum-zone circle of one plane section.
 ///
 /// Minimises  f(c) = max |p_i - c| - min |p_i - c|  by ZoneDescent from the algebraic circle. Then
@@ -45,6 +38,6 @@ struct MinZoneCircleOptions {
 ///         proof.
 /// Sources: ISO 12181-1 (definition); methods, cylindricity section 9, certificates section 2.
 [[nodiscard]] core::Result<MinZoneCircle> min_zone_circle(PlanePoints points_mm,
-                                                          const MinZoneCircleOptions& options = {});
+                                                          const CenterProofOptions& options = {});
 
 }  // namespace rondure::fit

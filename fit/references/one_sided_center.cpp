@@ -88,7 +88,7 @@ core::Result<OneSidedSphere> min_circumscribed_sphere(SpacePoints points_mm) {
   return fit_one_sided<3>(points_mm, kMinimumCircumscribed);
 }
 core::Result<OneSidedCircle> max_inscribed_circle(PlanePoints points_mm,
-                                                  const InscribedOptions& options) {
+                                                  const CenterProofOptions& options) {
   CircleZoneFitter fitter;
   const auto zone = fitter.fit(points_mm, kMaximumInscribed);
   if (!zone) return core::fail(zone.error());

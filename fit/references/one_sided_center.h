@@ -39,13 +39,6 @@ using OneSidedSphere = OneSidedCenter<3>;
 [[nodiscard]] core::Result<OneSidedCircle> min_circumscribed_circle(PlanePoints points_mm);
 [[nodiscard]] core::Result<OneSidedSphere> min_circumscribed_sphere(SpacePoints points_mm);
 
-/// Extent of the proof of a maximum inscribed circle.
-struct InscribedOptions {
-  /// Search all centres, as for a reported value; false: local proof only, as inside loops.
-  bool global = true;
-  GlobalSearchOptions search;
-};
-
 /// Finds the maximum inscribed circle (MICI) or sphere: the largest without a point inside, with
 /// its centre inside the hull of the points.
 ///
@@ -58,7 +51,7 @@ struct InscribedOptions {
 ///         which the circle or sphere grows without bound.
 /// Sources: ISO 12181-1; methods, cylindricity section 11.4, certificates section 2.
 [[nodiscard]] core::Result<OneSidedCircle> max_inscribed_circle(
-    PlanePoints points_mm, const InscribedOptions& options = {});
+    PlanePoints points_mm, const CenterProofOptions& options = {});
 [[nodiscard]] core::Result<OneSidedSphere> max_inscribed_sphere(SpacePoints points_mm);
 
 }  // namespace rondure::fit

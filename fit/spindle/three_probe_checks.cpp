@@ -11,6 +11,7 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/profiles/internal/dft.h"
 #include "fit/profiles/periodic_spline.h"
 #include "fit/spindle/internal/three_probe_parts.h"
@@ -123,8 +124,8 @@ std::vector<LoneReading> lone_readings(std::span<const double> h, std::span<cons
     all.back().probe = probe;
     distances.push_back(std::abs(all.back().score));
   }
-  const auto [low, high] = std::minmax_element(h.begin(), h.end());
-  const double limit = std::max(kGross * scale_of(distances), kGrossFloor * (*high - *low));
+  const double limit =
+      std::max(kGross * scale_of(distances), kGrossFloor * column_extremes(h).width());
   std::vector<LoneReading> out;
   std::copy_if(all.begin(), all.end(), std::back_inserter(out),
                [&](const LoneReading& one) { return std::abs(one.score) > limit; });

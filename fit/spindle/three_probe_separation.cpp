@@ -130,8 +130,7 @@ void judge_residual(const Spectrum& sum, const Spectrum& part, const ProbeSample
     power += 2.0 * std::norm(left) / (n * n);
   }
   for (const auto& h : samples.mean_mm) {  // the zero of a probe is not a displacement
-    const auto [low, high] = std::minmax_element(h.begin(), h.end());
-    largest = std::max(largest, 0.5 * (*high - *low));
+    largest = std::max(largest, 0.5 * column_extremes(h).width());
   }
   result.residual_rms_mm = std::sqrt(power) / norm;
   result.first_harmonic_mm = 2.0 * std::abs(sum[1]) / n / norm;

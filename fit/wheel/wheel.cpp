@@ -164,8 +164,7 @@ void fill_circle(const Points& used, WheelMeasurement& out) {
   std::vector<double> distances;
   for (const auto& p : used) distances.push_back((p - out.center_mm).norm());
   out.radius_mm = core::mean(distances);
-  const auto [low, high] = std::minmax_element(distances.begin(), distances.end());
-  out.deviation_mm = *high - *low;
+  out.deviation_mm = column_extremes(distances).width();
   out.order = angular_order(used, out.center_mm);
   std::vector<double> residuals;
   double squares = 0.0;

@@ -23,6 +23,13 @@ struct GlobalSearchOptions {
                                ///< coordinate range if that is more; it adds to the gap.
 };
 
+/// Extent of the proof of a minimum-zone or maximum inscribed circle.
+struct CenterProofOptions {
+  /// Search all centres, as for a reported value; false: local proof only, as inside loops.
+  bool global = true;
+  GlobalSearchOptions search;
+};
+
 /// Directions that are searched for a better axis.
 struct AxisScope {
   enum class Kind { kCone, kHalfSphere };
