@@ -131,8 +131,8 @@ struct Cut {
 };
 
 std::size_t first_at(const std::vector<double>& alpha, double angle) {
-  return static_cast<std::size_t>(
-      std::lower_bound(alpha.begin(), alpha.end(), angle - core::kSameAngle) - alpha.begin());
+  return static_cast<std::size_t>(std::ranges::lower_bound(alpha, angle - core::kSameAngle) -
+                                  alpha.begin());
 }
 
 /// @param reversed  The turn recorded last is the one with the least angles.
@@ -185,7 +185,7 @@ std::vector<double> on_uniform(const std::vector<double>& alpha, const std::vect
     const double within = turned - core::kTwoPi * std::floor(turned / core::kTwoPi + 1e-12);
     rows.emplace_back(std::max(0.0, within), values[i]);
   }
-  std::sort(rows.begin(), rows.end());
+  std::ranges::sort(rows);
   std::vector<double> angle;
   std::vector<double> value;
   for (const auto& [a, v] : rows) {

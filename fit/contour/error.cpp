@@ -80,12 +80,12 @@ core::Result<void> take_circle(ContourError& out, double nominal_mm) {
 }  // namespace
 
 double ContourError::crest_rad() const {
-  const auto at = std::max_element(error_mm.begin(), error_mm.end()) - error_mm.begin();
+  const auto at = std::ranges::max_element(error_mm) - error_mm.begin();
   return angle_of(static_cast<std::size_t>(at), error_mm.size());
 }
 
 double ContourError::valley_rad() const {
-  const auto at = std::min_element(error_mm.begin(), error_mm.end()) - error_mm.begin();
+  const auto at = std::ranges::min_element(error_mm) - error_mm.begin();
   return angle_of(static_cast<std::size_t>(at), error_mm.size());
 }
 

@@ -71,7 +71,7 @@ std::vector<double> resampled_radii(const ParallelCurve& curve, std::size_t samp
     rows.emplace_back(turned < core::kTwoPi ? turned : 0.0, curve.r_mm[i]);
   }
   // Beta increases, so angles wrapped at the end of the turn follow the greatest one.
-  const auto first = std::min_element(rows.begin(), rows.end());
+  const auto first = std::ranges::min_element(rows);
   std::rotate(rows.begin(), first, rows.end());
   std::vector<double> beta;
   std::vector<double> r;
@@ -96,7 +96,7 @@ core::Result<AxisErrors> filtered(const AxisErrors& errors, double cutoff_upr) {
 /// Positions farther apart than the wheel is wide leave angles that no position reaches.
 core::Result<void> check_radii(const std::vector<double>& r_mm, const AxisErrors& errors,
                                double wheel_mm) {
-  const auto none = std::find_if_not(r_mm.begin(), r_mm.end(), core::is_measurable);
+  const auto none = std::ranges::find_if_not(r_mm, core::is_measurable);
   if (none == r_mm.end()) return {};
   return core::fail(
       core::Code::kOutOfRange,

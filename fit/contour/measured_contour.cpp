@@ -198,7 +198,7 @@ core::Result<MeasuredContour> measured_contour(std::span<const double> angle_rad
   }
   if (auto checked = check_order(angle_rad); !checked) return core::fail(checked.error());
   std::vector<double> beta(angle_rad.size());
-  std::transform(angle_rad.begin(), angle_rad.end(), beta.begin(), [&](double angle) {
+  std::ranges::transform(angle_rad, beta.begin(), [&](double angle) {
     return options.direction * (angle - options.phase_offset_rad);
   });
   const auto profile = ordered_profile(beta, deviation_mm);

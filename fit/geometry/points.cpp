@@ -64,7 +64,7 @@ template <class Vector>
 void sample(std::span<const Vector> points_mm, std::span<Vector> out_mm) {
   assert(out_mm.size() <= points_mm.size());
   if (out_mm.size() == points_mm.size()) {
-    std::copy(points_mm.begin(), points_mm.end(), out_mm.begin());
+    std::ranges::copy(points_mm, out_mm.begin());
     return;
   }
   for (std::size_t k = 0; k < out_mm.size(); ++k) {
@@ -105,10 +105,10 @@ double largest_gap_rad(PlanePoints points_mm, const Eigen::Vector2d& center_mm) 
   std::array<double, 64> few;
   std::vector<double> many(points_mm.size() > few.size() ? points_mm.size() : 0);
   const auto angles = many.empty() ? std::span(few).first(points_mm.size()) : std::span(many);
-  std::transform(points_mm.begin(), points_mm.end(), angles.begin(), [&](const auto& p) {
+  std::ranges::transform(points_mm, angles.begin(), [&](const auto& p) {
     return std::atan2(p.y() - center_mm.y(), p.x() - center_mm.x());
   });
-  std::sort(angles.begin(), angles.end());
+  std::ranges::sort(angles);
   double gap = angles.front() + core::kTwoPi - angles.back();
   for (std::size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);
   return gap;
@@ -116,7 +116,7 @@ double largest_gap_rad(PlanePoints points_mm, const Eigen::Vector2d& center_mm) 
 
 std::vector<Eigen::Vector2d> convex_hull(PlanePoints points_mm) {
   std::vector<Eigen::Vector2d> sorted(points_mm.begin(), points_mm.end());
-  std::sort(sorted.begin(), sorted.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  std::ranges::sort(sorted, [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   });
   // A. Andrew's chain: the lower side from left to right, the upper one back.
@@ -133,7 +133,7 @@ std::vector<Eigen::Vector2d> convex_hull(PlanePoints points_mm) {
       hull.push_back(p);
     }
     hull.pop_back();  // the other side begins with this point
-    std::reverse(sorted.begin(), sorted.end());
+    std::ranges::reverse(sorted);
   }
   return hull;
 }

@@ -115,9 +115,8 @@ NormalSums<3> flat_sums(PlanePoints points_mm, const Eigen::Vector2d& origin,
 
 /// Whether the points are a flat arc of a circle, with a distant centre and correlated radius.
 bool is_flat(PlanePoints points_mm, const Eigen::Vector2d& origin, double radius) {
-  return std::none_of(points_mm.begin(), points_mm.end(), [&](const Eigen::Vector2d& p) {
-    return kFlat * (p - origin).norm() > radius;
-  });
+  return std::ranges::none_of(
+      points_mm, [&](const Eigen::Vector2d& p) { return kFlat * (p - origin).norm() > radius; });
 }
 
 /// Finds the minimum in the unknowns of FlatCircle, for points whose centre is too far away.

@@ -154,16 +154,15 @@ std::vector<Eigen::Vector3d> start_directions(SpacePoints points) {
   std::vector<Eigen::Vector2d> flat(sample.size());
   for (const Eigen::Vector3d& direction : spread(sample)) {
     const auto frame = across(direction);
-    std::transform(
-        sample.begin(), sample.end(), flat.begin(),
-        [&](const Eigen::Vector3d& p) -> Eigen::Vector2d { return frame.transpose() * p; });
+    std::ranges::transform(sample, flat.begin(), [&](const Eigen::Vector3d& p) -> Eigen::Vector2d {
+      return frame.transpose() * p;
+    });
     if (const auto circle = algebraic_circle(flat)) scored.push_back({direction, circle->rms_mm});
   }
-  std::stable_sort(scored.begin(), scored.end(),
-                   [](const Scored& a, const Scored& b) { return a.rms < b.rms; });
+  std::ranges::stable_sort(scored, {}, &Scored::rms);
   std::vector<Eigen::Vector3d> out;
   for (const Scored& candidate : scored) {
-    const bool near = std::any_of(out.begin(), out.end(), [&](const Eigen::Vector3d& d) {
+    const bool near = std::ranges::any_of(out, [&](const Eigen::Vector3d& d) {
       return std::abs(d.dot(candidate.direction)) > kApart;
     });
     if (!near) out.push_back(candidate.direction);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "fit/geometry/column_extremes.h"
 #include "fit/geometry/internal/hull_distance.h"
 
 namespace rondure::fit {
@@ -101,9 +102,8 @@ core::Result<Taper> taper(SpacePoints points_mm, const Axis& axis) {
   }
   const auto slope = ls_slope(points, mean_point(points));
   if (!slope) return core::fail(no_length());
-  const auto [low, high] = std::minmax_element(
-      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
-  return Taper{*slope, 2.0 * *slope * (high->x() - low->x()), 2.0 * std::atan(*slope)};
+  const double length = extremes_of(points, [](const auto& p) { return p.x(); }).width();
+  return Taper{*slope, 2.0 * *slope * length, 2.0 * std::atan(*slope)};
 }
 
 }  // namespace rondure::fit

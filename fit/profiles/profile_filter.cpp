@@ -75,7 +75,7 @@ std::vector<double> linear(std::span<const double> r, const FilterOptions& optio
 
 std::vector<double> difference(std::span<const double> a, const std::vector<double>& b) {
   std::vector<double> out(b.size());
-  std::transform(a.begin(), a.end(), b.begin(), out.begin(), std::minus<>());
+  std::ranges::transform(a, b, out.begin(), std::minus<>());
   return out;
 }
 

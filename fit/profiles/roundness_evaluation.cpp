@@ -166,8 +166,7 @@ std::vector<Eigen::Vector2d> points_of(const RoundnessEvaluation& out, const LsC
 std::vector<double> cells_of_rows(std::span<const double> theta) {
   std::vector<std::size_t> order(theta.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return theta[a] < theta[b]; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t row) { return theta[row]; });
   std::vector<double> sorted;
   for (const std::size_t row : order) sorted.push_back(theta[row]);
   const auto cells = angular_cells(sorted);

@@ -26,8 +26,7 @@ std::vector<BallCentre> mean_reference(const RotaryMeasurement& m) {
   std::vector<double> counts;
   for (const auto& reference : m.references) {
     for (const BallCentre& ball : reference) {
-      auto at = std::find_if(out.begin(), out.end(),
-                             [&](const BallCentre& b) { return b.ball == ball.ball; });
+      auto at = std::ranges::find(out, ball.ball, &BallCentre::ball);
       if (at == out.end()) {
         out.push_back({ball.ball, Vector3d::Zero(), Vector3d::Zero()});
         counts.push_back(0.0);
@@ -237,7 +236,7 @@ void fill_table(RotaryStudy& study) {
   for (const RotaryStation& station : study.stations) {
     if (!station.undetermined) angles.push_back(station.angle_rad);
   }
-  std::sort(angles.begin(), angles.end());
+  std::ranges::sort(angles);
   RotaryTable& table = study.table;
   table.full_circle = goes_round(angles);
   const double lowest = angles.front();
@@ -247,7 +246,7 @@ void fill_table(RotaryStudy& study) {
     return angle - turns * core::kTwoPi;
   };
   for (double& angle : angles) angle = place(angle);
-  std::sort(angles.begin(), angles.end());
+  std::ranges::sort(angles);
   angles.erase(std::unique(angles.begin(), angles.end(),
                            [](double a, double b) { return b - a <= core::kSameAngle; }),
                angles.end());
@@ -261,9 +260,8 @@ void fill_table(RotaryStudy& study) {
   }
   for (const RotaryStation& station : study.stations) {
     const double angle = place(station.angle_rad);
-    const bool known = std::any_of(angles.begin(), angles.end(), [&](double a) {
-      return std::abs(a - angle) <= core::kSameAngle;
-    });
+    const bool known = std::ranges::any_of(
+        angles, [&](double a) { return std::abs(a - angle) <= core::kSameAngle; });
     if (!known) table.missing_rad.push_back(angle);
   }
   table.hysteresis_rms = hysteresis_of(table.rows);
@@ -335,8 +333,7 @@ void warn_of_study(const RotaryMeasurement& m, RotaryStudy& study) {
 /// Computes the results that follow from the stations.
 core::Result<void> conclude(const RotaryMeasurement& m, const RotaryOptions& options,
                             RotaryStudy& study) {
-  const bool none = std::all_of(study.stations.begin(), study.stations.end(),
-                                [](const RotaryStation& s) { return s.undetermined; });
+  const bool none = std::ranges::all_of(study.stations, &RotaryStation::undetermined);
   if (none) {
     return core::fail(Code::kRank,
                       "no station has three balls off one line, so that no error is determined");

@@ -68,7 +68,7 @@ double scatter_mm(const ProbeSamples& samples, const std::vector<std::vector<dou
   double power = 0.0;
   for (const auto& turn : sums) {
     std::vector<double> apart(mean.size());
-    std::transform(turn.begin(), turn.end(), mean.begin(), apart.begin(), std::minus<>());
+    std::ranges::transform(turn, mean, apart.begin(), std::minus<>());
     const Spectrum f = spectrum(apart);
     for (std::size_t k = 2; k <= static_cast<std::size_t>(highest); ++k)
       power += std::norm(f[k] / kept(samples, k));
@@ -127,11 +127,10 @@ std::vector<LoneReading> lone_readings(std::span<const double> h, std::span<cons
   const double limit =
       std::max(kGross * scale_of(distances), kGrossFloor * column_extremes(h).width());
   std::vector<LoneReading> out;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(out),
-               [&](const LoneReading& one) { return std::abs(one.score) > limit; });
-  std::sort(out.begin(), out.end(), [](const LoneReading& a, const LoneReading& b) {
-    return std::abs(a.score) > std::abs(b.score);
-  });
+  std::ranges::copy_if(all, std::back_inserter(out),
+                       [&](const LoneReading& one) { return std::abs(one.score) > limit; });
+  std::ranges::sort(out, std::greater<>(),
+                    [](const LoneReading& one) { return std::abs(one.score); });
   return out;
 }
 
@@ -153,9 +152,9 @@ std::vector<LoneReading> gross_readings(const ProbeReadings& readings, const Pro
   const double step = samples.revolutions * core::kTwoPi / static_cast<double>(theta.size());
   std::vector<LoneReading> out;
   for (const LoneReading& one : found) {
-    const bool known = std::any_of(
-        out.begin(), out.end(), [&](const LoneReading& other) { return near_in_time(one, other); });
-    const bool on_part = std::any_of(found.begin(), found.end(), [&](const LoneReading& other) {
+    const bool known = std::ranges::any_of(
+        out, [&](const LoneReading& other) { return near_in_time(one, other); });
+    const bool on_part = std::ranges::any_of(found, [&](const LoneReading& other) {
       if (near_in_time(one, other)) return false;
       const double apart = std::remainder(
           theta[one.row] + angles[one.probe] - theta[other.row] - angles[other.probe],

@@ -40,7 +40,7 @@ FourRows draw_rows(std::uint64_t& state, std::size_t n) {
     rows[k] = draw(state, n);
     if (std::find(rows.begin(), end, rows[k]) == end) ++k;
   }
-  std::sort(rows.begin(), rows.end());
+  std::ranges::sort(rows);
   return rows;
 }
 
@@ -111,8 +111,7 @@ WheelCenters select_systematic(PlanePoints points_mm, double radius_mm,
     sort_in(center, refusal_of(center, radius_mm, out.kappa_limit, options), out);
   }
   if (options.choice == QuadrupleChoice::kBest && out.accepted.size() > options.count) {
-    std::stable_sort(out.accepted.begin(), out.accepted.end(),
-                     [](const auto& a, const auto& b) { return a.kappa < b.kappa; });
+    std::ranges::stable_sort(out.accepted, {}, &FourPointCenter::kappa);
     out.accepted.resize(options.count);
   }
   return out;

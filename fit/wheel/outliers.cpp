@@ -108,8 +108,7 @@ core::Result<Outliers> find_outliers(PlanePoints points_mm,
       out.dropped.push_back({order.rows[place], out.deviations_mm[order.rows[place]]});
     }
   }
-  std::sort(out.dropped.begin(), out.dropped.end(),
-            [](const auto& a, const auto& b) { return a.row < b.row; });
+  std::ranges::sort(out.dropped, {}, &DroppedPoint::row);
   if (auto checked = check_count(out, points_mm.size()); !checked) {
     return core::fail(checked.error());
   }

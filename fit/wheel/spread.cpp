@@ -24,8 +24,7 @@ AngularOrder angular_order(PlanePoints points_mm, const Eigen::Vector2d& center_
   }
   std::vector<std::size_t> rows(n);
   std::iota(rows.begin(), rows.end(), std::size_t{0});
-  std::stable_sort(rows.begin(), rows.end(),
-                   [&](std::size_t a, std::size_t b) { return angles[a] < angles[b]; });
+  std::ranges::stable_sort(rows, {}, [&](std::size_t row) { return angles[row]; });
   AngularOrder out;
   std::size_t first = 0;
   for (std::size_t k = 0; k < n; ++k) {

@@ -29,8 +29,8 @@ constexpr double kCorrelationLimit = 2.0;
 core::Result<void> check_distinct(PlanePoints points_mm) {
   Points found;
   for (const Eigen::Vector2d& p : points_mm) {
-    const bool seen = std::any_of(found.begin(), found.end(),
-                                  [&](const auto& q) { return (p - q).norm() <= kSamePoint; });
+    const bool seen =
+        std::ranges::any_of(found, [&](const auto& q) { return (p - q).norm() <= kSamePoint; });
     if (!seen) found.push_back(p);
     if (found.size() == kLeastPoints) return {};
   }

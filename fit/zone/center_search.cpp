@@ -38,8 +38,8 @@ double contact_tolerance(PlanePoints points_mm) {
 ContactSets contacts_at(PlanePoints points_mm, const Eigen::Vector2d& center, double tolerance) {
   ContactSets out;
   std::vector<double> r(points_mm.size());
-  std::transform(points_mm.begin(), points_mm.end(), r.begin(),
-                 [&](const Eigen::Vector2d& p) { return (p - center).norm(); });
+  std::ranges::transform(points_mm, r.begin(),
+                         [&](const Eigen::Vector2d& p) { return (p - center).norm(); });
   const auto [low, high] = std::minmax_element(r.begin(), r.end());
   out.low = *low;
   out.high = *high;
@@ -73,15 +73,15 @@ std::vector<ContactCandidate> contact_candidates(PlanePoints points_mm,
   const auto along = [&](std::size_t i) { return (points_mm[i] - center_mm).dot(direction); };
   // Contacts that stay extreme during the move: the outer one recedes most, the inner one least.
   const auto by_along = [&](std::size_t a, std::size_t b) { return along(a) < along(b); };
-  const std::size_t h = *std::min_element(outer.begin(), outer.end(), by_along);
-  const std::size_t l = *std::max_element(inner.begin(), inner.end(), by_along);
+  const std::size_t h = *std::ranges::min_element(outer, by_along);
+  const std::size_t l = *std::ranges::max_element(inner, by_along);
   // The difference of squared distances as (a - b).(a + b), which avoids cancellation.
   const auto squared_difference = [&](std::size_t a, std::size_t b) {
     return (points_mm[a] - points_mm[b])
         .dot((points_mm[a] - center_mm) + (points_mm[b] - center_mm));
   };
   const auto holds = [](std::span<const std::size_t> set, std::size_t i) {
-    return std::find(set.begin(), set.end(), i) != set.end();
+    return std::ranges::find(set, i) != set.end();
   };
   std::vector<ContactCandidate> out;
   for (std::size_t i = 0; i < points_mm.size(); ++i) {
@@ -95,9 +95,7 @@ std::vector<ContactCandidate> contact_candidates(PlanePoints points_mm,
       if (step > 0.0) out.push_back({i, true, step});
     }
   }
-  std::stable_sort(
-      out.begin(), out.end(),
-      [](const ContactCandidate& a, const ContactCandidate& b) { return a.step_mm < b.step_mm; });
+  std::ranges::stable_sort(out, {}, &ContactCandidate::step_mm);
   return out;
 }
 

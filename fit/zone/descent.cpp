@@ -44,8 +44,7 @@ std::size_t candidates(int pass, std::size_t blocks) {
 }
 
 bool all_nonnegative(const Contacts& contacts) {
-  return std::all_of(contacts.begin(), contacts.end(),
-                     [](const Contact& c) { return c.multiplier >= 0.0; });
+  return std::ranges::all_of(contacts, [](const Contact& c) { return c.multiplier >= 0.0; });
 }
 
 /// The contacts with a multiplier above kWeak.
@@ -91,8 +90,7 @@ auto ZoneDescent<Frame>::run(Points points, const Point& origin, const Frame& st
 template <class Frame>
 void ZoneDescent<Frame>::name_rows(Contacts& contacts) const {
   for (Contact& c : contacts) c.index = working_.row(c.index);
-  std::sort(contacts.begin(), contacts.end(),
-            [](const Contact& a, const Contact& b) { return a.index < b.index; });
+  std::ranges::sort(contacts, {}, &Contact::index);
 }
 
 template <class Frame>
@@ -282,8 +280,7 @@ bool ZoneDescent<Frame>::is_vertex(const ZoneStep<K>& step) const {
   if (!step.inside_box) return false;
   if (step.outer.size() + step.inner.size() != static_cast<std::size_t>(K + sides)) return false;
   const auto firm = [](const Contact& c) { return c.multiplier > kFirm; };
-  return std::all_of(step.outer.begin(), step.outer.end(), firm) &&
-         std::all_of(step.inner.begin(), step.inner.end(), firm);
+  return std::ranges::all_of(step.outer, firm) && std::ranges::all_of(step.inner, firm);
 }
 
 // The functions below use curvature, which linear programs do not include: Newton's method on the
@@ -417,8 +414,7 @@ bool ZoneDescent<Frame>::contacts_hold(const Result& state) const {
   const auto at_most = [&](const Contact& c) {
     return state.frame.distance(working_[c.index]) <= state.zone.low + slack;
   };
-  return std::all_of(state.outer.begin(), state.outer.end(), at_least) &&
-         std::all_of(state.inner.begin(), state.inner.end(), at_most);
+  return std::ranges::all_of(state.outer, at_least) && std::ranges::all_of(state.inner, at_most);
 }
 
 /// The direction in which the zone shrinks most by curvature while the contacts of a state stay

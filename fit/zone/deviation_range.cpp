@@ -31,8 +31,7 @@ Polygon square_about(const Eigen::Vector2d& center, double half) {
 /// Keeps the part of a convex polygon where normal . c <= limit.
 void clip(Polygon& polygon, const Eigen::Vector2d& normal, double limit) {
   const auto excess = [&](const Eigen::Vector2d& c) { return normal.dot(c) - limit; };
-  if (std::all_of(polygon.begin(), polygon.end(), [&](const auto& c) { return excess(c) <= 0.0; }))
-    return;
+  if (std::ranges::all_of(polygon, [&](const auto& c) { return excess(c) <= 0.0; })) return;
   Polygon out;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d& from = polygon[i];

@@ -37,8 +37,7 @@ double growth_on_face(ContactRows<K> outer, ContactRows<K> inner, const ZoneWeig
 
 template <int K>
 const ContactRow<K>& row_of(ContactRows<K> rows, std::size_t index) {
-  return *std::find_if(rows.begin(), rows.end(),
-                       [&](const ContactRow<K>& row) { return row.index == index; });
+  return *std::ranges::find(rows, index, &ContactRow<K>::index);
 }
 
 using Columns = Eigen::Matrix<double, 4, 2 * static_cast<int>(Contacts::kCapacity)>;

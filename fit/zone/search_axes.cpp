@@ -208,7 +208,7 @@ class AxisSearcher {
     if (narrow || levels == 0 || out_.boxes >= options_.max_boxes) return found;
     auto squares = quarters(square);
     // The square with the most promising axis comes first, as it is the most likely to stay open.
-    std::sort(squares.begin(), squares.end(), [&](const ZoneBox& a, const ZoneBox& b) {
+    std::ranges::sort(squares, [&](const ZoneBox& a, const ZoneBox& b) {
       return (a.center_mm - found.center_mm).squaredNorm() <
              (b.center_mm - found.center_mm).squaredNorm();
     });

@@ -327,9 +327,8 @@ void ZoneSimplex<K>::report(ZoneStep<K>& out) const {
     if (value <= 0.0 || (outer ? weights_.outer : weights_.inner) == 0.0) continue;
     (outer ? out.outer : out.inner).push_back({c.index, value});
   }
-  const auto by_index = [](const Contact& a, const Contact& b) { return a.index < b.index; };
-  std::sort(out.outer.begin(), out.outer.end(), by_index);
-  std::sort(out.inner.begin(), out.inner.end(), by_index);
+  std::ranges::sort(out.outer, {}, &Contact::index);
+  std::ranges::sort(out.inner, {}, &Contact::index);
 }
 
 template class ZoneSimplex<1>;

@@ -86,8 +86,8 @@ void JointModel::group_targets(std::span<const JointPose> poses) {
 std::size_t JointModel::shared() const {
   std::size_t count = 0;
   for (const auto& rows : groups_) {
-    const bool several = std::any_of(
-        rows.begin(), rows.end(), [&](int row) { return pose_of(row) != pose_of(rows.front()); });
+    const bool several =
+        std::ranges::any_of(rows, [&](int row) { return pose_of(row) != pose_of(rows.front()); });
     count += several ? 1 : 0;
   }
   return count;

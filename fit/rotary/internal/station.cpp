@@ -61,7 +61,7 @@ std::vector<Vector3d> nominal_places(std::span<const StationBall> balls) {
 }
 
 bool alike_in_all_directions(std::span<const StationBall> balls) {
-  return std::all_of(balls.begin(), balls.end(), [](const StationBall& ball) {
+  return std::ranges::all_of(balls, [](const StationBall& ball) {
     const Matrix3d c = ball.measured_mm2 + ball.nominal_mm2;
     const double mean = c.trace() / 3.0;
     return (c - mean * Matrix3d::Identity()).norm() <= 1e-12 * mean;
@@ -212,7 +212,7 @@ RotaryStation solve_station(std::vector<StationBall> balls, const RotaryOptions&
     if (!options.remove_outliers || balls.size() < 5) break;
     std::vector<double> sizes;
     for (std::size_t i = 0; i < balls.size(); ++i) sizes.push_back(normalised_residual(at, out, i));
-    const auto worst = std::max_element(sizes.begin(), sizes.end()) - sizes.begin();
+    const auto worst = std::ranges::max_element(sizes) - sizes.begin();
     std::vector<StationBall> rest = balls;
     rest.erase(rest.begin() + worst);
     RotaryStation next;
