@@ -50,11 +50,8 @@ struct ParallelCurve {
                                            ParallelForm form = ParallelForm::kFourier);
 
 /// Computes the ground contour as the envelope of all wheel positions: for every polar angle the
-/// least distance to a wheel circle. Valid also where the parallel curve has loops.
-///
-/// The path is refined() `oversampling` times, and a parabola gives the least distance at each
-/// angle. Positions that cannot reach the least distance so far are skipped, which does not change
-/// the result.
+/// least distance to a wheel circle, valid also where the parallel curve has loops. The path is
+/// refined() `oversampling` times, and a parabola gives the least distance at each angle.
 /// @param samples  Number of angles 2 pi m / samples.
 [[nodiscard]] std::vector<double> envelope_radii_mm(const GrindingPath& path,
                                                     double wheel_radius_mm, std::size_t samples,

@@ -75,7 +75,7 @@ core::Result<void> check_options(const WheelOptions& options) {
   return {};
 }
 
-core::Result<void> check_arc(const Points& points, const LsCircle& circle,
+core::Result<void> check_arc(PlanePoints points, const LsCircle& circle,
                              const WheelOptions& options) {
   const AngularOrder order = angular_order(points, circle.center_mm);
   if (order.coverage_rad() >= kLeastArc || options.allow_short_arc) return {};
@@ -101,8 +101,7 @@ core::Result<LsCircle> check_and_start(PlanePoints points_mm, const WheelOptions
   if (auto checked = check_distinct(points_mm); !checked) return core::fail(checked.error());
   const auto circle = ls_circle(points_mm);
   if (!circle) return circle;
-  const Points points(points_mm.begin(), points_mm.end());
-  if (auto checked = check_arc(points, *circle, options); !checked) {
+  if (auto checked = check_arc(points_mm, *circle, options); !checked) {
     return core::fail(checked.error());
   }
   if (auto checked = check_radius(circle->radius_mm, options); !checked) {

@@ -16,12 +16,6 @@ constexpr double kLobeShare = 0.75;
 constexpr double kLengthShare = 0.20;
 constexpr double kSpotShare = 0.05;
 
-Eigen::Matrix3d rotation(const Eigen::Vector3d& w) {
-  const double angle = w.norm();
-  if (angle == 0.0) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
-}
-
 /// J of exp(w + dw) = exp(w) exp(J dw). The angles here are far below 0.01 rad, so that the series
 /// is exact to the last bit.
 Eigen::Matrix3d right_jacobian(const Eigen::Vector3d& w) {
@@ -133,7 +127,7 @@ Eigen::Isometry3d JointModel::error(const Eigen::VectorXd& x, int pose) const {
   const Eigen::Map<const Eigen::Matrix<double, 6, 1>> u(at.prior.data());
   const Eigen::Matrix<double, 6, 1> e = u.cwiseProduct(x.segment<6>(pose_column(pose)));
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  motion.linear() = rotation(e.tail<3>());
+  motion.linear() = error_motion(Eigen::Vector3d::Zero(), e.tail<3>()).linear();
   motion.translation() = at.pivot_W_mm + e.head<3>() - motion.linear() * at.pivot_W_mm;
   return motion;
 }

@@ -39,8 +39,7 @@ struct ZoneBoxBound {
 /// and a zone of width w <= W has  R^2 <= r^2 (1 + W/g) + W (g + W)  for any g > 0. Both sides of
 /// this inequality are linear in the axis except for products of its parameters. The multipliers of
 /// a linear programme over the linear part turn it into one quadratic inequality (weak duality),
-/// which is bounded over the box term by term. Any multipliers >= 0 with sum 1 are valid, so an
-/// error of the programme makes the bound less sharp, but never false.
+/// bounded over the box term by term: an error of the programme makes it less sharp, never false.
 ///
 /// @param points_mm  In the frame: x, y across its z, height z [mm]. A subset gives a valid bound.
 /// @param width_mm   W > 0; no bound above it is sought.
