@@ -45,7 +45,4 @@ class CenterFrame {
   Point center_;
 };
 
-extern template class CenterFrame<2>;
-extern template class CenterFrame<3>;
-
 }  // namespace rondure::fit

@@ -50,17 +50,4 @@ Extremes square_column(std::size_t count, const double* const* columns, const do
 /// Returns the first row that holds exactly this number, or the last row if none does.
 [[nodiscard]] std::size_t first_row_of(std::span<const double> values, double value);
 
-extern template Extremes move_column<1>(std::span<const double>, const double* const*,
-                                        const double*, double*);
-extern template Extremes move_column<2>(std::span<const double>, const double* const*,
-                                        const double*, double*);
-extern template Extremes move_column<3>(std::span<const double>, const double* const*,
-                                        const double*, double*);
-extern template Extremes move_column<4>(std::span<const double>, const double* const*,
-                                        const double*, double*);
-extern template Extremes square_column<2>(std::size_t, const double* const*, const double*,
-                                          double*);
-extern template Extremes square_column<3>(std::size_t, const double* const*, const double*,
-                                          double*);
-
 }  // namespace rondure::fit

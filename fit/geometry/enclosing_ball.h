@@ -66,7 +66,4 @@ class EnclosingBall {
   std::vector<double> column_;  ///< The squared distances.
 };
 
-extern template class EnclosingBall<2>;
-extern template class EnclosingBall<3>;
-
 }  // namespace rondure::fit

@@ -16,8 +16,7 @@
 
 namespace rondure::fit {
 
-/// Reference circles of ISO 12181-1. To add one, add an enumerator, its name, and its case in
-/// roundness_of_points() and roundness_of_profile().
+/// Reference circles of ISO 12181-1.
 enum class CircleReference {
   kLs,  ///< LSCI, least squares.
   kMz,  ///< MZCI, minimum zone.

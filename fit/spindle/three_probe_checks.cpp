@@ -12,7 +12,6 @@
 #include "core/statistics.h"
 #include "core/units.h"
 #include "fit/geometry/column_extremes.h"
-#include "fit/profiles/internal/dft.h"
 #include "fit/profiles/periodic_spline.h"
 #include "fit/spindle/internal/three_probe_parts.h"
 

@@ -8,7 +8,6 @@
 
 #include "core/units.h"
 #include "fit/geometry/column_extremes.h"
-#include "fit/profiles/internal/dft.h"
 #include "fit/spindle/internal/three_probe_parts.h"
 
 namespace rondure::fit {

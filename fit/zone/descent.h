@@ -113,8 +113,4 @@ class ZoneDescent {
   std::vector<std::size_t> order_;
 };
 
-extern template class ZoneDescent<CenterFrame<2>>;
-extern template class ZoneDescent<CenterFrame<3>>;
-extern template class ZoneDescent<CylinderFrame>;
-
 }  // namespace rondure::fit

@@ -98,7 +98,4 @@ class CylinderZoneFitter {
   ZoneDescent<CylinderFrame> descent_;
 };
 
-extern template class CenterZoneFitter<2>;
-extern template class CenterZoneFitter<3>;
-
 }  // namespace rondure::fit

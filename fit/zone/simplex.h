@@ -124,9 +124,4 @@ template <int K>
   return ZoneSimplex<K>().solve(rows, box_mm, weights, pivot_limit);
 }
 
-extern template class ZoneSimplex<1>;
-extern template class ZoneSimplex<2>;
-extern template class ZoneSimplex<3>;
-extern template class ZoneSimplex<4>;
-
 }  // namespace rondure::fit

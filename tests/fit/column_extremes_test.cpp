@@ -20,7 +20,7 @@ std::vector<double> column(std::uint64_t seed, std::size_t count) {
   return out;
 }
 
-TEST(Extremes, AreThoseOfAPlainLoopAtEveryLength) {
+TEST(ColumnExtremes, AreThoseOfAPlainLoopAtEveryLength) {
   for (std::size_t count = 1; count <= 40; ++count) {
     SCOPED_TRACE(count);
     const auto values = column(1, count);
@@ -33,14 +33,14 @@ TEST(Extremes, AreThoseOfAPlainLoopAtEveryLength) {
   }
 }
 
-TEST(Extremes, NameTheFirstOfEqualRows) {
+TEST(ColumnExtremes, NameTheFirstOfEqualRows) {
   std::vector<double> values(19, 1.0);
   values[11] = values[6] = 2.0;
   EXPECT_EQ(first_row_of(values, 2.0), 6U);
   EXPECT_EQ(first_row_of(values, 1.0), 0U);
 }
 
-TEST(Extremes, MovedColumnsAreThoseOfAPlainLoop) {
+TEST(ColumnExtremes, MovedColumnsAreThoseOfAPlainLoop) {
   for (std::size_t count = 1; count <= 21; ++count) {
     SCOPED_TRACE(count);
     const auto values = column(1, count), a = column(2, count), b = column(3, count);
@@ -61,7 +61,7 @@ TEST(Extremes, MovedColumnsAreThoseOfAPlainLoop) {
   }
 }
 
-TEST(Extremes, TheLargestMagnitudeIsNotFiniteWhereOneNumberIsNot) {
+TEST(ColumnExtremes, TheLargestMagnitudeIsNotFiniteWhereOneNumberIsNot) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
         -std::numeric_limits<double>::infinity()}) {
