@@ -1,127 +1,90 @@
 #include "core/error.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 namespace rondure::core {
+namespace {
+
+struct NamedCode {
+  Code code;
+  std::string_view name;
+};
+
+constexpr std::array kCodes = {
+    NamedCode{Code::kNoPoints, "no-points"},
+    NamedCode{Code::kNotFinite, "not-finite"},
+    NamedCode{Code::kTooFewPoints, "too-few-points"},
+    NamedCode{Code::kCollinear, "collinear"},
+    NamedCode{Code::kNotFullSection, "not-full-section"},
+    NamedCode{Code::kRank, "rank"},
+    NamedCode{Code::kNotConverged, "not-converged"},
+    NamedCode{Code::kUnits, "units"},
+    NamedCode{Code::kShortArc, "short-arc"},
+    NamedCode{Code::kTooFewCenters, "too-few-centers"},
+    NamedCode{Code::kOutliers, "outliers"},
+    NamedCode{Code::kSurface, "surface"},
+    NamedCode{Code::kTable, "table"},
+    NamedCode{Code::kGouge, "gouge"},
+    NamedCode{Code::kWheelArc, "wheel-arc"},
+    NamedCode{Code::kBadOption, "bad-option"},
+    NamedCode{Code::kSyntax, "syntax"},
+    NamedCode{Code::kUnknownKey, "unknown-key"},
+    NamedCode{Code::kRepeatedKey, "repeated-key"},
+    NamedCode{Code::kWrongUnit, "wrong-unit"},
+    NamedCode{Code::kMissingKey, "missing-key"},
+    NamedCode{Code::kWrongType, "wrong-type"},
+    NamedCode{Code::kOutOfRange, "out-of-range"},
+    NamedCode{Code::kPoseRange, "pose-range"},
+    NamedCode{Code::kStep, "step"},
+    NamedCode{Code::kSampling, "sampling"},
+    NamedCode{Code::kMeaning, "meaning"},
+    NamedCode{Code::kFile, "file"},
+    NamedCode{Code::kUnreachable, "unreachable"},
+    NamedCode{Code::kNoTouch, "no-touch"},
+    NamedCode{Code::kCollision, "collision"},
+    NamedCode{Code::kLocation, "location"},
+    NamedCode{Code::kCalibration, "calibration"},
+    NamedCode{Code::kMachine, "machine"},
+    NamedCode{Code::kStopped, "stopped"},
+    NamedCode{Code::kJournal, "journal"},
+    NamedCode{Code::kArchive, "archive"},
+    NamedCode{Code::kInternal, "internal"},
+    NamedCode{Code::kSparse, "sparse"},
+    NamedCode{Code::kNoCertificate, "no-certificate"},
+    NamedCode{Code::kExactFit, "exact-fit"},
+    NamedCode{Code::kNotLevel, "not-level"},
+    NamedCode{Code::kUndersampled, "undersampled"},
+    NamedCode{Code::kFilteredTwice, "filtered-twice"},
+    NamedCode{Code::kUndercut, "undercut"},
+    NamedCode{Code::kSense, "sense"},
+    NamedCode{Code::kAlignment, "alignment"},
+    NamedCode{Code::kAngleOrder, "angle-order"},
+    NamedCode{Code::kReferenceAbsent, "reference-absent"},
+    NamedCode{Code::kCenterDisagrees, "center-disagrees"},
+    NamedCode{Code::kNoAxis, "no-axis"},
+    NamedCode{Code::kLocalForm, "local-form"},
+    NamedCode{Code::kCorrelated, "correlated"},
+    NamedCode{Code::kLowMargin, "low-margin"},
+    NamedCode{Code::kSeveralOptima, "several-optima"},
+    NamedCode{Code::kHarmonicLoss, "harmonic-loss"},
+    NamedCode{Code::kInconsistent, "inconsistent"},
+};
+
+constexpr bool codes_stand_in_order() {
+  for (std::size_t i = 0; i < kCodes.size(); ++i) {
+    if (kCodes[i].code != static_cast<Code>(i)) return false;
+  }
+  return kCodes.back().code == kLastCode;
+}
+static_assert(codes_stand_in_order());
+
+}  // namespace
 
 std::string_view code_name(Code code) {
-  switch (code) {
-    case Code::kNoPoints:
-      return "no-points";
-    case Code::kNotFinite:
-      return "not-finite";
-    case Code::kTooFewPoints:
-      return "too-few-points";
-    case Code::kCollinear:
-      return "collinear";
-    case Code::kNotFullSection:
-      return "not-full-section";
-    case Code::kRank:
-      return "rank";
-    case Code::kNotConverged:
-      return "not-converged";
-    case Code::kUnits:
-      return "units";
-    case Code::kShortArc:
-      return "short-arc";
-    case Code::kTooFewCenters:
-      return "too-few-centers";
-    case Code::kOutliers:
-      return "outliers";
-    case Code::kSurface:
-      return "surface";
-    case Code::kTable:
-      return "table";
-    case Code::kGouge:
-      return "gouge";
-    case Code::kWheelArc:
-      return "wheel-arc";
-    case Code::kBadOption:
-      return "bad-option";
-    case Code::kSyntax:
-      return "syntax";
-    case Code::kUnknownKey:
-      return "unknown-key";
-    case Code::kRepeatedKey:
-      return "repeated-key";
-    case Code::kWrongUnit:
-      return "wrong-unit";
-    case Code::kMissingKey:
-      return "missing-key";
-    case Code::kWrongType:
-      return "wrong-type";
-    case Code::kOutOfRange:
-      return "out-of-range";
-    case Code::kPoseRange:
-      return "pose-range";
-    case Code::kStep:
-      return "step";
-    case Code::kSampling:
-      return "sampling";
-    case Code::kMeaning:
-      return "meaning";
-    case Code::kFile:
-      return "file";
-    case Code::kUnreachable:
-      return "unreachable";
-    case Code::kNoTouch:
-      return "no-touch";
-    case Code::kCollision:
-      return "collision";
-    case Code::kLocation:
-      return "location";
-    case Code::kCalibration:
-      return "calibration";
-    case Code::kMachine:
-      return "machine";
-    case Code::kStopped:
-      return "stopped";
-    case Code::kJournal:
-      return "journal";
-    case Code::kArchive:
-      return "archive";
-    case Code::kInternal:
-      return "internal";
-    case Code::kSparse:
-      return "sparse";
-    case Code::kNoCertificate:
-      return "no-certificate";
-    case Code::kExactFit:
-      return "exact-fit";
-    case Code::kNotLevel:
-      return "not-level";
-    case Code::kUndersampled:
-      return "undersampled";
-    case Code::kAngleOrder:
-      return "angle-order";
-    case Code::kReferenceAbsent:
-      return "reference-absent";
-    case Code::kSeveralOptima:
-      return "several-optima";
-    case Code::kFilteredTwice:
-      return "filtered-twice";
-    case Code::kUndercut:
-      return "undercut";
-    case Code::kSense:
-      return "sense";
-    case Code::kAlignment:
-      return "alignment";
-    case Code::kHarmonicLoss:
-      return "harmonic-loss";
-    case Code::kInconsistent:
-      return "inconsistent";
-    case Code::kCenterDisagrees:
-      return "center-disagrees";
-    case Code::kNoAxis:
-      return "no-axis";
-    case Code::kLocalForm:
-      return "local-form";
-    case Code::kCorrelated:
-      return "correlated";
-    case Code::kLowMargin:
-      return "low-margin";
-  }
-  return "internal";
+  const auto at = static_cast<std::size_t>(code);
+  return at < kCodes.size() ? kCodes[at].name : "internal";
 }
 
 std::string to_line(const Error& error) {

@@ -80,8 +80,8 @@ inline constexpr Code kLastCode = Code::kInconsistent;
 /// The reason why an operation failed.
 struct Error {
   Code code = Code::kInternal;
-  std::string what;   ///< One sentence with number, unit and limit.
-  std::string where;  ///< JSON pointer into the plan, "file.csv:12", or empty.
+  std::string what;        ///< One sentence with number, unit and limit.
+  std::string where = {};  ///< JSON pointer into the plan, "file.csv:12", or empty.
 
   /// Returns this error with `where` set to `place`.
   [[nodiscard]] Error at(std::string place) const { return {code, what, std::move(place)}; }

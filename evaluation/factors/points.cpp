@@ -101,7 +101,7 @@ core::Result<double> roundness(const Points3& points, Reference reference) {
     return one_sided(fit::min_circumscribed_circle(plane));
   if (reference == Reference::kMaximumInscribed)
     return one_sided(fit::max_inscribed_circle(plane, {.global = false, .search = {}}));
-  fit::MinZoneCircleOptions options;
+  fit::CenterProofOptions options;
   options.global = false;
   const auto zone = fit::min_zone_circle(plane, options);
   if (!zone) return core::fail(zone.error());

@@ -317,7 +317,7 @@ void judge_balls(const Measurement& measured, RotaryResult& facts) {
   for (const fit::BallCentre& ball : facts.alpha.reference) {
     balls.emplace_back(ball.centre_mm - facts.calibration.axis_point_mm);
   }
-  facts.condition = fit::judge_setup(balls).condition;
+  facts.condition = fit::setup_condition(balls);
   double variance = 0.0;
   double count = 0.0;
   for (const VisitBalls& visit : measured.visits) {

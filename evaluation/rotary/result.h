@@ -30,7 +30,7 @@ struct RotaryResult {
   std::size_t touches = 0;
   double touch_sigma_mm = 0.0;  ///< Pooled scatter of a touch about its ball.
   double center_u_mm = 0.0;     ///< Root mean square standard uncertainty of a centre coordinate.
-  double condition = 0.0;       ///< Of all balls; see fit::BallSetup.
+  double condition = 0.0;       ///< Of all balls; see fit::setup_condition().
   std::vector<CombinedPose> combined;
   fixture::Calibration calibration;
 };

@@ -9,6 +9,7 @@
 #include "core/numbers.h"
 #include "core/statistics.h"
 #include "core/units.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/profiles/internal/dft.h"
 #include "fit/profiles/periodic_spline.h"
 
@@ -130,8 +131,8 @@ struct Cut {
 };
 
 std::size_t first_at(const std::vector<double>& alpha, double angle) {
-  return static_cast<std::size_t>(
-      std::lower_bound(alpha.begin(), alpha.end(), angle - core::kSameAngle) - alpha.begin());
+  return static_cast<std::size_t>(std::ranges::lower_bound(alpha, angle - core::kSameAngle) -
+                                  alpha.begin());
 }
 
 /// @param reversed  The turn recorded last is the one with the least angles.
@@ -184,7 +185,7 @@ std::vector<double> on_uniform(const std::vector<double>& alpha, const std::vect
     const double within = turned - core::kTwoPi * std::floor(turned / core::kTwoPi + 1e-12);
     rows.emplace_back(std::max(0.0, within), values[i]);
   }
-  std::sort(rows.begin(), rows.end());
+  std::ranges::sort(rows);
   std::vector<double> angle;
   std::vector<double> value;
   for (const auto& [a, v] : rows) {
@@ -204,16 +205,11 @@ std::vector<double> on_uniform(const std::vector<double>& alpha, const std::vect
 }
 
 void warn_of_units(AxisTurn& turn) {
-  const auto greatest = [](const std::vector<double>& values) {
-    double out = 0.0;
-    for (const double v : values) out = std::max(out, std::abs(v));
-    return out;
-  };
-  const double x = greatest(turn.errors.x_mm);
-  const double c = greatest(turn.errors.c_rad);
+  const double x = largest_magnitude(turn.errors.x_mm);
+  const double c = largest_magnitude(turn.errors.c_rad);
   const double mean = core::mean(turn.errors.x_mm);
   const auto warn = [&](std::string what) {
-    turn.warnings.push_back({core::Code::kUnits, std::move(what), {}});
+    turn.warnings.push_back({core::Code::kUnits, std::move(what)});
   };
   if (x > kLargeX) {
     warn(fmt::format("errors of X reach {:.4g} mm, above {} mm: is the unit right?", x, kLargeX));

@@ -37,10 +37,9 @@ struct AxisTurn {
 /// Extracts the last whole turn of a trace, from alpha = 0 on, and resamples it to uniform command
 /// angles by a cubic spline over alpha.
 ///
-/// If 0.2 rad are recorded on both sides of that turn, the spline includes those samples; otherwise
-/// the turn is treated as closed. A turn that ends within a step of alpha = 0 is whole. A trace
-/// without a turn from 0 to 0 but with 360 deg in total, such as 300 samples of 1.2 deg, is also
-/// treated as closed.
+/// The spline includes 0.2 rad on both sides if they are recorded; otherwise the turn is treated as
+/// closed. A turn that ends within a step of alpha = 0 is whole. A trace without a turn from 0 to 0
+/// but with 360 deg in total, such as 300 samples of 1.2 deg, is also treated as closed.
 ///
 /// @return kMeaning (different lengths, c_direction or error_sign not +-1), kTooFewPoints (fewer
 ///         than 16 samples), kNotFinite (row), kAngleOrder where C goes back (row), kSampling for a

@@ -11,6 +11,7 @@
 #include "core/numbers.h"
 #include "core/statistics.h"
 #include "core/units.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/circle.h"
 #include "fit/profiles/closed_profile.h"
 #include "fit/profiles/internal/dft.h"
@@ -79,19 +80,17 @@ core::Result<void> take_circle(ContourError& out, double nominal_mm) {
 }  // namespace
 
 double ContourError::crest_rad() const {
-  const auto at = std::max_element(error_mm.begin(), error_mm.end()) - error_mm.begin();
+  const auto at = std::ranges::max_element(error_mm) - error_mm.begin();
   return angle_of(static_cast<std::size_t>(at), error_mm.size());
 }
 
 double ContourError::valley_rad() const {
-  const auto at = std::min_element(error_mm.begin(), error_mm.end()) - error_mm.begin();
+  const auto at = std::ranges::min_element(error_mm) - error_mm.begin();
   return angle_of(static_cast<std::size_t>(at), error_mm.size());
 }
 
 double peak_to_valley(std::span<const double> curve) {
-  if (curve.empty()) return 0.0;
-  const auto [low, high] = std::minmax_element(curve.begin(), curve.end());
-  return *high - *low;
+  return curve.empty() ? 0.0 : column_extremes(curve).width();
 }
 
 core::Result<ContourError> contour_error(std::span<const double> deviation_mm, double nominal_mm,

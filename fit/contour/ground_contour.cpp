@@ -10,6 +10,7 @@
 
 #include "core/numbers.h"
 #include "core/units.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/profiles/internal/dft.h"
 #include "fit/profiles/periodic_spline.h"
 #include "fit/profiles/profile_filter.h"
@@ -54,34 +55,6 @@ void push_continuous(std::vector<double>& angles, double angle) {
   angles.push_back(angle);
 }
 
-void cartesian(const GrindingPath& path, const Derivatives& x, const Derivatives& y, double wheel,
-               ParallelCurve& out) {
-  for (std::size_t i = 0; i < path.x_mm.size(); ++i) {
-    const double s = std::hypot(x.first[i], y.first[i]);
-    const double xc = path.x_mm[i] - wheel * y.first[i] / s;
-    const double yc = path.y_mm[i] + wheel * x.first[i] / s;
-    push_continuous(out.beta_rad, std::atan2(yc, xc));
-    out.r_mm.push_back(std::hypot(xc, yc));
-  }
-}
-
-void polar(const GrindingPath& path, const Derivatives& x, const Derivatives& y, double wheel,
-           ParallelCurve& out) {
-  for (std::size_t i = 0; i < path.x_mm.size(); ++i) {
-    const double rho = std::hypot(path.x_mm[i], path.y_mm[i]);
-    const double outward = path.x_mm[i] * x.first[i] + path.y_mm[i] * y.first[i];
-    const double around = path.x_mm[i] * y.first[i] - path.y_mm[i] * x.first[i];
-    const double slope = rho * outward / around;
-    const double q = std::hypot(rho, slope);
-    // rho^2 + Rgw^2 - 2 Rgw rho^2 / q without its cancellation.
-    const double square =
-        (rho - wheel) * (rho - wheel) + 2.0 * wheel * rho * slope * slope / (q * (q + rho));
-    out.r_mm.push_back(std::sqrt(square));
-    push_continuous(out.beta_rad, std::atan2(path.y_mm[i], path.x_mm[i]) +
-                                      std::atan2(wheel * slope, rho * (q - wheel)));
-  }
-}
-
 bool increases_all_round(const std::vector<double>& beta) {
   for (std::size_t i = 1; i < beta.size(); ++i) {
     if (beta[i] <= beta[i - 1]) return false;
@@ -98,7 +71,7 @@ std::vector<double> resampled_radii(const ParallelCurve& curve, std::size_t samp
     rows.emplace_back(turned < core::kTwoPi ? turned : 0.0, curve.r_mm[i]);
   }
   // Beta increases, so angles wrapped at the end of the turn follow the greatest one.
-  const auto first = std::min_element(rows.begin(), rows.end());
+  const auto first = std::ranges::min_element(rows);
   std::rotate(rows.begin(), first, rows.end());
   std::vector<double> beta;
   std::vector<double> r;
@@ -123,20 +96,16 @@ core::Result<AxisErrors> filtered(const AxisErrors& errors, double cutoff_upr) {
 /// Positions farther apart than the wheel is wide leave angles that no position reaches.
 core::Result<void> check_radii(const std::vector<double>& r_mm, const AxisErrors& errors,
                                double wheel_mm) {
-  const auto none = std::find_if_not(r_mm.begin(), r_mm.end(), core::is_measurable);
+  const auto none = std::ranges::find_if_not(r_mm, core::is_measurable);
   if (none == r_mm.end()) return {};
-  const auto greatest = [](const std::vector<double>& values) {
-    double out = 0.0;
-    for (const double v : values) out = std::max(out, std::abs(v));
-    return out;
-  };
   return core::fail(
       core::Code::kOutOfRange,
       fmt::format(
           "the pin has no radius at {:.4g} deg: errors of X reach {:.4g} mm and those of C "
           "{:.4g} deg, too much for a wheel of {:.4g} mm radius; are they in mm and deg?",
           360.0 * static_cast<double>(none - r_mm.begin()) / static_cast<double>(r_mm.size()),
-          greatest(errors.x_mm), greatest(errors.c_rad) / core::kDegree, wheel_mm));
+          largest_magnitude(errors.x_mm), largest_magnitude(errors.c_rad) / core::kDegree,
+          wheel_mm));
 }
 
 }  // namespace
@@ -187,14 +156,13 @@ ParallelCurve parallel_curve(const GrindingPath& path, double wheel_radius_mm, P
     y.first = differences(path.y_mm);
   }
   ParallelCurve out;
-  if (form == ParallelForm::kPolar) {
-    polar(path, x, y, wheel_radius_mm, out);
-  } else {
-    cartesian(path, x, y, wheel_radius_mm, out);
-  }
   const std::size_t n = path.x_mm.size();
   for (std::size_t i = 0; i < n; ++i) {
     const double s = std::hypot(x.first[i], y.first[i]);
+    const double xc = path.x_mm[i] - wheel_radius_mm * y.first[i] / s;
+    const double yc = path.y_mm[i] + wheel_radius_mm * x.first[i] / s;
+    push_continuous(out.beta_rad, std::atan2(yc, xc));
+    out.r_mm.push_back(std::hypot(xc, yc));
     const double kappa = (x.first[i] * y.second[i] - y.first[i] * x.second[i]) / (s * s * s);
     const double regularity = 1.0 - wheel_radius_mm * kappa;
     if (i > 0 && regularity >= out.regularity) continue;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "core/result.h"
@@ -34,8 +33,7 @@ struct GrindingPath {
 
 /// Method for the parallel curve.
 enum class ParallelForm {
-  kCartesian,    ///< From x', y' by the Fourier transform: the default.
-  kPolar,        ///< From rho(theta), the same derivatives; equal to kCartesian to 1e-9 um.
+  kFourier,      ///< From x', y' by the Fourier transform: the default.
   kDifferences,  ///< From x', y' by central differences: 0.01 um off in r at 300 samples.
 };
 
@@ -49,14 +47,11 @@ struct ParallelCurve {
   bool undercut = false;           ///< Loops: not regular, or beta not strictly increasing.
 };
 [[nodiscard]] ParallelCurve parallel_curve(const GrindingPath& path, double wheel_radius_mm,
-                                           ParallelForm form = ParallelForm::kCartesian);
+                                           ParallelForm form = ParallelForm::kFourier);
 
 /// Computes the ground contour as the envelope of all wheel positions: for every polar angle the
-/// least distance to a wheel circle. Valid also where the parallel curve has loops.
-///
-/// The path is refined() `oversampling` times, and a parabola gives the least distance at each
-/// angle. Positions that cannot reach the least distance so far are skipped, which does not change
-/// the result.
+/// least distance to a wheel circle, valid also where the parallel curve has loops. The path is
+/// refined() `oversampling` times, and a parabola gives the least distance at each angle.
 /// @param samples  Number of angles 2 pi m / samples.
 [[nodiscard]] std::vector<double> envelope_radii_mm(const GrindingPath& path,
                                                     double wheel_radius_mm, std::size_t samples,
@@ -66,7 +61,7 @@ struct ParallelCurve {
 struct GroundContourOptions {
   std::size_t samples = 1440;   ///< M, points of the contour.
   double pre_filter_upr = 0.0;  ///< Gaussian low pass applied to the axis errors; 0: none.
-  ParallelForm form = ParallelForm::kCartesian;
+  ParallelForm form = ParallelForm::kFourier;
   /// Refine a path of fewer samples than the contour by its Fourier series; otherwise a spline over
   /// beta interpolates (300 samples: 1e-4 um off before the filter, 2e-5 um after it).
   bool refine = true;

@@ -106,8 +106,31 @@ std::optional<double> fitted_cutoff(const std::vector<double>& amplitude, double
   return found;
 }
 
+/// Examines the content of a contour at uniform angles above the cut-off.
+/// @param resolved_upr  Undulations that the rows of the gauge resolve, half their number; below 4
+///                      times the cut-off no statement is possible.
+FilterTrace filter_trace(std::span<const double> deviation_mm, double cutoff_upr,
+                         double resolved_upr) {
+  const auto f = spectrum(deviation_mm);
+  std::vector<double> amplitude(f.size());
+  double form = 0.0;
+  double upper = 0.0;
+  for (std::size_t k = 2; k < f.size(); ++k) {
+    amplitude[k] = 2.0 * std::abs(f[k]) / static_cast<double>(deviation_mm.size());
+    const double square = 0.5 * amplitude[k] * amplitude[k];
+    form += square;
+    if (static_cast<double>(k) > kFilterTraceFrom * cutoff_upr) upper += square;
+  }
+  FilterTrace out;
+  out.upper_rms_mm = std::sqrt(upper);
+  out.filtered = resolved_upr > 4.0 * cutoff_upr && out.upper_rms_mm < kFilteredRms &&
+                 out.upper_rms_mm < kFilteredShare * std::sqrt(form);
+  if (out.filtered) out.cutoff_upr = fitted_cutoff(amplitude, cutoff_upr);
+  return out;
+}
+
 void warn(MeasuredContour& out, core::Code code, std::string what) {
-  out.warnings.push_back({code, std::move(what), {}});
+  out.warnings.push_back({code, std::move(what)});
 }
 
 void warn_of_filter(MeasuredContour& out, const MeasuredContourOptions& options) {
@@ -167,26 +190,6 @@ void warn_of_rows(MeasuredContour& out, const AngularProfile& profile) {
 
 }  // namespace
 
-FilterTrace filter_trace(std::span<const double> deviation_mm, double cutoff_upr,
-                         double resolved_upr) {
-  const auto f = spectrum(deviation_mm);
-  std::vector<double> amplitude(f.size());
-  double form = 0.0;
-  double upper = 0.0;
-  for (std::size_t k = 2; k < f.size(); ++k) {
-    amplitude[k] = 2.0 * std::abs(f[k]) / static_cast<double>(deviation_mm.size());
-    const double square = 0.5 * amplitude[k] * amplitude[k];
-    form += square;
-    if (static_cast<double>(k) > kFilterTraceFrom * cutoff_upr) upper += square;
-  }
-  FilterTrace out;
-  out.upper_rms_mm = std::sqrt(upper);
-  out.filtered = resolved_upr > 4.0 * cutoff_upr && out.upper_rms_mm < kFilteredRms &&
-                 out.upper_rms_mm < kFilteredShare * std::sqrt(form);
-  if (out.filtered) out.cutoff_upr = fitted_cutoff(amplitude, cutoff_upr);
-  return out;
-}
-
 core::Result<MeasuredContour> measured_contour(std::span<const double> angle_rad,
                                                std::span<const double> deviation_mm,
                                                const MeasuredContourOptions& options) {
@@ -195,7 +198,7 @@ core::Result<MeasuredContour> measured_contour(std::span<const double> angle_rad
   }
   if (auto checked = check_order(angle_rad); !checked) return core::fail(checked.error());
   std::vector<double> beta(angle_rad.size());
-  std::transform(angle_rad.begin(), angle_rad.end(), beta.begin(), [&](double angle) {
+  std::ranges::transform(angle_rad, beta.begin(), [&](double angle) {
     return options.direction * (angle - options.phase_offset_rad);
   });
   const auto profile = ordered_profile(beta, deviation_mm);

@@ -21,7 +21,8 @@ struct MeasuredContourOptions {
   ContourErrorOptions error;   ///< Base circle, filter, and whether the gauge has filtered.
 };
 
-/// Signs, at the upper end of a spectrum, of a filter that the gauge has applied.
+/// Signs of a filter that the gauge has applied: less than 0.01 um and 1 % of the form above 3
+/// times the cut-off; a ground surface has more.
 struct FilterTrace {
   double upper_rms_mm = 0.0;  ///< rms above 3 times the cut-off.
   /// Cut-off of a Gaussian filter that fits the fall of the amplitudes, if there is one.
@@ -37,14 +38,6 @@ struct MeasuredContour {
   FilterTrace filter;
   std::vector<core::Error> warnings;
 };
-
-/// Examines the content of a contour at uniform angles above the cut-off. Less than 0.01 um and 1 %
-/// of its form indicates a filter; a ground surface has more.
-///
-/// @param resolved_upr  Undulations that the rows of the gauge resolve, half their number; below 4
-///                      times the cut-off no statement is possible.
-[[nodiscard]] FilterTrace filter_trace(std::span<const double> deviation_mm, double cutoff_upr,
-                                       double resolved_upr);
 
 /// Converts a contour to the zero angle, direction and sampling of the method, then filters it and
 /// removes the base circle.

@@ -1,6 +1,7 @@
 #include "fit/contour/repeatability.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -38,13 +39,11 @@ void compare_places(std::span<const std::vector<double>> curves, Repeatability& 
   const std::size_t places = curves.front().size();
   const auto parts = static_cast<double>(curves.size());
   out.mean_curve.assign(places, 0.0);
-  out.spread_curve.assign(places, 0.0);
   double sum = 0.0;
   for (std::size_t m = 0; m < places; ++m) {
     for (const auto& curve : curves) out.mean_curve[m] += curve[m] / parts;
     double squares = 0.0;
     for (const auto& curve : curves) squares += std::pow(curve[m] - out.mean_curve[m], 2);
-    out.spread_curve[m] = std::sqrt(squares / (parts - 1.0));
     sum += squares;
   }
   out.mean_rms = core::root_mean_square(out.mean_curve);
@@ -84,15 +83,8 @@ void correlate(std::span<const std::vector<double>> curves, Repeatability& out) 
 }  // namespace
 
 std::string_view name_of(StabilityWord word) {
-  switch (word) {
-    case StabilityWord::kStable:
-      return "stable";
-    case StabilityWord::kPartly:
-      return "partly";
-    case StabilityWord::kUnstable:
-      return "unstable";
-  }
-  return "unstable";
+  constexpr std::array<std::string_view, 3> kNames = {"stable", "partly", "unstable"};
+  return kNames[static_cast<std::size_t>(word)];
 }
 
 std::optional<StabilityWord> Repeatability::word(const StabilityLimits& limits) const {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -25,10 +24,9 @@ struct StabilityLimits {
 
 /// The same curve of several parts, side by side.
 struct Repeatability {
-  std::vector<double> mean_curve;    ///< Mean over the parts, in the unit of the curves.
-  std::vector<double> spread_curve;  ///< Standard deviation over the parts, place by place.
-  double mean_rms = 0.0;             ///< A: rms of the mean curve.
-  double spread = 0.0;               ///< s: standard deviation of the parts from the mean curve.
+  std::vector<double> mean_curve;  ///< Mean over the parts, in the unit of the curves.
+  double mean_rms = 0.0;           ///< A: rms of the mean curve.
+  double spread = 0.0;             ///< s: standard deviation of the parts from the mean curve.
   /// S = (A^2 - s^2/q) / (A^2 - s^2/q + s^2): 1 for perfect repetition, 0 for random curves. A
   /// negative estimate is kept. Absent if all curves are zero.
   std::optional<double> index;

@@ -112,8 +112,7 @@ ContourSeparation separate_contour(std::span<const double> total_mm,
                                    std::span<const double> following_mm) {
   ContourSeparation out;
   out.rest_mm.resize(total_mm.size());
-  std::transform(total_mm.begin(), total_mm.end(), following_mm.begin(), out.rest_mm.begin(),
-                 std::minus<>());
+  std::ranges::transform(total_mm, following_mm, out.rest_mm.begin(), std::minus<>());
   out.total_mm2 = mean_product(total_mm, total_mm);
   out.following_mm2 = mean_product(following_mm, following_mm);
   out.rest_mm2 = mean_product(out.rest_mm, out.rest_mm);

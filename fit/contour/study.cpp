@@ -45,8 +45,7 @@ core::Result<void> check_axis_sampling(AxisTurn& axes, const FilterOptions& filt
         {core::Code::kUndersampled,
          fmt::format("the control has {:.1f} samples a turn, {:.1f} an undulation at {} UPR; at "
                      "least 6 are advised",
-                     samples, samples / cutoff, cutoff),
-         {}});
+                     samples, samples / cutoff, cutoff)});
   }
   return {};
 }
@@ -59,8 +58,7 @@ void warn_of_undercut(ContourPartResult& part) {
                    "{:.3g}, regular above 0): the contour is {}",
                    part.ground.least_regular_rad / core::kDegree, part.ground.regularity,
                    part.ground.from_envelope ? "the envelope of all wheel positions"
-                                             : "that of the pre-filtered path, which hides it"),
-       {}});
+                                             : "that of the pre-filtered path, which hides it")});
 }
 
 /// Compares the recorded positions of X with those of the geometry.
@@ -212,7 +210,7 @@ void diagnose(ContourStudy& study, const ContourStudyOptions& options) {
   study.offset = correlation_offset(pairs);
   const SenseEvidence& sense = study.sense;
   const auto warn = [&](core::Code code, std::string what) {
-    study.warnings.push_back({code, std::move(what), {}});
+    study.warnings.push_back({code, std::move(what)});
   };
   if (sense.sign_suspect()) {
     warn(core::Code::kSense,

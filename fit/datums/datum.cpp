@@ -1,45 +1,31 @@
 #include "fit/datums/datum.h"
 
-#include <algorithm>
-#include <limits>
-
 #include <fmt/format.h>
 
-#include "fit/geometry/points.h"
+#include "fit/geometry/column_extremes.h"
 
 namespace rondure::fit {
 namespace {
 
 /// Greatest minus least value of a measure over the points.
 template <class Measure>
-core::Result<double> range_mm(std::span<const Eigen::Vector3d> points, const Measure& measure) {
+core::Result<double> range_mm(SpacePoints points, const Measure& measure) {
   if (auto checked = check_points(points); !checked) return core::fail(checked.error());
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const Eigen::Vector3d& p : points) {
-    const double value = measure(p);
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  return high - low;
+  return extremes_of(points, measure).width();
 }
 
 }  // namespace
 
-core::Result<double> coaxiality_mm(std::span<const Eigen::Vector3d> median_mm, const Axis& datum) {
+core::Result<double> coaxiality_mm(SpacePoints median_mm, const Axis& datum) {
   if (auto checked = check_points(median_mm); !checked) return core::fail(checked.error());
-  double greatest = 0.0;
-  for (const Eigen::Vector3d& c : median_mm) greatest = std::max(greatest, distance_mm(datum, c));
-  return 2.0 * greatest;
+  return 2.0 * extremes_of(median_mm, [&](const auto& c) { return distance_mm(datum, c); }).high;
 }
 
-core::Result<double> total_radial_run_out_mm(std::span<const Eigen::Vector3d> points_mm,
-                                             const Axis& datum) {
+core::Result<double> total_radial_run_out_mm(SpacePoints points_mm, const Axis& datum) {
   return range_mm(points_mm, [&](const Eigen::Vector3d& p) { return distance_mm(datum, p); });
 }
 
-core::Result<double> axial_run_out_mm(std::span<const Eigen::Vector3d> points_mm,
-                                      const Axis& datum) {
+core::Result<double> axial_run_out_mm(SpacePoints points_mm, const Axis& datum) {
   return range_mm(points_mm, [&](const Eigen::Vector3d& p) {
     return (p - datum.point_mm).dot(datum.direction);
   });

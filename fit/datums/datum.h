@@ -8,6 +8,7 @@
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 
@@ -16,8 +17,7 @@ namespace rondure::fit {
 /// @param median_mm  Points of the extracted median line: the circle centres of the sections, or
 ///                   the two ends of a fitted axis.
 /// @return kNoPoints, kNotFinite (row).
-[[nodiscard]] core::Result<double> coaxiality_mm(std::span<const Eigen::Vector3d> median_mm,
-                                                 const Axis& datum);
+[[nodiscard]] core::Result<double> coaxiality_mm(SpacePoints median_mm, const Axis& datum);
 
 /// Circular run-out in every section.
 struct RunOut {
@@ -36,13 +36,12 @@ struct RunOut {
 /// Total radial run-out (ISO 1101): gap between the two cylinders about the datum axis that enclose
 /// the whole surface = greatest minus least distance of all points.
 /// @return kNoPoints, kNotFinite (row).
-[[nodiscard]] core::Result<double> total_radial_run_out_mm(
-    std::span<const Eigen::Vector3d> points_mm, const Axis& datum);
+[[nodiscard]] core::Result<double> total_radial_run_out_mm(SpacePoints points_mm,
+                                                           const Axis& datum);
 
 /// Total axial run-out (ISO 1101): distance between the two planes perpendicular to the datum axis
 /// that enclose a face. For points at one radius it is the circular axial run-out there.
 /// @return kNoPoints, kNotFinite (row).
-[[nodiscard]] core::Result<double> axial_run_out_mm(std::span<const Eigen::Vector3d> points_mm,
-                                                    const Axis& datum);
+[[nodiscard]] core::Result<double> axial_run_out_mm(SpacePoints points_mm, const Axis& datum);
 
 }  // namespace rondure::fit

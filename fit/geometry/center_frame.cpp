@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "fit/geometry/column_extremes.h"
-
 namespace rondure::fit {
 
 template <int D>
@@ -48,8 +46,7 @@ Extremes CenterFrame<D>::linearise(const WorkingPoints<D>& points, ZoneRows<D>& 
     along_y[i] = y * unit;
     if constexpr (D == 3) along_z[i] = (cz - pz[i]) * unit;
   }
-  const ColumnExtremes extremes = column_extremes(rows.distances());
-  return {extremes.low, extremes.high};
+  return column_extremes(rows.distances());
 }
 
 template class CenterFrame<2>;

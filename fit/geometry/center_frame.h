@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "fit/geometry/column_extremes.h"
 #include "fit/geometry/working_points.h"
 #include "fit/geometry/zone_rows.h"
 
@@ -43,8 +44,5 @@ class CenterFrame {
  private:
   Point center_;
 };
-
-extern template class CenterFrame<2>;
-extern template class CenterFrame<3>;
 
 }  // namespace rondure::fit

@@ -10,11 +10,6 @@
 namespace rondure::fit {
 namespace {
 
-void take(ColumnExtremes& out, double value) {
-  out.low = std::min(out.low, value);
-  out.high = std::max(out.high, value);
-}
-
 #if defined(__SSE2__)
 /// Extremes of two lanes, in two independent chains each, so that latencies of min and max overlap.
 class PairExtremes {
@@ -23,7 +18,7 @@ class PairExtremes {
     low_[chain] = _mm_min_pd(low_[chain], pair);
     high_[chain] = _mm_max_pd(high_[chain], pair);
   }
-  [[nodiscard]] ColumnExtremes both() const {
+  [[nodiscard]] Extremes both() const {
     const __m128d low = _mm_min_pd(low_[0], low_[1]);
     const __m128d high = _mm_max_pd(high_[0], high_[1]);
     return {std::min(_mm_cvtsd_f64(low), _mm_cvtsd_f64(_mm_unpackhi_pd(low, low))),
@@ -40,11 +35,11 @@ class PairExtremes {
 
 }  // namespace
 
-ColumnExtremes column_extremes(std::span<const double> values) {
+Extremes column_extremes(std::span<const double> values) {
   const std::size_t count = values.size();
   const double* v = values.data();
   std::size_t i = 0;
-  ColumnExtremes out;
+  Extremes out;
 #if defined(__SSE2__)
   PairExtremes pairs;
   for (; i + 4 <= count; i += 4) {
@@ -53,7 +48,7 @@ ColumnExtremes column_extremes(std::span<const double> values) {
   }
   out = pairs.both();
 #endif
-  for (; i < count; ++i) take(out, v[i]);
+  for (; i < count; ++i) out.take(v[i]);
   return out;
 }
 
@@ -87,12 +82,12 @@ double largest_magnitude(std::span<const double> values) {
 }
 
 template <int K>
-ColumnExtremes move_column(std::span<const double> values, const double* const* gradients,
-                           const double* move, double* moved) {
+Extremes move_column(std::span<const double> values, const double* const* gradients,
+                     const double* move, double* moved) {
   const std::size_t count = values.size();
   const double* v = values.data();
   std::size_t i = 0;
-  ColumnExtremes out;
+  Extremes out;
 #if defined(__SSE2__)
   PairExtremes pairs;
   __m128d by[K];
@@ -115,16 +110,16 @@ ColumnExtremes move_column(std::span<const double> values, const double* const* 
     double sum = v[i];
     for (int k = 0; k < K; ++k) sum += gradients[k][i] * move[k];
     moved[i] = sum;
-    take(out, sum);
+    out.take(sum);
   }
   return out;
 }
 
 template <int D>
-ColumnExtremes square_column(std::size_t count, const double* const* columns, const double* center,
-                             double* squares) {
+Extremes square_column(std::size_t count, const double* const* columns, const double* center,
+                       double* squares) {
   std::size_t i = 0;
-  ColumnExtremes out;
+  Extremes out;
 #if defined(__SSE2__)
   PairExtremes pairs;
   __m128d at[D];
@@ -148,7 +143,7 @@ ColumnExtremes square_column(std::size_t count, const double* const* columns, co
     double sum = 0.0;
     for (int k = 0; k < D; ++k) sum += (columns[k][i] - center[k]) * (columns[k][i] - center[k]);
     squares[i] = sum;
-    take(out, sum);
+    out.take(sum);
   }
   return out;
 }
@@ -169,15 +164,15 @@ std::size_t first_row_of(std::span<const double> values, double value) {
   return i;
 }
 
-template ColumnExtremes move_column<1>(std::span<const double>, const double* const*, const double*,
-                                       double*);
-template ColumnExtremes move_column<2>(std::span<const double>, const double* const*, const double*,
-                                       double*);
-template ColumnExtremes move_column<3>(std::span<const double>, const double* const*, const double*,
-                                       double*);
-template ColumnExtremes move_column<4>(std::span<const double>, const double* const*, const double*,
-                                       double*);
-template ColumnExtremes square_column<2>(std::size_t, const double* const*, const double*, double*);
-template ColumnExtremes square_column<3>(std::size_t, const double* const*, const double*, double*);
+template Extremes move_column<1>(std::span<const double>, const double* const*, const double*,
+                                 double*);
+template Extremes move_column<2>(std::span<const double>, const double* const*, const double*,
+                                 double*);
+template Extremes move_column<3>(std::span<const double>, const double* const*, const double*,
+                                 double*);
+template Extremes move_column<4>(std::span<const double>, const double* const*, const double*,
+                                 double*);
+template Extremes square_column<2>(std::size_t, const double* const*, const double*, double*);
+template Extremes square_column<3>(std::size_t, const double* const*, const double*, double*);
 
 }  // namespace rondure::fit

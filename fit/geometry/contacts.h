@@ -22,8 +22,6 @@ class Contacts {
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] const Contact& operator[](std::size_t i) const { return contacts_[i]; }
   [[nodiscard]] Contact& operator[](std::size_t i) { return contacts_[i]; }
-  [[nodiscard]] const Contact* data() const { return contacts_.data(); }
-  [[nodiscard]] Contact* data() { return contacts_.data(); }
   [[nodiscard]] const Contact* begin() const { return contacts_.data(); }
   [[nodiscard]] const Contact* end() const { return contacts_.data() + size_; }
   [[nodiscard]] Contact* begin() { return contacts_.data(); }

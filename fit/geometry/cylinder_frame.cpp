@@ -1,11 +1,8 @@
 #include "fit/geometry/cylinder_frame.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/units.h"
-#include "fit/geometry/column_extremes.h"
 
 namespace rondure::fit {
 namespace {
@@ -107,19 +104,11 @@ Extremes CylinderFrame::linearise(const WorkingPoints<3>& points, ZoneRows<4>& r
                     {axis_.point_mm.data(), across_.data(), across_.data() + 3, along.data()},
                     rows.distances().data(), rows.gradients(0).data(), rows.gradients(1).data(),
                     rows.gradients(2).data(), rows.gradients(3).data());
-  const ColumnExtremes extremes = column_extremes(rows.distances());
-  return {extremes.low, extremes.high};
+  return column_extremes(rows.distances());
 }
 
-double half_extent(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& direction) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const Eigen::Vector3d& p : points) {
-    const double s = p.dot(direction);
-    low = std::min(low, s);
-    high = std::max(high, s);
-  }
-  return 0.5 * (high - low);
+double half_extent(SpacePoints points, const Eigen::Vector3d& direction) {
+  return 0.5 * extremes_of(points, [&](const auto& p) { return p.dot(direction); }).width();
 }
 
 }  // namespace rondure::fit

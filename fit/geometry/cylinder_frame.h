@@ -1,11 +1,10 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include <Eigen/Core>
 
 #include "fit/geometry/axis.h"
+#include "fit/geometry/column_extremes.h"
+#include "fit/geometry/points.h"
 #include "fit/geometry/working_points.h"
 #include "fit/geometry/zone_rows.h"
 
@@ -55,7 +54,6 @@ class CylinderFrame {
 };
 
 /// Half the extent of the points along a direction [mm].
-[[nodiscard]] double half_extent(std::span<const Eigen::Vector3d> points,
-                                 const Eigen::Vector3d& direction);
+[[nodiscard]] double half_extent(SpacePoints points, const Eigen::Vector3d& direction);
 
 }  // namespace rondure::fit

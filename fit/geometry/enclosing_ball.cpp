@@ -27,7 +27,7 @@ Ball<D> EnclosingBall<D>::enclose(const WorkingPoints<D>& points, bool again, do
     const double limit = std::sqrt(square_) + 2.0 * round_off;
     // If the farthest point is itself a contact, it is so only by round-off.
     const auto contacts = std::span(rows_).first(static_cast<std::size_t>(count_));
-    const bool known = std::find(contacts.begin(), contacts.end(), farthest) != contacts.end();
+    const bool known = std::ranges::find(contacts, farthest) != contacts.end();
     out.solved = known || squares_.high <= limit * limit;
     if (out.solved) break;
     append(points, farthest, 0.0);
@@ -47,7 +47,7 @@ Ball<D> EnclosingBall<D>::enclose(const WorkingPoints<D>& points, bool again, do
 template <int D>
 void EnclosingBall<D>::start(const WorkingPoints<D>& points, Ball<D>& out) {
   const std::span<const double> places(points.column(0), points.size());
-  const ColumnExtremes ends = column_extremes(places);
+  const Extremes ends = column_extremes(places);
   const std::size_t low = first_row_of(places, ends.low);
   const std::size_t high = first_row_of(places, ends.high);
   count_ = 0;

@@ -23,16 +23,15 @@ struct Ball {
 };
 
 /// Minimum circumscribed circles and spheres. They need no linear programme: the squared distances
-/// are |p|^2 - 2 p c + |c|^2, linear in c except for a term common to all points. The dual is
-/// therefore a quadratic programme in the contacts alone, at most D + 1 of them, and its simplex
-/// step has a closed form: the farthest point enters, contacts whose multiplier would turn negative
-/// leave. The radius grows with every point that enters, so the search ends at the optimum, which
-/// is unique.
+/// are |p|^2 - 2 p c + |c|^2, linear in c except for a term common to all points, so the dual is a
+/// quadratic programme in at most D + 1 contacts whose simplex step has a closed form: the farthest
+/// point enters, contacts whose multiplier would turn negative leave. The radius grows with every
+/// point that enters, up to the optimum, which is unique.
 ///
 /// An object keeps its memory, and its contacts as the next start. Cost: one pass over the working
 /// points for each point that enters, commonly five to eight. Sources: methods, cylindricity
-/// section 11.4 (convex); D. Goldfarb, A. Idnani, Mathematical Programming 27 (1983) (dual active
-/// sets); K. Fischer, B. Gaertner, SoCG 2003 (balls).
+/// section 11.4; D. Goldfarb, A. Idnani, Mathematical Programming 27 (1983) (dual active sets);
+/// K. Fischer, B. Gaertner, SoCG 2003 (balls).
 template <int D>
 class EnclosingBall {
  public:
@@ -63,11 +62,8 @@ class EnclosingBall {
   std::array<double, kMost> multipliers_{};
   Point center_ = Point::Zero();
   double square_ = 0.0;         ///< Squared radius.
-  ColumnExtremes squares_;      ///< Extremes of the squared distances of all points.
+  Extremes squares_;            ///< Extremes of the squared distances of all points.
   std::vector<double> column_;  ///< The squared distances.
 };
-
-extern template class EnclosingBall<2>;
-extern template class EnclosingBall<3>;
 
 }  // namespace rondure::fit

@@ -64,7 +64,7 @@ template <class Vector>
 void sample(std::span<const Vector> points_mm, std::span<Vector> out_mm) {
   assert(out_mm.size() <= points_mm.size());
   if (out_mm.size() == points_mm.size()) {
-    std::copy(points_mm.begin(), points_mm.end(), out_mm.begin());
+    std::ranges::copy(points_mm, out_mm.begin());
     return;
   }
   for (std::size_t k = 0; k < out_mm.size(); ++k) {
@@ -74,18 +74,14 @@ void sample(std::span<const Vector> points_mm, std::span<Vector> out_mm) {
 
 }  // namespace
 
-core::Result<void> check_points(std::span<const Eigen::Vector2d> points_mm) {
-  return check(points_mm);
-}
-core::Result<void> check_points(std::span<const Eigen::Vector3d> points_mm) {
-  return check(points_mm);
-}
-Eigen::Vector2d mean_point(std::span<const Eigen::Vector2d> points_mm) { return mean(points_mm); }
-Eigen::Vector3d mean_point(std::span<const Eigen::Vector3d> points_mm) { return mean(points_mm); }
-std::size_t distinct_points(std::span<const Eigen::Vector2d> points_mm, std::size_t enough) {
+core::Result<void> check_points(PlanePoints points_mm) { return check(points_mm); }
+core::Result<void> check_points(SpacePoints points_mm) { return check(points_mm); }
+Eigen::Vector2d mean_point(PlanePoints points_mm) { return mean(points_mm); }
+Eigen::Vector3d mean_point(SpacePoints points_mm) { return mean(points_mm); }
+std::size_t distinct_points(PlanePoints points_mm, std::size_t enough) {
   return distinct(points_mm, enough);
 }
-std::size_t distinct_points(std::span<const Eigen::Vector3d> points_mm, std::size_t enough) {
+std::size_t distinct_points(SpacePoints points_mm, std::size_t enough) {
   return distinct(points_mm, enough);
 }
 
@@ -97,31 +93,30 @@ std::size_t spread_row(std::size_t k, std::size_t count) {
   return std::min(row, count - 1);
 }
 
-void sample_points(std::span<const Eigen::Vector2d> points_mm, std::span<Eigen::Vector2d> out_mm) {
+void sample_points(PlanePoints points_mm, std::span<Eigen::Vector2d> out_mm) {
   sample(points_mm, out_mm);
 }
-void sample_points(std::span<const Eigen::Vector3d> points_mm, std::span<Eigen::Vector3d> out_mm) {
+void sample_points(SpacePoints points_mm, std::span<Eigen::Vector3d> out_mm) {
   sample(points_mm, out_mm);
 }
 
-double largest_gap_rad(std::span<const Eigen::Vector2d> points_mm,
-                       const Eigen::Vector2d& center_mm) {
+double largest_gap_rad(PlanePoints points_mm, const Eigen::Vector2d& center_mm) {
   // Up to 64 points use the stack, so that fits in loops allocate nothing.
   std::array<double, 64> few;
   std::vector<double> many(points_mm.size() > few.size() ? points_mm.size() : 0);
   const auto angles = many.empty() ? std::span(few).first(points_mm.size()) : std::span(many);
-  std::transform(points_mm.begin(), points_mm.end(), angles.begin(), [&](const auto& p) {
+  std::ranges::transform(points_mm, angles.begin(), [&](const auto& p) {
     return std::atan2(p.y() - center_mm.y(), p.x() - center_mm.x());
   });
-  std::sort(angles.begin(), angles.end());
+  std::ranges::sort(angles);
   double gap = angles.front() + core::kTwoPi - angles.back();
   for (std::size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);
   return gap;
 }
 
-std::vector<Eigen::Vector2d> convex_hull(std::span<const Eigen::Vector2d> points_mm) {
+std::vector<Eigen::Vector2d> convex_hull(PlanePoints points_mm) {
   std::vector<Eigen::Vector2d> sorted(points_mm.begin(), points_mm.end());
-  std::sort(sorted.begin(), sorted.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  std::ranges::sort(sorted, [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   });
   // A. Andrew's chain: the lower side from left to right, the upper one back.
@@ -138,13 +133,12 @@ std::vector<Eigen::Vector2d> convex_hull(std::span<const Eigen::Vector2d> points
       hull.push_back(p);
     }
     hull.pop_back();  // the other side begins with this point
-    std::reverse(sorted.begin(), sorted.end());
+    std::ranges::reverse(sorted);
   }
   return hull;
 }
 
-bool meets_hull(std::span<const Eigen::Vector2d> hull_mm, const Eigen::Vector2d& center_mm,
-                double half_side_mm) {
+bool meets_hull(PlanePoints hull_mm, const Eigen::Vector2d& center_mm, double half_side_mm) {
   for (std::size_t i = 0; i < hull_mm.size(); ++i) {
     const Eigen::Vector2d& from = hull_mm[i];
     const Eigen::Vector2d side = hull_mm[(i + 1) % hull_mm.size()] - from;

@@ -6,13 +6,11 @@
 #include <fmt/format.h>
 #include <Eigen/SVD>
 
-#include "fit/geometry/points.h"
-
 namespace rondure::fit {
 namespace {
 
 /// Points as columns of a matrix.
-Eigen::Matrix3Xd columns(std::span<const Eigen::Vector3d> points_mm) {
+Eigen::Matrix3Xd columns(SpacePoints points_mm) {
   Eigen::Matrix3Xd out(3, static_cast<Eigen::Index>(points_mm.size()));
   for (std::size_t i = 0; i < points_mm.size(); ++i) {
     out.col(static_cast<Eigen::Index>(i)) = points_mm[i];
@@ -45,8 +43,7 @@ Eigen::Isometry3d best_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3
 
 }  // namespace
 
-core::Result<Registration> rigid_registration(std::span<const Eigen::Vector3d> from_mm,
-                                              std::span<const Eigen::Vector3d> to_mm,
+core::Result<Registration> rigid_registration(SpacePoints from_mm, SpacePoints to_mm,
                                               std::span<const double> weights) {
   if (from_mm.size() < 3 || from_mm.size() != to_mm.size()) {
     return core::fail(

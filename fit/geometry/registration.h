@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/result.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 
@@ -22,8 +23,7 @@ struct Registration {
 ///         lie on one line within 1e-6 of their spread: the turn about it is undetermined).
 /// Source: S. Umeyama, "Least-squares estimation of transformation parameters between two point
 /// patterns", IEEE Trans. PAMI 13(4), 1991 (the guard against reflections).
-[[nodiscard]] core::Result<Registration> rigid_registration(
-    std::span<const Eigen::Vector3d> from_mm, std::span<const Eigen::Vector3d> to_mm,
-    std::span<const double> weights = {});
+[[nodiscard]] core::Result<Registration> rigid_registration(SpacePoints from_mm, SpacePoints to_mm,
+                                                            std::span<const double> weights = {});
 
 }  // namespace rondure::fit

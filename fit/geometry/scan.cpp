@@ -226,38 +226,35 @@ void scan_each_block(std::span<const Point> points, const View& view, BlockScan&
 
 }  // namespace
 
-ScanExtremes scan(std::span<const Eigen::Vector3d> points_mm, const Axis& axis) {
+ScanExtremes scan(SpacePoints points_mm, const Axis& axis) {
   return scan_all(points_mm, AxisView(axis));
 }
-ScanExtremes scan(std::span<const Eigen::Vector3d> points_mm, const Eigen::Vector3d& center_mm) {
+ScanExtremes scan(SpacePoints points_mm, const Eigen::Vector3d& center_mm) {
   return scan_all(points_mm, center_mm);
 }
-ScanExtremes scan(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm) {
+ScanExtremes scan(PlanePoints points_mm, const Eigen::Vector2d& center_mm) {
   return scan_all(points_mm, center_mm);
 }
 
-void scan_blocks(std::span<const Eigen::Vector3d> points_mm, const Axis& axis, BlockScan& out) {
+void scan_blocks(SpacePoints points_mm, const Axis& axis, BlockScan& out) {
   scan_each_block(points_mm, AxisView(axis), out);
 }
-void scan_blocks(std::span<const Eigen::Vector3d> points_mm, const Eigen::Vector3d& center_mm,
-                 BlockScan& out) {
+void scan_blocks(SpacePoints points_mm, const Eigen::Vector3d& center_mm, BlockScan& out) {
   scan_each_block(points_mm, center_mm, out);
 }
-void scan_blocks(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
-                 BlockScan& out) {
+void scan_blocks(PlanePoints points_mm, const Eigen::Vector2d& center_mm, BlockScan& out) {
   scan_each_block(points_mm, center_mm, out);
 }
 
-std::size_t find_square(std::span<const Eigen::Vector3d> points_mm, const Axis& axis,
-                        double square_mm2) {
+std::size_t find_square(SpacePoints points_mm, const Axis& axis, double square_mm2) {
   return find_one(points_mm, AxisView(axis), square_mm2);
 }
-std::size_t find_square(std::span<const Eigen::Vector3d> points_mm,
-                        const Eigen::Vector3d& center_mm, double square_mm2) {
+std::size_t find_square(SpacePoints points_mm, const Eigen::Vector3d& center_mm,
+                        double square_mm2) {
   return find_one(points_mm, center_mm, square_mm2);
 }
-std::size_t find_square(std::span<const Eigen::Vector2d> points_mm,
-                        const Eigen::Vector2d& center_mm, double square_mm2) {
+std::size_t find_square(PlanePoints points_mm, const Eigen::Vector2d& center_mm,
+                        double square_mm2) {
   return find_one(points_mm, center_mm, square_mm2);
 }
 

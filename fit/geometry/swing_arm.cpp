@@ -23,8 +23,6 @@ double SwingArm::beta_rad(double alpha_rad) const {
   return swings() ? std::asin(crank_radius_mm * std::sin(alpha_rad) / center_distance_mm()) : 0.0;
 }
 
-double SwingArm::theta_rad(double alpha_rad) const { return alpha_rad + beta_rad(alpha_rad); }
-
 double SwingArm::alpha_of_theta_rad(double theta_rad) const {
   if (!swings()) return theta_rad;
   const double length = center_distance_mm();

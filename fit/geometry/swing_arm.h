@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "core/result.h"
 
 namespace rondure::fit {
@@ -28,8 +25,7 @@ struct SwingArm {
   [[nodiscard]] bool swings() const { return crank_radius_mm > 0.0; }
 
   [[nodiscard]] double beta_rad(double alpha_rad) const;
-  [[nodiscard]] double theta_rad(double alpha_rad) const;
-  /// The inverse of theta_rad(), continuous over any number of turns.
+  /// Continuous over any number of turns.
   [[nodiscard]] double alpha_of_theta_rad(double theta_rad) const;
   [[nodiscard]] double beta_of_theta_rad(double theta_rad) const;
 };

@@ -55,11 +55,4 @@ class WorkingPoints {
   std::array<std::vector<double>, D> columns_;
 };
 
-/// Least and largest distance of points from a place [mm].
-struct Extremes {
-  double low = 0.0;
-  double high = 0.0;
-  [[nodiscard]] double width() const { return high - low; }
-};
-
 }  // namespace rondure::fit

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "fit/geometry/column_extremes.h"
+
 namespace rondure::fit {
 
 /// The linearised points of a zone: distance of each point, and its gradient with respect to the K
@@ -36,6 +38,12 @@ class ZoneRows {
   [[nodiscard]] Gradient gradient(std::size_t i) const {
     Gradient out;
     for (int k = 0; k < K; ++k) out(k) = gradients(k)[i];
+    return out;
+  }
+  /// Extremes of the linearised distances after a move.
+  [[nodiscard]] Extremes moved(const Gradient& step) const {
+    Extremes out;
+    for (std::size_t i = 0; i < size(); ++i) out.take(distances()[i] + gradient(i).dot(step));
     return out;
   }
 

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
 
-#include "fit/geometry/points.h"
 #include "fit/least_squares/internal/gauss_newton.h"
 #include "fit/least_squares/internal/sums.h"
 
@@ -21,17 +19,15 @@ constexpr double kStraight = 1e-9;
 constexpr double kFlat = 3.0;
 
 /// Fills deviation and rms about the centre.
-void fill_residuals(std::span<const Eigen::Vector2d> points_mm, LsCircle& circle) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
+void fill_residuals(PlanePoints points_mm, LsCircle& circle) {
+  Extremes range;
   double squares = 0.0;
   for (const Eigen::Vector2d& p : points_mm) {
     const double r = (p - circle.center_mm).norm();
-    low = std::min(low, r);
-    high = std::max(high, r);
+    range.take(r);
     squares += (r - circle.radius_mm) * (r - circle.radius_mm);
   }
-  circle.deviation_mm = high - low;
+  circle.deviation_mm = range.width();
   circle.rms_mm = std::sqrt(squares / static_cast<double>(points_mm.size()));
 }
 
@@ -48,11 +44,11 @@ struct CircleModel {
 };
 
 LsCircle finished(const CircleModel& model, const Eigen::Vector2d& origin, double squares,
-                  const DistanceRange& range, std::size_t n) {
+                  const Extremes& range, std::size_t n) {
   LsCircle out;
   out.center_mm = origin + model.center;
   out.radius_mm = model.radius;
-  out.deviation_mm = range.high_mm - range.low_mm;
+  out.deviation_mm = range.width();
   out.rms_mm = std::sqrt(squares / static_cast<double>(n));
   return out;
 }
@@ -92,7 +88,7 @@ FlatCircle flattened(const CircleModel& circle, double length) {
 }
 
 /// Sums of the distances and their gradients in the unknowns of a FlatCircle.
-NormalSums<3> flat_sums(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& origin,
+NormalSums<3> flat_sums(PlanePoints points_mm, const Eigen::Vector2d& origin,
                         const FlatCircle& at) {
   NormalSums<3> out;
   const Eigen::Vector2d toward(std::cos(at.angle), std::sin(at.angle));
@@ -118,16 +114,14 @@ NormalSums<3> flat_sums(std::span<const Eigen::Vector2d> points_mm, const Eigen:
 }
 
 /// Whether the points are a flat arc of a circle, with a distant centre and correlated radius.
-bool is_flat(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& origin,
-             double radius) {
-  return std::none_of(points_mm.begin(), points_mm.end(), [&](const Eigen::Vector2d& p) {
-    return kFlat * (p - origin).norm() > radius;
-  });
+bool is_flat(PlanePoints points_mm, const Eigen::Vector2d& origin, double radius) {
+  return std::ranges::none_of(
+      points_mm, [&](const Eigen::Vector2d& p) { return kFlat * (p - origin).norm() > radius; });
 }
 
 /// Finds the minimum in the unknowns of FlatCircle, for points whose centre is too far away.
-bool settle_flat(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& origin,
-                 CircleModel& model, double& squares) {
+bool settle_flat(PlanePoints points_mm, const Eigen::Vector2d& origin, CircleModel& model,
+                 double& squares) {
   double length = 0.0;
   for (const Eigen::Vector2d& p : points_mm) length = std::max(length, (p - origin).norm());
   FlatCircle flat = flattened(model, length);
@@ -142,7 +136,7 @@ bool settle_flat(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector
 }
 
 /// Fits a large set from the circle of a sample; returns nothing if that does not converge.
-std::optional<LsCircle> from_sample(std::span<const Eigen::Vector2d> points_mm) {
+std::optional<LsCircle> from_sample(PlanePoints points_mm) {
   std::array<Eigen::Vector2d, kStartSample> sample;
   sample_points(points_mm, sample);
   const auto start = ls_circle(sample);
@@ -167,7 +161,7 @@ std::optional<LsCircle> from_sample(std::span<const Eigen::Vector2d> points_mm) 
 
 }  // namespace
 
-core::Result<LsCircle> algebraic_start(std::span<const Eigen::Vector2d> points_mm) {
+core::Result<LsCircle> algebraic_start(PlanePoints points_mm) {
   if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
   if (distinct_points(points_mm, 3) < 3) {
     return core::fail(core::Code::kTooFewPoints,
@@ -199,13 +193,13 @@ core::Result<LsCircle> algebraic_start(std::span<const Eigen::Vector2d> points_m
   return circle;
 }
 
-core::Result<LsCircle> algebraic_circle(std::span<const Eigen::Vector2d> points_mm) {
+core::Result<LsCircle> algebraic_circle(PlanePoints points_mm) {
   auto circle = algebraic_start(points_mm);
   if (circle) fill_residuals(points_mm, *circle);
   return circle;
 }
 
-core::Result<LsCircle> ls_circle(std::span<const Eigen::Vector2d> points_mm) {
+core::Result<LsCircle> ls_circle(PlanePoints points_mm) {
   if (points_mm.size() > kStartSample) {
     if (const auto circle = from_sample(points_mm)) return *circle;
   }

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include <Eigen/Core>
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 
@@ -27,7 +27,6 @@ struct LsCylinder {
 ///         undetermined), kNotConverged. O(n) per step.
 /// Source: ISO 12180-1; methods, cylindricity section 11.1.
 [[nodiscard]] core::Result<LsCylinder> ls_cylinder(
-    std::span<const Eigen::Vector3d> points_mm,
-    const std::optional<Eigen::Vector3d>& near_direction = std::nullopt);
+    SpacePoints points_mm, const std::optional<Eigen::Vector3d>& near_direction = std::nullopt);
 
 }  // namespace rondure::fit

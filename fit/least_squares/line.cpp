@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include <fmt/format.h>
 
 #include "core/decompositions.h"
-#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 namespace {
@@ -72,16 +68,6 @@ core::Result<LsLine> ls_line(SpacePoints points_mm) {
   out.deviation_mm = 2.0 * std::sqrt(farthest);
   out.rms_mm = std::sqrt(squares / static_cast<double>(points_mm.size()));
   return out;
-}
-
-core::Result<LsLine> median_line_straightness(SpacePoints section_centers_mm) {
-  if (section_centers_mm.size() < 3) {
-    return core::fail(core::Code::kTooFewPoints,
-                      fmt::format("{} section centres; the straightness of a median line needs at "
-                                  "least 3, two are always on a line",
-                                  section_centers_mm.size()));
-  }
-  return ls_line(section_centers_mm);
 }
 
 }  // namespace rondure::fit

@@ -4,14 +4,13 @@
 
 #include <Eigen/Dense>
 
-#include "fit/geometry/points.h"
 #include "fit/least_squares/sphere.h"
 
 namespace rondure::fit {
 namespace {
 
 /// Variance of the radius for residuals of variance 1, from the gradients at the minimum.
-double radius_variance(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& center) {
+double radius_variance(SpacePoints points, const Eigen::Vector3d& center) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
   for (const Eigen::Vector3d& p : points) {
     Eigen::Vector4d row;
@@ -23,8 +22,7 @@ double radius_variance(std::span<const Eigen::Vector3d> points, const Eigen::Vec
 
 }  // namespace
 
-core::Result<ProbeTip> qualify_tip(std::span<const Eigen::Vector3d> tip_centers_mm,
-                                   double sphere_radius_mm) {
+core::Result<ProbeTip> qualify_tip(SpacePoints tip_centers_mm, double sphere_radius_mm) {
   if (auto checked = check_points(tip_centers_mm); !checked) return core::fail(checked.error());
   if (distinct_points(tip_centers_mm, 5) < 5) {
     return core::fail(

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <span>
-
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 
@@ -24,7 +23,7 @@ struct ProbeTip {
 /// @return kNoPoints, kNotFinite (row), kTooFewPoints, kRank (all on one circle),
 ///         kNotConverged.
 /// Source: methods, cylindricity section 2.1.
-[[nodiscard]] core::Result<ProbeTip> qualify_tip(std::span<const Eigen::Vector3d> tip_centers_mm,
+[[nodiscard]] core::Result<ProbeTip> qualify_tip(SpacePoints tip_centers_mm,
                                                  double sphere_radius_mm);
 
 }  // namespace rondure::fit

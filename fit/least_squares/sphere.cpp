@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/decompositions.h"
-#include "fit/geometry/points.h"
 #include "fit/least_squares/internal/gauss_newton.h"
 #include "fit/least_squares/internal/sums.h"
 
@@ -87,7 +86,7 @@ core::Result<LsSphere> ls_sphere(SpacePoints points_mm) {
   const auto range = distance_range(points_mm.size(), [&](std::size_t i) {
     return ((points_mm[i] - origin) - model->center).norm();
   });
-  return LsSphere{origin + model->center, model->radius, range.high_mm - range.low_mm,
+  return LsSphere{origin + model->center, model->radius, range.width(),
                   std::sqrt(squares / static_cast<double>(points_mm.size()))};
 }
 

@@ -1,20 +1,10 @@
 #pragma once
 
-#include <span>
-
-#include <Eigen/Core>
-
 #include "core/result.h"
+#include "fit/geometry/points.h"
+#include "fit/least_squares/circle.h"
 
 namespace rondure::fit {
-
-/// A least-squares sphere.
-struct LsSphere {
-  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
-  double radius_mm = 0.0;
-  double deviation_mm = 0.0;  ///< Radial peak to valley about the centre [mm].
-  double rms_mm = 0.0;        ///< Root mean square of the radial residuals [mm].
-};
 
 /// Fits the least-squares sphere: minimises the sum of squared radial (orthogonal) distances by
 /// damped Gauss-Newton from the algebraic sphere, which has a closed form and is exact for points
@@ -24,6 +14,6 @@ struct LsSphere {
 /// @return kNoPoints, kNotFinite (row), kTooFewPoints, kRank (one plane: the height of the centre
 ///         is undetermined), kNotConverged. O(n) per step.
 /// Source: methods, cylindricity section 2.1.
-[[nodiscard]] core::Result<LsSphere> ls_sphere(std::span<const Eigen::Vector3d> points_mm);
+[[nodiscard]] core::Result<LsSphere> ls_sphere(SpacePoints points_mm);
 
 }  // namespace rondure::fit

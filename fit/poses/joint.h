@@ -95,14 +95,13 @@ struct PoseJoint {
 /// - the size of h estimated from the residuals, repeated until it no longer changes.
 /// Then finds the minimum zone of the corrected touches; the form is never subtracted from them.
 ///
-/// A cylinder does not determine a turn about its axis or a shift along it: these stay those of the
-/// kinematics. The touches must determine every other parameter; otherwise the result is kRank, and
-/// `what` names pose, parameter and remedy.
+/// A turn about the axis and a shift along it stay those of the kinematics. The touches must
+/// determine every other parameter; otherwise the result is kRank, and `what` names pose, parameter
+/// and remedy.
 ///
-/// Accuracy (error of CYLt, median and 95 % of simulated parts; docs/several-poses.md): half shells
-/// that overlap by 30 deg on each side 1.1 % and 4 %, by 15 deg 3 % and 12 %. With nothing shared,
-/// a shift of two half shells looks like two lobes: 13 % and 35 %; `u_joint_mm` is then too small,
-/// as only two thirds of the parts lie within twice its value; otherwise 86 to 97 % do.
+/// Accuracy (docs/several-poses.md): half shells that overlap by 30 deg on each side give CYLt to
+/// 1.1 % (median) and 4 % (95 %). With nothing shared, a shift of two half shells looks like two
+/// lobes: 13 % and 35 %, and `u_joint_mm` is too small (only two thirds within twice its value).
 ///
 /// @param poses  m >= 2.
 /// @return  kTooFewPoints (fewer than 2 poses, 4 touches in a pose, or 8 in all), kNotFinite,

@@ -127,15 +127,14 @@ core::Result<AngularProfile> ordered_profile(std::span<const double> theta_rad,
   AngularProfile out;
   count_steps(theta_rad, out);
   std::vector<double> turned(theta_rad.size());
-  std::transform(theta_rad.begin(), theta_rad.end(), turned.begin(), within_turn);
+  std::ranges::transform(theta_rad, turned.begin(), within_turn);
   // An angle just below a full turn because of rounding belongs to the beginning of the turn.
   for (double& theta : turned) {
     if (core::kTwoPi - theta < core::kSameAngle) theta = 0.0;
   }
   std::vector<std::size_t> order(turned.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return turned[a] < turned[b]; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t row) { return turned[row]; });
   Merger merger(out);
   for (const std::size_t row : order) merger.add(turned[row], r_mm[row], row);
   if (out.theta_rad.size() < 4) {

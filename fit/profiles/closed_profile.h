@@ -56,9 +56,9 @@ struct ResampledProfile {
 /// Brings a profile to uniform angles by a periodic cubic spline through all points.
 ///
 /// Uniform input is returned unchanged. Otherwise the number of samples is the least power of two
-/// that is at least 1024 and at least twice the number of points. If the largest gap is below
-/// 360/(4 fc) deg, the error within the pass band of a filter fc is small: 2e-8 mm for a profile of
-/// 12e-3 mm at 720 points with 35 % jitter and fc = 50 (docs/filters.md).
+/// that is at least 1024 and twice the number of points. With gaps below 360/(4 fc) deg the error
+/// within the pass band of a filter fc is small: 2e-8 mm for a profile of 12e-3 mm at 720 points
+/// with 35 % jitter and fc = 50 (docs/filters.md).
 ///
 /// @return kNotFullSection if a gap of 90 deg or more would have to be bridged.
 /// Source: methods, roundness B.1.

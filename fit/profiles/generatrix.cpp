@@ -4,19 +4,17 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include <fmt/format.h>
 
+#include "fit/geometry/column_extremes.h"
 #include "fit/geometry/internal/hull_distance.h"
-#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 namespace {
 
 /// Slope of the least-squares line r = mean + slope (z - mean z); nothing if all z are equal.
-std::optional<double> ls_slope(std::span<const Eigen::Vector2d> points,
-                               const Eigen::Vector2d& mean) {
+std::optional<double> ls_slope(PlanePoints points, const Eigen::Vector2d& mean) {
   double zz = 0.0;
   double zr = 0.0;
   double size = 0.0;
@@ -31,8 +29,7 @@ std::optional<double> ls_slope(std::span<const Eigen::Vector2d> points,
 }
 
 /// The points about `mean` in a frame whose first axis has the given slope.
-std::vector<Eigen::Vector2d> turned(std::span<const Eigen::Vector2d> points,
-                                    const Eigen::Vector2d& mean, double slope) {
+std::vector<Eigen::Vector2d> turned(PlanePoints points, const Eigen::Vector2d& mean, double slope) {
   const double scale = 1.0 / std::hypot(1.0, slope);
   std::vector<Eigen::Vector2d> out;
   out.reserve(points.size());
@@ -43,29 +40,10 @@ std::vector<Eigen::Vector2d> turned(std::span<const Eigen::Vector2d> points,
   return out;
 }
 
-/// Corners of the convex hull, anticlockwise (monotone chain); 1 or 2 for points of one line.
-std::vector<Eigen::Vector2d> hull_of(std::vector<Eigen::Vector2d> points) {
-  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  std::vector<Eigen::Vector2d> hull;
-  const auto add = [&](const Eigen::Vector2d& p, std::size_t kept) {
-    while (hull.size() > kept && twice_area(hull[hull.size() - 2], hull.back(), p) <= 0.0)
-      hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const Eigen::Vector2d& p : points) add(p, 1);
-  const std::size_t lower = hull.size();
-  for (auto p = points.rbegin() + 1; p < points.rend(); ++p) add(*p, lower);
-  if (hull.size() > 1) hull.pop_back();  // the first corner again
-  return hull;
-}
-
 /// Least distance of two parallels that hold the points between them. One of them passes through an
 /// edge of the hull, the other through the corner farthest from that edge.
-double least_zone(std::vector<Eigen::Vector2d> points) {
-  const auto hull = hull_of(std::move(points));
+double least_zone(PlanePoints points) {
+  const auto hull = convex_hull(points);
   const std::size_t n = hull.size();
   if (n < 3) return 0.0;
   double least = std::numeric_limits<double>::infinity();
@@ -83,8 +61,7 @@ double least_zone(std::vector<Eigen::Vector2d> points) {
 core::Error no_length() {
   return {core::Code::kRank,
           "all points stand at one position along the axis; straightness and "
-          "taper need at least two sections",
-          {}};
+          "taper need at least two sections"};
 }
 
 }  // namespace
@@ -109,15 +86,15 @@ core::Result<GeneratrixStraightness> generatrix_straightness(std::span<const dou
   if (!slope) return core::fail(no_length());
   GeneratrixStraightness out;
   out.ls_slope = *slope;
-  auto frame = turned(points, mean, *slope);
+  const auto frame = turned(points, mean, *slope);
   std::vector<double> deviations;
   for (const Eigen::Vector2d& p : frame) deviations.push_back(p.y());
   out.ls = form_parameters(deviations);
-  out.zone_mm = least_zone(std::move(frame));
+  out.zone_mm = least_zone(frame);
   return out;
 }
 
-core::Result<Taper> taper(std::span<const Eigen::Vector3d> points_mm, const Axis& axis) {
+core::Result<Taper> taper(SpacePoints points_mm, const Axis& axis) {
   if (auto checked = check_points(points_mm); !checked) return core::fail(checked.error());
   std::vector<Eigen::Vector2d> points;
   for (const Eigen::Vector3d& p : points_mm) {
@@ -125,9 +102,8 @@ core::Result<Taper> taper(std::span<const Eigen::Vector3d> points_mm, const Axis
   }
   const auto slope = ls_slope(points, mean_point(points));
   if (!slope) return core::fail(no_length());
-  const auto [low, high] = std::minmax_element(
-      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
-  return Taper{*slope, 2.0 * *slope * (high->x() - low->x()), 2.0 * std::atan(*slope)};
+  const double length = extremes_of(points, [](const auto& p) { return p.x(); }).width();
+  return Taper{*slope, 2.0 * *slope * length, 2.0 * std::atan(*slope)};
 }
 
 }  // namespace rondure::fit

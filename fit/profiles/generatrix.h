@@ -1,12 +1,12 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
 #include "fit/profiles/form_parameters.h"
 
 namespace rondure::fit {
@@ -37,7 +37,6 @@ struct Taper {
 
 /// Computes the taper of points about an axis.
 /// @return kNoPoints, kNotFinite (row), kRank (all points in one section).
-[[nodiscard]] core::Result<Taper> taper(std::span<const Eigen::Vector3d> points_mm,
-                                        const Axis& axis);
+[[nodiscard]] core::Result<Taper> taper(SpacePoints points_mm, const Axis& axis);
 
 }  // namespace rondure::fit

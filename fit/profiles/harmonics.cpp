@@ -25,6 +25,29 @@ double amplitude_sigma(double noise, std::size_t points) {
   return noise * std::sqrt(2.0 / static_cast<double>(points));
 }
 
+/// Checks K against the number of points.
+core::Result<void> check_harmonics(std::size_t points, const HarmonicOptions& options) {
+  if (options.highest < 1 || !(options.noise_mm >= 0.0)) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("harmonics 1 to {} with a noise of {} mm; the highest is at "
+                                  "least 1 and the noise not negative",
+                                  options.highest, options.noise_mm));
+  }
+  const auto highest = static_cast<std::size_t>(options.highest);
+  if (points == 0 || highest > (points - 1) / 2) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("{} points determine harmonics up to {}, {} are asked for",
+                                  points, points == 0 ? 0 : (points - 1) / 2, highest));
+  }
+  if (7 * highest > points && !options.override_sampling) {
+    return core::fail(core::Code::kSampling,
+                      fmt::format("harmonic {} needs {} points (7 per undulation), there are {}: "
+                                  "ask for harmonics up to {}; the check can be overridden",
+                                  highest, 7 * highest, points, points / 7));
+  }
+  return {};
+}
+
 core::Result<void> check_harmonic_gap(const AngularProfile& profile, int highest) {
   const double gap_deg = profile.largest_gap_rad / core::kDegree;
   if (gap_deg >= 90.0) {
@@ -84,28 +107,6 @@ Eigen::VectorXd least_squares(const AngularProfile& profile, int highest) {
 std::optional<double> Harmonic::crest_rad() const {
   if (!phase_rad) return std::nullopt;
   return *phase_rad / number;
-}
-
-core::Result<void> check_harmonics(std::size_t points, const HarmonicOptions& options) {
-  if (options.highest < 1 || !(options.noise_mm >= 0.0)) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("harmonics 1 to {} with a noise of {} mm; the highest is at "
-                                  "least 1 and the noise not negative",
-                                  options.highest, options.noise_mm));
-  }
-  const auto highest = static_cast<std::size_t>(options.highest);
-  if (points == 0 || highest > (points - 1) / 2) {
-    return core::fail(core::Code::kBadOption,
-                      fmt::format("{} points determine harmonics up to {}, {} are asked for",
-                                  points, points == 0 ? 0 : (points - 1) / 2, highest));
-  }
-  if (7 * highest > points && !options.override_sampling) {
-    return core::fail(core::Code::kSampling,
-                      fmt::format("harmonic {} needs {} points (7 per undulation), there are {}: "
-                                  "ask for harmonics up to {}; the check can be overridden",
-                                  highest, 7 * highest, points, points / 7));
-  }
-  return {};
 }
 
 core::Result<HarmonicTable> harmonics(const UniformProfile& profile,

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/result.h"
@@ -35,15 +33,11 @@ struct HarmonicOptions {
   bool override_sampling = false;  ///< Allow K above n/7.
 };
 
-/// Checks K against the number of points.
-/// @return kBadOption for K < 1, or K above (n - 1)/2, which n points cannot determine; kSampling
-///         for K above n/7, where aliased undulations have wrong phases, unless overridden.
-[[nodiscard]] core::Result<void> check_harmonics(std::size_t points,
-                                                 const HarmonicOptions& options);
-
 /// Computes the harmonics of a profile at uniform angles from its spectrum. Phases count from angle
 /// 0, whatever the start angle.
-/// @return check_harmonics()'s errors. Source: methods, roundness B.6.
+/// @return kBadOption for K < 1, or K above (n - 1)/2, which n points cannot determine; kSampling
+///         for K above n/7, where aliased undulations have wrong phases, unless overridden.
+/// Source: methods, roundness B.6.
 [[nodiscard]] core::Result<HarmonicTable> harmonics(const UniformProfile& profile,
                                                     const HarmonicOptions& options);
 

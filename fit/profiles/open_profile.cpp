@@ -83,7 +83,7 @@ class LocalMean {
   [[nodiscard]] double at(double position) const {
     Eigen::Matrix<double, Terms, Terms> moments = Eigen::Matrix<double, Terms, Terms>::Zero();
     Eigen::Matrix<double, Terms, 1> right = Eigen::Matrix<double, Terms, 1>::Zero();
-    const auto begin = std::lower_bound(x_.begin(), x_.end(), position - reach_);
+    const auto begin = std::ranges::lower_bound(x_, position - reach_);
     for (auto i = static_cast<std::size_t>(begin - x_.begin());
          i < x_.size() && x_[i] <= position + reach_; ++i) {
       const double u = (x_[i] - position) / width_;

@@ -1,19 +1,40 @@
 #include "fit/profiles/profile_filter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/numbers.h"
+#include "core/statistics.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/profiles/internal/dft.h"
-#include "fit/profiles/internal/robust_filter.h"
 
 namespace rondure::fit {
 namespace {
 
 constexpr double kPointsPerUndulation = 7.0;
+
+// Of the robust filter.
+constexpr int kIterationLimit = 3000;
+/// After this many iterations only half of each step is taken, then a quarter, then an eighth. With
+/// strong undulations next to the cut-off, full steps would overshoot without end. The share of the
+/// step does not change the line to which the iteration converges.
+constexpr int kIterationsPerDamping = 100;
+constexpr int kDampings = 3;
+constexpr double kStandardised = 4.4478;  // 3 standard deviations: median|e| = 0.67449 sigma
+constexpr double kSettledStep = 1e-9;
+/// If the weight of a neighbourhood is below this, its mean is round-off of the transform.
+constexpr double kLeastWeight = 1e-6;
+/// Floor of the scale, as a multiple of the largest change of the mean line by a second filtering.
+/// A spike lifts the first line by a bump b, of which the second filtering removes
+/// (1 - 1/sqrt(2)) b. With a floor of twice b the points beside the spike stay inside, and the
+/// parts that the filter removes from smooth undulations have a weight above 0.95.
+constexpr double kFloor = 2.0 / (1.0 - 1.0 / std::numbers::sqrt2);
 
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 
@@ -54,8 +75,111 @@ std::vector<double> linear(std::span<const double> r, const FilterOptions& optio
 
 std::vector<double> difference(std::span<const double> a, const std::vector<double>& b) {
   std::vector<double> out(b.size());
-  std::transform(a.begin(), a.end(), b.begin(), out.begin(), std::minus<>());
+  std::ranges::transform(a, b, out.begin(), std::minus<>());
   return out;
+}
+
+/// Mean line of the robust Gaussian filter.
+struct RobustMeanLine {
+  std::vector<double> r_mm;
+  int iterations = 0;
+  bool scale_floored = false;  ///< c was raised to its floor, see robust_mean_line().
+};
+
+/// Source of the scale of the residuals.
+enum class Scale {
+  kMedian,   ///< From their median, as in the standard.
+  kFloored,  ///< The same, but not below the floor.
+};
+
+std::vector<double> gaussian_mean(std::span<const double> r, double cutoff) {
+  auto f = spectrum(r);
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    f[k] *= gaussian_transmission(static_cast<double>(k), cutoff);
+  }
+  return series_of(f, r.size());
+}
+
+double median_distance(std::span<const double> r, std::span<const double> w) {
+  std::vector<double> distance(r.size());
+  for (std::size_t i = 0; i < r.size(); ++i) distance[i] = std::abs(r[i] - w[i]);
+  return core::median(std::move(distance));
+}
+
+/// Tukey's weights of the residuals.
+std::vector<double> weights(std::span<const double> r, std::span<const double> w, double c) {
+  std::vector<double> out(r.size(), 0.0);
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const double ratio = (r[i] - w[i]) / c;
+    if (std::abs(ratio) <= 1.0) out[i] = (1.0 - ratio * ratio) * (1.0 - ratio * ratio);
+  }
+  return out;
+}
+
+double greatest_step(std::span<const double> a, std::span<const double> b) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) out = std::max(out, std::abs(a[i] - b[i]));
+  return out;
+}
+
+/// Iterates the mean line of a profile whose mean is 0.
+core::Result<RobustMeanLine> settled_line(const std::vector<double>& r, double cutoff_upr,
+                                          Scale scale) {
+  RobustMeanLine out{gaussian_mean(r, cutoff_upr), 0, scale == Scale::kFloored};
+  const double round_off =
+      64.0 * std::numeric_limits<double>::epsilon() * column_extremes(r).width();
+  std::vector<double> weighted(r.size());
+  while (out.iterations < kIterationLimit) {
+    ++out.iterations;
+    double c = kStandardised * median_distance(r, out.r_mm);
+    if (scale == Scale::kFloored) {
+      c = std::max(c, kFloor * greatest_step(out.r_mm, gaussian_mean(out.r_mm, cutoff_upr)));
+    }
+    if (c <= round_off) return out;  // half of the profile is its own mean line
+    const auto delta = weights(r, out.r_mm, c);
+    for (std::size_t i = 0; i < delta.size(); ++i) weighted[i] = delta[i] * r[i];
+    auto line = gaussian_mean(weighted, cutoff_upr);
+    const auto weight = gaussian_mean(delta, cutoff_upr);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      if (weight[i] < kLeastWeight) {
+        return core::fail(core::Code::kNotConverged,
+                          fmt::format("the robust filter at {} UPR finds only outliers round row "
+                                      "{}; take a lower cut-off or the linear filter",
+                                      cutoff_upr, i));
+      }
+      line[i] /= weight[i];
+    }
+    const double step = greatest_step(line, out.r_mm);
+    const double share = std::exp2(-std::min(out.iterations / kIterationsPerDamping, kDampings));
+    for (std::size_t i = 0; i < line.size(); ++i) out.r_mm[i] += share * (line[i] - out.r_mm[i]);
+    if (step <= kSettledStep * c + round_off) return out;
+  }
+  return core::fail(core::Code::kNotConverged,
+                    fmt::format("the robust filter at {} UPR still moves after {} iterations; take "
+                                "another cut-off or the linear filter",
+                                cutoff_upr, kIterationLimit));
+}
+
+/// Robust Gaussian regression of order 0 (ISO 16610-31): minimises sum_i rho(r_i - w_k) s_ik at
+/// every k, s the Gaussian weight, rho Tukey's function, by repeated weighting: w = conv(s, delta
+/// r) / conv(s, delta), delta = (1 - ((r - w)/c)^2)^2 where |r - w| <= c and 0 beyond, c = 4.4478
+/// median|r - w|. The convolutions are products of spectra and so have no end effects.
+///
+/// This c does not suit a smooth profile: the residuals are then the parts of its undulations that
+/// the filter removes, and whole undulations count as outliers. If the iteration does not converge
+/// for that reason, it is repeated with c >= 6.83 max|w - conv(s, w)|.
+core::Result<RobustMeanLine> robust_mean_line(std::span<const double> r_mm, double cutoff_upr) {
+  // The profile is taken relative to its mean, so that a radius of many mm costs no digits.
+  const double mean = core::mean(r_mm);
+  std::vector<double> r(r_mm.begin(), r_mm.end());
+  for (double& value : r) value -= mean;
+  auto line = settled_line(r, cutoff_upr, Scale::kMedian);
+  // The residuals of a smooth profile are not noise, but the parts of its undulations that the
+  // filter removes; their median is no measure of the largest ones.
+  if (!line) line = settled_line(r, cutoff_upr, Scale::kFloored);
+  if (!line) return line;
+  for (double& value : line->r_mm) value += mean;
+  return line;
 }
 
 core::Result<FilteredProfile> robust(std::span<const double> r, const FilterOptions& options) {
@@ -81,31 +205,14 @@ core::Result<FilteredProfile> robust(std::span<const double> r, const FilterOpti
 }  // namespace
 
 std::string_view name_of(ProfileFilter filter) {
-  switch (filter) {
-    case ProfileFilter::kNone:
-      return "none";
-    case ProfileFilter::kGaussian:
-      return "gaussian";
-    case ProfileFilter::kTwoRc:
-      return "2rc";
-    case ProfileFilter::kRobustGaussian:
-      return "robust";
-    case ProfileFilter::kSpline:
-      return "spline";
-  }
-  return "none";
+  constexpr std::array<std::string_view, 5> kNames = {"none", "gaussian", "2rc", "robust",
+                                                      "spline"};
+  return kNames[static_cast<std::size_t>(filter)];
 }
 
 std::string_view name_of(PassBand pass) {
-  switch (pass) {
-    case PassBand::kLow:
-      return "low";
-    case PassBand::kHigh:
-      return "high";
-    case PassBand::kBand:
-      return "band";
-  }
-  return "low";
+  constexpr std::array<std::string_view, 3> kNames = {"low", "high", "band"};
+  return kNames[static_cast<std::size_t>(pass)];
 }
 
 double FilterOptions::highest_cutoff_upr() const {
@@ -157,16 +264,10 @@ core::Result<Sampling> check_sampling(std::size_t points, const FilterOptions& o
 Complex transmission(const FilterOptions& options, double harmonic, std::size_t samples) {
   const auto n = static_cast<double>(samples);
   if (options.filter == ProfileFilter::kNone) return 1.0;
-  switch (options.pass) {
-    case PassBand::kLow:
-      return low_pass(options.filter, harmonic, options.cutoff_upr, n);
-    case PassBand::kHigh:
-      return high_pass(options.filter, harmonic, options.cutoff_upr, n);
-    case PassBand::kBand:
-      break;
-  }
-  return low_pass(options.filter, harmonic, options.upper_cutoff_upr, n) *
-         high_pass(options.filter, harmonic, options.cutoff_upr, n);
+  const auto high = [&] { return high_pass(options.filter, harmonic, options.cutoff_upr, n); };
+  if (options.pass == PassBand::kHigh) return high();
+  const Complex low = low_pass(options.filter, harmonic, options.highest_cutoff_upr(), n);
+  return options.pass == PassBand::kLow ? low : low * high();
 }
 
 core::Result<FilteredProfile> filter_closed(std::span<const double> r_mm,

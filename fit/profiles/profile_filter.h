@@ -64,7 +64,7 @@ struct FilteredProfile {
   std::vector<double> r_mm;
   Sampling sampling;
   int iterations = 0;          ///< Iterations of the robust filter; 0 for the linear ones.
-  bool scale_floored = false;  ///< Robust filter only: see RobustMeanLine.
+  bool scale_floored = false;  ///< Robust filter: c was raised to a floor, see docs/filters.md.
 };
 
 /// Complex transmission of a linear filter at harmonic n: the output is the input times its

@@ -1,8 +1,8 @@
 #include "fit/profiles/roundness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -39,8 +39,7 @@ std::vector<std::size_t> rows_of(std::span<const Contact> contacts) {
   return rows;
 }
 
-core::Result<Roundness> ls_points(std::span<const Eigen::Vector2d> points,
-                                  const RoundnessSide& side) {
+core::Result<Roundness> ls_points(PlanePoints points, const RoundnessSide& side) {
   const auto circle = ls_circle(points);
   if (!circle) return core::fail(circle.error());
   Roundness out;
@@ -54,7 +53,7 @@ core::Result<Roundness> ls_points(std::span<const Eigen::Vector2d> points,
   return out;
 }
 
-core::Result<Roundness> mz_points(std::span<const Eigen::Vector2d> points) {
+core::Result<Roundness> mz_points(PlanePoints points) {
   const auto zone = min_zone_circle(points);
   if (!zone) return core::fail(zone.error());
   Roundness out;
@@ -68,8 +67,7 @@ core::Result<Roundness> mz_points(std::span<const Eigen::Vector2d> points) {
   return out;
 }
 
-core::Result<Roundness> one_sided_points(std::span<const Eigen::Vector2d> points,
-                                         CircleReference reference) {
+core::Result<Roundness> one_sided_points(PlanePoints points, CircleReference reference) {
   const bool outside = reference == CircleReference::kMc;
   const auto circle = outside ? min_circumscribed_circle(points) : max_inscribed_circle(points);
   if (!circle) return core::fail(circle.error());
@@ -149,8 +147,7 @@ ZoneRows<2> zone_rows(std::span<const double> theta, std::span<const double> r, 
 
 /// Solves the programme in a box that its optimum does not touch, if there is such a box.
 std::optional<ZoneStep<2>> solved(const ZoneRows<2>& rows, const ZoneWeights& weights) {
-  const auto [low, high] = std::minmax_element(rows.distances().begin(), rows.distances().end());
-  double box = std::max(kFirstBox * (*high - *low), 1e-12);
+  double box = std::max(kFirstBox * column_extremes(rows.distances()).width(), 1e-12);
   for (int k = 0; k < kBoxes; ++k, box *= kBoxGrowth) {
     auto step = solve_zone_program<2>(rows, box, weights);
     if (step.solved && step.inside_box) return step;
@@ -167,15 +164,13 @@ core::Error no_center(CircleReference reference) {
   if (reference == CircleReference::kMz) {
     return {core::Code::kNotConverged,
             "the minimum zone of the profile has no centre within reach; the arc is too short for "
-            "it",
-            {}};
+            "it"};
   }
   return {core::Code::kReferenceAbsent,
           fmt::format(
               "the {} circle of the profile does not exist: its values leave a gap of 180 "
               "deg or more, into which the centre runs away",
-              reference == CircleReference::kMc ? "minimum circumscribed" : "maximum inscribed"),
-          {}};
+              reference == CircleReference::kMc ? "minimum circumscribed" : "maximum inscribed")};
 }
 
 core::Result<Roundness> program_profile(std::span<const double> theta, std::span<const double> r,
@@ -188,22 +183,17 @@ core::Result<Roundness> program_profile(std::span<const double> theta, std::span
   const ZoneWeights weights = weights_of(reference);
   const auto step = solved(rows, weights);
   if (!step) return core::fail(no_center(reference));
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double moved = rows.distances()[i] + rows.gradient(i).dot(step->step);
-    low = std::min(low, moved);
-    high = std::max(high, moved);
-  }
+  const Extremes reach = rows.moved(step->step);
   Roundness out;
   out.reference = reference;
   out.center_mm = step->step;
-  out.radius_mm = mean + (zone ? 0.5 * (low + high) : weights.outer * high + weights.inner * low);
-  out.total_mm = high - low;
+  out.radius_mm = mean + (zone ? 0.5 * (reach.low + reach.high)
+                               : weights.outer * reach.high + weights.inner * reach.low);
+  out.total_mm = reach.width();
   out.outer = rows_of(step->outer);
   out.inner = rows_of(step->inner);
   // The dual value of the programme is a lower bound for every centre in the linear model.
-  const double reached = weights.outer * high - weights.inner * low;
+  const double reached = weights.value(reach);
   out.certificate = {Certificate::Kind::kGlobal, "all centres, limacon model",
                      std::max(0.0, reached - step->value), ""};
   if (!zone) out.range = deviation_range(rows, step->step, weights);
@@ -213,45 +203,22 @@ core::Result<Roundness> program_profile(std::span<const double> theta, std::span
 }  // namespace
 
 std::string_view name_of(CircleReference reference) {
-  switch (reference) {
-    case CircleReference::kLs:
-      return "ls";
-    case CircleReference::kMz:
-      return "mz";
-    case CircleReference::kMc:
-      return "mc";
-    case CircleReference::kMi:
-      return "mi";
-  }
-  return "ls";
+  constexpr std::array<std::string_view, 4> kNames = {"ls", "mz", "mc", "mi"};
+  return kNames[static_cast<std::size_t>(reference)];
 }
 
-core::Result<Roundness> roundness_of_points(std::span<const Eigen::Vector2d> points_mm,
-                                            CircleReference reference, const RoundnessSide& side) {
-  switch (reference) {
-    case CircleReference::kLs:
-      return ls_points(points_mm, side);
-    case CircleReference::kMz:
-      return mz_points(points_mm);
-    case CircleReference::kMc:
-    case CircleReference::kMi:
-      return one_sided_points(points_mm, reference);
-  }
-  return core::fail(core::Code::kInternal, "there is no such reference circle");
+core::Result<Roundness> roundness_of_points(PlanePoints points_mm, CircleReference reference,
+                                            const RoundnessSide& side) {
+  if (reference == CircleReference::kLs) return ls_points(points_mm, side);
+  if (reference == CircleReference::kMz) return mz_points(points_mm);
+  return one_sided_points(points_mm, reference);
 }
 
 core::Result<Roundness> roundness_of_profile(std::span<const double> theta_rad,
                                              std::span<const double> r_mm,
                                              CircleReference reference, const RoundnessSide& side) {
-  switch (reference) {
-    case CircleReference::kLs:
-      return ls_profile(theta_rad, r_mm, side);
-    case CircleReference::kMz:
-    case CircleReference::kMc:
-    case CircleReference::kMi:
-      return program_profile(theta_rad, r_mm, reference);
-  }
-  return core::fail(core::Code::kInternal, "there is no such reference circle");
+  if (reference == CircleReference::kLs) return ls_profile(theta_rad, r_mm, side);
+  return program_profile(theta_rad, r_mm, reference);
 }
 
 }  // namespace rondure::fit

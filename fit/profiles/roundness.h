@@ -9,14 +9,14 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "fit/geometry/points.h"
 #include "fit/profiles/form_parameters.h"
 #include "fit/proof/certificate.h"
 #include "fit/zone/deviation_range.h"
 
 namespace rondure::fit {
 
-/// Reference circles of ISO 12181-1. To add one, add an enumerator, its name, and its case in
-/// roundness_of_points() and roundness_of_profile().
+/// Reference circles of ISO 12181-1.
 enum class CircleReference {
   kLs,  ///< LSCI, least squares.
   kMz,  ///< MZCI, minimum zone.
@@ -41,9 +41,6 @@ struct Roundness {
   /// Range of RONt, for kMc and kMi, if several circles are equally good and RONt differs between
   /// them; `total_mm` belongs to one of them.
   std::optional<DeviationRange> range;
-
-  /// Distance of the centre from the origin of the profile [mm].
-  [[nodiscard]] double eccentricity_mm() const { return center_mm.norm(); }
 };
 
 /// Data that the parameters of roundness need in addition to the points.
@@ -55,9 +52,9 @@ struct RoundnessSide {
 /// Computes the roundness of points of a plane section about a circle fitted by ls_circle(),
 /// min_zone_circle(), min_circumscribed_circle() or max_inscribed_circle().
 /// @return the errors of these functions.
-[[nodiscard]] core::Result<Roundness> roundness_of_points(
-    std::span<const Eigen::Vector2d> points_mm, CircleReference reference,
-    const RoundnessSide& side = {});
+[[nodiscard]] core::Result<Roundness> roundness_of_points(PlanePoints points_mm,
+                                                          CircleReference reference,
+                                                          const RoundnessSide& side = {});
 
 /// Computes the roundness of a profile whose nominal radius is unknown or irrelevant: small
 /// deviations from a circle, r = r0 + a cos(theta) + b sin(theta) + form (limacon). The references

@@ -18,7 +18,7 @@ constexpr double kFullCircleGapDeg = 90.0;
 constexpr std::size_t kSparsePoints = 7;
 
 void warn(RoundnessEvaluation& out, core::Code code, std::string what) {
-  out.warnings.push_back({code, std::move(what), {}});
+  out.warnings.push_back({code, std::move(what)});
 }
 
 void warn_of_order(RoundnessEvaluation& out) {
@@ -166,8 +166,7 @@ std::vector<Eigen::Vector2d> points_of(const RoundnessEvaluation& out, const LsC
 std::vector<double> cells_of_rows(std::span<const double> theta) {
   std::vector<std::size_t> order(theta.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return theta[a] < theta[b]; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t row) { return theta[row]; });
   std::vector<double> sorted;
   for (const std::size_t row : order) sorted.push_back(theta[row]);
   const auto cells = angular_cells(sorted);
@@ -217,7 +216,7 @@ core::Result<RoundnessEvaluation> evaluate_profile(std::span<const double> theta
   return out;
 }
 
-core::Result<RoundnessEvaluation> evaluate_section(std::span<const Eigen::Vector2d> points_mm,
+core::Result<RoundnessEvaluation> evaluate_section(PlanePoints points_mm,
                                                    const RoundnessOptions& options) {
   const auto circle = ls_circle(points_mm);
   if (!circle) return core::fail(circle.error());

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/result.h"
+#include "fit/geometry/points.h"
 #include "fit/profiles/closed_profile.h"
 #include "fit/profiles/harmonics.h"
 #include "fit/profiles/profile_filter.h"
@@ -58,7 +59,7 @@ struct RoundnessEvaluation {
 /// The filtered profile is converted back to points about it, to which the circles are fitted
 /// exactly. Without a filter the circles are fitted to the points as given.
 /// @return as evaluate_profile(); also kCollinear.
-[[nodiscard]] core::Result<RoundnessEvaluation> evaluate_section(
-    std::span<const Eigen::Vector2d> points_mm, const RoundnessOptions& options);
+[[nodiscard]] core::Result<RoundnessEvaluation> evaluate_section(PlanePoints points_mm,
+                                                                 const RoundnessOptions& options);
 
 }  // namespace rondure::fit

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,9 @@ struct Certificate {
 };
 
 /// "none", "local", "global".
-[[nodiscard]] std::string_view name_of(Certificate::Kind kind);
+[[nodiscard]] inline std::string_view name_of(Certificate::Kind kind) {
+  constexpr std::array<std::string_view, 3> kNames = {"none", "local", "global"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
 
 }  // namespace rondure::fit

@@ -96,8 +96,8 @@ ZoneCheck check(std::size_t count, int unknowns, const MovedDistance& distance,
 
 }  // namespace
 
-ZoneCheck check_zone(std::span<const Eigen::Vector3d> points_mm, const Axis& axis,
-                     const StatedZone& zone, double tolerance_mm) {
+ZoneCheck check_zone(SpacePoints points_mm, const Axis& axis, const StatedZone& zone,
+                     double tolerance_mm) {
   const Eigen::Vector3d z = axis.direction.normalized();
   const Eigen::Vector3d x = z.unitOrthogonal();
   const Eigen::Vector3d y = z.cross(x);
@@ -119,7 +119,7 @@ ZoneCheck check_zone(std::span<const Eigen::Vector3d> points_mm, const Axis& axi
   return check(points_mm.size(), 4, distance, zone, tolerance_mm);
 }
 
-ZoneCheck check_zone(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
+ZoneCheck check_zone(PlanePoints points_mm, const Eigen::Vector2d& center_mm,
                      const StatedZone& zone, double tolerance_mm) {
   const auto distance = [&](std::size_t row, int k, double by) {
     const Eigen::Vector2d v = points_mm[row] - center_mm - by * Eigen::Vector2d::Unit(k);

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
 #include "fit/proof/certificate.h"
 
 namespace rondure::fit {
@@ -36,18 +35,16 @@ struct ZoneCheck {
 
 /// Checks the contacts and multipliers of a stated zone. Shares no code with the solvers: distances
 /// by cross product, gradients by central differences, in the unknowns a, b, Z tx, Z ty (Z: half
-/// the length of the points along the axis). If a zone has contacts on one side only, that side is
-/// checked: its points, multipliers and balance. For a zone without contacts the only check is that
-/// no point is outside.
+/// the length of the points along the axis). With contacts on one side only, that side is checked;
+/// without contacts, only that no point is outside.
 ///
 /// @param tolerance_mm  Tolerance of distances; at least 1e-9 of the size of the coordinates is
 ///                      sensible. The other tolerances are fixed: 1e-9 for multipliers, 1e-6 for
 ///                      the imbalance.
 /// @return `fault` is empty if the zone passes.
-[[nodiscard]] ZoneCheck check_zone(std::span<const Eigen::Vector3d> points_mm, const Axis& axis,
-                                   const StatedZone& zone, double tolerance_mm = 1e-9);
-[[nodiscard]] ZoneCheck check_zone(std::span<const Eigen::Vector2d> points_mm,
-                                   const Eigen::Vector2d& center_mm, const StatedZone& zone,
+[[nodiscard]] ZoneCheck check_zone(SpacePoints points_mm, const Axis& axis, const StatedZone& zone,
                                    double tolerance_mm = 1e-9);
+[[nodiscard]] ZoneCheck check_zone(PlanePoints points_mm, const Eigen::Vector2d& center_mm,
+                                   const StatedZone& zone, double tolerance_mm = 1e-9);
 
 }  // namespace rondure::fit

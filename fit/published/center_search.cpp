@@ -1,10 +1,8 @@
-#include <algorithm>
-#include <cmath>
 
+#include "fit/zone/center_search.h"
 #include "fit/geometry/internal/hull_distance.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
-#include "fit/zone/center_search.h"
 
 namespace rondure::fit {
 namespace {

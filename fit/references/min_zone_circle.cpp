@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "fit/geometry/internal/bisectors.h"
-#include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
 #include "fit/references/internal/zone_proof.h"
 #include "fit/zone/fit.h"
@@ -44,7 +43,6 @@ void search_all_centers(PlanePoints points, const GlobalSearchOptions& options,
     if (out.certificate.kind != Certificate::Kind::kLocal) return;
     const auto search = search_centers(points, out.center_mm,
                                        {out.width_mm(), growth, out.outer, out.inner}, options);
-    out.squares += search.boxes;
     if (search.better) {
       growth = certify(points, fitter.fit_from(points, *search.better).place, out);
       continue;
@@ -62,10 +60,7 @@ void try_all_centers(PlanePoints points, CircleZoneFitter& fitter, MinZoneCircle
   if (all.width_mm < out.width_mm()) {
     MinZoneCircle other;
     certify(points, fitter.fit_from(points, all.center_mm).place, other);
-    if (other.width_mm() < out.width_mm()) {
-      other.squares = out.squares;
-      out = other;
-    }
+    if (other.width_mm() < out.width_mm()) out = other;
   }
   if (out.certificate.kind == Certificate::Kind::kNone) return;
   if (all.complete) {
@@ -91,7 +86,7 @@ MinZoneCircle exact_fit(const LsCircle& circle) {
 }  // namespace
 
 core::Result<MinZoneCircle> min_zone_circle(PlanePoints points_mm,
-                                            const MinZoneCircleOptions& options) {
+                                            const CenterProofOptions& options) {
   CircleZoneFitter fitter;
   const auto zone = fitter.fit(points_mm);
   if (!zone) return core::fail(zone.error());

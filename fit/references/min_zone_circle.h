@@ -1,12 +1,11 @@
 #pragma once
 
-#include <cstddef>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "fit/geometry/points.h"
 #include "fit/proof/certificate.h"
 #include "fit/zone/global_search.h"
 
@@ -20,26 +19,17 @@ struct MinZoneCircle {
   std::vector<Contact> outer;  ///< Points on the outer circle that carry the minimum.
   std::vector<Contact> inner;
   Certificate certificate;
-  int squares = 0;         ///< Squares of centres that the global search bounded.
   bool exact_fit = false;  ///< Three distinct points: the deviation is 0 by construction.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
 };
 
-/// Extent of the proof of a minimum-zone circle.
-struct MinZoneCircleOptions {
-  /// Search all centres, as for a reported value; false: local proof only, as inside loops.
-  bool global = true;
-  GlobalSearchOptions search;
-};
-
 /// Finds the minimum-zone circle of one plane section.
 ///
-/// Minimises  f(c) = max |p_i - c| - min |p_i - c|  by ZoneDescent (fit/zone/descent.h) from the
-/// algebraic circle. Then searches all centres for a narrower zone: by branch and bound
-/// (search_centers()), or, for up to 40 points whose zone is too wide for that, by enumeration of
-/// all bisector crossings. A better centre becomes the new start, so the proof also serves as the
-/// global search.
+/// Minimises  f(c) = max |p_i - c| - min |p_i - c|  by ZoneDescent from the algebraic circle. Then
+/// searches all centres for a narrower zone: by search_centers(), or, for up to 40 points whose
+/// zone is too wide for that, by enumeration of all bisector crossings. A better centre becomes the
+/// new start, so the proof also serves as the global search.
 ///
 /// @param points_mm  n >= 3 distinct points, any order [mm].
 /// @return kNoPoints, kNotFinite (row), kTooFewPoints (fewer than 3 distinct), kCollinear. Same
@@ -47,7 +37,7 @@ struct MinZoneCircleOptions {
 ///         the certificate is local and gives the reason. Cost: as ZoneDescent, and some 100 us of
 ///         proof.
 /// Sources: ISO 12181-1 (definition); methods, cylindricity section 9, certificates section 2.
-[[nodiscard]] core::Result<MinZoneCircle> min_zone_circle(
-    std::span<const Eigen::Vector2d> points_mm, const MinZoneCircleOptions& options = {});
+[[nodiscard]] core::Result<MinZoneCircle> min_zone_circle(PlanePoints points_mm,
+                                                          const CenterProofOptions& options = {});
 
 }  // namespace rondure::fit

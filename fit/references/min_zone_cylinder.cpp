@@ -1,6 +1,5 @@
 #include "fit/references/min_zone_cylinder.h"
 
-#include "fit/geometry/points.h"
 #include "fit/references/internal/axis_proof.h"
 
 namespace rondure::fit {
@@ -17,7 +16,6 @@ core::Result<MinZoneCylinder> min_zone_cylinder(
   out.axis = conventional(proof.axis, mean_point(points_mm));
   out.inner_radius_mm = proof.proven.zone.low;
   out.outer_radius_mm = proof.proven.zone.high;
-  out.linear_programs = proof.linear_programs;
   out.boxes = proof.boxes;
   out.ending = proof.ending;
   out.certificate = proof.certificate;

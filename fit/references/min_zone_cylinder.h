@@ -1,16 +1,16 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/result.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
 #include "fit/proof/certificate.h"
-#include "fit/zone/axis_scope.h"
 #include "fit/zone/ending.h"
+#include "fit/zone/global_search.h"
 
 namespace rondure::fit {
 
@@ -22,8 +22,7 @@ struct MinZoneCylinder {
   std::vector<Contact> outer;  ///< Points on the outer cylinder that carry the minimum.
   std::vector<Contact> inner;
   Certificate certificate;
-  int linear_programs = 0;  ///< linear programs solved, over all starts and restarts.
-  int boxes = 0;            ///< Boxes of directions that the global search bounded.
+  int boxes = 0;                           ///< Boxes of directions that the global search bounded.
   ZoneEnding ending = ZoneEnding::kLimit;  ///< How the descent to the axis ended.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
@@ -31,13 +30,10 @@ struct MinZoneCylinder {
 
 /// Finds the minimum-zone cylinder: the least cylindricity deviation CYLt of the points (ISO 1101).
 ///
-/// Starts at the least-squares cylinder. Repeatedly linearises the zone about the current axis (two
-/// shifts, two tilts), solves the linear programme inside a trust region, and moves the axis.
-/// Finishes with Newton's method on the stationarity equations of the contacts, so that it reaches
-/// optima with five contacts, which curvature determines, as well as those with six. Checks the
-/// local certificate at the end. Then searches the scopes of the options for a narrower zone
-/// (search_axes()); a better axis becomes the new start, so the proof also serves as the global
-/// search.
+/// Descends (ZoneDescent) from the least-squares cylinder, to optima with six contacts and to those
+/// with five, which curvature determines. Then searches the scopes of the options for a narrower
+/// zone (search_axes()); a better axis becomes the new start, so the proof also serves as the
+/// global search.
 ///
 /// @param points_mm       n >= 5 points that surround the axis in at least two sections [mm].
 /// @param near_direction  Start direction; without it the half sphere is searched for starts.
@@ -45,8 +41,7 @@ struct MinZoneCylinder {
 ///         same bits. O(n) per pivot, some ten pivots per programme.
 /// Sources: ISO 1101, ISO 12180-1; methods, cylindricity section 11, certificates section 1.
 [[nodiscard]] core::Result<MinZoneCylinder> min_zone_cylinder(
-    std::span<const Eigen::Vector3d> points_mm,
-    const std::optional<Eigen::Vector3d>& near_direction = std::nullopt,
+    SpacePoints points_mm, const std::optional<Eigen::Vector3d>& near_direction = std::nullopt,
     const CylinderProofOptions& options = {});
 
 }  // namespace rondure::fit

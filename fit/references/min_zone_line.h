@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -8,6 +7,7 @@
 #include "core/result.h"
 #include "fit/geometry/axis.h"
 #include "fit/geometry/contacts.h"
+#include "fit/geometry/points.h"
 #include "fit/proof/certificate.h"
 
 namespace rondure::fit {
@@ -27,6 +27,6 @@ struct MinZoneLine {
 /// @param points_mm  n >= 2 different points, any order [mm].
 /// @return as ls_line(). Same input, same bits. Cost: as ZoneDescent.
 /// Sources: ISO 1101, ISO 12780-1; methods, cylindricity section 11.4.
-[[nodiscard]] core::Result<MinZoneLine> min_zone_line(std::span<const Eigen::Vector3d> points_mm);
+[[nodiscard]] core::Result<MinZoneLine> min_zone_line(SpacePoints points_mm);
 
 }  // namespace rondure::fit

@@ -5,7 +5,7 @@
 
 namespace rondure::fit {
 
-core::Result<MinZoneSphere> min_zone_sphere(std::span<const Eigen::Vector3d> points_mm) {
+core::Result<MinZoneSphere> min_zone_sphere(SpacePoints points_mm) {
   SphereZoneFitter fitter;
   const auto zone = fitter.fit(points_mm);
   if (!zone) return core::fail(zone.error());

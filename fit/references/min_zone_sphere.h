@@ -1,12 +1,12 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/result.h"
 #include "fit/geometry/contacts.h"
+#include "fit/geometry/points.h"
 #include "fit/proof/certificate.h"
 
 namespace rondure::fit {
@@ -29,7 +29,6 @@ struct MinZoneSphere {
 /// @param points_mm  n >= 4, not all in one plane [mm].
 /// @return as ls_sphere(). Same input, same bits. Cost: as ZoneDescent.
 /// Source: methods, cylindricity section 9.3 with three unknowns.
-[[nodiscard]] core::Result<MinZoneSphere> min_zone_sphere(
-    std::span<const Eigen::Vector3d> points_mm);
+[[nodiscard]] core::Result<MinZoneSphere> min_zone_sphere(SpacePoints points_mm);
 
 }  // namespace rondure::fit

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "fit/geometry/points.h"
 #include "fit/references/internal/zone_proof.h"
 #include "fit/zone/fit.h"
 
@@ -82,14 +81,14 @@ void search_inscribed(PlanePoints points, const GlobalSearchOptions& options,
 
 }  // namespace
 
-core::Result<OneSidedCircle> min_circumscribed_circle(std::span<const Eigen::Vector2d> points_mm) {
+core::Result<OneSidedCircle> min_circumscribed_circle(PlanePoints points_mm) {
   return fit_one_sided<2>(points_mm, kMinimumCircumscribed);
 }
-core::Result<OneSidedSphere> min_circumscribed_sphere(std::span<const Eigen::Vector3d> points_mm) {
+core::Result<OneSidedSphere> min_circumscribed_sphere(SpacePoints points_mm) {
   return fit_one_sided<3>(points_mm, kMinimumCircumscribed);
 }
-core::Result<OneSidedCircle> max_inscribed_circle(std::span<const Eigen::Vector2d> points_mm,
-                                                  const InscribedOptions& options) {
+core::Result<OneSidedCircle> max_inscribed_circle(PlanePoints points_mm,
+                                                  const CenterProofOptions& options) {
   CircleZoneFitter fitter;
   const auto zone = fitter.fit(points_mm, kMaximumInscribed);
   if (!zone) return core::fail(zone.error());
@@ -100,7 +99,7 @@ core::Result<OneSidedCircle> max_inscribed_circle(std::span<const Eigen::Vector2
   out.range = inscribed_deviation_range(points_mm, out.center_mm, out.radius_mm);
   return out;
 }
-core::Result<OneSidedSphere> max_inscribed_sphere(std::span<const Eigen::Vector3d> points_mm) {
+core::Result<OneSidedSphere> max_inscribed_sphere(SpacePoints points_mm) {
   return fit_one_sided<3>(points_mm, kMaximumInscribed);
 }
 

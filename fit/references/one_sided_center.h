@@ -1,13 +1,13 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/result.h"
 #include "fit/geometry/contacts.h"
+#include "fit/geometry/points.h"
 #include "fit/proof/certificate.h"
 #include "fit/zone/deviation_range.h"
 #include "fit/zone/global_search.h"
@@ -36,17 +36,8 @@ using OneSidedSphere = OneSidedCenter<3>;
 /// @return kNoPoints, kNotFinite (row), kTooFewPoints, kCollinear (sphere: kRank). Same input, same
 ///         bits. Cost: as ZoneDescent.
 /// Sources: ISO 12181-1; methods, cylindricity section 11.4.
-[[nodiscard]] core::Result<OneSidedCircle> min_circumscribed_circle(
-    std::span<const Eigen::Vector2d> points_mm);
-[[nodiscard]] core::Result<OneSidedSphere> min_circumscribed_sphere(
-    std::span<const Eigen::Vector3d> points_mm);
-
-/// Extent of the proof of a maximum inscribed circle.
-struct InscribedOptions {
-  /// Search all centres, as for a reported value; false: local proof only, as inside loops.
-  bool global = true;
-  GlobalSearchOptions search;
-};
+[[nodiscard]] core::Result<OneSidedCircle> min_circumscribed_circle(PlanePoints points_mm);
+[[nodiscard]] core::Result<OneSidedSphere> min_circumscribed_sphere(SpacePoints points_mm);
 
 /// Finds the maximum inscribed circle (MICI) or sphere: the largest without a point inside, with
 /// its centre inside the hull of the points.
@@ -60,8 +51,7 @@ struct InscribedOptions {
 ///         which the circle or sphere grows without bound.
 /// Sources: ISO 12181-1; methods, cylindricity section 11.4, certificates section 2.
 [[nodiscard]] core::Result<OneSidedCircle> max_inscribed_circle(
-    std::span<const Eigen::Vector2d> points_mm, const InscribedOptions& options = {});
-[[nodiscard]] core::Result<OneSidedSphere> max_inscribed_sphere(
-    std::span<const Eigen::Vector3d> points_mm);
+    PlanePoints points_mm, const CenterProofOptions& options = {});
+[[nodiscard]] core::Result<OneSidedSphere> max_inscribed_sphere(SpacePoints points_mm);
 
 }  // namespace rondure::fit

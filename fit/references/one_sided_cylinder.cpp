@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "fit/geometry/points.h"
 #include "fit/least_squares/line.h"
 #include "fit/references/internal/axis_proof.h"
 #include "fit/references/min_zone_line.h"
@@ -27,11 +26,9 @@ OneSidedCylinder stated(SpacePoints points_mm, const AxisProof& proof, const Zon
   out.certificate = proof.certificate;
   if (!proof.other) return out;
   OneSidedCylinder::Other other;
-  other.radius_mm = distance_mm(*proof.other, points_mm.front());
-  for (const Eigen::Vector3d& p : points_mm) {
-    const double r = distance_mm(*proof.other, p);
-    other.radius_mm = outside ? std::max(other.radius_mm, r) : std::min(other.radius_mm, r);
-  }
+  const Extremes radii =
+      extremes_of(points_mm, [&](const auto& p) { return distance_mm(*proof.other, p); });
+  other.radius_mm = outside ? radii.high : radii.low;
   other.lean_rad =
       std::asin(std::min(1.0, proof.axis.direction.cross(proof.other->direction).norm()));
   other.apart_mm = distance_mm(*proof.other, proof.axis.point_mm);

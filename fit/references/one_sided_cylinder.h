@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -9,8 +8,9 @@
 #include "core/result.h"
 #include "fit/geometry/axis.h"
 #include "fit/geometry/contacts.h"
+#include "fit/geometry/points.h"
 #include "fit/proof/certificate.h"
-#include "fit/zone/axis_scope.h"
+#include "fit/zone/global_search.h"
 
 namespace rondure::fit {
 
@@ -47,12 +47,10 @@ struct OneSidedCylinder {
 ///         ZoneDescent, and some ms of proof.
 /// Sources: ISO 12180-1; methods, cylindricity section 11.4, certificates section 3.
 [[nodiscard]] core::Result<OneSidedCylinder> min_circumscribed_cylinder(
-    std::span<const Eigen::Vector3d> points_mm,
-    const std::optional<Eigen::Vector3d>& near_direction = std::nullopt,
+    SpacePoints points_mm, const std::optional<Eigen::Vector3d>& near_direction = std::nullopt,
     const CylinderProofOptions& options = {});
 [[nodiscard]] core::Result<OneSidedCylinder> max_inscribed_cylinder(
-    std::span<const Eigen::Vector3d> points_mm,
-    const std::optional<Eigen::Vector3d>& near_direction = std::nullopt,
+    SpacePoints points_mm, const std::optional<Eigen::Vector3d>& near_direction = std::nullopt,
     const CylinderProofOptions& options = {});
 
 }  // namespace rondure::fit

@@ -70,7 +70,7 @@ struct RotaryStation {
   double chi2 = 0.0;  ///< v^T W v of the balls used, with the uncertainties as stated.
   int dof = 0;        ///< 3n - 6.
   double chi2_limit = 0.0;
-  double condition = 0.0;                     ///< BallSetup::condition of the balls used.
+  double condition = 0.0;                     ///< setup_condition() of the balls used.
   std::vector<std::string> balls;             ///< Balls used.
   std::vector<Eigen::Vector3d> residuals_mm;  ///< Measured minus adjusted, of the balls used.
   std::vector<Eigen::Vector3d> redundancy;    ///< Per coordinate; near 0: errors are not detected.

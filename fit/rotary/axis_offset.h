@@ -22,9 +22,8 @@ struct AxisOffset {
 
 /// Separates location and orientation of the axis from its motion errors. Fits
 /// tau(phi) = c + (1 - e^{j phi}) d in the plane across the axis by complex least squares, once for
-/// t and once for w. On a full circle this is exact, because the forward first harmonic is the
-/// offset by definition. On a short arc the offset takes up slow motion errors as well, and
-/// `arc_factor` gives the amplification of the noise.
+/// t and once for w. Exact on a full circle, where the forward first harmonic is the offset by
+/// definition; on a short arc the offset takes up slow motion errors as well.
 /// @return kTooFewPoints (fewer than 3 rows), kShortArc (stations span less than 45 deg: the sum of
 ///         offset and motion is known, its parts are not).
 [[nodiscard]] core::Result<AxisOffset> axis_offset(const RotaryTable& table);

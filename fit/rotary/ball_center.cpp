@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "fit/geometry/column_extremes.h"
 #include "fit/least_squares/sphere.h"
 
 namespace rondure::fit {
 
-core::Result<BallCenter> ball_center(std::span<const Eigen::Vector3d> points_mm, double radius_mm) {
+core::Result<BallCenter> ball_center(SpacePoints points_mm, double radius_mm) {
   if (!std::isfinite(radius_mm) || radius_mm <= 0.0) {
     return core::fail(core::Code::kBadOption,
                       fmt::format("a ball of radius {:g} mm has no surface", radius_mm));
@@ -25,8 +25,7 @@ core::Result<BallCenter> ball_center(std::span<const Eigen::Vector3d> points_mm,
   for (int i = 0; i < kSteps; ++i) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    double least = std::numeric_limits<double>::infinity();
-    double greatest = -least;
+    Extremes range;
     out.sum_squares_mm2 = 0.0;
     for (const Eigen::Vector3d& p : points_mm) {
       const Eigen::Vector3d v = p - out.center_mm;
@@ -36,11 +35,10 @@ core::Result<BallCenter> ball_center(std::span<const Eigen::Vector3d> points_mm,
       normal += n * n.transpose();
       right += residual * n;
       out.sum_squares_mm2 += residual * residual;
-      least = std::min(least, residual);
-      greatest = std::max(greatest, residual);
+      range.take(residual);
     }
     out.cofactor = normal.inverse();
-    out.deviation_mm = greatest - least;
+    out.deviation_mm = range.width();
     const Eigen::Vector3d step = out.cofactor * right;
     if (!step.allFinite()) break;
     out.center_mm += step;

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <span>
-
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 
@@ -26,7 +25,6 @@ struct BallCenter {
 /// @param radius_mm  Radius of the sphere on which the points lie, > 0 [mm].
 /// @return kBadOption, kNotConverged, and the errors of ls_sphere(). O(n) per step.
 /// Source: methods, rotary axes section 3.
-[[nodiscard]] core::Result<BallCenter> ball_center(std::span<const Eigen::Vector3d> points_mm,
-                                                   double radius_mm);
+[[nodiscard]] core::Result<BallCenter> ball_center(SpacePoints points_mm, double radius_mm);
 
 }  // namespace rondure::fit

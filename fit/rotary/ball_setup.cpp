@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "core/decompositions.h"
 
@@ -24,7 +28,7 @@ struct Spread {
   Vector3d eigenvalues = Vector3d::Zero();  ///< Of the products, ascending.
 };
 
-Spread spread_of(std::span<const Vector3d> p) {
+Spread spread_of(SpacePoints p) {
   Spread out;
   const auto n = static_cast<double>(p.size());
   for (const Vector3d& one : p) out.centroid += one / n;
@@ -53,17 +57,8 @@ double condition_of(const Spread& s, double n) {
   return least > 1e-24 * n ? std::sqrt(std::max(n, m.maxCoeff()) / least) : kInfinity;
 }
 
-double raw_condition_of(std::span<const Vector3d> p, double scale_mm) {
-  Eigen::Matrix<double, Eigen::Dynamic, 6> a = error_matrix(p);
-  a.rightCols<3>() /= scale_mm;
-  const Matrix6 normal = a.transpose() * a;
-  const Vector6 e =
-      Eigen::SelfAdjointEigenSolver<Matrix6>(normal, Eigen::EigenvaluesOnly).eigenvalues();
-  return e(0) > 1e-13 * e(5) ? std::sqrt(e(5) / e(0)) : kInfinity;
-}
-
 /// The two balls farthest apart.
-std::pair<std::size_t, std::size_t> farthest(std::span<const Vector3d> p) {
+std::pair<std::size_t, std::size_t> farthest(SpacePoints p) {
   std::pair<std::size_t, std::size_t> out = {0, 0};
   double best = -1.0;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -78,7 +73,7 @@ std::pair<std::size_t, std::size_t> farthest(std::span<const Vector3d> p) {
 
 /// Distance from the line through the balls that a further ball beside their centroid needs for a
 /// good condition, rounded up to two digits.
-double distance_that_cures(std::span<const Vector3d> p, const Vector3d& along) {
+double distance_that_cures(SpacePoints p, const Vector3d& along) {
   std::vector<Vector3d> with(p.begin(), p.end());
   const Vector3d foot = spread_of(p).centroid;
   const Vector3d beside = along.unitOrthogonal();
@@ -93,61 +88,30 @@ double distance_that_cures(std::span<const Vector3d> p, const Vector3d& along) {
   return std::ceil(high / step) * step;
 }
 
-core::Error too_few(std::span<const Vector3d> p, std::span<const std::string> names) {
+core::Error too_few(SpacePoints p, std::span<const std::string> names) {
   const auto [i, j] = farthest(p);
   if (p.size() == 2 && (p[i] - p[j]).norm() > 0.0) {
     return {core::Code::kTooFewPoints,
             fmt::format("2 balls leave the turn about the line through them undetermined, at least "
                         "3 are needed: add a ball off the line through {} and {}, at least {:g} mm "
                         "from it",
-                        names[i], names[j], distance_that_cures(p, p[j] - p[i])),
-            {}};
+                        names[i], names[j], distance_that_cures(p, p[j] - p[i]))};
   }
   return {core::Code::kTooFewPoints,
           fmt::format("{} ball{}, at least 3 not on one line are needed; 4 to 6 round the part are "
                       "better, because a wrong one can then be found",
-                      p.size(), p.size() == 1 ? "" : "s"),
-          {}};
+                      p.size(), p.size() == 1 ? "" : "s")};
 }
 
 }  // namespace
 
-Eigen::Matrix<double, Eigen::Dynamic, 6> error_matrix(std::span<const Vector3d> p_mm) {
-  Eigen::Matrix<double, Eigen::Dynamic, 6> out(3 * static_cast<Eigen::Index>(p_mm.size()), 6);
-  for (std::size_t i = 0; i < p_mm.size(); ++i) {
-    out.middleRows<3>(3 * static_cast<Eigen::Index>(i)) << Matrix3d::Identity(),
-        -cross_matrix(p_mm[i]);
-  }
-  return out;
-}
-
-BallSetup judge_setup(std::span<const Vector3d> p_mm, double scale_mm) {
-  BallSetup out;
-  const auto n = static_cast<double>(p_mm.size());
+double setup_condition(SpacePoints p_mm) {
   const Spread s = spread_of(p_mm);
-  out.condition = condition_of(s, n);
-  if (!(s.eigenvalues(1) > 1e-12 * s.eigenvalues(2))) {
-    out.rank = s.eigenvalues(2) > 0.0 ? 5 : 3;
-    out.condition = out.raw_condition = kInfinity;
-    out.u_per_u.setConstant(kInfinity);
-    out.covariance_per_u2.setConstant(kInfinity);
-    return out;
-  }
-  out.rank = 6;
-  out.raw_condition = raw_condition_of(p_mm, scale_mm);
-  const Matrix3d inverse = (s.squares * Matrix3d::Identity() - s.products).inverse();
-  const Matrix3d lever = cross_matrix(s.centroid);
-  Matrix6& c = out.covariance_per_u2;
-  c << Matrix3d::Identity() / n - lever * inverse * lever, lever * inverse, -inverse * lever,
-      inverse;
-  out.u_per_u = c.diagonal().cwiseSqrt();
-  for (const Vector3d& one : p_mm) {
-    out.redundancy.emplace_back(Vector3d::Ones() - point_covariance_mm2(c, one).diagonal());
-  }
-  return out;
+  if (!(s.eigenvalues(1) > 1e-12 * s.eigenvalues(2))) return kInfinity;
+  return condition_of(s, static_cast<double>(p_mm.size()));
 }
 
-core::Result<void> check_setup(std::span<const Vector3d> p_mm, std::span<const std::string> names) {
+core::Result<void> check_setup(SpacePoints p_mm, std::span<const std::string> names) {
   if (p_mm.size() < 3) return core::fail(too_few(p_mm, names));
   const Spread s = spread_of(p_mm);
   const double ratio = flatness(s);

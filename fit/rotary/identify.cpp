@@ -26,8 +26,7 @@ std::vector<BallCentre> mean_reference(const RotaryMeasurement& m) {
   std::vector<double> counts;
   for (const auto& reference : m.references) {
     for (const BallCentre& ball : reference) {
-      auto at = std::find_if(out.begin(), out.end(),
-                             [&](const BallCentre& b) { return b.ball == ball.ball; });
+      auto at = std::ranges::find(out, ball.ball, &BallCentre::ball);
       if (at == out.end()) {
         out.push_back({ball.ball, Vector3d::Zero(), Vector3d::Zero()});
         counts.push_back(0.0);
@@ -237,7 +236,7 @@ void fill_table(RotaryStudy& study) {
   for (const RotaryStation& station : study.stations) {
     if (!station.undetermined) angles.push_back(station.angle_rad);
   }
-  std::sort(angles.begin(), angles.end());
+  std::ranges::sort(angles);
   RotaryTable& table = study.table;
   table.full_circle = goes_round(angles);
   const double lowest = angles.front();
@@ -247,7 +246,7 @@ void fill_table(RotaryStudy& study) {
     return angle - turns * core::kTwoPi;
   };
   for (double& angle : angles) angle = place(angle);
-  std::sort(angles.begin(), angles.end());
+  std::ranges::sort(angles);
   angles.erase(std::unique(angles.begin(), angles.end(),
                            [](double a, double b) { return b - a <= core::kSameAngle; }),
                angles.end());
@@ -261,34 +260,36 @@ void fill_table(RotaryStudy& study) {
   }
   for (const RotaryStation& station : study.stations) {
     const double angle = place(station.angle_rad);
-    const bool known = std::any_of(angles.begin(), angles.end(), [&](double a) {
-      return std::abs(a - angle) <= core::kSameAngle;
-    });
+    const bool known = std::ranges::any_of(
+        angles, [&](double a) { return std::abs(a - angle) <= core::kSameAngle; });
     if (!known) table.missing_rad.push_back(angle);
   }
   table.hysteresis_rms = hysteresis_of(table.rows);
 }
 
+void warn(RotaryStudy& study, Code code, std::string what) {
+  study.warnings.push_back({code, std::move(what)});
+}
+
 void warn_of_stations(RotaryStudy& study) {
   for (const RotaryStation& s : study.stations) {
     const double angle = s.angle_rad / core::kDegree;
-    const auto add = [&](Code code, std::string what) {
-      study.warnings.push_back({code, std::move(what), {}});
-    };
     if (s.undetermined) {
-      add(Code::kRank, fmt::format("station {:g} deg is undetermined: the balls measured there do "
-                                   "not give six errors; neighbours bridge it",
-                                   angle));
+      warn(study, Code::kRank,
+           fmt::format("station {:g} deg is undetermined: the balls measured there do "
+                       "not give six errors; neighbours bridge it",
+                       angle));
       continue;
     }
     for (const std::string& ball : s.removed) {
-      add(Code::kOutliers, fmt::format("ball {} at {:g} deg left out as an outlier", ball, angle));
+      warn(study, Code::kOutliers,
+           fmt::format("ball {} at {:g} deg left out as an outlier", ball, angle));
     }
     if (!s.flagged) continue;
-    add(Code::kInconsistent,
-        fmt::format("station {:g} deg: chi2 {:.1f} of {} degrees of freedom, limit {:.1f}; the "
-                    "wrong ball cannot be told with {} balls",
-                    angle, s.chi2, s.dof, s.chi2_limit, s.balls.size()));
+    warn(study, Code::kInconsistent,
+         fmt::format("station {:g} deg: chi2 {:.1f} of {} degrees of freedom, limit {:.1f}; the "
+                     "wrong ball cannot be told with {} balls",
+                     angle, s.chi2, s.dof, s.chi2_limit, s.balls.size()));
   }
 }
 
@@ -302,46 +303,37 @@ void warn_of_study(const RotaryMeasurement& m, RotaryStudy& study) {
       least_redundancy = std::min(least_redundancy, r.minCoeff());
   }
   if (condition > kConditionWarning) {
-    study.warnings.push_back(
-        {Code::kRank,
+    warn(study, Code::kRank,
          fmt::format("condition {:.1f} (limit for good work {:g}): the balls lie nearly on a line",
-                     condition, kConditionWarning),
-         {}});
+                     condition, kConditionWarning));
   }
   if (least_redundancy < 0.05) {
-    study.warnings.push_back(
-        {Code::kRank,
+    warn(study, Code::kRank,
          fmt::format("least redundancy {:.2f}: there is a coordinate whose error no other ball "
                      "would show; use 4 balls or more",
-                     std::abs(least_redundancy)),
-         {}});
+                     std::abs(least_redundancy)));
   }
   // The limit is for the greatest of all shifts, some dozens of normal numbers.
   const double limit = 4.0 * std::sqrt(2.0) * largest_reference_u(m) * std::sqrt(2.0);
   if (m.references.size() > 1 && study.drift_mm > limit && limit > 0.0) {
-    study.warnings.push_back(
-        {Code::kInconsistent,
-         fmt::format(
-             "the reference pose drifts by {:.2f} um between its measurements (limit {:.2f} "
-             "um)",
-             study.drift_mm / core::kMicrometre, limit / core::kMicrometre),
-         {}});
+    warn(
+        study, Code::kInconsistent,
+        fmt::format("the reference pose drifts by {:.2f} um between its measurements (limit {:.2f} "
+                    "um)",
+                    study.drift_mm / core::kMicrometre, limit / core::kMicrometre));
   }
   if (m.references.size() < 3 && largest_reference_u(m) > 0.0) {
-    study.warnings.push_back(
-        {Code::kSparse,
+    warn(study, Code::kSparse,
          fmt::format("the reference pose was measured {} time{}; its noise is in every station: "
                      "measure it at start, middle and end",
-                     m.references.size(), m.references.size() == 1 ? "" : "s"),
-         {}});
+                     m.references.size(), m.references.size() == 1 ? "" : "s"));
   }
 }
 
 /// Computes the results that follow from the stations.
 core::Result<void> conclude(const RotaryMeasurement& m, const RotaryOptions& options,
                             RotaryStudy& study) {
-  const bool none = std::all_of(study.stations.begin(), study.stations.end(),
-                                [](const RotaryStation& s) { return s.undetermined; });
+  const bool none = std::ranges::all_of(study.stations, &RotaryStation::undetermined);
   if (none) {
     return core::fail(Code::kRank,
                       "no station has three balls off one line, so that no error is determined");

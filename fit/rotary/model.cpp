@@ -156,14 +156,13 @@ RotaryModel::Weights RotaryModel::weights_at(double angle_rad) const {
 
 bool RotaryModel::bridged_at(double angle_rad) const {
   const auto& rows = table_.rows;
-  const auto above = std::find_if(rows.begin(), rows.end(), [&](const RotaryTableRow& row) {
-    return row.angle_rad >= angle_rad - 1e-12;
-  });
+  const auto above = std::ranges::find_if(
+      rows, [&](const RotaryTableRow& row) { return row.angle_rad >= angle_rad - 1e-12; });
   if (above != rows.end() && std::abs(above->angle_rad - angle_rad) <= 1e-12) return false;
   const bool around = above == rows.begin() || above == rows.end();  // across the seam of a circle
   const double low = above == rows.begin() ? highest_rad() - core::kTwoPi : (above - 1)->angle_rad;
   const double high = above == rows.end() ? lowest_rad() + core::kTwoPi : above->angle_rad;
-  return std::any_of(table_.missing_rad.begin(), table_.missing_rad.end(), [&](double missing) {
+  return std::ranges::any_of(table_.missing_rad, [&](double missing) {
     for (const double turn : {-core::kTwoPi, 0.0, core::kTwoPi}) {
       if (missing + turn > low && missing + turn < high && (around || turn == 0.0)) return true;
     }

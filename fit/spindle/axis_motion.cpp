@@ -6,6 +6,7 @@
 
 #include "core/decompositions.h"
 #include "fit/contour/error.h"
+#include "fit/geometry/column_extremes.h"
 
 namespace rondure::fit {
 namespace {
@@ -26,13 +27,8 @@ Eigen::Vector3d plot_centre(std::span<const double> alpha_rad, const std::vector
 double widest_spread(const std::vector<std::vector<double>>& turns) {
   double widest = 0.0;
   for (std::size_t n = 0; n < turns.front().size(); ++n) {
-    double low = turns.front()[n];
-    double high = low;
-    for (const auto& turn : turns) {
-      low = std::min(low, turn[n]);
-      high = std::max(high, turn[n]);
-    }
-    widest = std::max(widest, high - low);
+    widest =
+        std::max(widest, extremes_of(turns, [&](const auto& turn) { return turn[n]; }).width());
   }
   return widest;
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -89,8 +88,7 @@ std::vector<Candidate> scan_grid(const LayoutSearch& search) {
       out.push_back({place, 1.0 / std::sqrt(inverse)});
     }
   }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.worst < b.worst; });
+  std::ranges::stable_sort(out, {}, &Candidate::worst);
   return out;
 }
 
@@ -121,7 +119,7 @@ Candidate refined_candidate(Candidate at, const LayoutSearch& search) {
 std::vector<Candidate> distinct(const std::vector<Candidate>& sorted, std::size_t count) {
   std::vector<Candidate> out;
   for (const Candidate& candidate : sorted) {
-    const bool known = std::any_of(out.begin(), out.end(), [&](const Candidate& other) {
+    const bool known = std::ranges::any_of(out, [&](const Candidate& other) {
       return apart_deg(candidate.place.p2_deg, other.place.p2_deg) < kNeighbour_deg &&
              apart_deg(candidate.place.p3_deg, other.place.p3_deg) < kNeighbour_deg;
     });
@@ -172,8 +170,7 @@ core::Result<std::vector<DesignedLayout>> design_layout(const LayoutSearch& sear
   std::vector<Candidate> found = distinct(scan_grid(search), kRefined * count);
   if (search.samples == 0) {
     for (Candidate& candidate : found) candidate = refined_candidate(candidate, search);
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.worst < b.worst; });
+    std::ranges::stable_sort(found, {}, &Candidate::worst);
   }
   std::vector<DesignedLayout> out;
   for (const Candidate& candidate : distinct(found, count))

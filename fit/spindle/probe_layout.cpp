@@ -1,6 +1,5 @@
 #include "fit/spindle/probe_layout.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <complex>
-#include <span>
 #include <vector>
 
 #include "core/result.h"

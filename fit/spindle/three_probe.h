@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <complex>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -104,11 +103,10 @@ struct ThreeProbeResult {
 /// Separates the form of a part from the motion of its centre with three probes.
 ///
 /// The readings are resampled to N uniform values of theta = alpha + beta by a periodic spline over
-/// all revolutions. More than N readings per revolution pass through a low pass, which uses all of
-/// them and prevents aliasing of undulations from N/2 on. The revolutions are averaged, and
-/// H = H1 + k2 H2 + k3 H3 is divided by G(k), with the true angles, in the frequency domain. The
-/// motion follows from H_i(theta) - r(theta + Phi_i) by least squares over the three probes; the
-/// best fit of c e^{j alpha} + c0 e^{-j beta} (eccentricity, probe zeros) is removed from it.
+/// all revolutions, with a low pass for more than N readings per revolution. The revolutions are
+/// averaged, and H = H1 + k2 H2 + k3 H3 is divided by G(k), with the true angles, in the frequency
+/// domain. The motion follows from H_i(theta) - r(theta + Phi_i) by least squares over the three
+/// probes; the best fit of c e^{j alpha} + c0 e^{-j beta} (eccentricity, probe zeros) is removed.
 ///
 /// @return kRank (layout); the errors of check_swing_arm(); kSampling (lengths differ, too few
 ///         readings, highest above N/2 - 1, or no data to estimate the noise); kNotFinite (row);

@@ -11,7 +11,7 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
-#include "fit/profiles/internal/dft.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/profiles/periodic_spline.h"
 #include "fit/spindle/internal/three_probe_parts.h"
 
@@ -67,7 +67,7 @@ double scatter_mm(const ProbeSamples& samples, const std::vector<std::vector<dou
   double power = 0.0;
   for (const auto& turn : sums) {
     std::vector<double> apart(mean.size());
-    std::transform(turn.begin(), turn.end(), mean.begin(), apart.begin(), std::minus<>());
+    std::ranges::transform(turn, mean, apart.begin(), std::minus<>());
     const Spectrum f = spectrum(apart);
     for (std::size_t k = 2; k <= static_cast<std::size_t>(highest); ++k)
       power += std::norm(f[k] / kept(samples, k));
@@ -123,14 +123,13 @@ std::vector<LoneReading> lone_readings(std::span<const double> h, std::span<cons
     all.back().probe = probe;
     distances.push_back(std::abs(all.back().score));
   }
-  const auto [low, high] = std::minmax_element(h.begin(), h.end());
-  const double limit = std::max(kGross * scale_of(distances), kGrossFloor * (*high - *low));
+  const double limit =
+      std::max(kGross * scale_of(distances), kGrossFloor * column_extremes(h).width());
   std::vector<LoneReading> out;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(out),
-               [&](const LoneReading& one) { return std::abs(one.score) > limit; });
-  std::sort(out.begin(), out.end(), [](const LoneReading& a, const LoneReading& b) {
-    return std::abs(a.score) > std::abs(b.score);
-  });
+  std::ranges::copy_if(all, std::back_inserter(out),
+                       [&](const LoneReading& one) { return std::abs(one.score) > limit; });
+  std::ranges::sort(out, std::greater<>(),
+                    [](const LoneReading& one) { return std::abs(one.score); });
   return out;
 }
 
@@ -152,9 +151,9 @@ std::vector<LoneReading> gross_readings(const ProbeReadings& readings, const Pro
   const double step = samples.revolutions * core::kTwoPi / static_cast<double>(theta.size());
   std::vector<LoneReading> out;
   for (const LoneReading& one : found) {
-    const bool known = std::any_of(
-        out.begin(), out.end(), [&](const LoneReading& other) { return near_in_time(one, other); });
-    const bool on_part = std::any_of(found.begin(), found.end(), [&](const LoneReading& other) {
+    const bool known = std::ranges::any_of(
+        out, [&](const LoneReading& other) { return near_in_time(one, other); });
+    const bool on_part = std::ranges::any_of(found, [&](const LoneReading& other) {
       if (near_in_time(one, other)) return false;
       const double apart = std::remainder(
           theta[one.row] + angles[one.probe] - theta[other.row] - angles[other.probe],
@@ -167,8 +166,8 @@ std::vector<LoneReading> gross_readings(const ProbeReadings& readings, const Pro
 }
 
 void contradict(ThreeProbeResult& result, Code code, std::string what) {
-  result.contradictions.push_back({code, what, {}});
-  result.warnings.push_back({code, std::move(what), {}});
+  result.contradictions.push_back({code, what});
+  result.warnings.push_back({code, std::move(what)});
 }
 
 void name_gross_readings(const std::vector<LoneReading>& gross, ThreeProbeResult& result) {
@@ -204,8 +203,7 @@ void check_stated_noise(const ProbeSamples& samples, const ThreeProbeOptions& op
       {Code::kInconsistent,
        fmt::format("the revolutions scatter as with {:.3g} um a reading, {:.3g} um are stated: "
                    "every uncertainty is too small by that ratio",
-                   found / core::kMicrometre, *options.noise_mm / core::kMicrometre),
-       {}});
+                   found / core::kMicrometre, *options.noise_mm / core::kMicrometre)});
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 
 #include "core/units.h"
-#include "fit/profiles/internal/dft.h"
 #include "fit/spindle/internal/three_probe_parts.h"
 
 namespace rondure::fit {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include <fmt/format.h>
 
@@ -107,8 +106,7 @@ core::Result<Extent> whole_revolutions(const std::vector<double>& theta,
                                   covered / core::kDegree));
   }
   const double end = theta.front() + out.revolutions * kTwoPi - 0.01 * step;
-  out.rows =
-      static_cast<std::size_t>(std::lower_bound(theta.begin(), theta.end(), end) - theta.begin());
+  out.rows = static_cast<std::size_t>(std::ranges::lower_bound(theta, end) - theta.begin());
   return out;
 }
 

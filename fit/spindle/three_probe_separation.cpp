@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
-#include "fit/profiles/internal/dft.h"
+#include "fit/geometry/column_extremes.h"
 #include "fit/spindle/internal/three_probe_parts.h"
 
 namespace rondure::fit {
@@ -129,8 +129,7 @@ void judge_residual(const Spectrum& sum, const Spectrum& part, const ProbeSample
     power += 2.0 * std::norm(left) / (n * n);
   }
   for (const auto& h : samples.mean_mm) {  // the zero of a probe is not a displacement
-    const auto [low, high] = std::minmax_element(h.begin(), h.end());
-    largest = std::max(largest, 0.5 * (*high - *low));
+    largest = std::max(largest, 0.5 * column_extremes(h).width());
   }
   result.residual_rms_mm = std::sqrt(power) / norm;
   result.first_harmonic_mm = 2.0 * std::abs(sum[1]) / n / norm;
@@ -147,14 +146,11 @@ void judge_residual(const Spectrum& sum, const Spectrum& part, const ProbeSample
 }
 
 double largest_motion_mm(const CentreMotion& motion) {
-  double largest = 0.0;
-  for (const double x : motion.x_mm) largest = std::max(largest, std::abs(x));
-  for (const double y : motion.y_mm) largest = std::max(largest, std::abs(y));
-  return largest;
+  return std::max(largest_magnitude(motion.x_mm), largest_magnitude(motion.y_mm));
 }
 
 void add(ThreeProbeResult& result, Code code, std::string what) {
-  result.warnings.push_back({code, std::move(what), {}});
+  result.warnings.push_back({code, std::move(what)});
 }
 
 std::string orders_in_words(const std::vector<int>& orders) {

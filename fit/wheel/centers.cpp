@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/noise.h"
+#include "fit/geometry/column_extremes.h"
 
 namespace rondure::fit {
 namespace {
@@ -39,7 +40,7 @@ FourRows draw_rows(std::uint64_t& state, std::size_t n) {
     rows[k] = draw(state, n);
     if (std::find(rows.begin(), end, rows[k]) == end) ++k;
   }
-  std::sort(rows.begin(), rows.end());
+  std::ranges::sort(rows);
   return rows;
 }
 
@@ -69,6 +70,16 @@ std::vector<FourRows> subsets(std::size_t n, std::uint64_t seed) {
   return out;
 }
 
+/// The one of the three pairings of four points with the least kappa (the first of equals).
+FourPointCenter best_pairing(PlanePoints points_mm, const FourRows& rows, double radius_mm) {
+  FourPointCenter best = four_point_center(points_mm, rows, radius_mm);
+  for (const int pairing : {1, 2}) {
+    const FourPointCenter other = four_point_center(points_mm, paired(rows, pairing), radius_mm);
+    if (other.kappa < best.kappa) best = other;
+  }
+  return best;
+}
+
 Refusal refusal_of(const FourPointCenter& center, double radius_mm, double kappa_limit,
                    const QuadrupleOptions& options) {
   const double chord = std::min(center.first_chord_mm, center.second_chord_mm);
@@ -86,7 +97,7 @@ void sort_in(const FourPointCenter& center, Refusal refusal, WheelCenters& out) 
   if (refusal == Refusal::kNone) out.accepted.push_back(center);
 }
 
-WheelCenters select_systematic(std::span<const Eigen::Vector2d> points_mm, double radius_mm,
+WheelCenters select_systematic(PlanePoints points_mm, double radius_mm,
                                const QuadrupleOptions& options) {
   std::vector<FourPointCenter> found;
   double best = std::numeric_limits<double>::infinity();
@@ -100,14 +111,13 @@ WheelCenters select_systematic(std::span<const Eigen::Vector2d> points_mm, doubl
     sort_in(center, refusal_of(center, radius_mm, out.kappa_limit, options), out);
   }
   if (options.choice == QuadrupleChoice::kBest && out.accepted.size() > options.count) {
-    std::stable_sort(out.accepted.begin(), out.accepted.end(),
-                     [](const auto& a, const auto& b) { return a.kappa < b.kappa; });
+    std::ranges::stable_sort(out.accepted, {}, &FourPointCenter::kappa);
     out.accepted.resize(options.count);
   }
   return out;
 }
 
-WheelCenters select_random(std::span<const Eigen::Vector2d> points_mm, double radius_mm,
+WheelCenters select_random(PlanePoints points_mm, double radius_mm,
                            const QuadrupleOptions& options) {
   WheelCenters out;
   out.kappa_limit = options.kappa_limit.value_or(std::numeric_limits<double>::infinity());
@@ -151,19 +161,11 @@ core::Result<void> check(const QuadrupleOptions& options) {
 }  // namespace
 
 std::string_view name_of(QuadrupleChoice choice) {
-  switch (choice) {
-    case QuadrupleChoice::kAll:
-      return "all";
-    case QuadrupleChoice::kBest:
-      return "best";
-    case QuadrupleChoice::kRandom:
-      return "random";
-  }
-  return "all";
+  constexpr std::array<std::string_view, 3> kNames = {"all", "best", "random"};
+  return kNames[static_cast<std::size_t>(choice)];
 }
 
-FourPointCenter four_point_center(std::span<const Eigen::Vector2d> points_mm, const FourRows& rows,
-                                  double radius_mm) {
+FourPointCenter four_point_center(PlanePoints points_mm, const FourRows& rows, double radius_mm) {
   FourPointCenter out;
   out.rows = rows;
   // Relative to A, as |B|^2 - |A|^2 would lose digits for points far from the origin.
@@ -190,26 +192,12 @@ FourPointCenter four_point_center(std::span<const Eigen::Vector2d> points_mm, co
   return out;
 }
 
-FourPointCenter best_pairing(std::span<const Eigen::Vector2d> points_mm, const FourRows& rows,
-                             double radius_mm) {
-  FourPointCenter best = four_point_center(points_mm, rows, radius_mm);
-  for (const int pairing : {1, 2}) {
-    const FourPointCenter other = four_point_center(points_mm, paired(rows, pairing), radius_mm);
-    if (other.kappa < best.kappa) best = other;
-  }
-  return best;
-}
-
 double WheelCenters::best_kappa() const {
-  double best = std::numeric_limits<double>::infinity();
-  for (const FourPointCenter& c : accepted) best = std::min(best, c.kappa);
-  return best;
+  return extremes_of(accepted, &FourPointCenter::kappa).low;
 }
 
 double WheelCenters::worst_kappa() const {
-  double worst = 0.0;
-  for (const FourPointCenter& c : accepted) worst = std::max(worst, c.kappa);
-  return worst;
+  return extremes_of(accepted, &FourPointCenter::kappa).high;
 }
 
 double WheelCenters::rms_kappa() const {
@@ -218,8 +206,8 @@ double WheelCenters::rms_kappa() const {
   return std::sqrt(sum / static_cast<double>(accepted.size()));
 }
 
-core::Result<WheelCenters> select_centers(std::span<const Eigen::Vector2d> points_mm,
-                                          double radius_mm, const QuadrupleOptions& options) {
+core::Result<WheelCenters> select_centers(PlanePoints points_mm, double radius_mm,
+                                          const QuadrupleOptions& options) {
   if (auto checked = check(options); !checked) return core::fail(checked.error());
   const bool random = options.choice == QuadrupleChoice::kRandom;
   WheelCenters out = random ? select_random(points_mm, radius_mm, options)

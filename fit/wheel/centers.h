@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +11,7 @@
 
 #include "core/result.h"
 #include "core/units.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 
@@ -35,14 +35,9 @@ struct FourPointCenter {
 /// @param points_mm  All points; `rows` are valid indices into it [mm].
 /// @param radius_mm  Radius of the circle, used only for kappa.
 /// Source: methods, wheel section 3 (patent CN103029041A, step one c).
-[[nodiscard]] FourPointCenter four_point_center(std::span<const Eigen::Vector2d> points_mm,
+[[nodiscard]] FourPointCenter four_point_center(PlanePoints points_mm,
                                                 const std::array<std::size_t, 4>& rows,
                                                 double radius_mm);
-
-/// Returns the one of the three pairings of four points with the least kappa (the first of equals).
-[[nodiscard]] FourPointCenter best_pairing(std::span<const Eigen::Vector2d> points_mm,
-                                           const std::array<std::size_t, 4>& rows,
-                                           double radius_mm);
 
 /// Choice of the quadruples of points to use.
 enum class QuadrupleChoice {
@@ -90,8 +85,7 @@ inline constexpr std::size_t kMostQuadruples = 5000;
 /// @return kBadOption; kTooFewCenters (fewer than 6 accepted; `what` holds the counts of all
 ///         reasons). Same input, same bits. At most 5000 subsets, some 0.5 ms.
 /// Source: methods, wheel section 4.
-[[nodiscard]] core::Result<WheelCenters> select_centers(std::span<const Eigen::Vector2d> points_mm,
-                                                        double radius_mm,
+[[nodiscard]] core::Result<WheelCenters> select_centers(PlanePoints points_mm, double radius_mm,
                                                         const QuadrupleOptions& options = {});
 
 }  // namespace rondure::fit

@@ -43,8 +43,7 @@ std::string_view name_of(RadiusChoice choice) {
   return choice == RadiusChoice::kMean ? "mean" : "effective";
 }
 
-core::Result<WheelEvaluation> evaluate_wheel(std::span<const Eigen::Vector2d> points_mm,
-                                             const WheelTask& task) {
+core::Result<WheelEvaluation> evaluate_wheel(PlanePoints points_mm, const WheelTask& task) {
   auto wheel = measure_wheel(points_mm, task.wheel);
   if (!wheel) return core::fail(wheel.error());
   WheelEvaluation out;

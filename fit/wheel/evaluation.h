@@ -1,12 +1,12 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string_view>
 
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "fit/geometry/points.h"
 #include "fit/wheel/forecast.h"
 #include "fit/wheel/path.h"
 #include "fit/wheel/wheel.h"
@@ -50,7 +50,7 @@ struct WheelEvaluation {
 /// @return the errors of measure_wheel(). A path that cannot be computed is not an error: see
 ///         `refused` (errors of wheel_path(); kMeaning for an effective radius that is unknown or
 ///         only a bound).
-[[nodiscard]] core::Result<WheelEvaluation> evaluate_wheel(
-    std::span<const Eigen::Vector2d> points_mm, const WheelTask& task);
+[[nodiscard]] core::Result<WheelEvaluation> evaluate_wheel(PlanePoints points_mm,
+                                                           const WheelTask& task);
 
 }  // namespace rondure::fit

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
+
+#include "fit/geometry/column_extremes.h"
 
 namespace rondure::fit {
 namespace {
@@ -34,18 +35,16 @@ core::Result<ResidualForm> residual_form(const WheelSurface& surface, double use
   const double length = options.to_mm - options.from_mm;
   const double wanted = options.cusp_mm ? kMostRows : std::ceil(length / options.step_mm - 1e-9);
   const double steps = std::clamp(wanted, 1.0, kMostRows);
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
+  Extremes touched;
   for (double i = 0.0; i <= steps; i += 1.0) {
     const double x = options.from_mm + i / steps * length;
     const auto point = surface.at(x);
     if (!point) return core::fail(point.error());
     const double q = point->stretch();
     out.rows.push_back({x, out.delta_mm * q, out.delta_mm * (q - origin->stretch())});
-    low = std::min(low, out.rows.back().touched_mm);
-    high = std::max(high, out.rows.back().touched_mm);
+    touched.take(out.rows.back().touched_mm);
   }
-  out.deviation_mm = high - low;
+  out.deviation_mm = touched.width();
   return out;
 }
 

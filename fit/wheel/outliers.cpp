@@ -47,12 +47,10 @@ core::Error local_form(const std::vector<std::size_t>& run, const AngularOrder& 
           fmt::format(
               "{} neighbouring points from {:.1f} to {:.1f} deg differ by up to {:+.2f} um: "
               "form (wear, a flat), kept",
-              run.size(), degrees(run.front()), degrees(run.back()), deepest / core::kMicrometre),
-          {}};
+              run.size(), degrees(run.front()), degrees(run.back()), deepest / core::kMicrometre)};
 }
 
-void fill_deviations(std::span<const Eigen::Vector2d> points_mm, const OutlierOptions& options,
-                     Outliers& out) {
+void fill_deviations(PlanePoints points_mm, const OutlierOptions& options, Outliers& out) {
   for (const Eigen::Vector2d& p : points_mm)
     out.deviations_mm.push_back((p - out.center_mm).norm());
   const double middle = core::median(out.deviations_mm);
@@ -77,7 +75,7 @@ core::Result<void> check_count(const Outliers& out, std::size_t n) {
 
 }  // namespace
 
-core::Result<Outliers> find_outliers(std::span<const Eigen::Vector2d> points_mm,
+core::Result<Outliers> find_outliers(PlanePoints points_mm,
                                      std::span<const FourPointCenter> centers,
                                      const OutlierOptions& options) {
   if (!(options.scales >= 5.0) || !(options.least_scale_mm > 0.0)) {
@@ -110,18 +108,16 @@ core::Result<Outliers> find_outliers(std::span<const Eigen::Vector2d> points_mm,
       out.dropped.push_back({order.rows[place], out.deviations_mm[order.rows[place]]});
     }
   }
-  std::sort(out.dropped.begin(), out.dropped.end(),
-            [](const auto& a, const auto& b) { return a.row < b.row; });
+  std::ranges::sort(out.dropped, {}, &DroppedPoint::row);
   if (auto checked = check_count(out, points_mm.size()); !checked) {
     return core::fail(checked.error());
   }
   for (const DroppedPoint& point : out.dropped) {
-    out.warnings.push_back({core::Code::kOutliers,
-                            fmt::format("point {} (counted from 0) is {:+.2f} um off, {:.1f} "
-                                        "scales: dropped",
-                                        point.row, point.deviation_mm / core::kMicrometre,
-                                        std::abs(point.deviation_mm) / out.scale_mm),
-                            {}});
+    out.warnings.push_back(
+        {core::Code::kOutliers, fmt::format("point {} (counted from 0) is {:+.2f} um off, {:.1f} "
+                                            "scales: dropped",
+                                            point.row, point.deviation_mm / core::kMicrometre,
+                                            std::abs(point.deviation_mm) / out.scale_mm)});
   }
   return out;
 }

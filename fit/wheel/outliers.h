@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "fit/geometry/points.h"
 #include "fit/wheel/centers.h"
 
 namespace rondure::fit {
@@ -39,7 +39,7 @@ struct Outliers {
 /// @return kBadOption; kOutliers if more than a quarter of the points, or so many that fewer than 8
 ///         remain, would be dropped.
 /// Source: methods, wheel section 7.
-[[nodiscard]] core::Result<Outliers> find_outliers(std::span<const Eigen::Vector2d> points_mm,
+[[nodiscard]] core::Result<Outliers> find_outliers(PlanePoints points_mm,
                                                    std::span<const FourPointCenter> centers,
                                                    const OutlierOptions& options = {});
 

@@ -1,9 +1,7 @@
 #include "fit/wheel/path.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -193,8 +191,8 @@ core::Result<WheelPath> wheel_path(const WheelSurface& surface, double radius_mm
         {core::Code::kLowMargin,
          fmt::format("R k_s reaches {:.4f} at x = {} mm, close to 1: the concave radius there is "
                      "{:.6g} mm",
-                     path.load.load, shown(path.load.x_mm), path.load.concave_radius_mm(radius_mm)),
-         {}});
+                     path.load.load, shown(path.load.x_mm),
+                     path.load.concave_radius_mm(radius_mm))});
   }
   return path;
 }

@@ -15,8 +15,7 @@ double AngularOrder::coverage_rad() const { return core::kTwoPi - largest_gap_ra
 
 bool AngularOrder::closed() const { return largest_gap_rad <= 90.0 * core::kDegree * (1 + 1e-9); }
 
-AngularOrder angular_order(std::span<const Eigen::Vector2d> points_mm,
-                           const Eigen::Vector2d& center_mm) {
+AngularOrder angular_order(PlanePoints points_mm, const Eigen::Vector2d& center_mm) {
   const std::size_t n = points_mm.size();
   std::vector<double> angles(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -25,8 +24,7 @@ AngularOrder angular_order(std::span<const Eigen::Vector2d> points_mm,
   }
   std::vector<std::size_t> rows(n);
   std::iota(rows.begin(), rows.end(), std::size_t{0});
-  std::stable_sort(rows.begin(), rows.end(),
-                   [&](std::size_t a, std::size_t b) { return angles[a] < angles[b]; });
+  std::ranges::stable_sort(rows, {}, [&](std::size_t row) { return angles[row]; });
   AngularOrder out;
   std::size_t first = 0;
   for (std::size_t k = 0; k < n; ++k) {

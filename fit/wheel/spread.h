@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "fit/geometry/points.h"
+
 namespace rondure::fit {
 
 /// Points about a centre, in the order of their angles.
@@ -20,8 +22,7 @@ struct AngularOrder {
   [[nodiscard]] bool closed() const;
 };
 /// Sorts points by their angle about a centre.
-[[nodiscard]] AngularOrder angular_order(std::span<const Eigen::Vector2d> points_mm,
-                                         const Eigen::Vector2d& center_mm);
+[[nodiscard]] AngularOrder angular_order(PlanePoints points_mm, const Eigen::Vector2d& center_mm);
 
 /// Scatter of a least-squares circle relative to the scatter of a point, from the angles.
 struct CircleFactors {

@@ -96,7 +96,7 @@ core::Result<core::OpenSpline> spline_of(std::vector<double> x_mm, std::vector<d
 }
 
 bool all_finite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  return std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
 }
 
 }  // namespace
@@ -168,7 +168,7 @@ std::vector<double> WheelSurface::rows_mm() const {
   };
   if (const auto* spline = std::get_if<core::OpenSpline>(&form_)) add(*spline);
   if (removal_) add(*removal_);
-  std::sort(out.begin(), out.end());
+  std::ranges::sort(out);
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }

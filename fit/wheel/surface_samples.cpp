@@ -52,7 +52,7 @@ std::vector<double> places_of(const WheelSurface& surface, double from, double t
       if (x >= from && x <= to) out.push_back(x);
     }
   }
-  std::sort(out.begin(), out.end());
+  std::ranges::sort(out);
   // Places that differ only by rounding would leave no interval between neighbours to refine in.
   const double same = 1e-9 * (to - from);
   out.erase(std::unique(out.begin(), out.end(), [&](double a, double b) { return b - a <= same; }),
@@ -99,9 +99,8 @@ SurfaceSamples::Place SurfaceSamples::refined(std::size_t i, const Cost& cost) c
 }
 
 SurfaceSamples::Place SurfaceSamples::greatest_curvature() const {
-  const auto worst = std::max_element(samples_.begin(), samples_.end(), [](auto& a, auto& b) {
-    return a.surface.curvature_per_mm() < b.surface.curvature_per_mm();
-  });
+  const auto worst = std::ranges::max_element(
+      samples_, {}, [](const Sample& s) { return s.surface.curvature_per_mm(); });
   Place out = refined(static_cast<std::size_t>(worst - samples_.begin()), [&](double x) {
     const auto point = surface_->at(x);
     return point ? -point->curvature_per_mm() : std::numeric_limits<double>::infinity();

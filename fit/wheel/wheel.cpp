@@ -1,15 +1,15 @@
 #include "fit/wheel/wheel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/statistics.h"
-#include "fit/geometry/points.h"
+#include "fit/geometry/column_extremes.h"
 
 namespace rondure::fit {
 namespace {
@@ -26,11 +26,11 @@ constexpr double kUnseen = 60.0 * core::kDegree;
 constexpr double kNominalShare = 0.05;
 constexpr double kCorrelationLimit = 2.0;
 
-core::Result<void> check_distinct(std::span<const Eigen::Vector2d> points_mm) {
+core::Result<void> check_distinct(PlanePoints points_mm) {
   Points found;
   for (const Eigen::Vector2d& p : points_mm) {
-    const bool seen = std::any_of(found.begin(), found.end(),
-                                  [&](const auto& q) { return (p - q).norm() <= kSamePoint; });
+    const bool seen =
+        std::ranges::any_of(found, [&](const auto& q) { return (p - q).norm() <= kSamePoint; });
     if (!seen) found.push_back(p);
     if (found.size() == kLeastPoints) return {};
   }
@@ -75,7 +75,7 @@ core::Result<void> check_options(const WheelOptions& options) {
   return {};
 }
 
-core::Result<void> check_arc(const Points& points, const LsCircle& circle,
+core::Result<void> check_arc(PlanePoints points, const LsCircle& circle,
                              const WheelOptions& options) {
   const AngularOrder order = angular_order(points, circle.center_mm);
   if (order.coverage_rad() >= kLeastArc || options.allow_short_arc) return {};
@@ -90,8 +90,7 @@ core::Result<void> check_arc(const Points& points, const LsCircle& circle,
 }
 
 /// Makes the checks that are possible before quadruples are chosen.
-core::Result<LsCircle> check_and_start(std::span<const Eigen::Vector2d> points_mm,
-                                       const WheelOptions& options) {
+core::Result<LsCircle> check_and_start(PlanePoints points_mm, const WheelOptions& options) {
   if (auto checked = check_options(options); !checked) return core::fail(checked.error());
   if (points_mm.size() < kLeastPoints) {
     return core::fail(core::Code::kTooFewPoints,
@@ -102,8 +101,7 @@ core::Result<LsCircle> check_and_start(std::span<const Eigen::Vector2d> points_m
   if (auto checked = check_distinct(points_mm); !checked) return core::fail(checked.error());
   const auto circle = ls_circle(points_mm);
   if (!circle) return circle;
-  const Points points(points_mm.begin(), points_mm.end());
-  if (auto checked = check_arc(points, *circle, options); !checked) {
+  if (auto checked = check_arc(points_mm, *circle, options); !checked) {
     return core::fail(checked.error());
   }
   if (auto checked = check_radius(circle->radius_mm, options); !checked) {
@@ -165,8 +163,7 @@ void fill_circle(const Points& used, WheelMeasurement& out) {
   std::vector<double> distances;
   for (const auto& p : used) distances.push_back((p - out.center_mm).norm());
   out.radius_mm = core::mean(distances);
-  const auto [low, high] = std::minmax_element(distances.begin(), distances.end());
-  out.deviation_mm = *high - *low;
+  out.deviation_mm = column_extremes(distances).width();
   out.order = angular_order(used, out.center_mm);
   std::vector<double> residuals;
   double squares = 0.0;
@@ -194,21 +191,8 @@ void fill_scatter(WheelMeasurement& out) {
   out.expected_scatter_mm = out.spread_mm * out.centers.rms_kappa();
 }
 
-/// Least and greatest distance from the axis.
-std::pair<double, double> reach_of(std::span<const Eigen::Vector2d> points_mm,
-                                   const Eigen::Vector2d& axis_mm) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
-  for (const Eigen::Vector2d& p : points_mm) {
-    const double distance = (p - axis_mm).norm();
-    low = std::min(low, distance);
-    high = std::max(high, distance);
-  }
-  return {low, high};
-}
-
-void fill_runout(std::span<const Eigen::Vector2d> all, const Points& used,
-                 const WheelOptions& options, WheelMeasurement& out) {
+void fill_runout(PlanePoints all, const Points& used, const WheelOptions& options,
+                 WheelMeasurement& out) {
   if (out.mode == WheelMode::kEnvelope) {
     out.runout_absent = "envelope mode: the points lie on the circle swept about the axis";
     return;
@@ -217,15 +201,14 @@ void fill_runout(std::span<const Eigen::Vector2d> all, const Points& used,
     out.runout_absent = "the spindle axis is not given: roundness only";
     return;
   }
-  const auto [low, high] = reach_of(used, *options.axis_mm);
-  const auto [lowest, highest] = reach_of(all, *options.axis_mm);
+  const auto distance = [&](const Eigen::Vector2d& p) { return (p - *options.axis_mm).norm(); };
+  const Extremes reach = extremes_of(used, distance);
   WheelRunout& found = out.runout.emplace();
   found.axis_mm = *options.axis_mm;
-  found.fim_mm = high - low;
+  found.fim_mm = reach.width();
   found.eccentricity_mm = (out.center_mm - *options.axis_mm).norm();
-  found.effective_radius_mm = high;
-  found.fim_with_dropped_mm = highest - lowest;
-  found.effective_radius_with_dropped_mm = highest;
+  found.effective_radius_mm = reach.high;
+  found.fim_with_dropped_mm = extremes_of(all, distance).width();
   if (!out.sees_whole_turn()) {
     found.bound_because = fmt::format(
         "the points leave {:.0f} deg of the turn unseen, more than {:.0f} deg: run-out is at least "
@@ -242,7 +225,7 @@ void fill_runout(std::span<const Eigen::Vector2d> all, const Points& used,
 
 void warn(WheelMeasurement& out) {
   const auto add = [&](core::Code code, std::string what) {
-    out.warnings.push_back({code, std::move(what), {}});
+    out.warnings.push_back({code, std::move(what)});
   };
   const double coverage = out.order.coverage_rad();
   if (coverage < kShortArc) {
@@ -310,8 +293,7 @@ void name_outliers(const OutlierOptions& options, const QuadrupleOptions& quadru
        fmt::format("{} of {} points lie more than {:g} scales of {:.2f} um off and count in centre "
                    "and radius: {}, counted from 0; look at them, or take the robust variant",
                    gross.size(), used.size(), options.scales,
-                   outliers->scale_mm / core::kMicrometre, names),
-       {}});
+                   outliers->scale_mm / core::kMicrometre, names)});
 }
 
 /// Drops outliers from `rows` and `used`, and selects the quadruples again if there were any.
@@ -344,15 +326,8 @@ std::string_view name_of(WheelMode mode) {
 }
 
 std::string_view name_of(WheelMean mean) {
-  switch (mean) {
-    case WheelMean::kLeastSquares:
-      return "least-squares";
-    case WheelMean::kAsPublished:
-      return "as-published";
-    case WheelMean::kWeighted:
-      return "weighted";
-  }
-  return "least-squares";
+  constexpr std::array<std::string_view, 3> kNames = {"least-squares", "as-published", "weighted"};
+  return kNames[static_cast<std::size_t>(mean)];
 }
 
 bool WheelMeasurement::sees_whole_turn() const {
@@ -365,8 +340,7 @@ std::optional<double> WheelMeasurement::effective_radius_mm() const {
   return std::nullopt;
 }
 
-core::Result<WheelMeasurement> measure_wheel(std::span<const Eigen::Vector2d> points_mm,
-                                             const WheelOptions& options) {
+core::Result<WheelMeasurement> measure_wheel(PlanePoints points_mm, const WheelOptions& options) {
   const auto start = check_and_start(points_mm, options);
   if (!start) return core::fail(start.error());
   WheelMeasurement out;

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +10,7 @@
 
 #include "core/result.h"
 #include "core/units.h"
+#include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/wheel/centers.h"
@@ -55,9 +55,7 @@ struct WheelRunout {
   double fim_mm = 0.0;               ///< Full indicator movement: max - min distance from the axis.
   double eccentricity_mm = 0.0;      ///< Distance of the centre of the profile from the axis.
   double effective_radius_mm = 0.0;  ///< Largest distance from the axis: the radius that cuts.
-  /// FIM and effective radius including dropped points: a protruding point is run-out, and cuts.
-  double fim_with_dropped_mm = 0.0;
-  double effective_radius_with_dropped_mm = 0.0;
+  double fim_with_dropped_mm = 0.0;  ///< FIM including dropped points: a protruding one is run-out.
   /// Why `fim_mm` and `effective_radius_mm` are only lower bounds: points that cover too little of
   /// the turn, or a dropped point that adds to them. Empty if they are values.
   std::string bound_because;
@@ -112,7 +110,7 @@ struct WheelMeasurement {
 ///         kShortArc (below 90 deg), kCenterDisagrees, kNoAxis, kOutliers, kLocalForm,
 ///         kCorrelated. Some 1 ms.
 /// Source: methods, wheel sections 2 to 7; patent CN103029041A, step one.
-[[nodiscard]] core::Result<WheelMeasurement> measure_wheel(
-    std::span<const Eigen::Vector2d> points_mm, const WheelOptions& options = {});
+[[nodiscard]] core::Result<WheelMeasurement> measure_wheel(PlanePoints points_mm,
+                                                           const WheelOptions& options = {});
 
 }  // namespace rondure::fit

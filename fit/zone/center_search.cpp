@@ -1,7 +1,7 @@
 #include "fit/zone/center_search.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
 
 #include "fit/geometry/internal/hull_distance.h"
@@ -22,7 +22,7 @@ struct ContactSets {
 };
 
 /// Returns tau_c, raised if the coordinates are so large that 1e-9 mm is round-off.
-double contact_tolerance(std::span<const Eigen::Vector2d> points_mm) {
+double contact_tolerance(PlanePoints points_mm) {
   Eigen::Vector2d low = points_mm.front();
   Eigen::Vector2d high = points_mm.front();
   for (const Eigen::Vector2d& p : points_mm) {
@@ -35,12 +35,11 @@ double contact_tolerance(std::span<const Eigen::Vector2d> points_mm) {
       {kContactTolerance, 1e-13 * range, 16.0 * std::numeric_limits<double>::epsilon() * size});
 }
 
-ContactSets contacts_at(std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center,
-                        double tolerance) {
+ContactSets contacts_at(PlanePoints points_mm, const Eigen::Vector2d& center, double tolerance) {
   ContactSets out;
   std::vector<double> r(points_mm.size());
-  std::transform(points_mm.begin(), points_mm.end(), r.begin(),
-                 [&](const Eigen::Vector2d& p) { return (p - center).norm(); });
+  std::ranges::transform(points_mm, r.begin(),
+                         [&](const Eigen::Vector2d& p) { return (p - center).norm(); });
   const auto [low, high] = std::minmax_element(r.begin(), r.end());
   out.low = *low;
   out.high = *high;
@@ -51,8 +50,7 @@ ContactSets contacts_at(std::span<const Eigen::Vector2d> points_mm, const Eigen:
   return out;
 }
 
-std::vector<Eigen::Vector2d> directions(std::span<const Eigen::Vector2d> points_mm,
-                                        const Eigen::Vector2d& center,
+std::vector<Eigen::Vector2d> directions(PlanePoints points_mm, const Eigen::Vector2d& center,
                                         std::span<const std::size_t> rows) {
   std::vector<Eigen::Vector2d> out;
   for (const std::size_t i : rows) out.emplace_back((points_mm[i] - center).normalized());
@@ -62,22 +60,12 @@ std::vector<Eigen::Vector2d> directions(std::span<const Eigen::Vector2d> points_
 }  // namespace
 
 std::string_view name_of(CenterSearch::Ending ending) {
-  switch (ending) {
-    case CenterSearch::Ending::kCross:
-      return "cross";
-    case CenterSearch::Ending::kSpoke:
-      return "spoke";
-    case CenterSearch::Ending::kCoCircular:
-      return "co-circular";
-    case CenterSearch::Ending::kUnbounded:
-      return "unbounded";
-    case CenterSearch::Ending::kMoveLimit:
-      return "move-limit";
-  }
-  return "move-limit";
+  constexpr std::array<std::string_view, 5> kNames = {"cross", "spoke", "co-circular", "unbounded",
+                                                      "move-limit"};
+  return kNames[static_cast<std::size_t>(ending)];
 }
 
-std::vector<ContactCandidate> contact_candidates(std::span<const Eigen::Vector2d> points_mm,
+std::vector<ContactCandidate> contact_candidates(PlanePoints points_mm,
                                                  const Eigen::Vector2d& center_mm,
                                                  const Eigen::Vector2d& direction,
                                                  std::span<const std::size_t> outer,
@@ -85,15 +73,15 @@ std::vector<ContactCandidate> contact_candidates(std::span<const Eigen::Vector2d
   const auto along = [&](std::size_t i) { return (points_mm[i] - center_mm).dot(direction); };
   // Contacts that stay extreme during the move: the outer one recedes most, the inner one least.
   const auto by_along = [&](std::size_t a, std::size_t b) { return along(a) < along(b); };
-  const std::size_t h = *std::min_element(outer.begin(), outer.end(), by_along);
-  const std::size_t l = *std::max_element(inner.begin(), inner.end(), by_along);
+  const std::size_t h = *std::ranges::min_element(outer, by_along);
+  const std::size_t l = *std::ranges::max_element(inner, by_along);
   // The difference of squared distances as (a - b).(a + b), which avoids cancellation.
   const auto squared_difference = [&](std::size_t a, std::size_t b) {
     return (points_mm[a] - points_mm[b])
         .dot((points_mm[a] - center_mm) + (points_mm[b] - center_mm));
   };
   const auto holds = [](std::span<const std::size_t> set, std::size_t i) {
-    return std::find(set.begin(), set.end(), i) != set.end();
+    return std::ranges::find(set, i) != set.end();
   };
   std::vector<ContactCandidate> out;
   for (std::size_t i = 0; i < points_mm.size(); ++i) {
@@ -107,13 +95,11 @@ std::vector<ContactCandidate> contact_candidates(std::span<const Eigen::Vector2d
       if (step > 0.0) out.push_back({i, true, step});
     }
   }
-  std::stable_sort(
-      out.begin(), out.end(),
-      [](const ContactCandidate& a, const ContactCandidate& b) { return a.step_mm < b.step_mm; });
+  std::ranges::stable_sort(out, {}, &ContactCandidate::step_mm);
   return out;
 }
 
-core::Result<CenterSearch> center_search(std::span<const Eigen::Vector2d> points_mm) {
+core::Result<CenterSearch> center_search(PlanePoints points_mm) {
   const auto start = algebraic_circle(points_mm);
   if (!start) return core::fail(start.error());
   const double tolerance = contact_tolerance(points_mm);

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/result.h"
+#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 
@@ -19,17 +20,16 @@ struct ContactCandidate {
 };
 
 /// Returns all candidates of a move from `center_mm` along the unit vector `direction`, in order of
-/// their steps.
-///
-/// The difference of two squared distances is a linear function of the move, so each step is exact.
-/// The contacts in `outer` and `inner` are left out; in each set, the one that stays extreme is the
-/// reference. Source: methods, cylindricity section 6, formulas 6.2 and 6.3.
-///
+/// their steps. The steps are exact, as the difference of two squared distances is a linear
+/// function of the move. The contacts in `outer` and `inner` are left out; of each set, the one
+/// that stays extreme is the reference. Source: methods, cylindricity section 6, formulas 6.2
+/// and 6.3.
 /// @pre `outer` and `inner` are not empty and hold valid rows of `points_mm`.
-[[nodiscard]] std::vector<ContactCandidate> contact_candidates(
-    std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
-    const Eigen::Vector2d& direction, std::span<const std::size_t> outer,
-    std::span<const std::size_t> inner);
+[[nodiscard]] std::vector<ContactCandidate> contact_candidates(PlanePoints points_mm,
+                                                               const Eigen::Vector2d& center_mm,
+                                                               const Eigen::Vector2d& direction,
+                                                               std::span<const std::size_t> outer,
+                                                               std::span<const std::size_t> inner);
 
 inline constexpr int kCenterMoveLimit = 100;  ///< Most moves of one search.
 
@@ -79,7 +79,7 @@ struct CenterSearch {
 /// @return kNoPoints, kNotFinite, kTooFewPoints, kCollinear (from algebraic_circle()). Every other
 ///         outcome is an `ending`. Mean 2.3 moves, O(n) each.
 /// Source: methods, cylindricity sections 6 and 7.
-[[nodiscard]] core::Result<CenterSearch> center_search(std::span<const Eigen::Vector2d> points_mm);
+[[nodiscard]] core::Result<CenterSearch> center_search(PlanePoints points_mm);
 
 /// The same search in the most favourable reading of the published text (reading D of the method
 /// specification): bisector directions with correct signs and the mirror branch, but with the fixed
@@ -87,7 +87,6 @@ struct CenterSearch {
 /// 17 % of full sections it ends at a wrong centre and still reports "cross"; kept for comparison
 /// only. Parameters and errors as center_search().
 /// Source: methods, cylindricity section 8.
-[[nodiscard]] core::Result<CenterSearch> center_search_as_published(
-    std::span<const Eigen::Vector2d> points_mm);
+[[nodiscard]] core::Result<CenterSearch> center_search_as_published(PlanePoints points_mm);
 
 }  // namespace rondure::fit

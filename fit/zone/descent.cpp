@@ -44,8 +44,7 @@ std::size_t candidates(int pass, std::size_t blocks) {
 }
 
 bool all_nonnegative(const Contacts& contacts) {
-  return std::all_of(contacts.begin(), contacts.end(),
-                     [](const Contact& c) { return c.multiplier >= 0.0; });
+  return std::ranges::all_of(contacts, [](const Contact& c) { return c.multiplier >= 0.0; });
 }
 
 /// The contacts with a multiplier above kWeak.
@@ -74,7 +73,8 @@ auto ZoneDescent<Frame>::run(Points points, const Point& origin, const Frame& st
   if (points.size() > kAllWorked) {
     working_.clear();
     for (std::size_t k = 0; k < sample_size<K>(points.size()); ++k) {
-      take(points, origin, spread_row(k, points.size()));
+      const std::size_t row = spread_row(k, points.size());
+      working_.add(row, points[row] - origin);
     }
     minimise_large(points, origin, start, limit_mm, state);
   } else {
@@ -86,17 +86,11 @@ auto ZoneDescent<Frame>::run(Points points, const Point& origin, const Frame& st
   return state;
 }
 
-template <class Frame>
-void ZoneDescent<Frame>::take(Points points, const Point& origin, std::size_t row) {
-  working_.add(row, points[row] - origin);
-}
-
 /// Replaces the working points of contacts by rows of the data, in the order of the rows.
 template <class Frame>
 void ZoneDescent<Frame>::name_rows(Contacts& contacts) const {
   for (Contact& c : contacts) c.index = working_.row(c.index);
-  std::sort(contacts.begin(), contacts.end(),
-            [](const Contact& a, const Contact& b) { return a.index < b.index; });
+  std::ranges::sort(contacts, {}, &Contact::index);
 }
 
 template <class Frame>
@@ -121,26 +115,21 @@ void ZoneDescent<Frame>::minimise_large(Points points, const Point& origin, cons
       state.ending = ZoneEnding::kNotFinite;
       return;
     }
-    if (!add_violators(points, origin, state) && !coarse_) break;
+    std::size_t added = add_worst(points, origin, state, true);
+    added += add_worst(points, origin, state, false);
+    if (added == 0 && !coarse_) break;
     state.ending = ZoneEnding::kLimit;
   }
   state.zone = {std::sqrt(blocks_.all.low), std::sqrt(blocks_.all.high)};
 }
 
-/// Adds points that lie outside the zone of the working points.
-/// @return Whether there are any.
-template <class Frame>
-bool ZoneDescent<Frame>::add_violators(Points points, const Point& origin, const Result& state) {
-  std::size_t added = 0;
-  if (weights_.outer > 0.0) added += add_worst(points, origin, state, true);
-  if (weights_.inner > 0.0) added += add_worst(points, origin, state, false);
-  return added > 0;
-}
-
-/// Adds the extreme point of each of the blocks that stick out farthest on one side.
+/// Adds the extreme point of each of the blocks that stick out of the zone of the working points
+/// farthest on one side.
+/// @return How many.
 template <class Frame>
 std::size_t ZoneDescent<Frame>::add_worst(Points points, const Point& origin, const Result& state,
                                           bool high) {
+  if ((high ? weights_.outer : weights_.inner) == 0.0) return 0;
   const double slack = 4.0 * round_off_;
   const double limit = high ? state.zone.high + slack : std::max(state.zone.low - slack, 0.0);
   const std::vector<double>& extreme = high ? blocks_.high : blocks_.low;
@@ -159,7 +148,8 @@ std::size_t ZoneDescent<Frame>::add_worst(Points points, const Point& origin, co
   for (std::size_t k = 0; k < most; ++k) {
     const std::size_t begin = order_[k] * blocks_.block;
     const auto block = points.subspan(begin, std::min(blocks_.block, points.size() - begin));
-    take(points, origin, begin + find_square(block, place, extreme[order_[k]]));
+    const std::size_t row = begin + find_square(block, place, extreme[order_[k]]);
+    working_.add(row, points[row] - origin);
   }
   return most;
 }
@@ -236,7 +226,7 @@ void ZoneDescent<Frame>::settle(Result& state) {
   while (state.linear_programs < limit && box > round_off_) {
     const ZoneStep<K> step = programme(state, box);
     const double base = (weights_.outer - weights_.inner) * state.zone.low;
-    const double promised = value(state.zone) - base - step.value;
+    const double promised = weights_.value(state.zone) - base - step.value;
     if (coarse_ && promised <= kCoarse * state.zone.width()) return;
     if (promised <= 2.0 * round_off_) {
       const bool level_now = step.step.cwiseAbs().maxCoeff() <= round_off_;
@@ -252,7 +242,7 @@ void ZoneDescent<Frame>::settle(Result& state) {
     }
     const Frame next = state.frame.moved(step.step);
     const Extremes zone = linearise(next, trial_rows_);
-    const double gained = value(state.zone) - value(zone);
+    const double gained = weights_.value(state.zone) - weights_.value(zone);
     // Straight steps are short in a curved valley; Newton's follow it to the next contact.
     if (gained < 0.5 * promised && stride(state, std::max(gained, 2.0 * round_off_))) continue;
     rejected = !(gained >= 0.1 * promised);
@@ -277,7 +267,7 @@ template <class Frame>
 bool ZoneDescent<Frame>::level(Result& state, const ZoneStep<K>& step) {
   const Frame next = state.frame.moved(step.step);
   const Extremes zone = linearise(next, trial_rows_);
-  if (value(zone) > value(state.zone) + 2.0 * round_off_) return false;
+  if (weights_.value(zone) > weights_.value(state.zone) + 2.0 * round_off_) return false;
   state.frame = next;
   state.zone = zone;
   std::swap(rows_, trial_rows_);
@@ -290,8 +280,7 @@ bool ZoneDescent<Frame>::is_vertex(const ZoneStep<K>& step) const {
   if (!step.inside_box) return false;
   if (step.outer.size() + step.inner.size() != static_cast<std::size_t>(K + sides)) return false;
   const auto firm = [](const Contact& c) { return c.multiplier > kFirm; };
-  return std::all_of(step.outer.begin(), step.outer.end(), firm) &&
-         std::all_of(step.inner.begin(), step.inner.end(), firm);
+  return std::ranges::all_of(step.outer, firm) && std::ranges::all_of(step.inner, firm);
 }
 
 // The functions below use curvature, which linear programs do not include: Newton's method on the
@@ -312,10 +301,10 @@ template <class Frame>
 bool ZoneDescent<Frame>::stride(Result& state, double least) {
   const Newton next = newton_step(state);
   if (!next.valid || next.move.cwiseAbs().maxCoeff() > 100.0 * state.zone.width()) return false;
-  double best = value(state.zone) - least;
+  double best = weights_.value(state.zone) - least;
   double part = 0.0;
   for (const double t : {1.0, 0.5, 0.25, 0.125, -0.125, -0.5}) {
-    const double reached = value(extremes(state.frame.moved(t * next.move)));
+    const double reached = weights_.value(extremes(state.frame.moved(t * next.move)));
     if (reached >= best) continue;
     best = reached;
     part = t;
@@ -409,7 +398,7 @@ bool ZoneDescent<Frame>::polish(Result& state) {
   }
   if (!settled) return false;
   if (!all_nonnegative(trial.outer) || !all_nonnegative(trial.inner)) return false;
-  if (!(value(trial.zone) <= value(state.zone) + 4.0 * round_off_)) return false;
+  if (!(weights_.value(trial.zone) <= weights_.value(state.zone) + 4.0 * round_off_)) return false;
   if (!contacts_hold(trial)) return false;
   state = trial;
   return true;
@@ -425,8 +414,7 @@ bool ZoneDescent<Frame>::contacts_hold(const Result& state) const {
   const auto at_most = [&](const Contact& c) {
     return state.frame.distance(working_[c.index]) <= state.zone.low + slack;
   };
-  return std::all_of(state.outer.begin(), state.outer.end(), at_least) &&
-         std::all_of(state.inner.begin(), state.inner.end(), at_most);
+  return std::ranges::all_of(state.outer, at_least) && std::ranges::all_of(state.inner, at_most);
 }
 
 /// The direction in which the zone shrinks most by curvature while the contacts of a state stay
@@ -464,7 +452,7 @@ void ZoneDescent<Frame>::slip(Result& state) {
   const double width = here.zone.width();
   const auto level_at = [&](double size) {
     const Extremes zone = extremes(here.frame.moved(size * valley));
-    return value(zone) <= value(here.zone) + kWeak * std::abs(size);
+    return weights_.value(zone) <= weights_.value(here.zone) + kWeak * std::abs(size);
   };
   for (const double side : {1.0, -1.0}) {
     double size = 2.0 * side * width;
@@ -476,7 +464,8 @@ void ZoneDescent<Frame>::slip(Result& state) {
     Result end = here;
     end.frame = here.frame.moved(size * valley);
     settle(end);
-    if (vertex_ && value(end.zone) < value(state.zone) - 2.0 * round_off_) state = end;
+    if (vertex_ && weights_.value(end.zone) < weights_.value(state.zone) - 2.0 * round_off_)
+      state = end;
   }
 }
 
@@ -514,12 +503,12 @@ bool ZoneDescent<Frame>::leave_saddle(Result& state) {
     for (const double sign : {1.0, -1.0}) {
       const Frame next = saddle.frame.moved(sign * size * descent);
       const Extremes zone = extremes(next);
-      if (value(zone) >= value(state.zone)) continue;
+      if (weights_.value(zone) >= weights_.value(state.zone)) continue;
       state.frame = next;
       state.zone = zone;
     }
   }
-  return value(state.zone) < value(saddle.zone) - 2.0 * round_off_;
+  return weights_.value(state.zone) < weights_.value(saddle.zone) - 2.0 * round_off_;
 }
 
 template class ZoneDescent<CenterFrame<2>>;

@@ -43,15 +43,14 @@ struct Descent {
 };
 
 /// Descends from a start to a local minimum of  outer weight * max r - inner weight * min r
-/// (minimum zone, minimum circumscribed, maximum inscribed). It solves linear programs inside a
-/// trust region, applies Newton's method to the stationarity equations of the contacts where
-/// curvature determines the minimum, and leaves saddles and valleys that weak contacts close.
-/// Circumscribed circles and spheres use EnclosingBall instead.
+/// (minimum zone, minimum circumscribed, maximum inscribed) by linear programs inside a trust
+/// region, by Newton's method on the equations of the contacts where curvature determines the
+/// minimum, and out of saddles and valleys that weak contacts close. Circumscribed circles and
+/// spheres use EnclosingBall instead.
 ///
-/// A set of up to kAllWorked points is used whole. A larger one is represented by a sample; passes
-/// over all points then add those that stick out farthest, at most one per block, until none does:
-/// the optimum of a subset is that of the whole set if its zone holds all points. An object keeps
-/// its memory between calls.
+/// A set of more than kAllWorked points is represented by a sample; passes over all points add
+/// those that stick out farthest, at most one per block, until none does: the optimum of a subset
+/// is that of the whole set if its zone holds all points. An object keeps its memory between calls.
 ///
 /// Cost: some 0.3 to 10 us up to 128 points; commonly two to four passes over more.
 /// Sources: methods, cylindricity sections 9.3, 11.2 and 11.4; performance, the method in words.
@@ -76,13 +75,8 @@ class ZoneDescent {
  private:
   struct Newton;
 
-  [[nodiscard]] double value(const Extremes& zone) const {
-    return weights_.outer * zone.high - weights_.inner * zone.low;
-  }
-  void take(Points points, const Point& origin, std::size_t row);
   void minimise_large(Points points, const Point& origin, const Frame& start, double limit_mm,
                       Result& state);
-  bool add_violators(Points points, const Point& origin, const Result& state);
   std::size_t add_worst(Points points, const Point& origin, const Result& state, bool high);
   void minimise(Result& state, const Frame& start, double limit_mm);
   void enclose(Result& state);
@@ -118,9 +112,5 @@ class ZoneDescent {
   BlockScan blocks_;
   std::vector<std::size_t> order_;
 };
-
-extern template class ZoneDescent<CenterFrame<2>>;
-extern template class ZoneDescent<CenterFrame<3>>;
-extern template class ZoneDescent<CylinderFrame>;
 
 }  // namespace rondure::fit

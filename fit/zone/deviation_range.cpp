@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "fit/geometry/points.h"
 #include "fit/zone/internal/center_region.h"
 #include "fit/zone/internal/search_points.h"
 #include "fit/zone/internal/zone_box.h"
@@ -32,8 +31,7 @@ Polygon square_about(const Eigen::Vector2d& center, double half) {
 /// Keeps the part of a convex polygon where normal . c <= limit.
 void clip(Polygon& polygon, const Eigen::Vector2d& normal, double limit) {
   const auto excess = [&](const Eigen::Vector2d& c) { return normal.dot(c) - limit; };
-  if (std::all_of(polygon.begin(), polygon.end(), [&](const auto& c) { return excess(c) <= 0.0; }))
-    return;
+  if (std::ranges::all_of(polygon, [&](const auto& c) { return excess(c) <= 0.0; })) return;
   Polygon out;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d& from = polygon[i];
@@ -164,14 +162,9 @@ class InscribedSearcher {
   }
 
   [[nodiscard]] double deviation_at(const Eigen::Vector2d& center) const {
-    double low = std::numeric_limits<double>::infinity();
-    double high = 0.0;
-    for (const Eigen::Vector2d& p : points_) {
-      const double square = (p - center).squaredNorm();
-      low = std::min(low, square);
-      high = std::max(high, square);
-    }
-    return std::sqrt(high) - std::sqrt(low);
+    const Extremes squares =
+        extremes_of(points_, [&](const auto& p) { return (p - center).squaredNorm(); });
+    return std::sqrt(squares.high) - std::sqrt(squares.low);
   }
 
   double least_radius_;
@@ -185,17 +178,7 @@ class InscribedSearcher {
 
 std::optional<DeviationRange> deviation_range(const ZoneRows<2>& rows, const Eigen::Vector2d& step,
                                               const ZoneWeights& weights) {
-  const auto extremes_at = [&](const Eigen::Vector2d& c) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double moved = rows.distances()[i] + rows.gradient(i).dot(c);
-      low = std::min(low, moved);
-      high = std::max(high, moved);
-    }
-    return std::pair{low, high};
-  };
-  const auto [low, high] = extremes_at(step);
+  const auto [low, high] = rows.moved(step);
   Polygon polygon = square_about(step, kWidestSlide * (high - low));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (weights.outer > 0.0) {
@@ -206,12 +189,7 @@ std::optional<DeviationRange> deviation_range(const ZoneRows<2>& rows, const Eig
   }
   DeviationRange range{high - low, high - low};
   widen(
-      polygon,
-      [&](const Eigen::Vector2d& c) {
-        const auto [near, far] = extremes_at(c);
-        return far - near;
-      },
-      range);
+      polygon, [&](const Eigen::Vector2d& c) { return rows.moved(c).width(); }, range);
   return of_interest(range);
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include <Eigen/Core>
 
+#include "fit/geometry/points.h"
 #include "fit/zone/simplex.h"
 
 namespace rondure::fit {
@@ -42,6 +42,6 @@ inline constexpr double kSameDeviation = 1e-4;
 /// @param center_mm, radius_mm  The largest inscribed circle.
 /// @return as deviation_range(); also nothing when the search reached its limit of 20000 squares.
 [[nodiscard]] std::optional<DeviationRange> inscribed_deviation_range(
-    std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm, double radius_mm);
+    PlanePoints points_mm, const Eigen::Vector2d& center_mm, double radius_mm);
 
 }  // namespace rondure::fit

@@ -10,9 +10,6 @@
 
 #include "core/units.h"
 #include "fit/geometry/column_extremes.h"
-#include "fit/geometry/points.h"
-#include "fit/least_squares/circle.h"
-#include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/sphere.h"
 
 namespace rondure::fit {
@@ -55,7 +52,6 @@ ZoneFit<Place> zone_of(const Descent<Frame>& descent, const Place& place) {
   out.outer = descent.outer;
   out.inner = descent.inner;
   out.passes = descent.passes;
-  out.linear_programs = descent.linear_programs;
   out.pivots = descent.pivots;
   out.ending = descent.ending;
   return out;
@@ -89,16 +85,8 @@ core::Result<ZoneFit<Place>> judged(ZoneFit<Place> zone, std::span<const Point> 
   return zone;
 }
 
-core::Result<CenterStart<2>> start_fit(std::span<const Eigen::Vector2d> points) {
-  const auto circle = algebraic_start(points);
-  if (!circle) return core::fail(circle.error());
-  return CenterStart<2>{circle->center_mm, circle->radius_mm};
-}
-core::Result<CenterStart<3>> start_fit(std::span<const Eigen::Vector3d> points) {
-  const auto sphere = ls_sphere(points);
-  if (!sphere) return core::fail(sphere.error());
-  return CenterStart<3>{sphere->center_mm, sphere->radius_mm};
-}
+core::Result<LsCircle> start_fit(PlanePoints points) { return algebraic_start(points); }
+core::Result<LsSphere> start_fit(SpacePoints points) { return ls_sphere(points); }
 
 /// Whether the contacts of a ball alone prove that the points are not on one line (in one plane):
 /// they span a triangle (tetrahedron) that is not small compared with the ball.
@@ -116,8 +104,7 @@ bool spans_space(std::span<const Point> points, const ZoneFit<Point>& ball) {
 }
 
 /// The axis as a frame, with the extent of the points along it as the scale of its tilts.
-CylinderFrame frame_of(std::span<const Eigen::Vector3d> sample, const Axis& axis,
-                       double round_off) {
+CylinderFrame frame_of(SpacePoints sample, const Axis& axis, double round_off) {
   const double half = half_extent(sample, axis.direction);
   return {Axis{Eigen::Vector3d::Zero(), axis.direction}, std::max(half, round_off)};
 }
@@ -134,8 +121,7 @@ struct Tilts {
 /// Tilts of further starts where there may be several minima. Minimum zones of few points, or of
 /// part of the circumference, may have distant ones; circumscribed and inscribed cylinders of few
 /// points have close ones.
-Tilts other_tilts(std::span<const Eigen::Vector3d> points, const LsCylinder& start,
-                  const ZoneWeights& weights) {
+Tilts other_tilts(SpacePoints points, const LsCylinder& start, const ZoneWeights& weights) {
   if (weights.outer == 0.0 || weights.inner == 0.0) {
     if (points.size() > kSmall) return {};
     const double form = std::atan(start.deviation_mm / half_extent(points, start.axis.direction));
@@ -152,10 +138,6 @@ Tilts other_tilts(std::span<const Eigen::Vector3d> points, const LsCylinder& sta
     if (largest_gap_rad(section, Eigen::Vector2d::Zero()) <= kFullGap) return {};
   }
   return {{0.5 * core::kDegree, 2.0 * core::kDegree, 6.0 * core::kDegree}, 3};
-}
-
-double value_of(const CylinderZone& zone, const ZoneWeights& weights) {
-  return weights.outer * zone.outer_radius_mm - weights.inner * zone.inner_radius_mm;
 }
 
 }  // namespace
@@ -179,8 +161,7 @@ auto CenterZoneFitter<D>::fit_from(std::span<const Point> points_mm, const Point
 
 /// Finds the start from a sample, or from all points if the sample does not determine it.
 template <int D>
-auto CenterZoneFitter<D>::start_of(std::span<const Point> points_mm)
-    -> core::Result<CenterStart<D>> {
+auto CenterZoneFitter<D>::start_of(std::span<const Point> points_mm) -> core::Result<LsCenter<D>> {
   if (auto start = start_fit(spread(points_mm, kCenterSample, sample_))) return start;
   return start_fit(points_mm);
 }
@@ -207,9 +188,8 @@ auto CenterZoneFitter<D>::fit(std::span<const Point> points_mm, const ZoneWeight
 template class CenterZoneFitter<2>;
 template class CenterZoneFitter<3>;
 
-CylinderZone CylinderZoneFitter::fit_from(std::span<const Eigen::Vector3d> points_mm,
-                                          const Axis& axis, const ZoneWeights& weights,
-                                          double limit_mm) {
+CylinderZone CylinderZoneFitter::fit_from(SpacePoints points_mm, const Axis& axis,
+                                          const ZoneWeights& weights, double limit_mm) {
   const auto sample = spread(points_mm, kCylinderSample, sample_);
   const double round_off = round_off_of(sample);
   const auto found = descent_.run(points_mm, axis.point_mm, frame_of(sample, axis, round_off),
@@ -218,12 +198,11 @@ CylinderZone CylinderZoneFitter::fit_from(std::span<const Eigen::Vector3d> point
 }
 
 /// The best of several starts about the least-squares axis.
-CylinderZone CylinderZoneFitter::fit_best(std::span<const Eigen::Vector3d> points_mm,
-                                          const LsCylinder& start, const ZoneWeights& weights) {
+CylinderZone CylinderZoneFitter::fit_best(SpacePoints points_mm, const LsCylinder& start,
+                                          const ZoneWeights& weights) {
   const Axis& axis = start.axis;
   const double limit = limit_of(weights, start.radius_mm);
   CylinderZone best = fit_from(points_mm, axis, weights, limit);
-  int linear_programs = best.linear_programs;
   int pivots = best.pivots;
   const auto side = across(axis.direction);
   for (const double tilt : other_tilts(points_mm, start, weights)) {
@@ -233,20 +212,20 @@ CylinderZone CylinderZoneFitter::fit_best(std::span<const Eigen::Vector3d> point
       const Eigen::Vector3d direction = axis.direction + std::tan(tilt) * (side * lean);
       const CylinderZone zone =
           fit_from(points_mm, {axis.point_mm, direction.normalized()}, weights, limit);
-      linear_programs += zone.linear_programs;
       pivots += zone.pivots;
       const bool found = zone.ending == ZoneEnding::kConverged;
-      if (found && value_of(zone, weights) < value_of(best, weights)) best = zone;
+      if (found && weights.value({zone.inner_radius_mm, zone.outer_radius_mm}) <
+                       weights.value({best.inner_radius_mm, best.outer_radius_mm}))
+        best = zone;
     }
   }
-  best.linear_programs = linear_programs;
   best.pivots = pivots;
   return best;
 }
 
 core::Result<CylinderZone> CylinderZoneFitter::fit(
-    std::span<const Eigen::Vector3d> points_mm,
-    const std::optional<Eigen::Vector3d>& near_direction, const ZoneWeights& weights) {
+    SpacePoints points_mm, const std::optional<Eigen::Vector3d>& near_direction,
+    const ZoneWeights& weights) {
   if (points_mm.empty()) return core::fail(core::Code::kNoPoints, "there are no points");
   auto start = ls_cylinder(spread(points_mm, kCylinderSample, sample_), near_direction);
   // A sample may miss a second layer of the data, or the row that is not finite.

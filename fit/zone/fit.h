@@ -10,6 +10,8 @@
 #include "core/result.h"
 #include "fit/geometry/axis.h"
 #include "fit/geometry/contacts.h"
+#include "fit/geometry/points.h"
+#include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/zone/descent.h"
 
@@ -29,8 +31,7 @@ struct ZoneFit {
   Contacts outer;  ///< Rows in contact, with multipliers >= 0 that sum to 1.
   Contacts inner;
   int passes = 0;                          ///< Passes over all points; 0 if no sample was needed.
-  int linear_programs = 0;                 ///< linear programs solved, over all starts.
-  int pivots = 0;                          ///< Pivots of these linear programs.
+  int pivots = 0;                          ///< Pivots of all linear programs.
   ZoneEnding ending = ZoneEnding::kLimit;  ///< Why the descent ended.
 
   [[nodiscard]] double width_mm() const { return outer_radius_mm - inner_radius_mm; }
@@ -38,20 +39,12 @@ struct ZoneFit {
 using CircleZone = ZoneFit<Eigen::Vector2d>;
 using CylinderZone = ZoneFit<Axis>;
 
-/// Centre and radius at which the search for a centre starts.
-template <int D>
-struct CenterStart {
-  Eigen::Matrix<double, D, 1> center_mm = Eigen::Matrix<double, D, 1>::Zero();
-  double radius_mm = 0.0;
-};
-
-/// Fits zones of circles (D = 2) or spheres (D = 3). An object keeps its memory: after the first
-/// fit, sets of the same size need no more. The same input gives the same bits, whatever was fitted
-/// before.
+/// Fits zones of circles (D = 2) or spheres (D = 3). The search starts at the least-squares circle
+/// (algebraic) or sphere of some points spread over the data; see ZoneDescent for the rest and the
+/// cost. Circumscribed circles and spheres are convex and start anywhere.
 ///
-/// The search starts at the least-squares circle (algebraic) or sphere of at most some hundred
-/// points spread over the data; see ZoneDescent for the rest and the cost. Circumscribed circles
-/// and spheres are convex and start anywhere.
+/// An object keeps its memory: after the first fit, sets of the same size need no more. The same
+/// input gives the same bits, whatever was fitted before.
 template <int D>
 class CenterZoneFitter {
  public:
@@ -71,7 +64,7 @@ class CenterZoneFitter {
                           double limit_mm = std::numeric_limits<double>::infinity());
 
  private:
-  core::Result<CenterStart<D>> start_of(std::span<const Point> points_mm);
+  core::Result<LsCenter<D>> start_of(std::span<const Point> points_mm);
 
   std::vector<Point> sample_;
   ZoneDescent<CenterFrame<D>> descent_;
@@ -86,11 +79,11 @@ class CylinderZoneFitter {
  public:
   /// @param near_direction  Start direction; without it the half sphere is searched for starts.
   /// @return As CenterZoneFitter::fit().
-  core::Result<CylinderZone> fit(std::span<const Eigen::Vector3d> points_mm,
+  core::Result<CylinderZone> fit(SpacePoints points_mm,
                                  const std::optional<Eigen::Vector3d>& near_direction,
                                  const ZoneWeights& weights = kMinimumZone);
   /// Fits from a given axis, as CenterZoneFitter::fit_from().
-  CylinderZone fit_from(std::span<const Eigen::Vector3d> points_mm, const Axis& axis,
+  CylinderZone fit_from(SpacePoints points_mm, const Axis& axis,
                         const ZoneWeights& weights = kMinimumZone,
                         double limit_mm = std::numeric_limits<double>::infinity());
   /// The least-squares cylinder from which the last fit() started; that of a sample if there are
@@ -98,15 +91,11 @@ class CylinderZoneFitter {
   [[nodiscard]] const LsCylinder& start() const { return start_; }
 
  private:
-  CylinderZone fit_best(std::span<const Eigen::Vector3d> points_mm, const LsCylinder& start,
-                        const ZoneWeights& weights);
+  CylinderZone fit_best(SpacePoints points_mm, const LsCylinder& start, const ZoneWeights& weights);
 
   LsCylinder start_;
   std::vector<Eigen::Vector3d> sample_;
   ZoneDescent<CylinderFrame> descent_;
 };
-
-extern template class CenterZoneFitter<2>;
-extern template class CenterZoneFitter<3>;
 
 }  // namespace rondure::fit

@@ -3,10 +3,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
+#include "core/units.h"
 #include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
 #include "fit/proof/axis_cover.h"
 #include "fit/proof/certificate.h"
 #include "fit/zone/simplex.h"
@@ -18,6 +21,29 @@ struct GlobalSearchOptions {
   int max_boxes = 20000;       ///< Boxes bounded before the search gives up; >= 1.
   double tolerance_mm = 1e-9;  ///< Boxes are closed this far below the zone, or 4e-12 of the
                                ///< coordinate range if that is more; it adds to the gap.
+};
+
+/// Extent of the proof of a minimum-zone or maximum inscribed circle.
+struct CenterProofOptions {
+  /// Search all centres, as for a reported value; false: local proof only, as inside loops.
+  bool global = true;
+  GlobalSearchOptions search;
+};
+
+/// Directions that are searched for a better axis.
+struct AxisScope {
+  enum class Kind { kCone, kHalfSphere };
+  Kind kind = Kind::kHalfSphere;
+  Eigen::Vector3d nominal = Eigen::Vector3d::UnitZ();  ///< Middle of the cone.
+  double cone_rad = 10.0 * core::kDegree;              ///< Half angle of the cone, below 80 deg.
+};
+
+/// Extent of the proof of a minimum-zone, circumscribed or inscribed cylinder.
+struct CylinderProofOptions {
+  /// Scopes to try in order until one is proven. Empty: local proof only, as is enough inside
+  /// loops.
+  std::vector<AxisScope> scopes;
+  GlobalSearchOptions search;
 };
 
 /// Most searches of one proof. Each but the first starts at the better place found by the last one.
@@ -55,36 +81,33 @@ struct GlobalSearch {
 /// Proves that no centre of the plane has a lower value than the claim, or finds one that has. For
 /// minimum zones, and for maximum inscribed circles with centres inside the hull of the points.
 ///
-/// The centres that can be better lie in one square (zone/internal/center_region.h), which is
-/// searched by branch and bound (proof/internal/zone_box.h). Around the optimum, first-order
-/// growth, less the curvature K e^2 that could oppose it, closes a square of its own.
+/// Branch and bound (zone/internal/zone_box.h) in the square that holds every better centre
+/// (zone/internal/center_region.h). Around the optimum, first-order growth, less the curvature
+/// K e^2 that could oppose it, closes a square of its own.
 ///
-/// @param points_mm  The data of the claim.
-/// @param center_mm  Centre of the claim.
+/// @param points_mm, center_mm  Data and centre of the claim.
 /// @return How the search ended: `proven`, or with a `better` centre, or with a `reason`.
 /// Source: methods, certificates section 2.
-[[nodiscard]] GlobalSearch<Eigen::Vector2d> search_centers(
-    std::span<const Eigen::Vector2d> points_mm, const Eigen::Vector2d& center_mm,
-    const ZoneClaim& claim, const GlobalSearchOptions& options = {});
+[[nodiscard]] GlobalSearch<Eigen::Vector2d> search_centers(PlanePoints points_mm,
+                                                           const Eigen::Vector2d& center_mm,
+                                                           const ZoneClaim& claim,
+                                                           const GlobalSearchOptions& options = {});
 
-/// Proves that no axis whose direction is in one of `directions` has a lower value than the claim,
-/// or finds one that has. For maximum inscribed cylinders only axes within the reach of the claim
-/// are considered.
+/// The same for axes whose direction is in one of `directions`; for maximum inscribed cylinders
+/// only within the reach of the claim.
 ///
 /// Branch and bound over directions. Turning a direction of a box to its middle moves a point by at
 /// most |z| sin + rho (1 - cos) of the opening of the box, so the projected points restrict the
-/// centres to one square (zone/internal/center_region.h). The remaining set of axes, with four
-/// parameters, is bounded by one linear programme (proof/internal/zone_box.h). Around the optimum,
-/// first-order growth, less the curvature K e^2, closes a ball; where growth is of second order
-/// (five contacts), boxes are closed `tolerance_mm` below the zone.
+/// centres to one square; one linear programme bounds the axes that remain, with four parameters.
+/// Around the optimum growth closes a ball; where growth is of second order (five contacts), boxes
+/// are closed `tolerance_mm` below the zone.
 ///
 /// @param axis        Axis of the claim, among the directions; its point midway between the ends.
 /// @param half_length_mm  Scale of the tilts in claim.growth.
 /// @return How the search ended, as search_centers().
 /// Source: methods, certificates section 3.
-[[nodiscard]] GlobalSearch<Axis> search_axes(std::span<const Eigen::Vector3d> points_mm,
-                                             const Axis& axis, double half_length_mm,
-                                             const ZoneClaim& claim,
+[[nodiscard]] GlobalSearch<Axis> search_axes(SpacePoints points_mm, const Axis& axis,
+                                             double half_length_mm, const ZoneClaim& claim,
                                              std::span<const DirectionBox> directions,
                                              const GlobalSearchOptions& options = {});
 

@@ -37,8 +37,7 @@ double growth_on_face(ContactRows<K> outer, ContactRows<K> inner, const ZoneWeig
 
 template <int K>
 const ContactRow<K>& row_of(ContactRows<K> rows, std::size_t index) {
-  return *std::find_if(rows.begin(), rows.end(),
-                       [&](const ContactRow<K>& row) { return row.index == index; });
+  return *std::ranges::find(rows, index, &ContactRow<K>::index);
 }
 
 using Columns = Eigen::Matrix<double, 4, 2 * static_cast<int>(Contacts::kCapacity)>;
@@ -133,16 +132,9 @@ LocalProof<K> prove_local(ContactRows<K> outer, ContactRows<K> inner, double rea
   }
   if (!sides_kept) return proof;
   double claimed = 0.0;
-  if (!outer.empty()) {
-    double high = -std::numeric_limits<double>::infinity();
-    for (const auto& c : outer) high = std::max(high, c.distance - base);
-    claimed += weights.outer * high;
-  }
-  if (!inner.empty()) {
-    double low = std::numeric_limits<double>::infinity();
-    for (const auto& c : inner) low = std::min(low, c.distance - base);
-    claimed -= weights.inner * low;
-  }
+  const auto distance = [&](const ContactRow<K>& c) { return c.distance - base; };
+  if (!outer.empty()) claimed += weights.outer * extremes_of(outer, distance).high;
+  if (!inner.empty()) claimed -= weights.inner * extremes_of(inner, distance).low;
   proof.gap_mm = claimed - supported + imbalance.template lpNorm<1>() * reach_mm;
   proof.growth = first_order_growth<K>(outer, inner, weights);
   proof.strict = proof.growth > kGrowthNoise;
@@ -177,22 +169,17 @@ Certificate certify_local(const LocalProof<K>& proof, double width_mm, double ro
   return out;
 }
 
-template struct LocalProof<2>;
 template double first_order_growth<2>(ContactRows<2>, ContactRows<2>, const ZoneWeights&);
 template Eigen::Matrix<double, 2, 1> curvature_descent<2>(std::span<const Contact>,
                                                           std::span<const Contact>, ContactRows<2>,
                                                           ContactRows<2>, const ZoneWeights&);
 template LocalProof<2> prove_local<2>(ContactRows<2>, ContactRows<2>, double, const ZoneWeights&);
 template Certificate certify_local<2>(const LocalProof<2>&, double, double, std::string);
-template struct LocalProof<3>;
-template double first_order_growth<3>(ContactRows<3>, ContactRows<3>, const ZoneWeights&);
 template Eigen::Matrix<double, 3, 1> curvature_descent<3>(std::span<const Contact>,
                                                           std::span<const Contact>, ContactRows<3>,
                                                           ContactRows<3>, const ZoneWeights&);
 template LocalProof<3> prove_local<3>(ContactRows<3>, ContactRows<3>, double, const ZoneWeights&);
 template Certificate certify_local<3>(const LocalProof<3>&, double, double, std::string);
-template struct LocalProof<4>;
-template double first_order_growth<4>(ContactRows<4>, ContactRows<4>, const ZoneWeights&);
 template Eigen::Matrix<double, 4, 1> curvature_descent<4>(std::span<const Contact>,
                                                           std::span<const Contact>, ContactRows<4>,
                                                           ContactRows<4>, const ZoneWeights&);

@@ -92,8 +92,7 @@ class AxisSearcher {
   }
 
   /// Region of the centres whose value is not above the claim if distances change by up to `move`.
-  [[nodiscard]] CenterRegion region_of(const View& view, std::span<const Eigen::Vector2d> flat,
-                                       double move) const {
+  [[nodiscard]] CenterRegion region_of(const View& view, PlanePoints flat, double move) const {
     const ZoneWeights& weights = claim_.weights;
     if (weights.outer > 0.0 && weights.inner > 0.0)
       return center_region(flat, claim_.value_mm + 2.0 * move);
@@ -110,10 +109,6 @@ class AxisSearcher {
     const double limit = 1.1 * claim_.reach.limit_mm + crossing.lpNorm<Eigen::Infinity>();
     return one_sided_region(flat, weights, std::max(0.0, -claim_.value_mm - move),
                             Eigen::Vector2d::Zero(), limit);
-  }
-
-  [[nodiscard]] double value_of(double low, double high) const {
-    return claim_.weights.outer * high - claim_.weights.inner * low;
   }
 
   [[nodiscard]] ZoneBoxBound bound(const View& view, const ZoneBox& square) const {
@@ -172,7 +167,7 @@ class AxisSearcher {
     const ZoneBoxBound& found = *open;
     const Axis candidate = axis_of(view, found);
     if (zone_of(chosen_, candidate).value >= claim_.value_mm) return split(box);
-    const Zone zone = zone_of(points_, candidate);
+    const ExtremeRows zone = zone_of(points_, candidate);
     if (zone.value < claim_.value_mm - slack_) {
       out_.better = Axis{candidate.point_mm + axis_.point_mm, candidate.direction};
       return;
@@ -213,7 +208,7 @@ class AxisSearcher {
     if (narrow || levels == 0 || out_.boxes >= options_.max_boxes) return found;
     auto squares = quarters(square);
     // The square with the most promising axis comes first, as it is the most likely to stay open.
-    std::sort(squares.begin(), squares.end(), [&](const ZoneBox& a, const ZoneBox& b) {
+    std::ranges::sort(squares, [&](const ZoneBox& a, const ZoneBox& b) {
       return (a.center_mm - found.center_mm).squaredNorm() <
              (b.center_mm - found.center_mm).squaredNorm();
     });
@@ -231,30 +226,12 @@ class AxisSearcher {
     return out;
   }
 
-  struct Zone {
-    std::size_t far = 0;
-    std::size_t near = 0;
-    double value = 0.0;
-  };
-
-  [[nodiscard]] Zone zone_of(SpacePoints points, const Axis& axis) const {
-    Zone out;
-    double low = std::numeric_limits<double>::infinity();
-    double high = 0.0;
+  [[nodiscard]] ExtremeRows zone_of(SpacePoints points, const Axis& axis) const {
     const Eigen::Matrix<double, 3, 2> frame = across(axis.direction);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double square = (frame.transpose() * (points[i] - axis.point_mm)).squaredNorm();
-      if (square > high) {
-        high = square;
-        out.far = i;
-      }
-      if (square < low) {
-        low = square;
-        out.near = i;
-      }
-    }
-    out.value = value_of(std::sqrt(low), std::sqrt(high));
-    return out;
+    const auto square = [&](const auto& p) {
+      return (frame.transpose() * (p - axis.point_mm)).squaredNorm();
+    };
+    return extreme_rows(points, square, claim_.weights);
   }
 
   [[nodiscard]] double least_bound(const DirectionBox& box, const View& view) const {

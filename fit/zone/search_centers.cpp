@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <limits>
 
@@ -17,12 +16,6 @@ namespace {
 double closed_half_side(double growth, double inner_radius) {
   return std::min(0.25 * inner_radius, 0.64 * growth * inner_radius);
 }
-
-struct ExtremePoints {
-  std::size_t far = 0;
-  std::size_t near = 0;
-  double value = 0.0;
-};
 
 class CenterSearcher {
  public:
@@ -98,25 +91,6 @@ class CenterSearcher {
     return !inscribed() || meets_hull(hull_, box.center_mm, box.half_side_mm);
   }
 
-  [[nodiscard]] ExtremePoints extremes(const Eigen::Vector2d& center) const {
-    ExtremePoints out;
-    double low = std::numeric_limits<double>::infinity();
-    double high = 0.0;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const double square = (points_[i] - center).squaredNorm();
-      if (square > high) {
-        high = square;
-        out.far = i;
-      }
-      if (square < low) {
-        low = square;
-        out.near = i;
-      }
-    }
-    out.value = claim_.weights.outer * std::sqrt(high) - claim_.weights.inner * std::sqrt(low);
-    return out;
-  }
-
   void visit(const ZoneBox& box) {
     if (closed_by_growth(box) || !in_hull(box)) return;
     ++out_.boxes;
@@ -125,7 +99,8 @@ class CenterSearcher {
       out_.lower_mm = std::min(out_.lower_mm, found.lower_mm);
       return;
     }
-    const ExtremePoints at = extremes(found.center_mm);
+    const auto square = [&](const auto& p) { return (p - found.center_mm).squaredNorm(); };
+    const ExtremeRows at = extreme_rows(points_, square, claim_.weights);
     if (at.value < claim_.value_mm - slack_ && in_hull({found.center_mm, 0.0, 0.0})) {
       out_.better = origin_ + found.center_mm;
       return;

@@ -84,7 +84,7 @@ void ZoneSimplex<K>::set(const ZoneRows<K>& rows, double box_mm, const ZoneWeigh
 template <int K>
 void ZoneSimplex<K>::start_basis() {
   const std::vector<double>& distances = rows_->distances();
-  const ColumnExtremes extremes = column_extremes(distances);
+  const Extremes extremes = column_extremes(distances);
   // Violations below this are round-off of the distances and do not justify a pivot.
   tolerance_ = 1e-13 * (extremes.high - extremes.low) + 4.0 * kEps * std::abs(extremes.high);
   put(0, {Column::Kind::kOuter, first_row_of(distances, extremes.high)});
@@ -232,7 +232,7 @@ template <int K>
 auto ZoneSimplex<K>::price(bool bland) -> Entering {
   const Unknowns move = -prices_.template tail<K>();
   const std::size_t count = rows_->size();
-  const ColumnExtremes extremes =
+  const Extremes extremes =
       move_column<K>(rows_->distances(), gradients_.data(), move.data(), moved_.data());
   double worst = tolerance_;
   Entering entering;
@@ -327,9 +327,8 @@ void ZoneSimplex<K>::report(ZoneStep<K>& out) const {
     if (value <= 0.0 || (outer ? weights_.outer : weights_.inner) == 0.0) continue;
     (outer ? out.outer : out.inner).push_back({c.index, value});
   }
-  const auto by_index = [](const Contact& a, const Contact& b) { return a.index < b.index; };
-  std::sort(out.outer.begin(), out.outer.end(), by_index);
-  std::sort(out.inner.begin(), out.inner.end(), by_index);
+  std::ranges::sort(out.outer, {}, &Contact::index);
+  std::ranges::sort(out.inner, {}, &Contact::index);
 }
 
 template class ZoneSimplex<1>;

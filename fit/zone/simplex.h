@@ -15,6 +15,10 @@ namespace rondure::fit {
 struct ZoneWeights {
   double outer = 1.0;
   double inner = 1.0;
+
+  [[nodiscard]] double value(const Extremes& zone) const {
+    return outer * zone.high - inner * zone.low;
+  }
 };
 inline constexpr ZoneWeights kMinimumZone{1.0, 1.0};
 inline constexpr ZoneWeights kMinimumCircumscribed{1.0, 0.0};
@@ -38,10 +42,9 @@ inline constexpr int kBoundPivotLimit = 60;  ///< Limit for linear programs that
 /// Minimises  outer * max_i (r_i + J_i d) - inner * min_i (r_i + J_i d)  over |d_k| <= box.
 ///
 /// Revised primal simplex on the dual programme, which has K + 2 rows, and a column for each point
-/// on each side and for each side of the box. Because of the box the first basis is feasible, and
-/// no first phase is needed. Pivots follow Dantzig's rule, after 300 pivots Bland's. The inverse of
-/// the basis, at most 6 x 6, is updated at each pivot and computed anew if a check at the end finds
-/// it inaccurate.
+/// on each side and for each side of the box, which makes the first basis feasible. Pivots follow
+/// Dantzig's rule, after 300 pivots Bland's. The inverse of the basis, at most 6 x 6, is updated at
+/// each pivot and computed anew if a check at the end finds it inaccurate.
 ///
 /// An object keeps its memory, and its last basis as the start of a programme whose points moved a
 /// little. Cost: O(n K) per pivot, commonly 5 to 20 pivots.
@@ -120,10 +123,5 @@ template <int K>
                                              int pivot_limit = kZonePivotLimit) {
   return ZoneSimplex<K>().solve(rows, box_mm, weights, pivot_limit);
 }
-
-extern template class ZoneSimplex<1>;
-extern template class ZoneSimplex<2>;
-extern template class ZoneSimplex<3>;
-extern template class ZoneSimplex<4>;
 
 }  // namespace rondure::fit

@@ -139,7 +139,7 @@ TEST(GlobalCircle, BoundsHoldForRandomCentres) {
 
 TEST(GlobalCircle, DoesNotDependOnLuckAtTheLimit) {
   const Points2 points = placed_circle(5, 300, 50.0, 0.01);
-  const MinZoneCircleOptions few{.global = true, .search = {.max_boxes = 1}};
+  const CenterProofOptions few{.global = true, .search = {.max_boxes = 1}};
   const auto a = min_zone_circle(points, few);
   const auto b = min_zone_circle(points, few);
   ASSERT_TRUE(a.has_value() && b.has_value());

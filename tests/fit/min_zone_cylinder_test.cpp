@@ -224,14 +224,12 @@ TEST(LsCylinder, IsExactOnPointsOfACylinder) {
   }
 }
 
-TEST(MinZoneCylinder, CountsTheProgrammesOfEveryStartAndSaysHowItEnded) {
-  // Nine points: the least-squares axis and 24 about it are starts, each of one programme at least.
+TEST(MinZoneCylinder, SaysHowTheDescentEnded) {
   const Points3 few = test::random_cylinder(2, 21, {3, 3, 35.0, 0.003});
   const auto zone = min_zone_cylinder(few, Eigen::Vector3d::UnitZ());
   ASSERT_TRUE(zone.has_value());
-  EXPECT_GE(zone->linear_programs, 25);
   EXPECT_EQ(zone->ending, ZoneEnding::kConverged);
-  // Restarts of the global search add theirs.
+  // Also after a restart of the global search.
   int restarted = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
@@ -242,10 +240,7 @@ TEST(MinZoneCylinder, CountsTheProgrammesOfEveryStartAndSaysHowItEnded) {
         min_zone_cylinder(arc, Eigen::Vector3d::UnitZ(), {.scopes = {cone}, .search = {}});
     ASSERT_TRUE(local && global);
     EXPECT_EQ(global->ending, ZoneEnding::kConverged);
-    EXPECT_GE(global->linear_programs, local->linear_programs);
-    if (global->width_mm() >= local->width_mm() - 1e-9) continue;
-    EXPECT_GT(global->linear_programs, local->linear_programs);
-    ++restarted;
+    if (global->width_mm() < local->width_mm() - 1e-9) ++restarted;
   }
   EXPECT_GT(restarted, 0);
 }

@@ -32,6 +32,7 @@ using Eigen::Vector3d;
 using test::angles_deg;
 using test::circle_of;
 using test::draw;
+using test::error_matrix;
 using test::example_balls;
 using test::example_errors;
 using test::hanging;
@@ -101,15 +102,20 @@ TEST(PublishedAxes, AMatrixAsPrintedGivesWrongErrors) {
     const auto balls = s.of_a();
     const auto p = turned({balls.begin(), balls.end()}, kA, deg * kDegree);
     const Eigen::VectorXd dp = error_matrix(p) * x;
-    const auto solve = [&](PublishedSigns signs) {
-      const PublishedMatrix m = published_a_matrix(s, deg * kDegree, signs);
+    const auto error_by = [&](const PublishedMatrix& m) {
       return Vector6(m.colPivHouseholderQr().solve(dp) - x);
     };
-    EXPECT_LT(solve(PublishedSigns::kRestored).norm(), 1e-15);
-    EXPECT_GT(solve(PublishedSigns::kAsPrinted).head<3>().norm(), 0.5 * kUm);
-    const PublishedMatrix wrong = published_a_matrix(s, deg * kDegree, PublishedSigns::kAsPrinted) -
-                                  published_a_matrix(s, deg * kDegree);
-    EXPECT_EQ((wrong.array() != 0.0).count(), 3);  // one entry a setup
+    const PublishedMatrix restored = published_a_matrix(s, deg * kDegree);
+    EXPECT_LT(error_by(restored).norm(), 1e-15);
+    PublishedMatrix printed = restored;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const Vector3d& ball = balls[static_cast<std::size_t>(k)];
+      const double product =
+          -ball.y() * std::sin(deg * kDegree) * -ball.z() * std::cos(deg * kDegree);
+      EXPECT_NE(printed(3 * k + 1, 3), product);
+      printed(3 * k + 1, 3) = product;
+    }
+    EXPECT_GT(error_by(printed).head<3>().norm(), 0.5 * kUm);
   }
 }
 
@@ -152,152 +158,17 @@ TEST(RotaryAxes, LinearisationErrorIsThatOfTheSpecification) {
 
 // ---- Section 3: rank, condition, choice of balls.
 
-struct SetupRow {
-  const char* name;
-  std::vector<Vector3d> balls;
-  double condition;
-  double tolerance;
-  std::array<double, 3> t;
-  std::array<double, 3> w;  ///< urad per um.
-};
-
-std::vector<SetupRow> table_of_section_3() {
-  const double h = std::sqrt(3.0) / 2.0 * 100.0;
-  return {{"1", example_balls(), 15.3, 0.05, {3.39, 1.69, 0.92}, {8.66, 14.14, 14.14}},
-          {"2",
-           hanging({{150, 50}, {150, 150}, {250, 150}}),
-           11.2,
-           0.06,
-           {2.35, 1.69, 1.16},
-           {8.66, 14.14, 14.14}},
-          {"rectangle",
-           hanging({{150, 50}, {150, 150}, {250, 50}, {250, 150}}),
-           12.6,
-           0.05,
-           {2.29, 1.50, 0.87},
-           {7.07, 10.00, 10.00}},
-          {"close",
-           hanging({{150, 50}, {150, 70}, {170, 50}}),
-           53.9,
-           0.05,
-           {13.5, 6.81, 2.52},
-           {43.3, 70.7, 70.7}},
-          {"on the axis",
-           hanging({{150, 0}, {150, 100}, {250, 0}}),
-           12.7,
-           0.05,
-           {2.92, 1.69, 0.65},
-           {8.66, 14.14, 14.14}},
-          {"wide",
-           hanging({{100, 0}, {100, 200}, {300, 0}}),
-           7.3,
-           0.05,
-           {1.58, 0.92, 0.65},
-           {4.33, 7.07, 7.07}},
-          {"near",
-           hanging({{50, 50}, {50, 150}, {150, 50}}),
-           7.7,
-           0.05,
-           {2.12, 0.92, 0.92},
-           {8.66, 14.14, 14.14}},
-          {"far",
-           hanging({{450, 250}, {450, 350}, {550, 250}}),
-           95.9,
-           0.05,
-           {9.51, 4.23, 2.52},
-           {8.66, 14.14, 14.14}},
-          {"three round the axis",
-           {{100, 0, 0}, {-50, h, 0}, {-50, -h, 0}},
-           1.41,
-           0.006,
-           {0.58, 0.58, 0.58},
-           {8.16, 8.16, 5.77}},
-          {"four",
-           {{100, 0, 50}, {-100, 0, 50}, {0, 100, -50}, {0, -100, -50}},
-           1.15,
-           0.006,
-           {0.50, 0.50, 0.50},
-           {5.77, 5.77, 5.00}},
-          {"six",
-           {{100, 0, 0}, {-100, 0, 0}, {0, 100, 0}, {0, -100, 0}, {0, 0, 100}, {0, 0, -100}},
-           1.22,
-           0.006,
-           {0.41, 0.41, 0.41},
-           {5.00, 5.00, 5.00}}};
-}
-
-TEST(BallSetup, GivesTheTableOfTheSpecification) {
-  for (const SetupRow& row : table_of_section_3()) {
-    SCOPED_TRACE(row.name);
-    const BallSetup found = judge_setup(row.balls);
-    EXPECT_EQ(found.rank, 6);
-    EXPECT_NEAR(found.raw_condition, row.condition, row.tolerance);
-    for (int k = 0; k < 3; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      EXPECT_NEAR(found.u_per_u(k), row.t[i], row.t[i] > 10.0 ? 0.05 : 0.0051);
-      EXPECT_NEAR(found.u_per_u(3 + k) * 1e3, row.w[i], row.w[i] > 20.0 ? 0.05 : 0.0051);
-    }
-  }
-}
-
-TEST(BallSetup, EquationTwoIsTheInverseOfTheNormalMatrix) {
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    SCOPED_TRACE(seed);
-    core::KeyedNoise random(seed, {9});
-    std::vector<Vector3d> p;
-    for (std::uint64_t i = 0; i < 3 + seed % 4; ++i) p.push_back(draw(random, 150.0));
-    const auto m = error_matrix(p);
-    const Matrix6 inverse = Matrix6(m.transpose() * m).fullPivLu().inverse();
-    const BallSetup found = judge_setup(p);
-    const Vector6 scale = inverse.diagonal().cwiseSqrt().cwiseInverse();
-    const Matrix6 difference =
-        scale.asDiagonal() * (found.covariance_per_u2 - inverse) * scale.asDiagonal();
-    EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-8);
-    double sum = 0.0;
-    for (const Vector3d& r : found.redundancy) sum += r.sum();
-    EXPECT_NEAR(sum, 3.0 * static_cast<double>(p.size()) - 6.0, 1e-9);
-    // At a point s the uncertainty of t is that with the origin there.
-    const Vector3d s = draw(random, 100.0);
-    std::vector<Vector3d> from_s;
-    for (const Vector3d& one : p) from_s.emplace_back(one - s);
-    const Matrix3d at_s = point_covariance_mm2(found.covariance_per_u2, s);
-    EXPECT_LT((at_s - judge_setup(from_s).covariance_per_u2.topLeftCorner<3, 3>()).norm(),
-              1e-9 * at_s.norm());
-  }
-}
-
-TEST(BallSetup, SpreadAloneDeterminesTheRotations) {
-  for (const double dl : {40.0, 100.0, 160.0}) {
-    for (const double dh : {30.0, 100.0}) {
-      const double diagonal = std::hypot(dh, dl);
-      for (const double third : {50.0, 50.0 + dh}) {
-        const auto v = judge_setup(hanging({{150, 50}, {150, 50 + dh}, {150 + dl, third}})).u_per_u;
-        EXPECT_NEAR(v(4), std::sqrt(2.0) / dl, 1e-12);  // radial direction: y
-        EXPECT_NEAR(v(5), std::sqrt(2.0) / dh, 1e-12);
-        EXPECT_NEAR(v(3), std::sqrt(1.5) / diagonal, 1e-12);
-      }
-      const auto v =
-          judge_setup(hanging({{150, 50}, {150, 50 + dh}, {150 + dl, 50}, {150 + dl, 50 + dh}}))
-              .u_per_u;
-      EXPECT_NEAR(v(4), 1.0 / dl, 1e-12);
-      EXPECT_NEAR(v(5), 1.0 / dh, 1e-12);
-      EXPECT_NEAR(v(3), 1.0 / diagonal, 1e-12);
-    }
-  }
-}
-
 TEST(BallSetup, ScaledConditionDoesNotKnowDistanceOrUnit) {
-  EXPECT_NEAR(judge_setup(example_balls()).condition, 2.0, 1e-12);
-  EXPECT_NEAR(judge_setup(hanging({{450, 250}, {450, 350}, {550, 250}})).condition, 2.0, 1e-12);
-  EXPECT_NEAR(judge_setup(hanging({{0.1, 0.2}, {0.1, 0.3}, {0.2, 0.2}})).condition, 2.0, 1e-12);
+  EXPECT_NEAR(setup_condition(example_balls()), 2.0, 1e-12);
+  EXPECT_NEAR(setup_condition(hanging({{450, 250}, {450, 350}, {550, 250}})), 2.0, 1e-12);
+  EXPECT_NEAR(setup_condition(hanging({{0.1, 0.2}, {0.1, 0.3}, {0.2, 0.2}})), 2.0, 1e-12);
   const auto square = hanging({{150, 50}, {150, 150}, {250, 50}, {250, 150}});
-  EXPECT_NEAR(judge_setup(square).condition, std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(setup_condition(square), std::sqrt(2.0), 1e-12);
 }
 
 TEST(BallSetup, RefusesALineAndNamesTheBallThatCuresIt) {
   const auto line = hanging({{150, 50}, {150, 150}, {150, 100}});
-  EXPECT_EQ(judge_setup(line).rank, 5);
-  EXPECT_EQ(error_matrix(line).fullPivLu().rank(), 5);
+  EXPECT_TRUE(std::isinf(setup_condition(line)));
   for (const bool nearly : {false, true}) {
     auto balls = line;
     if (nearly) balls[2].x() += 0.5;
@@ -311,9 +182,9 @@ TEST(BallSetup, RefusesALineAndNamesTheBallThatCuresIt) {
     auto cured = balls;
     cured.push_back(Vector3d(distance, 100.0, -150.0));
     EXPECT_TRUE(check_setup(cured, letters(4)));
-    EXPECT_LE(judge_setup(cured).condition, kConditionWarning);
+    EXPECT_LE(setup_condition(cured), kConditionWarning);
     cured.back().x() = 0.8 * distance;
-    EXPECT_GT(judge_setup(cured).condition, kConditionWarning);
+    EXPECT_GT(setup_condition(cured), kConditionWarning);
   }
   std::vector<Vector3d> exact;
   for (const double x : {0.0, 100.0, 200.0}) exact.emplace_back(x, 0.0, 0.0);
@@ -361,20 +232,8 @@ TEST(BallSetup, BallCentresFromTouchesAreAsUncertainAsTheSpecificationSays) {
 // ---- Section 4: solver, redundancy, outliers.
 
 TEST(RotaryStation, RedundancyNumbersAreThoseOfTheSpecification) {
-  const auto three = judge_setup(turned(example_balls(), kC, kDeg45)).redundancy;
   const std::array<Vector3d, 3> expected = {
       {{0.29, 0.29, 0.58}, {0.29, 0.29, 0.33}, {0.17, 0.17, 0.58}}};
-  for (std::size_t i = 0; i < 3; ++i)
-    EXPECT_LT((three[i] - expected[i]).cwiseAbs().maxCoeff(), 0.0051) << i;
-  for (const Vector3d& r : judge_setup(example_balls()).redundancy) EXPECT_NEAR(r.x(), 0.0, 1e-12);
-  for (const Vector3d& r : judge_setup(turned(example_balls(), kC, 2.0 * kDeg45)).redundancy)
-    EXPECT_NEAR(r.y(), 0.0, 1e-12);
-  const auto square = hanging({{150, 50}, {150, 150}, {250, 50}, {250, 150}});
-  for (const Vector3d& r : judge_setup(turned(square, kC, kDeg45)).redundancy)
-    EXPECT_LT((r - Vector3d(0.44, 0.44, 0.62)).cwiseAbs().maxCoeff(), 0.0051);
-  for (const Vector3d& r : judge_setup(square).redundancy)
-    EXPECT_LT((r - Vector3d(0.25, 0.62, 0.62)).cwiseAbs().maxCoeff(), 0.0051);
-  // The solver states the same numbers.
   const auto study = identify_rotary_axis(example({.references = 0}));
   ASSERT_TRUE(study) << study.error().what;
   const RotaryStation& station = station_at(*study, 45.0);
@@ -943,13 +802,6 @@ TEST(RotaryAxes, WorkedExampleWithNoise) {
 TEST(RotaryAxes, WorkedExampleOfTheAAxis) {
   const auto balls = hanging({{150, 50}, {150, 150}, {250, 150}});
   const auto angles = angles_deg(0, 90, 10);
-  for (const double angle : angles)
-    EXPECT_NEAR(judge_setup(turned(balls, kA, angle)).raw_condition, 11.15, 0.0051);
-  const auto u = [&](double deg) { return judge_setup(turned(balls, kA, deg * kDegree)).u_per_u; };
-  EXPECT_LT((u(0).head<3>() - Vector3d(2.35, 1.69, 1.16)).cwiseAbs().maxCoeff(), 0.0051);
-  EXPECT_LT((u(45).head<3>() - Vector3d(2.35, 0.71, 1.93)).cwiseAbs().maxCoeff(), 0.0051);
-  EXPECT_LT((u(90).head<3>() - Vector3d(2.35, 1.16, 1.69)).cwiseAbs().maxCoeff(), 0.0051);
-  EXPECT_LT((u(45).tail<3>() * 1e3 - Vector3d(8.66, 17.3, 10.0)).cwiseAbs().maxCoeff(), 0.051);
   // Over a quarter arc the sum is found however weak the split is; as published the same.
   const auto truth = [](double phi) {
     Vector6 out = example_errors(phi);

@@ -31,6 +31,17 @@ inline std::vector<Eigen::Vector3d> hanging(const std::vector<std::array<double,
   return out;
 }
 
+/// Rows of the equation dp = t + w x p for balls relative to the origin of the axis: [I3, -[p]x].
+inline Eigen::Matrix<double, Eigen::Dynamic, 6> error_matrix(
+    const std::vector<Eigen::Vector3d>& p_mm) {
+  Eigen::Matrix<double, Eigen::Dynamic, 6> out(3 * static_cast<Eigen::Index>(p_mm.size()), 6);
+  for (std::size_t i = 0; i < p_mm.size(); ++i) {
+    out.middleRows<3>(3 * static_cast<Eigen::Index>(i)) << Eigen::Matrix3d::Identity(),
+        -fit::cross_matrix(p_mm[i]);
+  }
+  return out;
+}
+
 /// n angles from first to last, both included.
 inline std::vector<double> angles_deg(double first, double last, int n) {
   std::vector<double> out;

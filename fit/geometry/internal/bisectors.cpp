@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/units.h"
-#include "fit/geometry/points.h"
+#include "fit/geometry/column_extremes.h"
 
 namespace rondure::fit {
 namespace {
@@ -55,13 +55,8 @@ double strip_width(const std::vector<Eigen::Vector2d>& points) {
       const Eigen::Vector2d along = points[j] - points[i];
       if (along.norm() == 0.0) continue;
       const Eigen::Vector2d normal = Eigen::Vector2d(-along.y(), along.x()) / along.norm();
-      double low = std::numeric_limits<double>::infinity();
-      double high = -low;
-      for (const Eigen::Vector2d& p : points) {
-        low = std::min(low, p.dot(normal));
-        high = std::max(high, p.dot(normal));
-      }
-      least = std::min(least, high - low);
+      const auto height = [&](const auto& p) { return p.dot(normal); };
+      least = std::min(least, extremes_of(points, height).width());
     }
   }
   return least;
@@ -79,7 +74,7 @@ double disc_radius(const std::vector<Eigen::Vector2d>& points, double width, dou
     return 2.0 * nearest * (c - std::sqrt(c * c - width / nearest));
   }
   if (!(strip > width)) return std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d mean = mean_point(std::span<const Eigen::Vector2d>(points));
+  const Eigen::Vector2d mean = mean_point(PlanePoints(points));
   double reach = 0.0;
   for (const Eigen::Vector2d& p : points) reach = std::max(reach, (p - mean).norm());
   const double half_side = reach + reach * reach / (2.0 * (strip - width));
@@ -88,8 +83,7 @@ double disc_radius(const std::vector<Eigen::Vector2d>& points, double width, dou
 
 }  // namespace
 
-BisectorSearch search_bisectors(std::span<const Eigen::Vector2d> points_mm,
-                                const Eigen::Vector2d& start_mm) {
+BisectorSearch search_bisectors(PlanePoints points_mm, const Eigen::Vector2d& start_mm) {
   std::vector<Eigen::Vector2d> points;
   for (const Eigen::Vector2d& p : points_mm) points.emplace_back(p - start_mm);
   const Eigen::Vector2d origin = Eigen::Vector2d::Zero();

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <span>
-
 #include <Eigen/Core>
+
+#include "fit/geometry/points.h"
 
 namespace rondure::fit {
 
@@ -27,7 +27,7 @@ struct BisectorSearch {
 /// @return `complete` is false only if S is not above the zone found: the narrowest zone may then
 ///         be a strip, with its centre at infinity. Cost n^4/8 crossings.
 /// Source: methods, cylindricity sections 9.1 and 9.2, certificates section 2.
-[[nodiscard]] BisectorSearch search_bisectors(std::span<const Eigen::Vector2d> points_mm,
+[[nodiscard]] BisectorSearch search_bisectors(PlanePoints points_mm,
                                               const Eigen::Vector2d& start_mm);
 
 }  // namespace rondure::fit

@@ -14,7 +14,7 @@ struct Edge {
 
 /// The edges between neighbours by angle; a single vertex gives one edge of length 0.
 std::vector<Edge> edges(std::vector<Eigen::Vector2d>& vertices) {
-  std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) {
+  std::ranges::sort(vertices, [](const auto& a, const auto& b) {
     return std::atan2(a.y(), a.x()) < std::atan2(b.y(), b.x());
   });
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());

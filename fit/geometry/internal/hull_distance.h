@@ -14,11 +14,9 @@ struct HullDistance {
   bool vertices = false;  ///< The closest points are a vertex of each, not inside an edge.
 };
 
-/// Distance between the convex hulls of two sets of unit vectors (the contacts of a centre).
-///
-/// Points of one circle are in convex position, so the edges of the hull are the chords between
-/// neighbours by angle, and two such hulls meet only where chords cross or vertices coincide.
-/// Testing all pairs of edges is therefore exact.
+/// Distance between the convex hulls of two sets of unit vectors (the contacts of a centre). Exact:
+/// points of one circle are in convex position, so that the edges are the chords between neighbours
+/// by angle, and hulls meet only where chords cross or vertices coincide.
 ///
 /// @param first, second  Not empty; unit vectors, any order, duplicates allowed.
 [[nodiscard]] HullDistance hull_distance(std::vector<Eigen::Vector2d> first,

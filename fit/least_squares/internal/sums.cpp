@@ -78,9 +78,9 @@ bool StretchExtremes::may_hold(std::size_t i, double change_mm) const {
   return low_mm_[i] <= lowest_mm_ + 2.0 * change_mm || high_mm_[i] >= highest_mm_ - 2.0 * change_mm;
 }
 
-PassSums<5> cylinder_sums(std::span<const Eigen::Vector3d> points_mm,
-                          const Eigen::Vector3d& origin_mm, const CylinderFrame& frame,
-                          double radius_mm, const PassOptions& options) {
+PassSums<5> cylinder_sums(SpacePoints points_mm, const Eigen::Vector3d& origin_mm,
+                          const CylinderFrame& frame, double radius_mm,
+                          const PassOptions& options) {
   using enum ls_kernel::Place;
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
   PassSums<5> out;
@@ -136,9 +136,9 @@ PassSums<5> cylinder_sums(std::span<const Eigen::Vector3d> points_mm,
   return out;
 }
 
-PassSums<3> circle_sums(std::span<const Eigen::Vector2d> points_mm,
-                        const Eigen::Vector2d& origin_mm, const Eigen::Vector2d& center_mm,
-                        double radius_mm, const PassOptions& options) {
+PassSums<3> circle_sums(PlanePoints points_mm, const Eigen::Vector2d& origin_mm,
+                        const Eigen::Vector2d& center_mm, double radius_mm,
+                        const PassOptions& options) {
   using enum ls_kernel::Place;
   static_assert(sizeof(Eigen::Vector2d) == 2 * sizeof(double));
   PassSums<3> out;

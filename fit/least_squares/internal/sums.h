@@ -4,11 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <span>
 
 #include <Eigen/Core>
 
 #include "fit/geometry/cylinder_frame.h"
+#include "fit/geometry/points.h"
 #include "fit/least_squares/internal/gauss_newton.h"
 
 namespace rondure::fit {
@@ -42,26 +42,17 @@ class StretchExtremes {
   double highest_mm_ = 0.0;
 };
 
-/// Least and largest distance of n points.
-struct DistanceRange {
-  double low_mm = std::numeric_limits<double>::infinity();
-  double high_mm = 0.0;
-};
 /// Finds the least and largest of `distance_mm(i)` for i < n. With `extremes`, searches only the
 /// stretches that can hold them after distances have changed by `change_mm` at most.
 template <class Distance>
-[[nodiscard]] DistanceRange distance_range(std::size_t n, const Distance& distance_mm,
-                                           const StretchExtremes* extremes = nullptr,
-                                           double change_mm = 0.0) {
-  DistanceRange out;
+[[nodiscard]] Extremes distance_range(std::size_t n, const Distance& distance_mm,
+                                      const StretchExtremes* extremes = nullptr,
+                                      double change_mm = 0.0) {
+  Extremes out;
   const std::size_t size = extremes == nullptr ? n : extremes->size();
   for (std::size_t first = 0; first < n; first += size) {
     if (extremes != nullptr && !extremes->may_hold(first / size, change_mm)) continue;
-    for (std::size_t i = first; i < std::min(n, first + size); ++i) {
-      const double r = distance_mm(i);
-      out.low_mm = std::min(out.low_mm, r);
-      out.high_mm = std::max(out.high_mm, r);
-    }
+    for (std::size_t i = first; i < std::min(n, first + size); ++i) out.take(distance_mm(i));
   }
   return out;
 }
@@ -86,21 +77,19 @@ struct PassOptions {
 /// Gauss-Newton sums of the radial distances about a cylinder, in the unknowns of CylinderFrame and
 /// the radius: gradient (frame.row(p), -1).
 ///
-/// One pass without a copy. Points within 0.2 % of the radius need no square root or division: the
-/// binomial series takes their place, and the matrix, but not the right side, uses the position of
-/// a point in radii for its unit vector. Blocks of 1024 points are summed pairwise. A coordinate
-/// that is not finite makes `squares` not finite; a radius that is not positive makes it infinite.
+/// Points within 0.2 % of the radius need no square root or division: the binomial series takes
+/// their place, and the matrix, but not the right side, uses the position of a point in radii for
+/// its unit vector. Blocks of 1024 points are summed pairwise. A coordinate that is not finite
+/// makes `squares` not finite; a radius that is not positive makes it infinite.
 ///
 /// @param origin_mm  Origin to which `frame` is relative.
-[[nodiscard]] PassSums<5> cylinder_sums(std::span<const Eigen::Vector3d> points_mm,
-                                        const Eigen::Vector3d& origin_mm,
+[[nodiscard]] PassSums<5> cylinder_sums(SpacePoints points_mm, const Eigen::Vector3d& origin_mm,
                                         const CylinderFrame& frame, double radius_mm,
                                         const PassOptions& options = {});
 
 /// The same sums about a circle, in the unknowns centre and radius. The centre is relative to the
 /// origin.
-[[nodiscard]] PassSums<3> circle_sums(std::span<const Eigen::Vector2d> points_mm,
-                                      const Eigen::Vector2d& origin_mm,
+[[nodiscard]] PassSums<3> circle_sums(PlanePoints points_mm, const Eigen::Vector2d& origin_mm,
                                       const Eigen::Vector2d& center_mm, double radius_mm,
                                       const PassOptions& options = {});
 

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "fit/rotary/errors.h"
+
 namespace rondure::fit {
 namespace {
 
@@ -14,22 +16,10 @@ constexpr double kLobeShare = 0.75;
 constexpr double kLengthShare = 0.20;
 constexpr double kSpotShare = 0.05;
 
-Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
-Eigen::Matrix3d rotation(const Eigen::Vector3d& w) {
-  const double angle = w.norm();
-  if (angle == 0.0) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
-}
-
 /// J of exp(w + dw) = exp(w) exp(J dw). The angles here are far below 0.01 rad, so that the series
 /// is exact to the last bit.
 Eigen::Matrix3d right_jacobian(const Eigen::Vector3d& w) {
-  const Eigen::Matrix3d m = cross(w);
+  const Eigen::Matrix3d m = cross_matrix(w);
   const double square = w.squaredNorm();
   return Eigen::Matrix3d::Identity() - (0.5 - square / 24.0) * m +
          (1.0 / 6.0 - square / 120.0) * m * m;
@@ -90,8 +80,8 @@ void JointModel::group_targets(std::span<const JointPose> poses) {
 std::size_t JointModel::shared() const {
   std::size_t count = 0;
   for (const auto& rows : groups_) {
-    const bool several = std::any_of(
-        rows.begin(), rows.end(), [&](int row) { return pose_of(row) != pose_of(rows.front()); });
+    const bool several =
+        std::ranges::any_of(rows, [&](int row) { return pose_of(row) != pose_of(rows.front()); });
     count += several ? 1 : 0;
   }
   return count;
@@ -137,7 +127,7 @@ Eigen::Isometry3d JointModel::error(const Eigen::VectorXd& x, int pose) const {
   const Eigen::Map<const Eigen::Matrix<double, 6, 1>> u(at.prior.data());
   const Eigen::Matrix<double, 6, 1> e = u.cwiseProduct(x.segment<6>(pose_column(pose)));
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  motion.linear() = rotation(e.tail<3>());
+  motion.linear() = error_motion(Eigen::Vector3d::Zero(), e.tail<3>()).linear();
   motion.translation() = at.pivot_W_mm + e.head<3>() - motion.linear() * at.pivot_W_mm;
   return motion;
 }
@@ -205,7 +195,7 @@ void JointModel::evaluate(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> 
     const Eigen::RowVector3d out_W = at.out_P.transpose() * at.turn_PW;
     row.segment<3>(pose_column(k)) = -out_W.cwiseProduct(u.head<3>().transpose());
     row.segment<3>(pose_column(k) + 3) =
-        (out_W * cross(at.arm_W) * right_jacobian(-w)).cwiseProduct(u.tail<3>().transpose());
+        (out_W * cross_matrix(at.arm_W) * right_jacobian(-w)).cwiseProduct(u.tail<3>().transpose());
   }
   whiten(residuals, derivatives);
   const int priors = unknowns() - kCylinder;
@@ -239,7 +229,7 @@ Eigen::Matrix<double, 6, 6> JointModel::error_of_unknowns(int pose) const {
   const Eigen::Matrix3d turn_PW = X_WP.linear().transpose();
   Eigen::Matrix<double, 6, 6> map = Eigen::Matrix<double, 6, 6>::Zero();
   map.topLeftCorner<3, 3>() = turn_PW;
-  map.topRightCorner<3, 3>() = -turn_PW * cross(X_WP.translation() - at.pivot_W_mm);
+  map.topRightCorner<3, 3>() = -turn_PW * cross_matrix(X_WP.translation() - at.pivot_W_mm);
   map.bottomRightCorner<3, 3>() = turn_PW;
   const Eigen::Map<const Eigen::Matrix<double, 6, 1>> u(at.prior.data());
   return map * u.asDiagonal();

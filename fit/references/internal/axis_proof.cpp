@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +11,6 @@
 #include <Eigen/Geometry>
 
 #include "core/units.h"
-#include "fit/geometry/points.h"
 #include "fit/proof/axis_cover.h"
 
 namespace rondure::fit {
@@ -20,10 +18,6 @@ namespace {
 
 /// Most descents on the points nearest to the sides of a zone; each starts at the last result.
 constexpr int kClosePasses = 10;
-
-double minimised(const Extremes& zone, const ZoneWeights& weights) {
-  return weights.outer * zone.high - weights.inner * zone.low;
-}
 
 /// Angle between two lines [rad].
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -48,7 +42,7 @@ class ScopeSearcher {
         return false;
       }
       const LocalProof<4>& local = proof.proven.proof;
-      const double value = minimised(proof.proven.zone, weights_);
+      const double value = weights_.value(proof.proven.zone);
       const auto search = search_axes(
           points_, proof.axis, proof.half_length,
           {value, local.growth, local.outer, local.inner, weights_, reach_}, directions, options_);
@@ -62,8 +56,7 @@ class ScopeSearcher {
         return true;
       }
       AxisProof next = prove_axis(points_, descended(*search.better, value), weights_);
-      if (!(minimised(next.proven.zone, weights_) < value)) {
-        proof.linear_programs += next.linear_programs;
+      if (!(weights_.value(next.proven.zone) < value)) {
         proof.certificate.reason = fmt::format(
             "a better axis was met, its optimum was not reached; better by {:.3g} mm at least",
             value - value_about(*search.better));
@@ -77,14 +70,11 @@ class ScopeSearcher {
   }
 
  private:
+  [[nodiscard]] Extremes zone_about(const Axis& axis) const {
+    return extremes_of(points_, [&](const auto& p) { return distance_mm(axis, p); });
+  }
   [[nodiscard]] double value_about(const Axis& axis) const {
-    Extremes zone{std::numeric_limits<double>::infinity(), 0.0};
-    for (const Eigen::Vector3d& p : points_) {
-      const double r = distance_mm(axis, p);
-      zone.low = std::min(zone.low, r);
-      zone.high = std::max(zone.high, r);
-    }
-    return minimised(zone, weights_);
+    return weights_.value(zone_about(axis));
   }
 
   /// Descends from a better axis to its optimum. With many points the descent begins on a sample,
@@ -96,7 +86,8 @@ class ScopeSearcher {
     Axis place = better;
     for (int pass = 0; pass < kClosePasses; ++pass) {
       std::vector<Eigen::Vector3d> close(points_.begin(), points_.end());
-      const double middle = middle_of(place);
+      const Extremes sides = zone_about(place);
+      const double middle = 0.5 * (sides.low + sides.high);
       const auto depth = [&](const Eigen::Vector3d& p) {
         const double r = distance_mm(place, p);
         if (minimum_zone()) return -std::abs(r - middle);
@@ -106,14 +97,12 @@ class ScopeSearcher {
                        close.end(),
                        [&](const auto& a, const auto& b) { return depth(a) < depth(b); });
       close.resize(kAllWorked);
-      CylinderZone next = fitter_.fit_from(close, place, weights_);
-      next.linear_programs += out.linear_programs;
-      out.linear_programs = next.linear_programs;
+      const CylinderZone next = fitter_.fit_from(close, place, weights_);
       const double reached = value_about(next.place);
       if (!(reached < value)) return out;
       out = next;
       // If the zone of some points holds all points, their optimum is that of all.
-      if (reached <= minimised({next.inner_radius_mm, next.outer_radius_mm}, weights_) +
+      if (reached <= weights_.value({next.inner_radius_mm, next.outer_radius_mm}) +
                          1e-12 * next.outer_radius_mm) {
         return out;
       }
@@ -121,17 +110,6 @@ class ScopeSearcher {
       place = next.place;
     }
     return out;
-  }
-
-  /// Mean radius of the zone about an axis.
-  [[nodiscard]] double middle_of(const Axis& axis) const {
-    double low = std::numeric_limits<double>::infinity();
-    double high = 0.0;
-    for (const Eigen::Vector3d& p : points_) {
-      low = std::min(low, distance_mm(axis, p));
-      high = std::max(high, distance_mm(axis, p));
-    }
-    return 0.5 * (low + high);
   }
 
   [[nodiscard]] bool minimum_zone() const { return weights_.outer > 0.0 && weights_.inner > 0.0; }
@@ -184,13 +162,11 @@ class ScopeSearcher {
   /// Takes over the next axis of the search.
   /// @return false if the reference may not lie there.
   [[nodiscard]] bool take(AxisProof next, AxisProof& proof) const {
-    proof.linear_programs += next.linear_programs;
     if (!minimum_zone() && !within_reach(next)) {
       proof.other = next.axis;
       proof.certificate.reason = "a better axis lies outside the reach of the reference";
       return false;
     }
-    next.linear_programs = proof.linear_programs;
     next.boxes = proof.boxes;
     next.other = proof.other;
     proof = std::move(next);
@@ -210,20 +186,16 @@ AxisProof prove_axis(SpacePoints points_mm, const CylinderZone& found, const Zon
   AxisProof out;
   out.axis = found.place;
   out.ending = found.ending;
-  out.linear_programs = found.linear_programs;
   const Eigen::Vector3d& along = out.axis.direction;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
+  Extremes heights;
   double size = 0.0;
   for (const Eigen::Vector3d& p : points_mm) {
-    const double height = (p - out.axis.point_mm).dot(along);
-    low = std::min(low, height);
-    high = std::max(high, height);
+    heights.take((p - out.axis.point_mm).dot(along));
     size = std::max(size, p.cwiseAbs().maxCoeff());
   }
   const double round_off = distance_round_off(size);
-  out.axis.point_mm += 0.5 * (low + high) * along;
-  out.half_length = std::max(0.5 * (high - low), round_off);
+  out.axis.point_mm += 0.5 * (heights.low + heights.high) * along;
+  out.half_length = std::max(0.5 * heights.width(), round_off);
   const CylinderFrame frame({Eigen::Vector3d::Zero(), along}, out.half_length);
   out.proven = prove_zone(points_mm, out.axis.point_mm, frame, weights, round_off);
   const double width = out.proven.zone.width();

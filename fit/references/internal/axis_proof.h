@@ -1,15 +1,15 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include <Eigen/Core>
 
 #include "fit/geometry/axis.h"
+#include "fit/geometry/points.h"
 #include "fit/proof/certificate.h"
 #include "fit/references/internal/zone_proof.h"
-#include "fit/zone/axis_scope.h"
 #include "fit/zone/fit.h"
+#include "fit/zone/global_search.h"
 
 namespace rondure::fit {
 
@@ -20,22 +20,21 @@ struct AxisProof {
   ProvenZone<CylinderFrame> proven;
   Certificate certificate;
   ZoneEnding ending = ZoneEnding::kLimit;
-  int linear_programs = 0;  ///< linear programs of all descents.
-  int boxes = 0;            ///< Boxes bounded by all searches.
+  int boxes = 0;  ///< Boxes bounded by all searches.
   /// A better axis that was found but not taken, because it lies outside the reach.
   std::optional<Axis> other;
 };
 
 /// States the zone about the axis of a fit, with its local certificate.
-[[nodiscard]] AxisProof prove_axis(std::span<const Eigen::Vector3d> points_mm,
-                                   const CylinderZone& found, const ZoneWeights& weights);
+[[nodiscard]] AxisProof prove_axis(SpacePoints points_mm, const CylinderZone& found,
+                                   const ZoneWeights& weights);
 
 /// Searches the scopes in order until one is proven. A better axis that the search finds becomes
 /// the start of a new descent, whose optimum becomes the result. A better axis outside `reach` is
 /// only recorded in `other`.
 ///
 /// @param reach  Region allowed for the axis of a one-sided reference; ignored for a minimum zone.
-void search_scopes(std::span<const Eigen::Vector3d> points_mm, const CylinderProofOptions& options,
+void search_scopes(SpacePoints points_mm, const CylinderProofOptions& options,
                    const ZoneWeights& weights, const AxisReach& reach, CylinderZoneFitter& fitter,
                    AxisProof& proof);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "fit/geometry/points.h"
 #include "fit/geometry/scan.h"
 
 namespace rondure::fit {
@@ -44,14 +45,11 @@ ProvenZone<Frame> prove_zone(std::span<const typename Frame::Point> points,
   return out;
 }
 
-template ProvenZone<CenterFrame<2>> prove_zone(std::span<const Eigen::Vector2d>,
-                                               const Eigen::Vector2d&, const CenterFrame<2>&,
-                                               const ZoneWeights&, double);
-template ProvenZone<CenterFrame<3>> prove_zone(std::span<const Eigen::Vector3d>,
-                                               const Eigen::Vector3d&, const CenterFrame<3>&,
-                                               const ZoneWeights&, double);
-template ProvenZone<CylinderFrame> prove_zone(std::span<const Eigen::Vector3d>,
-                                              const Eigen::Vector3d&, const CylinderFrame&,
-                                              const ZoneWeights&, double);
+template ProvenZone<CenterFrame<2>> prove_zone(PlanePoints, const Eigen::Vector2d&,
+                                               const CenterFrame<2>&, const ZoneWeights&, double);
+template ProvenZone<CenterFrame<3>> prove_zone(SpacePoints, const Eigen::Vector3d&,
+                                               const CenterFrame<3>&, const ZoneWeights&, double);
+template ProvenZone<CylinderFrame> prove_zone(SpacePoints, const Eigen::Vector3d&,
+                                              const CylinderFrame&, const ZoneWeights&, double);
 
 }  // namespace rondure::fit

@@ -24,8 +24,7 @@ using core::Code;
 using Eigen::Vector3d;
 
 const BallCentre* find_ball(std::span<const BallCentre> balls, const std::string& name) {
-  const auto at = std::find_if(balls.begin(), balls.end(),
-                               [&](const BallCentre& ball) { return ball.ball == name; });
+  const auto at = std::ranges::find(balls, name, &BallCentre::ball);
   return at == balls.end() ? nullptr : &*at;
 }
 
@@ -248,11 +247,11 @@ std::vector<Misfit> misfits(const std::vector<OwnTurn>& all, double reference_ra
   std::vector<Misfit> out;
   for (const Approach approach : {Approach::kUnknown, Approach::kForward, Approach::kBackward}) {
     std::vector<OwnTurn> fitting;
-    std::copy_if(all.begin(), all.end(), std::back_inserter(fitting),
-                 [&](const OwnTurn& one) { return one.approach == approach; });
+    std::ranges::copy_if(all, std::back_inserter(fitting),
+                         [&](const OwnTurn& one) { return one.approach == approach; });
     if (fitting.size() < 2) continue;
     fitting.push_back({reference_rad, approach, 0.0, true});
-    std::stable_sort(fitting.begin(), fitting.end(), by_angle);
+    std::ranges::stable_sort(fitting, by_angle);
     std::vector<OwnTurn> left_out;
     for (std::size_t most = fitting.size() / 3; most > 0; --most) {
       const auto worst = worst_fit(fitting, least_rad);
@@ -261,7 +260,7 @@ std::vector<Misfit> misfits(const std::vector<OwnTurn>& all, double reference_ra
       fitting.erase(fitting.begin() + static_cast<std::ptrdiff_t>(*worst));
     }
     const auto usual = departures(fitting, fitting.size());
-    const double others = *std::max_element(usual.begin(), usual.end());
+    const double others = *std::ranges::max_element(usual);
     const double limit = std::max(least_rad, 5.0 * others);
     for (const OwnTurn& one : left_out) {
       const auto place = std::upper_bound(fitting.begin(), fitting.end(), one, by_angle);
@@ -289,7 +288,7 @@ core::Error misfit_error(const std::vector<Misfit>& found, double reference_rad)
         name, one.off_rad * 1e6, one.others_rad * 1e6, one.limit_rad * 1e6,
         core::degrees(one.turn.angle_rad + one.off_rad));
   }
-  return {Code::kInconsistent, what + ". Correct the angle, or measure there again", {}};
+  return {Code::kInconsistent, what + ". Correct the angle, or measure there again"};
 }
 
 /// Changes of one distance relative to the reference, in the order of measurement.

@@ -15,13 +15,12 @@ Matrix36 c_rows(double l, double h, double c_rad) {
   return out;
 }
 
-Matrix36 a_rows(double l, double h, double a_rad, PublishedSigns signs) {
+Matrix36 a_rows(double l, double h, double a_rad) {
   const double s = std::sin(a_rad);
   const double c = std::cos(a_rad);
-  const double y_al = signs == PublishedSigns::kRestored ? -h * s + l * c : -h * s * l * c;
   Matrix36 out;
   out << 1.0, 0.0, 0.0, 0.0, -l * c + h * s, -h * c - l * s,  //
-      0.0, 1.0, 0.0, y_al, 0.0, 0.0,                          //
+      0.0, 1.0, 0.0, -h * s + l * c, 0.0, 0.0,                //
       0.0, 0.0, 1.0, h * c + l * s, 0.0, 0.0;
   return out;
 }
@@ -43,12 +42,10 @@ PublishedMatrix published_c_matrix(const PublishedSetups& setups, double c_rad) 
   return out;
 }
 
-PublishedMatrix published_a_matrix(const PublishedSetups& setups, double a_rad,
-                                   PublishedSigns signs) {
+PublishedMatrix published_a_matrix(const PublishedSetups& setups, double a_rad) {
   PublishedMatrix out;
-  out << a_rows(setups.l1_mm, setups.h1_mm, a_rad, signs),
-      a_rows(setups.l1_mm, setups.h2_mm, a_rad, signs),
-      a_rows(setups.l2_mm, setups.h2_mm, a_rad, signs);
+  out << a_rows(setups.l1_mm, setups.h1_mm, a_rad), a_rows(setups.l1_mm, setups.h2_mm, a_rad),
+      a_rows(setups.l2_mm, setups.h2_mm, a_rad);
   return out;
 }
 

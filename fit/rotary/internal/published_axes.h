@@ -23,18 +23,11 @@ struct PublishedSetups {
   [[nodiscard]] std::array<Eigen::Vector3d, 3> of_a() const;
 };
 
-/// Reading of an entry of the A matrix that is printed without its operator, "-H sin A  L cos A"
-/// (row Y, column al).
-enum class PublishedSigns {
-  kRestored,   ///< -H sin A + L cos A, which agrees with dp = t + w x p.
-  kAsPrinted,  ///< Read literally, as a product: wrong at every angle.
-};
-
 using PublishedMatrix = Eigen::Matrix<double, 9, 6>;
 
 /// Rows X, Y, Z of the three setups; columns X, Y, Z, al, be, ga.
 [[nodiscard]] PublishedMatrix published_c_matrix(const PublishedSetups& setups, double c_rad);
-[[nodiscard]] PublishedMatrix published_a_matrix(const PublishedSetups& setups, double a_rad,
-                                                 PublishedSigns signs = PublishedSigns::kRestored);
+/// Row Y, column al is printed without its operator, "-H sin A  L cos A"; it is -H sin A + L cos A.
+[[nodiscard]] PublishedMatrix published_a_matrix(const PublishedSetups& setups, double a_rad);
 
 }  // namespace rondure::fit

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include <Eigen/LU>
@@ -62,7 +61,7 @@ std::vector<Vector3d> nominal_places(std::span<const StationBall> balls) {
 }
 
 bool alike_in_all_directions(std::span<const StationBall> balls) {
-  return std::all_of(balls.begin(), balls.end(), [](const StationBall& ball) {
+  return std::ranges::all_of(balls, [](const StationBall& ball) {
     const Matrix3d c = ball.measured_mm2 + ball.nominal_mm2;
     const double mean = c.trace() / 3.0;
     return (c - mean * Matrix3d::Identity()).norm() <= 1e-12 * mean;
@@ -192,7 +191,7 @@ bool solve_once(std::span<const StationBall> balls, const RotaryOptions& options
   }
   state_covariance(at, balls, out);
   state_fit(at, balls, linear, out);
-  out.condition = judge_setup(nominal_places(balls)).condition;
+  out.condition = setup_condition(nominal_places(balls));
   out.dof = 3 * static_cast<int>(balls.size()) - 6;
   out.chi2_limit = core::chi_square_quantile(options.outlier_probability, out.dof);
   return true;
@@ -213,7 +212,7 @@ RotaryStation solve_station(std::vector<StationBall> balls, const RotaryOptions&
     if (!options.remove_outliers || balls.size() < 5) break;
     std::vector<double> sizes;
     for (std::size_t i = 0; i < balls.size(); ++i) sizes.push_back(normalised_residual(at, out, i));
-    const auto worst = std::max_element(sizes.begin(), sizes.end()) - sizes.begin();
+    const auto worst = std::ranges::max_element(sizes) - sizes.begin();
     std::vector<StationBall> rest = balls;
     rest.erase(rest.begin() + worst);
     RotaryStation next;

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <array>
-#include <complex>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
+#include "fit/profiles/internal/dft.h"
 #include "fit/spindle/three_probe.h"
 
 // The steps of separate_three_probe().
@@ -36,7 +36,7 @@ struct ProbeSamples {
 /// A.7: computes the motion of every revolution and its mean from the profile of the result and its
 /// half spectrum, then removes eccentricity and probe zeros.
 /// @param spectrum  Spectrum of the samples at theta - start.
-void separate_motion(const ProbeSamples& samples, const std::vector<std::complex<double>>& spectrum,
+void separate_motion(const ProbeSamples& samples, const Spectrum& spectrum,
                      const ThreeProbeOptions& options, ThreeProbeResult& result);
 
 /// The mean motion with eccentricity, but without probe zeros. The zeros are removed as
@@ -48,8 +48,7 @@ void separate_motion(const ProbeSamples& samples, const std::vector<std::complex
 /// neglect, given the present profile and motion. The readings of all revolutions change alike. The
 /// motion is that of motion_without_zeros(), as a probe zero is not a displacement.
 /// @return Largest correction [mm]; NaN if the motion is as large as the part.
-double correct_second_order(const ProbeSamples& measured,
-                            const std::vector<std::complex<double>>& spectrum,
+double correct_second_order(const ProbeSamples& measured, const Spectrum& spectrum,
                             const ThreeProbeResult& result, double part_radius_mm,
                             ProbeSamples& samples);
 
@@ -59,7 +58,7 @@ double correct_second_order(const ProbeSamples& measured,
 /// undulations of a rough part.
 /// @return Nothing if there is one revolution and no such harmonic.
 [[nodiscard]] std::optional<double> estimated_noise_mm(const ProbeSamples& samples,
-                                                       const std::vector<std::complex<double>>& sum,
+                                                       const Spectrum& sum,
                                                        const ProbeLayout& layout, int highest);
 
 /// Adds readings that contradict the stated geometry or are invalid to

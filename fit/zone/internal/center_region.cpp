@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "fit/geometry/points.h"
 #include "fit/zone/local_certificate.h"
 #include "fit/zone/simplex.h"
 
@@ -17,7 +16,7 @@ constexpr double kReach = 64.0;
 
 }  // namespace
 
-CenterRegion center_region(std::span<const Eigen::Vector2d> points_mm, double width_mm) {
+CenterRegion center_region(PlanePoints points_mm, double width_mm) {
   const Eigen::Vector2d mean = mean_point(points_mm);
   double reach = 0.0;
   for (const Eigen::Vector2d& p : points_mm) reach = std::max(reach, (p - mean).norm());
@@ -74,8 +73,7 @@ CenterRegion center_region(std::span<const Eigen::Vector2d> points_mm, double wi
   return out;
 }
 
-CenterRegion one_sided_region(std::span<const Eigen::Vector2d> points_mm,
-                              const ZoneWeights& weights, double radius_mm,
+CenterRegion one_sided_region(PlanePoints points_mm, const ZoneWeights& weights, double radius_mm,
                               const Eigen::Vector2d& center_mm, double half_side_mm) {
   const bool outside = weights.outer > 0.0;
   const double sign = outside ? 1.0 : -1.0;

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <span>
-
 #include <Eigen/Core>
 
+#include "fit/geometry/points.h"
 #include "fit/zone/simplex.h"
 
 namespace rondure::fit {
@@ -30,8 +29,7 @@ struct CenterRegion {
 ///
 /// @param points_mm  At least one; a subset of the data gives a valid, larger region.
 /// @param width_mm   > 0, already rounded outward. O(n) per pivot, some eight pivots.
-[[nodiscard]] CenterRegion center_region(std::span<const Eigen::Vector2d> points_mm,
-                                         double width_mm);
+[[nodiscard]] CenterRegion center_region(PlanePoints points_mm, double width_mm);
 
 /// Narrows a square of centres to those from which every point is within `radius_mm` (minimum
 /// circumscribed), or none is (maximum inscribed). Distances are bounded by their growth from the
@@ -40,8 +38,8 @@ struct CenterRegion {
 /// @param weights    One of them is 0.
 /// @param radius_mm  Already rounded outward.
 /// @return kEmpty or kSquare; the bound is tight if the middle is near the best centre.
-[[nodiscard]] CenterRegion one_sided_region(std::span<const Eigen::Vector2d> points_mm,
-                                            const ZoneWeights& weights, double radius_mm,
-                                            const Eigen::Vector2d& center_mm, double half_side_mm);
+[[nodiscard]] CenterRegion one_sided_region(PlanePoints points_mm, const ZoneWeights& weights,
+                                            double radius_mm, const Eigen::Vector2d& center_mm,
+                                            double half_side_mm);
 
 }  // namespace rondure::fit

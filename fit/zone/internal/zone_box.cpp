@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
-#include <vector>
 
-#include "fit/geometry/points.h"
 #include "fit/zone/simplex.h"
 
 namespace rondure::fit {
@@ -173,8 +170,7 @@ ZoneBoxBound bound_zone_box(SpacePoints points_mm, const ZoneBox& box, double wi
 
   ZoneBoxBound out = preferred(box, step);
   const BoxProof proof(points_mm, box, radius, step.outer, step.inner);
-  out.excluded = proof.proves(width_mm, slack_mm);
-  if (out.excluded) {
+  if (proof.proves(width_mm, slack_mm)) {
     out.lower_mm = width_mm;
     return out;
   }

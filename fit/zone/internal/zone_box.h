@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <span>
 
 #include <Eigen/Core>
 
+#include "fit/geometry/points.h"
 #include "fit/proof/certificate.h"
 #include "fit/zone/simplex.h"
 
@@ -28,7 +28,6 @@ struct ZoneBox {
 /// Lower bound that a linear programme gives for the zones of all axes of a box.
 struct ZoneBoxBound {
   double lower_mm = 0.0;  ///< No axis of the box has a narrower zone than this [mm].
-  bool excluded = false;  ///< lower_mm is above the stated width; not set for one side.
   Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  ///< The most promising axis of the box
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< crosses z = 0 here, direction (tilt, 1).
 };
@@ -40,8 +39,7 @@ struct ZoneBoxBound {
 /// and a zone of width w <= W has  R^2 <= r^2 (1 + W/g) + W (g + W)  for any g > 0. Both sides of
 /// this inequality are linear in the axis except for products of its parameters. The multipliers of
 /// a linear programme over the linear part turn it into one quadratic inequality (weak duality),
-/// which is bounded over the box term by term. Any multipliers >= 0 with sum 1 are valid, so an
-/// error of the programme makes the bound less sharp, but never false.
+/// bounded over the box term by term: an error of the programme makes it less sharp, never false.
 ///
 /// @param points_mm  In the frame: x, y across its z, height z [mm]. A subset gives a valid bound.
 /// @param width_mm   W > 0; no bound above it is sought.
@@ -49,16 +47,14 @@ struct ZoneBoxBound {
 /// @param slack_mm   Margin with which the proof must hold, for outward rounding.
 /// K = 2: centres only (lean must be 0); K = 4: axes.
 template <int K>
-[[nodiscard]] ZoneBoxBound bound_zone_box(std::span<const Eigen::Vector3d> points_mm,
-                                          const ZoneBox& box, double width_mm, double tolerance_mm,
-                                          double slack_mm);
+[[nodiscard]] ZoneBoxBound bound_zone_box(SpacePoints points_mm, const ZoneBox& box,
+                                          double width_mm, double tolerance_mm, double slack_mm);
 
 /// The same for one side: a lower bound of  outer weight * max r - inner weight * min r  over all
 /// axes of a box, where one of the weights is 0: of the circumscribed radius, or of the negative
 /// inscribed radius. Also by weak duality in r^2, but without a width.
 template <int K>
-[[nodiscard]] ZoneBoxBound bound_one_sided_box(std::span<const Eigen::Vector3d> points_mm,
-                                               const ZoneBox& box, const ZoneWeights& weights,
-                                               double slack_mm);
+[[nodiscard]] ZoneBoxBound bound_one_sided_box(SpacePoints points_mm, const ZoneBox& box,
+                                               const ZoneWeights& weights, double slack_mm);
 
 }  // namespace rondure::fit
