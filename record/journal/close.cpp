@@ -3,7 +3,6 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal/internal/impl.h"
-#include "record/journal/internal/seal.h"
 #include "record/sha256.h"
 
 namespace rondure::record {

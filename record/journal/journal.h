@@ -124,4 +124,11 @@ struct HeldJournal {
 /// bytes that are not those of its list, logs beside it. Empty for a sound one.
 [[nodiscard]] std::vector<std::string> faults_of(const ReadJournal& journal);
 
+/// Whether nothing of a run has reached a directory yet: it is absent, empty, or holds a journal
+/// without tables, whose making was interrupted. Such a remainder is removed, so that the run can
+/// begin there.
+/// @return  false for everything else; kFile when another process is at work in the directory, or
+///          it cannot be looked at.
+[[nodiscard]] core::Result<bool> clear_unstarted_run(const std::filesystem::path& directory);
+
 }  // namespace rondure::record

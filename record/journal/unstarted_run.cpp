@@ -1,4 +1,4 @@
-#include "record/journal/unstarted_run.h"
+#include "record/journal/journal.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,6 @@
 #include "record/files.h"
 #include "record/internal/database.h"
 #include "record/journal/internal/private_copy.h"
-#include "record/journal/journal.h"
 #include "record/run_lock.h"
 
 namespace rondure::record {
@@ -44,7 +43,7 @@ core::Result<std::optional<bool>> holds_no_table(const fs::path& journal, Logs l
 
 /// Whether a journal has no tables after SQLite has finished its log. A file that has tables
 /// without its log is a journal, whatever the log contains.
-core::Result<bool> is_unborn(const fs::path& journal) {
+core::Result<bool> is_unstarted(const fs::path& journal) {
   const auto alone = holds_no_table(journal, Logs::kWithout);
   if (!alone) return core::fail(alone.error());
   if (!alone->value_or(true)) return false;
@@ -88,8 +87,8 @@ core::Result<bool> clear_unstarted_run(const fs::path& directory) {
   if (!fs::exists(journal, problem)) return true;
   const auto lock = RunLock::take(directory);
   if (!lock) return core::fail(lock.error());
-  auto unborn = is_unborn(journal);
-  if (!unborn || !*unborn) return unborn;
+  auto unstarted = is_unstarted(journal);
+  if (!unstarted || !*unstarted) return unstarted;
   for (const char* suffix : kSuffixes) {
     if (fs::remove(journal.string() + suffix, problem); problem) {
       return core::fail(core::Code::kFile,

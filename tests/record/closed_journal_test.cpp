@@ -7,7 +7,6 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
-#include "record/journal/unstarted_run.h"
 #include "tests/record/meddle.h"
 #include "tests/record/sample_run.h"
 

@@ -11,7 +11,8 @@
 #include "record/journal/internal/canonical.h"
 #include "record/journal/journal.h"
 
-// Private to the room: the hash chain over everything that is written. Throws soci::soci_error.
+// Private to the room: the hash chain over everything that is written, and the seal that closes a
+// journal. Throws soci::soci_error.
 
 namespace rondure::record {
 
@@ -59,12 +60,14 @@ class Chain {
   soci::statement insert_;
 };
 
-/// Number of links, and the digest of the last: the head of the chain, which stands for all rows.
-[[nodiscard]] Digest chain_head(soci::session& sql);
-
-/// Walks the chain and says for each table what does not fit first, in words that name the row;
-/// table "chain" when the links themselves do not follow from each other. O(rows).
+/// Fills the seal with the digest of every other table and the head of the chain.
 /// @param version  Of the tables.
-[[nodiscard]] std::vector<BrokenTable> check_chain(soci::session& sql, std::int64_t version);
+void insert_seal(soci::session& sql, std::int64_t version);
+
+[[nodiscard]] bool is_sealed(soci::session& sql);
+
+/// Checks the chain (from version 2) and, in a sealed journal, every digest of the seal. A table
+/// that fails both is reported once, with the number of rows and the name of the first bad row.
+[[nodiscard]] std::vector<BrokenTable> check_seal(soci::session& sql, std::int64_t version);
 
 }  // namespace rondure::record

@@ -16,7 +16,6 @@
 #include "record/internal/database.h"
 #include "record/journal/internal/chain.h"
 #include "record/journal/internal/contradiction.h"
-#include "record/journal/internal/log.h"
 #include "record/journal/internal/rows.h"
 #include "record/journal/internal/schema.h"
 #include "record/journal/journal.h"

@@ -16,7 +16,7 @@
 #include "record/csv/internal/lines.h"
 #include "record/journal/internal/rows.h"
 #include "record/journal/internal/schema.h"
-#include "record/journal/internal/seal.h"
+#include "record/journal/internal/chain.h"
 #include "record/journal/internal/series.h"
 #include "record/journal/message_text.h"
 
