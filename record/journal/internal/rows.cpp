@@ -18,9 +18,9 @@ using soci::use;
 void make_tables(soci::session& sql) {
   sql << fmt::format("pragma application_id = {}", kApplicationId);
   sql << fmt::format("pragma user_version = {}", kSchemaVersion);
-  for (const Table& table : chained_tables()) sql << std::string(table.sql);
-  sql << std::string(chain_table().sql);
-  sql << std::string(seal_table().sql);
+  for (const Table& table : chained_tables()) sql << table.sql;
+  sql << chain_table().sql;
+  sql << seal_table().sql;
 }
 
 void insert_header(soci::session& sql, const Header& h) {
