@@ -15,9 +15,9 @@
 
 #include "record/internal/database.h"
 #include "record/journal/internal/chain.h"
-#include "record/journal/internal/contradiction.h"
 #include "record/journal/internal/rows.h"
 #include "record/journal/internal/schema.h"
+#include "record/journal/internal/values.h"
 #include "record/journal/journal.h"
 #include "record/journal/message_text.h"
 #include "record/run_lock.h"
