@@ -174,12 +174,6 @@ core::Result<HeldJournal> hold_journal(const fs::path& directory) {
   return HeldJournal{std::move(*lock), std::move(*read)};
 }
 
-core::Result<Journal> Journal::reopen(const fs::path& directory) {
-  auto held = hold_journal(directory);
-  if (!held) return core::fail(held.error());
-  return reopen(directory, std::move(*held));
-}
-
 core::Result<Journal> Journal::reopen(const fs::path& directory, HeldJournal held) {
   const fs::path file = fs::absolute(directory) / kJournalName;
   std::error_code ignored;
@@ -215,7 +209,7 @@ core::Result<Journal> Journal::reopen(const fs::path& directory, HeldJournal hel
   }
   impl->header = found.record.header;
   for (const PoseVisit& pose : found.record.poses) impl->poses.emplace(pose.id, pose);
-  for (const Touch& touch : found.record.touches) impl->keep(touch);
+  for (const Touch& touch : found.record.touches) impl->note_touch(touch);
   if (!found.record.ending.empty()) {
     if (auto cleared = impl->write("that the run goes on", [&] { impl->clear_ending(); });
         !cleared) {
