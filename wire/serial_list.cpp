@@ -1,4 +1,4 @@
-#include "wire/serial_list.h"
+#include "wire/serial_port.h"
 
 #include <unistd.h>
 
@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "wire/internal/device_holders.h"
-#include "wire/serial_port.h"
 
 namespace rondure::wire {
 namespace {

@@ -50,7 +50,6 @@ termios with_settings(termios line, const SerialSettings& settings, speed_t spee
   if (settings.parity != SerialSettings::Parity::kNone) line.c_cflag |= PARENB;
   if (settings.parity == SerialSettings::Parity::kOdd) line.c_cflag |= PARODD;
   if (settings.stop_bits == 2) line.c_cflag |= CSTOPB;
-  if (settings.rts_cts) line.c_cflag |= CRTSCTS;
   line.c_cc[VMIN] = 0;
   line.c_cc[VTIME] = 0;
   cfsetispeed(&line, speed);
