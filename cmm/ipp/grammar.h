@@ -29,6 +29,11 @@ inline constexpr std::size_t kMaxLineLength = 65536;  ///< Characters, without C
 inline constexpr int kMaxDepth = 8;                   ///< Of parentheses in parentheses.
 inline constexpr std::size_t kTagLength = 5;
 
+/// The point meant by the coordinates in PtMeas and the start in ScanOnCircle. The specification
+/// means the surface (6.3.2.13: the approach includes the tool radius); some servers take the
+/// centre of the tip. The reported point is the centre of the tip in both cases.
+enum class NamedPoint { kSurface, kCenter };
+
 /// The first five characters of a line.
 struct Tag {
   bool event = false;  ///< E0001..E9999 of the fast queue; E0000 is the server's, unsolicited.
@@ -112,7 +117,7 @@ struct RawLine {
 
 /// Why a line is no command.
 struct Refusal {
-  int number = 0;          ///< Of the error list (ipp_errors.h).
+  int number = 0;          ///< Of the error list (internal/errors.h).
   std::optional<Tag> tag;  ///< None when the line has no tag that could be answered.
   std::string what;        ///< For a person, and for the log.
 };
@@ -121,7 +126,7 @@ struct Refusal {
 /// commands and to them only. Spaces after the last parenthesis are accepted all the same.
 /// @param line  Any bytes, without CR LF.
 /// @return  The command; or 0001, 0002 (tag), 0007 (a character outside ASCII 32..126), 0008 (too
-///          long, too deep), 0502 (form of the arguments), 0507 (no such method: ipp_methods.h),
+///          long, too deep), 0502 (form of the arguments), 0507 (no such method),
 ///          0509 (a number out of form). O(length) time and memory; never throws but bad_alloc.
 [[nodiscard]] tl::expected<Command, Refusal> parse_command(std::string_view line);
 /// The same; 0007 for a line that LF alone ends.

@@ -52,7 +52,7 @@ Server::Outcome Server::start_session(const Command&) {
   error_.reset();
   controller_.begin_session();
   // A machine that keeps its fault reports it at the first motion.
-  [[maybe_unused]] const auto recovered = controller_.recover();
+  [[maybe_unused]] const auto recovered = controller_.machine().recover();
   return Reply{};
 }
 
@@ -63,7 +63,7 @@ Server::Outcome Server::end_session(const Command&) {
 }
 
 Server::Outcome Server::clear_all_errors(const Command&) {
-  if (auto recovered = controller_.recover(); !recovered) {
+  if (auto recovered = controller_.machine().recover(); !recovered) {
     return refusal(kMachineInErrorState, recovered.error().what);
   }
   error_.reset();

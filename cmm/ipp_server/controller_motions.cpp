@@ -42,28 +42,20 @@ bool differs(const Vector3d& a, const Vector3d& b) { return (a - b).norm() > kTh
 }  // namespace
 
 Failure Controller::failure_of(const core::Error& error, std::string_view method) {
-  int number = kProcessing;
   switch (error.code) {
     case core::Code::kNoTouch:
-      number = kSurfaceNotFound;
-      break;
+      return {kSurfaceNotFound, error.what};
     case core::Code::kCollision:
-      number = kCollision;
-      break;
+      return {kCollision, error.what};
     case core::Code::kUnreachable:
-      number = method == "GoTo" ? kMoveOutOfLimits : kOutOfVolume;
-      break;
+      return {method == "GoTo" ? kMoveOutOfLimits : kOutOfVolume, error.what};
     case core::Code::kPoseRange:
-      number = kAngleOutOfRange;
-      break;
+      return {kAngleOutOfRange, error.what};
     case core::Code::kStopped:
-      number = kAborted;
-      break;
+      return {kAborted, error.what};
     default:
-      if (method == "Home") number = kAtHome;
-      break;
+      return {method == "Home" ? kAtHome : kProcessing, error.what};
   }
-  return {number, error.what};
 }
 
 tl::expected<void, Failure> Controller::ready_to_move() {

@@ -69,12 +69,7 @@ Capabilities SimulatedMachine::capabilities() const {
 }
 
 core::Result<MachineStatus> SimulatedMachine::status() {
-  MachineStatus out;
-  out.homed = homed_;
-  out.stopped = stopped_;
-  out.tool = options_.tool;
-  if (lost_) out.fault = "the connection is lost";
-  return out;
+  return MachineStatus{homed_, stopped_, options_.tool, lost_ ? "the connection is lost" : ""};
 }
 
 core::Result<void> SimulatedMachine::select_tool(const std::string& name) {
