@@ -94,7 +94,7 @@ struct Item {
 /// The contents of a string, or of a call whose only argument is one: "T" and Tool.Name("T").
 [[nodiscard]] std::optional<std::string> string_of(const Item& item);
 
-/// What a client sends:  tag method(arguments).
+/// A command of a client:  tag method(arguments).
 struct Command {
   Tag tag;
   std::string method;
@@ -149,14 +149,14 @@ struct ErrorReport {
 /// "error 1006, severity 2: Surface not found (00012 PtMeas(...))".
 [[nodiscard]] std::string in_words(const ErrorReport& error);
 
-/// What a server sends.
+/// A line of a server.
 struct Response {
   enum class Kind { kAck, kData, kError, kComplete };
 
   Tag tag;
   Kind kind = Kind::kAck;
   std::vector<Item> data;  ///< Of kData; empty when its text follows no grammar (XML).
-  std::string raw;         ///< Of kData: the text behind "# ".
+  std::string raw;         ///< Of kData: the text after "# ".
   ErrorReport error;       ///< Of kError.
 };
 

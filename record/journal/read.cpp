@@ -7,7 +7,6 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -228,25 +227,9 @@ bool has_digest(const fs::path& file, const std::string& sha256) {
   return bytes && sha256_hex(*bytes) == sha256;
 }
 
-/// The result of `look` on a private copy; nothing when the copy cannot be opened or read.
-template <class Look>
-auto looked_up(const fs::path& file, Logs logs, const Look& look)
-    -> std::optional<std::invoke_result_t<Look, soci::session&>> {
-  const auto copy = PrivateCopy::of(file, logs);
-  const auto connection = copy ? connection_string(copy->file()) : core::fail(copy.error());
-  if (!connection) return std::nullopt;
-  try {
-    soci::session sql(soci::sqlite3, *connection);
-    distrust(sql);
-    return look(sql);
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-}
-
 /// The journal without its logs, if it is whole and sealed so.
 std::optional<ReadJournal> closed_journal(const fs::path& file) {
-  if (looked_up(file, Logs::kWithout, is_sealed) != true) return std::nullopt;
+  if (in_copy(file, Logs::kWithout, is_sealed).value_or(std::nullopt) != true) return std::nullopt;
   auto alone = read_copy(file, Logs::kWithout);
   if (!alone || !alone->record.sealed || !alone->broken.empty()) return std::nullopt;
   return *std::move(alone);
@@ -260,8 +243,8 @@ bool logs_change(const fs::path& file, std::int64_t version) {
     for (const Table& table : tables_of(version)) digests += digest_of(sql, table.name).sha256;
     return digests;
   };
-  const auto alone = looked_up(file, Logs::kWithout, contents);
-  return !alone || looked_up(file, Logs::kWith, contents) != alone;
+  const auto alone = in_copy(file, Logs::kWithout, contents).value_or(std::nullopt);
+  return !alone || in_copy(file, Logs::kWith, contents).value_or(std::nullopt) != alone;
 }
 
 /// Whether a file begins as SQLite begins a log, or is one that a killed program had only begun: it

@@ -43,10 +43,10 @@ namespace rondure::record {
 /// The unit that a column's name ends with ("um" of "H1_um"), or "".
 [[nodiscard]] std::string_view unit_of_column(std::string_view name);
 
-/// Why a field of the header that names none of the columns is refused: kWrongUnit where one of
-/// them has the same name with another unit, kSyntax otherwise.
-/// @param list  The columns as a message names them.
-/// @param rule  What the sentence on a wrong unit ends with.
+/// The error for a field of the header that names none of the columns: kWrongUnit when one of them
+/// has the same name with another unit, kSyntax otherwise.
+/// @param list  The columns in the wording of messages.
+/// @param rule  End of the sentence about a wrong unit.
 [[nodiscard]] core::Error unknown_column(std::string_view field,
                                          std::span<const std::string_view> columns,
                                          std::string_view list, std::string_view rule = "");
@@ -59,7 +59,7 @@ namespace rondure::record {
 /// @param name     The file's name for `where` ("name:line").
 /// @param header   Takes the header line; returns core::Result<void>.
 /// @param row      Takes a row and the number of its line; returns core::Result<void>.
-/// @param no_rows  The sentence for a table without rows; is told whether it has a header line.
+/// @param no_rows  Returns the sentence for a table without rows; takes whether it has a header.
 /// @param plain    Tried first where a row begins: takes the text from there on, and returns the
 ///                 bytes of the row with the end of its line, or 0 for a line that `row` must read.
 /// @return  The error of `header` or `row` with its place, kSyntax for UTF-16, kNoPoints.

@@ -17,27 +17,27 @@
 namespace rondure::record {
 
 /// Writes the chain. Each row that is written or changed gets a link in table `chain`, in the same
-/// transaction: the SHA-256 of the row, and the SHA-256 of the link before it with all that this
-/// one says. A row that is edited or removed afterwards no longer fits its link, and a link that is
-/// edited or removed no longer fits the next, in a journal that was never sealed too.
+/// transaction: the SHA-256 of the row, and a SHA-256 over the digest of the previous link and the
+/// fields of this one. A row edited or removed later does not match its link, and an edited or
+/// removed link does not match the next one; this holds for unsealed journals too.
 class Chain {
  public:
-  /// Continues behind the last link of the table.
+  /// Continues after the last link of the table.
   explicit Chain(soci::session& sql);
 
-  /// Links row `row` of `table` with the values that were given for it, those behind the id from
-  /// left to right: not with what the database gives back, which it might have changed.
+  /// Links row `row` of `table` with the values passed to the database, those after the id from
+  /// left to right. They are not read back, because the database might have changed them.
   template <class... Values>
   void append(std::string_view table, std::int64_t row, const Values&... values) {
     append_bytes(table, row, row_bytes(row, values...));
   }
-  /// The same of the row that was inserted last.
+  /// Same as append(), for the row that was inserted last.
   template <class... Values>
   void append_inserted(std::string_view table, const Values&... values) {
     append(table, sqlite_api::sqlite3_last_insert_rowid(handle_of(sql_)), values...);
   }
-  /// Links all rows of a table, by id, as the database gives them back: of a table that the same
-  /// transaction made.
+  /// Links all rows of a table, by id, as the database returns them. For a table created in the
+  /// same transaction.
   void append_all(std::string_view table);
 
   /// The transaction around the links was committed, or was rolled back.

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdlib>
+#include <charconv>
 #include <initializer_list>
 #include <optional>
 #include <stdexcept>
@@ -62,10 +61,9 @@ core::Code code_named(const std::string& text) {
 }
 
 std::uint64_t seed_from(const std::string& text) {
-  char* end = nullptr;
-  errno = 0;
-  const std::uint64_t seed = std::strtoull(text.c_str(), &end, 10);
-  if (errno != 0 || text.empty() || std::to_string(seed) != text) {
+  std::uint64_t seed = 0;  // stays so for a text that is no number
+  (void)std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (std::to_string(seed) != text) {
     throw Contradiction(fmt::format("header.seed is \"{}\", no whole number", text.substr(0, 40)));
   }
   return seed;
