@@ -12,6 +12,7 @@
 
 #include "cmm/ipp/grammar.h"
 #include "cmm/ipp_server/backend.h"
+#include "cmm/ipp_server/outcome.h"
 #include "cmm/ipp_server/parameters.h"
 #include "cmm/machine.h"
 
@@ -39,20 +40,6 @@ struct ControllerOptions {
   double temperature_degC = 20.0;  ///< Of the part, until the first touch has measured it.
   std::string version = "1.4";     ///< GetDMEVersion().
 };
-
-/// Why a command failed: a number of the error list, and the text for GetXtdErrStatus().
-struct Failure {
-  int number = 0;
-  std::string what;
-};
-
-/// Result of a command.
-struct Reply {
-  std::vector<std::vector<Item>> lines;  ///< Data.
-  int report = 0;                        ///< Number of an error to report after the data; 0: none.
-};
-
-using Outcome = tl::expected<Reply, Failure>;
 
 /// A part of a motion.
 struct Phase {

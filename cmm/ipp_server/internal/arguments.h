@@ -12,7 +12,7 @@
 #include <tl/expected.hpp>
 
 #include "cmm/ipp/internal/errors.h"
-#include "cmm/ipp_server/controller.h"
+#include "cmm/ipp_server/outcome.h"
 
 // Shared by the command handlers of the server.
 
