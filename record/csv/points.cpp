@@ -196,8 +196,8 @@ core::Result<Rows> parse(std::string_view text, std::string_view name, const For
   Columns& columns = out.columns;
   Eigen::Vector3d values = Eigen::Vector3d::Zero();
   const auto add_row = [&](std::size_t bytes) {
-    if (out.values.empty())
-      out.values.reserve(text.size() / bytes + 1);  // rows are alike in length
+    // Rows are about as long as the first.
+    if (out.values.empty()) out.values.reserve(text.size() / bytes + 1);
     out.values.push_back(values);
   };
   const auto header = [&](std::string_view line) -> core::Result<void> {
