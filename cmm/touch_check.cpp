@@ -45,7 +45,7 @@ constexpr std::string_view kThenResume =
     "look at machine and server (frame, active tool, report), then resume";
 
 core::Result<void> answers_otherwise(std::string what) {
-  return core::fail(core::Code::kMachine, fmt::format("{}; {}", what, kThenResume));
+  return core::machine_fault(fmt::format("{}; {}", what, kThenResume));
 }
 
 /// Largest angle between two neighbours of a scan [rad].
@@ -142,7 +142,7 @@ Eigen::Vector3d start_of(const TouchCommand& command) {
 }
 
 core::Result<void> check_touch(const TouchCommand& command, const Eigen::Vector3d& position_W_mm) {
-  const auto refuse = [](const std::string& why) { return core::fail(core::Code::kMachine, why); };
+  const auto refuse = [](const std::string& why) { return core::machine_fault(why); };
   const bool finite = command.expected_tip_W_mm.allFinite() && command.direction_W.allFinite() &&
                       std::isfinite(command.approach_mm) && std::isfinite(command.search_mm);
   if (!finite) return refuse(fmt::format("touch {} is not finite; no motion", command.id));
@@ -250,12 +250,10 @@ core::Result<void> check_stands(std::string_view doing, const Vector3d& target_W
 
 core::Result<void> check_temperature(std::string_view name, double temperature_degC) {
   if (temperature_degC >= kColdest_degC && temperature_degC <= kWarmest_degC) return {};
-  return core::fail(
-      core::Code::kMachine,
-      fmt::format(
-          "the machine gives {} as {:.7g} degC, outside {:g}..{:g} degC where one measures: "
-          "kelvin, degrees Fahrenheit, or no sensor; set the machine to degC, then resume",
-          name, temperature_degC, kColdest_degC, kWarmest_degC));
+  return core::machine_fault(fmt::format(
+      "the machine gives {} as {:.7g} degC, outside {:g}..{:g} degC where one measures: "
+      "kelvin, degrees Fahrenheit, or no sensor; set the machine to degC, then resume",
+      name, temperature_degC, kColdest_degC, kWarmest_degC));
 }
 
 core::Result<void> check_tip_radius(double radius_mm, double known_mm, double limit_mm) {

@@ -37,7 +37,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
   return out;
 }
 
-/// What posix_spawn() takes, released at the end.
+/// The arguments of posix_spawn(), released at the end.
 struct SpawnSettings {
   SpawnSettings() {
     ::posix_spawn_file_actions_init(&files);
@@ -61,8 +61,8 @@ int spawn(const ProgramCall& call, pid_t& pid) {
   ::posix_spawn_file_actions_addopen(&settings.files, STDOUT_FILENO, call.said.c_str(),
                                      O_WRONLY | O_CREAT | O_TRUNC, 0600);
   ::posix_spawn_file_actions_adddup2(&settings.files, STDOUT_FILENO, STDERR_FILENO);
-  // A group of its own, so that its children end with it and Ctrl-C is ours to answer; and the
-  // signals as a program expects them, for this one ignores some.
+  // A group of its own, so that its children end with it and Ctrl-C reaches only this program.
+  // Default signals, because this program ignores some.
   sigset_t usual;
   ::sigemptyset(&usual);
   ::posix_spawnattr_setsigmask(&settings.attributes, &usual);
@@ -125,7 +125,7 @@ core::Result<void> run_program(const ProgramCall& call) {
                       fmt::format("{} cannot be started: {}", name, system_reason(error)));
   }
   const bool in_time = ended_by(pid, Clock::now() + call.time_limit);
-  ::kill(-pid, SIGKILL);  // before it is waited for: until then nobody else has this number
+  ::kill(-pid, SIGKILL);  // before waitpid(): until then no other process has this number
   int state = 0;
   while (::waitpid(pid, &state, 0) < 0 && errno == EINTR) {
   }

@@ -9,9 +9,9 @@
 
 namespace rondure::record {
 
-/// The first of these programs in the folders of PATH, or of the system's default where PATH is not
-/// set; empty when there is none. Folders that are not named absolutely are left out: a program
-/// there is whatever happens to lie beside the data.
+/// The first of these programs in the folders of PATH, or of the default path of the system when
+/// PATH is not set; empty when there is none. Relative folders are skipped: a program found there
+/// would depend on the working directory.
 [[nodiscard]] std::filesystem::path find_program(const std::vector<std::string>& names);
 
 /// A program to be run, without a shell.
@@ -19,13 +19,12 @@ struct ProgramCall {
   std::filesystem::path program;
   std::vector<std::string> arguments;    ///< Without the name of the program.
   std::vector<std::string> environment;  ///< "NAME=value"; nothing else is handed on.
-  std::filesystem::path said;            ///< File for its standard output and error, made anew.
-  std::chrono::milliseconds time_limit;  ///< After it the program is killed; > 0.
+  std::filesystem::path said;            ///< File for its standard output and error, overwritten.
+  std::chrono::milliseconds time_limit;  ///< Then the program is killed; > 0.
 };
 
-/// Runs a program to its end, as the leader of a process group; what is left of the group is
-/// killed.
-/// @return  kFile unless its exit status is 0: what ended it and the last line that it wrote.
+/// Runs a program to its end as the leader of a process group, then kills the rest of the group.
+/// @return  kFile unless its exit status is 0, with the cause and the last line of its output.
 [[nodiscard]] core::Result<void> run_program(const ProgramCall& call);
 
 }  // namespace rondure::record

@@ -34,11 +34,14 @@ class OpenFile {
   int fd_;
 };
 
+tl::unexpected<core::Error> cannot(std::string_view verb, const fs::path& path,
+                                   std::string_view reason) {
+  return core::fail(core::Code::kFile, fmt::format("cannot {} {}: {}", verb, path.string(), reason),
+                    path.string());
+}
+
 tl::unexpected<core::Error> cannot(std::string_view verb, const fs::path& path, int error_number) {
-  return core::fail(
-      core::Code::kFile,
-      fmt::format("cannot {} {}: {}", verb, path.string(), system_reason(error_number)),
-      path.string());
+  return cannot(verb, path, system_reason(error_number));
 }
 
 /// Writes all bytes and flushes them to the disk; when false, errno has the reason.
@@ -100,10 +103,7 @@ core::Result<std::string> read_file(const fs::path& path) {
   if (::fstat(file.fd(), &status) != 0) return cannot("read", path, errno);
   if (S_ISDIR(status.st_mode)) return cannot("read", path, EISDIR);
   if (!S_ISREG(status.st_mode)) {
-    return core::fail(
-        core::Code::kFile,
-        fmt::format("cannot read {}: it is a device or a pipe; name a file", path.string()),
-        path.string());
+    return cannot("read", path, "it is a device or a pipe; name a file");
   }
   std::string bytes;
   bytes.reserve(static_cast<std::size_t>(status.st_size) + 1);
@@ -142,10 +142,7 @@ core::Result<void> write_file(const fs::path& path, std::string_view bytes) {
   if (fs::is_directory(path, ignored)) return cannot("write", path, EISDIR);
   const fs::file_status there = fs::status(path, ignored);
   if (fs::exists(there) && !fs::is_regular_file(there)) {  // a file would replace it
-    return core::fail(
-        core::Code::kFile,
-        fmt::format("cannot write {}: it is a device or a pipe; name a file", path.string()),
-        path.string());
+    return cannot("write", path, "it is a device or a pipe; name a file");
   }
   const fs::path temporary = temporary_name(path);
   OpenFile file(temporary, O_WRONLY | O_CREAT | O_EXCL);

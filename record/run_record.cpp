@@ -31,18 +31,6 @@ std::vector<double> numbers_in(std::span<const Setting> settings, std::string_vi
   return out;
 }
 
-std::optional<double> Feature::number(std::string_view name) const {
-  return number_in(settings, name);
-}
-
-std::optional<std::string> Feature::word(std::string_view name) const {
-  return word_in(settings, name);
-}
-
-std::vector<double> Feature::numbers(std::string_view name) const {
-  return numbers_in(settings, name);
-}
-
 std::optional<std::vector<double>> Series::column(std::string_view wanted) const {
   const auto found = std::find_if(columns.begin(), columns.end(), [&](const SeriesColumn& column) {
     return column.name == wanted;

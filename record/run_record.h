@@ -161,9 +161,9 @@ struct Feature {
   std::vector<Setting> settings;  ///< A list repeats its key for each item.
 
   /// As number_in(), word_in() and numbers_in() of the settings.
-  [[nodiscard]] std::optional<double> number(std::string_view name) const;
-  [[nodiscard]] std::optional<std::string> word(std::string_view name) const;
-  [[nodiscard]] std::vector<double> numbers(std::string_view name) const;
+  [[nodiscard]] auto number(std::string_view name) const { return number_in(settings, name); }
+  [[nodiscard]] auto word(std::string_view name) const { return word_in(settings, name); }
+  [[nodiscard]] auto numbers(std::string_view name) const { return numbers_in(settings, name); }
 };
 
 /// Head of a run: part, plan, machine, program and conditions.

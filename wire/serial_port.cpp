@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <utility>
 
@@ -21,6 +23,7 @@
 namespace rondure::wire {
 namespace {
 
+namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
@@ -50,7 +53,6 @@ termios with_settings(termios line, const SerialSettings& settings, speed_t spee
   if (settings.parity != SerialSettings::Parity::kNone) line.c_cflag |= PARENB;
   if (settings.parity == SerialSettings::Parity::kOdd) line.c_cflag |= PARODD;
   if (settings.stop_bits == 2) line.c_cflag |= CSTOPB;
-  if (settings.rts_cts) line.c_cflag |= CRTSCTS;
   line.c_cc[VMIN] = 0;
   line.c_cc[VTIME] = 0;
   cfsetispeed(&line, speed);
@@ -60,7 +62,7 @@ termios with_settings(termios line, const SerialSettings& settings, speed_t spee
 
 /// The settings that a device supports. A pseudo-terminal has no wire: it carries whole bytes, and
 /// the C library reports 7 data bits or parity there as refused.
-SerialSettings on(const std::filesystem::path& device, SerialSettings settings) {
+SerialSettings on(const fs::path& device, SerialSettings settings) {
   if (device.string().starts_with("/dev/pts/")) {
     settings.data_bits = 8;
     settings.parity = SerialSettings::Parity::kNone;
@@ -177,9 +179,33 @@ class SerialPort final : public ByteStream {
   core::Error failure_;
 };
 
+/// The first line of a small file; "" when it cannot be read.
+std::string line_of(const fs::path& file) {
+  std::string out;
+  std::getline(std::ifstream(file) >> std::ws, out);
+  return out;
+}
+
+std::uint16_t id_of(const fs::path& file) {
+  const std::string text = line_of(file);
+  std::uint16_t out = 0;
+  std::from_chars(text.data(), text.data() + text.size(), out, 16);
+  return out;
+}
+
+/// The USB device that a serial device belongs to, in /sys; "" when it is none.
+fs::path plug_of(const fs::path& tty) {
+  std::error_code none;
+  fs::path place = fs::canonical(tty / "device", none);
+  for (; !none && place.has_relative_path(); place = place.parent_path()) {
+    if (fs::exists(place / "idVendor", none)) return place;
+  }
+  return {};
+}
+
 }  // namespace
 
-std::string why_not_opened(const std::filesystem::path& device, int error) {
+std::string why_not_opened(const fs::path& device, int error) {
   const std::string name = device.string();
   if (error == EACCES || error == EPERM) {
     return fmt::format(
@@ -199,7 +225,7 @@ std::string why_not_opened(const std::filesystem::path& device, int error) {
   return fmt::format("{} cannot be opened: {}", name, std::strerror(error));
 }
 
-core::Result<std::unique_ptr<ByteStream>> open_serial(const std::filesystem::path& device,
+core::Result<std::unique_ptr<ByteStream>> open_serial(const fs::path& device,
                                                       const SerialSettings& settings) {
   const auto speed = speed_of(settings.baud);
   if (!speed) {
@@ -225,6 +251,36 @@ core::Result<std::unique_ptr<ByteStream>> open_serial(const std::filesystem::pat
   }
   (void)::tcflush(file.number(), TCIOFLUSH);
   return std::make_unique<SerialPort>(std::move(file), device.string(), settings.write_limit);
+}
+
+std::vector<SerialPortInfo> list_serial_ports() {
+  std::vector<SerialPortInfo> out;
+  std::error_code none;
+  for (fs::directory_iterator entry("/sys/class/tty", none), end; !none && entry != end;
+       entry.increment(none)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with("ttyUSB") && !name.starts_with("ttyACM")) continue;
+    SerialPortInfo port;
+    port.device = "/dev/" + name;
+    const fs::path plug = plug_of(entry->path());
+    if (!plug.empty()) {
+      port.vendor = id_of(plug / "idVendor");
+      port.product = id_of(plug / "idProduct");
+      port.product_name = line_of(plug / "product");
+      port.serial = line_of(plug / "serial");
+    }
+    std::error_code unbound;
+    port.kernel_driver =
+        fs::read_symlink(entry->path() / "device" / "driver", unbound).filename().string();
+    if (::access(port.device.c_str(), R_OK | W_OK) != 0) {
+      port.refused = why_not_opened(port.device, errno);
+    }
+    port.held_by = device_holders(port.device);
+    out.push_back(std::move(port));
+  }
+  std::sort(out.begin(), out.end(),
+            [](const SerialPortInfo& a, const SerialPortInfo& b) { return a.device < b.device; });
+  return out;
 }
 
 }  // namespace rondure::wire

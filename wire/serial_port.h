@@ -1,9 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "wire/byte_stream.h"
 
@@ -17,7 +19,6 @@ struct SerialSettings {
   int data_bits = 8;  ///< 7 or 8.
   Parity parity = Parity::kNone;
   int stop_bits = 1;                            ///< 1 or 2.
-  bool rts_cts = false;                         ///< Flow control by the RTS and CTS lines.
   std::chrono::milliseconds write_limit{1000};  ///< Time for the device to take what is sent.
 };
 
@@ -32,5 +33,20 @@ struct SerialSettings {
 /// Says why the system refuses to open a serial device, and what to do about it.
 /// @param error  The errno of the attempt.
 [[nodiscard]] std::string why_not_opened(const std::filesystem::path& device, int error);
+
+/// A serial device that the system made for a USB device: /dev/ttyUSB*, /dev/ttyACM*.
+struct SerialPortInfo {
+  std::string device;  ///< E.g. "/dev/ttyUSB0".
+  std::uint16_t vendor = 0;
+  std::uint16_t product = 0;
+  std::string product_name;  ///< From the USB descriptor; "" when it has none.
+  std::string serial;        ///< From the USB descriptor; "" when it has none.
+  std::string kernel_driver;
+  std::string refused;  ///< Why this user may not open it and how to fix that; "": allowed.
+  std::string held_by;  ///< Programs that have it open, as given by device_holders().
+};
+
+/// Lists the serial devices of USB adapters, by name, from /sys/class/tty. None is opened.
+[[nodiscard]] std::vector<SerialPortInfo> list_serial_ports();
 
 }  // namespace rondure::wire

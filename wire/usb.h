@@ -46,7 +46,6 @@ struct UsbDeviceInfo {
   std::uint16_t product = 0;
   int bus = 0;
   int address = 0;
-  std::string manufacturer;         ///< From the device; "" when it cannot be read.
   std::string product_name;         ///< From the device; "" when it cannot be read.
   std::string serial;               ///< From the device; "" when it cannot be read.
   std::optional<UsbFault> refused;  ///< Why it cannot be opened and what to do; empty: it can.
@@ -138,11 +137,6 @@ class UsbDevice {
   /// Releases the claimed interfaces and returns them to their kernel drivers. Safe to call twice.
   virtual void close() = 0;
 };
-
-/// For serial lines over USB: the time limit of a setup request, and the largest number of packets
-/// that one transfer reads.
-inline constexpr UsbDevice::Limit kControlLimit(1000);
-inline constexpr std::size_t kPacketsAtOnce = 8;
 
 /// Opens the selected device. Nothing is claimed.
 /// @return  kNotFound, kAmbiguous (the sentence lists the serial numbers), kPermission, kBusy.

@@ -1,17 +1,163 @@
 #include "wire/usb.h"
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
 #include <libusb.h>
 
-#include "wire/internal/usb_context.h"
+#include "wire/internal/device_holders.h"
 
 namespace rondure::wire {
 namespace {
 
 using Kind = UsbFault::Kind;
+
+struct ContextEnd {
+  void operator()(libusb_context* context) const { libusb_exit(context); }
+};
+using Context = std::unique_ptr<libusb_context, ContextEnd>;
+
+struct HandleEnd {
+  void operator()(libusb_device_handle* handle) const { libusb_close(handle); }
+};
+using Handle = std::unique_ptr<libusb_device_handle, HandleEnd>;
+
+/// Frees a list of all plugged-in devices. Each entry holds a reference until then.
+struct ListEnd {
+  void operator()(libusb_device** list) const { libusb_free_device_list(list, 1); }
+};
+using List = std::unique_ptr<libusb_device*, ListEnd>;
+
+constexpr std::size_t kLongestString = 256;
+
+std::string device_file(const UsbDeviceInfo& info) {
+  return fmt::format("/dev/bus/usb/{:03}/{:03}", info.bus, info.address);
+}
+
+std::string ask_string(libusb_device_handle& handle, std::uint8_t index) {
+  if (index == 0) return {};
+  std::array<unsigned char, kLongestString> text = {};
+  const int length = libusb_get_string_descriptor_ascii(&handle, index, text.data(),
+                                                        static_cast<int>(text.size()));
+  if (length <= 0) return {};
+  return {text.begin(), text.begin() + length};
+}
+
+/// "1-4.2", as the kernel names the place of a device.
+std::string port_path(libusb_device& device) {
+  std::array<std::uint8_t, 8> ports = {};
+  const int count = libusb_get_port_numbers(&device, ports.data(), static_cast<int>(ports.size()));
+  std::string path = fmt::format("{}", libusb_get_bus_number(&device));
+  for (int i = 0; i < count; ++i) {
+    path += fmt::format("{}{}", i == 0 ? '-' : '.', ports.at(static_cast<std::size_t>(i)));
+  }
+  return path;
+}
+
+/// The fault that a libusb code stands for, worded for this device and for the action in `doing`.
+UsbFault fault_of(int libusb_code, const UsbDeviceInfo& info, const std::string& doing) {
+  const std::string who = info.place();
+  switch (libusb_code) {
+    case LIBUSB_ERROR_NO_DEVICE:
+    case LIBUSB_ERROR_NOT_FOUND:
+      return {Kind::kUnplugged,
+              fmt::format("the USB device {} was unplugged while {}; plug it in and check the "
+                          "cable and its supply",
+                          who, doing)};
+    case LIBUSB_ERROR_ACCESS:
+      return {Kind::kPermission,
+              fmt::format("this user may not open the USB device {} ({}); install the udev rules: "
+                          "sudo cp wire/60-rondure.rules /etc/udev/rules.d/ && sudo udevadm "
+                          "control --reload, then plug it in again",
+                          who, device_file(info))};
+    case LIBUSB_ERROR_BUSY:
+      return {Kind::kBusy, fmt::format("the USB device {} is in use; end the other program", who)};
+    case LIBUSB_ERROR_PIPE:
+      return {Kind::kStall, fmt::format("the USB device {} refused {} (stall)", who, doing)};
+    case LIBUSB_ERROR_TIMEOUT:
+      return {Kind::kTimeout,
+              fmt::format("the USB device {} did not answer in time while {}", who, doing)};
+    case LIBUSB_ERROR_OVERFLOW:
+      return {Kind::kBabble,
+              fmt::format("the USB device {} sent more than was asked for while {}", who, doing)};
+    default:
+      return {Kind::kOther, fmt::format("the USB device {} failed while {}: {}", who, doing,
+                                        libusb_strerror(libusb_code))};
+  }
+}
+
+UsbResult<Context> new_context() {
+  libusb_context* context = nullptr;
+  if (const int code = libusb_init(&context); code != LIBUSB_SUCCESS) {
+    return tl::unexpected(
+        UsbFault{Kind::kOther,
+                 fmt::format("USB cannot be used on this computer: {}", libusb_strerror(code))});
+  }
+  return Context(context);
+}
+
+UsbResult<List> all_devices(libusb_context& context) {
+  libusb_device** list = nullptr;
+  const auto count = libusb_get_device_list(&context, &list);
+  if (count < 0) {
+    return tl::unexpected(
+        UsbFault{Kind::kOther, fmt::format("the USB devices cannot be listed: {}",
+                                           libusb_strerror(static_cast<int>(count)))});
+  }
+  return List(list);
+}
+
+/// Reads vendor, product, bus and address of a device.
+UsbResult<UsbDeviceInfo> identity(libusb_device& device) {
+  libusb_device_descriptor text = {};
+  UsbDeviceInfo info;
+  info.bus = libusb_get_bus_number(&device);
+  info.address = libusb_get_device_address(&device);
+  if (const int code = libusb_get_device_descriptor(&device, &text); code != LIBUSB_SUCCESS) {
+    return tl::unexpected(fault_of(code, info, "reading its descriptor"));
+  }
+  info.vendor = text.idVendor;
+  info.product = text.idProduct;
+  return info;
+}
+
+/// Reads the string descriptors of an open device.
+void ask_strings(libusb_device_handle& handle, UsbDeviceInfo& info) {
+  libusb_device_descriptor text = {};
+  if (libusb_get_device_descriptor(libusb_get_device(&handle), &text) != LIBUSB_SUCCESS) return;
+  info.product_name = ask_string(handle, text.iProduct);
+  info.serial = ask_string(handle, text.iSerialNumber);
+}
+
+UsbResult<Handle> open_device(libusb_device& device, const UsbDeviceInfo& info) {
+  libusb_device_handle* handle = nullptr;
+  const int code = libusb_open(&device, &handle);
+  if (code != LIBUSB_SUCCESS) return tl::unexpected(fault_of(code, info, "opening it"));
+  return Handle(handle);
+}
+
+/// The kernel driver of an interface; "" when there is none, or this library itself.
+std::string kernel_driver_of(libusb_device& device, int interface) {
+  std::error_code none;
+  const std::filesystem::path place =
+      fmt::format("/sys/bus/usb/devices/{0}:1.{1}/driver", port_path(device), interface);
+  std::string driver = std::filesystem::read_symlink(place, none).filename().string();
+  return driver == "usbfs" ? std::string() : driver;
+}
+
+/// The programs that have a device open, as given by device_holders().
+std::string programs_with(const UsbDeviceInfo& info) { return device_holders(device_file(info)); }
+
+/// The holder of an interface of a device: a kernel driver or a program.
+std::string holder_of(libusb_device& device, const UsbDeviceInfo& info, int interface) {
+  const std::string driver = kernel_driver_of(device, interface);
+  if (!driver.empty()) return fmt::format("the kernel driver {}", driver);
+  const std::string programs = programs_with(info);
+  return programs.empty() ? "another program" : programs;
+}
 
 unsigned int milliseconds_of(UsbDevice::Limit limit) {
   return static_cast<unsigned int>(std::max<UsbDevice::Limit::rep>(1, limit.count()));
@@ -47,7 +193,7 @@ std::vector<UsbInterface> interfaces_of(libusb_device& device) {
 
 class OpenDevice final : public UsbDevice {
  public:
-  OpenDevice(usb::Context context, usb::Handle handle, UsbDeviceInfo info)
+  OpenDevice(Context context, Handle handle, UsbDeviceInfo info)
       : context_(std::move(context)),
         handle_(std::move(handle)),
         info_(std::move(info)),
@@ -88,7 +234,7 @@ class OpenDevice final : public UsbDevice {
       return tl::unexpected(UsbFault{
           Kind::kBusy,
           fmt::format("the USB device {} is in use by {}; end it and start again", info_.place(),
-                      usb::holder_of(*libusb_get_device(handle_.get()), info_, interface))});
+                      holder_of(*libusb_get_device(handle_.get()), info_, interface))});
     }
     if (code == LIBUSB_SUCCESS) claimed_.push_back(interface);
     return outcome(code, fmt::format("claiming interface {}", interface));
@@ -100,7 +246,7 @@ class OpenDevice final : public UsbDevice {
     const auto count = control(setup, copy, limit);
     if (!count) return tl::unexpected(count.error());
     if (*count == bytes.size()) return {};
-    return tl::unexpected(usb::fault_of(LIBUSB_ERROR_TIMEOUT, info_, request_name(setup)));
+    return tl::unexpected(fault_of(LIBUSB_ERROR_TIMEOUT, info_, request_name(setup)));
   }
 
   [[nodiscard]] UsbResult<std::string> control_in(const UsbSetup& setup, std::size_t most,
@@ -157,7 +303,7 @@ class OpenDevice final : public UsbDevice {
 
   [[nodiscard]] UsbResult<void> outcome(int code, const std::string& doing) const {
     if (code == LIBUSB_SUCCESS) return {};
-    return tl::unexpected(usb::fault_of(code, info_, doing));
+    return tl::unexpected(fault_of(code, info_, doing));
   }
 
   void release_all() {
@@ -170,7 +316,7 @@ class OpenDevice final : public UsbDevice {
     const int count = libusb_control_transfer(
         handle_.get(), setup.request_type, setup.request, setup.value, setup.index, data(bytes),
         static_cast<std::uint16_t>(bytes.size()), milliseconds_of(limit));
-    if (count < 0) return tl::unexpected(usb::fault_of(count, info_, request_name(setup)));
+    if (count < 0) return tl::unexpected(fault_of(count, info_, request_name(setup)));
     return static_cast<std::size_t>(count);
   }
 
@@ -184,14 +330,14 @@ class OpenDevice final : public UsbDevice {
                               milliseconds_of(limit));
     if (code != LIBUSB_SUCCESS && code != LIBUSB_ERROR_TIMEOUT) {
       return tl::unexpected(
-          usb::fault_of(code, info_, fmt::format("sending on endpoint {:#04x}", endpoint)));
+          fault_of(code, info_, fmt::format("sending on endpoint {:#04x}", endpoint)));
     }
     bytes.resize(static_cast<std::size_t>(count));  // after a timeout: the bytes up to then
     return bytes;
   }
 
-  usb::Context context_;  // outlives the handle
-  usb::Handle handle_;
+  Context context_;  // outlives the handle
+  Handle handle_;
   UsbDeviceInfo info_;
   std::vector<UsbInterface> interfaces_;
   std::vector<int> claimed_;
@@ -206,7 +352,7 @@ bool is_meant(const UsbSelector& selector, const UsbDeviceInfo& info) {
 
 /// An opened device that matches the selector.
 struct Candidate {
-  usb::Handle handle;
+  Handle handle;
   UsbDeviceInfo info;
 };
 
@@ -240,21 +386,21 @@ std::string serials_of(const std::vector<Candidate>& candidates) {
 }  // namespace
 
 UsbResult<std::unique_ptr<UsbDevice>> open_usb(const UsbSelector& selector) {
-  auto context = usb::new_context();
+  auto context = new_context();
   if (!context) return tl::unexpected(context.error());
-  auto list = usb::all_devices(**context);
+  auto list = all_devices(**context);
   if (!list) return tl::unexpected(list.error());
   std::vector<Candidate> fitting;
   std::optional<UsbFault> refused;
   for (libusb_device** device = list->get(); *device != nullptr; ++device) {
-    auto info = usb::identity(**device);
+    auto info = identity(**device);
     if (!info || !is_meant(selector, *info)) continue;
-    auto handle = usb::open_device(**device, *info);
+    auto handle = open_device(**device, *info);
     if (!handle) {
       refused = handle.error();
       continue;
     }
-    usb::ask_strings(**handle, *info);
+    ask_strings(**handle, *info);
     fitting.push_back({*std::move(handle), *std::move(info)});
   }
   const std::string serials = serials_of(fitting);
@@ -273,18 +419,18 @@ std::string UsbDeviceInfo::place() const {
 }
 
 UsbResult<std::vector<UsbDeviceInfo>> list_usb_devices() {
-  auto context = usb::new_context();
+  auto context = new_context();
   if (!context) return tl::unexpected(context.error());
-  auto list = usb::all_devices(**context);
+  auto list = all_devices(**context);
   if (!list) return tl::unexpected(list.error());
   std::vector<UsbDeviceInfo> out;
   for (libusb_device** device = list->get(); *device != nullptr; ++device) {
-    auto info = usb::identity(**device);
+    auto info = identity(**device);
     if (!info) continue;  // unplugged in the meantime
-    info->kernel_driver = usb::kernel_driver_of(**device, 0);
-    info->held_by = usb::programs_with(*info);  // asked before this program opens it
-    if (const auto handle = usb::open_device(**device, *info)) {
-      usb::ask_strings(**handle, *info);
+    info->kernel_driver = kernel_driver_of(**device, 0);
+    info->held_by = programs_with(*info);  // asked before this program opens it
+    if (const auto handle = open_device(**device, *info)) {
+      ask_strings(**handle, *info);
     } else {
       info->refused = handle.error();
     }

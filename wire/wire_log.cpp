@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
+#include <fmt/chrono.h>
 
 namespace rondure::wire {
 namespace {
@@ -15,15 +15,10 @@ constexpr std::size_t kLogged_bytes = 4096;
 
 /// "2026-11-21T02:33:02.123456Z".
 std::string utc_now() {
-  using std::chrono::microseconds;
-  const auto since =
-      std::chrono::duration_cast<microseconds>(std::chrono::system_clock::now().time_since_epoch());
-  const std::time_t seconds = since.count() / 1'000'000;
-  std::tm parts = {};
-  (void)gmtime_r(&seconds, &parts);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:06}Z", parts.tm_year + 1900,
-                     parts.tm_mon + 1, parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec,
-                     since.count() % 1'000'000);
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const auto since = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+  return fmt::format("{:%FT%T}.{:06}Z", fmt::gmtime(static_cast<std::time_t>(since / 1'000'000)),
+                     since % 1'000'000);
 }
 
 std::string printable(std::string_view text) {
@@ -52,11 +47,11 @@ class LoggedLine final : public LineTransport {
 
   [[nodiscard]] core::Result<void> write_line(std::string_view text) override {
     write(sent_, text);
-    return told(inner_->write_line(text));
+    return noting_loss(inner_->write_line(text));
   }
   [[nodiscard]] core::Result<std::optional<Line>> read_line(
       std::chrono::milliseconds time_limit) override {
-    auto line = told(inner_->read_line(time_limit));
+    auto line = noting_loss(inner_->read_line(time_limit));
     if (line && *line) {
       write(received_, (*line)->text);
       if (!(*line)->crlf) write("-- #:", "that line was ended by LF alone");
@@ -78,7 +73,7 @@ class LoggedLine final : public LineTransport {
 
   /// Logs once how the connection was lost.
   template <class T>
-  core::Result<T> told(core::Result<T> result) {
+  core::Result<T> noting_loss(core::Result<T> result) {
     if (!result && !lost_) {
       lost_ = true;
       write("-- #:", result.error().what);

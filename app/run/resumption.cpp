@@ -10,7 +10,7 @@
 #include "app/text/shell_word.h"
 #include "plans/analyses/analysis.h"
 #include "record/archive/place.h"
-#include "record/journal/unstarted_run.h"
+#include "record/journal/journal.h"
 
 namespace rondure::app {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "wire/serial_list.h"
+#include "wire/serial_port.h"
 #include "wire/usb.h"
 
 namespace rondure::app {

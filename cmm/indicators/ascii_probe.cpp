@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -20,23 +21,26 @@ using Parity = wire::SerialSettings::Parity;
 
 constexpr std::size_t kLongestReply = 256;
 
-struct Row {
-  const char* name;
-  int baud;
-  int data_bits;
-  Parity parity;
-  int stop_bits;
-  const char* request;
-  const char* reply;
-};
-
 constexpr const char* kNumber = "^ *([+-]? *[0-9]*[.]?[0-9]+) *$";
 
-constexpr std::array<Row, 4> kRows = {
-    {{"sylvac", 4800, 7, Parity::kEven, 2, "?\r", kNumber},
-     {"tesa", 4800, 7, Parity::kEven, 2, "?\r", kNumber},
-     {"mahr", 9600, 7, Parity::kEven, 2, "M1?\r", "^1 +([+-] *[0-9]*[.]?[0-9]+) *(mm|um|in)$"},
-     {"qm-height", 9600, 8, Parity::kNone, 1, "1\r", "^01A([+-][0-9]*[.][0-9]+)$"}}};
+/// The kinds of indicator: name, line, request, reply.
+const std::vector<AsciiProbeSettings>& kinds() {
+  const auto line = [](int baud, int data_bits, Parity parity, int stop_bits) {
+    wire::SerialSettings out;
+    out.baud = baud;
+    out.data_bits = data_bits;
+    out.parity = parity;
+    out.stop_bits = stop_bits;
+    return out;
+  };
+  static const std::vector<AsciiProbeSettings> kKinds = {
+      {"sylvac", line(4800, 7, Parity::kEven, 2), "?\r", kNumber},
+      {"tesa", line(4800, 7, Parity::kEven, 2), "?\r", kNumber},
+      {"mahr", line(9600, 7, Parity::kEven, 2), "M1?\r",
+       "^1 +([+-] *[0-9]*[.]?[0-9]+) *(mm|um|in)$"},
+      {"qm-height", line(9600, 8, Parity::kNone, 1), "1\r", "^01A([+-][0-9]*[.][0-9]+)$"}};
+  return kKinds;
+}
 
 /// A regular expression of the C library: std::regex of GCC 12 causes warnings in this build.
 class Pattern {
@@ -114,8 +118,7 @@ class AsciiProbe final : public DisplacementProbe {
     if (number && unit_mm) return *number * *unit_mm;
     late_ = true;
     const bool says_error = reply->starts_with("ERR");
-    return core::fail(
-        core::Code::kMachine,
+    return core::machine_fault(
         fmt::format("{} answered \"{}\", {}", description(), *reply,
                     says_error ? "an error of the instrument; see its manual"
                                : "which is no reading; check kind and line settings"));
@@ -130,8 +133,7 @@ class AsciiProbe final : public DisplacementProbe {
       if (!old) return core::fail(old.error());
       if (old->empty()) break;
       if (clock_.now() < end) continue;
-      return core::fail(
-          core::Code::kMachine,
+      return core::machine_fault(
           fmt::format("{} does not stop sending; end its continuous output", description()));
     }
     buffer_.clear();
@@ -156,10 +158,10 @@ class AsciiProbe final : public DisplacementProbe {
       if (!part) return core::fail(part.error());
       buffer_ += printable(*part);
     }
-    return core::fail(core::Code::kMachine,
-                      fmt::format("{}: no reading within {} ms; check that it is on, its cable, "
-                                  "and its line settings",
-                                  description(), settings_.answer_limit.count()));
+    return core::machine_fault(
+        fmt::format("{}: no reading within {} ms; check that it is on, its cable, "
+                    "and its line settings",
+                    description(), settings_.answer_limit.count()));
   }
 
   /// Replaces non-printing bytes, except line ends, by question marks.
@@ -181,24 +183,17 @@ class AsciiProbe final : public DisplacementProbe {
 }  // namespace
 
 std::optional<AsciiProbeSettings> ascii_probe_settings(std::string_view name) {
-  for (const Row& row : kRows) {
-    if (name != row.name) continue;
-    AsciiProbeSettings out;
-    out.name = row.name;
-    out.line.baud = row.baud;
-    out.line.data_bits = row.data_bits;
-    out.line.parity = row.parity;
-    out.line.stop_bits = row.stop_bits;
-    out.request = row.request;
-    out.reply = row.reply;
-    return out;
+  for (const AsciiProbeSettings& kind : kinds()) {
+    if (name == kind.name) return kind;
   }
   return std::nullopt;
 }
 
 std::string ascii_probe_names() {
   std::string out;
-  for (const Row& row : kRows) out += fmt::format("{}{}", out.empty() ? "" : ", ", row.name);
+  for (const AsciiProbeSettings& kind : kinds()) {
+    out += fmt::format("{}{}", out.empty() ? "" : ", ", kind.name);
+  }
   return out;
 }
 

@@ -106,10 +106,10 @@ class MitutoyoItn final : public DisplacementProbe {
       }
       if (message.size() > kLongestMessage) break;
     }
-    return core::fail(core::Code::kMachine,
-                      fmt::format("{}: no reading within {} ms; check that the gauge is on and its "
-                                  "cable plugged in at both ends",
-                                  description(), kAnswerLimit.count()));
+    return core::machine_fault(
+        fmt::format("{}: no reading within {} ms; check that the gauge is on and its "
+                    "cable plugged in at both ends",
+                    description(), kAnswerLimit.count()));
   }
 
   std::unique_ptr<wire::UsbDevice> device_;
@@ -137,9 +137,8 @@ core::Result<std::unique_ptr<DisplacementProbe>> open_mitutoyo_itn(
     wire::Clock* clock) {
   const auto in = interrupt_end(*device);
   if (!in) {
-    return core::fail(core::Code::kMachine,
-                      fmt::format("the USB device {} has no endpoint that readings could come from",
-                                  device->info().place()));
+    return core::machine_fault(fmt::format(
+        "the USB device {} has no endpoint that readings could come from", device->info().place()));
   }
   auto probe = std::make_unique<MitutoyoItn>(std::move(device), *in, options,
                                              clock != nullptr ? *clock : wire::system_clock());
@@ -149,8 +148,7 @@ core::Result<std::unique_ptr<DisplacementProbe>> open_mitutoyo_itn(
 
 core::Result<double> digimatic_reading(std::string_view message) {
   if (message.starts_with('9')) {
-    return core::fail(
-        core::Code::kMachine,
+    return core::machine_fault(
         fmt::format("the gauge interface says \"{}\": no gauge is connected, or it is "
                     "off or gives no data",
                     shown(message)));
@@ -161,8 +159,7 @@ core::Result<double> digimatic_reading(std::string_view message) {
   const bool plain = digits.find_first_not_of("0123456789.") == std::string_view::npos;
   const auto value = plain ? core::parse_number(digits) : std::nullopt;
   if (!value) {
-    return core::fail(
-        core::Code::kMachine,
+    return core::machine_fault(
         fmt::format("\"{}\" is no reading of a gauge (01A+0000.123 is one)", shown(message)));
   }
   return message[3] == '-' ? -*value : *value;

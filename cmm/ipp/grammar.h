@@ -29,6 +29,11 @@ inline constexpr std::size_t kMaxLineLength = 65536;  ///< Characters, without C
 inline constexpr int kMaxDepth = 8;                   ///< Of parentheses in parentheses.
 inline constexpr std::size_t kTagLength = 5;
 
+/// The point meant by the coordinates in PtMeas and the start in ScanOnCircle. The specification
+/// means the surface (6.3.2.13: the approach includes the tool radius); some servers take the
+/// centre of the tip. The reported point is the centre of the tip in both cases.
+enum class NamedPoint { kSurface, kCenter };
+
 /// The first five characters of a line.
 struct Tag {
   bool event = false;  ///< E0001..E9999 of the fast queue; E0000 is the server's, unsolicited.
@@ -89,7 +94,7 @@ struct Item {
 /// The contents of a string, or of a call whose only argument is one: "T" and Tool.Name("T").
 [[nodiscard]] std::optional<std::string> string_of(const Item& item);
 
-/// What a client sends:  tag method(arguments).
+/// A command of a client:  tag method(arguments).
 struct Command {
   Tag tag;
   std::string method;
@@ -112,7 +117,7 @@ struct RawLine {
 
 /// Why a line is no command.
 struct Refusal {
-  int number = 0;          ///< Of the error list (ipp_errors.h).
+  int number = 0;          ///< Of the error list (internal/errors.h).
   std::optional<Tag> tag;  ///< None when the line has no tag that could be answered.
   std::string what;        ///< For a person, and for the log.
 };
@@ -121,7 +126,7 @@ struct Refusal {
 /// commands and to them only. Spaces after the last parenthesis are accepted all the same.
 /// @param line  Any bytes, without CR LF.
 /// @return  The command; or 0001, 0002 (tag), 0007 (a character outside ASCII 32..126), 0008 (too
-///          long, too deep), 0502 (form of the arguments), 0507 (no such method: ipp_methods.h),
+///          long, too deep), 0502 (form of the arguments), 0507 (no such method),
 ///          0509 (a number out of form). O(length) time and memory; never throws but bad_alloc.
 [[nodiscard]] tl::expected<Command, Refusal> parse_command(std::string_view line);
 /// The same; 0007 for a line that LF alone ends.
@@ -144,14 +149,14 @@ struct ErrorReport {
 /// "error 1006, severity 2: Surface not found (00012 PtMeas(...))".
 [[nodiscard]] std::string in_words(const ErrorReport& error);
 
-/// What a server sends.
+/// A line of a server.
 struct Response {
   enum class Kind { kAck, kData, kError, kComplete };
 
   Tag tag;
   Kind kind = Kind::kAck;
   std::vector<Item> data;  ///< Of kData; empty when its text follows no grammar (XML).
-  std::string raw;         ///< Of kData: the text behind "# ".
+  std::string raw;         ///< Of kData: the text after "# ".
   ErrorReport error;       ///< Of kError.
 };
 

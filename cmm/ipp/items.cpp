@@ -73,32 +73,16 @@ std::optional<Tag> read_tag(std::string_view text) {
   return Tag{false, to_int(text)};
 }
 
-Item number_item(double value) {
-  Item item;
-  item.kind = Item::Kind::kNumber;
-  item.number = value;
-  return item;
-}
+Item number_item(double value) { return {Item::Kind::kNumber, value, {}, {}}; }
 
 Item string_item(std::string_view contents) {
-  Item item;
-  item.kind = Item::Kind::kString;
-  item.text = contents;
-  return item;
+  return {Item::Kind::kString, 0.0, std::string(contents), {}};
 }
 
-Item name_item(std::string_view name) {
-  Item item;
-  item.text = name;
-  return item;
-}
+Item name_item(std::string_view name) { return {Item::Kind::kName, 0.0, std::string(name), {}}; }
 
 Item call_item(std::string_view name, std::vector<Item> arguments) {
-  Item item;
-  item.kind = Item::Kind::kCall;
-  item.text = name;
-  item.arguments = std::move(arguments);
-  return item;
+  return {Item::Kind::kCall, 0.0, std::string(name), std::move(arguments)};
 }
 
 Item call_item(std::string_view name, std::initializer_list<double> values) {

@@ -44,32 +44,30 @@ std::ptrdiff_t digits_of(std::string_view text) {
   return std::count_if(text.begin(), text.end(), is_digit);
 }
 
+std::string rounded(double value, std::chars_format form, int digits) {
+  std::array<char, 32> out{};
+  const auto end = std::to_chars(out.data(), out.data() + out.size(), value, form, digits);
+  return {out.data(), end.ptr};
+}
+
 /// The number with at most 16 digits.
 std::string in_digits(double value) {
   std::string text = core::shortest(value + 0.0);  // + 0.0: no negative zero
   if (digits_of(text) <= kDigits) return text;
-  std::array<char, 32> rounded{};
   // Fifteen significant digits, because a leading zero counts as well.
-  const auto end = std::to_chars(rounded.data(), rounded.data() + rounded.size(), value,
-                                 std::chars_format::general, kDigits - 1);
-  text.assign(rounded.data(), end.ptr);
+  text = rounded(value, std::chars_format::general, kDigits - 1);
   if (digits_of(text) <= kDigits) return text;
-  const auto short_end = std::to_chars(rounded.data(), rounded.data() + rounded.size(), value,
-                                       std::chars_format::scientific, kDigits - 1);
-  return {rounded.data(), short_end.ptr};
+  return rounded(value, std::chars_format::scientific, kDigits - 1);
 }
 
 }  // namespace
 
 std::string wire_number(double value, NumberForm form) {
   std::string text = in_digits(value);
-  std::array<char, 32> rounded{};
   for (int digits = kDigits - 1;
        form == NumberForm::kSixteenCharacters && text.size() > kCharacters && digits > 0;
        --digits) {
-    const auto end = std::to_chars(rounded.data(), rounded.data() + rounded.size(), value,
-                                   std::chars_format::general, digits);
-    text.assign(rounded.data(), end.ptr);
+    text = rounded(value, std::chars_format::general, digits);
   }
   return text;
 }

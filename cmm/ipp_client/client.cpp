@@ -260,7 +260,7 @@ core::Result<TouchReading> IppMachine::touch(const TouchCommand& given) {
   const bool slow = is_cautious() && sent.approach_mm == command.approach_mm;
   if (auto set = slow_down(slow); !set) return core::fail(set.error());
   if (auto set = set_touch_distances(sent); !set) return core::fail(set.error());
-  if (auto told = number_touch(command.id); !told) return core::fail(told.error());
+  if (auto numbered = number_touch(command.id); !numbered) return core::fail(numbered.error());
   const Vector3d start = position_W_mm_;
   std::vector<Item> items =
       coordinates(named_point(command.expected_tip_W_mm, command.direction_W));
@@ -328,9 +328,8 @@ core::Result<TouchReading> IppMachine::reading_of(const Reply& reply, const Touc
 
 core::Result<void> IppMachine::tell_simulation(std::string_view name, std::int64_t value) {
   if (!identity_.simulated) return {};
-  const auto told = dialogue_->ask("SetProp", {call_item(name, {static_cast<double>(value)})});
-  if (!told)
-    return core::fail(error_of(told.error(), "telling the simulator where the run stands"));
+  const auto set = dialogue_->ask("SetProp", {call_item(name, {static_cast<double>(value)})});
+  if (!set) return core::fail(error_of(set.error(), "telling the simulator where the run stands"));
   return {};
 }
 

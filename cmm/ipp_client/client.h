@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include "cmm/ipp/frames.h"
+#include "cmm/ipp/grammar.h"
 #include "cmm/ipp_client/dialogue.h"
 #include "cmm/machine.h"
 #include "core/result.h"

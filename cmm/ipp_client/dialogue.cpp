@@ -43,7 +43,7 @@ std::string word_of(const Reply& reply) {
 }
 
 /// The faults that the machine reports.
-std::string told(const Reply& reply) {
+std::string fault_text(const Reply& reply) {
   std::string out;
   for (const Response& line : reply.data) {
     out += out.empty() ? "" : "; ";
@@ -90,7 +90,7 @@ core::Result<Eigen::Vector3d> find_point(const Reply& reply) {
   const auto z = find_number(reply, "Z");
   if (x && y && z) return Eigen::Vector3d(*x, *y, *z);
   return core::machine_fault(fmt::format("the machine was asked for X, Y and Z and answered \"{}\"",
-                                         told(reply).substr(0, 80)));
+                                         fault_text(reply).substr(0, 80)));
 }
 
 std::vector<Eigen::Vector3d> find_vectors(const Reply& reply) {
@@ -214,7 +214,7 @@ core::Result<void> Dialogue::check_state() {
   }
   if (find_number(*status, "ErrStatus").value_or(0.0) == 0.0) return {};
   const auto more = session_.call("GetXtdErrStatus", {}, limit_);
-  fault_ = more ? told(*more) : more.error().what;
+  fault_ = more ? fault_text(*more) : more.error().what;
   return core::machine_fault(
       fmt::format("the machine is in its error state: {}; put that right at the "
                   "machine, then start again",
@@ -307,7 +307,7 @@ core::Result<std::string> Dialogue::tool_list() {
   if (!tool_list_) {
     const auto list = ask_if_known("EnumAllProp", {call_item("Tool")});
     if (!list) return core::fail(list.error());
-    tool_list_ = *list ? told(**list) : "";
+    tool_list_ = *list ? fault_text(**list) : "";
   }
   // A list without the parameters of a touch is unusable: no tool is active, or it is incomplete.
   return tool_list_->find("PtMeasPar") == std::string::npos ? std::string() : *tool_list_;

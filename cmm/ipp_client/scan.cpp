@@ -47,7 +47,7 @@ std::vector<Item> scan_arguments(const ScanCircleCommand& command, const Vector3
 
 core::Result<std::vector<TouchReading>> IppMachine::scan_circle(const ScanCircleCommand& given) {
   if (auto ready = check_ready(); !ready) return core::fail(ready.error());
-  if (auto sound = check_scan(given); !sound) return core::fail(sound.error());
+  if (auto valid = check_scan(given); !valid) return core::fail(valid.error());
   if (const Capabilities can = capabilities(); !can.scans_circles) {
     return core::machine_fault(fmt::format("the machine does not scan circles: {}", can.no_scans));
   }
@@ -61,7 +61,8 @@ core::Result<std::vector<TouchReading>> IppMachine::scan_circle(const ScanCircle
   const std::array<std::pair<std::string_view, double>, 1> retract = {
       {{"Tool.ScanPar.Retract", command.approach_mm}}};
   if (auto set = dialogue_->set(retract); !set) return core::fail(set.error());
-  if (auto told = number_touch(command.first_id); !told) return core::fail(told.error());
+  if (auto numbered = number_touch(command.first_id); !numbered)
+    return core::fail(numbered.error());
   const Vector3d start = position_W_mm_;
   const Vector3d named = named_point(command.start_tip_W_mm, first.direction_W);
   const auto reply = run("ScanOnCircle", scan_arguments(command, named), scan_length_mm(command),

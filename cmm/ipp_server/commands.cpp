@@ -27,24 +27,22 @@ std::optional<Tag> tag_argument(const Command& command) {
 Server::Outcome Server::execute(const Command& command) {
   struct Entry {
     std::string_view method;
-    Outcome (Server::*handler)(const Command&);
+    Outcome (Server::*handler)();
   };
-  static constexpr Entry kEntries[] = {
-      {"StartSession", &Server::start_session},      {"EndSession", &Server::end_session},
-      {"ClearAllErrors", &Server::clear_all_errors}, {"GetXtdErrStatus", &Server::extended_status},
-      {"StopDaemon", &Server::stop_daemon},          {"StopAllDaemons", &Server::stop_all_daemons}};
+  static constexpr Entry kEntries[] = {{"StartSession", &Server::start_session},
+                                       {"EndSession", &Server::end_session},
+                                       {"ClearAllErrors", &Server::clear_all_errors},
+                                       {"GetXtdErrStatus", &Server::extended_status},
+                                       {"StopAllDaemons", &Server::stop_all_daemons}};
   for (const Entry& entry : kEntries) {
     if (entry.method != command.method) continue;
-    const bool takes_tag = entry.method == "StopDaemon";
-    if (!takes_tag && !command.arguments.empty()) {
-      return refusal(kIncorrectArguments, "the arguments are not ()");
-    }
-    return (this->*entry.handler)(command);
+    if (!command.arguments.empty()) return wrong_arguments("()");
+    return (this->*entry.handler)();
   }
-  return controller_.execute(command);
+  return command.method == "StopDaemon" ? stop_daemon(command) : controller_.execute(command);
 }
 
-Server::Outcome Server::start_session(const Command&) {
+Server::Outcome Server::start_session() {
   if (session_) {
     return refusal(kProtocolError, "a session is open already");
   }
@@ -52,25 +50,25 @@ Server::Outcome Server::start_session(const Command&) {
   error_.reset();
   controller_.begin_session();
   // A machine that keeps its fault reports it at the first motion.
-  [[maybe_unused]] const auto recovered = controller_.recover();
+  [[maybe_unused]] const auto recovered = controller_.machine().recover();
   return Reply{};
 }
 
-Server::Outcome Server::end_session(const Command&) {
+Server::Outcome Server::end_session() {
   session_ = false;
   daemons_.clear();
   return Reply{};
 }
 
-Server::Outcome Server::clear_all_errors(const Command&) {
-  if (auto recovered = controller_.recover(); !recovered) {
+Server::Outcome Server::clear_all_errors() {
+  if (auto recovered = controller_.machine().recover(); !recovered) {
     return refusal(kMachineInErrorState, recovered.error().what);
   }
   error_.reset();
   return Reply{};
 }
 
-Server::Outcome Server::extended_status(const Command&) {
+Server::Outcome Server::extended_status() {
   const auto flag = [](const char* name, bool value) {
     return std::vector<Item>{call_item(name, {value ? 1.0 : 0.0})};
   };
@@ -96,7 +94,7 @@ Server::Outcome Server::stop_daemon(const Command& command) {
   return Reply{};
 }
 
-Server::Outcome Server::stop_all_daemons(const Command&) {
+Server::Outcome Server::stop_all_daemons() {
   Reply out;
   if (daemons_.empty()) out.report = kNoDaemons;
   daemons_.clear();
@@ -113,7 +111,7 @@ void Server::receive_event(const Waiting& waiting, double now_s) {
   if (command.method == "GetPropE") return conclude(waiting, controller_.execute(command));
   if (command.method == "OnMoveReportE") return conclude(waiting, add_daemon(command, now_s));
   if (!command.arguments.empty()) {
-    return conclude(waiting, refusal(kIncorrectArguments, "the arguments are not ()"));
+    return conclude(waiting, wrong_arguments("()"));
   }
   if (command.method == "AbortE") return abort_all(waiting, now_s);
   if (command.method == "GetErrStatusE") {

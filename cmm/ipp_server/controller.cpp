@@ -8,6 +8,7 @@
 
 #include "cmm/ipp/internal/errors.h"
 #include "cmm/ipp_server/internal/arguments.h"
+#include "core/units.h"
 
 namespace rondure::cmm::ipp {
 namespace {
@@ -23,6 +24,21 @@ double as_number(bool value) { return value ? 1.0 : 0.0; }
 
 }  // namespace
 
+Eigen::Isometry3d machine_to_csy(const CsyTransformation& transformation) {
+  using Eigen::AngleAxisd;
+  using Eigen::Vector3d;
+  // The axes turn, so the coordinates of a fixed point turn in the opposite sense.
+  const Eigen::Matrix3d axes =
+      (AngleAxisd(transformation.psi_deg * core::kDegree, Vector3d::UnitZ()) *
+       AngleAxisd(transformation.theta_deg * core::kDegree, Vector3d::UnitX()) *
+       AngleAxisd(transformation.phi_deg * core::kDegree, Vector3d::UnitZ()))
+          .toRotationMatrix();
+  Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
+  out.linear() = axes.transpose();
+  out.translation() = -(out.linear() * transformation.x0_mm);
+  return out;
+}
+
 Controller::Controller(Backend& backend, const ControllerOptions& options)
     : backend_(backend),
       options_(options),
@@ -37,32 +53,62 @@ void Controller::begin_session() {
   scan_report_ = {"X", "Y", "Z", "Q"};
 }
 
-core::Result<void> Controller::recover() { return machine().recover(); }
-
 bool Controller::is_motion(std::string_view method) { return is_one_of(method, kMotions); }
 
 const std::vector<Controller::Entry>& Controller::entries() {
   static const std::vector<Entry> kEntries = {
-      {"GetDMEVersion", &Controller::get_version},
-      {"GetMachineClass", &Controller::get_machine_class},
-      {"IsHomed", &Controller::is_homed_query},
-      {"EnableUser", &Controller::enable_user},
-      {"DisableUser", &Controller::disable_user},
-      {"IsUserEnabled", &Controller::is_user_enabled_query},
+      {"GetDMEVersion",
+       [](Controller& c, const Arguments&) {
+         return one_line(call_item("DMEVersion", {string_item(c.options_.version)}));
+       },
+       false},
+      {"GetMachineClass",
+       [](Controller& c, const Arguments&) {
+         const bool table = !c.backend_.table_angles_deg().empty();
+         return one_line(call_item("GetMachineClass",
+                                   {name_item(table ? "CartCMMWithRotaryTable" : "CartCMM")}));
+       },
+       false},
+      {"IsHomed",
+       [](Controller& c, const Arguments&) {
+         return one_line(call_item("IsHomed", {as_number(c.is_homed())}));
+       },
+       false},
+      {"EnableUser",
+       [](Controller& c, const Arguments&) {
+         c.user_enabled_ = true;
+         return Outcome(Reply{});
+       },
+       false},
+      {"DisableUser",
+       [](Controller& c, const Arguments&) {
+         c.user_enabled_ = false;
+         return Outcome(Reply{});
+       },
+       false},
+      {"IsUserEnabled",
+       [](Controller& c, const Arguments&) {
+         return one_line(call_item("IsUserEnabled", {as_number(c.user_enabled_)}));
+       },
+       false},
       {"GetErrorInfo", &Controller::get_error_info},
-      {"GetSupportedCommands", &Controller::get_supported_commands},
+      {"GetSupportedCommands", &Controller::get_supported_commands, false},
       {"Get", &Controller::get_position},
       {"OnPtMeasReport", &Controller::set_touch_report},
       {"OnScanReport", &Controller::set_scan_report},
       {"ScanOnCircleHint", &Controller::take_hint},
-      {"GetTemperatureSensors", &Controller::temperature_sensors},
+      {"GetTemperatureSensors", &Controller::temperature_sensors, false},
       {"ReadTemperatureSensor", &Controller::read_temperature},
-      {"ReadAllTemperatures", &Controller::read_all_temperatures},
+      {"ReadAllTemperatures", &Controller::read_all_temperatures, false},
       {"SetCoordSystem", &Controller::set_coord_system},
-      {"GetCoordSystem", &Controller::get_coord_system},
+      {"GetCoordSystem",
+       [](Controller& c, const Arguments&) {
+         return one_line(call_item("CoordSystem", {name_item(c.csy_)}));
+       },
+       false},
       {"SetCsyTransformation", &Controller::set_transformation},
       {"GetCsyTransformation", &Controller::get_transformation},
-      {"EnumTools", &Controller::enum_tools},
+      {"EnumTools", &Controller::enum_tools, false},
       {"ChangeTool", &Controller::change_tool},
       {"SetTool", &Controller::change_tool},
       {"FindTool", &Controller::find_tool},
@@ -77,7 +123,9 @@ const std::vector<Controller::Entry>& Controller::entries() {
 
 Outcome Controller::execute(const Command& command) {
   for (const Entry& entry : entries()) {
-    if (entry.method == command.method) return (this->*entry.handler)(command.arguments);
+    if (entry.method != command.method) continue;
+    if (!entry.takes_arguments && !command.arguments.empty()) return wrong_arguments("()");
+    return entry.handler(*this, command.arguments);
   }
   return refusal(kUnsupportedCommand,
                  fmt::format("{} is not supported by this server", command.method));
@@ -86,40 +134,6 @@ Outcome Controller::execute(const Command& command) {
 bool Controller::is_homed() {
   const auto status = machine().status();
   return status && status->homed;
-}
-
-Outcome Controller::get_version(const Arguments& arguments) {
-  if (!arguments.empty()) return wrong_arguments("()");
-  return one_line(call_item("DMEVersion", {string_item(options_.version)}));
-}
-
-Outcome Controller::get_machine_class(const Arguments& arguments) {
-  if (!arguments.empty()) return wrong_arguments("()");
-  const std::string_view name =
-      backend_.table_angles_deg().empty() ? "CartCMM" : "CartCMMWithRotaryTable";
-  return one_line(call_item("GetMachineClass", {name_item(name)}));
-}
-
-Outcome Controller::is_homed_query(const Arguments& arguments) {
-  if (!arguments.empty()) return wrong_arguments("()");
-  return one_line(call_item("IsHomed", {as_number(is_homed())}));
-}
-
-Outcome Controller::enable_user(const Arguments& arguments) {
-  if (!arguments.empty()) return wrong_arguments("()");
-  user_enabled_ = true;
-  return Reply{};
-}
-
-Outcome Controller::disable_user(const Arguments& arguments) {
-  if (!arguments.empty()) return wrong_arguments("()");
-  user_enabled_ = false;
-  return Reply{};
-}
-
-Outcome Controller::is_user_enabled_query(const Arguments& arguments) {
-  if (!arguments.empty()) return wrong_arguments("()");
-  return one_line(call_item("IsUserEnabled", {as_number(user_enabled_)}));
 }
 
 Outcome Controller::get_error_info(const Arguments& arguments) {
@@ -135,8 +149,7 @@ Outcome Controller::get_error_info(const Arguments& arguments) {
   return one_line(string_item(entry->text));
 }
 
-Outcome Controller::get_supported_commands(const Arguments& arguments) {
-  if (!arguments.empty()) return wrong_arguments("()");
+Outcome Controller::get_supported_commands(const Arguments&) {
   Reply out;
   for (const Entry& entry : entries()) out.lines.push_back({string_item(entry.method)});
   for (const std::string_view method : kMotions) out.lines.push_back({string_item(method)});
@@ -165,11 +178,6 @@ Outcome Controller::set_coord_system(const Arguments& arguments) {
   csy_ = name;
   X_CW_ = name == "MachineCsy" ? Eigen::Isometry3d::Identity() : machine_to_csy(part_csy_);
   return Reply{};
-}
-
-Outcome Controller::get_coord_system(const Arguments& arguments) {
-  if (!arguments.empty()) return wrong_arguments("()");
-  return one_line(call_item("CoordSystem", {name_item(csy_)}));
 }
 
 Outcome Controller::set_transformation(const Arguments& arguments) {

@@ -10,6 +10,7 @@
 #include "cmm/ipp_server/controller.h"
 #include "cmm/ipp_server/internal/arguments.h"
 #include "cmm/scan_path.h"
+#include "cmm/touch_check.h"
 #include "core/units.h"
 
 // Commands with motion: they become phases of a motion.
@@ -42,28 +43,20 @@ bool differs(const Vector3d& a, const Vector3d& b) { return (a - b).norm() > kTh
 }  // namespace
 
 Failure Controller::failure_of(const core::Error& error, std::string_view method) {
-  int number = kProcessing;
   switch (error.code) {
     case core::Code::kNoTouch:
-      number = kSurfaceNotFound;
-      break;
+      return {kSurfaceNotFound, error.what};
     case core::Code::kCollision:
-      number = kCollision;
-      break;
+      return {kCollision, error.what};
     case core::Code::kUnreachable:
-      number = method == "GoTo" ? kMoveOutOfLimits : kOutOfVolume;
-      break;
+      return {method == "GoTo" ? kMoveOutOfLimits : kOutOfVolume, error.what};
     case core::Code::kPoseRange:
-      number = kAngleOutOfRange;
-      break;
+      return {kAngleOutOfRange, error.what};
     case core::Code::kStopped:
-      number = kAborted;
-      break;
+      return {kAborted, error.what};
     default:
-      if (method == "Home") number = kAtHome;
-      break;
+      return {method == "Home" ? kAtHome : kProcessing, error.what};
   }
-  return {number, error.what};
 }
 
 tl::expected<void, Failure> Controller::ready_to_move() {
@@ -157,7 +150,7 @@ Vector3d Controller::tip_at(const Vector3d& named_W_mm, const Vector3d& directio
 }
 
 Motion Controller::touch_motion(const TouchCommand& touch) {
-  const Vector3d start = touch.expected_tip_W_mm - touch.approach_mm * touch.direction_W;
+  const Vector3d start = start_of(touch);
   const auto reading = std::make_shared<TouchReading>();
   Motion out;
   if (differs(start, machine().position_W_mm())) out.phases.push_back(move_phase(start));
@@ -221,14 +214,14 @@ tl::expected<Motion, Failure> Controller::plan_scan(const Arguments& arguments) 
   scan.approach_mm = parameters_.act("PtMeasPar.Approach");
   scan.search_mm = parameters_.act("PtMeasPar.Search");
   if (scan.points >= 3) {
-    if (auto sound = check_scan(scan); !sound) return refusal(kBadArgument, sound.error().what);
+    if (auto valid = check_scan(scan); !valid) return refusal(kBadArgument, valid.error().what);
   }
   return scan_motion(scan);
 }
 
 Motion Controller::scan_motion(const ScanCircleCommand& scan) {
   const TouchCommand first = scan_point(scan, 0);
-  const Vector3d start = first.expected_tip_W_mm - first.approach_mm * first.direction_W;
+  const Vector3d start = start_of(first);
   const auto readings = std::make_shared<std::vector<TouchReading>>();
   Motion out;
   if (differs(start, machine().position_W_mm())) out.phases.push_back(move_phase(start));

@@ -20,6 +20,22 @@ constexpr std::array<std::string_view, 9> kTouchValues = {
     "X", "Y", "Z", "IJK", "ER", "Q", "Part.Temperature", "Scale.Temperature", "Time"};
 constexpr std::array<std::string_view, 5> kScanValues = {"X", "Y", "Z", "ER", "Q"};
 
+/// Sets the values of a report.
+/// @param values  The names it may hold; `form` and `kind` word a refusal.
+Outcome set_report(std::vector<std::string>& report, const Arguments& arguments,
+                   std::span<const std::string_view> values, std::string_view form,
+                   std::string_view kind) {
+  const auto names = empty_calls(arguments);
+  if (!names) return wrong_arguments(form);
+  for (const std::string& name : *names) {
+    if (!is_one_of(name, values)) {
+      return refusal(kNotRecognized, fmt::format("{} is no {}", name, kind));
+    }
+  }
+  report = *names;
+  return Reply{};
+}
+
 }  // namespace
 
 tl::expected<std::vector<Item>, Failure> Controller::position_report(
@@ -49,47 +65,31 @@ Outcome Controller::get_position(const Arguments& arguments) {
 }
 
 Outcome Controller::set_touch_report(const Arguments& arguments) {
-  const auto names = empty_calls(arguments);
-  if (!names) return wrong_arguments("(X(), Y(), Z(), IJK(), ER(), Q())");
-  for (const std::string& name : *names) {
-    if (!is_one_of(name, kTouchValues)) {
-      return refusal(kNotRecognized, fmt::format("{} is no value of a touch", name));
-    }
-  }
-  touch_report_ = *names;
-  return Reply{};
+  return set_report(touch_report_, arguments, kTouchValues, "(X(), Y(), Z(), IJK(), ER(), Q())",
+                    "value of a touch");
 }
 
 Outcome Controller::set_scan_report(const Arguments& arguments) {
-  const auto names = empty_calls(arguments);
-  if (!names) return wrong_arguments("(X(), Y(), Z(), Q())");
-  for (const std::string& name : *names) {
-    if (!is_one_of(name, kScanValues)) {
-      return refusal(kNotRecognized, fmt::format("{} is no column of a scan", name));
-    }
-  }
-  scan_report_ = *names;
-  return Reply{};
+  return set_report(scan_report_, arguments, kScanValues, "(X(), Y(), Z(), Q())",
+                    "column of a scan");
 }
 
-Outcome Controller::temperature_sensors(const Arguments& arguments) {
-  if (!arguments.empty()) return wrong_arguments("()");
+Outcome Controller::temperature_sensors(const Arguments&) {
   return Reply{{{string_item("Part")}, {string_item("Scale")}}, 0};
 }
 
 Outcome Controller::read_temperature(const Arguments& arguments) {
   const auto sensor = arguments.size() == 1 ? string_of(arguments[0]) : std::nullopt;
   if (!sensor) return wrong_arguments("(\"sensor\")");
-  const TouchReading last = last_reading_.value_or(TouchReading());
-  const double part_degC = last.temperature_degC.value_or(options_.temperature_degC);
-  const double scale_degC = last.scale_temperature_degC.value_or(options_.temperature_degC);
-  if (*sensor == "Part") return one_line(call_item("ReadTemperatureSensor", {part_degC}));
-  if (*sensor == "Scale") return one_line(call_item("ReadTemperatureSensor", {scale_degC}));
-  return refusal(kNotRecognized, fmt::format("there is no sensor \"{}\"", *sensor));
+  if (*sensor != "Part" && *sensor != "Scale") {
+    return refusal(kNotRecognized, fmt::format("there is no sensor \"{}\"", *sensor));
+  }
+  const auto value = report_values(*sensor + ".Temperature", last_reading_.value_or(TouchReading()),
+                                   Vector3d::Zero());
+  return one_line(call_item("ReadTemperatureSensor", {value[0]}));
 }
 
-Outcome Controller::read_all_temperatures(const Arguments& arguments) {
-  if (!arguments.empty()) return wrong_arguments("()");
+Outcome Controller::read_all_temperatures(const Arguments&) {
   Reply out;
   for (const char* sensor : {"Part", "Scale"}) {
     auto read = read_temperature({string_item(sensor)});

@@ -57,8 +57,7 @@ std::optional<std::string> prefix_of(const Arguments& arguments) {
 
 }  // namespace
 
-Outcome Controller::enum_tools(const Arguments& arguments) {
-  if (!arguments.empty()) return wrong_arguments("()");
+Outcome Controller::enum_tools(const Arguments&) {
   Reply out;
   out.lines.push_back({string_item(kNoTool)});
   for (const std::string& tool : machine().capabilities().tools) {

@@ -101,12 +101,12 @@ class Server {
 
   // Commands of the server itself: commands.cpp.
   [[nodiscard]] Outcome execute(const Command& command);
-  [[nodiscard]] Outcome start_session(const Command& command);
-  [[nodiscard]] Outcome end_session(const Command& command);
-  [[nodiscard]] Outcome clear_all_errors(const Command& command);
-  [[nodiscard]] Outcome extended_status(const Command& command);
+  [[nodiscard]] Outcome start_session();
+  [[nodiscard]] Outcome end_session();
+  [[nodiscard]] Outcome clear_all_errors();
+  [[nodiscard]] Outcome extended_status();
   [[nodiscard]] Outcome stop_daemon(const Command& command);
-  [[nodiscard]] Outcome stop_all_daemons(const Command& command);
+  [[nodiscard]] Outcome stop_all_daemons();
   void receive_event(const Waiting& waiting, double now_s);
   void abort_all(const Waiting& waiting, double now_s);
   [[nodiscard]] Outcome add_daemon(const Command& command, double now_s);

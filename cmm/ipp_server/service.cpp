@@ -53,7 +53,7 @@ core::Result<bool> serve_once(wire::LineTransport& client, Server& server) {
 }
 
 void send_away(wire::LineTransport& client, const std::string& why) {
-  [[maybe_unused]] const auto told =
+  [[maybe_unused]] const auto sent =
       client.write_line(error_line(kUnsolicited, error_report(kBadContext, why)));
   client.close();
 }
@@ -94,7 +94,7 @@ Departure serve_client(wire::TcpListener& listener, wire::LineTransport& client,
                                    "takes one at a time, another one after {:g} s of silence",
                                    client.peer(), silent_s, limit_s));
   }
-  [[maybe_unused]] const auto told = client.write_line(error_line(
+  [[maybe_unused]] const auto sent = client.write_line(error_line(
       kUnsolicited, error_report(kEmergencyStop, "the server was ended by its operator")));
   return {"the server ends", nullptr};
 }

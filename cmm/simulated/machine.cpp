@@ -69,12 +69,7 @@ Capabilities SimulatedMachine::capabilities() const {
 }
 
 core::Result<MachineStatus> SimulatedMachine::status() {
-  MachineStatus out;
-  out.homed = homed_;
-  out.stopped = stopped_;
-  out.tool = options_.tool;
-  if (lost_) out.fault = "the connection is lost";
-  return out;
+  return MachineStatus{homed_, stopped_, options_.tool, lost_ ? "the connection is lost" : ""};
 }
 
 core::Result<void> SimulatedMachine::select_tool(const std::string& name) {
@@ -206,7 +201,7 @@ core::Result<void> SimulatedMachine::check_volume(const Vector3d& tip_W_mm) cons
 }
 
 core::Result<void> SimulatedMachine::check_command(const TouchCommand& command) const {
-  if (auto sound = check_touch(command, position_W_mm_); !sound) return sound;
+  if (auto valid = check_touch(command, position_W_mm_); !valid) return valid;
   return check_volume(command.expected_tip_W_mm + command.search_mm * command.direction_W);
 }
 
@@ -330,7 +325,7 @@ core::Result<std::vector<TouchReading>> SimulatedMachine::scan_circle(
   const std::int64_t lost = options_.lost_at_touch;
   lost_ = lost_ || (lost > given.first_id && lost <= given.first_id + given.points);
   if (auto ready = check_ready(); !ready) return core::fail(ready.error());
-  if (auto sound = check_scan(given); !sound) return core::fail(sound.error());
+  if (auto valid = check_scan(given); !valid) return core::fail(valid.error());
   const ScanCircleCommand command = on_grid(given);
   if (auto checked = check_command(scan_point(command, 0)); !checked) {
     return core::fail(checked.error());
@@ -385,7 +380,7 @@ core::Result<void> SimulatedMachine::continue_after(const TouchCommand& given,
 
 core::Result<void> SimulatedMachine::continue_after(const ScanCircleCommand& given,
                                                     const TouchReading& last) {
-  if (auto sound = check_scan(given); !sound) return sound;
+  if (auto valid = check_scan(given); !valid) return valid;
   const ScanCircleCommand command = on_grid(given);
   const std::vector<TouchCommand> points = points_of(command);
   std::vector<Vector3d> tips;

@@ -35,6 +35,11 @@ struct SimulatedMachineOptions {
   std::int64_t lost_at_touch = 0;  ///< The connection is lost at this touch, from 1; 0: never.
 };
 
+/// Errors of a good bridge machine of about 1 m with a kinematic touch-trigger probe, in a
+/// measuring room. Values and their sources: docs/simulation.md. The repeatability and the ball are
+/// ideal: they belong to the probe described in a plan.
+[[nodiscard]] MachineErrors typical_errors();
+
 /// A machine in software. It knows the real part and its true position, and finds the true contact
 /// of the tip sphere along the approach path as distorted by its errors (machine_map.h). To the
 /// reading it adds pre-travel, bending of the stylus, backlash, noise and dust, the last two keyed

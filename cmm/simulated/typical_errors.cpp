@@ -1,4 +1,4 @@
-#include "cmm/simulated/typical_errors.h"
+#include "cmm/simulated/machine.h"
 
 namespace rondure::cmm {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "cmm/ipp/frames.h"
+#include "cmm/ipp/grammar.h"
 #include "cmm/ipp_server/backend.h"
 #include "cmm/ipp_server/server.h"
 #include "plans/cell/simulated_cell.h"

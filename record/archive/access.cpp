@@ -12,11 +12,7 @@
 
 namespace rondure::record {
 
-struct Archive::Impl {
-  std::unique_ptr<ArchiveSession> session;
-};
-
-Archive::Archive(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Archive::Archive(std::unique_ptr<ArchiveSession> session) : session_(std::move(session)) {}
 Archive::Archive(Archive&&) noexcept = default;
 Archive& Archive::operator=(Archive&&) noexcept = default;
 Archive::~Archive() = default;
@@ -24,7 +20,7 @@ Archive::~Archive() = default;
 core::Result<Archive> Archive::open(const ArchivePlace& place, Access access) {
   auto session = open_archive_session(place, access);
   if (!session) return core::fail(session.error());
-  return Archive(std::make_unique<Impl>(Impl{std::move(*session)}));
+  return Archive(std::move(*session));
 }
 
 core::Result<bool> Archive::push(const ArchiveRun& run) {
@@ -36,8 +32,7 @@ core::Result<bool> Archive::push(const ArchiveRun& run) {
                                   run.head.run_id, run.head.started_utc));
   }
   bool added = false;
-  auto written =
-      write_in_one(*impl_->session, [&] { added = insert_run(impl_->session->sql, run, *time_s); });
+  auto written = write_in_one(*session_, [&] { added = insert_run(session_->sql, run, *time_s); });
   if (!written) return core::fail(written.error());
   return added;
 }
@@ -45,12 +40,8 @@ core::Result<bool> Archive::push(const ArchiveRun& run) {
 core::Result<std::vector<ArchivedResult>> Archive::newest(const ArchiveFilter& filter,
                                                           std::size_t count,
                                                           const ArchivedResult* before) {
-  ArchiveSession& session = *impl_->session;
-  try {
-    return select_newest(session.sql, filter, count, before);
-  } catch (const std::exception& exception) {
-    return archive_failure(session.place, "read", exception, &session.sql);
-  }
+  return read_from<std::vector<ArchivedResult>>(
+      *session_, [&] { return select_newest(session_->sql, filter, count, before); });
 }
 
 std::optional<std::int64_t> seconds_of_utc(std::string_view text) {

@@ -13,6 +13,8 @@
 
 namespace rondure::record {
 
+struct ArchiveSession;
+
 /// Version of the archive's tables; goes up with every change (docs/archive.md).
 inline constexpr int kArchiveVersion = 1;
 
@@ -105,9 +107,8 @@ class Archive {
       const ArchiveFilter& filter, std::size_t count, const ArchivedResult* before = nullptr);
 
  private:
-  struct Impl;
-  explicit Archive(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  explicit Archive(std::unique_ptr<ArchiveSession> session);
+  std::unique_ptr<ArchiveSession> session_;
 };
 
 /// Seconds since 1970 of "2026-11-21T02:33:02Z", or of "2026-11-21" (its first second); nothing for

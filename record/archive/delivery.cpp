@@ -36,12 +36,12 @@ class RetryPolicy {
 /// An archive that is reopened after a fault.
 class Receiver {
  public:
-  Receiver(const ArchivePlace& place, const RetryPolicy& patience)
-      : place_(place), patience_(patience) {}
+  Receiver(const ArchivePlace& place, const RetryPolicy& retries)
+      : place_(place), retries_(retries) {}
 
   core::Result<bool> push(const ArchiveRun& run) {
     core::Result<bool> pushed = false;
-    for (int attempt = 0; patience_.allows(attempt); ++attempt) {
+    for (int attempt = 0; retries_.allows(attempt); ++attempt) {
       pushed = push_once(run);
       // Only a fault that may pass by itself is worth another attempt.
       if (pushed || pushed.error().code != core::Code::kArchive) return pushed;
@@ -61,7 +61,7 @@ class Receiver {
   }
 
   const ArchivePlace& place_;
-  const RetryPolicy& patience_;
+  const RetryPolicy& retries_;
   std::optional<Archive> archive_;
 };
 
@@ -72,8 +72,8 @@ void count(Delivery& delivery, const ArchiveRun& run, bool added) {
 }
 
 core::Result<void> send_queue(ArchiveQueue& queue, const std::string& target, Receiver& receiver,
-                              const RetryPolicy& patience, Delivery& delivery) {
-  while (!delivery.failure && !patience.ended()) {
+                              const RetryPolicy& retries, Delivery& delivery) {
+  while (!delivery.failure && !retries.ended()) {
     const auto waiting = queue.first(target);
     if (!waiting) return core::fail(waiting.error());
     if (!*waiting) return {};
@@ -89,13 +89,13 @@ core::Result<void> send_queue(ArchiveQueue& queue, const std::string& target, Re
 }
 
 core::Result<void> use_queue(const std::filesystem::path& file, const std::string& target,
-                             const ArchiveRun* left, Receiver& receiver,
-                             const RetryPolicy& patience, Delivery& delivery) {
+                             const ArchiveRun* left, Receiver& receiver, const RetryPolicy& retries,
+                             Delivery& delivery) {
   auto queue = ArchiveQueue::open(file);
   if (!queue) return core::fail(queue.error());
   if (left != nullptr) {
     if (auto added = queue->add(target, *left); !added) return added;
-  } else if (auto sent = send_queue(*queue, target, receiver, patience, delivery); !sent) {
+  } else if (auto sent = send_queue(*queue, target, receiver, retries, delivery); !sent) {
     return sent;
   }
   const auto waiting = queue->size(target);
@@ -109,8 +109,8 @@ core::Result<void> use_queue(const std::filesystem::path& file, const std::strin
 Delivery deliver(const ArchivePlace& place, const std::filesystem::path& queue_file,
                  const ArchiveRun* run, const DeliveryOptions& options) {
   Delivery delivery;
-  const RetryPolicy patience(options);
-  Receiver receiver(place, patience);
+  const RetryPolicy retries(options);
+  Receiver receiver(place, retries);
   const ArchiveRun* left = nullptr;
   if (run != nullptr) {
     if (const auto pushed = receiver.push(*run)) {
@@ -125,7 +125,7 @@ Delivery deliver(const ArchivePlace& place, const std::filesystem::path& queue_f
   }
   std::error_code unknown;
   if (left == nullptr && !std::filesystem::exists(queue_file, unknown)) return delivery;
-  auto queued = use_queue(queue_file, place.key, left, receiver, patience, delivery);
+  auto queued = use_queue(queue_file, place.key, left, receiver, retries, delivery);
   if (!queued) delivery.queue_failure = queued.error();
   return delivery;
 }

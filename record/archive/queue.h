@@ -38,9 +38,8 @@ class ArchiveQueue {
   [[nodiscard]] core::Result<void> remove(const std::string& target, const ArchiveRun& run);
 
  private:
-  struct Impl;
-  explicit ArchiveQueue(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  explicit ArchiveQueue(std::unique_ptr<ArchiveSession> session);
+  std::unique_ptr<ArchiveSession> session_;
 };
 
 /// Limits of a delivery.

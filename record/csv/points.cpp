@@ -185,23 +185,25 @@ core::Error explain(std::string_view line, const Columns& columns) {
       fmt::format("{} cannot be read; numbers for {} are expected", quoted_text(line), names));
 }
 
-/// Reads a whole file: `begin(columns)` once, then `add(values, rows to come)` for each row; rows
-/// to come is an estimate at the first row and 0 after it.
-template <class Begin, class Add>
-core::Result<void> parse(std::string_view text, std::string_view name, const Format& format,
-                         const Begin& begin, const Add& add) {
+/// A whole file.
+struct Rows {
   Columns columns;
+  std::vector<Eigen::Vector3d> values;
+};
+
+core::Result<Rows> parse(std::string_view text, std::string_view name, const Format& format) {
+  Rows out;
+  Columns& columns = out.columns;
   Eigen::Vector3d values = Eigen::Vector3d::Zero();
-  bool first = true;
   const auto add_row = [&](std::size_t bytes) {
     // Rows are about as long as the first.
-    add(values, std::exchange(first, false) ? text.size() / bytes + 1 : 0);
+    if (out.values.empty()) out.values.reserve(text.size() / bytes + 1);
+    out.values.push_back(values);
   };
   const auto header = [&](std::string_view line) -> core::Result<void> {
     const auto found = read_header(line, format);
     if (!found) return core::fail(found.error());
     columns = *found;
-    begin(columns);
     return {};
   };
   const auto row = [&](std::string_view line, std::size_t) -> core::Result<void> {
@@ -223,34 +225,26 @@ core::Result<void> parse(std::string_view text, std::string_view name, const For
         without_byte_order_mark(text).empty() ? "is empty" : "holds only comments and blank lines",
         format.columns);
   };
-  return read_table(text, name, header, row, no_rows, plain);
+  if (auto read = read_table(text, name, header, row, no_rows, plain); !read) {
+    return core::fail(read.error());
+  }
+  return out;
 }
 
 }  // namespace
 
 core::Result<PointTable> parse_points_csv(std::string_view text, std::string_view name) {
-  PointTable table;
-  const auto parsed = parse(
-      text, name, kPointFormat,
-      [&](const Columns& columns) { table.dimensions = static_cast<int>(columns.count); },
-      [&](const Eigen::Vector3d& values, std::size_t rows_to_come) {
-        if (rows_to_come > 0) table.points_mm.reserve(rows_to_come);
-        table.points_mm.push_back(values);
-      });
-  if (!parsed) return core::fail(parsed.error());
-  return table;
+  auto rows = parse(text, name, kPointFormat);
+  if (!rows) return core::fail(rows.error());
+  return PointTable{static_cast<int>(rows->columns.count), std::move(rows->values)};
 }
 
 core::Result<ProfileTable> parse_profile_csv(std::string_view text, std::string_view name) {
-  ProfileTable table;
-  const auto parsed = parse(
-      text, name, kProfileFormat,
-      [&](const Columns& columns) { table.polar = columns.set.names[0] == kPolar.names[0]; },
-      [&](const Eigen::Vector3d& values, std::size_t rows_to_come) {
-        if (rows_to_come > 0) table.rows.reserve(rows_to_come);
-        table.rows.emplace_back(values.head<2>());
-      });
-  if (!parsed) return core::fail(parsed.error());
+  const auto rows = parse(text, name, kProfileFormat);
+  if (!rows) return core::fail(rows.error());
+  ProfileTable table{rows->columns.set.names[0] == kPolar.names[0], {}};
+  table.rows.reserve(rows->values.size());
+  for (const Eigen::Vector3d& values : rows->values) table.rows.emplace_back(values.head<2>());
   return table;
 }
 

@@ -83,7 +83,7 @@ std::string unescaped(std::string_view json) {
   return out;
 }
 
-/// The value that begins here, which is taken off the text.
+/// The value at the start of the text, which is removed from it.
 std::optional<core::Argument> take_value(std::string_view& json) {
   const bool is_text = json.starts_with('"');
   const std::size_t end = is_text ? length_of_text(json) : json.find_first_of(",}");
@@ -134,8 +134,8 @@ constexpr std::array<std::pair<MessageCode, std::string_view>, 13> kOldSentences
     {MessageCode::kPartLocatedAgain, "part located again behind {:.0f} touches: {}"},
 }};
 
-/// The message of a sentence that was made with this form. Nothing an argument holds but the last
-/// one's words contains the fixed text behind it.
+/// The message of a sentence with this form. Only the last argument may contain the fixed text that
+/// follows an argument.
 std::optional<Message> read_with(MessageCode code, std::string_view form,
                                  std::string_view sentence) {
   Message out{code, {}};

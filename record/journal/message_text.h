@@ -6,7 +6,7 @@
 
 #include "core/message.h"
 
-// Messages as the journal keeps them (docs/journal.md, table decision).
+// Messages as stored in the journal (docs/journal.md, table decision).
 
 namespace rondure::record {
 
@@ -15,17 +15,17 @@ namespace rondure::record {
 /// is not finite is null.
 [[nodiscard]] std::string arguments_json(const core::Message& message);
 
-/// Reads a code and its arguments back; nothing for a code that this program does not know, and for
-/// any text that arguments_json() would not write. null becomes infinity.
+/// Reads a code and its arguments; nothing for an unknown code, and for any text that
+/// arguments_json() would not write. null becomes infinity.
 [[nodiscard]] std::optional<core::Message> read_message(std::string_view code,
                                                         std::string_view arguments);
 
-/// The sentence that journals before version 6 hold in place of code and arguments. It never
-/// changes; what a person reads is made in reports/words/internal/messages.h.
+/// The sentence that journals before version 6 hold instead of code and arguments. Its wording
+/// never changes; reports take theirs from reports/words/internal/messages.h.
 [[nodiscard]] std::string old_sentence(const core::Message& message);
 
-/// The message that such a sentence stands for, its numbers as rounded there; kSentence with the
-/// sentence itself where no form fits.
+/// The message of such a sentence, with its numbers as rounded there; kSentence with the sentence
+/// itself when it has none of the known forms.
 [[nodiscard]] core::Message read_old_sentence(const std::string& sentence);
 
 }  // namespace rondure::record

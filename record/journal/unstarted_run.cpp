@@ -1,19 +1,14 @@
-#include "record/journal/unstarted_run.h"
+#include "record/journal/journal.h"
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <string>
 #include <system_error>
 
 #include <fmt/format.h>
-#include <soci/soci.h>
-#include <soci/sqlite3/soci-sqlite3.h>
 
 #include "record/files.h"
-#include "record/internal/database.h"
 #include "record/journal/internal/private_copy.h"
-#include "record/journal/journal.h"
 #include "record/run_lock.h"
 
 namespace rondure::record {
@@ -23,32 +18,21 @@ namespace fs = std::filesystem;
 
 using Logs = PrivateCopy::Logs;
 
-/// Whether the file is a database without tables; nothing when it is not a database or is damaged.
-core::Result<std::optional<bool>> holds_no_table(const fs::path& journal, Logs logs) {
-  const auto copy = PrivateCopy::of(journal, logs);
-  if (!copy) return core::fail(copy.error());
-  const auto connection = connection_string(copy->file());
-  if (!connection) return core::fail(connection.error());
-  try {
-    soci::session sql(soci::sqlite3, *connection);
-    distrust(sql);
-    int tables = 0;
-    long long application = 0;
-    sql << "select count(*) from sqlite_schema", soci::into(tables);
-    sql << "pragma application_id", soci::into(application);
-    return std::optional(tables == 0 && application == 0);
-  } catch (const std::exception&) {
-    return std::optional<bool>();
-  }
+bool holds_no_table(soci::session& sql) {
+  int tables = 0;
+  long long application = 0;
+  sql << "select count(*) from sqlite_schema", soci::into(tables);
+  sql << "pragma application_id", soci::into(application);
+  return tables == 0 && application == 0;
 }
 
 /// Whether a journal has no tables after SQLite has finished its log. A file that has tables
 /// without its log is a journal, whatever the log contains.
-core::Result<bool> is_unborn(const fs::path& journal) {
-  const auto alone = holds_no_table(journal, Logs::kWithout);
+core::Result<bool> is_unstarted(const fs::path& journal) {
+  const auto alone = in_copy(journal, Logs::kWithout, holds_no_table);
   if (!alone) return core::fail(alone.error());
   if (!alone->value_or(true)) return false;
-  const auto whole = holds_no_table(journal, Logs::kWith);
+  const auto whole = in_copy(journal, Logs::kWith, holds_no_table);
   if (!whole) return core::fail(whole.error());
   return whole->value_or(false);  // a damaged one is left to the reader of journals
 }
@@ -88,8 +72,8 @@ core::Result<bool> clear_unstarted_run(const fs::path& directory) {
   if (!fs::exists(journal, problem)) return true;
   const auto lock = RunLock::take(directory);
   if (!lock) return core::fail(lock.error());
-  auto unborn = is_unborn(journal);
-  if (!unborn || !*unborn) return unborn;
+  auto unstarted = is_unstarted(journal);
+  if (!unstarted || !*unstarted) return unstarted;
   for (const char* suffix : kSuffixes) {
     if (fs::remove(journal.string() + suffix, problem); problem) {
       return core::fail(core::Code::kFile,

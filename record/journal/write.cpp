@@ -1,13 +1,29 @@
 #include "record/journal/journal.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include "record/checksums.h"
+#include "record/files.h"
 #include "record/growing_record.h"
 #include "record/journal/internal/impl.h"
 #include "record/journal/internal/series.h"
+#include "record/sha256.h"
 
 namespace rondure::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Writes the digest of the closed journal into the list beside it.
+core::Result<void> list_digest(const fs::path& file) {
+  const auto bytes = read_file(file);
+  if (!bytes) return core::fail(bytes.error());
+  return update_checksums(file.parent_path(), {{kJournalName, sha256_hex(*bytes)}});
+}
+
+}  // namespace
 
 using soci::use;
 
@@ -23,7 +39,7 @@ core::Result<void> Journal::add(const Touch& touch) {
   const std::string subject =
       check ? std::string("a repeated touch") : fmt::format("touch {}", touch.id);
   auto written = impl_->write(subject, [&] { impl_->insert(touch); });
-  if (written) impl_->keep(touch);
+  if (written) impl_->note_touch(touch);
   if (written && impl_->follower) impl_->follower->add(std::span(&touch, 1));
   return written;
 }
@@ -36,7 +52,7 @@ core::Result<void> Journal::add(std::span<const Touch> touches) {
     for (const Touch& touch : touches) impl_->insert(touch);
   });
   if (written) {
-    for (const Touch& touch : touches) impl_->keep(touch);
+    for (const Touch& touch : touches) impl_->note_touch(touch);
     if (impl_->follower) impl_->follower->add(touches);
   }
   return written;
@@ -107,6 +123,60 @@ core::Result<void> Journal::end(const std::string& ending, const core::Error* fa
   impl_->ended = impl_->ended || written.has_value();
   if (written && impl_->follower) impl_->follower->end(ending, failure);
   return written;
+}
+
+core::Result<void> Journal::seal(std::span<const StoredResult> results) {
+  Impl& impl = *impl_;
+  if (impl.state == Impl::State::kOpen) {
+    auto written = impl.write("the seal", [&] {
+      insert_results(impl.sql, *impl.chain, results);
+      insert_seal(impl.sql, impl.version);
+    });
+    if (!written) return written;
+    impl.state = Impl::State::kDigested;
+  }
+  if (impl.state == Impl::State::kClosed) {
+    return impl.failure("the seal", "it stands there already");
+  }
+  if (impl.state == Impl::State::kDigested) {
+    if (auto moved = impl.leave_wal(); !moved) return moved;
+  }
+  auto listed = list_digest(impl.file);
+  if (listed) impl.state = Impl::State::kClosed;
+  return listed;
+}
+
+core::Result<void> Journal::finish_seal(const fs::path& directory) {
+  const fs::path file = fs::absolute(directory) / kJournalName;
+  std::error_code ignored;
+  if (fs::exists(directory / kChecksumsName, ignored)) {
+    const auto listed = read_checksums(directory);
+    if (!listed) return core::fail(listed.error());
+    const bool known = std::any_of(listed->begin(), listed->end(),
+                                   [](const Checksum& line) { return line.file == kJournalName; });
+    if (known) return {};
+  }
+  const auto connection = connection_string(file);
+  if (!connection) return core::fail(connection.error());
+  std::optional<soci::session> sql;
+  try {
+    sql.emplace(soci::sqlite3, *connection);
+    distrust(*sql);
+    int tables = 0;  // this read rolls back an unfinished change of the mode
+    *sql << "select count(*) from sqlite_schema", soci::into(tables);
+    checkpoint_wal(*sql);
+    disable_wal(*sql);
+  } catch (const std::exception& exception) {
+    return core::fail(core::Code::kJournal,
+                      fmt::format("the log of {} cannot be folded: {}", file.string(),
+                                  reason_of(exception, sql ? &*sql : nullptr)),
+                      file.string());
+  }
+  sql.reset();
+  // Left by a process that died in disable_wal(): SQLite has rolled back or finished its contents,
+  // but keeps the file.
+  fs::remove(file.string() + "-journal", ignored);
+  return list_digest(file);
 }
 
 }  // namespace rondure::record

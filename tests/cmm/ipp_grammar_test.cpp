@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "cmm/ipp/internal/errors.h"
-#include "cmm/ipp/internal/methods.h"
 
 namespace rondure::cmm::ipp {
 namespace {
@@ -251,12 +250,13 @@ TEST(IppErrors, EveryNumberIsFoundWithASeverity) {
             "error 1006, severity 2: Surface not found (PtMeas)");
 }
 
-TEST(IppMethods, EventMethodsEndInE) {
-  EXPECT_TRUE(is_event_method("AbortE"));
-  EXPECT_FALSE(is_event_method("Home"));
-  EXPECT_FALSE(is_event_method("FooE"));
-  EXPECT_TRUE(is_method("ScanOnCircle"));
-  EXPECT_FALSE(is_method("scanoncircle"));
+TEST(IppMethods, EventMethodsEndInEAndHaveAnEventTag) {
+  EXPECT_TRUE(parse_command("E0001 AbortE()"));
+  EXPECT_EQ(parse_command("00001 AbortE()").error().number, kIllegalTag);
+  EXPECT_EQ(parse_command("E0001 Home()").error().number, kIllegalTag);
+  EXPECT_EQ(parse_command("E0001 FooE()").error().number, kIllegalCommand);
+  EXPECT_TRUE(parse_command("00001 ScanOnCircle()"));
+  EXPECT_EQ(parse_command("00001 scanoncircle()").error().number, kIllegalCommand);
 }
 
 TEST(IppGrammar, ALineEndedByLineFeedAloneIsAnIllegalCharacter) {

@@ -1,3 +1,4 @@
+#include "cmm/ipp_server/controller.h"
 #include "cmm/ipp_server/server.h"
 
 #include <cmath>
@@ -8,7 +9,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cmm/ipp/frames.h"
 #include "ipp_talk.h"
 
 namespace rondure::cmm::ipp {

@@ -11,7 +11,6 @@
 
 #include "cmm/simulated/internal/machine_map.h"
 #include "cmm/simulated/machine.h"
-#include "cmm/simulated/typical_errors.h"
 #include "core/noise.h"
 #include "core/units.h"
 

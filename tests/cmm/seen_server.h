@@ -12,9 +12,9 @@
 
 #include <Eigen/Core>
 
-#include "cmm/ipp/frames.h"
 #include "cmm/ipp/grammar.h"
 #include "cmm/ipp_server/backend.h"
+#include "cmm/ipp_server/controller.h"
 #include "cmm/ipp_server/parameters.h"
 #include "wire/tcp_line.h"
 

@@ -15,7 +15,6 @@
 #include "record/files.h"
 #include "record/journal/journal.h"
 #include "record/journal/internal/schema.h"
-#include "record/journal/internal/seal.h"
 #include "record/sha256.h"
 #include "tests/app/files.h"
 #include "tests/app/program.h"

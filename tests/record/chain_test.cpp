@@ -199,7 +199,7 @@ TEST_F(InterruptedRun, WithFlippedBytesKeepsABeginningOrIsTold) {
 }
 
 TEST_F(InterruptedRun, GoesOnAsIfItHadNotBeenInterrupted) {
-  auto journal = Journal::reopen(scratch / "run");
+  auto journal = reopened(scratch / "run");
   ASSERT_TRUE(journal) << journal.error().what;
   const auto twice = journal->add(run.touches.back());
   ASSERT_FALSE(twice);
@@ -223,13 +223,13 @@ TEST_F(InterruptedRun, GoesOnAsIfItHadNotBeenInterrupted) {
 TEST_F(InterruptedRun, GoesOnAfterEachOfManyInterruptions) {
   for (std::int64_t id = 40; id < 60; ++id) {
     SCOPED_TRACE(id);
-    auto journal = Journal::reopen(scratch / "run");
+    auto journal = reopened(scratch / "run");
     ASSERT_TRUE(journal) << journal.error().what;
     ASSERT_TRUE(journal->add(touch_number(id)));
     const core::Error reason{core::Code::kStopped, "stopped", ""};
     ASSERT_TRUE(journal->end("stopped", &reason));
   }
-  auto journal = Journal::reopen(scratch / "run");
+  auto journal = reopened(scratch / "run");
   ASSERT_TRUE(journal);
   auto read = read_journal(scratch / "run");
   ASSERT_TRUE(read);
@@ -241,7 +241,7 @@ TEST_F(InterruptedRun, GoesOnAfterEachOfManyInterruptions) {
 
 TEST_F(InterruptedRun, DoesNotGoOnWhenItWasChangedOrSealedOrIsHeldOpen) {
   const auto refusal = [&](const fs::path& directory) {
-    const auto journal = Journal::reopen(directory);
+    const auto journal = reopened(directory);
     return journal ? std::string("it was opened") : journal.error().what;
   };
   const Scratch other;
@@ -261,7 +261,7 @@ TEST_F(InterruptedRun, DoesNotGoOnWhenItWasChangedOrSealedOrIsHeldOpen) {
                 HasSubstr("version " + version + ", a run goes on in versions 5 to 6"));
   }
 
-  const auto first = Journal::reopen(scratch / "run");
+  const auto first = reopened(scratch / "run");
   ASSERT_TRUE(first) << first.error().what;
   EXPECT_THAT(refusal(scratch / "run"), HasSubstr("is in use by process "));
 }

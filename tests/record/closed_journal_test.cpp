@@ -7,7 +7,6 @@
 #include "record/checksums.h"
 #include "record/files.h"
 #include "record/journal/journal.h"
-#include "record/journal/unstarted_run.h"
 #include "tests/record/meddle.h"
 #include "tests/record/sample_run.h"
 
@@ -110,7 +109,7 @@ TEST_F(ClosedJournal, ThatOnlyMissesItsListKeepsALogWithTheSameRows) {
 TEST_F(ClosedJournal, IsNotReopenedByTakingItsSealBehindALog) {
   lay_beside("-wal", log_that_replaces(file, scratch / "other/journal.db"));
   const std::string bytes = *read_file(file);
-  EXPECT_FALSE(Journal::reopen(scratch / "run"));
+  EXPECT_FALSE(reopened(scratch / "run"));
   EXPECT_EQ(*read_file(file), bytes);
 }
 
@@ -138,7 +137,7 @@ class OpenJournal : public ::testing::Test {
     return read ? std::string("it was read") : read.error().what;
   }
   [[nodiscard]] std::string refusal_of_reopening() const {
-    const auto journal = Journal::reopen(scratch / "run");
+    const auto journal = reopened(scratch / "run");
     return journal ? std::string("it was opened") : journal.error().what;
   }
 
@@ -217,7 +216,7 @@ TEST_F(OpenJournal, IsNotReopenedThroughALinkOrWhenAListNamesIt) {
 
 TEST_F(OpenJournal, LinksTheValuesThatWereGiven) {
   // Marks and endings change rows that were written before the interruption.
-  auto journal = Journal::reopen(scratch / "run");
+  auto journal = reopened(scratch / "run");
   ASSERT_TRUE(journal) << journal.error().what;
   for (const PoseVisit& pose : run.poses) ASSERT_TRUE(journal->mark_final(pose.id));
   for (std::int64_t id = 50; id < 60; ++id) ASSERT_TRUE(journal->add(touch_number(id)));

@@ -23,7 +23,7 @@ TEST(JournalReopen, GoesOnBehindTheLastRow) {
     first.ending = "failed";
     ASSERT_TRUE(write_run(scratch / "run", first));
     {
-      auto journal = Journal::reopen(scratch / "run");
+      auto journal = reopened(scratch / "run");
       ASSERT_TRUE(journal) << journal.error().what;
       const auto between = read_journal(scratch / "run");
       EXPECT_EQ(between->record.ending, "");
@@ -63,22 +63,22 @@ TEST(JournalReopen, RefusesASealedRunAndADirectoryWithoutOne) {
   const Scratch scratch;
   ASSERT_TRUE(write_run(scratch / "run", sample_run(1)));
   const std::string bytes = read_file(scratch / "run/journal.db").value();
-  const auto sealed = Journal::reopen(scratch / "run");
+  const auto sealed = reopened(scratch / "run");
   ASSERT_FALSE(sealed);
   EXPECT_EQ(sealed.error().code, core::Code::kJournal);
   EXPECT_THAT(sealed.error().what, HasSubstr("sealed"));
   EXPECT_EQ(read_file(scratch / "run/journal.db").value(), bytes);
   EXPECT_THAT(scratch.names(), ::testing::ElementsAre("run", "run/SHA256SUMS", "run/journal.db"));
-  EXPECT_FALSE(Journal::reopen(scratch / "absent"));
+  EXPECT_FALSE(reopened(scratch / "absent"));
   fs::create_directory(scratch / "empty");
-  EXPECT_FALSE(Journal::reopen(scratch / "empty"));
+  EXPECT_FALSE(reopened(scratch / "empty"));
 }
 
 TEST(JournalReopen, RefusesAJournalThatIsOpen) {
   const Scratch scratch;
   const auto open = Journal::create(scratch / "run", {}, {}, {});
   ASSERT_TRUE(open);
-  const auto second = Journal::reopen(scratch / "run");
+  const auto second = reopened(scratch / "run");
   ASSERT_FALSE(second);
   EXPECT_THAT(second.error().what, HasSubstr("is in use by process "));
 }
@@ -90,7 +90,7 @@ TEST(JournalReopen, FinishSealFoldsTheLogOfARunThatDiedBehindItsSeal) {
     RunRecord open = run;
     open.sealed = false;
     ASSERT_TRUE(write_run(scratch / "run", open));
-    auto journal = Journal::reopen(scratch / "run");
+    auto journal = reopened(scratch / "run");
     ASSERT_TRUE(journal);
     ASSERT_TRUE(journal->end(run.ending, run.failure ? &*run.failure : nullptr));
     // The list cannot be written while a folder has its name: the seal is there, its rest is not.
@@ -115,7 +115,7 @@ TEST(JournalReopen, RemovesWhatAKilledWriterOfReportsLeft) {
   { ASSERT_TRUE(Journal::create(scratch / "run", {}, {}, {})); }
   ASSERT_TRUE(write_file(scratch / "run/.rondure-77-1.tmp", "<html"));
   ASSERT_TRUE(write_file(scratch / "run/note.tmp", "mine"));
-  { ASSERT_TRUE(Journal::reopen(scratch / "run")); }
+  { ASSERT_TRUE(reopened(scratch / "run")); }
   EXPECT_FALSE(fs::exists(scratch / "run/.rondure-77-1.tmp"));
   EXPECT_TRUE(fs::exists(scratch / "run/note.tmp"));
 }

@@ -12,7 +12,6 @@
 
 #include "record/files.h"
 #include "record/journal/journal.h"
-#include "record/journal/unstarted_run.h"
 #include "tests/record/sample_run.h"
 
 namespace rondure::record {

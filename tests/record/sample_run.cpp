@@ -263,6 +263,12 @@ core::Result<void> write_run(const fs::path& directory, const RunRecord& record)
   return done;
 }
 
+core::Result<Journal> reopened(const std::filesystem::path& directory) {
+  auto held = hold_journal(directory);
+  if (!held) return core::fail(held.error());
+  return Journal::reopen(directory, *std::move(held));
+}
+
 Touch touch_number(std::int64_t id) {
   Touch touch;
   touch.id = id;

@@ -38,6 +38,9 @@ class Scratch {
 [[nodiscard]] core::Result<void> write_run(const std::filesystem::path& directory,
                                            const RunRecord& record);
 
+/// Locks and reads the journal of a run, then opens it for more rows.
+[[nodiscard]] core::Result<Journal> reopened(const std::filesystem::path& directory);
+
 /// A touch whose every value follows from its number.
 [[nodiscard]] Touch touch_number(std::int64_t id);
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fixture/zaber_connection.h"
+#include "fixture/zaber_link.h"
 #include "tests/fixture/fixture_contract.h"
 #include "tests/fixture/zaber_rig.h"
 #include "tests/usb/usb_testbed.h"

@@ -113,10 +113,7 @@ ItemReader::Read<Item> ItemReader::read_item(int depth) {
   if (c == '(' && manner_ == Manner::kLiberal) {
     auto arguments = read_arguments(depth + 1);
     if (!arguments) return tl::unexpected(std::move(arguments.error()));
-    Item vector;
-    vector.kind = Item::Kind::kVector;
-    vector.arguments = std::move(*arguments);
-    return vector;
+    return Item{Item::Kind::kVector, 0.0, {}, std::move(*arguments)};
   }
   return read_name_or_call(depth);
 }

@@ -118,7 +118,6 @@ core::Result<Contact> as_contact(const std::optional<SideContact>& first,
   contact.travel_mm = std::max(first->travel_mm, 0.0);
   contact.tip_P_mm = sweep.start_P_mm + contact.travel_mm * sweep.direction_P;
   contact.point_P_mm = first->point_P_mm;
-  contact.normal_P = (contact.tip_P_mm - contact.point_P_mm).normalized();
   return contact;
 }
 

@@ -12,7 +12,6 @@ struct Contact {
   double travel_mm = 0.0;                                ///< From the start, >= 0.
   Eigen::Vector3d tip_P_mm = Eigen::Vector3d::Zero();    ///< Tip centre at contact.
   Eigen::Vector3d point_P_mm = Eigen::Vector3d::Zero();  ///< Contact point on the part.
-  Eigen::Vector3d normal_P = Eigen::Vector3d::UnitX();   ///< Unit, from the part to the tip centre.
 };
 
 /// Moves a sphere along a straight line until it first meets the real part: its side (with all of

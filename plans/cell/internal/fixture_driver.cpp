@@ -7,7 +7,7 @@
 
 #include "core/units.h"
 #include "fixture/zaber.h"
-#include "fixture/zaber_connection.h"
+#include "fixture/zaber_link.h"
 #include "plans/cell/internal/thorlabs_driver.h"
 #include "plans/path/internal/nominal_geometry.h"
 

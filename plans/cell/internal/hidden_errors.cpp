@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "cmm/simulated/typical_errors.h"
+#include "cmm/simulated/machine.h"
 #include "core/units.h"
 #include "fixture/axis_motion.h"
 

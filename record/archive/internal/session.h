@@ -37,4 +37,14 @@ struct ArchiveSession {
                                                           const std::exception& exception,
                                                           soci::session* session);
 
+/// Runs `read` and returns its result. kArchive.
+template <class T, class Read>
+core::Result<T> read_from(ArchiveSession& session, const Read& read) {
+  try {
+    return read();
+  } catch (const std::exception& exception) {
+    return archive_failure(session.place, "read", exception, &session.sql);
+  }
+}
+
 }  // namespace rondure::record

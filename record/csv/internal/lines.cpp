@@ -35,12 +35,10 @@ std::string_view stem_of(std::string_view name) {
 
 core::Error syntax_error(std::string what) { return {core::Code::kSyntax, std::move(what), {}}; }
 
-std::optional<std::string_view> CsvLines::next() {
-  if (rest_.empty()) return std::nullopt;
-  ++number_;
-  const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-  std::string_view line = rest_.substr(0, end);
-  rest_.remove_prefix(std::min(end + 1, rest_.size()));
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
   if (line.ends_with('\r')) line.remove_suffix(1);
   return line;
 }

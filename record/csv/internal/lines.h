@@ -18,28 +18,8 @@
 
 namespace rondure::record {
 
-/// Returns lines without their LF or CRLF and counts them from 1.
-class CsvLines {
- public:
-  explicit CsvLines(std::string_view text) : rest_(text) {}
-
-  [[nodiscard]] std::optional<std::string_view> next();
-
-  /// The text not yet read, from the start of a line.
-  [[nodiscard]] std::string_view rest() const { return rest_; }
-  /// Skips the next line, which is `bytes` long including its end.
-  void pass(std::size_t bytes) {
-    rest_.remove_prefix(bytes);
-    ++number_;
-  }
-
-  [[nodiscard]] std::size_t number() const { return number_; }
-  [[nodiscard]] std::size_t bytes_left() const { return rest_.size(); }
-
- private:
-  std::string_view rest_;
-  std::size_t number_ = 0;
-};
+/// Takes the first line off a text and returns it without its LF or CRLF.
+[[nodiscard]] std::string_view take_line(std::string_view& text);
 
 [[nodiscard]] core::Error syntax_error(std::string what);
 
@@ -63,10 +43,10 @@ class CsvLines {
 /// The unit that a column's name ends with ("um" of "H1_um"), or "".
 [[nodiscard]] std::string_view unit_of_column(std::string_view name);
 
-/// Why a field of the header that names none of the columns is refused: kWrongUnit where one of
-/// them has the same name with another unit, kSyntax otherwise.
-/// @param list  The columns as a message names them.
-/// @param rule  What the sentence on a wrong unit ends with.
+/// The error for a field of the header that names none of the columns: kWrongUnit when one of them
+/// has the same name with another unit, kSyntax otherwise.
+/// @param list  The columns in the wording of messages.
+/// @param rule  End of the sentence about a wrong unit.
 [[nodiscard]] core::Error unknown_column(std::string_view field,
                                          std::span<const std::string_view> columns,
                                          std::string_view list, std::string_view rule = "");
@@ -79,32 +59,31 @@ class CsvLines {
 /// @param name     The file's name for `where` ("name:line").
 /// @param header   Takes the header line; returns core::Result<void>.
 /// @param row      Takes a row and the number of its line; returns core::Result<void>.
-/// @param no_rows  The sentence for a table without rows; is told whether it has a header line.
+/// @param no_rows  Returns the sentence for a table without rows; takes whether it has a header.
 /// @param plain    Tried first where a row begins: takes the text from there on, and returns the
-/// bytes of the row
-///                 with the end of its line, or 0 for a line that `row` must look at.
+///                 bytes of the row with the end of its line, or 0 for a line that `row` must read.
 /// @return  The error of `header` or `row` with its place, kSyntax for UTF-16, kNoPoints.
 template <class Header, class Row, class NoRows, class Plain>
 core::Result<void> read_table(std::string_view text, std::string_view name, const Header& header,
                               const Row& row, const NoRows& no_rows, const Plain& plain) {
-  CsvLines lines(without_byte_order_mark(text));
-  const auto here = [&] {
-    return fmt::format("{}:{}", name, std::max<std::size_t>(lines.number(), 1));
-  };
+  std::string_view rest = without_byte_order_mark(text);
+  std::size_t number = 0;  // of the line, from 1
+  const auto here = [&] { return fmt::format("{}:{}", name, std::max<std::size_t>(number, 1)); };
   if (is_utf16(text)) {
     return core::fail(core::Code::kSyntax, "the file is saved as UTF-16; save it as UTF-8", here());
   }
   bool in_rows = false;
   bool any = false;
-  while (lines.bytes_left() > 0) {
-    if (const std::size_t bytes = in_rows ? plain(lines.rest()) : 0; bytes > 0) {
-      lines.pass(bytes);
+  while (!rest.empty()) {
+    ++number;
+    if (const std::size_t bytes = in_rows ? plain(rest) : 0; bytes > 0) {
+      rest.remove_prefix(bytes);
       any = true;
       continue;
     }
-    const std::string_view line = *lines.next();
+    const std::string_view line = take_line(rest);
     if (holds_nothing(line)) continue;
-    const core::Result<void> read = in_rows ? row(line, lines.number()) : header(line);
+    const core::Result<void> read = in_rows ? row(line, number) : header(line);
     if (!read) return core::fail(read.error().at(here()));
     any = in_rows;
     in_rows = true;

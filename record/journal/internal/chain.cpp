@@ -1,5 +1,6 @@
 #include "record/journal/internal/chain.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -38,12 +39,12 @@ std::string name_of_row(std::string_view table, std::int64_t row) {
 using Expected = std::unordered_map<std::int64_t, std::string>;
 
 /// Collects the mismatches of one table: the first in words, the others by number.
-class Complaints {
+class Mismatches {
  public:
   void add(std::string what) {
     if (++count_ == 1) first_ = std::move(what);
   }
-  void give(std::string_view table, std::vector<BrokenTable>& out) const {
+  void report(std::string_view table, std::vector<BrokenTable>& out) const {
     if (count_ == 0) return;
     out.push_back({std::string(table),
                    count_ == 1 ? first_ : fmt::format("{} (and {} more)", first_, count_ - 1)});
@@ -57,7 +58,7 @@ class Complaints {
 /// Reads all links; reports those that do not follow from the one before.
 std::map<std::string, Expected> follow_links(soci::session& sql, std::vector<BrokenTable>& out) {
   std::map<std::string, Expected> expected;
-  Complaints complaints;
+  Mismatches mismatches;
   std::int64_t id = 0;
   std::int64_t row = 0;
   std::string table;
@@ -71,42 +72,94 @@ std::map<std::string, Expected> follow_links(soci::session& sql, std::vector<Bro
   std::string before;
   while (links.fetch()) {
     if (id != next) {
-      complaints.add(id == next + 1 ? fmt::format("link {} was removed", next)
+      mismatches.add(id == next + 1 ? fmt::format("link {} was removed", next)
                                     : fmt::format("links {} to {} were removed", next, id - 1));
     } else if (link_sha256(before, id, table, row, row_sha256) != sha256) {
-      complaints.add(fmt::format("link {} ({}) does not follow from the links before it", id,
+      mismatches.add(fmt::format("link {} ({}) does not follow from the links before it", id,
                                  name_of_row(table, row)));
     }
     next = id + 1;
     before = sha256;
     expected[table][row] = row_sha256;
   }
-  complaints.give(chain_table().name, out);
+  mismatches.report(chain_table().name, out);
   return expected;
 }
 
 /// Compares the rows of one table with the digests in the links.
 void compare_rows(soci::session& sql, std::string_view table, Expected expected,
                   std::vector<BrokenTable>& out) {
-  Complaints complaints;
+  Mismatches mismatches;
   for_each_row(sql, table, [&](std::int64_t id, const std::string& bytes) {
     const auto link = expected.find(id);
     if (link == expected.end()) {
-      complaints.add(
+      mismatches.add(
           fmt::format("{} has no link: it was not written by the run", name_of_row(table, id)));
       return;
     }
     if (link->second != sha256_hex(bytes)) {
-      complaints.add(fmt::format("{} was changed after it was written", name_of_row(table, id)));
+      mismatches.add(fmt::format("{} was changed after it was written", name_of_row(table, id)));
     }
     expected.erase(link);
   });
   std::optional<std::int64_t> first;
   for (const auto& [id, digest] : expected) first = first ? std::min(*first, id) : id;
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    complaints.add(fmt::format("{} was removed after it was written", name_of_row(table, *first)));
+    mismatches.add(fmt::format("{} was removed after it was written", name_of_row(table, *first)));
   }
-  complaints.give(table, out);
+  mismatches.report(table, out);
+}
+
+/// Number of links, and the digest of the last: the head of the chain, which stands for all rows.
+Digest chain_head(soci::session& sql) {
+  Digest head;
+  sql << "select count(*) from chain", into(head.rows);
+  if (head.rows > 0) {
+    sql << "select sha256 from chain order by id desc limit 1", into(head.sha256);
+  }
+  return head;
+}
+
+/// Walks the chain and says for each table what does not fit first, in words that name the row;
+/// table "chain" when the links themselves do not follow from each other. O(rows).
+std::vector<BrokenTable> check_chain(soci::session& sql, std::int64_t version) {
+  std::vector<BrokenTable> out;
+  auto expected = follow_links(sql, out);
+  for (const Table& table : chained_tables(version)) {
+    compare_rows(sql, table.name, std::move(expected[std::string(table.name)]), out);
+    expected.erase(std::string(table.name));
+  }
+  for (const auto& [table, rows] : expected) {
+    out.push_back({std::string(chain_table().name),
+                   fmt::format("a link names the unknown table \"{}\"", table.substr(0, 40))});
+  }
+  return out;
+}
+
+/// The digest of a table in the seal; for the chain it is the head of the chain.
+Digest seal_digest_of(soci::session& sql, const Table& table) {
+  return table.name == chain_table().name ? chain_head(sql) : digest_of(sql, table.name);
+}
+
+std::vector<Table> sealed_tables(std::int64_t version) {
+  std::vector<Table> tables = chained_tables(version);
+  if (version >= kFirstChainedVersion) tables.push_back(chain_table());
+  return tables;
+}
+
+/// Compares one table with its row in the seal.
+std::optional<BrokenTable> compare(soci::session& sql, const Table& table) {
+  const std::string name(table.name);
+  Digest stored;
+  sql << "select row_count, sha256 from seal where table_name = :name", into(stored.rows),
+      into(stored.sha256), use(name);
+  if (!sql.got_data()) return BrokenTable{name, "its digest is missing in the seal"};
+  const Digest found = seal_digest_of(sql, table);
+  if (found.rows != stored.rows) {
+    return BrokenTable{name, fmt::format("{} rows, expected {}", found.rows, stored.rows)};
+  }
+  if (found != stored) return BrokenTable{name, "a value differs from the sealed one"};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -132,27 +185,37 @@ void Chain::append_bytes(std::string_view table, std::int64_t row, const std::st
   ++tip_.rows;
 }
 
-Digest chain_head(soci::session& sql) {
-  Digest head;
-  sql << "select count(*) from chain", into(head.rows);
-  if (head.rows > 0) {
-    sql << "select sha256 from chain order by id desc limit 1", into(head.sha256);
+void insert_seal(soci::session& sql, std::int64_t version) {
+  for (const Table& table : sealed_tables(version)) {
+    const Digest digest = seal_digest_of(sql, table);
+    const std::string name(table.name);
+    sql << "insert into seal (table_name, row_count, sha256) values (:name, :rows, :sha256)",
+        use(name), use(digest.rows), use(digest.sha256);
   }
-  return head;
 }
 
-std::vector<BrokenTable> check_chain(soci::session& sql, std::int64_t version) {
-  std::vector<BrokenTable> out;
-  auto expected = follow_links(sql, out);
-  for (const Table& table : chained_tables(version)) {
-    compare_rows(sql, table.name, std::move(expected[std::string(table.name)]), out);
-    expected.erase(std::string(table.name));
+bool is_sealed(soci::session& sql) {
+  int rows = 0;
+  sql << "select count(*) from seal", into(rows);
+  return rows > 0;
+}
+
+std::vector<BrokenTable> check_seal(soci::session& sql, std::int64_t version) {
+  std::vector<BrokenTable> broken;
+  if (version >= kFirstChainedVersion) broken = check_chain(sql, version);
+  if (!is_sealed(sql)) return broken;
+  for (const Table& table : sealed_tables(version)) {
+    const auto differs = compare(sql, table);
+    if (!differs) continue;
+    const auto known = std::find_if(broken.begin(), broken.end(),
+                                    [&](const auto& b) { return b.table == differs->table; });
+    if (known == broken.end()) {
+      broken.push_back(*differs);
+    } else {
+      known->what = fmt::format("{}: {}", differs->what, known->what);
+    }
   }
-  for (const auto& [table, rows] : expected) {
-    out.push_back({std::string(chain_table().name),
-                   fmt::format("a link names the unknown table \"{}\"", table.substr(0, 40))});
-  }
-  return out;
+  return broken;
 }
 
 }  // namespace rondure::record

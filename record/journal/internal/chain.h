@@ -11,32 +11,33 @@
 #include "record/journal/internal/canonical.h"
 #include "record/journal/journal.h"
 
-// Private to the room: the hash chain over everything that is written. Throws soci::soci_error.
+// Private to the room: the hash chain over everything that is written, and the seal that closes a
+// journal. Throws soci::soci_error.
 
 namespace rondure::record {
 
 /// Writes the chain. Each row that is written or changed gets a link in table `chain`, in the same
-/// transaction: the SHA-256 of the row, and the SHA-256 of the link before it with all that this
-/// one says. A row that is edited or removed afterwards no longer fits its link, and a link that is
-/// edited or removed no longer fits the next, in a journal that was never sealed too.
+/// transaction: the SHA-256 of the row, and a SHA-256 over the digest of the previous link and the
+/// fields of this one. A row edited or removed later does not match its link, and an edited or
+/// removed link does not match the next one; this holds for unsealed journals too.
 class Chain {
  public:
-  /// Continues behind the last link of the table.
+  /// Continues after the last link of the table.
   explicit Chain(soci::session& sql);
 
-  /// Links row `row` of `table` with the values that were given for it, those behind the id from
-  /// left to right: not with what the database gives back, which it might have changed.
+  /// Links row `row` of `table` with the values passed to the database, those after the id from
+  /// left to right. They are not read back, because the database might have changed them.
   template <class... Values>
   void append(std::string_view table, std::int64_t row, const Values&... values) {
     append_bytes(table, row, row_bytes(row, values...));
   }
-  /// The same of the row that was inserted last.
+  /// Same as append(), for the row that was inserted last.
   template <class... Values>
   void append_inserted(std::string_view table, const Values&... values) {
     append(table, sqlite_api::sqlite3_last_insert_rowid(handle_of(sql_)), values...);
   }
-  /// Links all rows of a table, by id, as the database gives them back: of a table that the same
-  /// transaction made.
+  /// Links all rows of a table, by id, as the database returns them. For a table created in the
+  /// same transaction.
   void append_all(std::string_view table);
 
   /// The transaction around the links was committed, or was rolled back.
@@ -59,12 +60,14 @@ class Chain {
   soci::statement insert_;
 };
 
-/// Number of links, and the digest of the last: the head of the chain, which stands for all rows.
-[[nodiscard]] Digest chain_head(soci::session& sql);
-
-/// Walks the chain and says for each table what does not fit first, in words that name the row;
-/// table "chain" when the links themselves do not follow from each other. O(rows).
+/// Fills the seal with the digest of every other table and the head of the chain.
 /// @param version  Of the tables.
-[[nodiscard]] std::vector<BrokenTable> check_chain(soci::session& sql, std::int64_t version);
+void insert_seal(soci::session& sql, std::int64_t version);
+
+[[nodiscard]] bool is_sealed(soci::session& sql);
+
+/// Checks the chain (from version 2) and, in a sealed journal, every digest of the seal. A table
+/// that fails both is reported once, with the number of rows and the name of the first bad row.
+[[nodiscard]] std::vector<BrokenTable> check_seal(soci::session& sql, std::int64_t version);
 
 }  // namespace rondure::record

@@ -15,21 +15,19 @@
 
 #include "record/internal/database.h"
 #include "record/journal/internal/chain.h"
-#include "record/journal/internal/contradiction.h"
-#include "record/journal/internal/log.h"
 #include "record/journal/internal/rows.h"
 #include "record/journal/internal/schema.h"
+#include "record/journal/internal/values.h"
 #include "record/journal/journal.h"
 #include "record/journal/message_text.h"
 #include "record/run_lock.h"
 
-// Private to the room: the open journal. open.cpp creates it, write.cpp writes rows, close.cpp
-// seals it.
+// Private to the room: the open journal. open.cpp creates it, write.cpp writes rows and seals it.
 
 namespace rondure::record {
 
 struct Journal::Impl {
-  enum class State { kOpen, kDigested, kFolded, kClosed };
+  enum class State { kOpen, kDigested, kOneFile, kClosed };
 
   RunLock lock;  ///< Before the session, so that it is released after the journal is closed.
   std::filesystem::path file;
@@ -140,22 +138,22 @@ struct Journal::Impl {
     link_header("", nullptr);
   }
 
-  /// Folds the log into the journal, so that one closed file remains.
-  core::Result<void> fold() {
+  /// Moves the log into the journal, so that one closed file remains.
+  core::Result<void> leave_wal() {
     try {
       checkpoint_wal(sql);
       statements.reset();
       chain.reset();
       disable_wal(sql);
       sql.close();
-      state = State::kFolded;
+      state = State::kOneFile;
       return {};
     } catch (const std::exception& exception) {  // the digests are on disk already
       return failure("the folded log", reason_of(exception, &sql));
     }
   }
 
-  void keep(const Touch& touch) {
+  void note_touch(const Touch& touch) {
     last_touch = last_touch ? std::max(*last_touch, touch.id) : touch.id;
   }
 };

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Changes whenever the log is folded into the file: file time and start of the log.
+/// Changes whenever the log is moved into the file: file time and start of the log.
 std::pair<fs::file_time_type, std::string> stamp_of(const fs::path& journal,
                                                     PrivateCopy::Logs logs) {
   std::error_code ignored;
@@ -123,7 +123,7 @@ core::Result<PrivateCopy> PrivateCopy::of(const fs::path& journal, Logs logs) {
   remove_left_behind(place);
   PrivateCopy copy = in_new_folder(place);
   if (copy.folder_.empty()) return cannot_copy(journal, system_reason(errno));
-  constexpr int kTries = 50;  // tried again when a running measurement folds its log
+  constexpr int kTries = 50;  // tried again when a running measurement moves its log into the file
   for (int i = 0; i < kTries; ++i) {
     const auto before = stamp_of(journal, logs);
     problem = copy.take(journal, logs);

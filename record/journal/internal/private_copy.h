@@ -1,12 +1,17 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <soci/soci.h>
+
 #include "core/result.h"
+#include "record/internal/database.h"
 
 // Private to the room.
 
@@ -44,5 +49,23 @@ class PrivateCopy {
   std::filesystem::path folder_;
   int lock_ = -1;  ///< Descriptor of the open folder.
 };
+
+/// The result of `look` on the database in a private copy; nothing when it is no database or is
+/// damaged. kFile, kJournal when it cannot be copied.
+template <class Look>
+auto in_copy(const std::filesystem::path& journal, PrivateCopy::Logs logs, const Look& look)
+    -> core::Result<std::optional<std::invoke_result_t<Look, soci::session&>>> {
+  const auto copy = PrivateCopy::of(journal, logs);
+  if (!copy) return core::fail(copy.error());
+  const auto connection = connection_string(copy->file());
+  if (!connection) return core::fail(connection.error());
+  try {
+    soci::session sql(soci::sqlite3, *connection);
+    distrust(sql);
+    return std::optional(look(sql));
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
 
 }  // namespace rondure::record

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdlib>
+#include <charconv>
 #include <initializer_list>
 #include <optional>
 #include <stdexcept>
@@ -14,9 +13,9 @@
 #include <soci/sqlite3/soci-sqlite3.h>
 
 #include "record/csv/internal/lines.h"
+#include "record/journal/internal/chain.h"
 #include "record/journal/internal/rows.h"
 #include "record/journal/internal/schema.h"
-#include "record/journal/internal/seal.h"
 #include "record/journal/internal/series.h"
 #include "record/journal/message_text.h"
 
@@ -54,13 +53,6 @@ std::int64_t require_journal(soci::session& sql) {
   return version;
 }
 
-/// Reads the word of a column; throws when its enum has no such word.
-template <Worded Enum>
-Enum named(std::string_view column, const std::string& text) {
-  if (const auto value = value_named<Enum>(text)) return *value;
-  throw Contradiction(fmt::format("{} holds the unknown word \"{}\"", column, text.substr(0, 40)));
-}
-
 core::Code code_named(const std::string& text) {
   for (int i = 0; i <= static_cast<int>(core::kLastCode); ++i) {
     if (core::code_name(static_cast<core::Code>(i)) == text) return static_cast<core::Code>(i);
@@ -69,21 +61,12 @@ core::Code code_named(const std::string& text) {
 }
 
 std::uint64_t seed_from(const std::string& text) {
-  char* end = nullptr;
-  errno = 0;
-  const std::uint64_t seed = std::strtoull(text.c_str(), &end, 10);
-  if (errno != 0 || text.empty() || std::to_string(seed) != text) {
+  std::uint64_t seed = 0;  // stays so for a text that is no number
+  (void)std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (std::to_string(seed) != text) {
     throw Contradiction(fmt::format("header.seed is \"{}\", no whole number", text.substr(0, 40)));
   }
   return seed;
-}
-
-/// Throws unless `feature` is an index into the features already read (or -1, where that is
-/// allowed).
-void require_feature(const RunRecord& record, int feature, int lowest, std::string_view table) {
-  if (feature >= lowest && feature < static_cast<int>(record.features.size())) return;
-  throw Contradiction(fmt::format("table {} names feature {}, the journal has {}", table, feature,
-                                  record.features.size()));
 }
 
 void read_header(soci::session& sql, RunRecord& record) {
@@ -128,8 +111,7 @@ void read_features(soci::session& sql, RunRecord& record) {
   std::string shape;
   std::string side;
   std::string strategy;
-  double tip_radius_mm = 0.0;
-  soci::indicator tip_given = soci::i_null;
+  Measured tip_radius_mm;
   std::int64_t id = 0;
   soci::statement rows =
       (sql.prepare
@@ -137,7 +119,7 @@ void read_features(soci::session& sql, RunRecord& record) {
               "strategy, points_file, points_sha256, tip_radius_mm from feature order by id",
        into(id), into(row.id), into(shape), into(side), into(row.nominal_diameter_mm),
        into(row.layers), into(row.points_per_layer), into(strategy), into(row.points_file),
-       into(row.points_sha256), into(tip_radius_mm, tip_given));
+       into(row.points_sha256), into(tip_radius_mm.value, tip_radius_mm.given));
   rows.execute();
   while (rows.fetch()) {
     if (id != static_cast<std::int64_t>(record.features.size())) {
@@ -146,7 +128,7 @@ void read_features(soci::session& sql, RunRecord& record) {
     row.shape = named<Shape>("feature.shape", shape);
     row.side = named<Side>("feature.side", side);
     row.strategy = named<Strategy>("feature.strategy", strategy);
-    row.tip_radius_mm = tip_given == soci::i_ok ? std::optional(tip_radius_mm) : std::nullopt;
+    row.tip_radius_mm = tip_radius_mm.get();
     require_number("feature.nominal_diameter_mm", row.nominal_diameter_mm);
     require_number("feature.tip_radius_mm", row.tip_radius_mm.value_or(0.0));
     record.features.push_back(row);
@@ -160,9 +142,9 @@ void read_search_steps(soci::session& sql, RunRecord& record) {
                           into(feature), into(step_deg));
   rows.execute();
   while (rows.fetch()) {
-    require_feature(record, feature, 0, "search_step");
+    Feature& owner = feature_at(record, feature, "search_step");
     require_number("search_step.step_deg", step_deg);
-    record.features[static_cast<std::size_t>(feature)].search_steps_deg.push_back(step_deg);
+    owner.search_steps_deg.push_back(step_deg);
   }
 }
 
@@ -171,21 +153,20 @@ void read_characteristics(soci::session& sql, RunRecord& record) {
   int feature = 0;
   std::string form;
   std::string reference;
-  double tolerance_mm = 0.0;
-  soci::indicator given = soci::i_null;
+  Measured tolerance_mm;
   soci::statement rows =
       (sql.prepare << "select feature, name, form, reference, tolerance_mm, drawing_zone "
                       "from characteristic order by id",
-       into(feature), into(row.id), into(form), into(reference), into(tolerance_mm, given),
-       into(row.drawing_zone));
+       into(feature), into(row.id), into(form), into(reference),
+       into(tolerance_mm.value, tolerance_mm.given), into(row.drawing_zone));
   rows.execute();
   while (rows.fetch()) {
-    require_feature(record, feature, 0, "characteristic");
+    Feature& owner = feature_at(record, feature, "characteristic");
     row.form = named<Form>("characteristic.form", form);
     row.reference = named<Reference>("characteristic.reference", reference);
-    row.tolerance_mm = given == soci::i_ok ? std::optional(tolerance_mm) : std::nullopt;
+    row.tolerance_mm = tolerance_mm.get();
     require_number("characteristic.tolerance_mm", row.tolerance_mm.value_or(0.0));
-    record.features[static_cast<std::size_t>(feature)].characteristics.push_back(row);
+    owner.characteristics.push_back(row);
   }
 }
 
@@ -201,7 +182,7 @@ void read_poses(soci::session& sql, RunRecord& record) {
        into(row.time_s));
   rows.execute();
   while (rows.fetch()) {
-    require_feature(record, row.feature, 0, "pose");
+    (void)feature_at(record, row.feature, "pose");
     require_numbers("pose", {row.commanded.alpha_rad, row.commanded.beta_rad, row.reached.alpha_rad,
                              row.reached.beta_rad, row.time_s});
     row.final_cloud = final_cloud != 0;
@@ -251,7 +232,7 @@ void read_decisions(soci::session& sql, RunRecord& record, std::int64_t version)
       (sql.prepare << query, into(row.feature), into(row.time_s), into(text), into(arguments));
   rows.execute();
   while (rows.fetch()) {
-    require_feature(record, row.feature, -1, "decision");
+    if (row.feature != -1) (void)feature_at(record, row.feature, "decision");
     require_number("decision.time_s", row.time_s);
     if (old) {
       row.sentence = text;
@@ -272,7 +253,7 @@ void read_truths(soci::session& sql, RunRecord& record) {
                           into(row.feature), into(row.cylt_mm));
   rows.execute();
   while (rows.fetch()) {
-    require_feature(record, row.feature, 0, "truth");
+    (void)feature_at(record, row.feature, "truth");
     require_number("truth.cylt_mm", row.cylt_mm);
     record.truths.push_back(row);
   }

@@ -4,7 +4,7 @@
 
 #include <soci/soci.h>
 
-#include "record/journal/internal/contradiction.h"
+#include "record/journal/internal/values.h"
 #include "record/journal/journal.h"
 
 // Private to the room: reads the rows of a journal as records.

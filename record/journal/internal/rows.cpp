@@ -1,9 +1,6 @@
 #include "record/journal/internal/rows.h"
 
-#include <cmath>
 #include <cstdint>
-#include <optional>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -18,9 +15,9 @@ using soci::use;
 void make_tables(soci::session& sql) {
   sql << fmt::format("pragma application_id = {}", kApplicationId);
   sql << fmt::format("pragma user_version = {}", kSchemaVersion);
-  for (const Table& table : chained_tables()) sql << std::string(table.sql);
-  sql << std::string(chain_table().sql);
-  sql << std::string(seal_table().sql);
+  for (const Table& table : chained_tables()) sql << table.sql;
+  sql << chain_table().sql;
+  sql << seal_table().sql;
 }
 
 void insert_header(soci::session& sql, const Header& h) {
@@ -43,21 +40,15 @@ void insert_artefact(soci::session& sql, const Artefact& artefact) {
       use(artefact.radius_tolerance_mm), use(artefact.form_limit_mm);
 }
 
-/// The number bound with an indicator. SQLite would store NaN as null.
-double number_or_zero(const std::optional<double>& number, const std::string& name) {
-  if (number && std::isnan(*number)) throw std::runtime_error(name + " is not a number (NaN)");
-  return number.value_or(0.0);
-}
-
 void insert_characteristic(soci::session& sql, int feature, const Characteristic& c) {
   const std::string form(name_of(c.form));
   const std::string reference(name_of(c.reference));
-  const double tolerance_mm = number_or_zero(c.tolerance_mm, "tolerance_mm of " + c.id);
-  soci::indicator given = c.tolerance_mm ? soci::i_ok : soci::i_null;
+  Measured tolerance_mm;
+  tolerance_mm.take(c.tolerance_mm, "tolerance_mm of " + c.id);
   sql << "insert into characteristic (feature, name, form, reference, tolerance_mm, drawing_zone) "
          "values (:feature, :name, :form, :reference, :tolerance, :zone)",
-      use(feature), use(c.id), use(form), use(reference), use(tolerance_mm, given),
-      use(c.drawing_zone);
+      use(feature), use(c.id), use(form), use(reference),
+      use(tolerance_mm.value, tolerance_mm.given), use(c.drawing_zone);
   insert_harmonic_limits(sql, c.harmonic_limits);
 }
 
@@ -65,13 +56,13 @@ void insert_feature(soci::session& sql, int id, const Feature& f) {
   const std::string shape(name_of(f.shape));
   const std::string side(name_of(f.side));
   const std::string strategy(name_of(f.strategy));
-  const double tip_radius_mm = number_or_zero(f.tip_radius_mm, "tip_radius_mm of " + f.id);
-  soci::indicator tip_given = f.tip_radius_mm ? soci::i_ok : soci::i_null;
+  Measured tip_radius_mm;
+  tip_radius_mm.take(f.tip_radius_mm, "tip_radius_mm of " + f.id);
   sql << "insert into feature values (:id, :name, :shape, :side, :diameter, :layers, :points, "
          ":strategy, :file, :sha256, :tip)",
       use(id), use(f.id), use(shape), use(side), use(f.nominal_diameter_mm), use(f.layers),
       use(f.points_per_layer), use(strategy), use(f.points_file), use(f.points_sha256),
-      use(tip_radius_mm, tip_given);
+      use(tip_radius_mm.value, tip_radius_mm.given);
   for (const double step_deg : f.search_steps_deg) {
     sql << "insert into search_step (feature, step_deg) values (:feature, :step)", use(id),
         use(step_deg);
@@ -83,15 +74,6 @@ void insert_feature(soci::session& sql, int id, const Feature& f) {
 }
 
 }  // namespace
-
-void Measured::take(const std::optional<double>& number, const std::string& name) {
-  value = number_or_zero(number, name);
-  given = number ? soci::i_ok : soci::i_null;
-}
-
-std::optional<double> Measured::get() const {
-  return given == soci::i_ok ? std::optional(value) : std::nullopt;
-}
 
 Statements::Statements(soci::session& sql, std::int64_t version)
     : insert_touch((

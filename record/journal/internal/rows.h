@@ -1,28 +1,18 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 
 #include <soci/soci.h>
 
 #include "record/journal/internal/chain.h"
+#include "record/journal/internal/values.h"
 #include "record/run_record.h"
 
 // Private to the room: writes records as rows. All functions throw soci::soci_error.
 
 namespace rondure::record {
-
-/// A number bound with its indicator; null when it was not measured.
-struct Measured {
-  double value = 0.0;
-  soci::indicator given = soci::i_null;
-
-  /// @throws  std::runtime_error for NaN, which SQLite would store as null.
-  void take(const std::optional<double>& number, const std::string& name);
-  [[nodiscard]] std::optional<double> get() const;
-};
 
 /// The statements that run during a measurement: prepared once, bound to the members beside them.
 struct Statements {

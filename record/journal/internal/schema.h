@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,7 +31,7 @@ inline constexpr std::int64_t kOldestSchemaVersion = 1;
 /// One table of the journal.
 struct Table {
   std::string_view name;
-  std::string_view sql;                 ///< The statement that creates it, as SQLite stores it.
+  std::string sql;                      ///< The statement that creates it, as SQLite stores it.
   std::int64_t since = 1;               ///< The first version with this form of it.
   std::int64_t until = kSchemaVersion;  ///< The last version with this form of it.
 };

@@ -1,7 +1,6 @@
 #include "record/journal/internal/series.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -13,8 +12,8 @@
 #include "record/csv/internal/lines.h"
 #include "record/internal/database.h"
 #include "record/journal/internal/canonical.h"
-#include "record/journal/internal/contradiction.h"
 #include "record/journal/internal/schema.h"
+#include "record/journal/internal/values.h"
 
 namespace rondure::record {
 namespace {
@@ -82,25 +81,16 @@ void insert_one(soci::session& sql, Chain& chain, const Series& series) {
   insert_blocks(sql, chain, id, series);
 }
 
-Feature& feature_at(RunRecord& record, int feature, std::string_view table) {
-  if (feature < 0 || feature >= static_cast<int>(record.features.size())) {
-    throw Contradiction(fmt::format("table {} names feature {}, the journal has {}", table, feature,
-                                    record.features.size()));
-  }
-  return record.features[static_cast<std::size_t>(feature)];
-}
-
 void read_settings(soci::session& sql, RunRecord& record, std::int64_t version) {
   int feature = 0;
   Setting row;
-  double number = 0.0;
-  soci::indicator given = soci::i_null;
+  Measured number;
   soci::statement rows =
       (sql.prepare << "select feature, name, number, text from setting order by id", into(feature),
-       into(row.name), into(number, given), into(row.text));
+       into(row.name), into(number.value, number.given), into(row.text));
   rows.execute();
   while (rows.fetch()) {
-    row.number = given == soci::i_ok ? std::optional(number) : std::nullopt;
+    row.number = number.get();
     require_number("setting.number", row.number.value_or(0.0));
     const bool whole_run = feature == kWholeRun && version >= kFirstRunSettingVersion;
     (whole_run ? record.settings : feature_at(record, feature, "setting").settings).push_back(row);
@@ -193,12 +183,7 @@ StatedSeries read_series_heads(soci::session& sql, RunRecord& record) {
   rows.execute();
   while (rows.fetch()) {
     (void)feature_at(record, row.series.feature, "series");
-    const auto known = value_named<Series::Role>(role);
-    if (!known) {
-      throw Contradiction(
-          fmt::format("series.role holds the unknown word \"{}\"", role.substr(0, 40)));
-    }
-    row.series.role = *known;
+    row.series.role = named<Series::Role>("series.role", role);
     all[id] = row;
   }
   return all;
@@ -261,12 +246,11 @@ void read_truth_values(soci::session& sql, RunRecord& record) {
 
 void insert_settings(soci::session& sql, int feature, std::span<const Setting> settings) {
   for (const Setting& setting : settings) {
-    const double number = setting.number.value_or(0.0);
-    if (std::isnan(number)) throw std::runtime_error(setting.name + " is not a number (NaN)");
-    soci::indicator given = setting.number ? soci::i_ok : soci::i_null;
+    Measured number;
+    number.take(setting.number, setting.name);
     sql << "insert into setting (feature, name, number, text) values (:feature, :name, :number, "
            ":text)",
-        use(feature), use(setting.name), use(number, given), use(setting.text);
+        use(feature), use(setting.name), use(number.value, number.given), use(setting.text);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "record/journal/internal/contradiction.h"
+#include "record/journal/internal/values.h"
 
 #include <array>
 #include <cmath>
@@ -33,6 +33,24 @@ void require_touch(const Touch& touch) {
        {"touch.time_s", touch.time_s},
        {"touch.scale_temperature_degC", touch.scale_temperature_degC.value_or(0.0)}}};
   for (const auto& [column, value] : numbers) require_number(column, value);
+}
+
+Feature& feature_at(RunRecord& record, int feature, std::string_view table) {
+  if (feature < 0 || feature >= static_cast<int>(record.features.size())) {
+    throw Contradiction(fmt::format("table {} names feature {}, the journal has {}", table, feature,
+                                    record.features.size()));
+  }
+  return record.features[static_cast<std::size_t>(feature)];
+}
+
+void Measured::take(const std::optional<double>& number, const std::string& name) {
+  if (number && std::isnan(*number)) throw std::runtime_error(name + " is not a number (NaN)");
+  value = number.value_or(0.0);
+  given = number ? soci::i_ok : soci::i_null;
+}
+
+std::optional<double> Measured::get() const {
+  return given == soci::i_ok ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace rondure::record
