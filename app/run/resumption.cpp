@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "app/text/shell_word.h"
+#include "app/text/answer.h"
 #include "plans/analyses/analysis.h"
 #include "record/archive/place.h"
 #include "record/journal/unstarted_run.h"
