@@ -183,11 +183,6 @@ core::Result<core::Pose> SimulatedCell::turn(const core::Pose& commanded) {
   return on_grid(*reached);
 }
 
-core::Result<void> SimulatedCell::replay_touch(const cmm::TouchCommand& command,
-                                               const cmm::TouchReading& reading) {
-  return machine_.continue_after(command, reading);
-}
-
 core::Result<core::Pose> SimulatedCell::home_again() {
   shift_mm_.x() = simulation_.faults.part_moved_um * core::kMicrometre;
   fixture_.stop_beside(simulation_.faults.fixture_off_deg * core::kDegree);

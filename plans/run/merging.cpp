@@ -1,7 +1,5 @@
 // Clouds from several poses: the part of inspection.h that measures the reachable targets.
 
-#include <fmt/format.h>
-
 #include "core/units.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "plans/checks/internal/merged_reach.h"
