@@ -9,7 +9,6 @@
 #include "plans/cell/internal/fixture_driver.h"
 #include "plans/cell/internal/hidden_errors.h"
 #include "plans/path/internal/nominal_geometry.h"
-#include "plans/path/internal/pose_grid.h"
 
 namespace rondure::plans {
 namespace {

@@ -12,7 +12,6 @@
 #include "fixture/kinematics.h"
 #include "plans/cell/served_cell.h"
 #include "plans/path/internal/nominal_geometry.h"
-#include "plans/path/internal/pose_grid.h"
 #include "wire/tcp_line.h"
 #include "wire/wire_log.h"
 

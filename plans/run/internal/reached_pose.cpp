@@ -9,7 +9,6 @@
 #include "core/units.h"
 #include "fixture/alignment.h"
 #include "plans/path/internal/nominal_geometry.h"
-#include "plans/path/internal/pose_grid.h"
 #include "plans/path/scene.h"
 #include "plans/run/internal/qualification.h"
 
