@@ -298,7 +298,7 @@ class Search {
     const SamplingLayout layout(plan_, out_.feature, candidate.sampling);
     const auto found = layout.predict(out_.measurand, all_parts(), candidate);
     if (!found) return core::fail(found.error());
-    smallest_mm_ = -1.0;  // what limits this one is told
+    smallest_mm_ = -1.0;  // its influences are stated
     keep(candidate, *found, true);
     return {};
   }

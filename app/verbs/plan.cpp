@@ -88,7 +88,7 @@ core::Result<void> draw(const plans::Plan& plan, const plans::Forecast& forecast
   return record::write_file(arguments.svg, plans::forecast_picture(plan, **stage));
 }
 
-/// All that is told besides the forecast itself.
+/// Results besides the forecast itself.
 struct Outlook {
   std::vector<PredictedCharacteristic> predicted;
   std::optional<double> target_mm;

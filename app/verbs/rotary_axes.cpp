@@ -24,7 +24,7 @@ namespace rondure::app {
 namespace {
 
 /// Results of `rondure fit rotary-axes` for one axis.
-struct RotaryFacts {
+struct RotaryAxisResult {
   std::string name;
   std::string method;
   fit::RotaryStudy study;
@@ -67,14 +67,15 @@ const char* name_of(fit::RotaryCurve curve) {
 }
 
 /// Standard uncertainty of a body point that stands at `place` in the reference pose.
-Vector3d point_u_mm(const RotaryFacts& facts, const fit::Matrix6& covariance, double angle_rad) {
-  const fit::RotaryAxis& axis = facts.study.table.axis;
+Vector3d point_u_mm(const RotaryAxisResult& result, const fit::Matrix6& covariance,
+                    double angle_rad) {
+  const fit::RotaryAxis& axis = result.study.table.axis;
   const Vector3d p =
-      axis.turn(angle_rad - facts.study.reference_rad) * (facts.place_mm - axis.origin_mm);
+      axis.turn(angle_rad - result.study.reference_rad) * (result.place_mm - axis.origin_mm);
   return fit::point_covariance_mm2(covariance, p).diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
-Json station_json(const RotaryFacts& facts, const fit::RotaryStation& s) {
+Json station_json(const RotaryAxisResult& result, const fit::RotaryStation& s) {
   Json out = {{"station_deg", core::degrees(s.angle_rad)}, {"direction", name_of(s.approach)}};
   out["undetermined"] = s.undetermined;
   if (s.undetermined) return out;
@@ -83,7 +84,7 @@ Json station_json(const RotaryFacts& facts, const fit::RotaryStation& s) {
   out["w_urad"] = urad_list(s.errors.w_rad);
   out["u_t_um"] = um_list(u.head<3>());
   out["u_w_urad"] = urad_list(u.tail<3>());
-  out["u_point_um"] = um_list(point_u_mm(facts, s.errors.covariance, s.angle_rad));
+  out["u_point_um"] = um_list(point_u_mm(result, s.errors.covariance, s.angle_rad));
   out["covariance"] = covariance_json(s.errors.covariance);
   out["chi2"] = s.chi2;
   out["dof"] = s.dof;
@@ -115,15 +116,15 @@ Json offset_json(const fit::AxisOffset& o) {
 }
 
 /// Errors and their band over the stations.
-Json curve_json(const RotaryFacts& facts) {
+Json curve_json(const RotaryAxisResult& result) {
   Json out = Json::array();
-  const bool circle = facts.study.table.full_circle;
-  const double low = facts.model->lowest_rad();
-  const double span = circle ? core::kTwoPi : facts.model->highest_rad() - low;
+  const bool circle = result.study.table.full_circle;
+  const double low = result.model->lowest_rad();
+  const double span = circle ? core::kTwoPi : result.model->highest_rad() - low;
   constexpr int kSteps = 72;
   for (int i = 0; i <= kSteps; ++i) {
     const double angle = low + span * i / kSteps;
-    const auto at = facts.model->at(angle);
+    const auto at = result.model->at(angle);
     if (!at) continue;
     const fit::Vector6 u = at->sigma();
     out.push_back({{"angle_deg", core::degrees(angle)},
@@ -136,10 +137,10 @@ Json curve_json(const RotaryFacts& facts) {
   return out;
 }
 
-Json axis_json(const RotaryFacts& facts) {
-  const fit::RotaryStudy& study = facts.study;
+Json axis_json(const RotaryAxisResult& result) {
+  const fit::RotaryStudy& study = result.study;
   Json out;
-  out["axis"] = facts.name;
+  out["axis"] = result.name;
   out["direction"] = list(study.table.axis.direction);
   out["origin_mm"] = list(study.table.axis.origin_mm);
   out["reference_deg"] = core::degrees(study.reference_rad);
@@ -149,7 +150,7 @@ Json axis_json(const RotaryFacts& facts) {
         {{"ball", ball.ball}, {"centre_mm", list(ball.centre_mm)}, {"u_um", um_list(ball.u_mm)}});
   }
   out["drift_um"] = core::micrometres(study.drift_mm);
-  out["method"] = facts.method;
+  out["method"] = result.method;
   out["s0"] = study.s0;
   out["dof"] = study.dof;
   out["full_circle"] = study.table.full_circle;
@@ -158,12 +159,12 @@ Json axis_json(const RotaryFacts& facts) {
   out["hysteresis_urad"] = urad_list(study.table.hysteresis_rms.tail<3>());
   out["stations"] = Json::array();
   for (const fit::RotaryStation& s : study.stations) {
-    out["stations"].push_back(station_json(facts, s));
+    out["stations"].push_back(station_json(result, s));
   }
   out["offset"] = study.offset ? offset_json(*study.offset) : Json();
-  out["place_mm"] = list(facts.place_mm);
+  out["place_mm"] = list(result.place_mm);
   out["curve"] = name_of(study.table.curve);
-  out["curve_points"] = facts.model ? curve_json(facts) : Json::array();
+  out["curve_points"] = result.model ? curve_json(result) : Json::array();
   out["warnings"] = warnings_json(study.warnings);
   return out;
 }
@@ -182,12 +183,12 @@ std::string six(const fit::Vector6& v) {
   return out;
 }
 
-std::string station_lines(const RotaryFacts& facts) {
+std::string station_lines(const RotaryAxisResult& result) {
   std::string out = "   station       EX      EY      EZ      EA      EB      EC    chi2\n";
   out += "       deg       um      um      um    urad    urad    urad\n";
   fit::Vector6 largest = fit::Vector6::Zero();
   double point = 0.0;
-  for (const fit::RotaryStation& s : facts.study.stations) {
+  for (const fit::RotaryStation& s : result.study.stations) {
     out += fmt::format("{:10.3f}{:1}", core::degrees(s.angle_rad), name_of(s.approach));
     if (s.undetermined) {
       out += " undetermined\n";
@@ -195,10 +196,10 @@ std::string station_lines(const RotaryFacts& facts) {
     }
     out += fmt::format("{}{:8.1f}{}\n", six(s.errors.values()), s.chi2, marks_of(s));
     largest = largest.cwiseMax(s.errors.sigma());
-    point = std::max(point, point_u_mm(facts, s.errors.covariance, s.angle_rad).maxCoeff());
+    point = std::max(point, point_u_mm(result, s.errors.covariance, s.angle_rad).maxCoeff());
   }
   out += fmt::format("  largest u{}\n", six(largest));
-  const Vector3d& p = facts.place_mm;
+  const Vector3d& p = result.place_mm;
   return out + fmt::format("  at ({:g}, {:g}, {:g}) mm a point is known to {:.2f} um or better\n",
                            p.x(), p.y(), p.z(), core::micrometres(point));
 }
@@ -216,16 +217,16 @@ std::string offset_lines(const fit::AxisOffset& o) {
                      urad(o.zero_point_rad), core::degrees(o.arc_rad), o.arc_factor);
 }
 
-std::string axis_table(const RotaryFacts& facts) {
-  const fit::RotaryStudy& study = facts.study;
+std::string axis_table(const RotaryAxisResult& result) {
+  const fit::RotaryStudy& study = result.study;
   const Vector3d& a = study.table.axis.direction;
   std::string out =
-      fmt::format("Axis {} along ({:g}, {:g}, {:g}): {} stations, {} balls, {}\n", facts.name,
+      fmt::format("Axis {} along ({:g}, {:g}, {:g}): {} stations, {} balls, {}\n", result.name,
                   a.x(), a.y(), a.z(), study.stations.size(), study.reference.size(),
                   study.table.full_circle ? "full circle" : "arc");
   out += fmt::format("  errors relative to {:g} deg, {}; s0 {:.3f} ({} degrees of freedom)\n",
-                     core::degrees(study.reference_rad), facts.method, study.s0, study.dof);
-  out += station_lines(facts);
+                     core::degrees(study.reference_rad), result.method, study.s0, study.dof);
+  out += station_lines(result);
   if (study.offset) out += offset_lines(*study.offset);
   if (study.table.hysteresis_rms.maxCoeff() > 0.0) {
     out += fmt::format(" hysteresis{}\n", six(study.table.hysteresis_rms));
@@ -236,18 +237,18 @@ std::string axis_table(const RotaryFacts& facts) {
   return out;
 }
 
-nlohmann::ordered_json rotary_axes_json(std::span<const RotaryFacts> axes) {
+nlohmann::ordered_json rotary_axes_json(std::span<const RotaryAxisResult> axes) {
   Json out;
   out["axes"] = Json::array();
-  for (const RotaryFacts& facts : axes) out["axes"].push_back(axis_json(facts));
+  for (const RotaryAxisResult& result : axes) out["axes"].push_back(axis_json(result));
   return out;
 }
 
-std::string rotary_axes_table(std::span<const RotaryFacts> axes) {
+std::string rotary_axes_table(std::span<const RotaryAxisResult> axes) {
   std::string out;
-  for (const RotaryFacts& facts : axes) {
+  for (const RotaryAxisResult& result : axes) {
     if (!out.empty()) out += '\n';
-    out += axis_table(facts);
+    out += axis_table(result);
   }
   return out;
 }
@@ -399,33 +400,33 @@ fit::RotaryOptions options_of(const RotaryAxesArguments& a) {
   return out;
 }
 
-core::Result<std::vector<RotaryFacts>> identify(const RotaryAxesArguments& arguments) {
+core::Result<std::vector<RotaryAxisResult>> identify(const RotaryAxesArguments& arguments) {
   if (!arguments.place_mm.empty() && arguments.place_mm.size() != 3) {
     return core::fail(Code::kBadOption, "--at needs three numbers: X,Y,Z");
   }
   const auto axes = read_rotary_axes(arguments);
   if (!axes) return core::fail(axes.error());
-  std::vector<RotaryFacts> out;
+  std::vector<RotaryAxisResult> out;
   for (const NamedAxis& axis : *axes) {
     auto study = fit::identify_rotary_axis(axis.measurement, options_of(arguments));
     if (!study) return core::fail(study.error().at(fmt::format("axis {}", axis.name)));
-    RotaryFacts facts;
-    facts.name = axis.name;
-    facts.method = arguments.method;
-    facts.place_mm = axis.measurement.axis.origin_mm;
+    RotaryAxisResult result;
+    result.name = axis.name;
+    result.method = arguments.method;
+    result.place_mm = axis.measurement.axis.origin_mm;
     if (!arguments.place_mm.empty()) {
-      facts.place_mm = {arguments.place_mm[0], arguments.place_mm[1], arguments.place_mm[2]};
+      result.place_mm = {arguments.place_mm[0], arguments.place_mm[1], arguments.place_mm[2]};
     }
     auto model = fit::RotaryModel::of(study->table);
     if (model) {
-      facts.model = *std::move(model);
+      result.model = *std::move(model);
     } else if (model.error().code == Code::kBadOption) {
       return core::fail(model.error().at(fmt::format("axis {}", axis.name)));
     } else {
       study->warnings.push_back(model.error());
     }
-    facts.study = *std::move(study);
-    out.push_back(std::move(facts));
+    result.study = *std::move(study);
+    out.push_back(std::move(result));
   }
   return out;
 }
@@ -433,10 +434,10 @@ core::Result<std::vector<RotaryFacts>> identify(const RotaryAxesArguments& argum
 }  // namespace
 
 int rotary_axes(const RotaryAxesArguments& arguments) {
-  const auto facts = identify(arguments);
-  if (!facts) return refuse(facts.error());
-  return answer(rotary_axes_json(*facts), arguments.json,
-                [&] { return rotary_axes_table(*facts); });
+  const auto results = identify(arguments);
+  if (!results) return refuse(results.error());
+  return answer(rotary_axes_json(*results), arguments.json,
+                [&] { return rotary_axes_table(*results); });
 }
 
 }  // namespace rondure::app

@@ -91,29 +91,29 @@ std::string layout_line(const std::string& name, const fit::ProbeLayout& layout,
                      places[1], worst.gain, worst.order, rms_gain(layout, search));
 }
 
-nlohmann::ordered_json spindle_json(const evaluation::SpindleResult& facts) {
-  Json out = reports::separation_json(facts);
-  out["warnings"] = warnings_json(facts.separation.warnings);
-  for (Json& w : warnings_json(facts.roundness.warnings)) out["warnings"].push_back(std::move(w));
+nlohmann::ordered_json spindle_json(const evaluation::SpindleResult& result) {
+  Json out = reports::separation_json(result);
+  out["warnings"] = warnings_json(result.separation.warnings);
+  for (Json& w : warnings_json(result.roundness.warnings)) out["warnings"].push_back(std::move(w));
   return out;
 }
 
-std::string spindle_table(const evaluation::SpindleResult& facts) {
-  const fit::ThreeProbeResult& s = facts.separation;
+std::string spindle_table(const evaluation::SpindleResult& result) {
+  const fit::ThreeProbeResult& s = result.separation;
   const auto places = places_deg(s.layout);
   std::string out = fmt::format("Three-probe separation, {}: {} readings, {} revolution{}\n",
-                                facts.arm.swings() ? "tracking" : "static", s.readings,
+                                result.arm.swings() ? "tracking" : "static", s.readings,
                                 s.revolutions, s.revolutions == 1 ? "" : "s");
   out += fmt::format("  probes    P1 0, P2 {:.4f}, P3 {:.4f} deg; weights 1, {:.6f}, {:.6f}\n",
                      places[0], places[1], s.layout.weights()[1], s.layout.weights()[2]);
-  for (const fit::Roundness& value : facts.roundness.values) {
+  for (const fit::Roundness& value : result.roundness.values) {
     out += fmt::format("  part      RONt {} {:.4f} um{}\n", fit::name_of(value.reference),
                        core::micrometres(value.total_mm),
                        value.parameters ? fmt::format("  RONq {:.4f} um",
                                                       core::micrometres(value.parameters->rms_mm))
                                         : std::string());
   }
-  out += motion_line("X", facts.x) + motion_line("Y", facts.y);
+  out += motion_line("X", result.x) + motion_line("Y", result.y);
   out += fmt::format("  eccentricity {:.4f} um at {:.2f} deg, taken out of the motion\n",
                      core::micrometres(s.eccentricity_mm), core::degrees(s.eccentricity_rad));
   out += fmt::format("  noise     {:.5f} um a reading ({}); profile known to {:.5f} um rms\n",
@@ -126,7 +126,7 @@ std::string spindle_table(const evaluation::SpindleResult& facts) {
           ? fmt::format("shows a probe gain from {:.2g} % off, an angle from {:.2g} deg",
                         100.0 * s.least_error_shown, core::degrees(s.least_error_shown))
           : std::string("blind to gains and angles: mount 5 to 20 um off centre"));
-  for (const auto* warnings : {&s.warnings, &facts.roundness.warnings}) {
+  for (const auto* warnings : {&s.warnings, &result.roundness.warnings}) {
     for (const core::Error& w : *warnings) out += fmt::format("  warning   {}\n", core::to_line(w));
   }
   return out + harmonic_lines(s);
@@ -210,11 +210,11 @@ core::Result<evaluation::SpindleResult> separate(const SpindleArguments& a) {
   const std::string name = std::filesystem::path(a.file).filename().string();
   const auto series = record::parse_series_csv(*bytes, name, kColumns);
   if (!series) return core::fail(series.error());
-  auto facts = evaluation::spindle_facts(evaluation::probe_readings(*series),
-                                         {a.crank_radius_mm, a.wheel_radius_mm, a.pin_radius_mm},
-                                         *layout, options_of(a), a.cutoff_upr, a.inside);
-  if (!facts && facts.error().where.empty()) return core::fail(facts.error().at(name));
-  return facts;
+  auto result = evaluation::spindle_facts(evaluation::probe_readings(*series),
+                                          {a.crank_radius_mm, a.wheel_radius_mm, a.pin_radius_mm},
+                                          *layout, options_of(a), a.cutoff_upr, a.inside);
+  if (!result && result.error().where.empty()) return core::fail(result.error().at(name));
+  return result;
 }
 
 core::Result<fit::LayoutSearch> search_of(const DesignArguments& arguments) {
@@ -230,9 +230,9 @@ core::Result<fit::LayoutSearch> search_of(const DesignArguments& arguments) {
 }  // namespace
 
 int spindle(const SpindleArguments& arguments) {
-  const auto facts = separate(arguments);
-  if (!facts) return refuse(facts.error());
-  return answer(spindle_json(*facts), arguments.json, [&] { return spindle_table(*facts); });
+  const auto result = separate(arguments);
+  if (!result) return refuse(result.error());
+  return answer(spindle_json(*result), arguments.json, [&] { return spindle_table(*result); });
 }
 
 int design_probes(const DesignArguments& arguments) {
