@@ -2,20 +2,19 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <functional>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "app/command_documents.h"
-#include "app/run/indicators.h"
 #include "app/text/terminal.h"
-#include "app/verbs/analyses.h"
-#include "app/verbs/rotary_axes_command.h"
 #include "app/verbs/verbs.h"
-#include "app/verbs/wheel_command.h"
 #include "core/numbers.h"
 #include "core/version.h"
 #include "plans/schema/simulation_table.h"
@@ -67,12 +66,17 @@ std::string check_seed(const std::string& text) {
   return fmt::format("{} is not a whole number from 0 to {:.0f}", text, plans::kMaxSeed);
 }
 
-/// Accepts a number in range; NaN is outside every range.
-std::string check_factor(const std::string& text) {
-  const auto factor = core::parse_number(text);
-  if (factor && *factor >= 1e-3 && *factor <= 1e6) return {};
-  return fmt::format("{} is no number from 0.001 to 1000000", text);
+/// Accepts a number in a range; NaN is outside every range.
+std::function<std::string(const std::string&)> number_from(double low, double high) {
+  return [low, high](const std::string& text) {
+    const auto number = core::parse_number(text);
+    if (number && *number >= low && *number <= high) return std::string();
+    return fmt::format("{} is no number from {} to {}", text, low, high);
+  };
 }
+
+/// Accepts how many times faster than a machine time passes.
+std::string check_factor(const std::string& text) { return number_from(1e-3, 1e6)(text); }
 
 /// Accepts how many times faster than a real machine a simulation runs; "inf": without waiting.
 std::string check_speed(const std::string& text) {
@@ -184,148 +188,6 @@ void add_run(CLI::App& app, RunArguments& arguments) {
       kExits);
 }
 
-CLI::App* add_fit(CLI::App& app, FitArguments& arguments) {
-  auto* verb =
-      app.add_subcommand("fit", "Fits a circle, cylinder, sphere or line to a points file");
-  verb->add_option("SHAPE", arguments.shape,
-                   "circle (columns x,y); cylinder, sphere, line (columns x,y,z); mm")
-      ->check(CLI::IsMember({"circle", "cylinder", "sphere", "line"}));
-  verb->add_option("FILE", arguments.file, "CSV with a header line; # comments");
-  verb->add_option(
-          "--reference", arguments.reference,
-          "ls least squares, mz minimum zone, mc minimum circumscribed, mi maximum inscribed, "
-          "or all (default)")
-      ->check(CLI::IsMember({"ls", "mz", "mc", "mi", "all"}));
-  verb->add_flag("--json", arguments.json, "The stable JSON contract instead of text");
-  verb->footer("\nExample: rondure fit cylinder tests/data/nist_cyl_13/points.csv --json");
-  verb->require_subcommand(0, 1);
-  verb->callback([verb, &arguments] {  // a verb of its own, such as roundness, needs neither
-    if (!verb->get_subcommands().empty()) return;
-    if (arguments.shape.empty()) throw CLI::RequiredError("SHAPE");
-    if (arguments.file.empty()) throw CLI::RequiredError("FILE");
-    const bool one_sided = arguments.reference == "mc" || arguments.reference == "mi";
-    if (arguments.shape == "line" && one_sided) {
-      throw CLI::ValidationError("--reference",
-                                 "a line has ls and mz (the least cylinder that "
-                                 "encloses its points)");
-    }
-  });
-  return verb;
-}
-
-void add_roundness(CLI::App& fit_verb, RoundnessArguments& arguments) {
-  auto* verb = fit_verb.add_subcommand(
-      "roundness", "Filters one section and gives RONt, RONp, RONv, RONq and harmonics");
-  verb->add_option("FILE", arguments.file, "CSV with the columns theta_deg,r_um or x,y (mm)")
-      ->required();
-  verb->add_option("--cutoff-upr", arguments.cutoff_upr,
-                   "Cut-off in undulations per revolution (default: 50); LO,HI for a band")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("N[,N]");
-  verb->add_option("--filter", arguments.filter, "gaussian (default), 2rc, robust, spline or none")
-      ->check(CLI::IsMember({"gaussian", "2rc", "robust", "spline", "none"}));
-  verb->add_option("--pass", arguments.pass, "low (default), high or band")
-      ->check(CLI::IsMember({"low", "high", "band"}));
-  verb->add_option("--reference", arguments.reference,
-                   "Reference circle: ls least squares, mz minimum zone, mc minimum circumscribed, "
-                   "mi maximum inscribed, or all (default)")
-      ->check(CLI::IsMember({"ls", "mz", "mc", "mi", "all"}));
-  verb->add_flag("--override-sampling", arguments.override_sampling,
-                 "Filter also with fewer than 7 points per undulation");
-  verb->add_flag("--inside", arguments.inside, "A bore: peaks point to the centre");
-  verb->add_flag("--json", arguments.json, "JSON instead of text");
-  verb->footer(
-      "\nExample: rondure fit roundness tests/data/spec_roundness/profile.csv --cutoff-upr 150\n"
-      "Filters, formulas and end effects: docs/filters.md");
-}
-
-void add_contour_files(CLI::App& verb, ContourArguments& arguments) {
-  const auto add_files = [&](const char* name, std::vector<std::string>& files,
-                             const char* meaning) {
-    return verb.add_option(name, files, meaning)
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("FILE,...");
-  };
-  add_files("--axes", arguments.axes, "Traces of the control, one file a part")->required();
-  add_files("--pin", arguments.pin, "Contours of the pins from the gauge, one file a part")
-      ->required();
-  add_files("--main", arguments.main, "Contours of the neighbouring main journals, if measured");
-  verb.add_option("--mapping", arguments.mapping, "JSON file that names the columns")
-      ->type_name("FILE");
-  verb.add_option("--column", arguments.columns,
-                  "One column: quantity=column[:unit[:sign]]; may be given several times")
-      ->allow_extra_args(false)
-      ->type_name("TEXT");
-  verb.add_option("--curves", arguments.curves, "Writes t, f, n of all parts as CSV")
-      ->type_name("FILE");
-  verb.add_flag("--json", arguments.json, "JSON instead of text");
-}
-
-void add_contour_settings(CLI::App& verb, ContourArguments& arguments) {
-  const auto one_of_signs = CLI::IsMember({1, -1});
-  verb.add_option("--crank-radius-mm", arguments.crank_radius_mm, "R (default: 49)");
-  verb.add_option("--wheel-radius-mm", arguments.wheel_radius_mm, "Rgw (default: 299.88)");
-  verb.add_option("--pin-radius-mm", arguments.pin_radius_mm, "r (default: 24.56)");
-  verb.add_option("--main-radius-mm", arguments.main_radius_mm, "Main journal (default: 30)");
-  verb.add_option("--cutoff-upr", arguments.cutoff_upr, "Gaussian low pass (default: 50)");
-  verb.add_option("--pre-filter-upr", arguments.pre_filter_upr,
-                  "Gaussian low pass of the axis errors first (default: none)");
-  verb.add_option("--samples", arguments.samples, "Points of a contour (default: 1440)");
-  verb.add_option("--path-samples", arguments.path_samples,
-                  "C positions the traces are brought to (default: 1440)");
-  verb.add_option("--phase-offset-deg", arguments.phase_offset_deg,
-                  "Gauge angle of the direction from the crankshaft's to the pin's axis");
-  verb.add_option("--main-phase-offset-deg", arguments.main_phase_offset_deg,
-                  "The same of the main journals (default: as the pins)");
-  verb.add_option("--gauge-direction", arguments.gauge_direction,
-                  "1 (default), or -1: the gauge turns the other way")
-      ->check(one_of_signs);
-  verb.add_option("--c-direction", arguments.c_direction,
-                  "1 (default), or -1: C turns the crank counter-clockwise under the wheel")
-      ->check(one_of_signs);
-  verb.add_option("--error-sign", arguments.error_sign,
-                  "1 (default): actual minus command; -1: command minus actual, as a following "
-                  "error of most controls")
-      ->check(one_of_signs);
-  verb.add_option("--base", arguments.base, "Base circle: limacon (default) or geometric")
-      ->check(CLI::IsMember({"limacon", "geometric"}));
-  verb.add_option("--method", arguments.method,
-                  "corrected (default), or as-published: each f is turned onto its t")
-      ->check(CLI::IsMember({"corrected", "as-published"}));
-  verb.add_flag("--prefiltered", arguments.prefiltered, "The gauge has filtered the contours");
-  verb.add_flag("--map-main", arguments.map_main,
-                "Carry a main journal to the pin as n(alpha(beta)) cos(eta)");
-}
-
-void add_contour(CLI::App& fit_verb, ContourArguments& arguments) {
-  auto* verb = fit_verb.add_subcommand(
-      "contour",
-      "Crank pins in follow grinding: which share of the contour error follows the axes, and which "
-      "share repeats");
-  add_contour_files(*verb, arguments);
-  add_contour_settings(*verb, arguments);
-  verb->footer(
-      "\nColumns without a mapping (CSV, a header line, a row a sample):\n"
-      "  axes   c_deg, c_error_deg, x_error_mm: C position and the errors of both axes, with\n"
-      "         d_cmd_mm, if recorded, to check crank, wheel and the zero of C; or\n"
-      "         alpha_cmd_deg, d_cmd_mm, alpha_act_deg, d_act_mm: positions, 360 deg at least\n"
-      "  pin, main   angle_deg, deviation_um: one turn, steps of at most 1 deg\n"
-      "Quantities of a mapping: c, c_error, x_error, alpha_cmd, d_cmd, alpha_act, d_act, angle,\n"
-      "deviation, main_angle, main_deviation. Units: deg, mdeg, arcsec, rad, mrad; mm, um, nm.\n"
-      "As a file: {\"columns\": {\"x_error\": {\"column\": \"X_FOLLOW\", \"unit\": \"um\", "
-      "\"sign\": "
-      "-1}}}\n"
-      "\nExample:\n"
-      "  rondure fit contour --axes tests/data/spec_contour/axes1.csv --pin "
-      "tests/data/spec_contour/pin1.csv --prefiltered\n"
-      "  rondure fit contour --axes a1.csv,a2.csv,a3.csv,a4.csv --pin p1.csv,p2.csv,p3.csv,p4.csv\n"
-      "      --column c_error=C_FOLLOW:mdeg:-1 --column x_error=X_FOLLOW:um:-1 "
-      "--phase-offset-deg 12.5\n"
-      "Method, columns, keys of the JSON: docs/contour.md");
-}
-
 void add_simulate_cmm(CLI::App& app, SimulateCmmArguments& arguments) {
   auto* verb = app.add_subcommand(
       "simulate-cmm",
@@ -414,13 +276,8 @@ void add_history_filters(CLI::App& verb, HistoryArguments& arguments) {
 
 void add_history(CLI::App& app, HistoryArguments& arguments) {
   auto* verb = app.add_subcommand("history", "Past results: list, filter, run chart, capability");
-  verb->add_option_function<std::string>(
-      "ARCHIVE",
-      [&arguments](const std::string& place) {
-        arguments.archive = place;
-        arguments.archive_given = true;
-      },
-      "File or postgresql://user@host/database (default: runs/archive.db)");
+  verb->add_option("ARCHIVE", arguments.archive,
+                   "File or postgresql://user@host/database (default: runs/archive.db)");
   add_history_filters(*verb, arguments);
   verb->add_option("--last", arguments.last,
                    "The newest N results (default: 50; of charts and JSON 1000; of CSV all)")
@@ -468,20 +325,13 @@ void add_record(CLI::App& app, RecordArguments& arguments) {
       "it.\nWiring, kinds: docs/indicators.md");
 }
 
-/// Accepts a waiting time in range.
-std::string check_patience(const std::string& text) {
-  const auto limit_s = core::parse_number(text);
-  if (limit_s && *limit_s >= 0.1 && *limit_s <= 600.0) return {};
-  return fmt::format("{} is no number from 0.1 to 600", text);
-}
-
 void add_server_device(CLI::App& devices_verb, ServerDeviceArguments& arguments) {
   auto* verb = devices_verb.add_subcommand(
       "ippdme", "Asks a machine behind I++ DME what it can; nothing moves");
   verb->add_option("HOST:PORT", arguments.place, "Where it listens; without a port: 1294")
       ->required();
   verb->add_option("--limit", arguments.limit_s, "For each answer (default: 5)")
-      ->check(check_patience)
+      ->check(number_from(0.1, 600.0))
       ->type_name("SECONDS");
   verb->add_flag("--json", arguments.json, "JSON instead of text");
   verb->footer(
@@ -491,7 +341,7 @@ void add_server_device(CLI::App& devices_verb, ServerDeviceArguments& arguments)
       "Exit status\n2 when nobody answers, or not as a machine of I++ DME. More: docs/ipp-dme.md");
 }
 
-CLI::App* add_devices(CLI::App& app, DevicesArguments& arguments) {
+void add_devices(CLI::App& app, DevicesArguments& arguments) {
   auto* verb =
       app.add_subcommand("devices", "Fixtures, indicators and serial lines that are plugged in");
   verb->add_flag("--json", arguments.json, "JSON instead of text");
@@ -500,7 +350,28 @@ CLI::App* add_devices(CLI::App& app, DevicesArguments& arguments) {
       "Nothing is claimed and nothing moves. Wiring, permissions: docs/fixtures.md, "
       "docs/indicators.md");
   verb->require_subcommand(0, 1);
-  return verb;
+}
+
+void add_design_probes(CLI::App& app, DesignArguments& a) {
+  auto* verb = app.add_subcommand("design-probes",
+                                  "Probe angles with the least noise gain for a band of harmonics");
+  fit::LayoutSearch& s = a.search;
+  verb->add_option("--first-order", s.first, "Of the band (default: 2)");
+  verb->add_option("--last-order", s.last, "Of the band (default: 50)");
+  verb->add_option("--p2", a.p2_deg, "LO,HI deg from P1 (default: 40,140)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("LO,HI");
+  verb->add_option("--p3", a.p3_deg, "LO,HI deg from P1 (default: -140,-40)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("LO,HI");
+  verb->add_option("--least-apart", s.least_apart_deg, "deg between probes (default: 20)");
+  verb->add_option("--samples", s.samples,
+                   "Angles are whole samples of so many a turn (default: 0, any angle)");
+  verb->add_option("--count", s.count, "Layouts to give (default: 5)");
+  verb->add_flag("--json", a.json, "JSON instead of text");
+  verb->footer("\nExample: rondure design-probes --last-order 50 --p2 40,140 --p3=-140,-40");
 }
 
 void add_completion(CLI::App& app, std::string& shell) {
@@ -564,9 +435,20 @@ void limit_numbers(CLI::App& app) {
   for (CLI::App* verb : app.get_subcommands([](CLI::App*) { return true; })) limit_numbers(*verb);
 }
 
-int printed(const std::string& text) {
-  say(text);
-  return kAllWell;
+/// A verb on the command line, and what it does.
+struct Verb {
+  const CLI::App* table;
+  std::function<int()> run;
+};
+
+/// Adds a verb whose options are written into arguments of its own.
+template <class Arguments>
+void add_verb(CLI::App& app, void (*add)(CLI::App&, Arguments&), int (*run)(const Arguments&),
+              std::vector<Verb>& verbs) {
+  const auto arguments = std::make_shared<Arguments>();
+  add(app, *arguments);
+  const CLI::App* const table = app.get_subcommands([](CLI::App*) { return true; }).back();
+  verbs.push_back({table, [arguments, run] { return run(*arguments); }});
 }
 
 int main_of(int argc, char** argv) {
@@ -575,45 +457,28 @@ int main_of(int argc, char** argv) {
                        fmt::format("rondure {} (commit {})", core::kVersion, core::commit()));
   app.require_subcommand(1);
   app.footer(kExits);
-  ValidateArguments validate_arguments;
-  PlanArguments plan_arguments;
-  RunArguments run_arguments;
-  SimulateCmmArguments simulate_arguments;
-  FitArguments fit_arguments;
-  RoundnessArguments roundness_arguments;
-  SpindleArguments spindle_arguments;
-  DesignArguments design_arguments;
-  DevicesArguments devices_arguments;
-  ServerDeviceArguments server_arguments;
-  RecordArguments record_arguments;
-  WheelArguments wheel_arguments;
-  ContourArguments contour_arguments;
-  RotaryAxesArguments rotary_arguments;
-  ReportArguments report_arguments;
-  SignArguments sign_arguments;
-  VerifyArguments verify_arguments;
-  CompareArguments compare_arguments;
-  HistoryArguments history_arguments;
+  std::vector<Verb> verbs;
+  add_verb(app, add_validate, validate, verbs);
+  add_verb(app, add_plan, plan, verbs);
+  add_verb(app, add_run, run, verbs);
+  add_verb(app, add_simulate_cmm, simulate_cmm, verbs);
+  add_verb(app, add_fit, fit, verbs);
+  CLI::App& fit_verb = *app.get_subcommand("fit");
+  add_verb(fit_verb, add_roundness, roundness, verbs);
+  add_verb(fit_verb, add_spindle, spindle, verbs);
+  add_verb(fit_verb, add_contour, contour, verbs);
+  add_verb(fit_verb, add_wheel, wheel, verbs);
+  add_verb(fit_verb, add_rotary_axes, rotary_axes, verbs);
+  add_verb(app, add_report, report, verbs);
+  add_verb(app, add_verify, verify, verbs);
+  add_verb(app, add_compare, compare, verbs);
+  add_verb(app, add_history, history, verbs);
+  add_verb(app, add_sign, sign, verbs);
+  add_verb(app, add_design_probes, design_probes, verbs);
+  add_verb(app, add_devices, devices, verbs);
+  add_verb(*app.get_subcommand("devices"), add_server_device, server_device, verbs);
+  add_verb(app, add_record, record_readings, verbs);
   std::string shell;
-  add_validate(app, validate_arguments);
-  add_plan(app, plan_arguments);
-  add_run(app, run_arguments);
-  add_simulate_cmm(app, simulate_arguments);
-  CLI::App* const fit_verb = add_fit(app, fit_arguments);
-  add_roundness(*fit_verb, roundness_arguments);
-  add_spindle(*fit_verb, spindle_arguments);
-  add_contour(*fit_verb, contour_arguments);
-  add_wheel(*fit_verb, wheel_arguments);
-  add_rotary_axes(*fit_verb, rotary_arguments);
-  add_report(app, report_arguments);
-  add_verify(app, verify_arguments);
-  add_compare(app, compare_arguments);
-  add_history(app, history_arguments);
-  add_sign(app, sign_arguments);
-  add_design_probes(app, design_arguments);
-  CLI::App* const devices_verb = add_devices(app, devices_arguments);
-  add_server_device(*devices_verb, server_arguments);
-  add_record(app, record_arguments);
   add_completion(app, shell);
   add_manual(app);
   limit_numbers(app);
@@ -622,27 +487,12 @@ int main_of(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return explain(app, error, {argv + 1, argv + argc});
   }
-  if (app.got_subcommand("validate")) return validate(validate_arguments);
-  if (app.got_subcommand("run")) return run(run_arguments);
-  if (app.got_subcommand("simulate-cmm")) return simulate_cmm(simulate_arguments);
-  if (app.got_subcommand("plan")) return plan(plan_arguments);
-  if (fit_verb->got_subcommand("roundness")) return roundness(roundness_arguments);
-  if (fit_verb->got_subcommand("spindle")) return spindle(spindle_arguments);
-  if (fit_verb->got_subcommand("wheel")) return wheel(wheel_arguments);
-  if (fit_verb->got_subcommand("contour")) return contour(contour_arguments);
-  if (fit_verb->got_subcommand("rotary-axes")) return rotary_axes(rotary_arguments);
-  if (app.got_subcommand("fit")) return fit(fit_arguments);
-  if (app.got_subcommand("report")) return report(report_arguments);
-  if (app.got_subcommand("compare")) return compare(compare_arguments);
-  if (app.got_subcommand("history")) return history(history_arguments);
-  if (app.got_subcommand("design-probes")) return design_probes(design_arguments);
-  if (app.got_subcommand("sign")) return sign(sign_arguments);
-  if (devices_verb->got_subcommand("ippdme")) return server_device(server_arguments);
-  if (app.got_subcommand("devices")) return devices(devices_arguments);
-  if (app.got_subcommand("record")) return record_readings(record_arguments);
-  if (app.got_subcommand("completion")) return printed(completion_script(app, shell));
-  if (app.got_subcommand("manual")) return printed(manual_page(app));
-  return verify(verify_arguments);
+  // The verbs of `fit` and `devices` stand behind these, and count before them.
+  const auto given = std::find_if(verbs.rbegin(), verbs.rend(),
+                                  [](const Verb& verb) { return verb.table->parsed(); });
+  if (given != verbs.rend()) return given->run();
+  say(app.got_subcommand("completion") ? completion_script(app, shell) : manual_page(app));
+  return kAllWell;
 }
 
 }  // namespace

@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include "app/prediction/prediction.h"
-#include "app/prediction/sampling_layout.h"
+#include "evaluation/prediction/predict.h"
 #include "plans/analyses/features.h"
+#include "plans/forecast/expected_record.h"
+#include "plans/forecast/forecast.h"
 
 namespace rondure::app {
 namespace {
@@ -61,6 +63,104 @@ evaluation::PredictionOptions all_parts() {
   options.budget_trials = 20;
   return options;
 }
+
+/// The smallest number of repeats to propose: 2 if the run derives the repeatability from them,
+/// because the plan does not declare it.
+int least_repeats(const plans::Plan& plan) {
+  if (!plan.uncertainty || !plan.uncertainty->probe) return 1;
+  const auto& probe = *plan.uncertainty->probe;
+  const bool contained = probe.form_limit_um > 0.0;
+  return probe.repeatability_um || contained ? 1 : 2;
+}
+
+/// One layout of one feature: its path is planned once, its repeats are varied.
+class SamplingLayout {
+ public:
+  /// @param sampling  Its repeats are ignored.
+  SamplingLayout(plans::Plan plan, std::size_t feature, const Sampling& sampling)
+      : plan_(std::move(plan)), feature_(feature), sampling_(sampling) {
+    sampling_.repeats = least_repeats(plan_);
+    plans::FeaturePlan& changed = plan_.features[feature_];
+    changed.sampling.layers = sampling_.layers;
+    changed.sampling.points_per_layer = sampling_.points_per_layer;
+    changed.pose_search.repeats = sampling_.repeats;
+    forecast_ = plans::forecast(plan_);
+    changed.pose_search.repeats = sampling_.repeats + 1;
+    const auto longer = plans::forecast(plan_);
+    if (forecast_ && longer) again_s_ = longer->time_s - forecast_->time_s;
+  }
+
+  /// The forecast with the fewest repeats, or why the layout cannot be touched.
+  [[nodiscard]] const core::Result<plans::Forecast>& forecast() const { return forecast_; }
+
+  /// A candidate, without its U.
+  [[nodiscard]] SamplingCandidate candidate(int repeats) const {
+    SamplingCandidate out;
+    out.sampling = sampling_;
+    out.sampling.repeats = repeats;
+    if (!forecast_) {
+      out.out_of_reach = forecast_.error().what;
+      return out;
+    }
+    const plans::Forecast changed = repeated(repeats);
+    out.touches = changed.touches;
+    out.time_s = changed.time_s;
+    return out;
+  }
+
+  /// Predicts the U of a candidate of this layout.
+  /// @return  The prediction with the largest U of its characteristics; `why` when none has one.
+  [[nodiscard]] core::Result<evaluation::Prediction> predict(
+      Measurand measurand, const evaluation::PredictionOptions& options,
+      SamplingCandidate& candidate) const {
+    plans::Plan plan = plan_;
+    plan.features[feature_].pose_search.repeats = candidate.sampling.repeats;
+    const auto expected = plans::expected_record(plan, repeated(candidate.sampling.repeats));
+    evaluation::Prediction worst;
+    candidate.expanded_mm = candidate.nine_of_ten_expanded_mm = 0.0;
+    candidate.stated = 0;
+    candidate.missing.clear();
+    for (const record::Characteristic& asked : expected.features[feature_].characteristics) {
+      auto found = evaluation::predict(expected, static_cast<int>(feature_), asked, options);
+      if (!found) return found;
+      const auto& said = found->about(measurand);
+      if (!said) {
+        if (worst.why.empty() && !worst.sampled) worst.why = found->why;
+        if (candidate.missing.empty()) candidate.missing = found->why;
+        continue;
+      }
+      ++candidate.stated;
+      candidate.expanded_mm = std::max(candidate.expanded_mm, said->expanded_mm());
+      if (said->nine_of_ten_expanded_mm() >= candidate.nine_of_ten_expanded_mm) {
+        candidate.nine_of_ten_expanded_mm = said->nine_of_ten_expanded_mm();
+        worst = *std::move(found);
+      }
+    }
+    return worst;
+  }
+
+ private:
+  /// The forecast with another number of repeats: the same path, more often.
+  [[nodiscard]] plans::Forecast repeated(int repeats) const {
+    plans::Forecast out = *forecast_;
+    for (plans::ForecastStage& stage : out.stages) {
+      if (!stage.final_cloud || stage.feature != static_cast<int>(feature_)) continue;
+      const int more = repeats - stage.times;
+      out.touches += more * stage.touches;
+      // The first time starts at the park position or the last cloud; all others are the same.
+      out.time_s += more * again_s_;
+      stage.time_s += more * again_s_;
+      stage.times = repeats;
+    }
+    return out;
+  }
+
+  plans::Plan plan_;
+  std::size_t feature_;
+  Sampling sampling_;
+  core::Result<plans::Forecast> forecast_;
+  double again_s_ = 0.0;  ///< Time of one more final cloud.
+};
 
 /// The search of one feature.
 class Search {
@@ -198,7 +298,7 @@ class Search {
     const SamplingLayout layout(plan_, out_.feature, candidate.sampling);
     const auto found = layout.predict(out_.measurand, all_parts(), candidate);
     if (!found) return core::fail(found.error());
-    smallest_mm_ = -1.0;  // what limits this one is told
+    smallest_mm_ = -1.0;  // its influences are stated
     keep(candidate, *found, true);
     return {};
   }

@@ -4,12 +4,35 @@
 #include <string>
 #include <vector>
 
-#include "app/prediction/sampling_layout.h"
 #include "core/result.h"
 #include "evaluation/uncertainty/uncertainty.h"
 #include "plans/plan.h"
 
 namespace rondure::app {
+
+/// A sampling of a feature, as its plan spells it.
+struct Sampling {
+  int layers = 0;
+  int points_per_layer = 0;
+  int repeats = 0;  ///< Touches of every point of the final cloud.
+
+  friend bool operator==(const Sampling&, const Sampling&) = default;
+};
+
+/// A sampling that was tried.
+struct SamplingCandidate {
+  Sampling sampling;
+  int touches = 0;                       ///< Of the whole run.
+  double time_s = 0.0;                   ///< Of the whole run, as forecast() predicts it.
+  double expanded_mm = 0.0;              ///< Predicted U, the largest of its characteristics.
+  double nine_of_ten_expanded_mm = 0.0;  ///< U that nine of ten parts do not exceed.
+  bool meets = false;                    ///< Whether that U is not above the target.
+  bool confirmed = false;                ///< Predicted with the full number of simulated parts.
+  int stated = 0;                        ///< Characteristics whose interval is predicted.
+  std::string missing;                   ///< Why another has none; empty: each has one.
+  std::string out_of_reach;  ///< Not empty: why it cannot be touched, or loses an interval that the
+                             ///< plan has; no numbers then.
+};
 
 /// Result of the search for one feature.
 struct SamplingSearch {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "app/text/shell_word.h"
+#include "app/text/answer.h"
 #include "app/text/terminal.h"
 #include "record/archive/archive.h"
 #include "record/archive/queue.h"

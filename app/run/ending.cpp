@@ -8,8 +8,7 @@
 
 #include "app/run/archive_step.h"
 #include "app/run/processor.h"
-#include "app/text/exit_status.h"
-#include "app/text/shell_word.h"
+#include "app/text/answer.h"
 #include "app/text/terminal.h"
 #include "evaluation/decision/verdict.h"
 #include "evaluation/defect.h"
@@ -26,13 +25,6 @@ namespace rondure::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-int exit_status(bool failed, evaluation::Verdict verdict) {
-  if (failed) return kRunFailed;
-  const bool well =
-      verdict == evaluation::Verdict::kConforms || verdict == evaluation::Verdict::kNotToleranced;
-  return well ? kAllWell : kNotConforming;
-}
 
 /// Formats to write: those requested, and those left by an interrupted attempt, which would show
 /// another state of the run.
@@ -63,9 +55,7 @@ struct EvaluatedRun {
 
 core::Result<void> require_sound(const record::ReadJournal& read, const fs::path& directory) {
   const std::vector<std::string> faults = record::faults_of(read);
-  if (!faults.empty()) {
-    return core::fail(core::Code::kJournal, faults.front(), directory.string());
-  }
+  if (!faults.empty()) return core::fail(core::Code::kJournal, faults.front(), directory.string());
   auto checked = plans::check_record(read.record);
   if (!checked) return core::fail(checked.error().at(directory.string()));
   return {};
@@ -105,13 +95,15 @@ int finish_archived(const record::ArchivePlace& archive, const fs::path& directo
         directory.string(), evaluation::name_of(evaluated.evaluation.verdict),
         quoted(directory.string())));
   }
-  return exit_status(false, evaluated.evaluation.verdict);
+  return exit_status(evaluated.evaluation.verdict);
 }
 
 /// Reports a failure on the terminal, and to the page, which would otherwise wait for a verdict.
-void tell_failure(const core::Error& error, web::LiveView* live) {
+/// Returns the exit status.
+int fail_run(const core::Error& error, web::LiveView* live) {
   print_error(error);
   if (live != nullptr) live->show_failure(core::to_line(error));
+  return kRunFailed;
 }
 
 /// @param run  None for a run that was sealed before.
@@ -122,10 +114,10 @@ int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& evaluated,
   // An unfinished run stays open: it has no results to seal.
   if (run != nullptr && !failed) {
     if (auto sealed = run->journal.seal(reports::stored_results(evaluation)); !sealed) {
-      tell_failure(sealed.error(), live);
+      const int status = fail_run(sealed.error(), live);
       tell(fmt::format("rondure: every touch is kept; to finish the run: {}\n",
                        resume_command(ending)));
-      return kRunFailed;
+      return status;
     }
   }
   if (!failed) keep_earlier_results(archive, directory, evaluated.record);
@@ -134,13 +126,13 @@ int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& evaluated,
   const auto written = reports::write_exports(directory, formats, evaluated.record, evaluation,
                                               language, paper_of(arguments, plan));
   if (!written) {
-    tell_failure(written.error(), live);
+    const int status = fail_run(written.error(), live);
     if (!failed) {
       tell(
           fmt::format("rondure: the measurement is kept; to write its reports and archive it: {}\n",
                       resume_command(ending)));
     }
-    return kRunFailed;
+    return status;
   }
   if (live != nullptr) {
     live->show_result(evaluated.record, evaluation, fs::absolute(directory).string());
@@ -149,11 +141,18 @@ int conclude_evaluated(const RunToFinish& ending, const EvaluatedRun& evaluated,
     say(reports::write_summary(evaluated.record, evaluation, sketch_style(), language));
     for (const fs::path& file : *written) say_line(file.string());
   }
-  if (!failed) (void)archive_run(archive, directory, evaluated.record, evaluation);
-  return exit_status(failed, evaluation.verdict);
+  if (failed) return kRunFailed;
+  (void)archive_run(archive, directory, evaluated.record, evaluation);
+  return exit_status(evaluation.verdict);
 }
 
 }  // namespace
+
+int exit_status(evaluation::Verdict verdict) {
+  const bool well =
+      verdict == evaluation::Verdict::kConforms || verdict == evaluation::Verdict::kNotToleranced;
+  return well ? kAllWell : kNotConforming;
+}
 
 const std::vector<std::string>& formats_of(const RunArguments& arguments, const plans::Plan& plan) {
   return arguments.formats.empty() ? plan.reports.formats : arguments.formats;
@@ -161,10 +160,7 @@ const std::vector<std::string>& formats_of(const RunArguments& arguments, const 
 
 int conclude(const RunToFinish& ending, plans::Run& run) {
   const auto evaluated = read_and_evaluate(ending.directory);
-  if (!evaluated) {
-    tell_failure(evaluated.error(), ending.live);
-    return kRunFailed;
-  }
+  if (!evaluated) return fail_run(evaluated.error(), ending.live);
   return conclude_evaluated(ending, *evaluated, &run);
 }
 
@@ -172,14 +168,10 @@ int finish_sealed(const RunToFinish& ending, record::HeldJournal held) {
   const auto& [arguments, plan, archive, directory, live] = ending;
   record::remove_temporaries(directory);
   if (auto closed = close_sealed(held.read, directory); !closed) {
-    print_error(closed.error());
-    return kRunFailed;
+    return fail_run(closed.error(), live);
   }
   const auto evaluated = evaluate(std::move(held.read.record), directory);
-  if (!evaluated) {
-    print_error(evaluated.error());
-    return kRunFailed;
-  }
+  if (!evaluated) return fail_run(evaluated.error(), live);
   if (reports::exports_are_current(directory, formats_of(arguments, plan), evaluated->record,
                                    evaluated->evaluation, language_of(arguments),
                                    paper_of(arguments, plan))) {

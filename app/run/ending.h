@@ -6,6 +6,7 @@
 
 #include "app/run/arguments.h"
 #include "app/run/resumption.h"
+#include "evaluation/decision/verdict.h"
 #include "plans/plan.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
@@ -15,6 +16,9 @@ namespace rondure::app {
 /// The formats that a run is to write: of the command line, else of the plan.
 [[nodiscard]] const std::vector<std::string>& formats_of(const RunArguments& arguments,
                                                          const plans::Plan& plan);
+
+/// Exit status of a finished run with this verdict.
+[[nodiscard]] int exit_status(evaluation::Verdict verdict);
 
 /// Reads and evaluates the journal on disk, not the rows in memory; seals a finished run; writes
 /// the reports; archives a finished run.

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "app/text/shell_word.h"
+#include "app/text/answer.h"
 #include "plans/analyses/analysis.h"
 #include "record/archive/place.h"
 #include "record/journal/journal.h"
@@ -59,9 +59,9 @@ core::Result<Resumption> find_resumption(const RunArguments& arguments) {
                                   arguments.plan, arguments.out));
   }
   if (!by_directory) {
-    const auto unborn = record::clear_unstarted_run(out.directory);
-    if (!unborn) return core::fail(unborn.error());
-    if (*unborn) return out;
+    const auto unstarted = record::clear_unstarted_run(out.directory);
+    if (!unstarted) return core::fail(unstarted.error());
+    if (*unstarted) return out;
   }
   auto held = record::hold_journal(out.directory);
   if (!held) return core::fail(held.error());

@@ -23,15 +23,9 @@ int compare(const CompareArguments& arguments) {
                     arguments.directory));
   }
   const auto evaluation = evaluation::evaluate(*record);
-  if (!evaluation) {
-    print_error(evaluation.error());
-    return kBadInput;
-  }
+  if (!evaluation) return refuse(evaluation.error());
   const auto comparison = evaluation::compare_run(*evaluation);
-  if (!comparison) {
-    print_error(comparison.error().at(arguments.directory));
-    return kBadInput;
-  }
+  if (!comparison) return refuse(comparison.error().at(arguments.directory));
   const std::string& id = record->header.run_id;
   say(arguments.json ? reports::comparison_json(id, *comparison)
                      : reports::comparison_text(id, *comparison, arguments.all));

@@ -1,4 +1,7 @@
+#include <cmath>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -6,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/text/answer.h"
-#include "app/text/contour.h"
 #include "app/text/terminal.h"
 #include "app/verbs/contour_files.h"
 #include "app/verbs/verbs.h"
+#include "core/statistics.h"
 #include "core/units.h"
 #include "fit/contour/study.h"
 #include "record/files.h"
@@ -17,6 +20,98 @@
 
 namespace rondure::app {
 namespace {
+
+double um2(double mm2) { return mm2 / (core::kMicrometre * core::kMicrometre); }
+
+std::string head(const fit::ContourStudy& study, const fit::ContourStudyOptions& options) {
+  const fit::CrankGeometry& g = options.geometry;
+  std::string out = fmt::format(
+      "crank pins, {} part{}, method {}\n  crank radius {} mm, wheel radius {} mm, pin radius {} "
+      "mm\n",
+      study.parts.size(), study.parts.size() == 1 ? "" : "s", fit::name_of(options.method),
+      g.crank_radius_mm, g.wheel_radius_mm, g.pin_radius_mm);
+  if (options.error.filter.filter != fit::ProfileFilter::kNone) {
+    out += fmt::format("  {} low pass, {} UPR, {} points{}\n",
+                       fit::name_of(options.error.filter.filter), options.error.filter.cutoff_upr,
+                       options.samples, options.prefiltered ? "; the gauge has filtered" : "");
+  }
+  return out;
+}
+
+std::string part_lines(const fit::ContourPartResult& part, const std::string& name) {
+  const auto line = [](const char* what, const std::vector<double>& curve) {
+    return fmt::format("    {:<26} PV {:9.4f} um   RMS {:8.4f} um\n", what,
+                       core::micrometres(fit::peak_to_valley(curve)),
+                       core::micrometres(core::root_mean_square(curve)));
+  };
+  std::string out = fmt::format("  part {}\n", name);
+  out += line("t, total", part.pin.contour.error_mm);
+  out += line("f, following the axes", part.following.error_mm);
+  if (part.axes.x_mm.empty()) {
+    out.insert(out.size() - 1, "   stroke-unchecked: no positions of X");
+  }
+  out += line("n, not following", part.direct.rest_mm);
+  if (part.main) out += line("main journal", part.main->contour.error_mm);
+  const fit::ContourSeparation& d = part.direct;
+  out += fmt::format("    balance um^2: {:.4f} = {:.4f} + {:.4f} {} {:.4f}; n {} the total\n",
+                     um2(d.total_mm2), um2(d.following_mm2), um2(d.rest_mm2),
+                     d.cross_mm2 < 0.0 ? '-' : '+', std::abs(um2(d.cross_mm2)),
+                     d.enlarges() ? "enlarges" : "reduces");
+  if (part.indirect) {
+    out += fmt::format("    indirect: correlation with f {:.4f}, rms difference {:.4f} um\n",
+                       part.indirect->correlation,
+                       core::micrometres(part.indirect->rms_difference_mm));
+  }
+  return out + fmt::format("    {:.1f} samples a turn; correlation would turn f by {:.2f} deg\n",
+                           part.axes.samples_per_turn, core::degrees(part.offset.angle_rad));
+}
+
+std::string stability_line(const char* what, const std::optional<fit::Repeatability>& found,
+                           double scale, const fit::StabilityLimits& limits) {
+  if (!found) return {};
+  const auto word = found->word(limits);
+  return fmt::format("    {:<14} {:>8} {:10.4f} {:10.4f} {:10.4f} {:10.4f}  {}\n", what,
+                     found->index ? fmt::format("{:.4f}", *found->index) : "-",
+                     found->mean_rms * scale, found->spread * scale, found->mean_correlation,
+                     found->variation, word ? fit::name_of(*word) : "");
+}
+
+std::string stability_table(const fit::ContourStudy& study, const fit::StabilityLimits& limits) {
+  if (!study.total) return {};
+  const double to_um = 1.0 / core::kMicrometre;
+  return "  stability over the parts\n"
+         "                          S   mean rms     spread  mean corr.  PV c.v.\n" +
+         stability_line("t [um]", study.total, to_um, limits) +
+         stability_line("f [um]", study.following, to_um, limits) +
+         stability_line("n [um]", study.rest, to_um, limits) +
+         stability_line("mains [um]", study.main, to_um, limits) +
+         stability_line("error C [mdeg]", study.c_error, 1e3 / core::kDegree, limits) +
+         stability_line("error X [um]", study.x_error, to_um, limits) +
+         fmt::format("    rms(f) / rms(n) = {:.4f}\n", study.amplitude_ratio);
+}
+
+nlohmann::ordered_json contour_json(const fit::ContourStudy& study,
+                                    const fit::ContourStudyOptions& options,
+                                    std::span<const std::string> names) {
+  nlohmann::ordered_json out = {{"shape", "contour"}};
+  out.update(reports::contour_document(study, options, names));
+  return out;
+}
+
+std::string contour_table(const fit::ContourStudy& study, const fit::ContourStudyOptions& options,
+                          std::span<const std::string> names) {
+  std::string out = head(study, options);
+  for (std::size_t i = 0; i < study.parts.size(); ++i) out += part_lines(study.parts[i], names[i]);
+  out += stability_table(study, options.limits);
+  for (const std::string& verdict : reports::contour_verdicts(study, options.limits)) {
+    out += fmt::format("  {}\n", verdict);
+  }
+  for (const core::Error& w : study.warnings) {
+    out += fmt::format("  warning: {}{}{} [{}]\n", w.where, w.where.empty() ? "" : ": ", w.what,
+                       core::code_name(w.code));
+  }
+  return out;
+}
 
 fit::ContourStudyOptions options_of(const ContourArguments& arguments) {
   fit::ContourStudyOptions out;
@@ -106,10 +201,6 @@ core::Error named(const core::Error& error, const ContourArguments& arguments) {
 }  // namespace
 
 int contour(const ContourArguments& arguments) {
-  const auto refuse = [](const core::Error& error) {
-    print_error(error);
-    return kBadInput;
-  };
   const auto input = read_parts(arguments);
   if (!input) return refuse(input.error());
   auto options = options_of(arguments);

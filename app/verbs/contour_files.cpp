@@ -22,6 +22,77 @@ namespace {
 
 using core::Code;
 
+/// A unit by its name: how many rad or mm one is.
+struct Unit {
+  std::string_view name;
+  bool angle;
+  double size;
+};
+constexpr std::array kUnits = {Unit{"deg", true, core::kDegree},
+                               Unit{"mdeg", true, 1e-3 * core::kDegree},
+                               Unit{"arcsec", true, core::kDegree / 3600},
+                               Unit{"rad", true, 1.0},
+                               Unit{"mrad", true, 1e-3},
+                               Unit{"mm", false, 1.0},
+                               Unit{"um", false, core::kMicrometre},
+                               Unit{"nm", false, 1e-6}};
+
+/// A quantity of `fit contour`, with its default column; the name of that column carries its unit.
+struct ContourQuantity {
+  std::string_view name;
+  std::string_view column;
+};
+constexpr std::array kQuantities = {
+    ContourQuantity{"c", "c_deg"},
+    ContourQuantity{"c_error", "c_error_deg"},
+    ContourQuantity{"x_error", "x_error_mm"},
+    ContourQuantity{"alpha_cmd", "alpha_cmd_deg"},
+    ContourQuantity{"alpha_act", "alpha_act_deg"},
+    ContourQuantity{"d_cmd", "d_cmd_mm"},
+    ContourQuantity{"d_act", "d_act_mm"},
+    ContourQuantity{"angle", "angle_deg"},
+    ContourQuantity{"deviation", "deviation_um"},
+    ContourQuantity{"main_angle", "angle_deg"},
+    ContourQuantity{"main_deviation", "deviation_um"},
+};
+
+const Unit* unit_named(std::string_view name) {
+  const auto found = std::find_if(kUnits.begin(), kUnits.end(),
+                                  [&](const Unit& unit) { return unit.name == name; });
+  return found == kUnits.end() ? nullptr : &*found;
+}
+
+const ContourQuantity* quantity_named(std::string_view name) {
+  const auto found = std::find_if(kQuantities.begin(), kQuantities.end(),
+                                  [&](const ContourQuantity& q) { return q.name == name; });
+  return found == kQuantities.end() ? nullptr : &*found;
+}
+
+/// The unit that a quantity has without a mapping: the end of its column's name.
+const Unit& unit_of(const ContourQuantity& quantity) {
+  const Unit* const found = unit_named(quantity.column.substr(quantity.column.rfind('_') + 1));
+  assert(found != nullptr);
+  return *found;
+}
+
+/// Column of a quantity in a file, and its conversion.
+struct ContourReading {
+  std::string column;
+  double factor = 1.0;  ///< To rad or mm, with the sign.
+};
+
+ContourReading reading_of(const ContourQuantity& quantity,
+                          const std::vector<ContourColumn>& mapping) {
+  ContourReading out{std::string(quantity.column), unit_of(quantity).size};
+  for (const ContourColumn& column : mapping) {
+    if (column.quantity != quantity.name) continue;
+    out.column = column.column;
+    out.factor =
+        column.sign * (column.unit.empty() ? unit_of(quantity) : *unit_named(column.unit)).size;
+  }
+  return out;
+}
+
 /// The quantities that a file holds, in rad and mm; nothing for one without its column.
 using Columns = std::vector<std::optional<std::vector<double>>>;
 
@@ -53,7 +124,7 @@ core::Result<Columns> read_columns(const std::string& file,
 
 std::vector<ContourQuantity> quantities(std::initializer_list<std::string_view> names) {
   std::vector<ContourQuantity> out;
-  for (const std::string_view name : names) out.push_back(contour_quantity(name));
+  for (const std::string_view name : names) out.push_back(*quantity_named(name));
   return out;
 }
 
@@ -112,54 +183,6 @@ core::Result<fit::GaugeRows> read_gauge(const std::string& file, bool main,
   auto columns = read_columns(file, wanted, mapping, true);
   if (!columns) return core::fail(columns.error());
   return fit::GaugeRows{*std::move((*columns)[0]), *std::move((*columns)[1])};
-}
-
-/// A unit by its name: how many rad or mm one is.
-struct Unit {
-  std::string_view name;
-  bool angle;
-  double size;
-};
-constexpr std::array kUnits = {Unit{"deg", true, core::kDegree},
-                               Unit{"mdeg", true, 1e-3 * core::kDegree},
-                               Unit{"arcsec", true, core::kDegree / 3600},
-                               Unit{"rad", true, 1.0},
-                               Unit{"mrad", true, 1e-3},
-                               Unit{"mm", false, 1.0},
-                               Unit{"um", false, core::kMicrometre},
-                               Unit{"nm", false, 1e-6}};
-
-constexpr std::array kQuantities = {
-    ContourQuantity{"c", "c_deg"},
-    ContourQuantity{"c_error", "c_error_deg"},
-    ContourQuantity{"x_error", "x_error_mm"},
-    ContourQuantity{"alpha_cmd", "alpha_cmd_deg"},
-    ContourQuantity{"alpha_act", "alpha_act_deg"},
-    ContourQuantity{"d_cmd", "d_cmd_mm"},
-    ContourQuantity{"d_act", "d_act_mm"},
-    ContourQuantity{"angle", "angle_deg"},
-    ContourQuantity{"deviation", "deviation_um"},
-    ContourQuantity{"main_angle", "angle_deg"},
-    ContourQuantity{"main_deviation", "deviation_um"},
-};
-
-const Unit* unit_named(std::string_view name) {
-  const auto found = std::find_if(kUnits.begin(), kUnits.end(),
-                                  [&](const Unit& unit) { return unit.name == name; });
-  return found == kUnits.end() ? nullptr : &*found;
-}
-
-const ContourQuantity* quantity_named(std::string_view name) {
-  const auto found = std::find_if(kQuantities.begin(), kQuantities.end(),
-                                  [&](const ContourQuantity& q) { return q.name == name; });
-  return found == kQuantities.end() ? nullptr : &*found;
-}
-
-/// The unit that a quantity has without a mapping: the end of its column's name.
-const Unit& unit_of(const ContourQuantity& quantity) {
-  const Unit* const found = unit_named(quantity.column.substr(quantity.column.rfind('_') + 1));
-  assert(found != nullptr);
-  return *found;
 }
 
 template <class List>
@@ -241,24 +264,6 @@ core::Result<ContourImport> read_contour_part(const ContourFiles& files,
   if (!main) return core::fail(main.error());
   out.part.main = *std::move(main);
   return out;
-}
-
-ContourReading reading_of(const ContourQuantity& quantity,
-                          const std::vector<ContourColumn>& mapping) {
-  ContourReading out{std::string(quantity.column), unit_of(quantity).size};
-  for (const ContourColumn& column : mapping) {
-    if (column.quantity != quantity.name) continue;
-    out.column = column.column;
-    out.factor =
-        column.sign * (column.unit.empty() ? unit_of(quantity) : *unit_named(column.unit)).size;
-  }
-  return out;
-}
-
-const ContourQuantity& contour_quantity(std::string_view name) {
-  const ContourQuantity* const found = quantity_named(name);
-  assert(found != nullptr);
-  return *found;
 }
 
 core::Result<ContourColumn> parse_contour_column(std::string_view text) {

@@ -11,28 +11,13 @@ namespace rondure::app {
 
 /// Name, unit and sign of a quantity in the files of a controller or a gauge.
 struct ContourColumn {
-  std::string quantity;  ///< One of the quantities below.
-  std::string column;    ///< As in the header line.
-  std::string unit;      ///< Empty: the unit of the quantity without a mapping.
-  double sign = 1.0;     ///< 1 or -1.
+  /// c, c_error, x_error (or alpha_cmd, alpha_act, d_cmd, d_act) of the controller; angle,
+  /// deviation, main_angle, main_deviation of the gauge.
+  std::string quantity;
+  std::string column;  ///< As in the header line.
+  std::string unit;    ///< Empty: the unit of the quantity without a mapping.
+  double sign = 1.0;   ///< 1 or -1.
 };
-
-/// A quantity of `fit contour`, with its default column; the name of that column carries its unit.
-struct ContourQuantity {
-  std::string_view name;
-  std::string_view column;
-};
-/// c, c_error, x_error (or alpha_cmd, alpha_act, d_cmd, d_act) of the controller; angle, deviation,
-/// main_angle, main_deviation of the gauge.
-[[nodiscard]] const ContourQuantity& contour_quantity(std::string_view name);
-
-/// Column of a quantity in a file, and its conversion.
-struct ContourReading {
-  std::string column;
-  double factor = 1.0;  ///< To rad or mm, with the sign.
-};
-[[nodiscard]] ContourReading reading_of(const ContourQuantity& quantity,
-                                        const std::vector<ContourColumn>& mapping);
 
 /// Reads "quantity=column[:unit[:sign]]", e.g. "x_error=X_FOLLOW:um:-1".
 /// @return kBadOption for a quantity, unit or sign that does not exist.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -10,26 +11,168 @@
 #include <nlohmann/json.hpp>
 
 #include "app/text/answer.h"
-#include "app/text/fit.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
+#include "core/error.h"
 #include "core/result.h"
 #include "core/units.h"
+#include "fit/geometry/axis.h"
+#include "fit/geometry/contacts.h"
 #include "fit/geometry/points.h"
 #include "fit/least_squares/circle.h"
 #include "fit/least_squares/cylinder.h"
 #include "fit/least_squares/line.h"
 #include "fit/least_squares/sphere.h"
+#include "fit/proof/certificate.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
 #include "fit/references/min_zone_line.h"
 #include "fit/references/min_zone_sphere.h"
 #include "fit/references/one_sided_center.h"
 #include "fit/references/one_sided_cylinder.h"
+#include "fit/zone/deviation_range.h"
 #include "record/csv/points.h"
 
 namespace rondure::app {
 namespace {
+
+/// Centre of a circle (two numbers used) or sphere, or the axis of a cylinder or line.
+struct FitPlace {
+  std::optional<fit::Axis> axis;
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
+  int coordinates = 3;  ///< Of the centre: 2 for a circle.
+};
+
+/// The result of one reference, for any shape.
+struct FitReference {
+  FitPlace place;
+  std::optional<double> radius_mm;        ///< Least squares, circumscribed, inscribed.
+  std::optional<double> inner_radius_mm;  ///< Minimum zone.
+  std::optional<double> outer_radius_mm;
+  std::optional<double> diameter_mm;  ///< Minimum zone of a line.
+  double deviation_mm = 0.0;
+  std::optional<double> rms_mm;  ///< Least squares.
+  std::vector<fit::Contact> outer;
+  std::vector<fit::Contact> inner;
+  std::optional<fit::Certificate> certificate;  ///< All but least squares.
+  std::optional<fit::DeviationRange> range;     ///< For an inscribed circle that is not unique.
+};
+
+/// Results of `rondure fit` for one set of points.
+struct FitOutcome {
+  struct Entry {
+    std::string name;                   ///< "ls", "mz", "mc", "mi".
+    std::string title;                  ///< "LSCI", "MZCY", ...
+    std::optional<FitReference> found;  ///< Empty: it does not exist for these data.
+  };
+  std::string shape;
+  std::size_t points = 0;
+  std::vector<Entry> references;  ///< Those requested, in the order of the names above.
+  std::vector<core::Error> warnings;
+};
+
+using Json = nlohmann::ordered_json;
+
+Json place_json(const FitPlace& place) {
+  const auto three = [](const Eigen::Vector3d& v) -> Json { return {v.x(), v.y(), v.z()}; };
+  if (place.axis) {
+    return {
+        {"axis",
+         {{"point_mm", three(place.axis->point_mm)}, {"direction", three(place.axis->direction)}}}};
+  }
+  Json center = three(place.center_mm);
+  if (place.coordinates == 2) center.erase(2);
+  return {{"center_mm", center}};
+}
+
+Json rows_json(const std::vector<fit::Contact>& contacts) {
+  Json out = Json::array();
+  for (const fit::Contact& c : contacts) out.push_back(c.index);
+  return out;
+}
+
+Json reference_json(const FitReference& found) {
+  Json out = place_json(found.place);
+  const auto put = [&](const char* key, const std::optional<double>& value) {
+    if (value) out[key] = *value;
+  };
+  put("radius_mm", found.radius_mm);
+  put("inner_radius_mm", found.inner_radius_mm);
+  put("outer_radius_mm", found.outer_radius_mm);
+  put("diameter_mm", found.diameter_mm);
+  out["deviation_mm"] = found.deviation_mm;
+  if (found.range) out["deviation_range_mm"] = {found.range->low_mm, found.range->high_mm};
+  put("rms_mm", found.rms_mm);
+  if (!found.certificate) return out;
+  out["contacts"] = Json::object();
+  if (!found.outer.empty() || found.inner_radius_mm) {
+    out["contacts"]["outer"] = rows_json(found.outer);
+  }
+  if (!found.inner.empty() || found.inner_radius_mm) {
+    out["contacts"]["inner"] = rows_json(found.inner);
+  }
+  out["certificate"] = certificate_json(*found.certificate);
+  return out;
+}
+
+std::string place_line(const FitPlace& place) {
+  if (place.axis) {
+    const Eigen::Vector3d& p = place.axis->point_mm;
+    const Eigen::Vector3d& d = place.axis->direction;
+    return fmt::format(
+        "    axis through ({:.6f}, {:.6f}, {:.6f}) mm along ({:.9f}, {:.9f}, {:.9f})\n", p.x(),
+        p.y(), p.z(), d.x(), d.y(), d.z());
+  }
+  const Eigen::Vector3d& c = place.center_mm;
+  if (place.coordinates == 2) return fmt::format("    centre ({:.6f}, {:.6f}) mm\n", c.x(), c.y());
+  return fmt::format("    centre ({:.6f}, {:.6f}, {:.6f}) mm\n", c.x(), c.y(), c.z());
+}
+
+std::string radii_line(const FitReference& found) {
+  if (found.inner_radius_mm) {
+    return fmt::format("    inner radius {:.6f} mm, outer radius {:.6f} mm\n",
+                       *found.inner_radius_mm, *found.outer_radius_mm);
+  }
+  if (found.radius_mm) return fmt::format("    radius {:.6f} mm\n", *found.radius_mm);
+  return {};
+}
+
+std::string proof_lines(const FitReference& found) {
+  if (!found.certificate) return {};
+  std::string out = "    contacts";
+  for (const auto& c : found.outer) out += fmt::format(" +{}", c.index);
+  for (const auto& c : found.inner) out += fmt::format(" -{}", c.index);
+  out += " (+ outer, - inner, rows from 0)\n    " + certificate_text(*found.certificate);
+  return out + "\n";
+}
+
+std::string reference_lines(const FitOutcome::Entry& entry) {
+  if (!entry.found) return fmt::format("  {}  does not exist for these points\n", entry.title);
+  const FitReference& found = *entry.found;
+  std::string out =
+      fmt::format("  {}  deviation {:.4f} um", entry.title, core::micrometres(found.deviation_mm));
+  if (found.range) {
+    out += fmt::format(", not unique: {:.4f} to {:.4f} um", core::micrometres(found.range->low_mm),
+                       core::micrometres(found.range->high_mm));
+  }
+  if (found.rms_mm) out += fmt::format(", rms {:.4f} um", core::micrometres(*found.rms_mm));
+  return out + "\n" + place_line(found.place) + radii_line(found) + proof_lines(found);
+}
+
+nlohmann::ordered_json fit_json(const FitOutcome& outcome) {
+  Json out = {{"shape", outcome.shape}, {"points", outcome.points}};
+  for (const FitOutcome::Entry& entry : outcome.references) {
+    out[entry.name] = entry.found ? reference_json(*entry.found) : Json(nullptr);
+  }
+  out["warnings"] = warnings_json(outcome.warnings);
+  return out;
+}
+
+std::string fit_table(const FitOutcome& outcome) {
+  std::string out = fmt::format("{}, {} points\n", outcome.shape, outcome.points);
+  for (const FitOutcome::Entry& entry : outcome.references) out += reference_lines(entry);
+  return out + warnings_text(outcome.warnings);
+}
 
 using Space = std::span<const Eigen::Vector3d>;
 using Plane = std::span<const Eigen::Vector2d>;
@@ -40,20 +183,28 @@ FitPlace place_of(const Eigen::Vector2d& center) {
 FitPlace place_of(const Eigen::Vector3d& center) { return {std::nullopt, center, 3}; }
 FitPlace place_of(const fit::Axis& axis) { return {axis, Eigen::Vector3d::Zero(), 3}; }
 
-template <class Ls>
-FitReference least_squares(const Ls& ls, FitPlace place) {
-  FitReference out;
-  out.place = std::move(place);
-  out.radius_mm = ls.radius_mm;
-  out.deviation_mm = ls.deviation_mm;
-  out.rms_mm = ls.rms_mm;
-  return out;
+/// At its axis, or at its centre.
+template <class Fit>
+FitPlace place_of_fit(const Fit& fit) {
+  if constexpr (requires { fit.axis; }) {
+    return place_of(fit.axis);
+  } else {
+    return place_of(fit.center_mm);
+  }
 }
 
-template <class Zone>
-FitReference minimum_zone(const Zone& zone, FitPlace place) {
+// The result of a fit as a reference.
+constexpr auto kLeastSquares = [](const auto& fit) {
   FitReference out;
-  out.place = std::move(place);
+  out.place = place_of_fit(fit);
+  if constexpr (requires { fit.radius_mm; }) out.radius_mm = fit.radius_mm;
+  out.deviation_mm = fit.deviation_mm;
+  out.rms_mm = fit.rms_mm;
+  return out;
+};
+constexpr auto kMinimumZone = [](const auto& zone) {
+  FitReference out;
+  out.place = place_of_fit(zone);
   out.inner_radius_mm = zone.inner_radius_mm;
   out.outer_radius_mm = zone.outer_radius_mm;
   out.deviation_mm = zone.width_mm();
@@ -61,18 +212,21 @@ FitReference minimum_zone(const Zone& zone, FitPlace place) {
   out.inner = zone.inner;
   out.certificate = zone.certificate;
   return out;
-}
-
-template <class Fit>
-FitReference one_sided(const Fit& fit, FitPlace place, bool outside) {
+};
+constexpr auto kCircumscribed = [](const auto& fit) {
   FitReference out;
-  out.place = std::move(place);
+  out.place = place_of_fit(fit);
   out.radius_mm = fit.radius_mm;
   out.deviation_mm = fit.deviation_mm;
-  (outside ? out.outer : out.inner) = fit.contacts;
+  out.outer = fit.contacts;
   out.certificate = fit.certificate;
   return out;
-}
+};
+constexpr auto kInscribed = [](const auto& fit) {
+  FitReference out = kCircumscribed(fit);
+  std::swap(out.outer, out.inner);
+  return out;
+};
 
 /// Collects the references of one set of points.
 class Collector {
@@ -85,13 +239,18 @@ class Collector {
 
   [[nodiscard]] bool wants(const char* name) const { return wanted_ == "all" || wanted_ == name; }
 
-  /// Adds a reference, or says in a warning that it does not exist; other errors end the fit.
-  void add(const char* name, const char* title, const core::Result<FitReference>& found) {
+  /// Adds a reference if it is wanted, or says in a warning that it does not exist; other errors
+  /// end the fit.
+  /// @param find  Gives the reference.
+  template <class Find>
+  void add(const char* name, const char* title, const Find& find) {
+    if (!wants(name)) return;
+    const core::Result<FitReference> found = find();
     if (found) {
       out_.references.push_back({name, title, *found});
       const auto& certificate = found->certificate;
       if (certificate && certificate->kind == fit::Certificate::Kind::kNone) {
-        out_.warnings.push_back({core::Code::kNoCertificate, certificate->reason, {}});
+        warn(core::Code::kNoCertificate, certificate->reason);
       }
     } else if (found.error().code == core::Code::kReferenceAbsent) {
       out_.references.push_back({name, title, std::nullopt});
@@ -113,13 +272,6 @@ class Collector {
   std::optional<core::Error> failure_;
 };
 
-/// The result of a fit as a reference.
-template <class Fit, class Convert>
-core::Result<FitReference> as_reference(const core::Result<Fit>& fit, const Convert& convert) {
-  if (!fit) return core::fail(fit.error());
-  return convert(*fit);
-}
-
 /// Warns about an arc, seen along the axis about the centre: the unseen part can only add to the
 /// deviation.
 void warn_of_arc(Plane points, const Eigen::Vector2d& center_mm, Collector& collector) {
@@ -133,68 +285,43 @@ void warn_of_arc(Plane points, const Eigen::Vector2d& center_mm, Collector& coll
 }
 
 core::Result<FitOutcome> fit_circle(Plane points, Collector collector) {
-  if (const auto ls = fit::ls_circle(points)) warn_of_arc(points, ls->center_mm, collector);
-  if (collector.wants("ls")) {
-    collector.add("ls", "LSCI", as_reference(fit::ls_circle(points), [](const auto& f) {
-                    return least_squares(f, place_of(f.center_mm));
-                  }));
-  }
+  const auto ls = fit::ls_circle(points);
+  if (ls) warn_of_arc(points, ls->center_mm, collector);
+  collector.add("ls", "LSCI", [&] { return ls.map(kLeastSquares); });
   if (collector.wants("mz")) {
     const auto mz = fit::min_zone_circle(points);
-    collector.add("mz", "MZCI", as_reference(mz, [](const auto& f) {
-                    return minimum_zone(f, place_of(f.center_mm));
-                  }));
+    collector.add("mz", "MZCI", [&] { return mz.map(kMinimumZone); });
     if (mz && mz->exact_fit) {
       collector.warn(core::Code::kExactFit,
                      "three different points lie on a circle exactly: the deviation says nothing "
                      "about form");
     }
   }
-  if (collector.wants("mc")) {
-    collector.add("mc", "MCCI",
-                  as_reference(fit::min_circumscribed_circle(points), [](const auto& f) {
-                    return one_sided(f, place_of(f.center_mm), true);
-                  }));
-  }
-  if (collector.wants("mi")) {
-    collector.add("mi", "MICI", as_reference(fit::max_inscribed_circle(points), [](const auto& f) {
-                    FitReference out = one_sided(f, place_of(f.center_mm), false);
-                    out.range = f.range;
-                    return out;
-                  }));
-  }
+  collector.add("mc", "MCCI",
+                [&] { return fit::min_circumscribed_circle(points).map(kCircumscribed); });
+  collector.add("mi", "MICI", [&] {
+    return fit::max_inscribed_circle(points).map([](const auto& circle) {
+      FitReference out = kInscribed(circle);
+      out.range = circle.range;
+      return out;
+    });
+  });
   return collector.take();
 }
 
 core::Result<FitOutcome> fit_sphere(Space points, Collector collector) {
-  if (collector.wants("ls")) {
-    collector.add("ls", "LSSP", as_reference(fit::ls_sphere(points), [](const auto& f) {
-                    return least_squares(f, place_of(f.center_mm));
-                  }));
-  }
-  if (collector.wants("mz")) {
-    collector.add("mz", "MZSP", as_reference(fit::min_zone_sphere(points), [](const auto& f) {
-                    return minimum_zone(f, place_of(f.center_mm));
-                  }));
-  }
-  if (collector.wants("mc")) {
-    collector.add("mc", "MCSP",
-                  as_reference(fit::min_circumscribed_sphere(points), [](const auto& f) {
-                    return one_sided(f, place_of(f.center_mm), true);
-                  }));
-  }
-  if (collector.wants("mi")) {
-    collector.add("mi", "MISP", as_reference(fit::max_inscribed_sphere(points), [](const auto& f) {
-                    return one_sided(f, place_of(f.center_mm), false);
-                  }));
-  }
+  collector.add("ls", "LSSP", [&] { return fit::ls_sphere(points).map(kLeastSquares); });
+  collector.add("mz", "MZSP", [&] { return fit::min_zone_sphere(points).map(kMinimumZone); });
+  collector.add("mc", "MCSP",
+                [&] { return fit::min_circumscribed_sphere(points).map(kCircumscribed); });
+  collector.add("mi", "MISP", [&] { return fit::max_inscribed_sphere(points).map(kInscribed); });
   return collector.take();
 }
 
 core::Result<FitOutcome> fit_cylinder(Space points, Collector collector) {
   const auto ls = fit::ls_cylinder(points);
   if (!ls) return core::fail(ls.error());
-  if (collector.wants("ls")) collector.add("ls", "LSCY", least_squares(*ls, place_of(ls->axis)));
+  collector.add("ls", "LSCY", [&] { return ls.map(kLeastSquares); });
   std::vector<Eigen::Vector2d> seen;
   seen.reserve(points.size());
   const auto across = fit::across(ls->axis.direction);
@@ -216,50 +343,34 @@ core::Result<FitOutcome> fit_cylinder(Space points, Collector collector) {
                     "least-squares axis",
                     f->other->radius_mm, f->other->lean_rad / core::kDegree, f->other->apart_mm));
   };
-  if (collector.wants("mz")) {
-    const auto mz = fit::min_zone_cylinder(points, near, proof);
-    collector.add("mz", "MZCY", as_reference(mz, [](const auto& f) {
-                    return minimum_zone(f, place_of(f.axis));
-                  }));
-  }
+  collector.add("mz", "MZCY",
+                [&] { return fit::min_zone_cylinder(points, near, proof).map(kMinimumZone); });
   if (collector.wants("mc")) {
     const auto mc = fit::min_circumscribed_cylinder(points, near, proof);
-    collector.add("mc", "MCCY", as_reference(mc, [](const auto& f) {
-                    return one_sided(f, place_of(f.axis), true);
-                  }));
+    collector.add("mc", "MCCY", [&] { return mc.map(kCircumscribed); });
     warn_of_other(mc);
   }
   if (collector.wants("mi")) {
     const auto mi = fit::max_inscribed_cylinder(points, near, proof);
-    collector.add("mi", "MICY", as_reference(mi, [](const auto& f) {
-                    return one_sided(f, place_of(f.axis), false);
-                  }));
+    collector.add("mi", "MICY", [&] { return mi.map(kInscribed); });
     warn_of_other(mi);
   }
   return collector.take();
 }
 
 core::Result<FitOutcome> fit_line(Space points, Collector collector) {
-  if (collector.wants("ls")) {
-    collector.add("ls", "LSLI", as_reference(fit::ls_line(points), [](const auto& f) {
-                    FitReference out;
-                    out.place = place_of(f.axis);
-                    out.deviation_mm = f.deviation_mm;
-                    out.rms_mm = f.rms_mm;
-                    return out;
-                  }));
-  }
-  if (collector.wants("mz")) {
-    collector.add("mz", "MZLI", as_reference(fit::min_zone_line(points), [](const auto& f) {
-                    FitReference out;
-                    out.place = place_of(f.axis);
-                    out.diameter_mm = f.diameter_mm;
-                    out.deviation_mm = f.diameter_mm;
-                    out.outer = f.contacts;
-                    out.certificate = f.certificate;
-                    return out;
-                  }));
-  }
+  collector.add("ls", "LSLI", [&] { return fit::ls_line(points).map(kLeastSquares); });
+  collector.add("mz", "MZLI", [&] {
+    return fit::min_zone_line(points).map([](const auto& zone) {
+      FitReference out;
+      out.place = place_of(zone.axis);
+      out.diameter_mm = zone.diameter_mm;
+      out.deviation_mm = zone.diameter_mm;
+      out.outer = zone.contacts;
+      out.certificate = zone.certificate;
+      return out;
+    });
+  });
   return collector.take();
 }
 
@@ -301,15 +412,11 @@ core::Result<record::PointTable> load_points(const FitArguments& arguments) {
 
 int fit(const FitArguments& arguments) {
   const auto table = load_points(arguments);
-  if (!table) {
-    print_error(table.error());
-    return kBadInput;
-  }
+  if (!table) return refuse(table.error());
   const auto outcome = fit_shape(arguments.shape, arguments.reference, table->points_mm);
   if (!outcome) {
     const core::Error& error = outcome.error();
-    print_error(error.at(error.where.empty() ? arguments.file : error.where));
-    return kBadInput;
+    return refuse(error.at(error.where.empty() ? arguments.file : error.where));
   }
   return answer(fit_json(*outcome), arguments.json, [&] { return fit_table(*outcome); });
 }

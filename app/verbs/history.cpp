@@ -176,13 +176,10 @@ int push(const record::ArchivePlace& place, const HistoryArguments& arguments) {
     say_line(fmt::format("nothing waits: there is no {}", arguments.queue));
     return kAllWell;
   }
-  if (arguments.archive_given) return push_to(place, arguments.queue) ? kAllWell : kBadInput;
+  if (arguments.archive) return push_to(place, arguments.queue) ? kAllWell : kBadInput;
   auto queue = record::ArchiveQueue::open(arguments.queue);
   const auto targets = queue ? queue->targets() : core::fail(queue.error());
-  if (!targets) {
-    print_error(targets.error());
-    return kBadInput;
-  }
+  if (!targets) return refuse(targets.error());
   if (targets->empty()) say("nothing waits\n");
   bool well = true;
   for (const std::string& target : *targets) {
@@ -236,7 +233,7 @@ int add(record::Archive& archive, const std::vector<std::string>& directories) {
 }  // namespace
 
 int history(const HistoryArguments& arguments) {
-  const auto place = record::parse_archive_place(arguments.archive);
+  const auto place = record::parse_archive_place(arguments.archive.value_or("runs/archive.db"));
   if (!place || place->kind == record::ArchivePlace::Kind::kNone) {
     print_error(place ? bad("none is no archive; give a file or postgresql://...").value()
                       : place.error());
@@ -246,15 +243,9 @@ int history(const HistoryArguments& arguments) {
   using Access = record::Archive::Access;
   auto archive =
       record::Archive::open(*place, arguments.add.empty() ? Access::kRead : Access::kWrite);
-  if (!archive) {
-    print_error(archive.error());
-    return kBadInput;
-  }
+  if (!archive) return refuse(archive.error());
   if (!arguments.add.empty()) return add(*archive, arguments.add);
-  if (auto shown = show(*archive, place->shown, arguments); !shown) {
-    print_error(shown.error());
-    return kBadInput;
-  }
+  if (auto shown = show(*archive, place->shown, arguments); !shown) return refuse(shown.error());
   return kAllWell;
 }
 

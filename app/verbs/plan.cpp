@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/prediction/json.h"
 #include "app/prediction/prediction.h"
 #include "app/prediction/sampling_search.h"
 #include "app/text/answer.h"
@@ -57,10 +56,10 @@ core::Result<double> length_from(std::string_view word) {
   return refuse("is no length in um, mm or nm");
 }
 
-int refuse(const std::vector<core::Error>& problems, const PlanArguments& arguments) {
-  print_error(problems);
+int refuse_plan(const std::vector<core::Error>& problems, const PlanArguments& arguments) {
+  const int status = refuse(problems);
   if (arguments.json) say(problems_json(problems));
-  return kBadInput;
+  return status;
 }
 
 /// The cloud to draw: the final one of the first feature, or of the one that is named.
@@ -89,7 +88,7 @@ core::Result<void> draw(const plans::Plan& plan, const plans::Forecast& forecast
   return record::write_file(arguments.svg, plans::forecast_picture(plan, **stage));
 }
 
-/// All that is told besides the forecast itself.
+/// Results besides the forecast itself.
 struct Outlook {
   std::vector<PredictedCharacteristic> predicted;
   std::optional<double> target_mm;
@@ -138,22 +137,23 @@ int plan(const PlanArguments& arguments) {
   std::optional<double> target_mm;
   if (arguments.target_expanded) {
     const auto length = length_from(*arguments.target_expanded);
-    if (!length) return refuse({core::Error(length.error()).at("--target-U")}, arguments);
+    if (!length) return refuse_plan({core::Error(length.error()).at("--target-U")}, arguments);
     target_mm = *length;
   }
   const auto read = plans::read_plan(arguments.plan);
-  if (!read) return refuse(read.error(), arguments);
+  if (!read) return refuse_plan(read.error(), arguments);
   const auto forecast = plans::forecast(*read);
-  if (!forecast) return refuse({forecast.error()}, arguments);
+  if (!forecast) return refuse_plan({forecast.error()}, arguments);
   if (!arguments.svg.empty()) {
     if (auto drawn = draw(*read, *forecast, arguments); !drawn) {
-      return refuse({drawn.error()}, arguments);
+      return refuse_plan({drawn.error()}, arguments);
     }
   }
   const auto outlook = look_ahead(*read, *forecast, target_mm);
-  if (!outlook) return refuse({outlook.error()}, arguments);
+  if (!outlook) return refuse_plan({outlook.error()}, arguments);
   const auto document = document_of(*read, *forecast, *outlook);
-  if (auto finite = check_finite(document); !finite) return refuse({finite.error()}, arguments);
+  if (auto finite = check_finite(document); !finite)
+    return refuse_plan({finite.error()}, arguments);
   if (arguments.json) {
     say(document.dump(2) + "\n");
   } else {

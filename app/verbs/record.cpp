@@ -1,19 +1,23 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "app/run/indicators.h"
 #include "app/run/step_prompt.h"
 #include "app/text/terminal.h"
 #include "app/verbs/verbs.h"
+#include "cmm/indicators/ascii_probe.h"
 #include "cmm/indicators/displacement_probe.h"
+#include "cmm/indicators/mitutoyo_itn.h"
 #include "core/numbers.h"
 #include "core/units.h"
 #include "record/csv/series.h"
 #include "record/files.h"
+#include "wire/serial_port.h"
+#include "wire/usb.h"
 
 namespace rondure::app {
 namespace {
@@ -55,6 +59,38 @@ core::Result<int> rows_in(const std::string& text, const RecordArguments& argume
   return rows;
 }
 
+using OpenProbe = core::Result<std::unique_ptr<cmm::DisplacementProbe>>;
+
+constexpr std::uint16_t kMitutoyo = 0x0fe7;
+constexpr std::uint16_t kItn = 0x4001;
+
+OpenProbe open_itn(const std::string& serial, bool inches) {
+  auto device = wire::open_usb({kMitutoyo, {kItn}, serial, "Mitutoyo USB-ITN cable"});
+  if (!device) return core::fail(device.error().error());
+  cmm::MitutoyoItnOptions options;
+  if (inches) options.unit_mm = cmm::kInch_mm;
+  return cmm::open_mitutoyo_itn(std::move(*device), options);
+}
+
+/// Opens an indicator by its word on the command line: "itn", "itn:SERIAL" (a Mitutoyo USB-ITN
+/// cable), or "KIND:DEVICE" of an indicator on a serial line, "sylvac:/dev/ttyUSB0".
+/// @return  kBadOption for an unknown word; kMachine when the indicator cannot be opened.
+OpenProbe open_indicator(const std::string& word, bool inches) {
+  const std::size_t colon = word.find(':');
+  const std::string kind = word.substr(0, colon);
+  const std::string rest = colon == std::string::npos ? "" : word.substr(colon + 1);
+  if (kind == "itn") return open_itn(rest, inches);
+  auto settings = cmm::ascii_probe_settings(kind);
+  if (!settings || rest.empty()) {
+    return core::fail(core::Code::kBadOption,
+                      fmt::format("\"{}\" is no indicator; give {}", word, indicator_words()));
+  }
+  if (inches) settings->unit_mm = cmm::kInch_mm;
+  auto line = wire::open_serial(rest, settings->line);
+  if (!line) return core::fail(line.error());
+  return cmm::open_ascii_probe(std::move(*line), *settings);
+}
+
 core::Result<Probes> open_all(const RecordArguments& arguments) {
   Probes out;
   for (const std::string& word : arguments.probes) {
@@ -83,9 +119,7 @@ std::string head_of(const Probes& probes) {
   for (std::size_t i = 0; i < probes.size(); ++i) {
     out += fmt::format("# H{}: {}\n", i + 1, probes[i]->description());
   }
-  out += "alpha_deg";
-  for (std::size_t i = 1; i <= probes.size(); ++i) out += fmt::format(",H{}_um", i);
-  return out + '\n';
+  return out + fmt::format("{}\n", fmt::join(columns_of(probes.size()), ","));
 }
 
 /// Reads angle by angle; every row is on disk before the next angle is asked for.
@@ -133,6 +167,10 @@ core::Result<void> record_all(const RecordArguments& arguments) {
 }
 
 }  // namespace
+
+std::string indicator_words() {
+  return fmt::format("itn, itn:SERIAL, or KIND:DEVICE with the kinds {}", cmm::ascii_probe_names());
+}
 
 int record_readings(const RecordArguments& arguments) {
   listen_for_stop();

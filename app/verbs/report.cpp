@@ -44,10 +44,7 @@ int report(const ReportArguments& arguments) {
   const auto record = read_sound_record(arguments.directory);
   if (!record) return kBadInput;
   const auto evaluation = evaluation::evaluate_run(*record, arguments.directory, processor());
-  if (!evaluation) {
-    print_error(evaluation.error());
-    return kBadInput;
-  }
+  if (!evaluation) return refuse(evaluation.error());
   const std::string signed_sums = signed_checksums(arguments.directory);
   const auto language =
       reports::language_named(arguments.language).value_or(reports::Language::kEnglish);
@@ -56,18 +53,13 @@ int report(const ReportArguments& arguments) {
   const auto written =
       reports::write_exports(arguments.directory, formats_of(arguments), *record, *evaluation,
                              language, paper.value_or(reports::Paper::kA4));
-  if (!written) {
-    print_error(written.error());
-    return kBadInput;
-  }
+  if (!written) return refuse(written.error());
   if (signed_sums != signed_checksums(arguments.directory)) {
     tell("rondure: the reports differ from those that were signed; sign the run again\n");
   }
   say(reports::write_summary(*record, *evaluation, sketch_style(), language));
   for (const auto& file : *written) say_line(file.string());
-  const bool well = evaluation->verdict == evaluation::Verdict::kConforms ||
-                    evaluation->verdict == evaluation::Verdict::kNotToleranced;
-  return well ? kAllWell : kNotConforming;
+  return exit_status(evaluation->verdict);
 }
 
 }  // namespace rondure::app

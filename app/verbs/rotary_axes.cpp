@@ -2,6 +2,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,19 +10,248 @@
 #include <nlohmann/json.hpp>
 
 #include "app/text/answer.h"
-#include "app/text/rotary_axes.h"
 #include "app/text/terminal.h"
-#include "app/verbs/rotary_axes_command.h"
 #include "app/verbs/verbs.h"
 #include "core/numbers.h"
 #include "core/result.h"
 #include "core/units.h"
 #include "fit/rotary/axes.h"
+#include "fit/rotary/model.h"
 #include "record/csv/balls.h"
 #include "record/files.h"
 
 namespace rondure::app {
 namespace {
+
+/// Results of `rondure fit rotary-axes` for one axis.
+struct RotaryAxisResult {
+  std::string name;
+  std::string method;
+  fit::RotaryStudy study;
+  std::optional<fit::RotaryModel> model;  ///< Absent with too few stations; a warning says so.
+  Eigen::Vector3d place_mm = Eigen::Vector3d::Zero();  ///< Point whose uncertainty is stated.
+};
+
+using Json = nlohmann::ordered_json;
+using Eigen::Vector3d;
+
+double urad(double rad) { return rad * 1e6; }
+
+Json list(const Vector3d& v, double factor = 1.0) {
+  return {v.x() * factor, v.y() * factor, v.z() * factor};
+}
+
+Json um_list(const Vector3d& mm) { return list(mm, 1e3); }
+Json urad_list(const Vector3d& rad) { return list(rad, 1e6); }
+
+/// um^2, um urad, urad^2.
+Json covariance_json(const fit::Matrix6& c) {
+  Json out = Json::array();
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < 6; ++j)
+      row.push_back(c(i, j) * (i < 3 ? 1e3 : 1e6) * (j < 3 ? 1e3 : 1e6));
+    out.push_back(std::move(row));
+  }
+  return out;
+}
+
+const char* name_of(fit::Approach approach) {
+  if (approach == fit::Approach::kForward) return "+";
+  return approach == fit::Approach::kBackward ? "-" : "";
+}
+
+const char* name_of(fit::RotaryCurve curve) {
+  if (curve == fit::RotaryCurve::kFourier) return "fourier";
+  return curve == fit::RotaryCurve::kPolynomial ? "polynomial" : "spline";
+}
+
+/// Standard uncertainty of a body point that stands at `place` in the reference pose.
+Vector3d point_u_mm(const RotaryAxisResult& result, const fit::Matrix6& covariance,
+                    double angle_rad) {
+  const fit::RotaryAxis& axis = result.study.table.axis;
+  const Vector3d p =
+      axis.turn(angle_rad - result.study.reference_rad) * (result.place_mm - axis.origin_mm);
+  return fit::point_covariance_mm2(covariance, p).diagonal().cwiseMax(0.0).cwiseSqrt();
+}
+
+Json station_json(const RotaryAxisResult& result, const fit::RotaryStation& s) {
+  Json out = {{"station_deg", core::degrees(s.angle_rad)}, {"direction", name_of(s.approach)}};
+  out["undetermined"] = s.undetermined;
+  if (s.undetermined) return out;
+  const fit::Vector6 u = s.errors.sigma();
+  out["t_um"] = um_list(s.errors.t_mm);
+  out["w_urad"] = urad_list(s.errors.w_rad);
+  out["u_t_um"] = um_list(u.head<3>());
+  out["u_w_urad"] = urad_list(u.tail<3>());
+  out["u_point_um"] = um_list(point_u_mm(result, s.errors.covariance, s.angle_rad));
+  out["covariance"] = covariance_json(s.errors.covariance);
+  out["chi2"] = s.chi2;
+  out["dof"] = s.dof;
+  out["chi2_limit"] = s.chi2_limit;
+  out["flagged"] = s.flagged;
+  out["removed"] = s.removed;
+  out["condition"] = s.condition;
+  out["balls"] = Json::array();
+  for (std::size_t i = 0; i < s.balls.size(); ++i) {
+    out["balls"].push_back({{"ball", s.balls[i]},
+                            {"residual_um", um_list(s.residuals_mm[i])},
+                            {"redundancy", list(s.redundancy[i])}});
+  }
+  return out;
+}
+
+Json offset_json(const fit::AxisOffset& o) {
+  return {{"d_um", um_list(o.d_mm)},
+          {"u_d_um", um_list(o.d_u_mm)},
+          {"e_urad", urad_list(o.e_rad)},
+          {"u_e_urad", urad_list(o.e_u_rad)},
+          {"c_um", um_list(o.c_mm)},
+          {"c_urad", urad_list(o.c_rad)},
+          {"zero_point_urad", urad(o.zero_point_rad)},
+          {"arc_deg", core::degrees(o.arc_rad)},
+          {"arc_factor", o.arc_factor},
+          {"point_mm", list(o.axis.origin_mm)},
+          {"direction", list(o.axis.direction)}};
+}
+
+/// Errors and their band over the stations.
+Json curve_json(const RotaryAxisResult& result) {
+  Json out = Json::array();
+  const bool circle = result.study.table.full_circle;
+  const double low = result.model->lowest_rad();
+  const double span = circle ? core::kTwoPi : result.model->highest_rad() - low;
+  constexpr int kSteps = 72;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double angle = low + span * i / kSteps;
+    const auto at = result.model->at(angle);
+    if (!at) continue;
+    const fit::Vector6 u = at->sigma();
+    out.push_back({{"angle_deg", core::degrees(angle)},
+                   {"t_um", um_list(at->t_mm)},
+                   {"w_urad", urad_list(at->w_rad)},
+                   {"u_t_um", um_list(u.head<3>())},
+                   {"u_w_urad", urad_list(u.tail<3>())},
+                   {"bridged", at->bridged}});
+  }
+  return out;
+}
+
+Json axis_json(const RotaryAxisResult& result) {
+  const fit::RotaryStudy& study = result.study;
+  Json out;
+  out["axis"] = result.name;
+  out["direction"] = list(study.table.axis.direction);
+  out["origin_mm"] = list(study.table.axis.origin_mm);
+  out["reference_deg"] = core::degrees(study.reference_rad);
+  out["reference"] = Json::array();
+  for (const fit::BallCentre& ball : study.reference) {
+    out["reference"].push_back(
+        {{"ball", ball.ball}, {"centre_mm", list(ball.centre_mm)}, {"u_um", um_list(ball.u_mm)}});
+  }
+  out["drift_um"] = core::micrometres(study.drift_mm);
+  out["method"] = result.method;
+  out["s0"] = study.s0;
+  out["dof"] = study.dof;
+  out["full_circle"] = study.table.full_circle;
+  out["periodicity_checked"] = study.periodicity_checked;
+  out["hysteresis_um"] = um_list(study.table.hysteresis_rms.head<3>());
+  out["hysteresis_urad"] = urad_list(study.table.hysteresis_rms.tail<3>());
+  out["stations"] = Json::array();
+  for (const fit::RotaryStation& s : study.stations) {
+    out["stations"].push_back(station_json(result, s));
+  }
+  out["offset"] = study.offset ? offset_json(*study.offset) : Json();
+  out["place_mm"] = list(result.place_mm);
+  out["curve"] = name_of(study.table.curve);
+  out["curve_points"] = result.model ? curve_json(result) : Json::array();
+  out["warnings"] = warnings_json(study.warnings);
+  return out;
+}
+
+std::string marks_of(const fit::RotaryStation& s) {
+  std::string out;
+  if (s.flagged) out += " flagged";
+  for (const std::string& ball : s.removed) out += fmt::format(" -{}", ball);
+  return out;
+}
+
+/// Six numbers in 8 columns each.
+std::string six(const fit::Vector6& v) {
+  std::string out;
+  for (Eigen::Index k = 0; k < 6; ++k) out += fmt::format("{:8.2f}", v(k) * (k < 3 ? 1e3 : 1e6));
+  return out;
+}
+
+std::string station_lines(const RotaryAxisResult& result) {
+  std::string out = "   station       EX      EY      EZ      EA      EB      EC    chi2\n";
+  out += "       deg       um      um      um    urad    urad    urad\n";
+  fit::Vector6 largest = fit::Vector6::Zero();
+  double point = 0.0;
+  for (const fit::RotaryStation& s : result.study.stations) {
+    out += fmt::format("{:10.3f}{:1}", core::degrees(s.angle_rad), name_of(s.approach));
+    if (s.undetermined) {
+      out += " undetermined\n";
+      continue;
+    }
+    out += fmt::format("{}{:8.1f}{}\n", six(s.errors.values()), s.chi2, marks_of(s));
+    largest = largest.cwiseMax(s.errors.sigma());
+    point = std::max(point, point_u_mm(result, s.errors.covariance, s.angle_rad).maxCoeff());
+  }
+  out += fmt::format("  largest u{}\n", six(largest));
+  const Vector3d& p = result.place_mm;
+  return out + fmt::format("  at ({:g}, {:g}, {:g}) mm a point is known to {:.2f} um or better\n",
+                           p.x(), p.y(), p.z(), core::micrometres(point));
+}
+
+std::string offset_lines(const fit::AxisOffset& o) {
+  const auto line = [](const char* what, const Vector3d& v, const Vector3d& u, double factor,
+                       const char* unit) {
+    return fmt::format("  {:<12} ({:.2f}, {:.2f}, {:.2f}) {}, u ({:.2f}, {:.2f}, {:.2f})\n", what,
+                       v.x() * factor, v.y() * factor, v.z() * factor, unit, u.x() * factor,
+                       u.y() * factor, u.z() * factor);
+  };
+  return line("axis off by", o.d_mm, o.d_u_mm, 1e3, "um") +
+         line("tilted by", o.e_rad, o.e_u_rad, 1e6, "urad") +
+         fmt::format("  zero point   {:.2f} urad; arc {:.0f} deg, noise of the split x {:.2f}\n",
+                     urad(o.zero_point_rad), core::degrees(o.arc_rad), o.arc_factor);
+}
+
+std::string axis_table(const RotaryAxisResult& result) {
+  const fit::RotaryStudy& study = result.study;
+  const Vector3d& a = study.table.axis.direction;
+  std::string out =
+      fmt::format("Axis {} along ({:g}, {:g}, {:g}): {} stations, {} balls, {}\n", result.name,
+                  a.x(), a.y(), a.z(), study.stations.size(), study.reference.size(),
+                  study.table.full_circle ? "full circle" : "arc");
+  out += fmt::format("  errors relative to {:g} deg, {}; s0 {:.3f} ({} degrees of freedom)\n",
+                     core::degrees(study.reference_rad), result.method, study.s0, study.dof);
+  out += station_lines(result);
+  if (study.offset) out += offset_lines(*study.offset);
+  if (study.table.hysteresis_rms.maxCoeff() > 0.0) {
+    out += fmt::format(" hysteresis{}\n", six(study.table.hysteresis_rms));
+  }
+  for (const core::Error& w : study.warnings) {
+    out += wrapped(core::to_line(w), "  warning     ", "              ");
+  }
+  return out;
+}
+
+nlohmann::ordered_json rotary_axes_json(std::span<const RotaryAxisResult> axes) {
+  Json out;
+  out["axes"] = Json::array();
+  for (const RotaryAxisResult& result : axes) out["axes"].push_back(axis_json(result));
+  return out;
+}
+
+std::string rotary_axes_table(std::span<const RotaryAxisResult> axes) {
+  std::string out;
+  for (const RotaryAxisResult& result : axes) {
+    if (!out.empty()) out += '\n';
+    out += axis_table(result);
+  }
+  return out;
+}
 
 /// One axis of the files.
 struct NamedAxis {
@@ -33,23 +263,13 @@ using core::Code;
 using Eigen::Vector3d;
 
 std::optional<Vector3d> direction_by_name(std::string_view name) {
-  struct Known {
-    std::string_view name;
-    int axis;
-  };
-  constexpr std::array<Known, 11> kKnown = {{{"x", 0},
-                                             {"y", 1},
-                                             {"z", 2},
-                                             {"A", 0},
-                                             {"B", 1},
-                                             {"C", 2},
-                                             {"a", 0},
-                                             {"b", 1},
-                                             {"c", 2},
-                                             {"phi_alpha", 0},
-                                             {"phi_beta", 1}}};
-  for (const Known& known : kKnown) {
-    if (known.name == name) return Vector3d::Unit(known.axis);
+  constexpr std::array<std::array<std::string_view, 4>, 3> kNames = {
+      {{"x", "A", "a", "phi_alpha"}, {"y", "B", "b", "phi_beta"}, {"z", "C", "c", "z"}}};
+  for (std::size_t axis = 0; axis < kNames.size(); ++axis) {
+    const auto& names = kNames[axis];
+    if (std::find(names.begin(), names.end(), name) != names.end()) {
+      return Vector3d::Unit(static_cast<Eigen::Index>(axis));
+    }
   }
   return std::nullopt;
 }
@@ -180,33 +400,33 @@ fit::RotaryOptions options_of(const RotaryAxesArguments& a) {
   return out;
 }
 
-core::Result<std::vector<RotaryFacts>> identify(const RotaryAxesArguments& arguments) {
+core::Result<std::vector<RotaryAxisResult>> identify(const RotaryAxesArguments& arguments) {
   if (!arguments.place_mm.empty() && arguments.place_mm.size() != 3) {
     return core::fail(Code::kBadOption, "--at needs three numbers: X,Y,Z");
   }
   const auto axes = read_rotary_axes(arguments);
   if (!axes) return core::fail(axes.error());
-  std::vector<RotaryFacts> out;
+  std::vector<RotaryAxisResult> out;
   for (const NamedAxis& axis : *axes) {
     auto study = fit::identify_rotary_axis(axis.measurement, options_of(arguments));
     if (!study) return core::fail(study.error().at(fmt::format("axis {}", axis.name)));
-    RotaryFacts facts;
-    facts.name = axis.name;
-    facts.method = arguments.method;
-    facts.place_mm = axis.measurement.axis.origin_mm;
+    RotaryAxisResult result;
+    result.name = axis.name;
+    result.method = arguments.method;
+    result.place_mm = axis.measurement.axis.origin_mm;
     if (!arguments.place_mm.empty()) {
-      facts.place_mm = {arguments.place_mm[0], arguments.place_mm[1], arguments.place_mm[2]};
+      result.place_mm = {arguments.place_mm[0], arguments.place_mm[1], arguments.place_mm[2]};
     }
     auto model = fit::RotaryModel::of(study->table);
     if (model) {
-      facts.model = *std::move(model);
+      result.model = *std::move(model);
     } else if (model.error().code == Code::kBadOption) {
       return core::fail(model.error().at(fmt::format("axis {}", axis.name)));
     } else {
       study->warnings.push_back(model.error());
     }
-    facts.study = *std::move(study);
-    out.push_back(std::move(facts));
+    result.study = *std::move(study);
+    out.push_back(std::move(result));
   }
   return out;
 }
@@ -214,13 +434,10 @@ core::Result<std::vector<RotaryFacts>> identify(const RotaryAxesArguments& argum
 }  // namespace
 
 int rotary_axes(const RotaryAxesArguments& arguments) {
-  const auto facts = identify(arguments);
-  if (!facts) {
-    print_error(facts.error());
-    return kBadInput;
-  }
-  return answer(rotary_axes_json(*facts), arguments.json,
-                [&] { return rotary_axes_table(*facts); });
+  const auto results = identify(arguments);
+  if (!results) return refuse(results.error());
+  return answer(rotary_axes_json(*results), arguments.json,
+                [&] { return rotary_axes_table(*results); });
 }
 
 }  // namespace rondure::app

@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -81,39 +80,31 @@ core::Result<void> check_machine_speed(const RunArguments& arguments, const plan
 /// Slows a simulated run down for observers. The record is not affected.
 class Pace {
  public:
-  /// @param speed           Simulated seconds per second of real time; > 0.
-  /// @param stop_requested  Ends the waiting.
-  Pace(double speed, std::function<bool()> stop_requested);
+  /// @param speed  Simulated seconds per second of real time; > 0.
+  explicit Pace(double speed) : speed_(speed) {}
 
-  /// Waits until the wall clock has reached the machine's. The first call sets the start of both.
-  void keep(double machine_time_s);
+  /// Waits until the wall clock has reached the machine's, or a stop is requested. The first call
+  /// sets the start of both.
+  void keep(double machine_time_s) {
+    constexpr auto kLook = std::chrono::milliseconds(20);  // how soon a stop is seen
+    if (!first_s_) {
+      first_s_ = machine_time_s;
+      start_ = Clock::now();
+    }
+    const std::chrono::duration<double> due((machine_time_s - *first_s_) / speed_);
+    while (!stop_requested()) {
+      const std::chrono::duration<double> left = due - (Clock::now() - start_);
+      if (left.count() <= 0.0) return;
+      std::this_thread::sleep_for(std::min<std::chrono::duration<double>>(left, kLook));
+    }
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
   double speed_;
-  std::function<bool()> stop_requested_;
-  bool begun_ = false;
-  double first_s_ = 0.0;
+  std::optional<double> first_s_;
   Clock::time_point start_;
 };
-
-Pace::Pace(double speed, std::function<bool()> stop_requested)
-    : speed_(speed), stop_requested_(std::move(stop_requested)), start_(Clock::now()) {}
-
-void Pace::keep(double machine_time_s) {
-  constexpr auto kLook = std::chrono::milliseconds(20);  // how soon a stop is seen
-  if (!begun_) {
-    begun_ = true;
-    first_s_ = machine_time_s;
-    start_ = Clock::now();
-  }
-  const std::chrono::duration<double> due((machine_time_s - first_s_) / speed_);
-  while (!stop_requested_()) {
-    const std::chrono::duration<double> left = due - (Clock::now() - start_);
-    if (left.count() <= 0.0) return;
-    std::this_thread::sleep_for(std::min<std::chrono::duration<double>>(left, kLook));
-  }
-}
 
 namespace fs = std::filesystem;
 
@@ -169,7 +160,7 @@ plans::RunOrRefusals measure(const plans::Plan& plan, plans::RunOptions options,
     options.before_move = [&prompt](const plans::NextMove& move) { return prompt.ask(move); };
   }
   std::optional<Pace> pace;
-  if (arguments.speed) pace.emplace(*arguments.speed, stop_requested);
+  if (arguments.speed) pace.emplace(*arguments.speed);
   options.progress = [&line, &pace](const plans::Progress& progress) {
     line.show(progress);
     if (pace) pace->keep(progress.time_s);
@@ -193,7 +184,7 @@ void tell_about_resume(const RunToFinish& ending) {
 }
 
 /// Prints why nothing is measured: a fault, or all changes since the run began.
-void refuse(const std::vector<core::Error>& reasons, bool resume, const fs::path& directory) {
+void tell_reasons(const std::vector<core::Error>& reasons, bool resume, const fs::path& directory) {
   if (!resume || reasons.front().code != core::Code::kMeaning) return print_error(reasons.front());
   tell(
       fmt::format("rondure: the run in {} cannot go on, it began with something else; undo this, "
@@ -247,7 +238,7 @@ int measure_and_conclude(const RunToFinish& ending, const plans::RunOptions& opt
   auto run = measure(ending.plan, options, std::move(held), ending.arguments);
   if (!run) {
     if (ending.live != nullptr) ending.live->show_failure(core::to_line(run.error().front()));
-    refuse(run.error(), resume, options.directory);
+    tell_reasons(run.error(), resume, options.directory);
     if (!ending.arguments.resume) tell_about_resume(ending);
     return status_of(run.error());
   }
@@ -269,42 +260,23 @@ int conclude_finished(const RunToFinish& ending, const plans::RunOptions& option
                     "or name a new directory for another run:\n",
                     options.directory.string()));
   }
-  print_error(differences);
-  return kBadInput;
-}
-
-/// The state of the run to resume; a run without --resume starts anew.
-core::Result<Resumption> look(const RunArguments& arguments) {
-  return arguments.resume ? find_resumption(arguments) : Resumption{};
+  return refuse(differences);
 }
 
 }  // namespace
 
 int run(const RunArguments& arguments) {
   if (arguments.step) {
-    if (auto terminal = StepPrompt::check_terminal("--step asks before each move"); !terminal) {
-      print_error(terminal.error());
-      return kBadInput;
-    }
+    if (auto terminal = StepPrompt::check_terminal("--step asks before each move"); !terminal)
+      return refuse(terminal.error());
   }
-  if (auto sound = check_names(arguments); !sound) {
-    print_error(sound.error());
-    return kBadInput;
-  }
-  auto resumption = look(arguments);
-  if (!resumption) {
-    print_error(resumption.error());
-    return kBadInput;
-  }
+  if (auto sound = check_names(arguments); !sound) return refuse(sound.error());
+  auto resumption = arguments.resume ? find_resumption(arguments) : Resumption{};
+  if (!resumption) return refuse(resumption.error());
   const auto plan = plan_of(arguments, *resumption);
-  if (!plan) {
-    print_error(plan.error());
-    return kBadInput;
-  }
+  if (!plan) return refuse(plan.error());
   for (const auto& allowed : {check_hand(*plan), check_machine_speed(arguments, *plan)}) {
-    if (allowed) continue;
-    print_error(allowed.error());
-    return kBadInput;
+    if (!allowed) return refuse(allowed.error());
   }
   plans::RunOptions options = options_of(arguments);
   if (!resumption->directory.empty()) {
@@ -312,28 +284,19 @@ int run(const RunArguments& arguments) {
     options.run_id = last_folder(options.directory);
   }
   const auto archive = archive_of(arguments.archive, *plan, options.directory);
-  if (!archive) {
-    print_error(archive.error());
-    return kBadInput;
-  }
+  if (!archive) return refuse(archive.error());
   RunToFinish ending{arguments, *plan, *archive, options.directory};
   listen_for_stop();
   std::optional<record::HeldJournal>& held = resumption->held;
   if (held && held->read.record.sealed) {
     return conclude_finished(ending, options, *std::move(held));
   }
-  if (auto printing = check_printing(arguments, *plan); !printing) {
-    print_error(printing.error());
-    return kBadInput;
-  }
+  if (auto printing = check_printing(arguments, *plan); !printing) return refuse(printing.error());
   if (arguments.resume && !held && !arguments.quiet) {
     tell(fmt::format("rondure: {} holds no run yet; it begins\n", options.directory.string()));
   }
   const auto live = open_live(arguments, *plan, options);
-  if (!live) {
-    print_error(live.error());
-    return kBadInput;
-  }
+  if (!live) return refuse(live.error());
   ending.live = live->get();
   return measure_and_conclude(ending, options, std::move(held));
 }

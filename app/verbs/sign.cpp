@@ -52,10 +52,7 @@ core::Result<fs::path> write_signature(const SignArguments& arguments) {
 int sign(const SignArguments& arguments) {
   if (!verifies(arguments.directory)) return kBadInput;
   const auto file = write_signature(arguments);
-  if (!file) {
-    print_error(file.error());
-    return kBadInput;
-  }
+  if (!file) return refuse(file.error());
   say_line(file->string());
   return kAllWell;
 }

@@ -47,10 +47,7 @@ int serve(const SimulateCmmArguments& arguments, const plans::Plan& plan) {
   wire::TcpOptions limits;
   limits.max_line_bytes = 2 * cmm::ipp::kMaxLineLength;  // what is longer is no client of ours
   auto listener = wire::TcpListener::open(arguments.address, arguments.port, limits);
-  if (!listener) {
-    print_error(listener.error());
-    return kBadInput;
-  }
+  if (!listener) return refuse(listener.error());
   plans::ServedCell cell(plan, arguments.seed.value_or(plan.simulation->seed));
   cmm::ipp::Server server(cell, options_of(arguments, plan));
   if (!is_loopback(arguments.address)) {
@@ -65,10 +62,8 @@ int serve(const SimulateCmmArguments& arguments, const plans::Plan& plan) {
   service.wire_log = arguments.wire_log;
   service.silence_limit =
       std::chrono::milliseconds(std::llround(1000.0 * arguments.silence_limit_s));
-  if (auto served = cmm::ipp::serve(*listener, server, service); !served) {
-    print_error(served.error());
-    return kBadInput;
-  }
+  if (auto served = cmm::ipp::serve(*listener, server, service); !served)
+    return refuse(served.error());
   tell("rondure: ended\n");
   return kAllWell;
 }
@@ -77,14 +72,9 @@ int serve(const SimulateCmmArguments& arguments, const plans::Plan& plan) {
 
 int simulate_cmm(const SimulateCmmArguments& arguments) {
   const auto plan = plans::read_plan(arguments.plan);
-  if (!plan) {
-    print_error(plan.error());
-    return kBadInput;
-  }
-  if (auto servable = plans::check_servable(*plan); !servable) {
-    print_error(servable.error().at(arguments.plan));
-    return kBadInput;
-  }
+  if (!plan) return refuse(plan.error());
+  if (auto servable = plans::check_servable(*plan); !servable)
+    return refuse(servable.error().at(arguments.plan));
   // Checked now, not when the first client connects.
   if (!arguments.wire_log.empty() && !std::ofstream(arguments.wire_log, std::ios::app)) {
     print_error(

@@ -7,9 +7,13 @@
 #include <vector>
 
 #include "app/run/arguments.h"
-#include "app/text/exit_status.h"
+#include "app/text/answer.h"
 #include "fit/spindle/probe_layout.h"
 #include "record/archive/archive.h"
+
+namespace CLI {
+class App;
+}
 
 namespace rondure::app {
 
@@ -62,8 +66,7 @@ struct CompareArguments {
 [[nodiscard]] int compare(const CompareArguments& arguments);
 
 struct HistoryArguments {
-  std::string archive = "runs/archive.db";
-  bool archive_given = false;
+  std::optional<std::string> archive;  ///< By default runs/archive.db.
   record::ArchiveFilter filter;
   std::string since;  ///< Day or time, UTC; as until.
   std::string until;
@@ -133,6 +136,51 @@ struct ContourArguments {
 };
 [[nodiscard]] int contour(const ContourArguments& arguments);
 
+struct WheelArguments {
+  std::string file;
+  std::string mode;
+  std::vector<double> axis_mm;  ///< x, z; empty: not known.
+  std::optional<double> nominal_radius_mm;
+  std::string center = "least-squares";
+  std::string quadruples = "all";
+  std::size_t count = 6;
+  std::uint64_t seed = 1;
+  std::optional<double> kappa_limit;
+  bool robust = false;
+  bool override_arc = false;
+  std::string surface;
+  std::string removal;
+  std::vector<double> range_mm;          ///< Contacts; empty: the table's range.
+  std::vector<double> surface_range_mm;  ///< Empty: the contacts.
+  double step_mm = 0.1;
+  std::optional<double> cusp_um;
+  std::string radius = "mean";
+  std::vector<double> wheel_arc_deg;
+  double repeatability_um = 0.0;
+  std::optional<double> touch_off_mm;
+  bool lowest_point = false;
+  double feed_mm_min = 100.0;
+  double retract_mm = 5.0;
+  std::string path;
+  std::string gcode;
+  bool json = false;
+};
+[[nodiscard]] int wheel(const WheelArguments& arguments);
+
+struct RotaryAxesArguments {
+  std::vector<std::string> files;
+  std::string axis;               ///< x, y, z or a,b,c; empty: by the name of the axis.
+  std::vector<double> origin_mm;  ///< Empty: 0,0,0.
+  double reference_deg = 0.0;
+  std::vector<double> range_deg;  ///< Of the axis; empty: any.
+  std::string method = "exact";
+  std::string curve = "spline";
+  std::vector<double> place_mm;  ///< Place whose uncertainty is stated; empty: the origin.
+  bool keep_outliers = false;
+  bool json = false;
+};
+[[nodiscard]] int rotary_axes(const RotaryAxesArguments& arguments);
+
 struct SpindleArguments {
   std::string file;
   std::string layout;  ///< Empty: by the angles.
@@ -165,7 +213,7 @@ struct DesignArguments {
 [[nodiscard]] int design_probes(const DesignArguments& arguments);
 
 struct RecordArguments {
-  std::vector<std::string> probes;  ///< As open_indicator() takes them.
+  std::vector<std::string> probes;  ///< As indicator_words() says.
   double from_deg = 0.0;
   double step_deg = 10.0;
   int count = 36;
@@ -173,6 +221,8 @@ struct RecordArguments {
   bool inches = false;
   std::optional<double> rate_Hz;  ///< Refused, with the reason.
 };
+/// The words that name an indicator, for help and messages.
+[[nodiscard]] std::string indicator_words();
 [[nodiscard]] int record_readings(const RecordArguments& arguments);
 
 struct DevicesArguments {
@@ -187,5 +237,13 @@ struct ServerDeviceArguments {
 };
 /// Surveys an I++ DME server; nothing moves.
 [[nodiscard]] int server_device(const ServerDeviceArguments& arguments);
+
+// The command line of `fit`, and of the verbs below it.
+void add_fit(CLI::App& app, FitArguments& arguments);
+void add_roundness(CLI::App& fit_verb, RoundnessArguments& arguments);
+void add_spindle(CLI::App& fit_verb, SpindleArguments& arguments);
+void add_contour(CLI::App& fit_verb, ContourArguments& arguments);
+void add_wheel(CLI::App& fit_verb, WheelArguments& arguments);
+void add_rotary_axes(CLI::App& fit_verb, RotaryAxesArguments& arguments);
 
 }  // namespace rondure::app

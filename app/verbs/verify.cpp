@@ -15,17 +15,13 @@ int verify(const VerifyArguments& arguments) {
   options.check = plans::check_record;
   if (!arguments.key.empty()) {
     const auto key = record::read_file(arguments.key);
-    if (!key) {
-      print_error(key.error());
-      return kBadInput;
-    }
+    if (!key) return refuse(key.error());
     options.public_key_pem = *key;
   }
   const auto outcome = reports::verify_run(arguments.directory, options);
   if (!outcome) {
     const bool of_key = outcome.error().code == core::Code::kBadOption;
-    print_error(of_key ? outcome.error().at(arguments.key) : outcome.error());
-    return kBadInput;
+    return refuse(of_key ? outcome.error().at(arguments.key) : outcome.error());
   }
   for (const std::string& difference : outcome->differences)
     say_line(fmt::format("not equal: {}", difference));

@@ -9,7 +9,6 @@
 #include "plans/cell/internal/fixture_driver.h"
 #include "plans/cell/internal/hidden_errors.h"
 #include "plans/path/internal/nominal_geometry.h"
-#include "plans/path/internal/pose_grid.h"
 
 namespace rondure::plans {
 namespace {
@@ -181,11 +180,6 @@ core::Result<core::Pose> SimulatedCell::turn(const core::Pose& commanded) {
   place_part();
   if (!reached) return reached;
   return on_grid(*reached);
-}
-
-core::Result<void> SimulatedCell::replay_touch(const cmm::TouchCommand& command,
-                                               const cmm::TouchReading& reading) {
-  return machine_.continue_after(command, reading);
 }
 
 core::Result<core::Pose> SimulatedCell::home_again() {

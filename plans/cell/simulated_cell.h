@@ -41,7 +41,9 @@ class SimulatedCell final : public Cell {
   [[nodiscard]] core::Result<core::Pose> replay_home() override;
   [[nodiscard]] core::Result<core::Pose> replay_turn(const core::Pose& commanded) override;
   [[nodiscard]] core::Result<void> replay_touch(const cmm::TouchCommand& command,
-                                                const cmm::TouchReading& reading) override;
+                                                const cmm::TouchReading& reading) override {
+    return machine_.continue_after(command, reading);
+  }
   [[nodiscard]] core::Result<void> replay_scan(const cmm::ScanCircleCommand& command,
                                                const cmm::TouchReading& last) override {
     return machine_.continue_after(command, last);

@@ -37,17 +37,7 @@ void add_cloud(const ForecastStage& stage, double start_s, record::RunRecord& ou
 }  // namespace
 
 record::RunRecord expected_record(const Plan& plan, const Forecast& forecast) {
-  record::RunRecord out;
-  out.header = header_of(plan, RunOptions{}, 0);
-  out.artefact = artefact_of(plan);
-  out.settings = settings_of(plan);
-  for (const FeaturePlan& feature : plan.features) {
-    record::Feature asked = feature_of(feature);
-    for (record::Setting& setting : settings_of(plan, feature)) {
-      asked.settings.push_back(std::move(setting));
-    }
-    out.features.push_back(std::move(asked));
-  }
+  record::RunRecord out = run_head(plan, RunOptions{}, 0);
   double start_s = 0.0;
   for (const ForecastStage& stage : forecast.stages) {
     if (stage.final_cloud) add_cloud(stage, start_s, out);

@@ -66,8 +66,6 @@ RevolvedMesh::RevolvedMesh(std::span<const Eigen::Vector2d> profile_rz, int face
   impl_->tree.build();
 }
 
-RevolvedMesh::RevolvedMesh(RevolvedMesh&&) noexcept = default;
-RevolvedMesh& RevolvedMesh::operator=(RevolvedMesh&&) noexcept = default;
 RevolvedMesh::~RevolvedMesh() = default;
 
 bool RevolvedMesh::meets(const Eigen::Vector3d& a_mm, const Eigen::Vector3d& b_mm) const {

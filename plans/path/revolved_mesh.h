@@ -17,8 +17,6 @@ class RevolvedMesh {
   /// @param facets      Per full revolution, >= 3. A facet lies inside the circle through its
   ///                corners.
   RevolvedMesh(std::span<const Eigen::Vector2d> profile_rz, int facets);
-  RevolvedMesh(RevolvedMesh&&) noexcept;
-  RevolvedMesh& operator=(RevolvedMesh&&) noexcept;
   ~RevolvedMesh();
 
   [[nodiscard]] bool meets(const Eigen::Vector3d& a_mm, const Eigen::Vector3d& b_mm) const;

@@ -18,6 +18,12 @@ constexpr double kWide_mm = 1e5;      // radius of a disc without a way around i
 constexpr double kDeep_mm = 1e4;      // thickness of a body without a way below it
 constexpr double kHolder_mm = 300.0;  // length of the holder above the stylus
 
+Tool tool_of(const Plan& plan) {
+  const ProbePlan& probe = *plan.probe;
+  return {0.5 * probe.tip_diameter_mm, probe.stylus_length_mm, 0.5 * probe.stylus_diameter_mm,
+          0.5 * probe.holder_diameter_mm};
+}
+
 const char* name_of(Body body) {
   switch (body) {
     case Body::kFeature:
@@ -97,12 +103,6 @@ std::string in_words(const Hit& hit) {
   }
   return fmt::format("{} would come nearer than {:.7g} mm to {} {}", name_of(hit.limb), hit.room_mm,
                      name_of(hit.body), where);
-}
-
-Tool tool_of(const Plan& plan) {
-  const ProbePlan& probe = *plan.probe;
-  return {0.5 * probe.tip_diameter_mm, probe.stylus_length_mm, 0.5 * probe.stylus_diameter_mm,
-          0.5 * probe.holder_diameter_mm};
 }
 
 Scene::Scene(const Plan& plan, const FeaturePlan& feature)

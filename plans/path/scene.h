@@ -64,8 +64,6 @@ struct Tool {
   double holder_radius_mm = 0.0;  ///< 0: no holder.
 };
 
-[[nodiscard]] Tool tool_of(const Plan& plan);
-
 /// All obstacles in the cell during the inspection of one feature, as simple solids: the surface,
 /// sections of the part beside it, clamping ring, rim of the bowl, table, reference sphere with its
 /// stem; and the volume of the machine.
@@ -74,8 +72,6 @@ class Scene {
   Scene(const Plan& plan, const FeaturePlan& feature);
 
   [[nodiscard]] const Tool& tool() const { return tool_; }
-  /// Changes the tool.
-  void take(const Tool& tool) { tool_ = tool; }
   /// The first place on these moves where the tool comes too close, if there is one. Exact except
   /// for the margins of Obstacle::meets(), which err on the safe side.
   [[nodiscard]] std::optional<Hit> first_hit(const Way& way, const Placement& placement,

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "cmm/touch_check.h"
 #include "core/units.h"
 #include "plans/analyses/analysis.h"
 #include "plans/run/internal/reached_pose.h"
@@ -41,11 +40,18 @@ core::Result<void> check_reading(const record::PoseVisit& known, const core::Pos
       "/fixture/resolution_deg");
 }
 
-cmm::TouchReading reading_of(const record::Touch& touch) {
-  return {touch.tip_mm, touch.temperature_degC, touch.time_s, 0.0, touch.scale_temperature_degC};
+}  // namespace
+
+void take_reading(const cmm::TouchReading& reading, record::Touch& row) {
+  row.tip_mm = reading.tip_W_mm;
+  row.temperature_degC = reading.temperature_degC;
+  row.scale_temperature_degC = reading.scale_temperature_degC;
+  row.time_s = reading.time_s;
 }
 
-}  // namespace
+cmm::TouchReading reading_of(const record::Touch& row) {
+  return {row.tip_mm, row.temperature_degC, row.time_s, 0.0, row.scale_temperature_degC};
+}
 
 core::Result<void> RunContext::check_stop() const {
   if (!options.stop_requested || !options.stop_requested()) return {};
@@ -71,10 +77,7 @@ core::Result<record::Touch> RunContext::touch(TouchStep step) {
   const auto reading = cell->machine().touch(step.command);
   if (!reading) return core::fail(reading.error());
   record::Touch row = step.row;
-  row.tip_mm = reading->tip_W_mm;
-  row.temperature_degC = reading->temperature_degC;
-  row.time_s = reading->time_s;
-  row.scale_temperature_degC = reading->scale_temperature_degC;
+  take_reading(*reading, row);
   if (auto kept = journal.add(row); !kept) return core::fail(kept.error());
   ++next_touch;
   progress.touches = static_cast<std::size_t>(next_touch);
@@ -196,10 +199,7 @@ core::Result<double> RunContext::repeat_touch(const TouchStep& step, std::int64_
   record::Touch check = step.row;
   check.id = check_id;
   check.purpose = record::Touch::Purpose::kCheck;
-  check.tip_mm = reading->tip_W_mm;
-  check.temperature_degC = reading->temperature_degC;
-  check.time_s = reading->time_s;
-  check.scale_temperature_degC = reading->scale_temperature_degC;
+  take_reading(*reading, check);
   if (auto kept = journal.add(check); !kept) return core::fail(kept.error());
   const double difference_mm = (check.tip_mm - step.row.tip_mm).norm();
   if (difference_mm <= plan.machine->resume_limit_um * core::kMicrometre) return difference_mm;
@@ -286,13 +286,6 @@ core::Result<void> RunContext::note(int feature, const core::Message& message) {
     return check_same_step(*known, decision);
   }
   return journal.add(decision);
-}
-
-Polyline in_machine_frame(const Polyline& path, const Eigen::Isometry3d& X_WX) {
-  Polyline out;
-  out.reserve(path.size());
-  for (const Eigen::Vector3d& corner : path) out.emplace_back(X_WX * corner);
-  return out;
 }
 
 }  // namespace rondure::plans

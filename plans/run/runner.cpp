@@ -182,18 +182,6 @@ void follow(const RunOptions& options, record::RunRecord on_record, record::Jour
   journal.follow(options.followed_by);
 }
 
-/// The record of a run whose journal was just made.
-record::RunRecord head_of(const record::Header& header, const record::Artefact& artefact,
-                          const std::vector<record::Feature>& features,
-                          const std::vector<record::Setting>& settings) {
-  record::RunRecord out;
-  out.header = header;
-  out.artefact = artefact;
-  out.features = features;
-  out.settings = settings;
-  return out;
-}
-
 /// What is known before the first touch.
 struct Preparation {
   std::vector<std::vector<Target>> targets;
@@ -213,6 +201,14 @@ core::Result<Preparation> prepare_plan(const Plan& plan, const RunOptions& optio
   auto calibration = used_calibration(plan, run_utc);
   if (!calibration) return core::fail(calibration.error());
   return Preparation{std::move(*targets), std::move(*data), seed, *std::move(calibration)};
+}
+
+/// The cell of a plan; null when every feature comes from a file.
+core::Result<std::unique_ptr<Cell>> cell_of(const Plan& plan, const RunOptions& options,
+                                            std::uint64_t seed, bool resumed) {
+  if (!touches_anything(plan)) return nullptr;
+  return open_cell(driven(plan, options),
+                   {seed, resumed, options.wire_log, options.stop_requested, options.set_by_hand});
 }
 
 /// Goes through the plan and writes how the run ended.
@@ -287,35 +283,27 @@ bool is_resumable(const core::Error& failure) {
 core::Result<Run> run_plan(const Plan& plan, const RunOptions& options) {
   const auto known = prepare_plan(plan, options, options.started_utc);
   if (!known) return core::fail(known.error());
-  std::unique_ptr<Cell> cell;
-  record::Header header = header_of(plan, options, known->seed);
-  if (touches_anything(plan)) {
-    auto opened = open_cell(driven(plan, options), {known->seed, false, options.wire_log,
-                                                    options.stop_requested, options.set_by_hand});
-    if (!opened) return core::fail(opened.error());
-    cell = std::move(*opened);
-    header.simulated = cell->is_simulated() || simulates_analysis(plan);
-    if (!header.simulated) header.seed = 0;
-    header.machine = cell->machine().description();
-    header.fixture = cell->fixture().description();
+  auto cell = cell_of(plan, options, known->seed, false);
+  if (!cell) return core::fail(cell.error());
+  record::RunRecord head = run_head(plan, options, known->seed);
+  if (*cell) {
+    head.header.simulated = (*cell)->is_simulated() || simulates_analysis(plan);
+    if (!head.header.simulated) head.header.seed = 0;
+    head.header.machine = (*cell)->machine().description();
+    head.header.fixture = (*cell)->fixture().description();
   }
-  std::vector<record::Feature> features;
   for (std::size_t i = 0; i < plan.features.size(); ++i) {
-    features.push_back(feature_of(plan.features[i]));
-    features.back().points_sha256 = known->data[i].sha256;
-    if (analysis_kind(plan.features[i].type) == nullptr)
-      features.back().settings = settings_of(plan, plan.features[i]);
+    head.features[i].points_sha256 = known->data[i].sha256;
   }
-  std::vector<record::Setting> settings = settings_of(plan);
   for (record::Setting& setting : fixture_settings(plan, known->calibration)) {
-    settings.push_back(std::move(setting));
+    head.settings.push_back(std::move(setting));
   }
-  auto journal =
-      record::Journal::create(options.directory, header, artefact_of(plan), features, settings);
+  auto journal = record::Journal::create(options.directory, head.header, head.artefact,
+                                         head.features, head.settings);
   if (!journal) return core::fail(journal.error());
   Run run{std::move(*journal), std::nullopt};
-  follow(options, head_of(header, artefact_of(plan), features, settings), run.journal);
-  execute(plan, options, *known, cell.get(), {}, run);
+  follow(options, std::move(head), run.journal);
+  execute(plan, options, *known, cell->get(), {}, run);
   return run;
 }
 
@@ -339,13 +327,8 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options, record::H
   if (!known) return refuse(known.error());
   auto changes = all_changes(recorded, plan, same, *known);
   if (!changes.empty()) return tl::unexpected(std::move(changes));
-  std::unique_ptr<Cell> cell;
-  if (touches_anything(plan)) {
-    auto opened = open_cell(driven(plan, options), {known->seed, true, options.wire_log,
-                                                    options.stop_requested, options.set_by_hand});
-    if (!opened) return refuse(opened.error());
-    cell = std::move(*opened);
-  }
+  const auto cell = cell_of(plan, options, known->seed, true);
+  if (!cell) return refuse(cell.error());
   auto journal = record::Journal::reopen(options.directory, std::move(held));
   if (!journal) return refuse(journal.error());
   Run run{std::move(*journal), std::nullopt};
@@ -353,7 +336,7 @@ RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options, record::H
   open.ending.clear();
   open.failure.reset();
   follow(options, std::move(open), run.journal);
-  execute(plan, options, *known, cell.get(), std::move(recorded), run);
+  execute(plan, options, *known, cell->get(), std::move(recorded), run);
   return run;
 }
 

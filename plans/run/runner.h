@@ -10,14 +10,14 @@
 
 namespace rondure::plans {
 
-/// A run that began: its journal, and why it ended early if it did.
+/// A run that has begun: its journal, and why it ended early, if it did.
 struct Run {
   record::Journal journal;
   std::optional<core::Error> failure;
 };
 
-/// Whether a run that ended so can go on with resume_plan(): a fault that can be put right. What
-/// the touches themselves say (a probe that scatters, a part in another place) stays.
+/// Whether resume_plan() can continue a run that ended with this fault. Findings from the touches
+/// themselves (a probe that scatters, a part in another place) are final.
 [[nodiscard]] bool is_resumable(const core::Error& failure);
 
 /// Executes a plan: opens the cell, qualifies the probe, searches the pose of every feature, and
@@ -28,34 +28,33 @@ struct Run {
 ///         fault the tip was retracted, unless the machine itself had stopped on a collision.
 [[nodiscard]] core::Result<Run> run_plan(const Plan& plan, const RunOptions& options);
 
-/// Why a run on record, interrupted or finished, is not the run of this plan and these options: one
-/// kMeaning for each difference, as resume_plan() gives them; or the file that cannot be read for
+/// Differences between a recorded run, interrupted or finished, and a run of this plan with these
+/// options: one kMeaning each, as for resume_plan(); or the error of a file that cannot be read for
 /// the comparison. Empty: it is that run.
 [[nodiscard]] std::vector<core::Error> differences_from_run(const record::RunRecord& run,
                                                             const Plan& plan,
                                                             const RunOptions& options);
 
-/// A run that goes on, or why it does not: one error for each thing that changed.
+/// A resumed run, or why it is refused: one error per change.
 using RunOrRefusals = tl::expected<Run, std::vector<core::Error>>;
 
-/// Goes on with the interrupted run in `options.directory`. The program goes through the journal
-/// with the machine at rest (see recorded_run.h); behind the last touch it homes machine and
-/// fixture, goes to that touch, repeats it and up to two before it, and continues when none differs
-/// by more than the plan's resume_limit_um. The repeated touches enter no result. On a simulated
-/// cell the record becomes that of a run without interruption, bit for bit, but for checks and the
-/// decision that tells of the interruption.
+/// Resumes the interrupted run in `options.directory`. Replays the journal with the machine at rest
+/// (see recorded_run.h). After the last touch it homes machine and fixture, repeats that touch and
+/// up to two before it, and continues if none differs by more than the plan's resume_limit_um. The
+/// repeated touches enter no result. On a simulated cell the record is, bit for bit, that of an
+/// uninterrupted run, except for these checks and the decision that states the interruption.
 ///
 /// With `relocate` a touch on the part that differs by more than the limit does not end the run:
 /// the part is located again in that pose and the present cloud, with its repeats, is measured
 /// anew; the touches of the earlier placement stay in the journal and enter no result. A run that
-/// stood between two clouds ends all the same: what it decided holds for the earlier placement.
+/// was between two clouds ends all the same: its decisions hold for the earlier placement.
 ///
-/// @param options  `seed`, `serial` and `operator_name` may be left out; the run's are kept.
-/// @param held  The journal of that directory, which is read this one time.
+/// @param options  An absent `seed`, `serial` or `operator_name` is that of the recorded run.
+/// @param held  The journal of that directory, read once.
 /// @return  kMeaning for each difference of the plan (`where` its JSON pointer, `what` the old and
 ///          the new value), of the points files, version, seed, serial number or operator; kJournal
-///          for a run that is sealed; the errors of Journal::reopen(). Nothing has moved then, and
-///          the journal is as it was.
+///          for a run that is sealed; the errors of Journal::reopen(). Then nothing has moved and
+///          the journal is unchanged.
 [[nodiscard]] RunOrRefusals resume_plan(const Plan& plan, const RunOptions& options,
                                         record::HeldJournal held);
 

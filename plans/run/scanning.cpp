@@ -4,8 +4,6 @@
 #include <cmath>
 #include <iterator>
 
-#include <fmt/format.h>
-
 #include "cmm/grid.h"
 #include "cmm/scan_path.h"
 #include "cmm/touch_check.h"
@@ -41,13 +39,6 @@ std::vector<Eigen::Vector3d> tips_of(const std::vector<Point>& points,
 }
 /// Largest distance at which a recorded point of a scan counts as its start.
 constexpr double kAtStart_mm = 0.01;
-
-void take_reading(const cmm::TouchReading& reading, record::Touch& row) {
-  row.tip_mm = reading.tip_W_mm;
-  row.temperature_degC = reading.temperature_degC;
-  row.scale_temperature_degC = reading.scale_temperature_degC;
-  row.time_s = reading.time_s;
-}
 
 /// From the pre-touch point at the start of a scan to that at an angle, around the surface.
 Polyline arc_to(const cmm::ScanCircleCommand& scan, double angle_rad) {
@@ -98,8 +89,7 @@ core::Result<std::vector<record::Touch>> RunContext::replay_scan(ScanStep step) 
   }
   TouchStep first;
   first.scan = step.command;
-  const record::Touch& end = known.back();
-  first.scan_end = {end.tip_mm, end.temperature_degC, end.time_s, 0.0, end.scale_temperature_degC};
+  first.scan_end = reading_of(known.back());
   // A real machine may begin a scan beside its start: the touch is at the nearest recorded point.
   const cmm::ScanCircleCommand command = cmm::on_grid(step.command);
   const auto off_start = [&](const record::Touch& row) {
@@ -137,11 +127,10 @@ std::vector<Target> FeatureSession::reach_targets() const {
   return out;
 }
 
-ScanStep FeatureSession::scan_of(const CloudPath& path, std::size_t k, int points) const {
-  TouchStep first = step_to(path, k, record::Touch::Purpose::kMeasure);
+ScanStep FeatureSession::scan_of(TouchStep first, const Target& start, int points) const {
   const Eigen::Isometry3d X_WP = part_at(reached_);
   ScanStep out;
-  out.command.center_W_mm = X_WP * Eigen::Vector3d(0.0, 0.0, path.target(k).z_mm);
+  out.command.center_W_mm = X_WP * Eigen::Vector3d(0.0, 0.0, start.z_mm);
   out.command.axis_W = X_WP.linear() * Eigen::Vector3d::UnitZ();
   out.command.start_tip_W_mm = first.command.expected_tip_W_mm;
   out.command.inside = geometry_.inside;
@@ -164,35 +153,23 @@ core::Result<std::vector<Eigen::Vector3d>> FeatureSession::scan_cloud(
   const auto points = static_cast<int>(targets.size() / starts.size());
   const auto path = lay(starts, reached_);
   if (!path) return core::fail(path.error());
-  context_.last_steps.clear();
   std::vector<std::vector<Eigen::Vector3d>> layers(starts.size());
-  for (std::size_t k = 0; k < starts.size(); ++k) {
+  const auto scan = [&](TouchStep first, std::size_t k) -> core::Result<void> {
     const Target& start = path->target(k);
-    ScanStep step = scan_of(*path, k, points);
-    context_.doing = fmt::format("{}, layer {}", feature_.id, start.layer + 1);
-    if (auto moved = context_.follow(step.way_W); !moved) {
-      if (context_.retreating && k > 0) leave(*path, k - 1);
-      return fault_at(start, moved.error());
-    }
-    const auto rows = context_.scan(std::move(step));
+    const auto rows = context_.scan(scan_of(std::move(first), start, points));
     if (!rows) {
-      // If a relocation is due, the tip is at park height already.
-      if (context_.lost_place || context_.relocation_due) return core::fail(rows.error());
-      if (rows.error().code != core::Code::kCollision) leave(*path, k);
-      return fault_at(start, rows.error());
+      const bool known = context_.lost_place || context_.relocation_due;
+      return known ? core::fail(rows.error()) : fault_at(start, rows.error());
     }
     for (const record::Touch& row : *rows) layers[path->order()[k]].push_back(row.tip_mm);
-    if (repeat_ > 0) continue;
+    if (repeat_ > 0) return {};
     const auto truth = context_.cell->true_scan_W_mm();
     truth_.insert(truth_.end(), truth.begin(), truth.end());
+    return {};
+  };
+  if (auto done = visit(*path, record::Touch::Purpose::kMeasure, true, scan); !done) {
+    return core::fail(done.error());
   }
-  context_.doing = fmt::format("{}, back to park height", feature_.id);
-  const std::size_t last = starts.size() - 1;
-  if (auto moved = context_.follow(path->exit_W(last)); !moved) {
-    if (context_.retreating) leave(*path, last);
-    return fault_at(path->target(last), moved.error());
-  }
-  if (auto moved = context_.rise(); !moved) return fault_at(path->target(last), moved.error());
   std::vector<Eigen::Vector3d> tips;
   for (const auto& layer : layers) tips.insert(tips.end(), layer.begin(), layer.end());
   return tips;

@@ -82,7 +82,6 @@ TEST(KeptFuzz, NoDamagedArchiveUpsetsTheHistory) {
     if (by_rows) damage_rows(file, tables, random);
     app::HistoryArguments arguments;
     arguments.archive = file.string();
-    arguments.archive_given = true;
     arguments.chart = random() % 2 == 0;
     arguments.json = random() % 2 == 0;
     if (random() % 4 == 0) arguments.csv = (work_folder() / "history.csv").string();

@@ -3,9 +3,7 @@
 #include <array>
 #include <filesystem>
 
-#include "app/verbs/rotary_axes_command.h"
 #include "app/verbs/verbs.h"
-#include "app/verbs/wheel_command.h"
 #include "tests/app/files.h"
 #include "tests/fuzz/cases.h"
 #include "tests/fuzz/overheard.h"

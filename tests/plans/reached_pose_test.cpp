@@ -8,7 +8,6 @@
 #include "core/units.h"
 #include "fixture/simulated.h"
 #include "plans/path/internal/nominal_geometry.h"
-#include "plans/path/internal/pose_grid.h"
 #include "plans/run/runner.h"
 #include "record/journal/journal.h"
 #include "tests/plans/files.h"

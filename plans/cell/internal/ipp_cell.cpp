@@ -12,7 +12,6 @@
 #include "fixture/kinematics.h"
 #include "plans/cell/served_cell.h"
 #include "plans/path/internal/nominal_geometry.h"
-#include "plans/path/internal/pose_grid.h"
 #include "wire/tcp_line.h"
 #include "wire/wire_log.h"
 
@@ -125,9 +124,9 @@ void IppCell::mount(const FeaturePlan& feature) {
   feature_ = found - features_.begin();
 }
 
-core::Result<void> IppCell::tell_feature() {
-  if (feature_ == told_feature_) return {};
-  told_feature_ = feature_;
+core::Result<void> IppCell::send_feature() {
+  if (feature_ == sent_feature_) return {};
+  sent_feature_ = feature_;
   return machine_->tell_simulation("Simulation.Feature", feature_);
 }
 
@@ -137,18 +136,18 @@ void IppCell::note_turn(const core::Pose& commanded) {
 }
 
 core::Result<core::Pose> IppCell::home_fixture() {
-  if (auto told = tell_feature(); !told) return core::fail(told.error());
+  if (auto sent = send_feature(); !sent) return core::fail(sent.error());
   auto reached = fixture_->home();
   if (!reached) return reached;
   turns_ = 0;
-  if (auto told = machine_->tell_simulation("Simulation.NextTurn", 1); !told) {
-    return core::fail(told.error());
+  if (auto sent = machine_->tell_simulation("Simulation.NextTurn", 1); !sent) {
+    return core::fail(sent.error());
   }
   return reached;
 }
 
 core::Result<core::Pose> IppCell::turn_to(const core::Pose& commanded) {
-  if (auto told = tell_feature(); !told) return core::fail(told.error());
+  if (auto sent = send_feature(); !sent) return core::fail(sent.error());
   auto reached = fixture_->move_to(on_grid(commanded));
   if (!reached) return reached;
   note_turn(commanded);
@@ -170,12 +169,12 @@ core::Result<core::Pose> IppCell::replay_turn(const core::Pose& commanded) {
 
 core::Result<core::Pose> IppCell::home_again() {
   if (auto homed = machine_->home(); !homed) return core::fail(homed.error());
-  if (auto told = tell_feature(); !told) return core::fail(told.error());
+  if (auto sent = send_feature(); !sent) return core::fail(sent.error());
   auto reached = fixture_->home();
   if (!reached) return reached;
   const std::int64_t next_turn = std::max<std::int64_t>(1, turns_);
-  if (auto told = machine_->tell_simulation("Simulation.NextTurn", next_turn); !told) {
-    return core::fail(told.error());
+  if (auto sent = machine_->tell_simulation("Simulation.NextTurn", next_turn); !sent) {
+    return core::fail(sent.error());
   }
   return turns_ == 0 ? reached : fixture_->move_to(on_grid(last_turn_));
 }

@@ -66,14 +66,14 @@ class IppCell final : public Cell {
   IppCell(const Plan& plan, std::unique_ptr<cmm::IppMachine> machine,
           std::unique_ptr<fixture::Fixture> driven);
   /// Sends the feature to a simulator if it has changed.
-  [[nodiscard]] core::Result<void> tell_feature();
+  [[nodiscard]] core::Result<void> send_feature();
   void note_turn(const core::Pose& commanded);
 
   std::unique_ptr<cmm::IppMachine> machine_;
   std::unique_ptr<fixture::Fixture> fixture_;
   std::vector<std::string> features_;  ///< Their ids, in the order of the plan.
   std::int64_t feature_ = 0;           ///< Index of the measured one.
-  std::int64_t told_feature_ = -1;     ///< Last one sent to the simulator.
+  std::int64_t sent_feature_ = -1;     ///< Last one sent to the simulator.
   std::int64_t turns_ = 0;             ///< Of the fixture since its homing.
   core::Pose last_turn_;               ///< As commanded.
 };

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "cmm/grid.h"
 #include "core/pose.h"
 #include "core/result.h"
 #include "fixture/fixture.h"
@@ -32,6 +33,12 @@ namespace rondure::plans {
 
 /// The pose in which the measurement of a feature starts.
 [[nodiscard]] core::Pose start_pose(const FeaturePlan& feature);
+
+/// Poses sent to and read from a fixture lie on a grid of 1e-10 deg, so that a turn sent as
+/// directions in a line of I++ DME is equal to the last bit to a turn inside the program.
+[[nodiscard]] inline core::Pose on_grid(const core::Pose& pose) {
+  return {cmm::angle_on_grid(pose.alpha_rad), cmm::angle_on_grid(pose.beta_rad)};
+}
 
 /// A pose for messages: "(12.3400, 0.0000) deg".
 [[nodiscard]] std::string in_degrees(const core::Pose& pose, int decimals = 4);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -15,82 +14,54 @@ namespace {
 constexpr std::size_t kShownDigits = 12;  ///< Of a digest.
 
 /// A value as shown in one line.
-std::string shown(const JsonValue& value) {
-  switch (value.kind) {
+/// @param value  Null: absent.
+std::string shown(const JsonValue* value) {
+  if (value == nullptr) return "absent";
+  switch (value->kind) {
     case JsonValue::Kind::kNull:
       return "null";
     case JsonValue::Kind::kBoolean:
-      return value.boolean ? "true" : "false";
+      return value->boolean ? "true" : "false";
     case JsonValue::Kind::kNumber:
-      return plain(value.number);
+      return plain(value->number);
     case JsonValue::Kind::kText:
-      return in_quotes(value.text);
+      return in_quotes(value->text);
     case JsonValue::Kind::kArray:
-      return fmt::format("an array of {}", value.items.size());
+      return fmt::format("an array of {}", value->items.size());
     case JsonValue::Kind::kObject:
-      return fmt::format("an object of {} keys", value.members.size());
+      return fmt::format("an object of {} keys", value->members.size());
   }
   return {};
 }
 
-class Comparison {
- public:
-  void compare(const JsonValue& before, const JsonValue& now, const std::string& pointer) {
-    if (before.kind != now.kind) return tell(pointer, shown(before), shown(now));
-    switch (before.kind) {
-      case JsonValue::Kind::kObject:
-        return compare_members(before, now, pointer);
-      case JsonValue::Kind::kArray:
-        return compare_items(before, now, pointer);
-      default:
-        if (before.number != now.number || before.text != now.text ||
-            before.boolean != now.boolean) {
-          tell(pointer, shown(before), shown(now));
-        }
-    }
+const JsonValue* item_of(const JsonValue& array, std::size_t i) {
+  return i < array.items.size() ? &array.items[i] : nullptr;
+}
+
+/// Adds the differences between two values, of which one may be absent.
+void add_differences(const JsonValue* before, const JsonValue* now, const std::string& pointer,
+                     std::vector<core::Error>& out) {
+  const bool same = before != nullptr && now != nullptr && before->kind == now->kind &&
+                    before->number == now->number && before->text == now->text &&
+                    before->boolean == now->boolean;
+  if (!same) {
+    out.push_back(
+        {core::Code::kMeaning,
+         fmt::format("the run began with {}, the plan now says {}", shown(before), shown(now)),
+         pointer});
+    return;
   }
-
-  [[nodiscard]] std::vector<core::Error> take() { return std::move(changes_); }
-
- private:
-  void compare_members(const JsonValue& before, const JsonValue& now, const std::string& pointer) {
-    for (const JsonMember& member : before.members) {
-      const std::string where = member_pointer(pointer, member.key);
-      const JsonValue* other = now.find(member.key);
-      if (other != nullptr) {
-        compare(member.value, *other, where);
-      } else {
-        tell(where, shown(member.value), "absent");
-      }
-    }
-    for (const JsonMember& member : now.members) {
-      if (before.find(member.key) != nullptr) continue;
-      tell(member_pointer(pointer, member.key), "absent", shown(member.value));
-    }
+  for (const JsonMember& member : before->members) {
+    add_differences(&member.value, now->find(member.key), member_pointer(pointer, member.key), out);
   }
-
-  void compare_items(const JsonValue& before, const JsonValue& now, const std::string& pointer) {
-    const std::size_t shared = std::min(before.items.size(), now.items.size());
-    for (std::size_t i = 0; i < std::max(before.items.size(), now.items.size()); ++i) {
-      const std::string where = item_pointer(pointer, i);
-      if (i < shared) {
-        compare(before.items[i], now.items[i], where);
-      } else if (i < before.items.size()) {
-        tell(where, shown(before.items[i]), "absent");
-      } else {
-        tell(where, "absent", shown(now.items[i]));
-      }
-    }
+  for (const JsonMember& member : now->members) {
+    if (before->find(member.key) != nullptr) continue;
+    add_differences(nullptr, &member.value, member_pointer(pointer, member.key), out);
   }
-
-  void tell(const std::string& pointer, const std::string& before, const std::string& now) {
-    changes_.push_back({core::Code::kMeaning,
-                        fmt::format("the run began with {}, the plan now says {}", before, now),
-                        pointer});
+  for (std::size_t i = 0; i < std::max(before->items.size(), now->items.size()); ++i) {
+    add_differences(item_of(*before, i), item_of(*now, i), item_pointer(pointer, i), out);
   }
-
-  std::vector<core::Error> changes_;
-};
+}
 
 }  // namespace
 
@@ -100,9 +71,9 @@ std::vector<core::Error> plan_changes(std::string_view old_text, std::string_vie
   const auto now = parse_json(new_text, "the plan");
   if (!before) return {before.error()};
   if (!now) return {now.error()};
-  Comparison comparison;
-  comparison.compare(*before, *now, "");
-  return comparison.take();
+  std::vector<core::Error> out;
+  add_differences(&*before, &*now, "", out);
+  return out;
 }
 
 std::vector<core::Error> changes_since(const record::RunRecord& run, const Plan& plan,

@@ -21,21 +21,21 @@ class RecordedRun {
   RecordedRun() = default;
   explicit RecordedRun(record::RunRecord run);
 
-  /// Whether the machine has still to stand while the program goes through known touches.
-  /// @param next_touch  Number of the touch that comes next.
+  /// Whether the machine stands still because recorded touches are being replayed.
+  /// @param next_touch  Number of the next touch.
   [[nodiscard]] bool replaying(std::int64_t next_touch) const;
   /// The recorded touch of that number, or nullptr.
   [[nodiscard]] const record::Touch* touch(std::int64_t id) const;
   /// The recorded pose of that number, or nullptr.
   [[nodiscard]] const record::PoseVisit* pose(int id) const;
-  /// The decision that comes next, or nullptr. Decisions about the whole run are passed over:
-  /// those are of earlier interruptions.
+  /// The next decision, or nullptr. Skips decisions about the whole run: they are about earlier
+  /// interruptions.
   [[nodiscard]] const record::Decision* next_decision();
   /// Hidden truths of a feature in the journal: one for each of its final clouds.
   [[nodiscard]] std::ptrdiff_t truths_of(int feature) const;
   /// Whether the part was located again after that many touches.
   [[nodiscard]] bool relocated_after(std::int64_t touches) const;
-  /// Whether a feature went on behind the present step without a touch: it decided or turned.
+  /// Whether a feature continued after the present step without a touch: it decided or turned.
   [[nodiscard]] bool goes_on_untouched(int next_pose) const;
   /// Whether a decision about the whole run is in the journal.
   [[nodiscard]] bool has_decision(const core::Message& message) const;
@@ -46,7 +46,7 @@ class RecordedRun {
 
  private:
   record::RunRecord run_;
-  std::int64_t machine_touches_end_ = 0;  ///< Behind the last touch that the machine made.
+  std::int64_t machine_touches_end_ = 0;  ///< After the last touch that the machine made.
   std::size_t next_decision_ = 0;
 };
 

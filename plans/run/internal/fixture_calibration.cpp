@@ -78,15 +78,9 @@ core::Result<void> keep_truth(RunContext& context, int feature, const RotaryPlan
 core::Result<std::vector<TouchStep>> ball_steps(const Plan& plan, std::size_t feature,
                                                 const Eigen::Isometry3d& X_WB, std::size_t ball) {
   const RotaryPlan& rotary = *plan.features[feature].rotary_axes;
-  auto steps =
-      sphere_steps(plan, {X_WB * vector3(rotary.balls[ball].center_mm),
-                          0.5 * rotary.ball_diameter_mm, rotary.points, rotary.uncertainty_mm});
-  if (!steps) return steps;
-  for (TouchStep& step : *steps) {
-    step.row.purpose = record::Touch::Purpose::kMeasure;
-    step.row.layer = static_cast<int>(ball);
-  }
-  return steps;
+  return sphere_steps(plan, {X_WB * vector3(rotary.balls[ball].center_mm),
+                             0.5 * rotary.ball_diameter_mm, rotary.points, rotary.uncertainty_mm,
+                             record::Touch::Purpose::kMeasure, static_cast<int>(ball)});
 }
 
 std::size_t calibration_touches(const Plan& plan, std::size_t feature) {

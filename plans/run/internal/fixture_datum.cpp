@@ -1,7 +1,5 @@
 #include "plans/run/internal/fixture_datum.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "core/units.h"
@@ -48,15 +46,14 @@ core::Result<std::vector<TouchStep>> datum_steps(const Plan& plan) {
   const DatumPlan& datum = *plan.fixture->datum;
   for (std::size_t i = 0; i < datum.spheres.size(); ++i) {
     const SphereToTouch sphere = {vector3(datum.spheres[i].center_mm),
-                                  0.5 * datum.sphere_diameter_mm, datum.points,
-                                  datum.uncertainty_mm};
-    auto steps = sphere_steps(plan, sphere);
+                                  0.5 * datum.sphere_diameter_mm,
+                                  datum.points,
+                                  datum.uncertainty_mm,
+                                  record::Touch::Purpose::kLocate,
+                                  static_cast<int>(i)};
+    const auto steps = sphere_steps(plan, sphere);
     if (!steps) return core::fail(steps.error().at(kDatumPointer));
-    for (TouchStep& step : *steps) {
-      step.row.purpose = record::Touch::Purpose::kLocate;
-      step.row.layer = static_cast<int>(i);
-      out.push_back(std::move(step));
-    }
+    out.insert(out.end(), steps->begin(), steps->end());
   }
   return out;
 }

@@ -9,6 +9,7 @@
 #include "fit/least_squares/cylinder.h"
 #include "fit/references/min_zone_circle.h"
 #include "fit/references/min_zone_cylinder.h"
+#include "plans/checks/internal/merged_reach.h"
 
 namespace rondure::plans {
 
@@ -148,6 +149,30 @@ core::Result<Cloud> FeatureSession::measure(const core::Pose& commanded) {
   return Cloud{reached_, std::move(*tips)};
 }
 
+core::Result<Cloud> FeatureSession::measure_reachable(const core::Pose& commanded) {
+  if (!merging()) all_targets_ = targets_;
+  targets_ =
+      planner_.reachable(all_targets_, geometry_,
+                         fixture::body_to_machine(context_.cell->kinematics(), commanded), X_BP_);
+  if (targets_.size() < kLeastTargets) {
+    return core::fail(core::Code::kUnreachable, too_few_targets(commanded, targets_.size()));
+  }
+  return measure(commanded);
+}
+
+void FeatureSession::keep_merged_truth() {
+  const auto X_WB = context_.cell->true_body_to_machine();
+  if (!X_WB) return;
+  for (const Eigen::Vector3d& tip : truth_) merged_truth_B_.emplace_back(X_WB->inverse() * tip);
+}
+
+core::Result<void> FeatureSession::end_merged() {
+  if (merged_truth_B_.empty() || context_.recorded.truths_of(index_) > 0) return {};
+  const auto zone = fit::min_zone_cylinder(merged_truth_B_, Eigen::Vector3d::UnitZ());
+  if (!zone) return {};  // only a comparison: the run continues
+  return context_.journal.add(record::SimulationTruth{index_, zone->width_mm()});
+}
+
 core::Result<void> FeatureSession::repeat(int times) {
   for (int i = 0; i < times; ++i) {
     ++repeat_;
@@ -248,52 +273,57 @@ void FeatureSession::leave(const CloudPath& path, std::size_t k) {
   if (auto out = context_.follow(path.exit_W(k)); out) (void)context_.rise();
 }
 
+core::Result<void> FeatureSession::visit(const CloudPath& path, record::Touch::Purpose purpose,
+                                         bool by_layer, const Measure& measure) {
+  context_.last_steps.clear();
+  const std::size_t last = path.order().size() - 1;
+  for (std::size_t k = 0; k <= last; ++k) {
+    const Target& target = path.target(k);
+    TouchStep step = step_to(path, k, purpose);
+    context_.doing = fmt::format("{}, layer {}", feature_.id, target.layer + 1);
+    if (!by_layer) context_.doing += fmt::format(", point {}", target.point + 1);
+    if (auto moved = context_.follow(step.way_W); !moved) {
+      // Refused by the operator: the tip is back at the previous touch. After a fault it stays.
+      if (context_.retreating && k > 0) leave(path, k - 1);
+      return fault_at(target, moved.error());
+    }
+    if (auto done = measure(std::move(step), k); !done) {
+      // The tip is at the pre-touch point, except after a collision: then the machine has stopped
+      // and only a person may move it. If a relocation is due, it is at park height already.
+      const bool standing = done.error().code != core::Code::kCollision;
+      if (standing && !context_.lost_place && !context_.relocation_due) leave(path, k);
+      return done;
+    }
+  }
+  context_.doing = fmt::format("{}, back to park height", feature_.id);
+  if (auto moved = context_.follow(path.exit_W(last)); !moved) {
+    if (context_.retreating) leave(path, last);
+    return fault_at(path.target(last), moved.error());
+  }
+  if (auto moved = context_.rise(); !moved) return fault_at(path.target(last), moved.error());
+  return {};
+}
+
 core::Result<std::vector<Eigen::Vector3d>> FeatureSession::touch_cloud(
     const std::vector<Target>& targets, record::Touch::Purpose purpose) {
   const auto path = lay(targets, reached_);
   if (!path) return core::fail(path.error());
-  context_.last_steps.clear();
+  const bool shows_truth = purpose == record::Touch::Purpose::kMeasure && repeat_ == 0;
   std::vector<Eigen::Vector3d> tips(targets.size());
-  for (std::size_t k = 0; k < targets.size(); ++k) {
-    const Target& target = path->target(k);
-    const TouchStep step = step_to(*path, k, purpose);
-    context_.doing =
-        fmt::format("{}, layer {}, point {}", feature_.id, target.layer + 1, target.point + 1);
-    if (auto moved = context_.follow(step.way_W); !moved) {
-      // Refused by the operator: the tip is back at the previous touch. After a fault it stays.
-      if (context_.retreating && k > 0) leave(*path, k - 1);
-      return fault_at(target, moved.error());
+  const auto touch = [&](TouchStep step, std::size_t k) -> core::Result<void> {
+    const auto touched = context_.touch(std::move(step));
+    if (!touched) {
+      return context_.lost_place ? core::fail(touched.error())
+                                 : fault_at(path->target(k), touched.error());
     }
-    const auto tip = touch(step, target);
-    if (!tip) {
-      // The tip is at the pre-touch point, except after a collision: then the machine has stopped
-      // and only a person may move it.
-      const bool standing = tip.error().code != core::Code::kCollision;
-      if (standing && !context_.lost_place && !context_.relocation_due) leave(*path, k);
-      return core::fail(tip.error());
+    if (const auto truth = context_.cell->true_tip_W_mm(); truth && shows_truth) {
+      truth_.push_back(*truth);
     }
-    tips[path->order()[k]] = *tip;
-  }
-  context_.doing = fmt::format("{}, back to park height", feature_.id);
-  const std::size_t last = targets.size() - 1;
-  if (auto moved = context_.follow(path->exit_W(last)); !moved) {
-    if (context_.retreating) leave(*path, last);
-    return fault_at(path->target(last), moved.error());
-  }
-  if (auto moved = context_.rise(); !moved) return fault_at(path->target(last), moved.error());
+    tips[path->order()[k]] = touched->tip_mm;
+    return {};
+  };
+  if (auto done = visit(*path, purpose, false, touch); !done) return core::fail(done.error());
   return tips;
-}
-
-core::Result<Eigen::Vector3d> FeatureSession::touch(TouchStep step, const Target& target) {
-  const bool shows_truth = step.row.purpose == record::Touch::Purpose::kMeasure && repeat_ == 0;
-  const auto touched = context_.touch(std::move(step));
-  if (!touched) {
-    return context_.lost_place ? core::fail(touched.error()) : fault_at(target, touched.error());
-  }
-  if (const auto truth = context_.cell->true_tip_W_mm(); truth && shows_truth) {
-    truth_.push_back(*truth);
-  }
-  return touched->tip_mm;
 }
 
 }  // namespace rondure::plans

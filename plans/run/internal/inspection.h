@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -49,18 +50,23 @@ class FeatureSession final : public PoseSession {
   /// Turns to a pose in which all targets can be reached.
   [[nodiscard]] core::Result<void> turn(const core::Pose& commanded,
                                         const std::vector<Target>& targets);
-  /// Touches targets once in the present pose, in the order of the path, and rises. Returns the tip
-  /// centres in the order of the targets.
+  /// A touch or a scan at the k-th target of a path, with the tip at its pre-touch point.
+  using Measure = std::function<core::Result<void>(TouchStep step, std::size_t k)>;
+  /// Follows a path from target to target, measures at each, and rises to park height. After a
+  /// failure the tip leaves the part, if the machine may move it.
+  /// @param by_layer  The path has one target per layer.
+  [[nodiscard]] core::Result<void> visit(const CloudPath& path, record::Touch::Purpose purpose,
+                                         bool by_layer, const Measure& measure);
+  /// Touches targets once in the present pose. Returns the tip centres in the order of the targets.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> touch_cloud(
       const std::vector<Target>& targets, record::Touch::Purpose purpose);
-  [[nodiscard]] core::Result<Eigen::Vector3d> touch(TouchStep step, const Target& target);
   /// Measures all targets once, as the plan samples them.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> measure_cloud();
-  /// Scans the targets layer by layer and rises. Returns the tip centres.
+  /// Scans the targets layer by layer. Returns the tip centres.
   [[nodiscard]] core::Result<std::vector<Eigen::Vector3d>> scan_cloud(
       const std::vector<Target>& targets);
-  /// The scan of a whole layer from the k-th target of a path that has one target per layer.
-  [[nodiscard]] ScanStep scan_of(const CloudPath& path, std::size_t k, int points) const;
+  /// The scan of a whole layer that starts at a touch of its first target.
+  [[nodiscard]] ScanStep scan_of(TouchStep first, const Target& start, int points) const;
   /// Targets that represent all of them in reach checks.
   [[nodiscard]] std::vector<Target> reach_targets() const;
   /// The path through these targets in a pose. kUnreachable: nothing has moved.

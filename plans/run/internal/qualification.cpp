@@ -126,7 +126,8 @@ core::Result<std::vector<TouchStep>> sphere_steps(const Plan& plan, const Sphere
     step.command.direction_W = -outward;
     step.command.approach_mm = geometry.approach_mm;
     step.command.search_mm = plan.machine->search_mm + sphere.uncertainty_mm;
-    step.row.purpose = record::Touch::Purpose::kQualification;
+    step.row.purpose = sphere.purpose;
+    step.row.layer = sphere.layer;
     step.row.point = static_cast<int>(i);
     step.entry_W = down;
     step.way_W = i == 0 ? down : around((*directions)[i - 1]);

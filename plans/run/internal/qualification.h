@@ -15,11 +15,12 @@ struct SphereToTouch {
   double radius_mm = 0.0;
   int points = 13;
   double uncertainty_mm = 0.0;  ///< Largest offset; approach and search are longer by it.
+  record::Touch::Purpose purpose = record::Touch::Purpose::kQualification;  ///< Of its touches.
+  int layer = 0;  ///< Of its touches: the number of the sphere.
 };
 
 /// Steps that touch a sphere: from park height down to its pole, then around it. kSampling when
-/// there are too few or too many points. Purpose and layer of the rows are those of a
-/// qualification.
+/// there are too few or too many points.
 [[nodiscard]] core::Result<std::vector<TouchStep>> sphere_steps(const Plan& plan,
                                                                 const SphereToTouch& sphere);
 

@@ -9,7 +9,6 @@
 #include "core/units.h"
 #include "fixture/alignment.h"
 #include "plans/path/internal/nominal_geometry.h"
-#include "plans/path/internal/pose_grid.h"
 #include "plans/path/scene.h"
 #include "plans/run/internal/qualification.h"
 
@@ -125,17 +124,15 @@ core::Result<std::vector<TouchStep>> reached_pose_steps(const Plan& plan,
   const std::size_t of_base = plan.fixture->datum ? plan.fixture->datum->spheres.size() : 0;
   for (std::size_t i = 0; i < wanted.spheres.size(); ++i) {
     const Vector3d center_B = vector3(wanted.spheres[i].center_mm);
-    auto steps = sphere_steps(plan, {X_WB * center_B, 0.5 * wanted.sphere_diameter_mm,
-                                     wanted.points, setting_room_mm(wanted, kinematics, center_B)});
+    const auto steps =
+        sphere_steps(plan, {X_WB * center_B, 0.5 * wanted.sphere_diameter_mm, wanted.points,
+                            setting_room_mm(wanted, kinematics, center_B),
+                            record::Touch::Purpose::kLocate, static_cast<int>(of_base + i)});
     if (!steps) return core::fail(steps.error().at(kReachedPosePointer));
     if (auto clear = check_ways(scene, {X_WP, X_WP}, geometry, *steps, i); !clear) {
       return core::fail(clear.error());
     }
-    for (TouchStep& step : *steps) {
-      step.row.purpose = record::Touch::Purpose::kLocate;
-      step.row.layer = static_cast<int>(of_base + i);
-      out.push_back(std::move(step));
-    }
+    out.insert(out.end(), steps->begin(), steps->end());
   }
   return out;
 }

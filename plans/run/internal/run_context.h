@@ -56,7 +56,7 @@ struct RunContext {
   bool relocation_due = false;  ///< The part has moved: locate it, measure the cloud anew.
   bool lost_place = false;  ///< An interruption was not overcome: only a person may move the tip.
 
-  /// While touches come from the journal nothing moves.
+  /// Whether touches come from the journal and nothing moves.
   [[nodiscard]] bool replaying() const { return recorded.replaying(next_touch); }
   /// kStopped when the operator asked for it.
   [[nodiscard]] core::Result<void> check_stop() const;
@@ -87,22 +87,23 @@ struct RunContext {
  private:
   [[nodiscard]] core::Result<void> ask(const NextMove& move);
   [[nodiscard]] core::Result<record::Touch> replay(TouchStep step, const record::Touch& known);
-  /// What follows when the part is not where it was: kLocation, with relocation_due set if the part
+  /// The error for a part that is not where it was: kLocation, with relocation_due set if the part
   /// may be located again. The tip is at park height.
   [[nodiscard]] tl::unexpected<core::Error> part_has_moved(const core::Error& error);
   [[nodiscard]] core::Result<std::vector<record::Touch>> replay_scan(ScanStep step);
-  /// A step that came from the journal is among those that are checked before the run goes on, and
-  /// behind the last of them it does.
+  /// Adds a replayed step to those that are repeated before the run continues; after the last
+  /// replayed step it continues.
   [[nodiscard]] core::Result<void> keep_replayed(TouchStep step);
-  /// The simulation takes the state behind a replayed step.
+  /// Sets a simulation to the state after a replayed step.
   [[nodiscard]] core::Result<void> replay_state(const TouchStep& step);
-  /// Of the fixture: how far two readings of one pose may differ.
+  /// Largest difference between two readings of one pose of the fixture.
   [[nodiscard]] double resolution_rad() const;
   /// Repeats a touch. Returns the difference from the recorded one [mm].
   [[nodiscard]] core::Result<double> repeat_touch(const TouchStep& step, std::int64_t check_id);
 };
 
-/// A path in another frame (X_WX maps it to the machine).
-[[nodiscard]] Polyline in_machine_frame(const Polyline& path, const Eigen::Isometry3d& X_WX);
+/// Puts a reading into a row of the journal, and back.
+void take_reading(const cmm::TouchReading& reading, record::Touch& row);
+[[nodiscard]] cmm::TouchReading reading_of(const record::Touch& row);
 
 }  // namespace rondure::plans

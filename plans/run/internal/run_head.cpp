@@ -1,7 +1,7 @@
 #include "plans/run/internal/run_head.h"
 
-#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "core/units.h"
 #include "core/version.h"
@@ -37,15 +37,7 @@ void add_merged_settings(const FixturePlan& fixture, const FeaturePlan& feature,
   for (const double v : fixture.axis_offset_mm) out.push_back({"axis_offset_mm", v, ""});
 }
 
-}  // namespace
-
-record::Strategy strategy_of(const FeaturePlan& feature) {
-  if (measures_by_touch(feature)) return record::Strategy::kStations;
-  if (analysis_kind(feature.type) != nullptr) return record::Strategy::kSeries;
-  if (feature.source) return record::Strategy::kPointsFile;
-  return feature.pose_search.strategy;
-}
-
+/// Converts a feature, without the digest of its points file, which is not read here.
 record::Feature feature_of(const FeaturePlan& plan) {
   record::Feature out;
   out.id = plan.id;
@@ -76,6 +68,7 @@ record::Feature feature_of(const FeaturePlan& plan) {
   return out;
 }
 
+/// Sampling and temperature correction of a touched feature, as needed by the evaluation.
 std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& feature) {
   std::vector<record::Setting> out;
   if (!is_touched(feature) || !plan.machine) return out;
@@ -102,6 +95,7 @@ std::vector<record::Setting> settings_of(const Plan& plan, const FeaturePlan& fe
   return out;
 }
 
+/// Settings of the whole run: the decision rule and the declared uncertainty, by their keys.
 std::vector<record::Setting> settings_of(const Plan& plan) {
   std::vector<record::Setting> out = record::settings_of_task(plan.decision_rule, "decision_rule/");
   if (plan.environment) {
@@ -154,11 +148,35 @@ record::Header header_of(const Plan& plan, const RunOptions& options, std::uint6
   return out;
 }
 
+/// The reference sphere; empty for a plan without a probe.
 record::Artefact artefact_of(const Plan& plan) {
   if (!plan.probe) return {};
   const QualificationPlan& q = plan.probe->qualification;
   return {0.5 * q.sphere_diameter_mm, 0.5 * plan.probe->tip_diameter_mm,
           q.radius_tolerance_um * core::kMicrometre, q.form_limit_um * core::kMicrometre};
+}
+
+}  // namespace
+
+record::Strategy strategy_of(const FeaturePlan& feature) {
+  if (measures_by_touch(feature)) return record::Strategy::kStations;
+  if (analysis_kind(feature.type) != nullptr) return record::Strategy::kSeries;
+  if (feature.source) return record::Strategy::kPointsFile;
+  return feature.pose_search.strategy;
+}
+
+record::RunRecord run_head(const Plan& plan, const RunOptions& options, std::uint64_t seed) {
+  record::RunRecord out;
+  out.header = header_of(plan, options, seed);
+  out.artefact = artefact_of(plan);
+  out.settings = settings_of(plan);
+  for (const FeaturePlan& feature : plan.features) {
+    record::Feature& asked = out.features.emplace_back(feature_of(feature));
+    for (record::Setting& setting : settings_of(plan, feature)) {
+      asked.settings.push_back(std::move(setting));
+    }
+  }
+  return out;
 }
 
 }  // namespace rondure::plans

@@ -1,18 +1,33 @@
-#include "app/text/ippdme.h"
-
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/text/answer.h"
+#include "app/verbs/verbs.h"
+#include "cmm/ipp/grammar.h"
+#include "cmm/ipp_client/survey.h"
+#include "core/numbers.h"
+#include "wire/tcp_line.h"
+
 namespace rondure::app {
 namespace {
+
+/// Address of a server.
+struct ServerPlace {
+  std::string host;
+  std::uint16_t port = 0;
+};
 
 using Json = nlohmann::ordered_json;
 using cmm::ipp::client::Survey;
@@ -166,21 +181,8 @@ Json parameters_of(const Survey& survey) {
 
 /// A paragraph beside a name, broken between words.
 std::string beside(std::string_view name, std::string_view text) {
-  std::string out;
-  std::string line = fmt::format("{:<{}}", name, kIndent - 1);
-  bool begun = false;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (begun && line.size() + 1 + word.size() > kWidth) {
-      out += line + "\n";
-      line = std::string(kIndent - 1, ' ');
-    }
-    line += fmt::format(" {}", word);
-    begun = true;
-  }
-  return out + line + "\n";
+  return wrapped(text, fmt::format("{:<{}} ", name, kIndent - 1), std::string(kIndent, ' '),
+                 kWidth);
 }
 
 std::string joined(const Json& list, std::string_view none) {
@@ -213,8 +215,6 @@ std::string parameter_text(const Json& p) {
                 fmt::format("{}, limits {} to {}", number_text(p["value"], unit),
                             number_text(p["min"], ""), number_text(p["max"], "")));
 }
-
-}  // namespace
 
 Json survey_json(const Survey& survey, const ServerPlace& place) {
   Json lacks = Json::array();
@@ -295,6 +295,48 @@ std::string survey_text(const Json& found) {
       "touch), whether AbortE stops a motion, which way the rotary axes turn. Begin\n"
       "with rondure run PLAN --step.\n";
   return out + fmt::format("\nFor the plan:\n\"machine\": {}\n", found["machine"].dump(2));
+}
+
+/// HOST, HOST:PORT or [ADDRESS]:PORT; a bare address of IPv6 has more than one colon.
+std::optional<ServerPlace> server_place(std::string_view text) {
+  std::string_view port;
+  if (text.starts_with('[')) {
+    const std::size_t end = text.find(']');
+    if (end == std::string_view::npos) return std::nullopt;
+    port = text.substr(end + 1);
+    text = text.substr(1, end - 1);
+  } else if (const std::size_t colon = text.find(':'); colon == text.rfind(':')) {
+    port = text.substr(std::min(colon, text.size()));
+    text = text.substr(0, colon);
+  }
+  if (text.empty()) return std::nullopt;
+  if (port.empty()) return ServerPlace{std::string(text), cmm::ipp::kDefaultPort};
+  const auto number = core::parse_number(port.substr(1));
+  const bool whole =
+      number && *number >= 1.0 && *number <= 65535.0 && *number == std::floor(*number);
+  if (port.front() != ':' || !whole) return std::nullopt;
+  return ServerPlace{std::string(text), static_cast<std::uint16_t>(*number)};
+}
+
+}  // namespace
+
+int server_device(const ServerDeviceArguments& arguments) {
+  const auto place = server_place(arguments.place);
+  if (!place) {
+    return refuse({core::Code::kMeaning,
+                   fmt::format("{} is no HOST:PORT with a port from 1 to 65535, as 127.0.0.1:1294",
+                               arguments.place),
+                   {}});
+  }
+  const std::chrono::milliseconds limit(std::llround(1000.0 * arguments.limit_s));
+  wire::TcpOptions tcp;
+  tcp.connect_limit = tcp.write_limit = limit;
+  auto line = wire::connect_tcp(place->host, place->port, tcp);
+  if (!line) return refuse(line.error());
+  const auto found = cmm::ipp::client::survey(std::move(*line), limit);
+  if (!found) return refuse(found.error());
+  const nlohmann::ordered_json document = survey_json(*found, *place);
+  return answer(document, arguments.json, [&] { return survey_text(document); });
 }
 
 }  // namespace rondure::app

@@ -1,0 +1,312 @@
+// The command line of `fit` and its verbs.
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "app/verbs/verbs.h"
+
+namespace rondure::app {
+namespace {
+
+/// "--range-deg 0,90": one argument, so that a file may follow it.
+template <class Value>
+CLI::Option* add_list(CLI::App& verb, const char* name, std::vector<Value>& values,
+                      const char* meaning, const char* type) {
+  return verb.add_option(name, values, meaning)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name(type);
+}
+
+void add_contour_files(CLI::App& verb, ContourArguments& arguments) {
+  constexpr const char* kFiles = "FILE,...";
+  add_list(verb, "--axes", arguments.axes, "Traces of the control, one file a part", kFiles)
+      ->required();
+  add_list(verb, "--pin", arguments.pin, "Contours of the pins from the gauge, one file a part",
+           kFiles)
+      ->required();
+  add_list(verb, "--main", arguments.main,
+           "Contours of the neighbouring main journals, if measured", kFiles);
+  verb.add_option("--mapping", arguments.mapping, "JSON file that names the columns")
+      ->type_name("FILE");
+  verb.add_option("--column", arguments.columns,
+                  "One column: quantity=column[:unit[:sign]]; may be given several times")
+      ->allow_extra_args(false)
+      ->type_name("TEXT");
+  verb.add_option("--curves", arguments.curves, "Writes t, f, n of all parts as CSV")
+      ->type_name("FILE");
+  verb.add_flag("--json", arguments.json, "JSON instead of text");
+}
+
+void add_contour_settings(CLI::App& verb, ContourArguments& arguments) {
+  const auto one_of_signs = CLI::IsMember({1, -1});
+  verb.add_option("--crank-radius-mm", arguments.crank_radius_mm, "R (default: 49)");
+  verb.add_option("--wheel-radius-mm", arguments.wheel_radius_mm, "Rgw (default: 299.88)");
+  verb.add_option("--pin-radius-mm", arguments.pin_radius_mm, "r (default: 24.56)");
+  verb.add_option("--main-radius-mm", arguments.main_radius_mm, "Main journal (default: 30)");
+  verb.add_option("--cutoff-upr", arguments.cutoff_upr, "Gaussian low pass (default: 50)");
+  verb.add_option("--pre-filter-upr", arguments.pre_filter_upr,
+                  "Gaussian low pass of the axis errors first (default: none)");
+  verb.add_option("--samples", arguments.samples, "Points of a contour (default: 1440)");
+  verb.add_option("--path-samples", arguments.path_samples,
+                  "C positions the traces are brought to (default: 1440)");
+  verb.add_option("--phase-offset-deg", arguments.phase_offset_deg,
+                  "Gauge angle of the direction from the crankshaft's to the pin's axis");
+  verb.add_option("--main-phase-offset-deg", arguments.main_phase_offset_deg,
+                  "The same of the main journals (default: as the pins)");
+  verb.add_option("--gauge-direction", arguments.gauge_direction,
+                  "1 (default), or -1: the gauge turns the other way")
+      ->check(one_of_signs);
+  verb.add_option("--c-direction", arguments.c_direction,
+                  "1 (default), or -1: C turns the crank counter-clockwise under the wheel")
+      ->check(one_of_signs);
+  verb.add_option("--error-sign", arguments.error_sign,
+                  "1 (default): actual minus command; -1: command minus actual, as a following "
+                  "error of most controls")
+      ->check(one_of_signs);
+  verb.add_option("--base", arguments.base, "Base circle: limacon (default) or geometric")
+      ->check(CLI::IsMember({"limacon", "geometric"}));
+  verb.add_option("--method", arguments.method,
+                  "corrected (default), or as-published: each f is turned onto its t")
+      ->check(CLI::IsMember({"corrected", "as-published"}));
+  verb.add_flag("--prefiltered", arguments.prefiltered, "The gauge has filtered the contours");
+  verb.add_flag("--map-main", arguments.map_main,
+                "Carry a main journal to the pin as n(alpha(beta)) cos(eta)");
+}
+
+void add_spindle_geometry(CLI::App& verb, SpindleArguments& a) {
+  verb.add_option("--layout", a.layout, "published-a, published-b or reference")
+      ->check(CLI::IsMember({"published-a", "published-b", "reference"}));
+  verb.add_option("--p1-to-p2", a.p1_to_p2_deg,
+                  "deg from probe 1 to probe 2, against the rotation of the work");
+  verb.add_option("--p2-to-p3", a.p2_to_p3_deg, "deg from probe 2 to probe 3 (a difference)");
+  verb.add_option("--p1-to-p3", a.p1_to_p3_deg, "deg from probe 1 to probe 3 (cumulative)");
+  verb.add_option("--crank-radius", a.crank_radius_mm,
+                  "mm; the probes follow a crank pin (default: 0, an ordinary shaft)");
+  verb.add_option("--wheel-radius", a.wheel_radius_mm, "mm; the pivot of the arm is its centre");
+  verb.add_option("--pin-radius", a.pin_radius_mm, "mm; of the part that is measured");
+}
+
+void add_measuring(CLI::App& verb, WheelArguments& arguments) {
+  verb.add_option("--mode", arguments.mode,
+                  "indexed: wheel at rest at known angles, points of its body; envelope: wheel at\n"
+                  "speed, points of the circle it sweeps. It decides what the result means")
+      ->required()
+      ->check(CLI::IsMember({"indexed", "envelope"}));
+  add_list(verb, "--axis-mm", arguments.axis_mm,
+           "Spindle axis (indexed): gives run-out and the effective radius", "X,Z")
+      ->expected(2);
+  verb.add_option("--nominal-radius-mm", arguments.nominal_radius_mm,
+                  "R must be within 5 % of it; also the path without compensation");
+  verb.add_option("--center", arguments.center,
+                  "least-squares (default), or a mean of four-point centres: as-published, the\n"
+                  "plain one, or weighted by the conditioning")
+      ->check(CLI::IsMember({"least-squares", "as-published", "weighted"}));
+  verb.add_option("--quadruples", arguments.quadruples,
+                  "Of those means: all (default), best, or random: as published, without a kappa\n"
+                  "limit")
+      ->check(CLI::IsMember({"all", "best", "random"}));
+  verb.add_option("--count", arguments.count,
+                  "Quadruples of best and random (default: 6, at least)");
+  verb.add_option("--seed", arguments.seed, "Of random quadruples (default: 1)");
+  verb.add_option("--kappa-limit", arguments.kappa_limit,
+                  "Worst conditioning accepted (default: 5, or twice the best)");
+  verb.add_flag("--robust", arguments.robust, "Drop isolated points beyond 5 scales first");
+  verb.add_flag("--override-arc", arguments.override_arc, "Evaluate less than 20 deg, too");
+}
+
+void add_grinding(CLI::App& verb, WheelArguments& arguments) {
+  verb.add_option(
+      "--surface", arguments.surface,
+      "Surface z = f(x) to grind: polynomial:a0,a1,a2,... | asphere:R=120,K=-1,A4=2e-8\n"
+      "(c=1/mm for R; A2 to A20) | table:FILE.csv with the columns x,z (mm)");
+  verb.add_option("--removal", arguments.removal, "CSV x,depth_um: a depth to take off the surface")
+      ->type_name("FILE.csv");
+  add_list(verb, "--range-mm", arguments.range_mm, "Contacts from, to (default: the whole table)",
+           "X0,X1")
+      ->expected(2);
+  add_list(verb, "--surface-range-mm", arguments.surface_range_mm,
+           "Where the surface must not be cut into (default: the contacts)", "X0,X1")
+      ->expected(2);
+  verb.add_option("--step-mm", arguments.step_mm, "Step of x (default: 0.1)");
+  verb.add_option("--cusp-um", arguments.cusp_um, "Highest cusp between passes, for the step");
+  verb.add_option("--radius", arguments.radius, "Radius of the path: mean (default) or effective")
+      ->check(CLI::IsMember({"mean", "effective"}));
+  add_list(verb, "--wheel-arc-deg", arguments.wheel_arc_deg,
+           "Trued arc of the wheel about its lowest point", "A,B")
+      ->expected(2);
+  verb.add_option("--repeatability-um", arguments.repeatability_um,
+                  "Of the machine: limits the improvement (default: 0)");
+  verb.add_option("--touch-off-mm", arguments.touch_off_mm, "x of the touch-off (default: 0)");
+  verb.add_flag("--lowest-point", arguments.lowest_point,
+                "z of the wheel's lowest point in place of its centre");
+  verb.add_option("--path", arguments.path, "Writes the path as CSV")->type_name("FILE.csv");
+  verb.add_option("--gcode", arguments.gcode, "Writes the path as G-code")->type_name("FILE");
+  verb.add_option("--feed-mm-min", arguments.feed_mm_min, "Feed of the G-code (default: 100)")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--retract-mm", arguments.retract_mm, "Above the path (default: 5)")
+      ->check(CLI::NonNegativeNumber);
+}
+
+}  // namespace
+
+void add_fit(CLI::App& app, FitArguments& arguments) {
+  auto* verb =
+      app.add_subcommand("fit", "Fits a circle, cylinder, sphere or line to a points file");
+  verb->add_option("SHAPE", arguments.shape,
+                   "circle (columns x,y); cylinder, sphere, line (columns x,y,z); mm")
+      ->check(CLI::IsMember({"circle", "cylinder", "sphere", "line"}));
+  verb->add_option("FILE", arguments.file, "CSV with a header line; # comments");
+  verb->add_option(
+          "--reference", arguments.reference,
+          "ls least squares, mz minimum zone, mc minimum circumscribed, mi maximum inscribed, "
+          "or all (default)")
+      ->check(CLI::IsMember({"ls", "mz", "mc", "mi", "all"}));
+  verb->add_flag("--json", arguments.json, "The stable JSON contract instead of text");
+  verb->footer("\nExample: rondure fit cylinder tests/data/nist_cyl_13/points.csv --json");
+  verb->require_subcommand(0, 1);
+  verb->callback([verb, &arguments] {  // a verb of its own, such as roundness, needs neither
+    if (!verb->get_subcommands().empty()) return;
+    if (arguments.shape.empty()) throw CLI::RequiredError("SHAPE");
+    if (arguments.file.empty()) throw CLI::RequiredError("FILE");
+    const bool one_sided = arguments.reference == "mc" || arguments.reference == "mi";
+    if (arguments.shape == "line" && one_sided) {
+      throw CLI::ValidationError("--reference",
+                                 "a line has ls and mz (the least cylinder that "
+                                 "encloses its points)");
+    }
+  });
+}
+
+void add_roundness(CLI::App& fit_verb, RoundnessArguments& arguments) {
+  auto* verb = fit_verb.add_subcommand(
+      "roundness", "Filters one section and gives RONt, RONp, RONv, RONq and harmonics");
+  verb->add_option("FILE", arguments.file, "CSV with the columns theta_deg,r_um or x,y (mm)")
+      ->required();
+  add_list(*verb, "--cutoff-upr", arguments.cutoff_upr,
+           "Cut-off in undulations per revolution (default: 50); LO,HI for a band", "N[,N]");
+  verb->add_option("--filter", arguments.filter, "gaussian (default), 2rc, robust, spline or none")
+      ->check(CLI::IsMember({"gaussian", "2rc", "robust", "spline", "none"}));
+  verb->add_option("--pass", arguments.pass, "low (default), high or band")
+      ->check(CLI::IsMember({"low", "high", "band"}));
+  verb->add_option("--reference", arguments.reference,
+                   "Reference circle: ls least squares, mz minimum zone, mc minimum circumscribed, "
+                   "mi maximum inscribed, or all (default)")
+      ->check(CLI::IsMember({"ls", "mz", "mc", "mi", "all"}));
+  verb->add_flag("--override-sampling", arguments.override_sampling,
+                 "Filter also with fewer than 7 points per undulation");
+  verb->add_flag("--inside", arguments.inside, "A bore: peaks point to the centre");
+  verb->add_flag("--json", arguments.json, "JSON instead of text");
+  verb->footer(
+      "\nExample: rondure fit roundness tests/data/spec_roundness/profile.csv --cutoff-upr 150\n"
+      "Filters, formulas and end effects: docs/filters.md");
+}
+
+void add_spindle(CLI::App& fit_verb, SpindleArguments& a) {
+  auto* verb = fit_verb.add_subcommand(
+      "spindle", "Separates the form of a part from the motion of its axis (three probes)");
+  verb->add_option("FILE", a.file,
+                   "CSV with the columns alpha_deg,H1_um,H2_um,H3_um[,beta_deg]; alpha is not "
+                   "wrapped")
+      ->required();
+  add_spindle_geometry(*verb, a);
+  verb->add_option("--samples", a.samples, "Of a revolution (default: 1024; 0: as recorded)");
+  verb->add_option("--highest-order", a.highest_order, "Highest harmonic recovered (default: 50)");
+  verb->add_option("--greatest-gain", a.greatest_gain,
+                   "Harmonics with a higher noise gain are not recovered (default: 100)");
+  verb->add_option("--probe-noise", a.probe_noise_um,
+                   "um, standard deviation of a reading (default: estimated)");
+  verb->add_option("--regularise", a.expected_amplitude_um,
+                   "um, amplitude expected of a harmonic: weak ones are attenuated");
+  verb->add_option("--second-order", a.second_order, "auto (default), on or off")
+      ->check(CLI::IsMember({"auto", "on", "off"}));
+  verb->add_option("--cutoff-upr", a.cutoff_upr,
+                   "Gaussian low pass of the profile (default: 50; 0: none)");
+  verb->add_flag("--no-resampling", a.no_resampling,
+                 "Readings count as uniform in the angle on the part; wrong for a crank pin");
+  verb->add_flag("--as-published", a.as_published, "RY by the printed formula, which is wrong");
+  verb->add_flag("--inside", a.inside, "A bore: peaks point to the centre");
+  verb->add_flag("--json", a.json, "JSON instead of text");
+  verb->footer(
+      "\nExample: rondure fit spindle tests/data/spindle_dynamic/readings.csv --layout reference "
+      "--crank-radius 49 --wheel-radius 299.88 --pin-radius 24.56\n"
+      "Columns, keys and formulas: docs/spindle.md");
+}
+
+void add_contour(CLI::App& fit_verb, ContourArguments& arguments) {
+  auto* verb = fit_verb.add_subcommand(
+      "contour",
+      "Crank pins in follow grinding: which share of the contour error follows the axes, and which "
+      "share repeats");
+  add_contour_files(*verb, arguments);
+  add_contour_settings(*verb, arguments);
+  verb->footer(
+      "\nColumns without a mapping (CSV, a header line, a row a sample):\n"
+      "  axes   c_deg, c_error_deg, x_error_mm: C position and the errors of both axes, with\n"
+      "         d_cmd_mm, if recorded, to check crank, wheel and the zero of C; or\n"
+      "         alpha_cmd_deg, d_cmd_mm, alpha_act_deg, d_act_mm: positions, 360 deg at least\n"
+      "  pin, main   angle_deg, deviation_um: one turn, steps of at most 1 deg\n"
+      "Quantities of a mapping: c, c_error, x_error, alpha_cmd, d_cmd, alpha_act, d_act, angle,\n"
+      "deviation, main_angle, main_deviation. Units: deg, mdeg, arcsec, rad, mrad; mm, um, nm.\n"
+      "As a file: {\"columns\": {\"x_error\": {\"column\": \"X_FOLLOW\", \"unit\": \"um\", "
+      "\"sign\": "
+      "-1}}}\n"
+      "\nExample:\n"
+      "  rondure fit contour --axes tests/data/spec_contour/axes1.csv --pin "
+      "tests/data/spec_contour/pin1.csv --prefiltered\n"
+      "  rondure fit contour --axes a1.csv,a2.csv,a3.csv,a4.csv --pin p1.csv,p2.csv,p3.csv,p4.csv\n"
+      "      --column c_error=C_FOLLOW:mdeg:-1 --column x_error=X_FOLLOW:um:-1 "
+      "--phase-offset-deg 12.5\n"
+      "Method, columns, keys of the JSON: docs/contour.md");
+}
+
+void add_wheel(CLI::App& fit_verb, WheelArguments& arguments) {
+  auto* verb = fit_verb.add_subcommand(
+      "wheel", "Centre, radius and run-out of a grinding wheel; path of its centre over a surface");
+  verb->add_option("FILE", arguments.file, "CSV with the columns x,z or x,y (mm), 8 points or more")
+      ->required();
+  add_measuring(*verb, arguments);
+  add_grinding(*verb, arguments);
+  verb->add_flag("--json", arguments.json, "JSON instead of text, with the whole path");
+  verb->footer(
+      "\nExample: rondure fit wheel tests/data/spec_wheel/example1.csv --mode indexed "
+      "--axis-mm 12.02,-7 \\\n"
+      "           --nominal-radius-mm 50 --surface asphere:R=120,K=-1,A4=2e-8 --range-mm -40,40 "
+      "\\\n"
+      "           --cusp-um 0.1 --path path.csv --gcode path.nc\n"
+      "Method, columns and JSON: docs/wheel.md");
+}
+
+void add_rotary_axes(CLI::App& fit_verb, RotaryAxesArguments& a) {
+  auto* verb = fit_verb.add_subcommand(
+      "rotary-axes", "Six errors of a rotary axis at each angle, from measured balls");
+  verb->add_option("FILE", a.files, "CSV, one or more; a file may hold several axes")->required();
+  verb->add_option("--axis", a.axis,
+                   "Direction of the axis: x, y, z or a,b,c (default: by its name: A or phi_alpha "
+                   "x, B or phi_beta y, C z)")
+      ->type_name("DIRECTION");
+  add_list(*verb, "--origin", a.origin_mm, "mm, a point of the axis (default: 0,0,0)", "X,Y,Z");
+  verb->add_option("--reference-deg", a.reference_deg, "Angle of the reference pose (default: 0)");
+  add_list(*verb, "--range-deg", a.range_deg, "Range of the axis; stations outside are refused",
+           "LO,HI");
+  verb->add_option("--method", a.method,
+                   "exact (default), linear, or as-published: the printed matrices (3 balls)")
+      ->check(CLI::IsMember({"exact", "linear", "as-published"}));
+  verb->add_option("--curve", a.curve,
+                   "Between stations: spline (default), fourier (circle) or polynomial (arc)")
+      ->check(CLI::IsMember({"spline", "fourier", "polynomial"}));
+  add_list(*verb, "--at", a.place_mm, "mm, a place of the part: its point uncertainty is stated",
+           "X,Y,Z");
+  verb->add_flag("--keep-outliers", a.keep_outliers, "No ball is left out");
+  verb->add_flag("--json", a.json, "JSON instead of text");
+  verb->footer(
+      "\nColumns: axis,station_deg,ball,x_mm,y_mm,z_mm,u_um (or ux_um,uy_um,uz_um)[,direction].\n"
+      "Rows of the reference pose have the word reference for their station; measure it at start,\n"
+      "middle and end. direction: + or - where each station is approached from both sides.\n"
+      "\nExample: rondure fit rotary-axes tests/data/spec_rotary/c_axis.csv\n"
+      "How to set up balls, formulas, keys of the JSON: docs/rotary-axes.md");
+}
+
+}  // namespace rondure::app
