@@ -168,35 +168,26 @@ std::string key_numbers(const evaluation::ContourResult& facts) {
   return html + "</dl>";
 }
 
-std::string part_row(const fit::ContourPartResult& part, const std::string& name) {
-  const fit::ContourSeparation& d = part.direct;
-  const auto cell = [](const std::string& text) {
-    return fmt::format(R"(<td class="n">{}</td>)", text);
-  };
+std::string part_table(const evaluation::ContourResult& facts) {
+  TableRows rows;
   const auto square = [](double mm2) {
     return fixed(mm2 / (core::kMicrometre * core::kMicrometre), 4);
   };
-  return fmt::format("<tr><td>{}</td>", isolated(name)) +
-         cell(um(part.pin.contour.peak_to_valley_mm)) + cell(um(part.following.peak_to_valley_mm)) +
-         cell(um(fit::peak_to_valley(d.rest_mm))) + cell(square(d.total_mm2)) +
-         cell(square(d.following_mm2)) + cell(square(d.rest_mm2)) + cell(square(d.cross_mm2)) +
-         "<td>" + (d.enlarges() ? tr("enlarges") : tr("reduces")) + "</td>" +
-         cell(part.indirect ? fixed(part.indirect->correlation, 4) : "–") + "</tr>";
-}
-
-std::string part_table(const evaluation::ContourResult& facts) {
-  std::string rows;
   for (std::size_t i = 0; i < facts.study.parts.size(); ++i) {
-    rows += part_row(facts.study.parts[i], facts.names[i]);
+    const fit::ContourPartResult& part = facts.study.parts[i];
+    const fit::ContourSeparation& d = part.direct;
+    rows.push_back({isolated(facts.names[i]), um(part.pin.contour.peak_to_valley_mm),
+                    um(part.following.peak_to_valley_mm), um(fit::peak_to_valley(d.rest_mm)),
+                    square(d.total_mm2), square(d.following_mm2), square(d.rest_mm2),
+                    square(d.cross_mm2), d.enlarges() ? tr("enlarges") : tr("reduces"),
+                    part.indirect ? fixed(part.indirect->correlation, 4) : "–"});
   }
   return fmt::format(
-      R"(<h3>{}</h3><div class="scroll"><table class="short">{}<thead><tr><th scope="col">{}</th>)"
-      R"(<th scope="col" class="n">t µm</th><th scope="col" class="n">f µm</th><th scope="col" class="n">n µm</th>)"
-      R"(<th scope="col" class="n">{}</th><th scope="col" class="n">f²</th><th scope="col" class="n">n²</th>)"
-      R"(<th scope="col" class="n">2 f n</th><th scope="col">n … t</th><th scope="col" class="n">{}</th></tr></thead><tbody>{}</tbody>)"
-      R"(</table></div><p class="note">{}</p>)",
-      tr("Balance"), spoken_caption(tr("Balance")), tr("Part"), tr("mean t² µm²"),
-      tr("f from main"), rows,
+      R"(<h3>{}</h3>{}<p class="note">{}</p>)", tr("Balance"),
+      scrolling(table("short", "lrrrrrrrlr", spoken_caption(tr("Balance")),
+                      {tr("Part"), "t µm", "f µm", "n µm", tr("mean t² µm²"), "f²", "n²", "2 f n",
+                       "n … t", tr("f from main")},
+                      rows)),
       tr("t, f, n: peak to valley. The squares add up, the cross term included; rms and peak to "
          "valley do not. Last column: correlation of f with what the main journal leaves of t."));
 }

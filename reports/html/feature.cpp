@@ -192,10 +192,6 @@ std::string with_note(const std::string& value, const std::string& note) {
   return note.empty() ? value : value + "<small>" + note + "</small>";
 }
 
-std::string spoken_caption(std::string_view html) {
-  return fmt::format(R"(<caption class="spoken screen-only">{}</caption>)", html);
-}
-
 std::string messages(const evaluation::FeatureResult& feature) {
   std::string html;
   if (feature.failure) {

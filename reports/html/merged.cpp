@@ -15,28 +15,23 @@ using core::fixed;
 
 /// "+1.234 ± 0.100", or a dash where the kinematics are all that is known.
 std::string cell(double value, double u, bool from_kinematics) {
-  if (from_kinematics)
-    return fmt::format(R"(<td class="n">{}</td>)", trf("(kinematics, u {})", fixed(u, 2)));
-  return fmt::format(R"(<td class="n">{}{} ± {}</td>)", value < 0.0 ? "" : "+", fixed(value, 2),
-                     fixed(u, 2));
+  if (from_kinematics) return trf("(kinematics, u {})", fixed(u, 2));
+  return fmt::format("{}{} ± {}", value < 0.0 ? "" : "+", fixed(value, 2), fixed(u, 2));
 }
 
-std::string pose_row(const evaluation::MergedPoses& merged, std::size_t k) {
-  std::string html = fmt::format(
-      R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td>)",
-      k + 1, deg(merged.poses[k].alpha_rad), deg(merged.poses[k].beta_rad), merged.points[k]);
-  if (!merged.solved) return html + "</tr>";
-  if (k == 0) {
-    return html + fmt::format(R"(<td colspan="4">{}</td></tr>)",
-                              tr("the others are told against this one"));
-  }
-  const fit::PoseErrorFound& found = merged.solved->errors[k];
+void add_pose(TableRows& rows, const evaluation::MergedPoses& merged, std::size_t k) {
+  std::vector<std::string> cells = {std::to_string(k + 1), deg(merged.poses[k].alpha_rad),
+                                    deg(merged.poses[k].beta_rad),
+                                    std::to_string(merged.points[k])};
+  if (merged.solved && k == 0) cells.push_back(tr("the others are told against this one"));
   for (const int i : {0, 1, 3, 4}) {
+    if (!merged.solved || k == 0) break;
+    const fit::PoseErrorFound& found = merged.solved->errors[k];
     const double unit = i < 3 ? core::kMicrometre : 1e-6;
-    html += cell(found.error(i) / unit, found.u(i) / unit,
-                 found.from_kinematics[static_cast<std::size_t>(i)]);
+    cells.push_back(cell(found.error(i) / unit, found.u(i) / unit,
+                         found.from_kinematics[static_cast<std::size_t>(i)]));
   }
-  return html + "</tr>";
+  rows.push_back(cells);
 }
 
 }  // namespace
@@ -44,19 +39,15 @@ std::string pose_row(const evaluation::MergedPoses& merged, std::size_t k) {
 std::string merged_section(const evaluation::MergedPoses& merged) {
   std::string html = fmt::format("<h3>{}</h3><p>{}</p>", tr("Several poses, one part"),
                                  trf("{}.", opening_sentence(share_in_words(merged))));
-  html += fmt::format(
-      R"(<div class="scroll"><table class="short">{}<thead><tr><th scope="col" class="n">{}</th><th scope="col" class="n">)"
-      R"(alpha / °</th><th scope="col" class="n">beta / °</th><th scope="col" class="n">{}</th>)",
-      spoken_caption(tr("Several poses, one part")), tr("Pose"), tr("Points"));
+  std::vector<std::string> names = {tr("Pose"), "alpha / °", "beta / °", tr("Points")};
   if (merged.solved) {
-    for (const std::string& title :
-         {tr("Shift x / µm"), tr("Shift y / µm"), tr("Tilt x / µrad"), tr("Tilt y / µrad")}) {
-      html += fmt::format(R"(<th scope="col" class="n">{}</th>)", title);
-    }
+    names.insert(names.end(), {tr("Shift x / µm"), tr("Shift y / µm"), tr("Tilt x / µrad"),
+                               tr("Tilt y / µrad")});
   }
-  html += "</tr></thead><tbody>";
-  for (std::size_t k = 0; k < merged.poses.size(); ++k) html += pose_row(merged, k);
-  html += "</tbody></table></div>";
+  TableRows rows;
+  for (std::size_t k = 0; k < merged.poses.size(); ++k) add_pose(rows, merged, k);
+  html += scrolling(table("short", std::string(names.size(), 'r'),
+                          spoken_caption(tr("Several poses, one part")), names, rows));
   if (!merged.solved) return html;
   html += fmt::format(
       R"(<p class="note">{}</p>)",

@@ -36,28 +36,22 @@ std::string pose_table(const evaluation::FeatureResult& feature) {
   const std::vector<evaluation::PoseValue>& poses = feature.poses;
   if (poses.empty()) return {};
   const std::set<std::size_t> shown = rows_shown(poses);
-  std::string html = fmt::format(
-      R"(<div class="scroll"><table{}>{}<thead><tr><th scope="col" class="n">{}</th><th )"
-      R"(scope="col" class="n">alpha / °</th><th scope="col" class="n">beta / °</th><th scope="col" class="n">f / µm</th>)"
-      R"(<th scope="col">{}</th><th scope="col">{}</th></tr></thead><tbody>)",
-      shown.size() <= 12 ? R"( class="short")" : "", spoken_caption(tr("Search for the pose")),
-      tr("Visit"), tr("Search ended"), tr("Pose"));
+  TableRows rows;
   std::size_t expected = 0;
   for (const std::size_t i : shown) {
     if (i > expected) {
-      html += fmt::format(R"(<tr><td class="n">…</td><td colspan="5">{}</td></tr>)",
-                          trf("{} left out", count(i - expected, "pose", "poses")));
+      rows.push_back({"…", trf("{} left out", count(i - expected, "pose", "poses"))});
     }
     expected = i + 1;
     const evaluation::PoseValue& pose = poses[i];
-    html += fmt::format(R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td )"
-                        R"(class="n">{}</td><td>{}</td><td>{}{}</td></tr>)",
-                        i + 1, deg(pose.pose.alpha_rad), deg(pose.pose.beta_rad),
-                        pose.valid ? f_um(pose.f_mm) : tr("none"), worded(pose.ending),
-                        pose.physical ? tr("physical") : tr("software"),
-                        pose.final_pose ? fmt::format(", <b>{}</b>", tr("final")) : "");
+    rows.push_back({std::to_string(i + 1), deg(pose.pose.alpha_rad), deg(pose.pose.beta_rad),
+                    pose.valid ? f_um(pose.f_mm) : tr("none"), worded(pose.ending),
+                    (pose.physical ? tr("physical") : tr("software")) +
+                        (pose.final_pose ? fmt::format(", <b>{}</b>", tr("final")) : "")});
   }
-  html += "</tbody></table></div>";
+  std::string html = scrolling(table(
+      shown.size() <= 12 ? "short" : "", "rrrrll", spoken_caption(tr("Search for the pose")),
+      {tr("Visit"), "alpha / °", "beta / °", "f / µm", tr("Search ended"), tr("Pose")}, rows));
   if (shown.size() < poses.size()) {
     html += fmt::format(R"(<p class="note">{}</p>)",
                         trf("{} of {} poses were left out here; report.json has all of them.",

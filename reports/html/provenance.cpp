@@ -38,14 +38,6 @@ std::string decision_html(const record::Decision& decision) {
                      english);
 }
 
-std::string decision_row(const record::RunRecord& record, const record::Decision& decision) {
-  const auto index = static_cast<std::size_t>(decision.feature);
-  const bool known = decision.feature >= 0 && index < record.features.size();
-  return fmt::format(
-      R"(<tr><td class="n">{}</td><td>{}</td><td>{}</td></tr>)", fixed(decision.time_s, 1),
-      known ? isolated(record.features[index].id) : tr("run"), decision_html(decision));
-}
-
 std::string qualification_rows(const record::RunRecord& record, const fit::ProbeTip& tip) {
   const record::Artefact& artefact = record.artefact;
   return property(tr("Effective tip radius"),
@@ -99,24 +91,26 @@ std::string probe_section(const record::RunRecord& record,
 
 std::string decisions_section(const record::RunRecord& record) {
   if (record.decisions.empty()) return {};
-  std::string html = fmt::format(
-      R"(<section><h2>{}</h2><table>{}<thead><tr><th scope="col" class="n">{}</th><th scope="col">{}</th><th scope="col">{}</th></tr>)"
-      "</thead><tbody>",
-      tr("Decisions of the program"), spoken_caption(tr("Decisions of the program")),
-      tr("Machine time / s"), tr("Feature"), tr("Decision"));
+  TableRows rows;
   const std::size_t total = record.decisions.size();
   const bool all = total <= kMostDecisions;
   for (std::size_t i = 0; i < total; ++i) {
     if (!all && i == kEndDecisions) {
-      html += fmt::format(R"(<tr><td class="n">…</td><td></td><td>{}</td></tr>)",
-                          trf("{} left out; report.json has all",
-                              count(total - 2 * kEndDecisions, "decision", "decisions")));
+      rows.push_back({"…", "",
+                      trf("{} left out; report.json has all",
+                          count(total - 2 * kEndDecisions, "decision", "decisions"))});
     }
-    if (all || i < kEndDecisions || i + kEndDecisions >= total) {
-      html += decision_row(record, record.decisions[i]);
-    }
+    if (!all && i >= kEndDecisions && i + kEndDecisions < total) continue;
+    const record::Decision& decision = record.decisions[i];
+    const auto feature = static_cast<std::size_t>(decision.feature);
+    const bool known = decision.feature >= 0 && feature < record.features.size();
+    rows.push_back({fixed(decision.time_s, 1),
+                    known ? isolated(record.features[feature].id) : tr("run"),
+                    decision_html(decision)});
   }
-  return html + "</tbody></table></section>";
+  return fmt::format("<section><h2>{}</h2>{}</section>", tr("Decisions of the program"),
+                     table("", "rll", spoken_caption(tr("Decisions of the program")),
+                           {tr("Machine time / s"), tr("Feature"), tr("Decision")}, rows));
 }
 
 std::string provenance_section(const record::RunRecord& record) {

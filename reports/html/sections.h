@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "evaluation/evaluation.h"
 #include "record/run_record.h"
@@ -59,8 +60,21 @@ namespace rondure::reports {
 /// A value with small print below it.
 [[nodiscard]] std::string with_note(const std::string& value, const std::string& note);
 
+/// In a box that scrolls on a narrow screen.
+[[nodiscard]] std::string scrolling(const std::string& html);
+
+using TableRows = std::vector<std::vector<std::string>>;
+/// A table; names and cells are HTML already. Of a row with fewer cells than columns the last one
+/// spans the columns that are left.
+/// @param css_class  May be empty.
+/// @param columns    A letter a column: 'l' text, 'r' numbers, which stand on the right.
+/// @param caption    A <caption>, as spoken_caption() gives it.
+[[nodiscard]] std::string table(std::string_view css_class, std::string_view columns,
+                                std::string_view caption, const std::vector<std::string>& names,
+                                const TableRows& rows);
 /// The name of a table for those who do not see the heading above it; HTML already.
 [[nodiscard]] std::string spoken_caption(std::string_view html);
+
 /// "<div><dt>name</dt><dd>html</dd></div>"; both are HTML already.
 [[nodiscard]] std::string entry(std::string_view name, std::string_view html,
                                 std::string_view css_class = {});

@@ -149,16 +149,6 @@ std::string harmonic_plots(const evaluation::SpindleResult& facts,
                 tr("gain"), gains));
 }
 
-std::string harmonic_row(const fit::RecoveredHarmonic& h) {
-  return fmt::format(
-      R"(<tr><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td><td class="n">{}</td>)"
-      R"(<td class="n">{}</td><td class="n">{}</td></tr>)",
-      h.order, h.recovered ? fixed(h.amplitude_mm / core::kMicrometre, 4) : tr("not recovered"),
-      h.phase_rad ? deg(*h.phase_rad, 2) : "–",
-      h.recovered ? fixed(h.sigma_mm / core::kMicrometre, 4) : "–", fixed(h.gain, 2),
-      h.attenuation < 1.0 ? fixed(h.attenuation, 4) : "–");
-}
-
 /// The ten largest harmonics, and all that were lost.
 std::string harmonic_table(const fit::ThreeProbeResult& s) {
   std::vector<fit::RecoveredHarmonic> shown = s.harmonics;
@@ -166,15 +156,22 @@ std::string harmonic_table(const fit::ThreeProbeResult& s) {
     return a.recovered != b.recovered ? b.recovered : a.amplitude_mm > b.amplitude_mm;
   });
   const std::size_t count = std::min(shown.size(), s.unrecovered.size() + 10);
-  std::string rows;
-  for (std::size_t i = 0; i < count; ++i) rows += harmonic_row(shown[i]);
-  return fmt::format(
-      R"(<div class="scroll"><table class="short">{}<thead><tr><th scope="col" class="n">UPR</th><th scope="col" class="n">)"
-      R"({}</th><th scope="col" class="n">{}</th><th scope="col" class="n">u µm</th><th scope="col" class="n">{}</th>)"
-      R"(<th scope="col" class="n">{}</th></tr></thead><tbody>{}</tbody></table></div><p class="note">{}</p>)",
-      spoken_caption(tr("Harmonics of the part")), tr("Amplitude µm"), tr("Phase °"), tr("Gain"),
-      tr("Attenuation"), rows,
-      tr("The ten largest, and those not recovered; all are in report.json."));
+  TableRows rows;
+  for (std::size_t i = 0; i < count; ++i) {
+    const fit::RecoveredHarmonic& h = shown[i];
+    rows.push_back(
+        {std::to_string(h.order),
+         h.recovered ? fixed(h.amplitude_mm / core::kMicrometre, 4) : tr("not recovered"),
+         h.phase_rad ? deg(*h.phase_rad, 2) : "–",
+         h.recovered ? fixed(h.sigma_mm / core::kMicrometre, 4) : "–", fixed(h.gain, 2),
+         h.attenuation < 1.0 ? fixed(h.attenuation, 4) : "–"});
+  }
+  return scrolling(table(
+             "short", "rrrrrr", spoken_caption(tr("Harmonics of the part")),
+             {"UPR", tr("Amplitude µm"), tr("Phase °"), "u µm", tr("Gain"), tr("Attenuation")},
+             rows)) +
+         fmt::format(R"(<p class="note">{}</p>)",
+                     tr("The ten largest, and those not recovered; all are in report.json."));
 }
 
 }  // namespace

@@ -89,20 +89,17 @@ std::string finding_entry(const evaluation::UncertaintyResult& u) {
 }
 
 std::string declaration(const std::vector<evaluation::InfluenceStatement>& influences) {
-  std::string rows;
+  TableRows rows;
   for (const bool covered : {true, false}) {
     for (const evaluation::InfluenceStatement& influence : influences) {
       if (influence.covered != covered) continue;
-      rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>", worded(influence.name),
-                          covered ? tr("covered") : fmt::format("<b>{}</b>", tr("not covered")),
-                          in_sentence(influence.text));
+      rows.push_back({worded(influence.name),
+                      covered ? tr("covered") : fmt::format("<b>{}</b>", tr("not covered")),
+                      in_sentence(influence.text)});
     }
   }
-  return fmt::format(
-      R"(<table class="short">{}<thead><tr><th scope="col">{}</th><th scope="col">{}</th><th scope="col">{}</th></tr>)"
-      "</thead><tbody>{}</tbody></table>",
-      spoken_caption(tr("Influence")), tr("Influence"), tr("In the interval"), tr("As declared"),
-      rows);
+  return table("short", "lll", spoken_caption(tr("Influence")),
+               {tr("Influence"), tr("In the interval"), tr("As declared")}, rows);
 }
 
 std::string value_part(const evaluation::CharacteristicResult& result) {
