@@ -3,8 +3,6 @@
 #include <string>
 #include <string_view>
 
-// Private to the room: the page itself, which fetches its parts (live_frame.h).
-
 namespace rondure::web {
 
 /// The page. Without control it has no button at all.

@@ -109,7 +109,7 @@ std::string write_html(const record::RunRecord& record, const evaluation::Evalua
       "<title>{} {} - {}</title>\n{}\n</head>\n<body>\n{}\n<main id=\"main\">\n{}\n",
       tag_of(language), policy(), escaped(printable(record.header.part_id)),
       escaped(printable(record.header.serial)), tr(name_of(evaluation.verdict)), style(),
-      top_of(parts), head_section(record));
+      top_of(parts), head_section(record, tr("cylindricity report")));
   constexpr std::string_view kTag = "<section";
   for (const PagePart& part : parts) {
     html += fmt::format("{} id=\"{}\"{}\n", kTag, part.id, part.html.substr(kTag.size()));

@@ -19,7 +19,8 @@ struct WheelResult;
 namespace rondure::reports {
 
 /// The parts of the page, in their order.
-[[nodiscard]] std::string head_section(const record::RunRecord& record);
+/// @param kind  What page this is, beside the name of the program.
+[[nodiscard]] std::string head_section(const record::RunRecord& record, const std::string& kind);
 [[nodiscard]] std::string verdict_section(const record::RunRecord& record,
                                           const evaluation::Evaluation& evaluation);
 [[nodiscard]] std::string feature_section(const record::RunRecord& record, std::size_t index,

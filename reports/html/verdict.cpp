@@ -179,11 +179,11 @@ std::string fact(std::string_view name, const std::string& text) {
   return text.empty() ? std::string() : entry(name, isolated(text));
 }
 
-std::string head_section(const record::RunRecord& record) {
+std::string head_section(const record::RunRecord& record, const std::string& kind) {
   const record::Header& header = record.header;
   std::string html = fmt::format(
-      R"(<header><div class="brand"><span><b>RONDURE</b> {}</span><span>{}</span></div>)",
-      tr("cylindricity report"), isolated(header.started_utc));
+      R"(<header><div class="brand"><span><b>RONDURE</b> {}</span><span>{}</span></div>)", kind,
+      isolated(header.started_utc));
   html += fmt::format("<h1>{}", isolated(header.part_id));
   if (!header.part_name.empty()) html += fmt::format(" {}", isolated(header.part_name));
   html += R"(</h1><dl class="facts">)";

@@ -6,8 +6,6 @@
 #include "evaluation/evaluation.h"
 #include "record/run_record.h"
 
-// Private to the room: a cloud while it is being touched.
-
 namespace rondure::web {
 
 /// A cloud of more touches than this is looked at through every k-th point of its layers.

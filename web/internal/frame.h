@@ -14,8 +14,6 @@
 #include "reports/words/language.h"
 #include "web/time.h"
 
-// Private to the room: what a live page shows, as HTML by part.
-
 namespace rondure::web {
 
 /// One part of the page: the element with this id holds this HTML.

@@ -5,8 +5,6 @@
 #include <string>
 #include <string_view>
 
-// Private to the room: who may look at a live page, and who may stop the run.
-
 namespace rondure::web {
 
 /// What guards the page of one run.

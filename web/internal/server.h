@@ -10,8 +10,6 @@
 #include "core/result.h"
 #include "web/internal/guard.h"
 
-// Private to the room: HTTP on this computer only.
-
 namespace rondure::web {
 
 /// What the server hands out and takes. Called from its threads.

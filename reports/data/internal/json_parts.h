@@ -8,8 +8,6 @@
 #include "core/units.h"
 #include "evaluation/evaluation.h"
 
-// Private to the room: what report.json spells alike everywhere.
-
 namespace rondure::evaluation {
 struct RotaryResult;
 }  // namespace rondure::evaluation

@@ -12,8 +12,6 @@
 
 #include "evaluation/evaluation.h"
 
-// Private to the room: what the parts of a QIF document share.
-
 namespace rondure::reports {
 
 /// A new last child. Text passes clean(): XML 1.0 forbids most control characters even as entities,
