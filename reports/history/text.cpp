@@ -40,22 +40,6 @@ std::string minute_of(const std::string& utc) {
   return out;
 }
 
-std::string broken_lines(std::string_view text, std::string_view head) {
-  std::string out;
-  std::string line(head);
-  for (std::string_view rest = text; !rest.empty();) {
-    const std::size_t end = std::min(rest.find(' '), rest.size());
-    const std::string word = shortened(rest.substr(0, end), kTerminalColumns - columns(head) - 1);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (columns(line) + 1 + columns(word) > kTerminalColumns) {
-      out += line + "\n";
-      line = std::string(head.size(), ' ');
-    }
-    line += fmt::format("{}{}", line.size() == head.size() ? "" : " ", word);
-  }
-  return out + line + "\n";
-}
-
 /// The drawing as rows of characters, the first row on top.
 class TextCanvas {
  public:
@@ -127,15 +111,13 @@ void draw_results(TextCanvas& canvas, const RunChart& chart, const std::vector<d
 
 std::string head_of(const RunChart& chart) {
   const record::ArchivedResult& r = chart.results.back();
-  return broken_lines(fmt::format("{} {} of {} / {}, part {}", r.result.symbol, r.result.reference,
-                                  shortened(printable(r.result.feature), 60),
-                                  shortened(printable(r.result.characteristic), 60),
-                                  shortened(printable(r.head.part_id), 60)),
-                      "") +
-         broken_lines(fmt::format("{}; {}; {}", printable(r.result.filter),
-                                  shortened(printable(r.result.sampling), 60),
-                                  count(chart.results.size(), "result", "results")),
-                      "") +
+  return wrapped("", fmt::format("{} {} of {} / {}, part {}", r.result.symbol, r.result.reference,
+                                 shortened(printable(r.result.feature), 60),
+                                 shortened(printable(r.result.characteristic), 60),
+                                 shortened(printable(r.head.part_id), 60))) +
+         wrapped("", fmt::format("{}; {}; {}", printable(r.result.filter),
+                                 shortened(printable(r.result.sampling), 60),
+                                 count(chart.results.size(), "result", "results"))) +
          "\n";
 }
 
@@ -174,13 +156,12 @@ std::string history_chart(const RunChart& chart, bool coloured) {
   const ChartRange range = range_of(chart);
   TextCanvas canvas(range.low_mm / core::kMicrometre, range.high_mm / core::kMicrometre);
   if (chart.limits) {
-    const auto label = [](double mm) { return um(mm); };
     canvas.line(chart.limits->lower_mm / core::kMicrometre, '-',
-                fmt::format("LCL {}", label(chart.limits->lower_mm)));
+                fmt::format("LCL {}", um(chart.limits->lower_mm)));
     canvas.line(chart.limits->center_mm / core::kMicrometre, '.',
-                fmt::format("CL {}", label(chart.limits->center_mm)));
+                fmt::format("CL {}", um(chart.limits->center_mm)));
     canvas.line(chart.limits->upper_mm / core::kMicrometre, '-',
-                fmt::format("UCL {}", label(chart.limits->upper_mm)));
+                fmt::format("UCL {}", um(chart.limits->upper_mm)));
   }
   if (chart.upper_limit_mm) {
     canvas.line(*chart.upper_limit_mm / core::kMicrometre, '=',
@@ -189,17 +170,17 @@ std::string history_chart(const RunChart& chart, bool coloured) {
   draw_results(canvas, chart, values_mm);
   std::string out = head_of(chart) + canvas.text(coloured) + legend_of(chart);
   if (chart.limits) {
-    out += broken_lines(
-        "UCL, CL, LCL: control limits and centre of individuals (I-MR chart of ln x); U: tolerance",
-        "");
+    out += wrapped("",
+                   "UCL, CL, LCL: control limits and centre of individuals (I-MR chart of ln x); "
+                   "U: tolerance");
   }
   if (chart.upper_limit_mm && !range.limit_shown) {
     out += fmt::format("the tolerance, {} um, is above the chart\n", um(*chart.upper_limit_mm));
   }
   if (const std::string words = capability_in_words(chart); !words.empty()) {
-    out.append("\n").append(broken_lines(words, ""));
+    out.append("\n").append(wrapped("", words));
   }
-  for (const std::string& note : chart.notes) out += broken_lines(note, "note: ");
+  for (const std::string& note : chart.notes) out += wrapped("note: ", note);
   return out;
 }
 

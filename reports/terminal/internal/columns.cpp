@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/utf8.h"
 
@@ -33,22 +34,12 @@ bool opens(std::string_view letter) {
   return kMarks.find(letter) != std::string_view::npos;
 }
 
-}  // namespace
-
-std::size_t columns(std::string_view text) {
-  std::size_t sum = 0;
-  while (!text.empty()) {
-    const core::Utf8Character c = core::next_character(text);
-    sum += is_wide(c.code) ? 2 : 1;
-    text.remove_prefix(c.bytes);
-  }
-  return sum;
-}
-
-std::string padded(std::string_view text, std::size_t width) {
-  const std::size_t taken = columns(text);
-  return std::string(text) + std::string(taken < width ? width - taken : 0, ' ');
-}
+/// What a line may not be broken within: a word, or a wide character with the punctuation that
+/// belongs to it.
+struct LinePiece {
+  std::string text;
+  bool after_space = false;  ///< A space, or several, stood before it.
+};
 
 std::vector<LinePiece> line_pieces(std::string_view text) {
   std::vector<LinePiece> out;
@@ -78,6 +69,23 @@ std::vector<LinePiece> line_pieces(std::string_view text) {
   return out;
 }
 
+}  // namespace
+
+std::size_t columns(std::string_view text) {
+  std::size_t sum = 0;
+  while (!text.empty()) {
+    const core::Utf8Character c = core::next_character(text);
+    sum += is_wide(c.code) ? 2 : 1;
+    text.remove_prefix(c.bytes);
+  }
+  return sum;
+}
+
+std::string padded(std::string_view text, std::size_t width) {
+  const std::size_t taken = columns(text);
+  return std::string(text) + std::string(taken < width ? width - taken : 0, ' ');
+}
+
 std::string shortened(std::string_view text, std::size_t limit) {
   if (columns(text) <= limit) return std::string(text);
   std::string result;
@@ -90,6 +98,25 @@ std::string shortened(std::string_view text, std::size_t limit) {
     text.remove_prefix(c.bytes);
   }
   return result + "...";
+}
+
+std::string wrapped(std::string_view head, std::string_view text) {
+  const std::size_t indent = columns(head);
+  std::string out;
+  std::string line(head);
+  bool fresh = true;
+  for (const LinePiece& piece : line_pieces(core::printable(text))) {
+    const std::string word = shortened(piece.text, kTerminalColumns - indent);
+    const std::size_t space = piece.after_space && !fresh ? 1 : 0;
+    if (!fresh && columns(line) + space + columns(word) > kTerminalColumns) {
+      out += line + "\n";
+      line = std::string(indent, ' ');
+      fresh = true;
+    }
+    line += (piece.after_space && !fresh ? " " : "") + word;
+    fresh = false;
+  }
+  return out + line + "\n";
 }
 
 }  // namespace rondure::reports
