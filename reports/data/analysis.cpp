@@ -52,7 +52,7 @@ Json analysis_json(const evaluation::FeatureResult& feature) {
   json[std::string(record::name_of(asked.shape))] =
       feature.analysis ? result_json(*feature.analysis) : Json(nullptr);
   json["warnings"] = list_json(feature.warnings, error_json);
-  json["failure"] = feature.failure ? error_json(*feature.failure) : Json(nullptr);
+  json["failure"] = optional_json(feature.failure);
   return json;
 }
 
