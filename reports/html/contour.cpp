@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -89,10 +88,8 @@ std::string separation_plots(const evaluation::ContourResult& facts,
     curves.push_back(
         curve_of(tr("n, not following"), "zone-inner", part.direct.rest_mm, core::kMicrometre));
     add_truth(record, feature, i, curves);
-    html += R"(<div class="scroll">)" +
-            line_chart(trf("Part {}", facts.names[i]), tr(kBetaTitle), tr("contour error / µm"),
-                       curves) +
-            "</div>";
+    html += scrolling(line_chart(trf("Part {}", facts.names[i]), tr(kBetaTitle),
+                                 tr("contour error / µm"), curves));
   }
   return html;
 }
@@ -130,16 +127,10 @@ std::string harmonic_plot(const evaluation::ContourResult& facts,
   for (const fit::Harmonic& h : fit::contour_harmonics(curve, 50)) {
     bars.push_back({h.number, h.amplitude_mm / core::kMicrometre});
   }
-  std::vector<BarLimit> limits;
-  for (const record::Characteristic& characteristic : asked) {
-    for (const record::HarmonicLimit& line : characteristic.harmonic_limits) {
-      limits.push_back({line.first, line.last, line.amplitude_mm / core::kMicrometre});
-    }
-  }
   return fmt::format(
       R"(<h3>{}</h3><div class="scroll">{}</div>)", tr("Harmonics"),
       bar_chart(several ? tr("Mean contour t of all parts") : tr("Contour t"),
-                tr("undulations per revolution"), tr("amplitude / µm"), bars, limits));
+                tr("undulations per revolution"), tr("amplitude / µm"), bars, limits_of(asked)));
 }
 
 std::string key_numbers(const evaluation::ContourResult& facts) {
@@ -202,8 +193,8 @@ std::string verdict_list(const evaluation::ContourResult& facts) {
 
 }  // namespace
 
-std::string contour_part(const evaluation::ContourResult& facts, const record::RunRecord& record,
-                         int feature) {
+std::string analysis_part(const evaluation::ContourResult& facts, const record::RunRecord& record,
+                          int feature) {
   const auto& asked = record.features[static_cast<std::size_t>(feature)].characteristics;
   return key_numbers(facts) + verdict_list(facts) + part_table(facts) + comparison_plots(facts) +
          separation_plots(facts, record, feature) + harmonic_plot(facts, asked);

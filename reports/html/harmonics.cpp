@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -7,7 +6,6 @@
 #include "evaluation/harmonic_mask.h"
 #include "reports/escaping.h"
 #include "reports/html/internal/plot_curve.h"
-#include "reports/html/plots.h"
 #include "reports/html/sections.h"
 #include "reports/words/language.h"
 
@@ -27,8 +25,7 @@ std::string against_limits(const evaluation::FeatureResult& feature,
                     um(masked.limit_mm), um(masked.harmonic.amplitude_mm - masked.limit_mm)});
   }
   if (rows.empty()) {
-    return fmt::format(R"(<p class="note">{}</p>)",
-                       trf("No harmonic goes beyond the limits of {}.", isolated(asked.id)));
+    return note(trf("No harmonic goes beyond the limits of {}.", isolated(asked.id)));
   }
   return table("short", "rrrrr",
                fmt::format("<caption>{}</caption>",
@@ -46,12 +43,9 @@ std::string harmonics_section(const evaluation::FeatureResult& feature) {
     bars.push_back({harmonic.number, harmonic.amplitude_mm / core::kMicrometre});
   }
   if (bars.empty()) return {};
-  std::vector<BarLimit> limits;
+  const std::vector<BarLimit> limits = limits_of(feature.feature.characteristics);
   std::string words;
   for (const record::Characteristic& asked : feature.feature.characteristics) {
-    for (const record::HarmonicLimit& line : asked.harmonic_limits) {
-      limits.push_back({line.first, line.last, line.amplitude_mm / core::kMicrometre});
-    }
     if (!asked.harmonic_limits.empty()) words += against_limits(feature, asked);
   }
   const std::string note =

@@ -49,8 +49,7 @@ std::string merged_section(const evaluation::MergedPoses& merged) {
   html += scrolling(table("short", std::string(names.size(), 'r'),
                           spoken_caption(tr("Several poses, one part")), names, rows));
   if (!merged.solved) return html;
-  html += fmt::format(
-      R"(<p class="note">{}</p>)",
+  html += note(
       trf("Errors of the poses against the first, at the middle of the part, ± standard "
           "uncertainty; z along its axis. {} touched in several poses. Their size against what the "
           "kinematics state: chi² {} of {} degrees of freedom, limit {}.",

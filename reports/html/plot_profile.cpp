@@ -65,17 +65,11 @@ std::string section_profile(const evaluation::FeatureResult& feature,
   Svg svg(kProfileWidth, kProfileHeight, "wide", tr("Deviation against the angle"));
   draw_axes(svg, x, y, half_zone_um);
   svg.path(profile_path(section, x, y), section.rows.size() <= 40 ? "guide" : "profile");
+  const double size = !has_marks(section) ? 0.0 : section.rows.size() <= 60 ? 3.0 : 1.5;
   for (const std::size_t row : section.rows) {
     const evaluation::CloudPoint& point = feature.cloud[row];
-    const double px = x.at(point.angle_rad / core::kDegree);
-    const double py = y.at(point.deviation_mm / core::kMicrometre);
-    if (point.outer_contact) {
-      svg.triangle(px, py, 5.5, "outer");
-    } else if (point.inner_contact) {
-      svg.square(px, py, 5.0, "inner");
-    } else if (has_marks(section)) {
-      svg.circle(px, py, section.rows.size() <= 60 ? 3.0 : 1.5, "point");
-    }
+    draw_section_point(svg, x.at(point.angle_rad / core::kDegree),
+                       y.at(point.deviation_mm / core::kMicrometre), point, size);
   }
   return fmt::format(
       R"(<h3>{}</h3><figure><div class="scroll">{}</div><figcaption>{}</figcaption></figure>)",

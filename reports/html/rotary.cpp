@@ -157,14 +157,13 @@ std::string key_numbers(const evaluation::RotaryResult& facts) {
 
 }  // namespace
 
-std::string rotary_part(const evaluation::RotaryResult& facts, const record::RunRecord& record,
-                        int feature) {
+std::string analysis_part(const evaluation::RotaryResult& facts, const record::RunRecord& record,
+                          int feature) {
   std::string html = key_numbers(facts);
   html += fmt::format("<h3>{}</h3>{}", tr("Combined poses"), combined_table(facts));
   html += fmt::format("<h3>{}</h3>{}", tr("Location and orientation of the axes"),
                       location_table(facts));
-  html += fmt::format(
-      R"(<p class="note">{}</p>)",
+  html += note(
       tr("Displacement d and tilt e of the real axis against the stated one, ± 2 u, as far as an "
          "axis beside its place explains the errors below. Compensation uses the whole errors."));
   const std::vector<evaluation::AxisFacts> axes = axes_of(facts);
@@ -175,10 +174,8 @@ std::string rotary_part(const evaluation::RotaryResult& facts, const record::Run
     html += axis_charts(axis, record.truth_series_of(feature, axis.key));
   }
   return html +
-         fmt::format(
-             R"(<p class="note">{}</p>)",
-             tr("Errors relative to the zero pose, at the axis. A dashed line, where there "
-                "is one, is the hidden truth of the simulation: evaluation never reads it."));
+         note(tr("Errors relative to the zero pose, at the axis. A dashed line, where there "
+                 "is one, is the hidden truth of the simulation: evaluation never reads it."));
 }
 
 }  // namespace rondure::reports

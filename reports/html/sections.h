@@ -25,17 +25,16 @@ namespace rondure::reports {
                                           const evaluation::Evaluation& evaluation);
 [[nodiscard]] std::string feature_section(const record::RunRecord& record, std::size_t index,
                                           const evaluation::FeatureResult& feature);
-/// The section of a feature whose shape is an analysis.
-[[nodiscard]] std::string analysis_section(const record::RunRecord& record, std::size_t index,
-                                           const evaluation::FeatureResult& feature);
-/// Its body: key numbers, drawings, tables. `record` for the hidden truth of a simulation.
-[[nodiscard]] std::string spindle_part(const evaluation::SpindleResult& facts,
-                                       const record::RunRecord& record, int feature);
-[[nodiscard]] std::string wheel_part(const evaluation::WheelResult& facts);
-[[nodiscard]] std::string contour_part(const evaluation::ContourResult& facts,
-                                       const record::RunRecord& record, int feature);
-[[nodiscard]] std::string rotary_part(const evaluation::RotaryResult& facts,
-                                      const record::RunRecord& record, int feature);
+/// The body of a feature whose shape is an analysis: key numbers, drawings, tables. `record` for
+/// the hidden truth of a simulation.
+[[nodiscard]] std::string analysis_part(const evaluation::SpindleResult& facts,
+                                        const record::RunRecord& record, int feature);
+[[nodiscard]] std::string analysis_part(const evaluation::WheelResult& facts,
+                                        const record::RunRecord& record, int feature);
+[[nodiscard]] std::string analysis_part(const evaluation::ContourResult& facts,
+                                        const record::RunRecord& record, int feature);
+[[nodiscard]] std::string analysis_part(const evaluation::RotaryResult& facts,
+                                        const record::RunRecord& record, int feature);
 /// The rule behind the verdicts, in words, with its statements.
 [[nodiscard]] std::string rule_section(const evaluation::Evaluation& evaluation);
 /// Intervals, bias, budget and declaration of the values of a feature; empty without any.
@@ -61,6 +60,8 @@ namespace rondure::reports {
 /// A value with small print below it.
 [[nodiscard]] std::string with_note(const std::string& value, const std::string& note);
 
+/// A paragraph in small print; HTML already.
+[[nodiscard]] std::string note(const std::string& html);
 /// In a box that scrolls on a narrow screen.
 [[nodiscard]] std::string scrolling(const std::string& html);
 

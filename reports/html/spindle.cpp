@@ -134,17 +134,12 @@ std::string harmonic_plots(const evaluation::SpindleResult& facts,
     amplitudes.push_back({h.order, h.amplitude_mm / core::kMicrometre, !h.recovered});
     gains.push_back({h.order, h.recovered ? h.gain : 0.0, !h.recovered});
   }
-  std::vector<BarLimit> limits;
-  for (const record::Characteristic& characteristic : asked) {
-    for (const record::HarmonicLimit& line : characteristic.harmonic_limits)
-      limits.push_back({line.first, line.last, line.amplitude_mm / core::kMicrometre});
-  }
   const std::string orders = tr("undulations per revolution");
   return fmt::format(
       R"(<h3>{}</h3><div class="scroll">{}{}</div>)", tr("Harmonics of the part"),
       bar_chart(tr("Amplitudes before the filter; lines: limits of the mask; crosses: not "
                    "recovered"),
-                orders, tr("amplitude in µm"), amplitudes, limits),
+                orders, tr("amplitude in µm"), amplitudes, limits_of(asked)),
       bar_chart(tr("Noise gain: how much the separation amplifies the noise of a probe"), orders,
                 tr("gain"), gains));
 }
@@ -170,14 +165,13 @@ std::string harmonic_table(const fit::ThreeProbeResult& s) {
              "short", "rrrrrr", spoken_caption(tr("Harmonics of the part")),
              {"UPR", tr("Amplitude µm"), tr("Phase °"), "u µm", tr("Gain"), tr("Attenuation")},
              rows)) +
-         fmt::format(R"(<p class="note">{}</p>)",
-                     tr("The ten largest, and those not recovered; all are in report.json."));
+         note(tr("The ten largest, and those not recovered; all are in report.json."));
 }
 
 }  // namespace
 
-std::string spindle_part(const evaluation::SpindleResult& facts, const record::RunRecord& record,
-                         int feature) {
+std::string analysis_part(const evaluation::SpindleResult& facts, const record::RunRecord& record,
+                          int feature) {
   const fit::ThreeProbeResult& s = facts.separation;
   const record::Series* truth = record.truth_series_of(feature, "truth");
   std::string html = key_numbers(facts);

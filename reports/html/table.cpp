@@ -4,6 +4,8 @@
 
 namespace rondure::reports {
 
+std::string note(const std::string& html) { return R"(<p class="note">)" + html + "</p>"; }
+
 std::string scrolling(const std::string& html) {
   return R"(<div class="scroll">)" + html + "</div>";
 }

@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -135,7 +134,7 @@ std::string rule_section(const evaluation::Evaluation& evaluation) {
       in_sentence(rule_sentence(evaluation),
                   evaluation.rule ? std::string_view() : evaluation.rule.error().what);
   if (!evaluation.rule || !evaluation.rule->needs_interval()) {
-    return fmt::format(R"(<p class="note">{}</p>)", trf("Decision rule: {}.", sentence));
+    return note(trf("Decision rule: {}.", sentence));
   }
   return fmt::format(R"(<div class="rule"><b>{}</b> {}<div class="note">{}</div>{}</div>)",
                      tr("Decision rule."), trf("{}.", sentence), tr(kFormulaLetters),

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "core/units.h"
 #include "evaluation/feature_values.h"
 #include "reports/escaping.h"
 #include "reports/html/plots.h"

@@ -92,8 +92,7 @@ std::string path_text(const fit::WheelPath& path, fit::RadiusChoice choice) {
             fixed(path.load.load, 4), fixed(path.load.x_mm, 3),
             fixed(path.load.concave_radius_mm(path.radius_mm), 3));
   }
-  return fmt::format(
-      R"(<p class="note">{}</p>)",
+  return note(
       trf("{} places for the {} radius {} mm, {} mm apart in x; cusps up to {} µm between passes. "
           "{} The wheel was looked for inside the surface at every place: nowhere.",
           path.rows.size(), tr(fit::name_of(choice)), fixed(path.radius_mm, 6),
@@ -141,10 +140,8 @@ std::string load_chart(const fit::WheelPath& path, double limit) {
     load.y.push_back(row.load);
   }
   Curve line{tr("limit"), "zone-outer", {load.x.front(), load.x.back()}, {limit, limit}};
-  return R"(<div class="scroll">)" +
-         line_chart(tr("Wheel radius over concave radius of curvature"), "x / mm", "R k_s",
-                    {load, line}) +
-         "</div>";
+  return scrolling(line_chart(tr("Wheel radius over concave radius of curvature"), "x / mm",
+                              "R k_s", {load, line}));
 }
 
 std::string path_part(const evaluation::WheelResult& facts) {
@@ -157,8 +154,7 @@ std::string path_part(const evaluation::WheelResult& facts) {
   }
   html += path_text(*e.path, e.radius);
   if (e.radius == fit::RadiusChoice::kMean && e.wheel.runout) {
-    html += fmt::format(
-        R"(<p class="note">{}</p>)",
+    html += note(
         trf("The path is for the mean radius: the farthest point from the axis cuts {} µm deeper.",
             (e.wheel.runout->bound_because.empty() ? "" : "≥ ") +
                 um(e.wheel.runout->effective_radius_mm - e.wheel.radius_mm)));
@@ -169,7 +165,8 @@ std::string path_part(const evaluation::WheelResult& facts) {
 
 }  // namespace
 
-std::string wheel_part(const evaluation::WheelResult& facts) {
+std::string analysis_part(const evaluation::WheelResult& facts, const record::RunRecord& /*record*/,
+                          int /*feature*/) {
   const fit::WheelMeasurement& m = facts.evaluation.wheel;
   return R"(<dl class="keys">)" + radius_entries(facts) + runout_entry(m) + center_entries(m) +
          fmt::format(R"(</dl><h3>{}</h3><div class="multiples single">)", tr("Edge of the wheel")) +

@@ -1,22 +1,17 @@
 #include "reports/terminal/factors.h"
 
-#include <algorithm>
 #include <iterator>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/numbers.h"
-#include "core/utf8.h"
 #include "reports/terminal/internal/columns.h"
 #include "reports/words/language.h"
 
 namespace rondure::reports {
 namespace {
 
-using core::printable;
 using core::signed_um;
 using core::um;
 

@@ -21,6 +21,7 @@ using core::fixed;
 using core::um;
 using reports::entry;
 using reports::isolated;
+using reports::note;
 using reports::tr;
 using reports::trf;
 using reports::with_note;
@@ -138,18 +139,17 @@ std::string live_numbers(const record::RunRecord& record, const LiveNow& now) {
 
 std::string live_drawings(const core::Result<LiveCloud>& cloud) {
   if (!cloud) {
-    return fmt::format(R"(<p class="note">{}</p>)",
-                       tr("The drawings begin when the touches of this pose define the feature."));
+    return note(tr("The drawings begin when the touches of this pose define the feature."));
   }
   const auto zone = zone_of(cloud->result);
   if (!zone) return {};
   std::string html = fmt::format("<h2>{}</h2>", tr("The present cloud"));
   html += reports::polar_plots(cloud->result, *zone) + reports::deviation_map(cloud->result, *zone);
   if (cloud->every > 1) {
-    html += fmt::format(R"(<p class="note">{}</p>)",
-                        trf("Every {}th point is drawn while the run is at work; the report "
-                            "has all of them.",
-                            cloud->every));
+    html +=
+        note(trf("Every {}th point is drawn while the run is at work; the report "
+                 "has all of them.",
+                 cloud->every));
   }
   return html;
 }
@@ -183,8 +183,7 @@ std::string live_over(const record::RunRecord& record, std::string_view report) 
     html += fmt::format(R"(<p>{} <span class="mono">{}</span></p>)", tr("The report is in"),
                         isolated(report));
   }
-  return html + fmt::format(R"(<p class="note">{}</p>)",
-                            tr("The program has ended; this page stays as it is."));
+  return html + note(tr("The program has ended; this page stays as it is."));
 }
 
 }  // namespace rondure::web

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "evaluation/evaluation.h"
 #include "reports/drawings/internal/svg.h"
 
 namespace rondure::reports {
@@ -26,6 +27,11 @@ struct PolarAxes {
   double above = 0.0;          ///< Label of 90 deg.
 };
 void draw_polar_axes(Svg& svg, const PolarAxes& axes);
+
+/// A point of a section: a triangle or a square where it touches the zone, else a disc of that
+/// radius; 0: none.
+void draw_section_point(Svg& svg, double x, double y, const evaluation::CloudPoint& point,
+                        double radius);
 
 /// The colours of deviations beside a drawing, from minus to plus half the zone, with their values
 /// in um; 60 px wide.
