@@ -1,9 +1,12 @@
 #include "reports/verify/verify.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
+#include "core/numbers.h"
 #include "core/utf8.h"
 #include "core/version.h"
 #include "evaluation/evaluation.h"
@@ -17,7 +20,6 @@
 #include "reports/verify/internal/compare_text.h"
 #include "reports/verify/internal/compare_values.h"
 #include "reports/verify/internal/files.h"
-#include "reports/verify/internal/results.h"
 #include "reports/verify/stored_results.h"
 
 namespace rondure::reports {
@@ -27,6 +29,69 @@ using core::printable;
 
 namespace fs = std::filesystem;
 using State = ListedFiles::State;
+
+/// How exactly this program can repeat what the run's program computed.
+struct Exactness {
+  bool same_processor = true;
+  bool same_version = true;
+
+  /// Numbers of another kind of processor or of another version may differ by this: mm, um, deg
+  /// alike.
+  [[nodiscard]] double tolerance() const { return same_processor && same_version ? 0.0 : 1e-9; }
+};
+
+/// One result by its name: as stored, and as the touches give it now.
+struct Pair {
+  std::optional<double> stored;
+  std::optional<double> now;
+};
+
+/// What is wrong with one result, or nothing.
+std::optional<std::string> compare_result(const std::string& name, const Pair& pair,
+                                          const Exactness& exactness) {
+  if (!pair.stored || !pair.now) {
+    if (!exactness.same_version) return std::nullopt;
+    return pair.now ? fmt::format("result {} is not stored; the touches give {}", name,
+                                  core::shortest(*pair.now))
+                    : fmt::format("stored result {} = {} has no counterpart", name,
+                                  core::shortest(*pair.stored));
+  }
+  if (*pair.stored == *pair.now || std::abs(*pair.stored - *pair.now) <= exactness.tolerance()) {
+    return std::nullopt;
+  }
+  return fmt::format("result {} no longer follows: stored {}, the touches give {}", name,
+                     core::shortest(*pair.stored), core::shortest(*pair.now));
+}
+
+/// Compares the results that a run stored with those that its touches give now, by name. A result
+/// of one side only is a difference unless another version measured: versions may give more or
+/// fewer numbers. Adds the first difference, and how many others there are.
+/// @return How many were compared: stored and computed now.
+std::size_t compare_results(const std::vector<record::StoredResult>& stored,
+                            const std::vector<record::StoredResult>& now,
+                            const Exactness& exactness, Verification& out) {
+  std::map<std::string, Pair> pairs;
+  std::vector<std::string> order;  // of the report, so that the first difference is the highest
+  const auto pair_of = [&](const std::string& name) -> Pair& {
+    if (!pairs.contains(name)) order.push_back(name);
+    return pairs[name];
+  };
+  for (const record::StoredResult& result : now) pair_of(result.name).now = result.value;
+  for (const record::StoredResult& result : stored) pair_of(result.name).stored = result.value;
+  std::size_t compared = 0;
+  std::vector<std::string> differences;
+  for (const std::string& name : order) {
+    const Pair& pair = pairs[name];
+    compared += pair.stored && pair.now ? 1 : 0;
+    if (auto found = compare_result(name, pair, exactness)) differences.push_back(*found);
+  }
+  const std::size_t more = differences.size() - 1;
+  if (!differences.empty()) {
+    out.differences.push_back(differences.front() +
+                              (more > 0 ? fmt::format(" (and {} more)", more) : ""));
+  }
+  return compared;
+}
 
 std::optional<std::string> compare_export(const Export& what, const std::string& expected,
                                           const std::string& found, const Exactness& exactness) {
@@ -252,12 +317,9 @@ core::Result<Verification> verify_run(const fs::path& directory, const VerifyOpt
   }
   const Exactness exactness{record.header.processor == options.processor,
                             record.header.version == core::kVersion};
-  std::size_t results = 0;
-  if (record.sealed) {
-    const auto compared = compare_results(record.results, stored_results(*evaluation), exactness);
-    results = compared.results;
-    if (compared.difference) out.differences.push_back(*compared.difference);
-  }
+  const std::size_t results =
+      record.sealed ? compare_results(record.results, stored_results(*evaluation), exactness, out)
+                    : 0;
   const auto names = compare_exports(directory, record, *evaluation, exactness, *listed, out);
   if (!names) return core::fail(names.error());
   out.what_was_compared = fmt::format(
